@@ -30,7 +30,7 @@ The packages, each with its own public names in its `__init__` (imports run from
     density      materials, polynomials, piecewise densities, grids and trivariate splines (Soldea et al., 4 and 5)
     nurbs        B-spline curves and patches (Soldea, Elber and Rivlin, sections 2, 3), Blender's knots
     offset       walls of real thickness
-    statics      derivatives by every vertex; the least change of shape that moves the center
+    statics      support polygons, resting poses; derivatives by every vertex, the least change that moves the center
     measurement  `Measurement`, all results of one measured object
 
 Importing this package loads neither numpy nor any of these: each name is imported when it is first used.

@@ -29,7 +29,16 @@ PARTS = (
     ),
     *(
         "actions.setup." + name
-        for name in ("presets", "import_scan", "remedies", "node_group", "assembly", "assembly_snap", "bill")
+        for name in (
+            "presets",
+            "import_scan",
+            "remedies",
+            "node_group",
+            "assembly",
+            "assembly_snap",
+            "bill",
+            "rigid_bodies",
+        )
     ),
     *(
         "actions.measure." + name
@@ -49,8 +58,8 @@ PARTS = (
         "actions.snap." + name
         for name in ("origin", "principal_axes", "align", "empty", "cursor", "orientation", "rigid_body", "balance")
     ),
-    *("actions.statics." + name for name in ("stability", "rest_on_ground")),
-    "actions.export.robot",
+    *("actions.statics." + name for name in ("stability", "rest_on_ground", "balance_group")),
+    *("actions.export." + name for name in ("robot", "copy_inertial", "primitive", "audit")),
     *("actions.rig." + name for name in ("measure", "physics", "center")),
     *("actions.shape." + name for name in ("match_pose", "find_similar", "find_symmetry")),
     "batch",

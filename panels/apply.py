@@ -28,6 +28,7 @@ class ApplyPanel:
         rows.button(
             column, context, "object.body_moments_create_orientation", "ORIENTATION_LOCAL", text="Transform Orientation"
         )
+        rows.button(column, context, "object.body_moments_rigid_bodies", "RIGID_BODY")
         text = "Set Rigid Body Mass" if obj.rigid_body else "Add Rigid Body with Mass"
         button = rows.button(column, context, "object.body_moments_set_rigid_body_mass", "RIGID_BODY", text=text)
         button.add = not obj.rigid_body

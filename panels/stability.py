@@ -37,6 +37,7 @@ class StabilityPanel:
         if support is not None:
             _support(layout, context, support)
             _poses(layout, context, obj)
+        layout.operator("object.body_moments_balance_group", text="Balance Group...", icon="CON_FOLLOWPATH")
 
 
 def _support(layout: UILayout, context: Context, support: Support) -> None:

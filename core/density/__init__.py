@@ -4,14 +4,14 @@
 
 from .materials import MATERIALS
 from .piecewise_mass import solid_mass_moments
-from .polynomial import Polynomial, parse_polynomial
+from .polynomial import parse_polynomial
 from .spline_grid import TrivariateSpline, density_moments, grid_moments
 from .spline_tables import SplineAxis
+from .threshold import threshold_body
 from .voxel_fill import inside_moments
 
 __all__ = [
     "MATERIALS",
-    "Polynomial",
     "SplineAxis",
     "TrivariateSpline",
     "density_moments",
@@ -19,4 +19,5 @@ __all__ = [
     "inside_moments",
     "parse_polynomial",
     "solid_mass_moments",
+    "threshold_body",
 ]

@@ -47,7 +47,7 @@ class Polynomial:
 
     Examples
     --------
-    >>> from body_moments.core.density import Polynomial
+    >>> from body_moments.core.density.polynomial import Polynomial
     >>> density = Polynomial.from_coefficients([1000, 0, 0, 20])
     >>> density(np.array([[0.0, 0.0, 2.0]])).tolist(), density.degree
     ([1040.0], 1)

@@ -64,7 +64,7 @@ class MassProperties:
         density: float = 1.0,
         preferred_axes: NDArray | None = None,
         refine: Callable[[], Moments] | None = None,
-        higher: Callable[[], Moments] | None = None,
+        higher: Callable[[], Moments | OwnMoments] | None = None,
     ) -> MassProperties:
         """Derive mass properties from moments of a body with constant density.
 
@@ -143,15 +143,17 @@ class MassProperties:
             input_error=_propagate_error(moments, weight, moments.input_error, rounded=False),
         )
 
-    def at(self, i: int) -> MassProperties:
-        """Return one body of a stack."""
+    def at(self, which: int | list[int]) -> MassProperties:
+        """Return one body of a stack, or a stack of some of them."""
         rounding, inputs = (
-            {name: float(values[i]) for name, values in bounds.items()}
+            {
+                name: values[which] if isinstance(which, list) else float(values[which])
+                for name, values in bounds.items()
+            }
             for bounds in (self.rounding_error, self.input_error)
         )
-        return MassProperties(
-            float(self.mass[i]), self.center[i], self.inertia[i], self.principal.at(i), rounding, inputs
-        )
+        mass = self.mass[which] if isinstance(which, list) else float(self.mass[which])
+        return MassProperties(mass, self.center[which], self.inertia[which], self.principal.at(which), rounding, inputs)
 
     def inertia_about(self, point: ArrayLike) -> NDArray[np.float64]:
         """Return the tensor about another point, by the parallel-axis theorem.

@@ -88,15 +88,16 @@ class PrincipalFrame:
         """Return the same frame in coordinates new = rotation @ old."""
         return replace(self, axes=rotation @ self.axes)
 
-    def at(self, i: int) -> PrincipalFrame:
-        """Return one frame of a stack."""
+    def at(self, which: int | list[int]) -> PrincipalFrame:
+        """Return one frame of a stack, or a stack of some of them."""
+        is_unique = self.is_unique[which]
         return PrincipalFrame(
-            self.moments[i],
-            self.axes[i],
-            self.symmetry[i],
-            bool(self.is_unique[i]),
-            self.finding[i],
-            self.undetermined_axes[i],
+            self.moments[which],
+            self.axes[which],
+            self.symmetry[which],
+            is_unique if isinstance(which, list) else bool(is_unique),
+            self.finding[which],
+            self.undetermined_axes[which],
         )
 
 

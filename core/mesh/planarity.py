@@ -21,9 +21,11 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from ..numerics.arrays import segment_ranges, segment_starts
 from ..numerics.vectors import cross, dot
 from .edges import face_of_each
 from .surface import Surface
+from .surface_stack import SurfaceStack
 
 FACES_PER_BLOCK = 1 << 14
 PLANAR_RTOL = 1e-6  # of the square root of a face's area
@@ -141,22 +143,7 @@ class PlanarityAccumulator:
         return Planarity(int(non_planar_count), volume_ambiguity, np.sort(degenerate))
 
     def _classify_rows(self, corners: NDArray, pairs: tuple) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
-        """(m,) 6 times the volume of the tetrahedron on the corners of each face, of what is brought to size 1, zero
-        where the face is flat; and (m,) whether it has no area. pairs: of corners, QUAD or TRIANGLE."""
-        error, volumes, bare = np.ldexp(self.error, -self.exponent), [np.empty(0)], [np.empty(0, bool)]
-        for start in range(0, len(corners), FACES_PER_BLOCK):
-            points = self.surface.points[corners[start : start + FACES_PER_BLOCK].astype(np.intp)].T
-            points = np.ldexp(points.astype(np.float64, order="C"), -self.exponent)
-            first, second, *third = [points[:, i] - points[:, j] for i, j in pairs]
-            across = cross(first, second)
-            vectors = np.stack([first, second, across])
-            squares = np.add.reduce(vectors * vectors, axis=1)
-            bare.append(squares[2] <= _degenerate_limit(np.maximum(squares[0], squares[1]), error))
-            if third:
-                volume, normal = np.abs(dot(third[0], across)), np.sqrt(squares[2])
-                volume[(volume <= normal * (8.0 * error + PLANAR_RTOL * np.sqrt(normal))) | bare[-1]] = 0.0
-                volumes.append(volume)
-        return np.concatenate(volumes), np.concatenate(bare)
+        return _classify_rows(self.surface.points, corners, pairs, self.error, self.exponent)
 
     def _polygon_tetrahedra(self, pieces: NDArray[np.integer]) -> tuple[NDArray[np.intp], NDArray[np.integer]]:
         """The tetrahedra of the faces of more than one triangle: (m,) which face each is of, and (m, 4) corners.
@@ -170,11 +157,104 @@ class PlanarityAccumulator:
         sizes[quad_faces] = 4
         if ring is None or sizes.sum() != len(ring):
             return NO_FACES, np.empty((0, 4), np.intp)
-        begin = (np.cumsum(sizes) - sizes)[polygon]
-        steps = sizes[polygon] - 3
-        row = np.repeat(np.arange(len(polygon)), steps)
-        at = begin[row] + 2 + np.arange(len(row)) - np.repeat(np.cumsum(steps) - steps, steps)
-        return row, np.stack([ring[begin[row]], ring[begin[row] + 1], ring[at], ring[at + 1]], axis=1)
+        return _tetrahedra(ring, (np.cumsum(sizes) - sizes)[polygon], sizes[polygon])
+
+
+@dataclass(frozen=True, eq=False)
+class StackPlanarity:
+    """How flat the faces of n surfaces are.
+
+    Attributes
+    ----------
+    non_planar_counts : (n,) int
+    volume_ambiguity : (n,) array
+        As in `Planarity`, of each.
+    has_degenerate : (n,) bool
+        Whether it has faces without area.
+    """
+
+    non_planar_counts: NDArray[np.intp]
+    volume_ambiguity: NDArray[np.float64]
+    has_degenerate: NDArray[np.bool_]
+
+
+def stack_planarity(stack: SurfaceStack) -> StackPlanarity:
+    """Look at the faces of a stack, one by one, as `PlanarityAccumulator` does where it has to."""
+    count, face_count = len(stack), int(stack.face_counts.sum())
+    low, high = stack.box
+    exponent = np.frexp(np.maximum((high - low).max(axis=1), float(np.finfo(np.float32).tiny)))[1]
+    error = np.sqrt(np.add.reduce(stack.coordinate_error**2, axis=1))
+    face_owner = np.repeat(np.arange(count), stack.face_counts)
+
+    def classify(corners: NDArray, faces: NDArray, pairs: tuple) -> tuple[NDArray, NDArray, NDArray]:
+        owner = face_owner[faces]
+        volumes, bare = _classify_rows(stack.points, corners, pairs, error[owner], exponent[owner])
+        return owner, volumes, bare
+
+    sizes, non_planar, degenerate = stack.face_sizes, np.zeros(face_count, bool), np.zeros(face_count, bool)
+    total = np.zeros(count)
+    if len(stack.quads):
+        owner, volumes, bare = classify(stack.quads, stack.quad_faces, QUAD)
+        non_planar[stack.quad_faces], degenerate[stack.quad_faces] = volumes > 0.0, bare
+        total += np.bincount(owner, volumes, count)
+    rows = np.flatnonzero(sizes[stack.triangle_faces] != 4) if len(stack.quads) else slice(None)
+    faces = stack.triangle_faces[rows]
+    if len(faces):
+        bare = classify(stack.triangles[rows], faces, TRIANGLE)[2]
+        pieces, narrow = np.bincount(faces, minlength=face_count), np.bincount(faces[bare], minlength=face_count)
+        degenerate |= (narrow > 0) & (narrow == pieces)
+    polygons = np.flatnonzero(sizes > 4)
+    if len(polygons):
+        first_corner = segment_starts(stack.corner_counts) - segment_starts(sizes)[segment_starts(stack.face_counts)]
+        begin = (segment_starts(sizes) + first_corner[face_owner])[polygons]
+        row, corners = _tetrahedra(stack.corner_vertices, begin, sizes[polygons])
+        owner, volumes, _ = classify(corners, polygons[row], QUAD)
+        non_planar[polygons[row[volumes > 0.0]]] = True
+        total += np.bincount(owner, volumes, count)
+    first_face = segment_starts(stack.face_counts)
+    return StackPlanarity(
+        np.add.reduceat(non_planar, first_face, dtype=np.intp),
+        np.ldexp(total, 3 * exponent) / 6.0,
+        np.logical_or.reduceat(degenerate, first_face),
+    )
+
+
+def _classify_rows(
+    points: NDArray, corners: NDArray, pairs: tuple, error: float | NDArray, exponent: int | NDArray
+) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
+    """(m,) 6 times the volume of the tetrahedron on the corners of each face, of what is brought to size 1, zero where
+    the face is flat; and (m,) whether it has no area.
+
+    pairs: of corners, QUAD or TRIANGLE. error, exponent: of the surface, or (m,) of each row's.
+    """
+    volumes, bare = [np.empty(0)], [np.empty(0, bool)]
+    for start in range(0, len(corners), FACES_PER_BLOCK):
+        part = slice(start, start + FACES_PER_BLOCK)
+        scale = -(exponent[part] if isinstance(exponent, np.ndarray) else exponent)
+        off = np.ldexp(error[part] if isinstance(error, np.ndarray) else error, scale)
+        coordinates = points[corners[part].astype(np.intp, copy=False)].T
+        coordinates = np.ldexp(coordinates.astype(np.float64, order="C"), scale)
+        first, second, *third = [coordinates[:, i] - coordinates[:, j] for i, j in pairs]
+        across = cross(first, second)
+        vectors = np.stack([first, second, across])
+        squares = np.add.reduce(vectors * vectors, axis=1)
+        bare.append(squares[2] <= _degenerate_limit(np.maximum(squares[0], squares[1]), off))
+        if third:
+            volume, normal = np.abs(dot(third[0], across)), np.sqrt(squares[2])
+            volume[(volume <= normal * (8.0 * off + PLANAR_RTOL * np.sqrt(normal))) | bare[-1]] = 0.0
+            volumes.append(volume)
+    return np.concatenate(volumes), np.concatenate(bare)
+
+
+def _tetrahedra(
+    ring: NDArray[np.integer], begin: NDArray[np.integer], sizes: NDArray[np.integer]
+) -> tuple[NDArray[np.intp], NDArray[np.integer]]:
+    """The tetrahedra of polygons whose corners stand in `ring`, from `begin` on: (m,) which polygon each is of, and
+    (m, 4) corners."""
+    steps = sizes - 3
+    row = np.repeat(np.arange(len(sizes)), steps)
+    at = begin[row] + 2 + segment_ranges(steps)
+    return row, np.stack([ring[begin[row]], ring[begin[row] + 1], ring[at], ring[at + 1]], axis=1)
 
 
 def _merge_blocks(blocks: dict[int, _PlanarityPartial], count: int) -> _PlanarityPartial:
@@ -190,6 +270,6 @@ def _merge_blocks(blocks: dict[int, _PlanarityPartial], count: int) -> _Planarit
     )
 
 
-def _degenerate_limit(longest: NDArray | float, error: float) -> NDArray | float:
+def _degenerate_limit(longest: NDArray | float, error: float | NDArray) -> NDArray | float:
     """The largest square of the normal of a face without area, from the square of its longest edge or diagonal."""
     return longest * (error * error + ZERO_AREA_RTOL * ZERO_AREA_RTOL * longest)

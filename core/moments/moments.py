@@ -279,11 +279,12 @@ def sum_moments(parts: Sequence[Moments]) -> Moments:
     (2.0, [1.0, 0.0, 0.0])
     """
     first = parts[0]
+    if len(parts) == 1:
+        return first
     if len({part.measure for part in parts}) > 1:
         raise ValueError("different measures")
-    if len(parts) > 1:
-        order = min([part.order for part in parts])
-        parts = [part.truncate(order).about_point(first.about) for part in parts]
+    order = min([part.order for part in parts])
+    parts = [part.truncate(order).about_point(first.about) for part in parts]
     raws = np.array([part.raw for part in parts])
     return Moments(
         raw=raws.sum(axis=0),

@@ -21,8 +21,13 @@ def spread_bits(value: NDArray[np.int64]) -> NDArray[np.int64]:
 
 def segment_ranges(counts: NDArray) -> NDArray[np.intp]:
     """0, 1, … counts[0] - 1, 0, 1, … counts[1] - 1, …"""
-    ends = np.cumsum(counts)
-    return np.arange(ends[-1] if len(ends) else 0) - np.repeat(ends - counts, counts)
+    starts = segment_starts(counts)
+    return np.arange(int(np.add.reduce(counts))) - np.repeat(starts, counts)
+
+
+def segment_starts(counts: NDArray) -> NDArray[np.intp]:
+    """0, counts[0], counts[0] + counts[1], …: where segments of these lengths begin."""
+    return np.cumsum(counts) - counts
 
 
 def sums_by_index(indices: NDArray[np.integer], weights: NDArray, count: int = 0) -> NDArray[np.float64]:

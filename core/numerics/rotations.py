@@ -13,12 +13,12 @@ def rotation_matrix(quaternion: ArrayLike) -> NDArray[np.float64]:
 
     Parameters
     ----------
-    quaternion : (4,) array_like
+    quaternion : (..., 4) array_like
         w, x, y, z, of any length but zero.
 
     Returns
     -------
-    (3, 3) array
+    (..., 3, 3) array
 
     Examples
     --------
@@ -27,14 +27,13 @@ def rotation_matrix(quaternion: ArrayLike) -> NDArray[np.float64]:
     [[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]
     """
     q = np.array(quaternion, np.float64)  # before the norm: mathutils returns float32
-    w, x, y, z = q / np.linalg.norm(q)
-    return np.array(
-        [
-            [1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - w * z), 2.0 * (x * z + w * y)],
-            [2.0 * (x * y + w * z), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - w * x)],
-            [2.0 * (x * z - w * y), 2.0 * (y * z + w * x), 1.0 - 2.0 * (x * x + y * y)],
-        ]
+    w, x, y, z = np.moveaxis(q / np.sqrt(np.add.reduce(q * q, axis=-1))[..., None], -1, 0)
+    rows = (
+        (1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - w * z), 2.0 * (x * z + w * y)),
+        (2.0 * (x * y + w * z), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - w * x)),
+        (2.0 * (x * z - w * y), 2.0 * (y * z + w * x), 1.0 - 2.0 * (x * x + y * y)),
     )
+    return np.moveaxis(np.array(rows), (0, 1), (-2, -1))
 
 
 def quaternion(rotation: NDArray) -> NDArray[np.float64]:
@@ -42,12 +41,12 @@ def quaternion(rotation: NDArray) -> NDArray[np.float64]:
 
     Parameters
     ----------
-    rotation : (3, 3) array
+    rotation : (..., 3, 3) array
         Orthonormal, determinant 1.
 
     Returns
     -------
-    (4,) array
+    (..., 4) array
         w, x, y, z with w ≥ 0.
 
     Notes
@@ -60,7 +59,7 @@ def quaternion(rotation: NDArray) -> NDArray[np.float64]:
     >>> quaternion(np.eye(3)).tolist()
     [1.0, 0.0, 0.0, 0.0]
     """
-    m = rotation
+    m = np.moveaxis(rotation, (-2, -1), (0, 1))
     # Shepperd's method: 4 q qᵀ has no cancellation in the column of its largest diagonal entry.
     outer = np.array(
         [
@@ -70,9 +69,10 @@ def quaternion(rotation: NDArray) -> NDArray[np.float64]:
             [m[1, 0] - m[0, 1], m[0, 2] + m[2, 0], m[1, 2] + m[2, 1], 1 - m[0, 0] - m[1, 1] + m[2, 2]],
         ]
     )
-    column = outer[:, np.argmax(np.diag(outer))]
-    column = column / np.linalg.norm(column)
-    return (column if column[0] >= 0.0 else -column) + 0.0  # no negative zeros
+    best = outer.diagonal(axis1=0, axis2=1).argmax(axis=-1)
+    column = np.take_along_axis(outer, best[None, None], axis=1)[:, 0]
+    column = column / np.sqrt(np.add.reduce(column * column, axis=0))
+    return np.moveaxis(np.where(column[0] >= 0.0, column, -column), 0, -1) + 0.0  # no negative zeros
 
 
 MAX_AXIS_COSINE = 1e-5  # the cosine of axes that float32 rotations never show

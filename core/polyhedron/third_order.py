@@ -20,12 +20,7 @@ With u = 2^-53, edges e and e' and vertices within `reach` of the reference poin
 9 u reach·τ, where τ_x = |e_y e'_z| + |e_z e'_y| bounds |normal_x|: as the product of a vertex with the normal, and as
 that of an edge with the product of the other edge and the vertex.
 
-Of bodies of few triangles, where numpy's calls cost more than its arithmetic, all triangles are taken at once, by the
-complete homogeneous polynomials of their corners (Sheynin and Tuzikov's formula to third order): with s = a + b + c,
-P = aa' + bb' + cc' and a triangle's weight w,
-
-    24 ∫ x = Σ w s,   120 ∫ x x' = Σ w (s s' + P),
-    720 ∫ x x' x'' = Σ w (s s' s'' + s P' + the same for the other two orders of the indices + 2 Σ_corners c c' c'').
+Bodies of few triangles are for `third_order_small`.
 """
 
 from __future__ import annotations
@@ -43,10 +38,9 @@ from numpy.typing import NDArray
 from ..mesh.planarity import PlanarityAccumulator
 from ..mesh.surface import NO_QUADS, Surface, indices_in_range
 from ..moments.moments import PAIRWISE_SUM_ROUNDINGS, Measure, Moments, U
-from ..moments.monomials import monomial_count, monomials
+from ..moments.monomials import monomial_count
 from .third_order_kernel import (
     NO_VERTEX,
-    PAIR_INDEX,
     TRIPLES,
     BlockAccumulator,
     BlockResult,
@@ -54,40 +48,32 @@ from .third_order_kernel import (
     combine_blocks,
     scratch_size,
 )
+from .third_order_small import (
+    AREA_FACTORS,
+    CONE_DIVISORS,
+    DEGREE,
+    EXPONENTS,
+    PRODUCT_ROUNDINGS,
+    THIRD_ORDER_SHARE,
+    monomial_bounds,
+    small_moments,
+)
 
 MAX_TRIANGLES_PER_BLOCK = 65536  # triangles at most: by then calls cost little, and more would leave the cache
 SCRATCH_BYTES = 16, 6_000_000  # bytes for each triangle, and besides, that all threads together may take
 # triangles up to which the exact third order, half as much again, costs no time to speak of
 MAX_TRIANGLES_EXACT_THIRD = 100_000
-MAX_SMALL_TRIANGLES = 1024  # triangles up to which `_integrate_small` is faster
+MAX_SMALL_TRIANGLES = 1024  # triangles up to which `small_moments` is faster
 MIN_TRIANGLES_TO_PAIR = 1000  # triangles below which looking for pairs costs more than it saves
 # triangles that are worth a thread: of fewer the calls are short, and wait for the interpreter
 MIN_TRIANGLES_PER_THREAD = 250_000
 # reaches beyond this, or below its inverse, are scaled, so that a product of six does not overflow or vanish
 MAX_UNSCALED_REACH = 2.0**100
-EXPONENTS = monomials(3)
-DEGREE = EXPONENTS.sum(axis=1)
-# of 1, x, y, z
-MONOMIAL_FACTORS = np.sort([[0] * (3 - p - q - r) + [1] * p + [2] * q + [3] * r for p, q, r in EXPONENTS])
 DIVISORS = np.array([6.0, 48.0, 120.0, 2880.0])[DEGREE]  # of the sums of `blocks`
-PRODUCT_ROUNDINGS = 8.0 * DEGREE  # u: what products of weights and nodes are off by
-THIRD_ORDER_SHARE = np.repeat([1.0, 2.0], 10)  # the third moments about the middles come to as much again at most
-CONE_DIVISORS = 2.0 * DEGREE + 6.0  # ∫ f over a cone is w E[f] / this
-AREA_FACTORS = DEGREE + 3.0  # ∫ f over a triangle is (doubled area E[f]) / 2, this much more
 
 # What is measured at a time: (k, 4) quads, (k, 3) triangles, or two such arrays of triangles whose rows may be halves
 # of one quad, with the surface's row that each array begins at; or, without rows, the (4, k) corners of turned quads.
 _Block = tuple[list[int], list[NDArray]]
-
-
-ROWS, COLUMNS = np.triu_indices(3)
-NEXT_AXIS, PREVIOUS_AXIS = [1, 2, 0], [2, 0, 1]
-# Where, in a table of x, y, z times xx, xy, xz, yy, yz, zz, the three terms of each symmetric product stand.
-CUBE = np.array(
-    [[6 * i + PAIR_INDEX[j, k], 6 * j + PAIR_INDEX[i, k], 6 * k + PAIR_INDEX[i, j]] for i, j, k in TRIPLES]
-).T
-# of the sums of `blocks`, to whose divisors these bring
-DIVISOR_FACTORS = np.repeat([1.0, 2.0, 1.0, 8.0 / 3.0], [1, 3, 6, 10])
 
 
 def integrate(
@@ -118,18 +104,31 @@ def integrate(
     if largest and not 1.0 / MAX_UNSCALED_REACH < largest < MAX_UNSCALED_REACH:
         return _measure_rescaled(surface, int(np.log2(largest)), threads, about, area, shell, exact)
     exact = exact or count <= MAX_TRIANGLES_EXACT_THIRD
-    job = _Integration(points, center, reach, surface.coordinate_error, count, area, shell, exact, planarity)
     if count <= MAX_SMALL_TRIANGLES:
         for faces in (surface.triangles, surface.quads):
             if len(faces) and not indices_in_range(faces, len(points)):
                 raise ValueError(NO_VERTEX)
         triangles = surface.all_triangles()[0] if len(surface.quads) else surface.triangles
-        return job.moments(_integrate_small(points, center, triangles, area=area, shell=shell))
+        volume, areas, cones = small_moments(
+            points,
+            triangles,
+            np.array([count]),
+            center[None],
+            reach[None],
+            surface.coordinate_error[None],
+            area=area,
+            shell=shell,
+        )
+        if planarity is not None:
+            planarity.cones = float(cones[0, 0]), float(cones[0, 1])
+        return volume.at(0), areas.at(0)
     # Two threads have a block each: the sums are the same with one, and with more where there is room for more.
     room, each = SCRATCH_BYTES[0] * count + SCRATCH_BYTES[1], 8 * scratch_size(3, area, exact)
     size = max(2, min(MAX_TRIANGLES_PER_BLOCK, room // (2 * each), count) // 2 * 2)
     threads = max(1, min(threads, count // MIN_TRIANGLES_PER_THREAD, room // (each * size)))
-    job = replace(job, size=size, threads=threads)
+    job = _Integration(
+        points, center, reach, surface.coordinate_error, count, area, shell, exact, planarity, size, threads
+    )
     return job.moments(combine_blocks(job.block_sums(job.blocks(surface))))
 
 
@@ -191,8 +190,8 @@ class _Integration:
     shell: bool
     exact: bool
     planarity: PlanarityAccumulator | None
-    size: int = 0
-    threads: int = 1
+    size: int
+    threads: int
 
     def blocks(self, surface: Surface) -> list[_Block]:
         """The faces in as few blocks as the memory allows, whatever the number of threads."""
@@ -283,15 +282,14 @@ def _error_bounds(job: _Integration, sums: BlockSums) -> tuple[list[float], NDAr
     products = np.einsum("in,jn,n->ij", sums.side, sums.base, sums.counts).tolist()
     tau = [products[i][j] + products[j][i] for i, j in ((1, 2), (2, 0), (0, 1))]  # the sum of each τ
     reach, half_ulp, step = job.reach, job.half_ulp, hypot(*job.half_ulp.tolist())
-    powers, displaced = _monomial_bounds(np.array([reach, reach + half_ulp]))  # (20,) and (20,)
+    powers, displaced = monomial_bounds(np.array([reach, reach + half_ulp]))  # (20,) and (20,)
     x, y, z = reach.tolist()
     # The weights are off by so much in all.
     weight = np.array([[9.0 * U * (x * tau[0] + y * tau[1] + z * tau[2])], [9.0 * U * sum(tau)]])
     size = np.array(sizes)[:, None] * (1.0 + 1e-9)
-    # Then come their products with the nodes, the sums, and what underflow may lose. A product of matrices may add up
-    # one by one.
-    steps = 3.0 * job.count if job.count <= MAX_SMALL_TRIANGLES else PAIRWISE_SUM_ROUNDINGS + sums.blocks
-    rounding = (weight + 1e-290 * count + (U * (size + weight)) * (PRODUCT_ROUNDINGS + steps)) * powers
+    # Then come their products with the nodes, the sums, and what underflow may lose.
+    steps = PRODUCT_ROUNDINGS + PAIRWISE_SUM_ROUNDINGS + sums.blocks
+    rounding = (weight + 1e-290 * count + (U * (size + weight)) * steps) * powers
     rounding *= THIRD_ORDER_SHARE
     if not job.exact:  # and the rest of the third order
         e, f = sums.base, sums.side + sums.base / 2.0
@@ -316,13 +314,6 @@ def _error_bounds(job: _Integration, sums: BlockSums) -> tuple[list[float], NDAr
     return sizes, rounding, inputs
 
 
-def _monomial_bounds(reaches: NDArray) -> NDArray[np.float64]:
-    """(k, 20) the largest value of each monomial within each of (k, 3) reaches."""
-    factors = np.ones((len(reaches), 4))
-    factors[:, 1:] = reaches
-    return np.multiply.reduce(factors.take(MONOMIAL_FACTORS, axis=1), axis=2)
-
-
 def quad_corners(triangles: NDArray) -> list[NDArray] | None:
     """The four corners, (k/2,) each, of quads where triangles 2i and 2i+1 are halves of one for every i; else None.
 
@@ -342,37 +333,3 @@ def _quad_corners_of(first: NDArray, second: NDArray) -> list[NDArray] | None:
             if all(first[0, a] == second[0, b] and np.array_equal(first[:, a], second[:, b]) for a, b in ends):
                 return [first[:, i], first[:, (i + 1) % 3], first[:, i - 1], second[:, (j + 2) % 3]]
     return None
-
-
-def _integrate_small(points: NDArray, center: NDArray, triangles: NDArray, *, area: bool, shell: bool) -> BlockSums:
-    """The sums of `blocks` over all triangles, (m, 3), as one block; the third order is exact.
-
-    area: whether doubled areas are wanted, shell: also their moments.
-    """
-    corners = points.T.astype(np.float64).take(triangles.T, axis=1)  # (3, 3, m): x, y, z of a, b, c
-    edges = corners[:, 1:] - corners[:, :1]
-    above, below = edges.take(NEXT_AXIS, 0), edges.take(PREVIOUS_AXIS, 0)
-    normals = above[:, 0] * below[:, 1] - below[:, 0] * above[:, 1]
-    nodes = np.empty((3, 4, len(triangles)))  # a, b, c and s
-    np.subtract(corners, center[:, None, None], nodes[:, :3])
-    np.add.reduce(nodes[:, :3], axis=1, out=nodes[:, 3])
-    det = np.add.reduce(normals * nodes[:, 0])
-    double = np.sqrt(np.add.reduce(normals * normals)) if area else np.zeros(1)
-    products = nodes.take(ROWS, 0) * nodes.take(COLUMNS, 0)  # (6, 4, m)
-    single = np.add.reduce(products[:, :3], axis=1)
-    second = products[:, 3] + single
-    np.add(0.5 * second, single, products[:, 3])
-
-    def sums(weights: NDArray) -> NDArray[np.float64]:
-        weighted = nodes * weights
-        first = np.add.reduce(weighted[:, 3], axis=1)
-        third = weighted.reshape(3, -1) @ products.reshape(6, -1).T
-        return DIVISOR_FACTORS * np.concatenate(
-            [[np.add.reduce(weights)], first, second @ weights, np.add.reduce(third.take(CUBE))]
-        )
-
-    edges = np.maximum.reduce(np.abs(edges), axis=2)
-    sizes = np.array([np.add.reduce(np.abs(det)), np.add.reduce(double)])
-    return BlockSums(
-        sums(det), sums(double) if shell else None, edges[:, :1], edges[:, 1:], sizes[:, None], np.array([len(det)])
-    )

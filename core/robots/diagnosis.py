@@ -15,7 +15,7 @@ from itertools import permutations, product
 from math import degrees, radians
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from ..numerics.rotations import rotation_matrix
 from ..verdict.finding import Finding, finding
@@ -144,7 +144,8 @@ def _density(stated: StatedInertial, reference: Reference) -> Diagnosis | None:
         return None
     for factor in (1e-3, 1e3):
         if DENSITIES[0] <= density * factor <= DENSITIES[1]:
-            repaired = stated.along_link(stated.inertia * factor, mass=stated.mass * factor)
+            mass, inertia = float(_times(stated.mass, factor)), _times(stated.inertia, factor)
+            repaired = stated.along_link(inertia, mass=mass)
             return Diagnosis(finding("audit_mass_and_inertia_unit", density=density, factor=factor), repaired)
     return Diagnosis(finding("audit_density", density=density))
 
@@ -158,6 +159,13 @@ def _with_density(change: Finding, stated: StatedInertial, reference: Reference)
     if not DENSITIES[0] <= density <= DENSITIES[1] and DENSITIES[0] <= other <= DENSITIES[1]:
         return finding("audit_mesh_unit", factor=1.0 / factor)
     return change
+
+
+def _times(values: ArrayLike, factor: float) -> NDArray[np.float64]:
+    """The product, by a division where that keeps the decimals that the file has."""
+    inverse = round(1.0 / factor)
+    values = np.asarray(values, np.float64)
+    return values / inverse if factor < 1.0 and abs(inverse * factor - 1.0) < 1e-12 else values * factor
 
 
 Change = tuple[str, dict, StatedInertial]
@@ -179,13 +187,13 @@ def _units(stated: StatedInertial, reference: Reference) -> Iterator[Change]:
     for factor in (1e-3, 1e3):
         heavy = density * factor
         if DENSITIES[0] <= heavy <= DENSITIES[1] and not DENSITIES[0] <= density <= DENSITIES[1]:
-            yield "audit_mass_unit", {"factor": factor}, replace(stated, mass=mass * factor)
+            yield "audit_mass_unit", {"factor": factor}, replace(stated, mass=float(_times(mass, factor)))
     for factor in INERTIA_UNITS:
-        yield "audit_inertia_unit", {"factor": factor}, stated.along_link(inertia * factor)
+        yield "audit_inertia_unit", {"factor": factor}, stated.along_link(_times(inertia, factor))
     for factor in LENGTH_UNITS:
-        yield "audit_center_unit", {"factor": factor}, replace(stated, center=center * factor)
+        yield "audit_center_unit", {"factor": factor}, replace(stated, center=_times(center, factor))
     for factor in LENGTH_UNITS:
-        whole = stated.along_link(inertia * factor**2, center=center * factor)
+        whole = stated.along_link(_times(_times(inertia, factor), factor), center=_times(center, factor))
         yield "audit_length_unit", {"factor": factor}, whole
     yield "audit_inertia_of_unit_mass", {"factor": mass}, stated.along_link(inertia * mass)
     yield "audit_inertia_of_unit_density", {"factor": density}, stated.along_link(inertia * density)

@@ -171,7 +171,7 @@ def judge(
         findings.append(finding("self_intersecting"))
     elif intersection is not None and verdict is not Verdict.OPEN:
         findings += _intersection_findings(intersection, volume.total)
-    findings += _shape_findings(oriented.is_solid, given.planarity, volume)
+    findings += shape_findings(oriented.is_solid, given.planarity, volume)
     health = replace(
         _health(checked, given.planarity, oriented, flipped, len(inverted), cap_share),
         self_intersection=Intersection.NOT_CHECKED if intersection is None else intersection.state,
@@ -300,7 +300,7 @@ def _intersection_findings(intersection: SelfIntersection, volume: float) -> lis
     return [finding("self_intersection_unchecked")] if intersection.state is Intersection.NOT_CHECKED else []
 
 
-def _shape_findings(is_solid: bool, planarity: Planarity, volume: Moments) -> list[Finding]:
+def shape_findings(is_solid: bool, planarity: Planarity, volume: Moments) -> list[Finding]:
     """About a surface without a volume, and about faces whose diagonals make a difference."""
     if not is_solid:
         return [finding("flat_surface")]

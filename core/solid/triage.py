@@ -149,7 +149,7 @@ def integrate_and_prove(checked: CheckedSurface, shell: bool, threads: int) -> G
     return GivenIntegrals(volume, area, accumulator.planarity(), agree, proven)
 
 
-def same_sign(total: float, signed: float) -> bool:
+def same_sign(total: float | NDArray, signed: float | NDArray) -> bool | NDArray[np.bool_]:
     """Whether numbers have the same sign, or are but rounding, that add up to so much without their signs and with
     them."""
     return total - abs(signed) <= SUM_ROUNDING * total

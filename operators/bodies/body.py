@@ -7,16 +7,20 @@ Each kind has a module that makes one; `kinds` has them in order.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass, field
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field, replace
 from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ...core.inertia.principal_frame import OwnMoments
 from ...core.mesh.surface import Surface
+from ...core.moments.affine_maps import are_similarities
 from ...core.moments.images import sum_of_images
-from ...core.moments.moments import Moments, sum_moments
+from ...core.moments.moments import Moments, stack_moments, sum_moments
+from ...core.moments.symmetric_tensors import invert_through_point
+from ...core.numerics.rotations import polar_rotation
 from ...core.polyhedron import polyhedron_moments
 from ...core.solid.measure_solid import SolidIntegrals
 from ...core.verdict.finding import Finding, ReadError
@@ -97,6 +101,12 @@ class Body:
         """Return what the principal frame of a solid or a wire is made from, with exact third order."""
         return self.volume
 
+    def moments_for_axes(self, order: int, area: bool) -> Moments | OwnMoments:
+        """Return the moments of the volume, or the area, that axes are found by; of one surface in one place, mapped
+        evenly, in its own coordinates: wherever it stands, its axes are the same."""
+        volume, areas = self.moments(order, area)
+        return areas if area else volume
+
     def surfaces(self, sheets: bool) -> Iterator[Surface]:
         """Yield the surfaces where they stand, in float64: around what is solid, or the sheets as they are."""
         return iter(())
@@ -158,6 +168,16 @@ class MeshBody(Body):
                 areas.extend(area_of_instances(surface, faces if same else measured(surface), matrices, measured))
         return sum_moments(volumes), sum_moments(areas) if area else None
 
+    def moments_for_axes(self, order: int, area: bool) -> Moments | OwnMoments:
+        """Return the moments that axes are found by."""
+        if len(self.solids) == 1 and len(self.solids[0][1]) == 1:
+            solid, matrices = self.solids[0]
+            if are_similarities(matrices[:, :3, :3])[0]:
+                in_place = replace(self, solids=((solid, np.eye(4)[None]),), _known={})
+                own = in_place.moments(order, area)[1 if area else 0]
+                return own_moments([own], np.zeros(1, np.intp), matrices[:, :3, :3])
+        return super().moments_for_axes(order, area)
+
     def third_order(self) -> Moments:
         """Return the volume with its third order exact to rounding."""
         return sum_moments(
@@ -169,6 +189,44 @@ class MeshBody(Body):
         for (solid, matrices), surface in zip(self.solids, self.sheets):
             piece = surface if sheets else solid.repaired_surface
             yield from (piece.transform(matrix[:3, :3], matrix[:3, 3]) for matrix in matrices)
+
+
+def own_moments(shapes: Sequence[Moments], which: NDArray[np.intp], linear: NDArray) -> OwnMoments:
+    """Return the moments of bodies that are images of shapes in their own coordinates.
+
+    Parameters
+    ----------
+    shapes : sequence of Moments
+        Volumes or areas.
+    which : (m,) int
+        The shape of each body.
+    linear : (m, 3, 3) array
+        The map from there: a similarity that may mirror, or anything else.
+
+    Returns
+    -------
+    OwnMoments
+        A mirrored shape is a shape of its own; so is one that is mapped unevenly, in the coordinates of its body.
+    """
+    is_mirrored, is_even = np.linalg.det(linear) < 0.0, are_similarities(linear)
+    rotation = np.tile(np.eye(3), (len(which), 1, 1))
+    rotation[is_even] = polar_rotation(linear[is_even])[0]
+    rotation[is_mirrored & is_even] *= -1.0
+    moments: list[Moments] = []
+    number: dict[tuple[int, ...], int] = {}
+    of_bodies = []
+    for body, shape in enumerate(which.tolist()):
+        key = (shape, int(is_mirrored[body])) if is_even[body] else (shape, 0, body)
+        if key not in number:
+            number[key] = len(moments)
+            own = shapes[shape]
+            if not is_even[body]:
+                matrix = np.eye(4)
+                matrix[:3, :3] = linear[body]
+                own = own.transform(matrix)
+            moments.append(invert_through_point(own) if is_even[body] and is_mirrored[body] else own)
+        of_bodies.append(number[key])
+    return OwnMoments(stack_moments(moments), np.array(of_bodies), rotation)
 
 
 def triangle_count(surface: Surface) -> int:

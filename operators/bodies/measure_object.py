@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import bpy
 
 from ...core.measurement import Measurement
-from ...core.verdict.finding import MeasureError
+from ...core.verdict.finding import Finding, MeasureError
 from ..read import Reading
 from ..read.volume import VolumeReading
 from ..settings.options import AS_SET, MeasureOptions
@@ -35,6 +35,11 @@ class Measured:
     measurement: Measurement
     reading: Reading | VolumeReading
     body: Body
+
+    @property
+    def findings(self) -> tuple[Finding, ...]:
+        """The measurement's findings."""
+        return self.measurement.findings
 
 
 def measure_object(

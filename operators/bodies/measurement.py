@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from ...core.inertia.canonical_frame import MAX_ORDER
 from ...core.inertia.mass_properties import MassProperties
+from ...core.inertia.principal_frame import OwnMoments
 from ...core.measurement import DENSITY_FROM_MASS, DENSITY_FROM_VALUE, Measurement
 from ...core.moments.moments import Moments
 from ...core.verdict.finding import ReadError, finding
@@ -123,19 +124,20 @@ def _weighed(
     return moments, factor, density
 
 
-def _higher(body: Body, shell: bool) -> Callable[[], Moments] | None:
+def _higher(body: Body, shell: bool) -> Callable[[], Moments | OwnMoments] | None:
     """What gives the moments of higher order of what the principal frame is made from, where they are known."""
     if not body.any_order or body.mass is not None or body.length is not None:
         return None
     return partial(_frame_moments, body, shell)
 
 
-def _frame_moments(body: Body, shell: bool) -> Moments:
+def _frame_moments(body: Body, shell: bool) -> Moments | OwnMoments:
     with np.errstate(over="ignore", invalid="ignore"):
-        moments = body.moments(MAX_ORDER, shell)[1 if shell else 0]
-    if not np.isfinite([moments.raw, moments.rounding_error]).all():
+        found = body.moments_for_axes(MAX_ORDER, shell)
+    moments = found.moments if isinstance(found, OwnMoments) else found
+    if not (np.isfinite(moments.raw).all() and np.isfinite(moments.rounding_error).all()):
         raise ReadError("object_too_large")
-    return moments
+    return found
 
 
 def _to_order(body: Body, options: MeasureOptions) -> tuple[Moments | None, Moments] | None:

@@ -55,11 +55,10 @@ def _write_meshes(
 ) -> Finding:
     depsgraph = bpy.context.evaluated_depsgraph_get()
     unit = options.unit_scale or shortest_decimal(depsgraph.scene.unit_settings.scale_length)
-    sources = {label: (obj, one) for label, obj, one in measured if obj is not None}
+    sources = {label: obj for label, obj, _ in measured if obj is not None}
 
     def surface(name: str) -> Surface | None:
-        obj, measurement = sources[name]
-        return link_surface(obj, depsgraph, measurement, unit)
+        return link_surface([sources[name]], depsgraph, robot.link(name).pose, unit)
 
     try:
         return write_meshes(robot, surface, options.output.parent)

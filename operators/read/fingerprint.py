@@ -16,7 +16,9 @@ import struct
 
 import bpy
 import numpy as np
+from numpy.typing import NDArray
 
+from ...core.mesh.surface import Surface
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import ReadError
 from ..settings.density import object_density
@@ -53,6 +55,23 @@ def transform_key(obj: bpy.types.Object) -> str:
         return matrix_hash(obj)
     sign, lengths = scale
     return sign + np.array(lengths, np.float32).tobytes().hex()
+
+
+def transform_keys(matrices: NDArray[np.float64]) -> list[str]:
+    """`transform_key` of objects whose bodies move along with them. matrices: (n, 4, 4) their `matrix_world`."""
+    columns = matrices[:, :3, :3].astype(np.float64)
+    lengths = np.sqrt(np.add.reduce(columns * columns, axis=1))
+    has_lengths = ((lengths > 0.0) & (lengths < np.inf)).all(axis=1)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        axes = columns / lengths[:, None]
+    cosines = np.abs(np.einsum("nai,naj->nij", axes, axes))[:, [0, 1, 2], [1, 2, 0]]
+    has_scale = has_lengths & (cosines <= SAME_SCALE_RTOL).all(axis=1)
+    signs = np.where(np.linalg.det(np.where(has_scale[:, None, None], axes, np.eye(3))) < 0.0, "-", "+")
+    single, whole = lengths.astype(np.float32), matrices.astype(np.float32)
+    return [
+        sign + key.tobytes().hex() if is_scale else digest(matrix.tobytes())
+        for is_scale, sign, key, matrix in zip(has_scale.tolist(), signs.tolist(), single, whole)
+    ]
 
 
 def has_transform(obj: bpy.types.Object, key: str) -> bool:
@@ -178,16 +197,23 @@ def shape_digest(obj, depsgraph) -> bytes | None:
         geometry = evaluated_geometry(obj, depsgraph, obj)  # it owns its mesh
     except ReadError:
         return None
-    if geometry.mesh is None or len(geometry.mesh.polygons) > MAX_DIGESTED_FACES:
+    mesh = geometry.mesh
+    if mesh is None or len(mesh.polygons) > MAX_DIGESTED_FACES:
         return None
-    surface = mesh_surface(geometry.mesh, edges=False)
+    return surface_digest(mesh_surface(mesh, edges=False), len(mesh.polygons))
+
+
+def surface_digest(surface: Surface, face_count: int) -> bytes | None:
+    """A digest of the faces of a mesh as they were read; None of many."""
+    if face_count > MAX_DIGESTED_FACES:
+        return None
     shape = hashlib.blake2b(digest_size=16)
     for array in (surface.points, surface.triangles, surface.quads):
-        shape.update(np.ascontiguousarray(array).tobytes())
+        shape.update(np.ascontiguousarray(array))
         shape.update(repr(array.shape).encode())
     return shape.digest()
 
 
-def digest(data: bytes) -> str:
+def digest(data: bytes | NDArray) -> str:
     """A short text that differs for different data."""
     return hashlib.blake2s(data, digest_size=6).hexdigest()

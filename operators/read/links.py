@@ -11,8 +11,9 @@ import bpy
 import numpy as np
 
 from ...core.measurement import Measurement
-from ...core.mesh.surface import Surface
+from ...core.mesh.surface import Surface, join_surfaces
 from ...core.numerics.rotations import polar_rotation, quaternion
+from ...core.robots.model import Pose
 from ...core.verdict.finding import MeasureError
 from .objects import read_object
 from .reading import float64_matrix
@@ -57,16 +58,17 @@ def link_entry(
 
 
 def link_surface(
-    obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, measurement: Measurement, unit: float
+    objects: Iterable[bpy.types.Object], depsgraph: bpy.types.Depsgraph, pose: Pose, unit: float
 ) -> Surface | None:
-    """Return what an object shows as triangles in meters, in its own frame; None where it shows no faces.
+    """Return what the objects of a link show as triangles in meters, in the link's frame; None where they show no
+    faces.
 
     Parameters
     ----------
-    obj : Object
+    objects : iterable of Object
     depsgraph : Depsgraph
-    measurement : Measurement
-        Its own.
+    pose : Pose
+        Of the link in the world, m.
     unit : float
         Meters per Blender unit.
 
@@ -74,12 +76,14 @@ def link_surface(
     -------
     Surface or None
     """
-    try:
-        surface = read_object(obj, depsgraph, edges=False).join()
-    except MeasureError:  # such as a grid of densities
-        return None
-    to_object = measurement.rotation.T
-    return surface.transform(unit * to_object, -to_object @ measurement.location)
+    pieces, to_link = [], pose.inverse()
+    for obj in objects:
+        try:
+            surface = read_object(obj, depsgraph, edges=False).join()
+        except MeasureError:  # such as a grid of densities
+            continue
+        pieces.append(surface.transform(unit * to_link.rotation, to_link.position))
+    return join_surfaces(pieces) if len(pieces) > 1 else pieces[0] if pieces else None
 
 
 def sheared_objects(objects: Iterable[bpy.types.Object]) -> list[str]:

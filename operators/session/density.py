@@ -49,6 +49,8 @@ def follow_density(obj: Object, scene: Scene) -> None:
     extent = None if numbers is None else properties.optional(obj, "body_length") or numbers[2][0]
     if not extent or not numbers[0][0] > 0.0:
         return
+    if any(found.code == "inertia_given" for found in properties.findings(obj)):
+        return  # which no mass multiplies
     mass = numbers[0][0]
     if mark.settings not in (
         settings_hash_with(obj, scene, mass / extent, None),

@@ -10,11 +10,15 @@ import numpy as np
 from bpy.types import Object
 from numpy.typing import NDArray
 
+from ...core.mesh.surface import Surface
+from ...core.verdict.health import DefectiveElements
 from ..bodies.measure_object import Measured
 from ..read import Reading
 from . import updates
 from .cache import SessionCache
 
+PAIRS = "boundary_edges", "non_manifold_edges", "inconsistent_edges"
+FACES = "flipped_faces", "duplicate_faces", "degenerate_faces"
 MAX_DRAWN = 20000  # edges, and triangles, of an object
 
 
@@ -44,14 +48,28 @@ def remember(obj: Object, measured: Measured) -> None:
     """Keep where the faults of an object are that was just measured, or that it has none."""
     _faults.forget(obj)
     reading, elements = measured.reading, measured.measurement.health.defective_elements
-    pairs = (elements.boundary_edges, elements.non_manifold_edges, elements.inconsistent_edges)
-    faces = (elements.flipped_faces, elements.duplicate_faces, elements.degenerate_faces)
-    if not any(map(len, (*pairs, *faces))) or not isinstance(reading, Reading):
+    if not isinstance(reading, Reading) or not _any_faults(elements):
         return
     if len(reading.parts) != 1 or reading.is_singular:  # of several surfaces the elements are not told apart
         return
     (part,) = reading.parts
-    surface, place = part.surface, np.linalg.inv(reading.matrix) @ part.matrices[0]
+    _remember(obj, part.surface, np.linalg.inv(reading.matrix) @ part.matrices[0], elements)
+
+
+def remember_own(obj: Object, surface: Surface, elements: DefectiveElements | None) -> None:
+    """Do as `remember` for an object that shows its own mesh alone, this surface; elements: None where there are no
+    faults."""
+    _faults.forget(obj)
+    if elements is not None and _any_faults(elements):
+        _remember(obj, surface, np.eye(4), elements)
+
+
+def _any_faults(elements: DefectiveElements) -> bool:
+    return any([len(getattr(elements, name)) for name in (*PAIRS, *FACES)])
+
+
+def _remember(obj: Object, surface: Surface, place: NDArray, elements: DefectiveElements) -> None:
+    pairs, faces = ([getattr(elements, name) for name in names] for names in (PAIRS, FACES))
     points = surface.points.astype(np.float64) @ place[:3, :3].T + place[:3, 3]
     triangles, face = surface.all_triangles()
     faulty = np.isin(face, np.concatenate(faces))

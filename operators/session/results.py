@@ -8,10 +8,11 @@ the totals until Blender reports any change.
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import lru_cache
-from itertools import chain
+from itertools import chain, groupby
 
 import bpy
 from bpy.types import Context, Object, Scene
@@ -22,6 +23,7 @@ from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import Finding, MeasureError
 from ...core.verdict.method import Method, Verdict
 from ..bodies.measure_object import Measured
+from ..bodies.stack import MeasuredStack, Stacked
 from ..bodies.wall import WallBody
 from ..read.fingerprint import settings_hash
 from ..read.total_caveats import open_body_caveats, total_caveats
@@ -59,6 +61,49 @@ def store(obj: Object, measured: Measured, scene: Scene) -> None:
     reference.follow(obj, scene, about)
     if isinstance(measured.body, WallBody):
         walls.cache_walls(obj, measured, _unit(scene))
+
+
+def store_many(
+    measured: Sequence[tuple[Object, Measured | Stacked]], scene: Scene
+) -> Iterator[tuple[Object, Exception | None]]:
+    """As `store` on many objects; with each of them why it cannot hold results, or None."""
+    for stack, run in groupby(measured, key=lambda item: getattr(item[1], "stack", None)):
+        items = list(run)
+        if stack is None:
+            for obj, alone in items:
+                try:
+                    store(obj, alone, scene)
+                except Exception as error:
+                    yield obj, error
+                else:
+                    yield obj, None
+        else:
+            yield from _store_stack(stack, [each.index for _, each in items], scene)
+
+
+def _store_stack(stack: MeasuredStack, which: list[int], scene: Scene) -> Iterator[tuple[Object, Exception | None]]:
+    part = stack.some(which)
+    objects = [member.obj for member in part.members]
+    about = {}
+    for obj in objects:
+        staleness.note_edits(obj)
+        if "body_reference" in obj:
+            about[obj] = reference.stored_choice(obj)
+    refusals = properties.store_stack(
+        objects,
+        part.in_object_frames(),
+        part.density,
+        part.volume.raw[:, 0],
+        part.area.raw[:, 0],
+        part.error_bounds,
+        zip([member.shape.method for member in part.members], part.findings, part.fingerprints),
+    )
+    for obj, member, refusal in zip(objects, part.members, refusals):
+        if refusal is None:
+            faults.remember_own(obj, member.shape.surface, member.shape.defects)
+            if obj in about:
+                reference.follow(obj, scene, about[obj])
+        yield obj, refusal
 
 
 def remember_failure(obj: Object, reason: Finding | None) -> None:

@@ -31,9 +31,9 @@ SAME_SHAPE_RTOL = 1e-5  # of scales and of centers: what float32 matrices change
 
 @dataclass(eq=False)
 class _Remembered:
-    """hull: in the object's coordinates. change: the last update of its geometry; edit: one that changed it. digest: of what it showed, None of
-    large meshes. shape: (4, 3) the scale and the center that `poses` are for. support: after which change of which
-    scene."""
+    """hull: in the object's coordinates. change: the last update of its geometry; edit: one that changed it.
+    digest: of what it showed, None of large meshes. shape: (4, 3) the scale and the center that `poses` are for.
+    support: after which change of which scene."""
 
     hull: ConvexHull
     change: int

@@ -24,7 +24,8 @@ before undo, and before the file is saved.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
+from types import MappingProxyType
 
 import bpy
 from bpy.types import Context, Depsgraph, Object, Scene
@@ -35,6 +36,7 @@ from ..read.quiet import paused
 from . import handlers, marks, updates
 from .cache import SessionCache
 
+NO_SHAPES: Mapping[Object, bytes | None] = MappingProxyType({})
 _edited: SessionCache[frozenset[str]] = SessionCache()  # the marks that an object carried when its geometry changed
 _shapes: dict[str, bytes] = {}  # mark → digest of what was shown when it was stored: copies of an object share both
 _resolved: dict[int, int] = {}  # session uid → up to which update is noted what it means
@@ -45,7 +47,9 @@ reasons_by_type: dict[str, Callable[[Object], str | None]] = {}
 # ---------------------------------------------------------------- What was stored just now
 
 
-def mark_up_to_date(context: Context, objects: list[Object]) -> None:
+def mark_up_to_date(
+    context: Context, objects: Iterable[Object], shapes: Mapping[Object, bytes | None] = NO_SHAPES
+) -> None:
     """Take objects as up to date, after results were stored; evaluates what storing itself has tagged.
 
     Parameters
@@ -54,12 +58,19 @@ def mark_up_to_date(context: Context, objects: list[Object]) -> None:
         Its view layer has the objects.
     objects : list of bpy.types.Object
         Those whose results were stored or removed.
+    shapes : mapping of bpy.types.Object to bytes or None
+        Of objects that have just been read, the `surface_digest` of what they show.
     """
     depsgraph = context.evaluated_depsgraph_get()
     for obj in objects:
         note_edits(obj)  # of its other marks
         mark_object(obj)
-        _remember_shape(obj, marks.of_results(obj), depsgraph)
+        mark = marks.of_results(obj)
+        shape = shapes.get(obj)
+        if shape is not None and obj.mode == "OBJECT" and not _varies(obj):
+            _shapes[mark] = shape
+        else:
+            _remember_shape(obj, mark, depsgraph)
 
 
 def mark_fingerprints(context: Context, stored: Iterable[tuple[Object, str]]) -> None:
@@ -266,9 +277,12 @@ def _remember_shape(obj: Object, mark: str, depsgraph: Depsgraph) -> None:
 
 def _shape(obj: Object, depsgraph: Depsgraph | None) -> bytes | None:
     """A digest of all that the numbers come from beside settings and transform; None where there is none."""
-    if depsgraph is None or obj.body_moments.density_from in {"MATERIALS", "ATTRIBUTE", "VOLUME"}:
-        return None
-    return shape_digest(obj, depsgraph)
+    return None if depsgraph is None or _varies(obj) else shape_digest(obj, depsgraph)
+
+
+def _varies(obj: Object) -> bool:
+    """Whether the numbers may come from more than that."""
+    return obj.body_moments.density_from in {"MATERIALS", "ATTRIBUTE", "VOLUME"}
 
 
 def _note_all_edits() -> None:

@@ -79,10 +79,14 @@ def unset_density(obj: bpy.types.Object, measurement: Measurement, scene: bpy.ty
     used = {measurement.density_from.code, *(one.code for one in measurement.findings)}
     if not used & _BY_OBJECT:
         return None
-    name = "linear_density" if measurement.kind == "wire" else "density"
-    if settings.is_property_set(name) or name == "density" and default_density(scene) is not None:
-        return None
-    return name
+    if measurement.kind == "wire":
+        return None if settings.is_property_set("linear_density") else "linear_density"
+    return "density" if is_density_unset(settings, scene) else None
+
+
+def is_density_unset(settings: bpy.types.PropertyGroup, scene: bpy.types.Scene) -> bool:
+    """Whether nobody has set the density that `object_density` gives, neither for the object nor for the scene."""
+    return not settings.is_property_set("density") and default_density(scene) is None
 
 
 def density_anchor(obj: bpy.types.Object) -> str:

@@ -70,6 +70,12 @@ TEXTS = {
     "Support Polygon": "Standfläche",
     "Path of Balance Groups": "Bahn der Balancegruppen",
     # stability
+    "Balance Group": "Balancegruppe",
+    "Balance Group...": "Balancegruppe...",
+    "Contact Objects": "Kontaktobjekte",
+    "Ground Height": "Höhe des Bodens",
+    "Contact Distance": "Kontaktabstand",
+    "Scene Range": "Bereich der Szene",
     "Stability": "Standfestigkeit",
     "Check Stability": "Standfestigkeit prüfen",
     "Rest on Ground": "Auf den Boden legen",
@@ -119,6 +125,8 @@ TEXTS = {
 
 # Codes of messages → German, and for several where the English has such a text
 MESSAGES = {
+    "progress_balance": ("Massenmittelpunkt wird verfolgt: {share:percent}. Esc zum Abbrechen",),
+    "canceled_balance": ("Abgebrochen: nichts wurde geändert",),
     "objects_tip": ("{names} kippt um", "{names} kippen um"),
     "laid_on_ground": ("{count} Objekt auf den Boden gelegt", "{count} Objekte auf den Boden gelegt"),
     "panel_stability_unknown": ("Die Standfestigkeit wurde nicht berechnet.",),

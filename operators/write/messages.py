@@ -1300,6 +1300,11 @@ MESSAGES: dict[str, Message] = {
     "manifest_unreadable": _error("The list {file} cannot be read: {error}"),
     "manifest_malformed": _error("{file} is not a list of files. Make one with “manifest FOLDER”"),
     "usage_result_not_written": _error("the result cannot be written: {error}"),
+    # ------------------------------------------------------------------ Rigid bodies
+    "rigid_bodies_made": _note(
+        "{count} rigid body of {mass:.7g} kg; Calculate Mass would say {calculated:.7g} kg",
+        "{count} rigid bodies of {mass:.7g} kg; Calculate Mass would say {calculated:.7g} kg",
+    ),
     # ------------------------------------------------------------------ Rigs
     "no_active_armature": _error("The active object is not an armature. Select one."),
     "armature_in_edit_mode": _error("The armature is in Edit Mode. Leave it."),
@@ -1594,6 +1599,22 @@ MESSAGES: dict[str, Message] = {
     "objects_tip": _warning("{names} tips over", "{names} tip over"),
     "laid_on_ground": _note("Laid {count} object on the ground", "Laid {count} objects on the ground"),
     "already_on_ground": _note("already on the ground"),
+    "poll_object_or_pose_mode": _note("Switch to Object Mode or Pose Mode"),
+    "progress_balance": _note("Following the center of mass: {share:percent}. Esc to cancel"),
+    "canceled_balance": _warning("Canceled: nothing was changed"),
+    "no_such_collection": _error("There is no collection “{collection}”. Choose another one."),
+    "balance_group_without_contacts": _error("“{collection}” has no object with a surface. Choose another collection."),
+    "balance_group_empty_group": _error(
+        "Nothing to follow. Select objects with a surface, or an armature that deforms some."
+    ),
+    "balance_group_without_mass": _error("Together the objects have no mass. Set their densities."),
+    "balance_group_made": _note(
+        "“{empty}” has {count} key of the center of mass; objects: {objects_count}",
+        "“{empty}” has {count} keys of the center of mass; objects: {objects_count}",
+    ),
+    "balance_group_inside": _note(
+        "It is over the support polygon at {count} of {total} frames",
+    ),
     "panel_stability_unknown": _note("Stability has not been computed."),
     "panel_stability_stale": _note("The geometry has changed. Check again."),
     # ------------------------------------------------------------------ Robots: what a format cannot say
@@ -1637,6 +1658,8 @@ MESSAGES: dict[str, Message] = {
     "robot_geometry_not_written": _error("Blender's exporter failed: {error}."),
     "robot_not_written": _error("The file cannot be written: {error}."),
     "robot_copied": _note("Inertial of {count} link copied.", "Inertials of {count} links copied."),
+    "primitives_added": _note("{count} shape added", "{count} shapes added"),
+    "primitive_has_parent": _error("It has a parent, or is linked. Clear the parent to simulate it."),
     "robot_meshes_written": _note("{count} mesh written to {folder}.", "{count} meshes written to {folder}."),
     "robot_meshes_not_written": _error("The meshes cannot be written: {error}."),
     "mjcf_inertia_too_small": _warning(
@@ -1674,8 +1697,8 @@ MESSAGES: dict[str, Message] = {
     "usage_repair_folder": _error("--repair: {path} is no folder"),
     "usage_repair_same": _error("--repair: {path} is the folder of a file that is read. Choose another one"),
     "audit_copies_alike": _error("Two files have one name: {name}. Audit them one at a time, or choose other folders."),
+    "audit_text": _note("See the text “{text}” in the Text Editor"),
     "audit_not_written": _error("The file cannot be written: {error}."),
-    "audit_copy_not_replaced": _error("{path} exists and is no copy of ours. Choose another folder."),
     # ------------------------------------------------------------------ Audit: what no body can have
     "inertial_missing": _warning("No inertial. Readers differ: some take 1 kg, some none. Add mass and inertia."),
     "inertial_not_finite": _error("Mass, center or inertia is not a number."),

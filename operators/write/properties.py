@@ -9,7 +9,7 @@ of mass, xx, yy, zz, xy, xz, yz, with xy = -∫xy dm.
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from math import isfinite
@@ -109,32 +109,99 @@ def store(obj: Owner, measurement: Measurement) -> None:
     require_storable(obj)
     body = measurement.mass_properties.in_frame(measurement.rotation, measurement.location)
     bound = measurement.error_bound
-    entries = tensor_entries(body.inertia).tolist()
-    values = {
+    numbers = {
         "body_mass": body.mass,
         "body_density": measurement.density,
         "body_volume": measurement.volume,
         "body_area": measurement.area,
         "body_center_of_mass": body.center.tolist(),
-        "body_inertia": entries,
-        "body_inertia_diagonal": entries[:3],
-        "body_inertia_products": entries[3:],
+        "body_inertia": tensor_entries(body.inertia).tolist(),
         "body_principal_moments": body.principal.moments.tolist(),
         "body_principal_axes": quaternion(body.principal.axes).tolist(),
         "body_error_bound": [float(source[name]) for source in (bound, bound["input"]) for name in BOUND_KEYS],
-        "body_method": str(measurement.method),
-        "body_warnings": warning_lines(measurement.findings),
-        "body_findings": findings_text(measurement.findings),
-        "body_fingerprint": measurement.fingerprint,
     }
     optional = {key: getattr(measurement, key.removeprefix("body_")) for key in OPTIONAL}
-    values |= {key: value for key, value in optional.items() if value is not None}
+    numbers |= {key: value for key, value in optional.items() if value is not None}
     varying = (
         {}
         if measurement.density_from in UNIFORM_DENSITIES
         else {"body_density_from": str(measurement.density_from), "body_materials": "\n".join(measurement.materials)}
     )
-    values |= {key: value for key, value in varying.items() if value}
+    texts = {key: value for key, value in varying.items() if value}
+    _replace(obj, numbers | _texts(measurement.method, measurement.findings, measurement.fingerprint) | texts)
+    retrigger_drivers(obj)
+
+
+def store_stack(
+    objects: Sequence[bpy.types.Object],
+    body: MassProperties,
+    density: NDArray,
+    volume: NDArray,
+    area: NDArray,
+    error_bounds: NDArray,
+    texts: Iterable[tuple[Method, tuple[Finding, ...], str]],
+) -> Iterator[Exception | None]:
+    """Write the results of many objects, each a solid of one density.
+
+    Parameters
+    ----------
+    objects : sequence of bpy.types.Object
+        n of them.
+    body : MassProperties
+        With a leading axis, in the object frames.
+    density, volume, area : (n,) array
+    error_bounds : (n, 2, 4) array
+        Of rounding and of float32 coordinates, in the order of BOUND_KEYS.
+    texts : iterable of (Method, tuple of Finding, str)
+        Of each its method, findings and fingerprint.
+
+    Yields
+    ------
+    Exception or None
+        Of each object in turn, why it cannot hold them.
+    """
+    columns = (
+        body.mass,
+        density,
+        volume,
+        area,
+        body.center,
+        body.inertia[:, ROWS, COLUMNS],
+        body.principal.moments,
+        quaternion(body.principal.axes),
+        error_bounds.reshape(-1, 8),
+    )
+    rows = zip(*[column.tolist() for column in columns])
+    known: dict[tuple[str, tuple[int, ...]], dict[str, str]] = {}
+    for obj, row, (method, found, mark) in zip(objects, rows, texts):
+        key = str(method), tuple(map(id, found))
+        if key not in known:  # most are alike
+            known[key] = _texts(method, found, "")
+        try:
+            require_storable(obj)
+            _replace(obj, dict(zip(LENGTHS, row)) | known[key] | {"body_fingerprint": mark})
+            retrigger_drivers(obj)
+        except Exception as error:
+            yield error
+        else:
+            yield None
+
+
+def _texts(method: Method, found: Iterable[Finding], mark: str) -> dict[str, str]:
+    """What is stored beside the numbers."""
+    return {
+        "body_method": str(method),
+        "body_warnings": warning_lines(found),
+        "body_findings": findings_text(found),
+        "body_fingerprint": mark,
+    }
+
+
+def _replace(obj: Owner, values: dict) -> None:
+    """Make these the only results, or leave those that were there. The tensor is stored in two ways."""
+    entries = values["body_inertia"]
+    values |= {"body_inertia_diagonal": entries[:3], "body_inertia_products": entries[3:]}
+    values = {key: values[key] for key in DESCRIPTIONS if key in values}
     before = {key: obj[key] for key in DESCRIPTIONS if key in obj}
     before = {key: value.to_list() if hasattr(value, "to_list") else value for key, value in before.items()}
     try:
@@ -142,7 +209,6 @@ def store(obj: Owner, measurement: Measurement) -> None:
     except BaseException:
         _write(obj, before)
         raise
-    retrigger_drivers(obj)
 
 
 def store_scaled(obj: Owner, density: float, mass: float, findings: Sequence[Finding], fingerprint: str) -> None:
@@ -183,8 +249,12 @@ def _write(obj: Owner, values: dict) -> None:
 def _set(obj: Owner, key: str, value: object) -> None:
     obj[key] = value
     if not isinstance(value, str):
-        description = DESCRIPTIONS[key].format(frame=FRAMES[type(obj)])
-        obj.id_properties_ui(key).update(description=description, precision=6)
+        obj.id_properties_ui(key).update(description=_description(key, type(obj)), precision=6)
+
+
+@lru_cache
+def _description(key: str, owner: type) -> str:
+    return DESCRIPTIONS[key].format(frame=FRAMES[owner])
 
 
 def store_reference(obj: Owner, values: dict) -> None:

@@ -12,7 +12,7 @@ from bpy.types import Context, Object
 from numpy.typing import NDArray
 
 from ...core.statics.support import Support
-from ...operators.session import faults, stability
+from ...operators.session import balance, faults, stability
 from ...operators.settings.overlay import BodyMomentsOverlaySettings
 from . import appearance as look
 from .bodies import drawn_objects
@@ -32,6 +32,12 @@ class Detail:
 
 def objects_details(context: Context, settings: BodyMomentsOverlaySettings) -> Iterator[Detail]:
     """Yield what is switched on of each drawn object."""
+    if settings.show_path:
+        for empty in balance.groups(context.scene):
+            if empty.visible_in_viewport_get(context.space_data) and (path := balance.path(empty)) is not None:
+                yield _path(path)
+                if settings.show_support and (stood := balance.support(empty, context.scene.frame_current)) is not None:
+                    yield support_detail(stood)
     if not (settings.show_faults or settings.show_support):
         return
     for obj in drawn_objects(context, settings.show_all):
@@ -39,6 +45,21 @@ def objects_details(context: Context, settings: BodyMomentsOverlaySettings) -> I
             yield _faults(obj, found)
         if settings.show_support and (support := stability.support(obj, context.scene)) is not None:
             yield support_detail(support)
+
+
+def _path(path: balance.Path) -> Detail:
+    """A line from frame to frame, orange where the center leaves the support polygon, with a tick at each frame."""
+    starts, ends = path.centers[:-1], path.centers[1:]
+    outside = np.zeros(len(starts), bool) if path.inside is None else ~(path.inside[:-1] & path.inside[1:])
+    colors = np.where(outside[:, None], look.TIPS, look.PATH)
+    ticks = np.stack([path.centers, path.centers], axis=1)
+    ticks[:, 1, 2] += 0.01 * float(np.ptp(path.centers, axis=0).max())
+    marked = np.zeros(len(ticks), bool) if path.inside is None else ~path.inside
+    tints = np.where(marked[:, None], look.TIPS, look.PATH)
+    segments = np.concatenate([np.stack([starts, ends], axis=1), ticks])
+    return Detail(
+        (segments, np.concatenate([colors, tints]).astype(np.float32)), _tinted(np.zeros((0, 3, 3)), look.PATH)
+    )
 
 
 def _faults(obj: Object, found: faults.Faults) -> Detail:

@@ -59,8 +59,10 @@ def test_the_disc_follows_a_move(window):
 
 
 def test_the_verdict_is_out_of_date_after_a_change_of_settings(window):
-    window.ask("bpy.data.objects['Cube'].body_moments.density = 2700.0")
+    window.ask("bpy.data.objects['Cube'].body_moments.kind = 'SHELL'")
     assert is_near(center_color(window, "overlay-stale"), OUT_OF_DATE)
+    window.ask("bpy.data.objects['Cube'].body_moments.kind = 'SOLID'")
+    assert is_near(center_color(window), EXACT)
 
 
 @pytest.mark.parametrize("switch", [SETTINGS + ".show", "area.spaces.active.overlay.show_overlays"])

@@ -7,20 +7,17 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 import bpy
-import numpy as np
 from bpy.types import Collection, Context, Object
 
-from ....core.inertia.mass_properties import combine
 from ....core.measurement import Measurement
-from ....core.mesh.surface import Surface, join_surfaces
-from ....core.numerics.float32 import shortest_decimal
-from ....core.robots.model import Inertial, Joint, Link, Robot, Shape
-from ....core.verdict.finding import EditRefusedError, Finding, finding
+from ....core.robots.model import Robot
+from ....core.verdict.finding import EditRefusedError, Finding, MeasureError, finding
+from ...bodies.assembly import measure_assembly
 from ...bodies.measure_object import measure_object
 from ...read import measurable
-from ...read.links import link_entry, link_surface
+from ...read.links import link_entry
 from ...write import record, reports
-from ...write.robots.from_records import mesh_files, robot_of_records
+from ...write.robots.from_records import robot_of_records
 from .. import selection
 
 
@@ -28,17 +25,11 @@ from .. import selection
 class MeasuredScene:
     """Objects that were measured, and why others were not.
 
-    measured: by object. failures: one for each object that could not be measured. unit: meters per Blender unit.
+    measured: by object. failures: one for each object that could not be measured.
     """
 
-    depsgraph: bpy.types.Depsgraph
-    unit: float
     measured: dict[Object, Measurement] = field(default_factory=dict)
     failures: list[Finding] = field(default_factory=list)
-
-    def surface(self, obj: Object) -> Surface | None:
-        """Return what an object shows, in meters along its own axes."""
-        return link_surface(obj, self.depsgraph, self.measured[obj], self.unit)
 
 
 def objects_to_export(context: Context, collection: str, selected: bool) -> list[Object]:
@@ -77,7 +68,7 @@ def objects_to_export(context: Context, collection: str, selected: bool) -> list
 def measure_scene(context: Context, objects: list[Object]) -> MeasuredScene:
     """Measure objects as their settings say."""
     depsgraph = context.evaluated_depsgraph_get()
-    scene = MeasuredScene(depsgraph, shortest_decimal(context.scene.unit_settings.scale_length))
+    scene = MeasuredScene()
 
     def measure(obj: Object) -> bool:
         scene.measured[obj] = measure_object(obj, depsgraph)
@@ -99,49 +90,42 @@ def object_links(name: str, scene: MeasuredScene) -> tuple[Robot, list[Finding],
 
 
 def collection_links(
-    name: str, scene: MeasuredScene, root: Collection
+    context: Context, name: str, root: Collection, objects: list[Object]
 ) -> tuple[Robot, list[Finding], dict[str, list[Object]]]:
-    """Return a robot with a link for each collection that holds objects itself, along the world's axes; a collection
-    in another one is fixed to it."""
-    members: dict[str, list[Object]] = {}
-    joints: list[Joint] = []
-    claimed: set[Object] = set()
+    """Return a robot with a link for each collection in one, or for the collection itself where there is none in it.
+    They are assemblies, along the world's axes, with all that they hold.
 
-    def visit(collection: Collection, parent: str | None) -> None:
-        own = [obj for obj in collection.objects if obj in scene.measured and obj not in claimed]
-        claimed.update(own)
-        if own and collection.name_full not in members:
-            members[collection.name_full] = own
-            if parent is not None:
-                joints.append(Joint("{}_joint".format(collection.name_full), parent, collection.name_full))
-            parent = collection.name_full
-        for child in collection.children:
-            visit(child, parent)
+    Parameters
+    ----------
+    context : Context
+    name : str
+    root : Collection
+    objects : list of Object
+        What counts of what they hold is their own decision; what their meshes show is of these.
 
-    visit(root, None)
-    files = mesh_files(members)
-    links = []
-    for label, objects in members.items():
-        total = combine([scene.measured[obj].mass_moments for obj in objects])
-        inertial = Inertial.with_agreeing_axes(
-            total.mass, total.center, total.inertia, total.principal.moments, total.principal.axes
-        )
-        links.append(Link(label, inertial, shapes=(Shape("mesh", file=files[label]),)))
-    return Robot(name, tuple(links), tuple(joints)), [], members
-
-
-def link_mesh(scene: MeasuredScene, link: Link, objects: list[Object]) -> Surface | None:
-    """Return what the objects of a link show, in meters along the link's axes."""
-    pieces = []
-    for obj in objects:
-        surface = scene.surface(obj)
-        if surface is not None:
-            measurement = scene.measured[obj]
-            turn = link.pose.rotation.T @ measurement.rotation
-            if len(objects) == 1 and np.allclose(turn, np.eye(3), 0.0, 1e-15):
-                return surface
-            pieces.append(surface.transform(turn, link.pose.rotation.T @ (measurement.location - link.pose.position)))
-    return join_surfaces(pieces) if pieces else None
+    Returns
+    -------
+    Robot
+    list of Finding
+        Why other collections are no links.
+    dict of str to list of Object
+        The objects of each link.
+    """
+    depsgraph = context.evaluated_depsgraph_get()
+    records, findings, members = [], [], {}
+    for collection in list(root.children) or [root]:
+        label = collection.name_full
+        try:
+            measurement = measure_assembly(collection, depsgraph).measurement
+        except MeasureError as error:
+            findings.append(reports.failure(label, error.finding))
+            continue
+        held = {*collection.all_objects}
+        members[label] = [obj for obj in objects if obj in held]
+        place = {"position": [0.0, 0.0, 0.0], "rotation": [1.0, 0.0, 0.0, 0.0], "scale": [1.0, 1.0, 1.0], "parents": []}
+        records.append({**record.record(measurement, "world"), "name": label, "link": place})
+    robot, left_out = robot_of_records(name, records)
+    return robot, [*findings, *left_out], members
 
 
 def left_out(failures: list[Finding], total: int) -> list[Finding]:

@@ -11,13 +11,14 @@ from pathlib import Path
 
 import bpy
 from bpy.props import BoolProperty, EnumProperty, StringProperty
-from bpy.types import Context, FileHandler, Menu, Operator, UILayout
+from bpy.types import Context, FileHandler, Menu, Object, Operator, UILayout
 from bpy_extras.io_utils import ExportHelper
 
 from ....core.mesh.surface import Surface
+from ....core.numerics.float32 import shortest_decimal
 from ....core.robots.model import Robot
 from ....core.verdict.finding import EditRefusedError, FileError, Finding, MeasureError, finding
-from ...read.links import USD_ROOT, sheared_objects, usd_path
+from ...read.links import USD_ROOT, link_surface, sheared_objects, usd_path
 from ...write import reports
 from ...write.messages import sentence
 from ...write.robots import gltf, usd
@@ -27,11 +28,11 @@ from ...write.robots.stl import write_meshes
 from ...write.whole_file import whole_file
 from .. import selection
 from . import links as scenes
-from .links import MeasuredScene
 
+Links = tuple[Robot, list[Finding], dict[str, list[Object]]]
 LINKS = (
     ("OBJECT", "Objects", "Each object is a link; its parent holds it by a fixed joint"),
-    ("COLLECTION", "Collections", "Each collection that holds objects itself is a link, along the world's axes"),
+    ("COLLECTION", "Collections", "Each collection with all that it holds is a link, along the world's axes"),
 )
 GEOMETRY = (
     ("MESH", "Meshes", "Name a mesh file for each link"),
@@ -40,6 +41,10 @@ GEOMETRY = (
     ("CAPSULE", "Capsules", "The capsule of the same mass and center, with the inertia that comes nearest"),
     ("NONE", "None", "Links have no geometry"),
 )
+
+
+def meters_per_unit(context: Context) -> float:
+    return shortest_decimal(context.scene.unit_settings.scale_length)
 
 
 class RobotExport(ExportHelper):
@@ -70,35 +75,37 @@ class RobotExport(ExportHelper):
     def execute(self, context: Context) -> set[str]:
         try:
             objects = scenes.objects_to_export(context, self.collection, self.use_selection)
-            scene = scenes.measure_scene(context, objects)
-            if not scene.measured:
-                raise EditRefusedError(scene.failures[0])
-            findings = self._export(context, scene, Path(bpy.path.abspath(self.filepath)))
+            findings = self._export(context, objects, Path(bpy.path.abspath(self.filepath)))
         except MeasureError as error:
             selection.report(self, reports.refusal(error))
             return {"CANCELLED"}
         except OSError as error:
             selection.report(self, finding("robot_not_written", error=error.strerror or str(error)))
             return {"CANCELLED"}
-        selection.report(self, *findings, *scenes.left_out(scene.failures, len(objects)))
+        selection.report(self, *findings)
         return {"FINISHED"}
 
-    def _robot(self, context: Context, scene: MeasuredScene, name: str) -> tuple[Robot, list[Finding], dict]:
+    def _robot(self, context: Context, objects: list[Object], name: str) -> Links:
         if self.links == "COLLECTION":
             root = bpy.data.collections[self.collection] if self.collection else context.scene.collection
-            return scenes.collection_links(name, scene, root)
-        return scenes.object_links(name, scene)
+            return scenes.collection_links(context, name, root, objects)
+        scene = scenes.measure_scene(context, objects)
+        if not scene.measured:
+            raise EditRefusedError(scene.failures[0])
+        robot, findings, members = scenes.object_links(name, scene)
+        return robot, [*findings, *scenes.left_out(scene.failures, len(objects))], members
 
-    def _export(self, context: Context, scene: MeasuredScene, path: Path) -> list[Finding]:
-        robot, findings, members = self._robot(context, scene, path.stem)
+    def _export(self, context: Context, objects: list[Object], path: Path) -> list[Finding]:
+        robot, findings, members = self._robot(context, objects, path.stem)
         robot = robot if self.geometry == "MESH" else with_primitives(robot, self.geometry.lower())
         text, found = robot_text(robot, self.FORMAT, findings, inertial_only=self.inertial_only)
         with whole_file(path) as file:
             file.write(text.encode("utf-8"))
         if self.geometry == "MESH" and self.write_meshes and not self.inertial_only:
+            depsgraph, unit = context.evaluated_depsgraph_get(), meters_per_unit(context)
 
             def surface(label: str) -> Surface | None:
-                return scenes.link_mesh(scene, robot.link(label), members[label])
+                return link_surface(members[label], depsgraph, robot.link(label).pose, unit)
 
             found.append(write_meshes(robot, surface, path.parent))
         return [finding("robot_exported", count=len(robot.links), file=path.name), *found]
@@ -153,9 +160,9 @@ class EXPORT_SCENE_OT_body_moments_mjcf(RobotExport, Operator):
 class GeometryExport(RobotExport):
     """Of those that leave the geometry to Blender's own exporter, which knows objects."""
 
-    def _robot(self, context: Context, scene: MeasuredScene, name: str) -> tuple[Robot, list[Finding], dict]:
-        robot, findings, members = scenes.object_links(name, scene)
-        sheared = sheared_objects(scene.measured)
+    def _robot(self, context: Context, objects: list[Object], name: str) -> Links:
+        robot, findings, members = super()._robot(context, objects, name)
+        sheared = sheared_objects([obj for held in members.values() for obj in held])
         if sheared:
             findings.append(finding("robot_sheared", count=len(sheared), links=sheared))
         return robot, findings, members
@@ -180,11 +187,11 @@ class EXPORT_SCENE_OT_body_moments_usd(GeometryExport, Operator):
     filename_ext = ".usda"
     filter_glob: StringProperty(default="*.usda", options={"HIDDEN"})
 
-    def _export(self, context: Context, scene: MeasuredScene, path: Path) -> list[Finding]:
+    def _export(self, context: Context, objects: list[Object], path: Path) -> list[Finding]:
         if self.inertial_only or self.geometry != "MESH":
-            return super()._export(context, scene, path)
-        robot, findings, members = self._robot(context, scene, path.stem)
-        paths = {label: usd_path(objects[0], usd.identifier) for label, objects in members.items()}
+            return super()._export(context, objects, path)
+        robot, findings, members = self._robot(context, objects, path.stem)
+        paths = {label: usd_path(held[0], usd.identifier) for label, held in members.items()}
         alike = [label for label, prim in paths.items() if list(paths.values()).count(prim) > 1]
         if alike:
             raise EditRefusedError("robot_names_alike", names=alike)
@@ -196,7 +203,7 @@ class EXPORT_SCENE_OT_body_moments_usd(GeometryExport, Operator):
         if scaled:
             findings.append(finding("robot_scaled", count=len(scaled), links=scaled))
         remarks = list(map(sentence, findings))
-        text = usd.write_over(robot, paths, "./" + geometry.name, scene.unit, remarks)
+        text = usd.write_over(robot, paths, "./" + geometry.name, meters_per_unit(context), remarks)
         with whole_file(path) as file:
             file.write(text.encode("utf-8"))
         return [finding("robot_exported", count=len(robot.links), file=path.name), *findings]
@@ -217,13 +224,13 @@ class EXPORT_SCENE_OT_body_moments_gltf(GeometryExport, Operator):
     filename_ext = ".glb"
     filter_glob: StringProperty(default="*.glb", options={"HIDDEN"})
 
-    def _export(self, context: Context, scene: MeasuredScene, path: Path) -> list[Finding]:
-        robot, findings, _ = self._robot(context, scene, path.stem)
+    def _export(self, context: Context, objects: list[Object], path: Path) -> list[Finding]:
+        robot, findings, _ = self._robot(context, objects, path.stem)
         options = {"use_selection": self.use_selection, "export_format": "GLB", "export_yup": True}
         self._run_exporter("export_scene.gltf", path, options)
         data = path.read_bytes()
         document = gltf.read_json(data)
-        findings += gltf.add_rigid_bodies(document, robot, scene.unit)
+        findings += gltf.add_rigid_bodies(document, robot, meters_per_unit(context))
         with whole_file(path) as file:
             file.write(gltf.replace_json(data, document))
         return [finding("robot_exported", count=len(robot.links), file=path.name), *findings]

@@ -13,15 +13,18 @@ from bpy.props import EnumProperty
 from ....core.density.materials import BY_NAME
 from ....core.verdict import internal_error
 from ....core.verdict.finding import Finding, Severity, finding
-from ...bodies.measure_object import Measured, measure_body
+from ...bodies.many import measure_many
+from ...bodies.measure_object import Measured
+from ...bodies.stack import Stacked
 from ...session import outcome, results
 from ...session.staleness import mark_up_to_date
-from ...settings.density import unset_density
+from ...settings.density import is_density_unset, unset_density
 from ...settings.preferences import MATERIAL_ITEMS, copy_defaults
 from ...write import reports
 from ...write.messages import of_severity
 from ..modal import ModalSteps, redraw
 
+DENSITY_KEPT = finding("density_default_kept")
 AS_SET = "AS_SET"
 MAX_OBJECTS_WITHOUT_REDRAW = 4  # up to so many objects are measured before the window is drawn again
 
@@ -86,7 +89,7 @@ class OBJECT_OT_body_moments_measure(ModalSteps, bpy.types.Operator):
         objects = list(context.selected_objects)
         for obj in objects:
             self._change_settings(obj)
-        self._results: list[tuple[bpy.types.Object, Measured]] = []
+        self._results: list[tuple[bpy.types.Object, Measured | Stacked]] = []
         self._refusals: list[tuple[bpy.types.Object, Finding]] = []
         self._failures: list[Finding] = []
         self._steps = self._measure(objects, context.evaluated_depsgraph_get())
@@ -106,11 +109,14 @@ class OBJECT_OT_body_moments_measure(ModalSteps, bpy.types.Operator):
             settings.density, settings.material = BY_NAME[self.material].density, self.material
 
     def _measure(self, objects: list[bpy.types.Object], depsgraph: bpy.types.Depsgraph) -> Generator[int, None, None]:
-        for done, obj in enumerate(objects, 1):
-            try:
-                self._results.append((obj, _with_default_density(obj, measure_body(obj, depsgraph))))
-            except Exception as error:
-                self._refusals.append((obj, internal_error.finding_of(error)))
+        done = 0
+        for together in measure_many(objects, depsgraph):
+            for obj, found in together:
+                if isinstance(found, Exception):
+                    self._refusals.append((obj, internal_error.finding_of(found)))
+                else:
+                    self._results.append((obj, _with_default_density(obj, found, depsgraph.scene)))
+            done += len(together)
             yield done
 
     def _finish(self, context: bpy.types.Context) -> set[str]:
@@ -119,15 +125,14 @@ class OBJECT_OT_body_moments_measure(ModalSteps, bpy.types.Operator):
             self._failures.append(reports.failure(obj.name_full, refusal))
             results.remember_failure(obj, refusal)
         stored = []
-        for obj, measured in self._results:
+        for obj, refusal in results.store_many(self._results, context.scene):
             results.remember_failure(obj, None)
-            try:
-                results.store(obj, measured, context.scene)
-            except Exception as error:
-                self._failures.append(reports.failure(obj.name_full, error))
-                continue
-            stored.append(obj)
-        mark_up_to_date(context, stored)
+            if refusal is None:
+                stored.append(obj)
+            else:
+                self._failures.append(reports.failure(obj.name_full, refusal))
+        shapes = {obj: found.shape_digest for obj, found in self._results if isinstance(found, Stacked)}
+        mark_up_to_date(context, stored, shapes)
         self._report(len(stored))
         redraw(context)
         return {"FINISHED"} if stored else {"CANCELLED"}
@@ -136,7 +141,7 @@ class OBJECT_OT_body_moments_measure(ModalSteps, bpy.types.Operator):
         warnings = [
             finding("object_warnings", object=obj.name_full, causes=[cause.as_record() for cause in causes])
             for obj, measured in self._results
-            if (causes := of_severity(measured.measurement.findings, Severity.WARNING, Severity.ERROR))
+            if measured.findings and (causes := of_severity(measured.findings, Severity.WARNING, Severity.ERROR))
         ]
         tried = stored + len(self._failures)
         done = [finding("measured_several", count=stored, total=tried)] if tried > 1 else []
@@ -150,12 +155,18 @@ class OBJECT_OT_body_moments_measure(ModalSteps, bpy.types.Operator):
         reports.report(self, *done, *(reports.first(self._failures) if self._failures else ()))
 
 
-def _with_default_density(obj: bpy.types.Object, measured: Measured) -> Measured:
+def _with_default_density(
+    obj: bpy.types.Object, measured: Measured | Stacked, scene: bpy.types.Scene
+) -> Measured | Stacked:
     """With a note where nobody has set the density."""
-    unset = unset_density(obj, measured.measurement, bpy.context.scene)
+    if isinstance(measured, Stacked):
+        if measured.has_density and is_density_unset(obj.body_moments, scene):
+            measured.add_finding(DENSITY_KEPT)
+        return measured
+    unset = unset_density(obj, measured.measurement, scene)
     if unset is None:
         return measured
-    kept = finding("density_default_kept") if unset == "density" else finding("linear_density_default_kept")
+    kept = DENSITY_KEPT if unset == "density" else finding("linear_density_default_kept")
     findings = (*measured.measurement.findings, kept)
     return replace(measured, measurement=replace(measured.measurement, findings=findings))
 

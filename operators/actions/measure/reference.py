@@ -60,7 +60,7 @@ class OBJECT_OT_body_moments_copy_reference(Operator):
     def execute(self, context: Context) -> set[str]:
         result = reference.referred(context.object, context.scene)
         if not isinstance(result, ReferredInertia):
-            reports.report(self, result or finding("no_stored_results"))
+            selection.report(self, result or finding("no_stored_results"))
             return {"CANCELLED"}
         text = _text(context.object.name, ReferenceChoice.of(context.scene.body_moments_reference), result)
         copy_text(self, context, text, finding("report_copied", count=1))
@@ -99,7 +99,7 @@ class OBJECT_OT_body_moments_axis_from_selection(Operator):
             if len(points) != POINTS:
                 raise QueryError("axis_needs_two_points", count=len(points))
         except MeasureError as error:
-            reports.report(self, reports.refusal(error))
+            selection.report(self, reports.refusal(error))
             return {"CANCELLED"}
         settings = context.scene.body_moments_reference
         settings.about, settings.first, settings.second = "AXIS", points[0], points[1]

@@ -20,6 +20,7 @@ from ...bodies.rig import BonePart, Rig, measure_rig
 from ...read.quiet import paused
 from ...read.rig import require_armature
 from ...write import reports
+from .. import selection
 from ..modal import redraw
 from .measure import poll_armature
 
@@ -47,9 +48,9 @@ class OBJECT_OT_body_moments_rig_center(Operator):
             with paused():
                 _add_center(context, rig)
         except MeasureError as error:
-            reports.report(self, reports.refusal(error))
+            selection.report(self, reports.refusal(error))
             return {"CANCELLED"}
-        reports.report(self, finding("rig_center_added", armature=rig.armature.name))
+        selection.report(self, finding("rig_center_added", armature=rig.armature.name))
         redraw(context)
         return {"FINISHED"}
 

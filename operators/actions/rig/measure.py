@@ -10,6 +10,7 @@ from ...read.rig import require_armature
 from ...session import rig as stored_rig
 from ...write import properties, reports
 from ...write.messages import of_severity
+from .. import selection
 from ..modal import redraw
 
 
@@ -38,13 +39,13 @@ class OBJECT_OT_body_moments_measure_bones(Operator):
             rig = measure_rig(context, armature)
             failures = stored_rig.store(rig)
         except MeasureError as error:
-            reports.report(self, reports.refusal(error))
+            selection.report(self, reports.refusal(error))
             return {"CANCELLED"}
         count = sum(part.measurement is not None for part in rig.parts)
         mass = rig.measurement.mass_properties.mass
         findings = of_severity(rig.measurement.findings, Severity.WARNING, Severity.ERROR)
         findings += [reports.failure(name, reason) for name, reason in failures]
-        reports.report(
+        selection.report(
             self, finding("bones_measured", armature=armature.name, count=count, mass=mass), *reports.first(findings)
         )
         redraw(context)
@@ -66,9 +67,9 @@ class OBJECT_OT_body_moments_clear_bones(Operator):
         try:
             cleared = stored_rig.clear(context.object)
         except MeasureError as error:
-            reports.report(self, reports.refusal(error))
+            selection.report(self, reports.refusal(error))
             return {"CANCELLED"}
-        reports.report(self, finding("results_removed", count=1) if cleared else finding("no_results_to_remove"))
+        selection.report(self, finding("results_removed", count=1) if cleared else finding("no_results_to_remove"))
         redraw(context)
         return {"FINISHED"} if cleared else {"CANCELLED"}
 

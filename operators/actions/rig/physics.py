@@ -17,6 +17,7 @@ from ...bodies.rig import BonePart, Rig, measure_rig
 from ...read.quiet import paused
 from ...read.rig import require_armature
 from ...write import reports
+from .. import selection
 from ..modal import redraw
 from .measure import poll_armature
 
@@ -49,11 +50,11 @@ class OBJECT_OT_body_moments_physics_rig(Operator):
             with paused():
                 bodies, joints = _create(context, rig, parts)
         except MeasureError as error:
-            reports.report(self, reports.refusal(error))
+            selection.report(self, reports.refusal(error))
             return {"CANCELLED"}
         missing = [part.name for part in rig.parts if part.measurement is None]
         more = [finding("bone_parts_impossible", count=len(missing), names=missing)] if missing else []
-        reports.report(self, finding("physics_rig_created", count=bodies, joints=joints), *more)
+        selection.report(self, finding("physics_rig_created", count=bodies, joints=joints), *more)
         redraw(context)
         return {"FINISHED"}
 

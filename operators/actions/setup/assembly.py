@@ -11,6 +11,7 @@ from ...read.assembly import Root, is_assembly, members_of
 from ...session import assembly as stored_assembly
 from ...write import properties, reports
 from ...write.messages import of_severity
+from .. import selection
 from ..modal import ModalSteps, redraw
 
 MAX_OBJECTS_WITHOUT_REDRAW = 4  # up to so many objects are measured before the window is drawn again
@@ -77,7 +78,7 @@ class OBJECT_OT_body_moments_measure_assembly(ModalSteps, Operator):
             data = target_of(context, self.target)
             properties.require_storable(data)
         except MeasureError as error:
-            reports.report(self, reports.refusal(error))
+            selection.report(self, reports.refusal(error))
             return None
         self._member = members_of(data, depsgraph)
         self._results: Results = {}
@@ -89,14 +90,14 @@ class OBJECT_OT_body_moments_measure_assembly(ModalSteps, Operator):
             assembly = assemble(self._member, self._results, context.evaluated_depsgraph_get())
             failures = stored_assembly.store(context, assembly)
         except MeasureError as error:
-            reports.report(self, reports.refusal(error))
+            selection.report(self, reports.refusal(error))
             return {"CANCELLED"}
         findings: list[Finding] = of_severity(assembly.measurement.findings, Severity.WARNING, Severity.ERROR)
         if failures:
             findings.append(finding("members_not_stored", count=len(failures), names=[name for name, _ in failures]))
         counted = sum(part.measured is not None for part in assembly.root.walk())
         name, mass = assembly.measurement.name, assembly.measurement.mass_properties.mass
-        reports.report(
+        selection.report(
             self, finding("assembly_measured", assembly=name, count=counted, mass=mass), *reports.first(findings)
         )
         redraw(context)
@@ -117,9 +118,9 @@ class OBJECT_OT_body_moments_clear_assembly(Operator):
             data = target_of(context, self.target)
             cleared = stored_assembly.clear(data)
         except MeasureError as error:
-            reports.report(self, reports.refusal(error))
+            selection.report(self, reports.refusal(error))
             return {"CANCELLED"}
-        reports.report(self, finding("results_removed", count=1) if cleared else finding("no_results_to_remove"))
+        selection.report(self, finding("results_removed", count=1) if cleared else finding("no_results_to_remove"))
         redraw(context)
         return {"FINISHED"} if cleared else {"CANCELLED"}
 

@@ -19,6 +19,7 @@ from ...read.quiet import paused
 from ...scene.transforms import TransformChannels, require_editable, world
 from ...session import assembly as stored_assembly
 from ...write import properties, reports
+from .. import selection
 from .assembly import TARGET, measured_assembly
 
 FRAME_OF = "principal_frame_of_assembly"  # ID property of an empty: the collection or empty whose frame it shows
@@ -40,9 +41,9 @@ class _SnapToAssembly:
                 raise EditRefusedError("assembly_has_open_members", subject=assembly.measurement.name)
             findings = self._place(context, assembly)
         except MeasureError as error:
-            reports.report(self, reports.refusal(error))
+            selection.report(self, reports.refusal(error))
             return {"CANCELLED"}
-        reports.report(self, *findings)
+        selection.report(self, *findings)
         return {"FINISHED"}
 
     def _place(self, context: Context, assembly: Assembly) -> list[Finding]:

@@ -16,6 +16,7 @@ from ...bodies.given import properties_of
 from ...write import reports
 from ...write.bill import BillRow, bill_csv
 from ...write.whole_file import whole_file
+from .. import selection
 from .assembly import TARGET, measured_assembly
 
 
@@ -91,9 +92,9 @@ class OBJECT_OT_body_moments_export_bill(Operator):
             except OSError as error:
                 raise FileError("file_not_written", error=error.strerror or str(error)) from error
         except MeasureError as error:
-            reports.report(self, reports.refusal(error))
+            selection.report(self, reports.refusal(error))
             return {"CANCELLED"}
-        reports.report(self, finding("bill_written", count=len(rows) - 1, file=path.name))
+        selection.report(self, finding("bill_written", count=len(rows) - 1, file=path.name))
         return {"FINISHED"}
 
 

@@ -119,4 +119,18 @@ def to_html(documents: Sequence[dict[str, Any]]) -> str:
     return "\n".join([*lines, "</html>", ""])
 
 
+def to_text(document: dict[str, Any]) -> str:
+    """One file's findings, link by link, to be read by a person."""
+    lines = ["{} ({})".format(document["file"], document["format"]), ""]
+    for link in document["links"]:
+        lines.append(link["name"])
+        for found in link["findings"]:
+            lines.append("    {}: {}".format(found["severity"], found["message"]))
+        if not link["findings"]:
+            lines.append("    -")
+    if document["repaired"]:
+        lines += ["", document["repaired"]]
+    return "\n".join([*lines, ""])
+
+
 FORMATS = {"json": to_json, "csv": to_csv, "html": to_html}

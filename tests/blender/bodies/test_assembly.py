@@ -10,9 +10,10 @@ import pytest
 from body_moments.core.verdict.finding import MeasureError
 from body_moments.operators.bodies.assembly import measure_assembly
 from body_moments.operators.read.assembly import members_of
+from body_moments.operators.session import staleness
 from mathutils import Matrix
 
-from tests.blender.objects import add, mesh_body
+from tests.blender.objects import add, mesh_body, only
 from tests.close import close
 
 pytestmark = pytest.mark.usefixtures("registered", "scene")
@@ -291,3 +292,21 @@ def test_an_assembly_is_as_large_as_its_slanted_members():
     assert close(body.center - about, first / sum(one.total for one in moments), 1e-12)
     tree = members_of(root, bpy.context.evaluated_depsgraph_get())
     assert [member.name for member in tree.walk()] == ["Assembly", "m0", "m1", "m2"]
+
+
+def test_a_given_inertia_is_no_multiple_of_the_mass():
+    obj = box(collection(), (1, 2, 4))
+    settings = obj.body_moments
+    settings.mass_from, settings.mass = "MASS", 3.0
+    settings.use_inertia, settings.given_inertia_diagonal = True, (4, 1, 3.5)
+    only(obj)
+    bpy.ops.object.body_moments_measure()
+    settings.mass = 6.0
+    bpy.context.view_layer.update()
+    assert close(obj["body_inertia"].to_list()[:3], (4, 1, 3.5), 1e-6) and close(obj["body_mass"], 3.0, 1e-6)
+    assert staleness.stale_reason(obj, bpy.context.scene) == "stale_settings"
+    settings.use_inertia = False
+    bpy.ops.object.body_moments_measure()
+    settings.mass = 3.0
+    bpy.context.view_layer.update()
+    assert close(obj["body_mass"], 3.0, 1e-6) and staleness.stale_reason(obj, bpy.context.scene) is None

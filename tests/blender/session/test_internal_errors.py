@@ -16,8 +16,8 @@ from body_moments.operators import batch
 from body_moments.operators.actions.measure import section as measure_section
 from body_moments.operators.actions.measure.measure_selected import OBJECT_OT_body_moments_measure
 from body_moments.operators.actions.snap import empty
+from body_moments.operators.bodies import many, request
 from body_moments.operators.bodies import measure_object as measure
-from body_moments.operators.bodies import request
 from body_moments.operators.scene import reframe
 from body_moments.operators.session import live, results
 from body_moments.operators.write import properties, section
@@ -64,15 +64,18 @@ def three(flat=False):
 
 
 def plant(monkeypatch, error, *names, module=request, function="read_object"):
-    """The error, wherever one of these objects is read."""
-    real = getattr(module, function)
+    """The error, wherever one of these objects is read, by itself or together with others."""
+    for place_, name in ((module, function), (many, "plain_mesh")):
+        monkeypatch.setattr(place_, name, failing_for(names, error, getattr(place_, name)))
 
+
+def failing_for(names, error, real):
     def failing(obj, *args, **options):
         if obj.name in names:
             raise error
         return real(obj, *args, **options)
 
-    monkeypatch.setattr(module, function, failing)
+    return failing
 
 
 def state(obj):
@@ -148,7 +151,8 @@ def unwritable(monkeypatch, *names):
         return replace(measured, measurement=replace(measured.measurement, fingerprint=object()))
 
     monkeypatch.setattr(measure, "measure_body", damaged)
-    monkeypatch.setattr("body_moments.operators.actions.measure.measure_selected.measure_body", damaged)
+    monkeypatch.setattr(many, "measure_body", damaged)
+    monkeypatch.setattr(many, "plain_mesh", lambda *_: None)
 
 
 @pytest.mark.parametrize("stored", [False, True])

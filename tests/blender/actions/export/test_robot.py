@@ -73,20 +73,20 @@ def test_selected_objects_of_a_format_without_meshes(tmp_path):
     assert close(moments, body.principal.moments, 1e-13)
 
 
-def test_collections_are_links_and_hold_those_within(tmp_path):
+def test_collections_are_links_with_all_that_they_hold(tmp_path):
     upper, fore, tool = pair()
-    outer, inner = bpy.data.collections.new("Arm"), bpy.data.collections.new("Hand")
+    outer, inner, other = (bpy.data.collections.new(name) for name in ("Arm", "Hand", "Tools"))
     bpy.context.scene.collection.children.link(outer)
+    bpy.context.scene.collection.children.link(other)
     outer.children.link(inner)
-    for obj, collection in ((upper, outer), (fore, outer), (tool, inner)):
+    for obj, collection in ((upper, outer), (fore, inner), (tool, other)):
         bpy.context.scene.collection.objects.unlink(obj)
         collection.objects.link(obj)
     export("mjcf", tmp_path / "arm.xml", links="COLLECTION")
     root = ElementTree.parse(tmp_path / "arm.xml").getroot()
-    arm = root.find("worldbody/body")
-    assert (arm.get("name"), arm.find("body").get("name")) == ("Arm", "Hand")
-    body = combine([measured(obj).mass_moments for obj in (upper, fore)])
-    inertial = arm.find("inertial")
+    bodies = {element.get("name"): element.find("inertial") for element in root.iter("body")}
+    assert bodies.keys() == {"Arm", "Tools"}
+    body, inertial = combine([measured(obj).mass_moments for obj in (upper, fore)]), bodies["Arm"]
     assert close(float(inertial.get("mass")), body.mass, 1e-14)
     assert close(np.array(inertial.get("pos").split(), float), body.center, 1e-14)
     found = tensor(*(np.array(inertial.get(key).split(), float) for key in ("diaginertia", "quat")))

@@ -60,7 +60,10 @@ def pressed(cls, **settings):
     operator = type(cls.__name__, bases, functions)()
     operator.reports = []
     operator.report = lambda kind, text: operator.reports.append((*kind, text))
-    vars(operator).update(settings)
+    module, name = cls.bl_idname.split(".")
+    own = getattr(getattr(bpy.ops, module), name).get_rna_type().properties
+    properties = {each.identifier: each.default for each in own if hasattr(each, "default")}
+    vars(operator).update(properties | settings)
     window = Window()
     assert operator.invoke(window, None) == {"RUNNING_MODAL"}
     assert window.handlers == [operator] and window.timers == [window]

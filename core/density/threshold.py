@@ -1,0 +1,393 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The constant set of a trivariate: the body where a density on a grid is at least a threshold, and its surface.
+
+Soldea, Elber and Rivlin define a body as {f ≥ t} of a trivariate B-spline f. Here f is linear along each axis between
+the samples, and the integrals are those of the set itself: nothing is triangulated.
+
+A cell whose eight corners all lie on one side lies there whole, as f is a mean of them. In any other one, an axis is
+chosen along which f is monotone: f = a(x, y) + b(x, y) z with b of one sign. The body's columns then end at z = -a/b,
+and what is integrated along z is a polynomial. The remaining integral over x and y is smooth but for where the surface
+leaves the cell by its floor (a = 0) or its ceiling (a + b = 0). Along y each of the two happens once at most, in the
+root of a linear function; what these do in turn changes along x where one of four linear functions vanishes. Between
+these places Gauss's rule converges geometrically. Two rules are compared in each cell; where they differ by too much,
+or no axis serves, it is cut in eight. What they differ by, summed up, is the estimate of the error.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..moments.moments import Measure, Moments, U, monomials
+from ..numerics.quadrature import gauss_legendre
+from ..verdict.finding import MeasureError
+from .threshold_cells import TURNS, Cells, Columns, amounts_of, compare_rules, interpolate
+
+RULES = ((3, 5), (8, 12))  # points of the two rules that are compared, along x and along y; then the same with more
+TOLERANCE = 1e-11  # of the volume: what the rules may differ by in all cells together, where no cell is cut further
+AREA_TOLERANCE = 1e-9  # of a cell's face: the same in one cell
+MAX_DEPTH = 24  # how often a cell is cut in eight: what is left then is smaller than rounding
+MAX_PARTS, MIN_PARTS = 64, 1 << 13  # parts of a cut cell on average, and of all: what is left then is in the bounds
+CELLS_PER_BATCH = 1 << 9  # cut cells whose points are in memory at a time
+CELLS_PER_SLAB = 1 << 21  # cells of the grid that are looked at at a time
+
+
+@dataclass(frozen=True, eq=False)
+class ThresholdBody:
+    """The body where a density is at least a threshold.
+
+    Parameters
+    ----------
+    volume : Moments
+        Of the body. `rounding_error` has the estimate of what the rules leave.
+    area : Moments
+        Of the surface on which the density is the threshold.
+    mass : Moments, optional
+        Of the body with the density itself inside, where it was asked for.
+    cut_cells : int
+        Cells that the surface passes through.
+    clipped : bool
+        Whether the body reaches the edge of the grid, where it is cut off without a surface.
+    """
+
+    volume: Moments
+    area: Moments
+    mass: Moments | None
+    cut_cells: int
+    clipped: bool
+
+
+def threshold_body(
+    samples: ArrayLike,
+    threshold: float,
+    order: int = 3,
+    matrix: ArrayLike | None = None,
+    background: float | None = None,
+    with_density: bool = False,
+    preview: bool = False,
+) -> ThresholdBody:
+    """Return the moments of the set where the trilinear interpolant of samples is at least a threshold.
+
+    Parameters
+    ----------
+    samples : (nx, ny, nz) array_like
+        Densities, a memory map if larger than memory.
+    threshold : float
+    order : int
+        Of the moments.
+    matrix : (4, 4) array_like, optional
+        Affine: the sample (i, j, k) stands at matrix @ (i, j, k, 1); by default at (i, j, k).
+    background : float, optional
+        The density beyond the grid: a layer of it is added on every side. Without it, nothing is beyond.
+    with_density : bool
+        Also the moments of mass, of the density itself inside.
+    preview : bool
+        By the first rule alone, which nothing checks: for a slider. The bounds hold no estimate then.
+
+    Returns
+    -------
+    ThresholdBody
+
+    Raises
+    ------
+    MeasureError
+        If a sample is not finite, or the matrix flattens the grid or is not finite.
+    ValueError
+        If the grid has no cells.
+
+    Notes
+    -----
+    Soldea, Elber and Rivlin, section 4: the constant set of a trivariate.
+
+    Examples
+    --------
+    >>> from body_moments.core.density import threshold_body
+    >>> ramp = np.arange(5.0)[:, None, None] * np.ones((5, 3, 3))
+    >>> body = threshold_body(ramp, 1.25)
+    >>> round(body.volume.total, 12), round(body.area.total, 12), body.clipped
+    (11.0, 4.0, True)
+    """
+    samples = np.asarray(samples)
+    margin = 0 if background is None else 1
+    shape = np.array(samples.shape) + 2 * margin
+    if (shape < 2).any():
+        raise ValueError("two samples per axis")
+    matrix = np.eye(4) if matrix is None else np.asarray(matrix, np.float64)
+    linear = matrix[:3, :3]
+    if not np.isfinite(matrix).all() or not np.linalg.det(linear):
+        raise MeasureError("grid_transform_singular")
+    cofactors = np.linalg.det(linear) * np.linalg.inv(linear)  # take the normals of pieces of surface along
+    about = (shape - 1) // 2 - margin
+    sums = _Sums(order, with_density, preview, cofactors @ cofactors.T)
+    clipped, cut = False, []
+    for first, values in _slabs(samples, background):
+        if not np.isfinite(values).all():
+            raise MeasureError("density_non_finite")
+        inside = values >= threshold
+        if not margin:
+            clipped = clipped or _reaches_edge(inside, first == 0, first + len(values) == shape[0])
+        corners = _corner_counts(inside)
+        origin = np.array([first, 0, 0]) - margin - about
+        sums.add_whole_cells(values, corners == 8, origin)
+        places = np.nonzero((corners > 0) & (corners < 8))
+        cut.append(Cells.of_grid(values - threshold, places, origin))
+    cells = Cells.join(cut)
+    count = len(cells.size)
+    sums.add_cut_cells(cells, threshold)
+    about = about.astype(np.float64)
+    volume = Moments(sums.volume, about, Measure.VOLUME, sums.volume_error).transform(matrix)
+    area = Moments(sums.area, about, Measure.MASS, sums.area_error).transform(matrix)  # its scale is in the sums
+    mass = Moments(sums.mass, about, Measure.VOLUME, sums.mass_error).transform(matrix) if with_density else None
+    return ThresholdBody(
+        volume,
+        replace(area, measure=Measure.AREA),
+        None if mass is None else replace(mass, measure=Measure.MASS),
+        count,
+        bool(clipped),
+    )
+
+
+def _slabs(samples: NDArray, background: float | None) -> Iterator[tuple[int, NDArray[np.float64]]]:
+    """Planes of samples as float64, each slab with the first plane of the next, and where it begins; with a layer of
+    the background on every side, if there is one."""
+    margin = 0 if background is None else 1
+    planes = len(samples) + 2 * margin
+    step = max(1, CELLS_PER_SLAB // max(samples.shape[1] * samples.shape[2], 1))
+    for first in range(0, planes - 1, step):
+        last = min(first + step + 1, planes)
+        with np.errstate(invalid="ignore"):  # of NaN that signal
+            slab = np.asarray(samples[max(first - margin, 0) : last - margin], np.float64)
+        if margin:
+            beside = int(first == 0), int(last == planes)
+            slab = np.pad(slab, (beside, (1, 1), (1, 1)), constant_values=background)
+        yield first, slab
+
+
+def _reaches_edge(inside: NDArray[np.bool_], first: bool, last: bool) -> bool:
+    sides = (inside[:, 0], inside[:, -1], inside[:, :, 0], inside[:, :, -1])
+    ends = ([inside[0]] if first else []) + ([inside[-1]] if last else [])
+    return any(side.any() for side in (*sides, *ends))
+
+
+def _corner_counts(inside: NDArray[np.bool_]) -> NDArray[np.int8]:
+    """How many corners of each cell are inside."""
+    counts = inside.view(np.int8)
+    counts = counts[1:] + counts[:-1]
+    counts = counts[:, 1:] + counts[:, :-1]
+    return counts[:, :, 1:] + counts[:, :, :-1]
+
+
+class _Sums:
+    """The moments so far, about the middle of the grid, and bounds of their errors."""
+
+    def __init__(self, order: int, with_density: bool, preview: bool, metric: NDArray) -> None:
+        self.order, self.with_density, self.preview, self.metric = order, with_density, preview, metric
+        self.face = np.sqrt(np.trace(metric) / 3.0)  # the area of a cell's face, about
+        self.powers = monomials(order)
+        self.volume, self.area, self.mass, self.volume_size, self.area_size, self.mass_size = np.zeros(
+            (6, len(self.powers))
+        )
+        self.volume_estimate, self.area_estimate, self.mass_estimate = np.zeros((3, len(self.powers)))
+        self.terms = 0
+
+    @property
+    def volume_error(self) -> NDArray[np.float64]:
+        return self.volume_estimate + self._units * self.volume_size
+
+    @property
+    def area_error(self) -> NDArray[np.float64]:
+        return self.area_estimate + self._units * self.area_size
+
+    @property
+    def mass_error(self) -> NDArray[np.float64]:
+        return self.mass_estimate + self._units * self.mass_size
+
+    @property
+    def _units(self) -> float:
+        return (60 + 8 * self.order + np.log2(self.terms + 1.0)) * U
+
+    def add_whole_cells(self, values: NDArray, whole: NDArray[np.bool_], origin: NDArray) -> None:
+        """Add cells of the grid that lie inside altogether."""
+        if not whole.any():
+            return
+        mask = whole.astype(np.float64)
+        tables = [_interval_moments(first + np.arange(n), self.order + 1) for first, n in zip(origin, whole.shape)]
+        full = [table[: self.order + 1] for table in tables]
+        sizes = [np.abs(table) for table in full]
+        self.volume += self._contract(mask, full)
+        self.volume_size += self._contract(mask, sizes)
+        self.terms += sum(whole.shape)
+        if not self.with_density:
+            return
+        rising = [table[1:] - (first + np.arange(table.shape[1])) * table[:-1] for first, table in zip(origin, tables)]
+        for place in np.ndindex(2, 2, 2):
+            x, y, z = (slice(i, i + n) for i, n in zip(place, whole.shape))
+            factors = [up if i else even - up for i, up, even in zip(place, rising, full)]
+            block = mask * values[x, y, z]
+            self.mass += self._contract(block, factors)
+            self.mass_size += self._contract(np.abs(block), sizes)
+
+    def _contract(self, block: NDArray, factors: list[NDArray]) -> NDArray[np.float64]:
+        """(K,) Σ block_ijk X[p,i] Y[q,j] Z[r,k]."""
+        partial = np.stack([np.einsum("ijk,k->ij", block, row) for row in factors[2]])
+        table = np.einsum("rqi,pi->pqr", np.einsum("rij,qj->rqi", partial, factors[1]), factors[0])
+        return table[tuple(self.powers.T)]
+
+    def add_cut_cells(self, cells: Cells, threshold: float) -> None:
+        """Add what is inside of cells that the surface passes through."""
+        if not len(cells.size):
+            return
+        allowed = TOLERANCE * (self.volume[0] + len(cells.size) / 2.0) / len(cells.size)
+        budget = MAX_PARTS * len(cells.size) + MIN_PARTS
+        for depth in range(MAX_DEPTH + 1):
+            again = [
+                self._add_batch(cells[first : first + CELLS_PER_BATCH], threshold, allowed)
+                for first in range(0, len(cells.size), CELLS_PER_BATCH)
+            ]
+            cells = Cells.join(again)
+            budget -= 8 * len(cells.size)
+            if not len(cells.size):
+                return
+            if depth == MAX_DEPTH or budget < 0 or (cells.size**3).sum() < allowed:
+                break
+            cells = cells.cut_in_eight()
+            signs = cells.corners >= 0.0
+            inside = signs.all(axis=(1, 2, 3))
+            self._add_boxes(cells[inside], threshold)
+            cells = cells[~inside & signs.any(axis=(1, 2, 3))]
+        self._give_up(cells, threshold)
+
+    def _add_batch(self, cells: Cells, threshold: float, allowed: float) -> Cells:
+        """Add what can be integrated; return the rest."""
+        axes = cells.column_axes()
+        rest = [cells[axes < 0]]
+        for axis, turn in enumerate(TURNS):
+            left = cells[axes == axis]
+            for rules in RULES:
+                if not len(left.size):
+                    break
+                columns, estimates = compare_rules(left, turn, rules[:1] if self.preview else rules, self.metric)
+                good = (estimates[0] <= allowed) & (estimates[1] <= AREA_TOLERANCE * self.face)
+                self._add_columns(columns, good, left, turn, threshold)
+                self._add_estimate(left[good], threshold, *estimates[:, good])
+                self._add_sizes(left[good], threshold, amounts_of(columns, left)[1, good])
+                left = left[~good]
+            rest.append(left)
+        return Cells.join(rest)
+
+    def _add_columns(self, columns: Columns, good: NDArray, cells: Cells, turn: tuple, threshold: float) -> None:
+        kept = good[columns.cell]
+        cell, size = columns.cell[kept], cells.size[columns.cell[kept]]
+        first = cells.origin[cell]
+        place = [first[:, axis] + size * of[kept] for axis, of in zip(turn, (columns.x, columns.y))]
+        z0 = first[:, turn[2]]
+        low, high, level = (z0 + size * of[kept] for of in (columns.low, columns.high, columns.level))
+        floor = columns.weight[kept] * size**2
+        xs, ys = (_power_table(values, self.order) for values in place)
+        ends = zip(_power_table(high, self.order + 1)[1:], _power_table(low, self.order + 1)[1:])
+        inside = [(upper - lower) / (r + 1) for r, (upper, lower) in enumerate(ends)]
+        levels = _power_table(level, self.order)
+        levels = [columns.slope[kept] * power for power in levels]
+        across = {}
+        for number, (p, q, r) in enumerate(self.powers[:, turn].tolist()):
+            if (p, q) not in across:
+                across[p, q] = floor * xs[p] * ys[q]
+            self.volume[number] += np.einsum("i,i->", across[p, q], inside[r])
+            self.area[number] += np.einsum("i,i->", across[p, q], levels[r])
+        self.terms += len(cell)
+        if self.with_density:
+            self._add_masses(columns, kept, place, (z0, size), floor, turn, threshold)
+
+    def _add_masses(
+        self,
+        columns: Columns,
+        kept: NDArray,
+        place: list[NDArray],
+        column: tuple[NDArray, NDArray],
+        floor: NDArray,
+        turn: tuple,
+        threshold: float,
+    ) -> None:
+        """The density is linear along the columns: Gauss's rule is exact there."""
+        first, size = column
+        low, height = columns.low[kept], (columns.high - columns.low)[kept]
+        for node, weight in zip(*gauss_legendre((self.order + 1) // 2 + 1)):
+            z = low + node * height
+            density = threshold + columns.density[kept] + columns.growth[kept] * z
+            points = [*place, first + size * z]
+            self._add_points(floor * size * height * weight * density, points, turn)
+
+    def _add_points(self, masses: NDArray, points: list[NDArray], turn: tuple) -> None:
+        tables = [_power_table(values, self.order) for values in points]
+        for number, powers in enumerate(self.powers[:, turn].tolist()):
+            term = masses * tables[0][powers[0]] * tables[1][powers[1]] * tables[2][powers[2]]
+            self.mass[number] += term.sum()
+            self.mass_size[number] += np.abs(term).sum()
+
+    def _add_boxes(self, cells: Cells, threshold: float) -> None:
+        """Add parts of cells that lie inside altogether."""
+        if not len(cells.size):
+            return
+        nodes, weights = gauss_legendre((self.order + 1) // 2 + 1)
+        for place in np.ndindex(*[len(nodes)] * 3):
+            u, v, w = nodes[list(place)]
+            points = list((cells.origin + cells.size[:, None] * np.array([u, v, w])).T)
+            volumes = weights[list(place)].prod() * cells.size**3
+            tables = [_power_table(values, self.order) for values in points]
+            for number, (p, q, r) in enumerate(self.powers.tolist()):
+                term = volumes * tables[0][p] * tables[1][q] * tables[2][r]
+                self.volume[number] += term.sum()
+                self.volume_size[number] += np.abs(term).sum()
+            if self.with_density:
+                self._add_points(volumes * (threshold + interpolate(cells.corners, u, v, w)), points, TURNS[2])
+        self.terms += len(cells.size)
+
+    def _give_up(self, cells: Cells, threshold: float) -> None:
+        """Count half of what is left, and all of it as the estimate of the error."""
+        center = cells.origin + cells.size[:, None] / 2.0
+        tables = [_power_table(values, self.order) for values in center.T]
+        for number, (p, q, r) in enumerate(self.powers.tolist()):
+            self.volume[number] += (cells.size**3 / 2.0 * tables[0][p] * tables[1][q] * tables[2][r]).sum()
+            if self.with_density:
+                self.mass[number] += (
+                    threshold * cells.size**3 / 2.0 * tables[0][p] * tables[1][q] * tables[2][r]
+                ).sum()
+        self._add_estimate(cells, threshold, cells.size**3, 6.0 * self.face * cells.size**2)
+
+    def _add_estimate(self, cells: Cells, threshold: float, volumes: NDArray, areas: NDArray) -> None:
+        """Note by how much volume and area of each cell may be off."""
+        for total, values in self._largest(cells, threshold, volumes, areas, "estimate"):
+            total += values
+
+    def _add_sizes(self, cells: Cells, threshold: float, areas: NDArray) -> None:
+        """Note what the terms of each cell may sum up to in absolute value."""
+        for total, values in self._largest(cells, threshold, cells.size**3, areas, "size"):
+            total += values
+
+    def _largest(
+        self, cells: Cells, threshold: float, volumes: NDArray, areas: NDArray, name: str
+    ) -> Iterator[tuple[NDArray, NDArray]]:
+        """Of volume, area and mass in each cell, the totals of that name and what their moments can add up to."""
+        reach = _power_table((np.abs(cells.origin) + cells.size[:, None]).T, self.order)
+        density = abs(threshold) + np.abs(cells.corners).max(axis=(1, 2, 3), initial=0.0)
+        largest = np.stack([reach[p][0] * reach[q][1] * reach[r][2] for p, q, r in self.powers.tolist()])
+        for measure, amounts in (("volume", volumes), ("area", areas), ("mass", volumes * density)):
+            yield getattr(self, measure + "_" + name), np.einsum("ki,i->k", largest, amounts)
+
+
+def _interval_moments(first: NDArray, order: int) -> NDArray[np.float64]:
+    """(order + 1, n) ∫ t^l from each of the points to one further, by a rule that is exact."""
+    nodes, weights = gauss_legendre(order // 2 + 1)
+    points = first[:, None] + nodes
+    return np.stack([(points**power) @ weights for power in range(order + 1)])
+
+
+def _power_table(values: NDArray, order: int) -> list[NDArray]:
+    powers = [np.ones_like(values)]
+    for _ in range(order):
+        powers.append(powers[-1] * values)
+    return powers

@@ -1,0 +1,170 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Cubes in which a density is linear along each axis, and their columns above a threshold (see `threshold`)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..numerics.quadrature import gauss_legendre
+
+# The axes in the order in which x, y and the columns of a cell run, by the axis of the columns.
+TURNS = ((1, 2, 0), (2, 0, 1), (0, 1, 2))
+
+
+@dataclass(frozen=True, eq=False)
+class Cells:
+    """Cubes with the density above the threshold in their corners.
+
+    corners: (n, 2, 2, 2). origin: (n, 3) their first corners, about the middle of the grid. size: (n,) their edges.
+    """
+
+    corners: NDArray[np.float64]
+    origin: NDArray[np.float64]
+    size: NDArray[np.float64]
+
+    @classmethod
+    def of_grid(cls, values: NDArray, places: tuple[NDArray, ...], origin: NDArray) -> Cells:
+        i, j, k = places
+        corners = np.empty((len(i), 2, 2, 2))
+        for a, b, c in np.ndindex(2, 2, 2):
+            corners[:, a, b, c] = values[i + a, j + b, k + c]
+        return cls(corners, np.stack(places, axis=1) + origin, np.ones(len(i)))
+
+    @classmethod
+    def join(cls, parts: list[Cells]) -> Cells:
+        return cls(*(np.concatenate([getattr(part, name) for part in parts]) for name in cls.__annotations__))
+
+    def __getitem__(self, chosen: slice | NDArray) -> Cells:
+        return Cells(self.corners[chosen], self.origin[chosen], self.size[chosen])
+
+    def cut_in_eight(self) -> Cells:
+        """Cut each at the middle of its edges. A density that is linear along the axes stays so in every part."""
+        finer = self.corners
+        for axis in (1, 2, 3):
+            low, high = np.split(finer, 2, axis=axis)
+            finer = np.concatenate([low, (low + high) / 2.0, high], axis=axis)
+        half = self.size / 2.0
+        parts = [
+            Cells(
+                finer[:, a : a + 2, b : b + 2, c : c + 2],
+                self.origin + half[:, None] * np.array([a, b, c]),
+                half,
+            )
+            for a, b, c in np.ndindex(2, 2, 2)
+        ]
+        return Cells.join(parts)
+
+    def column_axes(self) -> NDArray[np.intp]:
+        """(n,) the axis along which the density changes most clearly one way; -1 where there is none."""
+        steps = np.stack([np.diff(self.corners, axis=axis).reshape(-1, 4) for axis in (1, 2, 3)], axis=1)
+        one_way = (steps >= 0.0).all(axis=2) | (steps <= 0.0).all(axis=2)
+        steps = np.abs(steps)
+        clearness = np.where(one_way, steps.min(axis=2) + 1e-3 * steps.max(axis=2), 0.0)
+        return np.where(clearness.any(axis=1), clearness.argmax(axis=1), -1)
+
+
+@dataclass(frozen=True, eq=False)
+class Columns:
+    """Points over the floors of cells, each with the share of its column that is inside; one cell's in a row.
+
+    cell: (m,) which cell. x, y: in it. weight: of floor. low, high: where the column inside begins and ends. level: z
+    of the surface. slope: the surface's area above one unit of floor, 0 where it does not pass. density, growth: above
+    the threshold at z = 0, and along z.
+    """
+
+    cell: NDArray[np.intp]
+    x: NDArray[np.float64]
+    y: NDArray[np.float64]
+    weight: NDArray[np.float64]
+    low: NDArray[np.float64]
+    high: NDArray[np.float64]
+    level: NDArray[np.float64]
+    slope: NDArray[np.float64]
+    density: NDArray[np.float64]
+    growth: NDArray[np.float64]
+
+
+def columns_of(corners: NDArray, points: int, metric: NDArray) -> Columns:
+    """The columns along z of Gauss's rule between all places where the surface enters or leaves a cell.
+
+    metric: (3, 3) what the area of a piece of surface is measured by: √(n·metric·n) for its normal n.
+    """
+    nodes, weights = gauss_legendre(points)
+    near, step = corners[:, 0], corners[:, 1] - corners[:, 0]  # by y and z: at x = 0, and along x
+    cell, start, length = _smooth_intervals(near.reshape(-1, 4), corners[:, 1].reshape(-1, 4))
+    middle = near[cell] + (start + length / 2.0)[:, None, None] * step[cell]
+    some = (middle > 0.0).any(axis=(1, 2))  # else nothing is inside, between the places where that changes
+    cell, start, length = cell[some], start[some], length[some]
+    x = (start[:, None] + length[:, None] * nodes).ravel()
+    width = (length[:, None] * weights).ravel()
+    cell = np.repeat(cell, points)
+    line = near[cell] + x[:, None, None] * step[cell]  # (m, y, z)
+    row, start, length = _smooth_intervals(line[:, 0], line[:, 1])
+    y = (start[:, None] + length[:, None] * nodes).ravel()
+    weight = (width[row, None] * length[:, None] * weights).ravel()
+    row = np.repeat(row, points)
+    cell, x = cell[row], x[row]
+    along_x, along_y = step[cell], line[row, 1] - line[row, 0]  # (m, y, z), (m, z)
+    floor, ceiling = (line[row, 0] + y[:, None] * along_y).T
+    growth = ceiling - floor
+    with np.errstate(divide="ignore", invalid="ignore"):
+        level = -floor / growth
+    level = np.where(growth == 0.0, np.where(floor >= 0.0, 2.0, -1.0), level)
+    crossed = (level >= 0.0) & (level <= 1.0)
+    level = np.clip(level, 0.0, 1.0)
+    rises = growth > 0.0
+    floor_x, ceiling_x = (along_x[:, 0] + y[:, None] * (along_x[:, 1] - along_x[:, 0])).T
+    slope_x = floor_x + level * (ceiling_x - floor_x)
+    slope_y = along_y[:, 0] + level * (along_y[:, 1] - along_y[:, 0])
+    with np.errstate(divide="ignore", invalid="ignore"):
+        slope = np.where(crossed, np.sqrt(_square(metric, slope_x, slope_y, growth)) / np.abs(growth), 0.0)
+    low, high = np.where(rises, level, 0.0), np.where(rises, 1.0, level)
+    return Columns(cell, x, y, weight, low, high, level, slope, floor, growth)
+
+
+def _square(metric: NDArray, x: NDArray, y: NDArray, z: NDArray) -> NDArray[np.float64]:
+    (xx, xy, xz), (_, yy, yz), (_, _, zz) = metric
+    square = xx * x * x + yy * y * y + zz * z * z
+    return square if not (xy or xz or yz) else square + 2.0 * (xy * x * y + xz * x * z + yz * y * z)
+
+
+def _smooth_intervals(low: NDArray, high: NDArray) -> tuple[NDArray[np.intp], NDArray, NDArray]:
+    """Cut [0, 1] at the roots of linear functions with the values (n, k) at its ends: row, start and length of each
+    interval."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        roots = np.where((low < 0.0) != (high < 0.0), low / (low - high), 0.0)
+    edges = np.sort(np.pad(np.clip(roots, 0.0, 1.0), ((0, 0), (1, 0))), axis=1)
+    ends = np.pad(edges[:, 1:], ((0, 0), (0, 1)), constant_values=1.0)
+    row, column = np.nonzero(ends > edges)
+    return row, edges[row, column], (ends - edges)[row, column]
+
+
+def amounts_of(columns: Columns, cells: Cells) -> NDArray[np.float64]:
+    """(2, n) the volume inside each cell, and the area of the surface in it."""
+    volumes, areas = (
+        np.bincount(columns.cell, columns.weight * height, len(cells.size))
+        for height in (columns.high - columns.low, columns.slope)
+    )
+    return np.stack([volumes * cells.size**3, areas * cells.size**2])
+
+
+def compare_rules(
+    cells: Cells, turn: tuple, rules: Sequence[int], metric: NDArray
+) -> tuple[Columns, NDArray[np.float64]]:
+    """The columns by the last rule, and (2, n) how far volume and area in each cell are from those by the first."""
+    metric = metric[np.ix_(turn, turn)]
+    turned = cells.corners.transpose(0, *(1 + np.array(turn)))
+    columns = [columns_of(turned, points, metric) for points in rules]
+    amounts = [amounts_of(each, cells) for each in columns]
+    return columns[-1], np.abs(amounts[-1] - amounts[0])
+
+
+def interpolate(corners: NDArray, u: float, v: float, w: float) -> NDArray[np.float64]:
+    along_x = corners[:, 0] + u * (corners[:, 1] - corners[:, 0])
+    along_y = along_x[:, 0] + v * (along_x[:, 1] - along_x[:, 0])
+    return along_y[:, 0] + w * (along_y[:, 1] - along_y[:, 0])

@@ -1,0 +1,234 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Many small surfaces as one: their arrays one after the other, so that numpy is called once for all of them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..numerics.arrays import segment_starts
+from ..numerics.graph import connected_components
+from .surface import Surface, flipped_quads, indices_in_range
+
+
+@dataclass(frozen=True, eq=False)
+class SurfaceStack:
+    """The arrays of n surfaces, each with its own numbers of points moved behind those of the surfaces before it.
+
+    Make them by `of`. Faces are the meshes' own, numbered one surface after the other.
+
+    Attributes
+    ----------
+    points : (p, 3) float32 or float64
+    triangles : (t, 3) int
+        All faces as triangles, quads cut as drawn; of each surface first its triangles, then its quads.
+    triangle_faces : (t,) int
+        The face of each triangle.
+    quads : (q, 4) int
+    quad_faces : (q,) int
+    corner_vertices, corner_edges : (c,) int
+        The meshes' corners and the edges that start there.
+    point_counts, triangle_counts, quad_counts, corner_counts, face_counts, edge_counts : (n,) int
+        Of each surface; none has no points or no triangles.
+    """
+
+    points: NDArray[np.floating]
+    triangles: NDArray[np.intp]
+    triangle_faces: NDArray[np.intp]
+    quads: NDArray[np.intp]
+    quad_faces: NDArray[np.intp]
+    corner_vertices: NDArray[np.intp]
+    corner_edges: NDArray[np.intp]
+    point_counts: NDArray[np.intp]
+    triangle_counts: NDArray[np.intp]
+    quad_counts: NDArray[np.intp]
+    corner_counts: NDArray[np.intp]
+    face_counts: NDArray[np.intp]
+    edge_counts: NDArray[np.intp]
+
+    def __len__(self) -> int:
+        return len(self.point_counts)
+
+    @staticmethod
+    def takes(surface: Surface) -> bool:
+        """Whether a surface can be one of a stack: with the mesh's own corners and edges, of float32 points."""
+        corners, edges = surface.corner_vertices, surface.corner_edges
+        return (
+            surface.points.dtype == np.float32
+            and surface.displacement is None
+            and corners is not None
+            and edges is not None
+            and 0 < len(corners) == len(edges)
+            and len(surface.triangles) + len(surface.quads) > 0
+            and indices_in_range(corners, len(surface.points))
+            and int(edges.max()) < 2 * len(corners)
+            and int(edges.min()) >= 0
+        )
+
+    @classmethod
+    def of(cls, surfaces: Sequence[Surface]) -> SurfaceStack:
+        """Stack surfaces that it `takes`, at least one."""
+        point_counts = _lengths([surface.points for surface in surfaces])
+        corner_counts = _lengths([surface.corner_vertices for surface in surfaces])
+        single, quad_counts = (
+            _lengths([getattr(surface, name) for surface in surfaces]) for name in ("triangles", "quads")
+        )
+        edge_counts = np.array([int(surface.corner_edges.max()) + 1 for surface in surfaces])
+        face_counts = np.array([_face_count(surface) for surface in surfaces])
+        points = np.concatenate([surface.points for surface in surfaces])
+        first_point, first_face = segment_starts(point_counts), segment_starts(face_counts)
+        triangles, quads = (
+            np.concatenate([getattr(surface, name) for surface in surfaces]).astype(np.intp)
+            for name in ("triangles", "quads")
+        )
+        triangles += np.repeat(first_point, single)[:, None]
+        quads += np.repeat(first_point, quad_counts)[:, None]
+        faces = [
+            np.concatenate([_faces(surface, name) for surface in surfaces]) + np.repeat(first_face, counts)
+            for name, counts in (("triangles", single), ("quads", quad_counts))
+        ]
+        corners = np.concatenate([surface.corner_vertices for surface in surfaces]).astype(np.intp)
+        corners += np.repeat(first_point, corner_counts)
+        edges = np.concatenate([surface.corner_edges for surface in surfaces]).astype(np.intp)
+        edges += np.repeat(segment_starts(edge_counts), corner_counts)
+        cut, cut_faces = triangles, faces[0]
+        if len(quads):
+            turned = np.where(flipped_quads(points, quads)[:, None], np.roll(quads, -1, axis=1), quads)
+            owner = np.repeat(np.tile(np.arange(len(surfaces)), 2), np.concatenate([single, 2 * quad_counts]))
+            order = owner.argsort(kind="stable")
+            cut = np.concatenate([triangles, turned[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)])[order]
+            cut_faces = np.concatenate([faces[0], np.repeat(faces[1], 2)])[order]
+        return cls(
+            points,
+            cut,
+            cut_faces,
+            quads,
+            faces[1],
+            corners,
+            edges,
+            point_counts,
+            single + 2 * quad_counts,
+            quad_counts,
+            corner_counts,
+            face_counts,
+            edge_counts,
+        )
+
+    def some(self, which: NDArray[np.intp]) -> SurfaceStack:
+        """A stack of some of the surfaces, in ascending order."""
+        kept = np.zeros(len(self), bool)
+        kept[which] = True
+        of_point, of_triangle, of_quad, of_corner, of_face = (
+            np.repeat(kept, counts)
+            for counts in (
+                self.point_counts,
+                self.triangle_counts,
+                self.quad_counts,
+                self.corner_counts,
+                self.face_counts,
+            )
+        )
+        point, face = (np.cumsum(chosen) - 1 for chosen in (of_point, of_face))
+        edge = np.cumsum(np.repeat(kept, self.edge_counts)) - 1
+        return SurfaceStack(
+            self.points[of_point],
+            point[self.triangles[of_triangle]],
+            face[self.triangle_faces[of_triangle]],
+            point[self.quads[of_quad]],
+            face[self.quad_faces[of_quad]],
+            point[self.corner_vertices[of_corner]],
+            edge[self.corner_edges[of_corner]],
+            *(
+                counts[which]
+                for counts in (
+                    self.point_counts,
+                    self.triangle_counts,
+                    self.quad_counts,
+                    self.corner_counts,
+                    self.face_counts,
+                    self.edge_counts,
+                )
+            ),
+        )
+
+    @cached_property
+    def box(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """(n, 3) and (n, 3) the smallest and the largest coordinates of each surface."""
+        rows, starts = np.ascontiguousarray(self.points.T), segment_starts(self.point_counts)
+        return tuple(
+            function.reduceat(rows, starts, axis=1).T.astype(np.float64) for function in (np.minimum, np.maximum)
+        )
+
+    @cached_property
+    def coordinate_error(self) -> NDArray[np.float64]:
+        """(n, 3) as `Surface.coordinate_error` of each."""
+        low, high = self.box
+        largest = np.minimum(np.maximum(high, -low), 2.0**127)
+        return np.spacing(largest.astype(np.float32)).astype(np.float64) / 2.0
+
+    @cached_property
+    def face_sizes(self) -> NDArray[np.intp]:
+        """(f,) how many corners each face has, as its triangles and quads say; 0 where there are none."""
+        count = int(self.face_counts.sum())
+        is_quad = np.zeros(count, bool)
+        is_quad[self.quad_faces] = True
+        pieces = np.bincount(self.triangle_faces, minlength=count)
+        return np.where(is_quad, 4, np.where(pieces > 0, pieces + 2, 0))
+
+    def uses_all_points(self) -> NDArray[np.bool_]:
+        """(n,) whether each point of a surface is a corner of some face."""
+        used = np.zeros(len(self.points), bool)
+        used[self.triangles] = True
+        return np.logical_and.reduceat(used, segment_starts(self.point_counts))
+
+    def component_counts(self) -> NDArray[np.intp]:
+        """(n,) of each surface that its own edges prove closed and oriented, as `closed_side_faces` says, how many
+        components it has; 0 of others."""
+        sizes, corners = self.face_sizes, self.corner_vertices
+        first_face = segment_starts(self.face_counts)
+        fits = np.add.reduceat(sizes, first_face) == self.corner_counts
+        fits &= np.minimum.reduceat(sizes, first_face) > 0
+        if not fits.all():  # the rings of the others are not known; their corners must not be taken for rings
+            sizes = np.where(np.repeat(fits, self.face_counts), sizes, 0)
+            corners = corners[np.repeat(fits, self.corner_counts)]
+        sizes_met = sizes[sizes > 0]
+        ends = np.cumsum(sizes_met)
+        following = np.roll(corners, -1)
+        if len(ends):
+            following[ends - 1] = corners[ends - sizes_met]
+        edges = self.corner_edges if fits.all() else self.corner_edges[np.repeat(fits, self.corner_counts)]
+        count = int(self.edge_counts.sum())
+        sides = np.full(2 * count, -1)
+        sides[edges + count * (corners < following)] = np.repeat(np.flatnonzero(sizes), sizes_met)
+        above, below = sides.reshape(2, count) >= 0
+        first_edge = segment_starts(self.edge_counts)
+        paired = np.add.reduceat(above & below, first_edge, dtype=np.intp)
+        closed = fits & (np.add.reduceat(above | below, first_edge, dtype=np.intp) == paired)
+        closed &= 2 * paired == self.corner_counts
+        linked = above & below
+        component, _ = connected_components(len(sizes), *sides.reshape(2, count)[:, linked])
+        last = np.maximum.reduceat(component, first_face)  # they are numbered in the order of their first faces
+        return np.where(closed, np.diff(last, prepend=-1), 0)
+
+
+def _lengths(arrays: Sequence[NDArray]) -> NDArray[np.intp]:
+    return np.array([len(array) for array in arrays])
+
+
+def _faces(surface: Surface, name: str) -> NDArray[np.integer]:
+    """The mesh faces of a surface's triangles or quads."""
+    faces = surface.triangle_faces if name == "triangles" else surface.quad_faces
+    return np.arange(len(getattr(surface, name))) if faces is None else faces
+
+
+def _face_count(surface: Surface) -> int:
+    """How many faces the mesh of a surface has."""
+    return max(
+        len(rows) if faces is None else int(faces.max(initial=-1)) + 1
+        for rows, faces in ((surface.triangles, surface.triangle_faces), (surface.quads, surface.quad_faces))
+    )

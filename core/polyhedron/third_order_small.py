@@ -1,0 +1,178 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Volume and area moments to third order of bodies of few triangles, one or a stack of them, exact to rounding.
+
+Where numpy's calls cost more than its arithmetic, all triangles of all bodies are taken at once, by the complete
+homogeneous polynomials of their corners (Sheynin and Tuzikov's formula to third order): with s = a + b + c,
+P = aa' + bb' + cc' and a triangle's weight w,
+
+    24 ∫ x = Σ w s,   120 ∫ x x' = Σ w (s s' + P),
+    720 ∫ x x' x'' = Σ w (s s' s'' + s P' + the same for the other two orders of the indices + 2 Σ_corners c c' c'').
+
+Each body's sums run over its own segment of the rows, so that they are the same to the bit whatever stands beside it.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..moments.moments import Measure, Moments, U
+from ..moments.monomials import monomials
+from ..numerics.arrays import segment_starts
+from .third_order_kernel import PAIR_INDEX, TRIPLES
+
+EXPONENTS = monomials(3)
+DEGREE = EXPONENTS.sum(axis=1)
+# of 1, x, y, z
+MONOMIAL_FACTORS = np.sort([[0] * (3 - p - q - r) + [1] * p + [2] * q + [3] * r for p, q, r in EXPONENTS])
+DIVISORS = np.array([6.0, 24.0, 120.0, 1080.0])[DEGREE]  # of the sums below
+PRODUCT_ROUNDINGS = 8.0 * DEGREE  # u: what products of weights and nodes are off by
+THIRD_ORDER_SHARE = np.repeat([1.0, 2.0], 10)  # the third moments about the middles come to as much again at most
+CONE_DIVISORS = 2.0 * DEGREE + 6.0  # ∫ f over a cone is w E[f] / this
+AREA_FACTORS = DEGREE + 3.0  # ∫ f over a triangle is (doubled area E[f]) / 2, this much more
+TRIANGLES_PER_BLOCK = 2048  # whose products stay in the cache
+ROWS, COLUMNS = np.triu_indices(3)
+NEXT_AXIS, PREVIOUS_AXIS = [1, 2, 0], [2, 0, 1]
+# Where, in a table of x, y, z times xx, xy, xz, yy, yz, zz, the three terms of each symmetric product stand.
+CUBE = np.array(
+    [[6 * i + PAIR_INDEX[j, k], 6 * j + PAIR_INDEX[i, k], 6 * k + PAIR_INDEX[i, j]] for i, j, k in TRIPLES]
+).T
+
+
+def small_moments(
+    points: NDArray,
+    triangles: NDArray[np.integer],
+    counts: NDArray[np.integer],
+    center: NDArray[np.float64],
+    reach: NDArray[np.float64],
+    half_ulp: NDArray[np.float64],
+    *,
+    area: bool,
+    shell: bool,
+) -> tuple[Moments, Moments, NDArray[np.float64]]:
+    """Return the volume's moments of n bodies and their areas, stacked; and (n, 2) what the cones over the faces of
+    each add up to where all count as positive, and signed.
+
+    Parameters
+    ----------
+    points : (p, 3) array
+    triangles : (t, 3) int
+        One body after the other.
+    counts : (n,) int
+        How many of them each body has, at least one.
+    center : (n, 3) array
+        The point that each body's moments are about.
+    reach, half_ulp : (n, 3) array
+        What bounds the distances of its points from there, and how far storing them may have moved them.
+    area : bool
+        Whether areas are wanted; else they are zero, and the volume's `input_error` is the larger.
+    shell : bool
+        Whether the area's moments are wanted to third order too.
+    """
+    ends, sums = np.cumsum(counts), []
+    coordinates, first = np.ascontiguousarray(points.T), 0
+    while first < len(counts):
+        start = ends[first] - counts[first]
+        last = max(first + 1, int(np.searchsorted(ends, start + TRIANGLES_PER_BLOCK, "right")))
+        sums.append(
+            _segment_sums(
+                coordinates.take(triangles[start : ends[last - 1]].T, axis=1).astype(np.float64, copy=False),
+                counts[first:last],
+                center[first:last],
+                area,
+                shell,
+            )
+        )
+        first = last
+    of_volume, of_area, side, base, sizes = sums[0] if len(sums) == 1 else map(np.concatenate, zip(*sums))
+    rounding, inputs = _error_bounds(reach, half_ulp, side, base, sizes, counts[:, None], area)
+    raw, cones = of_volume / DIVISORS, np.stack([sizes[:, 0], of_volume[:, 0]], axis=1)
+    volume = Moments(raw, center, Measure.VOLUME, rounding[0] / CONE_DIVISORS + 8.0 * U * np.abs(raw), inputs[0])
+    if not area:
+        return volume, Moments(np.zeros((len(counts), 1)), center, Measure.AREA), cones
+    raw = of_area / (DIVISORS / AREA_FACTORS) if shell else sizes[:, 1:] / 2.0
+    kept = raw.shape[1]
+    error = rounding[1, :, :kept] / 2.0 + 8.0 * U * np.abs(raw)
+    return volume, Moments(raw, center, Measure.AREA, error, inputs[1, :, :kept]), cones
+
+
+def _segment_sums(
+    corners: NDArray, counts: NDArray[np.integer], center: NDArray, area: bool, shell: bool
+) -> tuple[NDArray, ...]:
+    """What some bodies add. corners: (3, 3, t) x, y, z of the corners a, b, c of their triangles.
+
+    Returns (n, 20) Σ w f of which `DIVISORS` make moments; the same with doubled areas as weights, or (n, 0); the
+    largest components of b-a and of c-a, (n, 3) each; and (n, 2) Σ |w| and Σ doubled area.
+    """
+    starts = segment_starts(counts)
+    edges = corners[:, 1:] - corners[:, :1]
+    above, below = edges.take(NEXT_AXIS, 0), edges.take(PREVIOUS_AXIS, 0)
+    normals = above[:, 0] * below[:, 1] - below[:, 0] * above[:, 1]
+    nodes = np.empty((3, 4, corners.shape[2]))  # a, b, c and s
+    middle = center.T[:, None] if len(counts) == 1 else np.repeat(center.T, counts, axis=1)[:, None]
+    np.subtract(corners, middle, nodes[:, :3])
+    np.add.reduce(nodes[:, :3], axis=1, out=nodes[:, 3])
+    sums = np.empty((20, nodes.shape[2]))  # of each triangle with weight 1
+    sums[0] = 1.0
+    sums[1:4] = nodes[:, 3]
+    products = nodes.take(ROWS, 0) * nodes.take(COLUMNS, 0)  # (6, 4, t)
+    single = np.add.reduce(products[:, :3], axis=1)
+    np.add(products[:, 3], single, sums[4:10])
+    np.add(0.5 * sums[4:10], single, products[:, 3])
+    third = nodes[:, None, 0] * products[:, 0]
+    for node in range(1, 4):
+        third += nodes[:, None, node] * products[:, node]
+    np.add.reduce(third.reshape(18, -1).take(CUBE, 0), axis=0, out=sums[10:])
+    det = np.add.reduce(normals * nodes[:, 0])
+    sizes = np.zeros((2, len(det)))
+    np.abs(det, sizes[0])
+    if area:
+        np.sqrt(np.add.reduce(normals * normals), sizes[1])
+    largest = np.maximum.reduceat(np.abs(edges), starts, axis=2)
+    return (
+        np.add.reduceat(sums * det, starts, axis=1).T,
+        np.add.reduceat(sums * sizes[1], starts, axis=1).T if shell else np.empty((len(counts), 0)),
+        largest[:, 0].T,
+        largest[:, 1].T,
+        np.add.reduceat(sizes, starts, axis=1).T,
+    )
+
+
+def _error_bounds(
+    reach: NDArray, half_ulp: NDArray, side: NDArray, base: NDArray, sizes: NDArray, counts: NDArray, area: bool
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """The errors of Σ w E[f], w the determinants and the doubled areas, (2, n, 20), and the `input_error` of the
+    moments, (2, n, 20); see `third_order`.
+
+    side, base: (n, 3) the largest edges. sizes: (n, 2). counts: (n, 1).
+    """
+    products = side[:, :, None] * base[:, None] * counts[:, None]
+    tau = np.stack([products[:, i, j] + products[:, j, i] for i, j in ((1, 2), (2, 0), (0, 1))], axis=1)
+    moved_reach = reach + half_ulp
+    powers, displaced = monomial_bounds(reach), monomial_bounds(moved_reach)
+    weight = 9.0 * U * np.stack([np.add.reduce(reach * tau, axis=1), np.add.reduce(tau, axis=1)])[:, :, None]
+    size = sizes.T[:, :, None] * (1.0 + 1e-9)
+    # Then come their products with the nodes, the sums one by one, and what underflow may lose.
+    steps = PRODUCT_ROUNDINGS + 3.0 * counts
+    rounding = (weight + 1e-290 * counts + (U * (size + weight)) * steps) * powers * THIRD_ORDER_SHARE
+    inputs = np.zeros((2, len(reach), 20))
+    if half_ulp.any():
+        step = np.sqrt(np.add.reduce(half_ulp * half_ulp, axis=1))[:, None]
+        double = size[1] if area else np.sqrt(np.add.reduce(tau * tau, axis=1))[:, None]
+        lengths = np.sqrt(np.add.reduce(side * side, axis=1)) + np.sqrt(np.add.reduce(base * base, axis=1))
+        edges = lengths[:, None] * counts  # bounds their sum, at the triangles' first corners
+        # the volume that a closed surface sweeps where float32 has moved its points
+        swept = double / 2.0 + step * edges + 2.0 * step * step * counts
+        tilted = step * (edges + 2.0 * step * counts)
+        share = half_ulp / np.where(moved_reach > 0.0, moved_reach, 1.0)  # of an axis along which it has no extent
+        inputs[0] = step * swept * displaced
+        inputs[1] = displaced * (tilted + np.add.reduce(share[:, None] * EXPONENTS, axis=2) * swept)
+    return rounding, inputs
+
+
+def monomial_bounds(reaches: NDArray) -> NDArray[np.float64]:
+    """(k, 20) the largest value of each monomial within each of (k, 3) reaches."""
+    factors = np.ones((len(reaches), 4))
+    factors[:, 1:] = reaches
+    return np.multiply.reduce(factors.take(MONOMIAL_FACTORS, axis=1), axis=2)

@@ -1,0 +1,171 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Many small solids measured at once: those that are closed as they are, in one piece, and outward.
+
+What is exact here is what `measure_solid` would call exact, with the same numbers. Everything else is for
+`measure_solid`, one by one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..mesh.planarity import Planarity, StackPlanarity, stack_planarity
+from ..mesh.scan_lines import LineGrids, find_crossings, line_counts
+from ..mesh.surface import Surface
+from ..mesh.surface_stack import SurfaceStack
+from ..moments.moments import SECOND_MOMENT_INDEX, Moments, U
+from ..numerics.arrays import segment_starts
+from ..numerics.vectors import cross, dot
+from ..polyhedron.third_order import MAX_SMALL_TRIANGLES, MAX_UNSCALED_REACH
+from ..polyhedron.third_order_small import small_moments
+from ..verdict.finding import Finding
+from ..verdict.health import NO_FACES, Intersection, MeshReport
+from ..verdict.tolerances import CLOSED_SHEET_VOLUME_RTOL, MAX_COORDINATE, MIN_SIZE, WELDING_RTOL
+from .judgement import shape_findings
+from .self_intersection import MAX_UNSURE_LINES, measure_excess
+from .triage import same_sign
+
+
+@dataclass(frozen=True, eq=False)
+class SolidStack:
+    """The moments of the bodies that n surfaces bound.
+
+    Attributes
+    ----------
+    is_exact : (n,) bool
+        Which of them are closed as they are; the others have to be measured one by one.
+    volume, area : Moments
+        Of each, to order 3 and 0, about a point of its own; only those that are exact mean anything.
+    planarity : StackPlanarity
+    intersection : (n,) array of Intersection
+    """
+
+    is_exact: NDArray[np.bool_]
+    volume: Moments
+    area: Moments
+    planarity: StackPlanarity
+    intersection: NDArray[np.object_]
+
+    def health(self, i: int) -> MeshReport:
+        """What the surface of an exact one is like."""
+        flat = self.planarity
+        return MeshReport(
+            closed=True,
+            non_planar_faces=int(flat.non_planar_counts[i]),
+            volume_spread=float(flat.volume_ambiguity[i]),
+            self_intersection=self.intersection[i],
+        )
+
+    def findings(self, i: int) -> tuple[Finding, ...]:
+        """What is to be reported of an exact one."""
+        flat = self.planarity
+        if not flat.volume_ambiguity[i]:
+            return ()
+        planarity = Planarity(int(flat.non_planar_counts[i]), float(flat.volume_ambiguity[i]), NO_FACES)
+        return tuple(shape_findings(True, planarity, self.volume.at(i)))
+
+
+def can_be_stacked(surface: Surface) -> bool:
+    """Whether a surface may be one of those that `measure_stack` measures."""
+    return len(surface.triangles) + 2 * len(surface.quads) <= MAX_SMALL_TRIANGLES and SurfaceStack.takes(surface)
+
+
+def measure_stack(surfaces: Sequence[Surface]) -> SolidStack:
+    """Measure the bodies that many small surfaces bound, as far as they are closed as they are.
+
+    Parameters
+    ----------
+    surfaces : sequence of Surface
+        At least one; all of them as `can_be_stacked` asks, with finite coordinates.
+
+    Returns
+    -------
+    SolidStack
+    """
+    stack = SurfaceStack.of(surfaces)
+    low, high = stack.box
+    center = (low / 2.0 + high / 2.0).astype(np.float32).astype(np.float64)
+    reach = np.maximum(high - center, center - low) * (1.0 + 4.0 * U)
+    volume, area, cones = small_moments(
+        stack.points,
+        stack.triangles,
+        stack.triangle_counts,
+        center,
+        reach,
+        stack.coordinate_error,
+        area=True,
+        shell=False,
+    )
+    planarity = stack_planarity(stack)
+    size, farthest = np.sqrt(np.add.reduce((high - low) ** 2, axis=1)), reach.max(axis=1)
+    is_exact = (stack.component_counts() == 1) & ~planarity.has_degenerate & stack.uses_all_points()
+    is_exact &= (farthest > 1.0 / MAX_UNSCALED_REACH) & (farthest < MAX_UNSCALED_REACH) & (size >= MIN_SIZE)
+    is_exact &= np.maximum(size, np.maximum(np.abs(low), np.abs(high)).max(axis=1)) < MAX_COORDINATE
+    none = np.maximum(CLOSED_SHEET_VOLUME_RTOL * size * area.raw[:, 0], volume.rounding_error[:, 0])
+    is_exact &= volume.raw[:, 0] > none
+    rows = np.flatnonzero(is_exact)
+    is_exact[rows] = _are_physical(volume.at(rows), low[rows], high[rows], size[rows])
+    intersection = np.full(len(stack), Intersection.NOT_CHECKED, object)
+    rows = np.flatnonzero(is_exact)
+    if len(rows):
+        excluded = rows[same_sign(*cones[rows].T)]
+        excluded = excluded[_surrounded_once(stack, volume.about, size)[excluded]]
+        intersection[excluded] = Intersection.EXCLUDED
+        rows = np.setdiff1d(rows, excluded, assume_unique=True)
+        intersection[rows] = _looked_for(stack, rows, volume, size)
+    is_exact &= (intersection == Intersection.EXCLUDED) | (intersection == Intersection.NOT_FOUND)
+    return SolidStack(is_exact, volume, area, planarity, intersection)
+
+
+def _surrounded_once(stack: SurfaceStack, points: NDArray, size: NDArray) -> NDArray[np.bool_]:
+    """(n,) whether each surface goes around its point, (n, 3), once."""
+    body = np.repeat(np.arange(len(stack)), stack.point_counts)
+    found = find_crossings(Surface(stack.points, stack.triangles), LineGrids.through_points(points, size), body)
+    turns = np.bincount(found.body, np.where(found.along > 0.0, found.sign, 0), len(stack))
+    return np.abs(turns) == 1.0
+
+
+def _looked_for(stack: SurfaceStack, rows: NDArray, volume: Moments, size: NDArray) -> NDArray[np.object_]:
+    """(k,) of those of the surfaces whether they go through themselves, as `find_self_intersection` says of one."""
+    if not len(rows):
+        return np.empty(0, object)
+    part = stack.some(rows)
+    low, high = part.box
+    center = volume.about[rows] + volume.raw[rows, 1:4] / volume.raw[rows, :1]
+    owner = np.repeat(np.arange(len(rows)), part.triangle_counts)
+    a, b, c = (part.points[part.triangles[:, k]].T.astype(np.float64) - center[owner].T for k in range(3))
+    cones = dot(a, cross(b, c))
+    starts = segment_starts(part.triangle_counts)
+    agree = same_sign(np.add.reduceat(np.abs(cones), starts), np.add.reduceat(cones, starts))
+    excluded = agree & _surrounded_once(part, center, size[rows])
+    state = np.full(len(rows), Intersection.EXCLUDED, object)
+    left = np.flatnonzero(~excluded)
+    if not len(left):
+        return state
+    part, low, high = part.some(left), low[left], high[left]
+    body = np.repeat(np.arange(len(left)), part.point_counts)
+    grids = LineGrids.over_boxes(low, high, line_counts(part.triangle_counts))
+    error = np.sqrt(np.add.reduce(part.coordinate_error**2, axis=1))
+    tolerance = np.maximum(WELDING_RTOL * size[rows[left]], 4.0 * error)
+    excess = measure_excess(find_crossings(Surface(part.points, part.triangles), grids, body), grids, tolerance)
+    state[left] = np.where(excess.volume > 0.0, Intersection.FOUND, Intersection.NOT_FOUND)
+    state[left[excess.unsure > MAX_UNSURE_LINES]] = Intersection.NOT_CHECKED
+    return state
+
+
+def _are_physical(volume: Moments, low: NDArray, high: NDArray, size: NDArray) -> NDArray[np.bool_]:
+    """(n,) whether bodies within these boxes can have these moments, as `judgement` asks of one."""
+    total = volume.raw[:, 0]
+    mean = volume.raw[:, 1:4] / total[:, None]
+    second = volume.raw[:, SECOND_MOMENT_INDEX] / total[:, None, None] - mean[:, :, None] * mean[:, None, :]
+    most = np.abs(second).max(axis=(1, 2))
+    rounding = 8.0 * (volume.rounding_error[:, 4:10].max(axis=1) / total + np.finfo(float).eps * most)
+    tolerance = (1e-6 * size + volume.rounding_error[:, 1:4].max(axis=1) / total)[:, None]
+    center = volume.about + mean
+    inside = ((low - tolerance <= center) & (center <= high + tolerance)).all(axis=1)
+    return inside & (np.linalg.eigvalsh(second)[:, 0] >= -rounding)

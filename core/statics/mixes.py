@@ -1,0 +1,116 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Volume and center of bodies whose vertices are mixed from several shapes.
+
+Where every vertex is p + Σ v_k d_k, the moments of order n of the volume are polynomials of degree 3 + n in the mixing
+values v: the integral over a cone to a triangle is the determinant of its corners times a polynomial of degree n of
+them. So the moments of as many mixes as the polynomial has coefficients give those of all mixes, inside the range of
+the samples and beyond it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import product
+from math import comb
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..mesh.surface import Surface
+from ..polyhedron.integration import polyhedron_moments
+
+DEGREE = 4  # of the first moments
+
+
+@dataclass(frozen=True, eq=False)
+class Mixes:
+    """Volume and first moments as polynomials of the mixing values.
+
+    Attributes
+    ----------
+    coefficients : (c, 4) array
+        Of volume and first moments about `about`.
+    exponents : (c, k) integer array
+        The powers of the mixing values that each coefficient belongs to.
+    about : (3,) array
+
+    Examples
+    --------
+    >>> from body_moments.core.mesh import Surface
+    >>> from body_moments.core.statics.mixes import fit_mixes
+    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    >>> mixes = fit_mixes(surface, surface.points[None])
+    >>> volumes, centers = mixes.at([[1.0], [-0.5]])
+    >>> np.round(volumes * 6, 9).tolist(), np.round(centers[:, 0], 9).tolist()
+    ([8.0, 0.125], [0.5, 0.125])
+    """
+
+    coefficients: NDArray[np.float64]
+    exponents: NDArray[np.integer]
+    about: NDArray[np.float64]
+
+    def at(self, values: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Return the volumes, (f,), and the centers, (f, 3), of mixes.
+
+        Parameters
+        ----------
+        values : (f, k) array_like
+            A mixing value for each shape.
+
+        Returns
+        -------
+        volumes : (f,) array
+        centers : (f, 3) array
+        """
+        moments = _powers(np.asarray(values, np.float64), self.exponents) @ self.coefficients
+        return moments[:, 0], self.about + moments[:, 1:] / moments[:, :1]
+
+
+def sample_count(shapes: int) -> int:
+    """Return how many mixes have to be measured for a number of shapes.
+
+    Parameters
+    ----------
+    shapes : int
+
+    Returns
+    -------
+    int
+    """
+    return comb(shapes + DEGREE, DEGREE)
+
+
+def fit_mixes(surface: Surface, offsets: ArrayLike) -> Mixes:
+    """Find the polynomials of a surface and the offsets that are mixed into it.
+
+    Parameters
+    ----------
+    surface : Surface
+        Closed and outward. Its quads are cut as they are without any offset.
+    offsets : (k, n, 3) array_like
+        Of its points.
+
+    Returns
+    -------
+    Mixes
+    """
+    triangles, _ = surface.all_triangles()
+    points, offsets = surface.points.astype(np.float64), np.asarray(offsets, np.float64)
+    about = (points.min(axis=0) + points.max(axis=0)) / 2.0
+    exponents = np.array(
+        [powers for powers in product(range(DEGREE + 1), repeat=len(offsets)) if sum(powers) <= DEGREE]
+    )
+    nodes = exponents / DEGREE  # the lattice of a simplex, on which a polynomial of this degree is unique
+    samples = np.empty((len(nodes), 4))
+    for place, values in enumerate(nodes):
+        mixed = points + np.tensordot(values, offsets, axes=1)
+        volume, _ = polyhedron_moments(Surface.from_triangles(mixed, triangles), 1, about=about)
+        samples[place] = volume.raw
+    coefficients = np.linalg.solve(_powers(nodes, exponents), samples)
+    return Mixes(np.asarray(coefficients, np.float64), exponents, about)
+
+
+def _powers(values: NDArray, exponents: NDArray) -> NDArray[np.float64]:
+    """(f, c) the products of powers."""
+    return np.prod(values[:, None, :] ** exponents, axis=2)

@@ -1,0 +1,353 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The measurements of many objects, each a solid of one shape in one place, computed together.
+
+A shape is a mesh in its own coordinates, however many objects show it: closed ones are measured together, what has to
+be repaired by itself, and its axes are looked for once. Objects are a shape, a place and a density or mass.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import bpy
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core.inertia.canonical_frame import MAX_ORDER
+from ...core.inertia.mass_properties import MassProperties
+from ...core.inertia.principal_frame import OwnMoments
+from ...core.inertia.second_order import second_order_frames
+from ...core.measurement import DENSITY_FROM_MASS, DENSITY_FROM_VALUE, Measurement
+from ...core.mesh.surface import Surface
+from ...core.moments.affine_maps import are_similarities
+from ...core.moments.moments import Moments, image, stack_moments
+from ...core.numerics.rotations import rotation_matrix
+from ...core.polyhedron import area_of_images, polyhedron_moments
+from ...core.solid.measure_solid import SolidIntegrals, measure_solid
+from ...core.solid.solid_stack import SolidStack, can_be_stacked, measure_stack
+from ...core.verdict.finding import Finding, MeasureError
+from ...core.verdict.health import DefectiveElements, MeshReport
+from ...core.verdict.method import Method, Verdict
+from ..read.fingerprint import fingerprint, surface_digest, transform_keys
+from ..read.reading import are_singular, to_si
+from .body import own_moments
+
+EXACT = Method(Verdict.EXACT)
+
+
+@dataclass(eq=False)
+class Shape:
+    """A mesh in its own coordinates, and how it was measured.
+
+    Attributes
+    ----------
+    surface : Surface
+    face_count : int
+        The mesh's.
+    row : int
+        Where it stands in the stacks of moments.
+    solids : SolidStack, optional
+        Which it was measured with; its row is the same.
+    alone : SolidIntegrals, optional
+        What it came to by itself. None of both where it could not be measured.
+    """
+
+    surface: Surface
+    face_count: int
+    row: int = -1
+    solids: SolidStack | None = None
+    alone: SolidIntegrals | None = None
+    method: Method = EXACT
+    findings: tuple[Finding, ...] = ()
+
+    @property
+    def health(self) -> MeshReport:
+        """What the mesh is like."""
+        return self.solids.health(self.row) if self.alone is None else self.alone.health
+
+    @property
+    def defects(self) -> DefectiveElements | None:
+        """Where its faults are; None where there are none."""
+        return None if self.alone is None else self.alone.health.defective_elements
+
+    @cached_property
+    def digest(self) -> bytes | None:
+        """Of what it shows, for staleness; None of a large one."""
+        return surface_digest(self.surface, self.face_count)
+
+    def sixth_order(self, about: NDArray) -> Moments:
+        """The volume's moments that axes are found by."""
+        surface = self.surface if self.alone is None else self.alone.repaired_surface
+        with np.errstate(over="ignore", invalid="ignore"):
+            return polyhedron_moments(surface, MAX_ORDER, about=about, exact=True)[0]
+
+
+def measure_shapes(shapes: list[Shape]) -> tuple[Moments, Moments]:
+    """Measure shapes in their own coordinates: volumes to third order and areas, stacked by row. One that cannot be
+    measured has no row."""
+    small = [shape for shape in shapes if can_be_stacked(shape.surface)]
+    volumes, areas, count = [], [], 0
+    if small:
+        solids = measure_stack([shape.surface for shape in small])
+        volumes, areas, count = [solids.volume], [solids.area], len(small)
+        for i in np.flatnonzero(solids.is_exact).tolist():
+            small[i].row, small[i].solids, small[i].findings = i, solids, solids.findings(i)
+    others = []
+    for shape in shapes:
+        if shape.solids is None:
+            try:
+                solid = shape.alone = measure_solid(shape.surface)
+            except MeasureError:  # the objects are refused one by one, with the reason
+                continue
+            shape.row, shape.method, shape.findings = count + len(others), Method(solid.method), solid.findings
+            others.append(solid)
+    if others:
+        volumes.append(stack_moments([solid.volume for solid in others]))
+        areas.append(stack_moments([solid.area for solid in others]))
+    return _joined(volumes), _joined(areas)
+
+
+def _joined(stacks: list[Moments]) -> Moments | None:
+    if len(stacks) < 2:
+        return stacks[0] if stacks else None
+    names = "raw", "about", "rounding_error", "input_error"
+    return replace(stacks[0], **{name: np.concatenate([getattr(stack, name) for stack in stacks]) for name in names})
+
+
+@dataclass(frozen=True, eq=False)
+class Member:
+    """An object that may join a stack.
+
+    Attributes
+    ----------
+    number : int
+        Which of those it is that were collected.
+    density, mass : float or None
+        One of them; the other is NaN. kg/m³, kg.
+    settings : str
+        The digest of the settings.
+    matrix : (4, 4) array
+        World from the mesh's coordinates, Blender units.
+    location, quaternion : tuple of float
+        Of the object frame.
+    """
+
+    number: int
+    obj: bpy.types.Object
+    shape: Shape
+    density: float
+    mass: float
+    settings: str
+    matrix: NDArray[np.float64]
+    location: tuple[float, ...]
+    quaternion: tuple[float, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class MeasuredStack:
+    """The measurements of many objects, in SI units and world axes.
+
+    Attributes
+    ----------
+    members : list of Member
+    from_mass : (n,) bool
+        Whether the density follows from a given mass.
+    density : (n,) array
+        kg/m³.
+    volume, area : Moments
+    mass_properties : MassProperties
+        With a leading axis.
+    stretch : (n,) array
+        By what the volume of the shape was multiplied.
+    rotation, location : (n, 3, 3) and (n, 3) array
+        The object frames.
+    fingerprints : list of str
+    findings : list of tuple of Finding
+    """
+
+    members: list[Member]
+    from_mass: NDArray[np.bool_]
+    density: NDArray[np.float64]
+    volume: Moments
+    area: Moments
+    mass_properties: MassProperties
+    stretch: NDArray[np.float64]
+    rotation: NDArray[np.float64]
+    location: NDArray[np.float64]
+    fingerprints: list[str]
+    findings: list[tuple[Finding, ...]]
+
+    def some(self, which: list[int]) -> MeasuredStack:
+        """Some of them as a stack."""
+        if len(which) == len(self.members):
+            return self
+        lists = "members", "fingerprints", "findings"
+        arrays = "density", "from_mass", "stretch", "rotation", "location"
+        return replace(
+            self,
+            **{name: [getattr(self, name)[i] for i in which] for name in lists},
+            **{name: getattr(self, name)[which] for name in arrays},
+            volume=self.volume.at(which),
+            area=self.area.at(which),
+            mass_properties=self.mass_properties.at(which),
+        )
+
+    @cached_property
+    def error_bounds(self) -> NDArray[np.float64]:
+        """(n, 2, 4) of rounding and of float32 coordinates: volume, area, center, inertia."""
+        volume, area, properties = self.volume, self.area, self.mass_properties
+        rounding, moved = properties.rounding_error, properties.input_error
+        bounds = (
+            (volume.rounding_error[:, 0], area.rounding_error[:, 0], rounding["center"], rounding["inertia"]),
+            (volume.input_error[:, 0], area.input_error[:, 0], moved["center"], moved["inertia"]),
+        )
+        return np.array(bounds).transpose(2, 0, 1)
+
+    def in_object_frames(self) -> MassProperties:
+        """The mass properties, each in its object's own frame."""
+        return self.mass_properties.in_frame(self.rotation, self.location)
+
+    def measurement(self, i: int) -> Measurement:
+        """One of them."""
+        obj, shape, volume, density = self.members[i].obj, self.members[i].shape, self.volume.at(i), self.density[i]
+        names = "volume", "area", "center_of_mass", "inertia"
+        rounding, inputs = (dict(zip(names, row)) for row in self.error_bounds[i].tolist())
+        return Measurement(
+            name=obj.name,
+            type=obj.type,
+            kind="solid",
+            method=shape.method,
+            density=float(density),
+            thickness=0.0,
+            volume=volume.total,
+            area=float(self.area.raw[i, 0]),
+            mass_properties=self.mass_properties.at(i),
+            volume_moments=volume,
+            area_moments=self.area.at(i),
+            mass_moments=(volume, float(density)),
+            health=replace(shape.health, volume_spread=shape.health.volume_spread * float(self.stretch[i])),
+            findings=self.findings[i],
+            rotation=self.rotation[i],
+            location=self.location[i],
+            error_bound={**rounding, "input": inputs},
+            fingerprint=self.fingerprints[i],
+            density_from=DENSITY_FROM_MASS if self.from_mass[i] else DENSITY_FROM_VALUE,
+        )
+
+
+class Stacked:
+    """One object's measurement that is part of a stack: what `Measured` is of one that was measured by itself."""
+
+    __slots__ = ("index", "stack")
+
+    def __init__(self, stack: MeasuredStack, index: int):
+        self.stack, self.index = stack, index
+
+    @property
+    def measurement(self) -> Measurement:
+        """The measurement."""
+        return self.stack.measurement(self.index)
+
+    @property
+    def findings(self) -> tuple[Finding, ...]:
+        """The measurement's findings."""
+        return self.stack.findings[self.index]
+
+    def add_finding(self, found: Finding) -> None:
+        """Report something more."""
+        self.stack.findings[self.index] += (found,)
+
+    @property
+    def has_density(self) -> bool:
+        """Whether the object has a density, not a mass."""
+        return not self.stack.from_mass[self.index]
+
+    @property
+    def shape_digest(self) -> bytes | None:
+        """A digest of what the object shows; None of a large one."""
+        return self.stack.members[self.index].shape.digest
+
+
+def measure_members(members: list[Member], shapes: list[Shape], unit: float) -> MeasuredStack | None:
+    """Measure objects together: those whose shapes can be measured and whose numbers are certain; None where there are
+    none. unit: meters per Blender unit."""
+    own, own_area = measure_shapes(shapes)
+    if own is None:
+        return None
+    which = np.array([member.shape.row for member in members])
+    matrices = np.array([member.matrix for member in members], np.float64)
+    usable = (which >= 0) & np.isfinite(matrices).all(axis=(1, 2))
+    usable &= own.raw[which, 0] > own.rounding_error[which, 0]
+    usable[usable] = ~are_singular(matrices[usable])
+    members, matrices, which = _chosen(members, usable), matrices[usable], which[usable]
+    if not members:
+        return None
+    keys, matrices = transform_keys(matrices), to_si(matrices, unit)
+    volume = _placed(own.at(which), matrices)
+    area = _areas(own_area.at(which), matrices, members)
+    density, mass = (np.array([getattr(member, name) for member in members]) for name in ("density", "mass"))
+    from_mass = ~np.isnan(mass)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        density = np.where(from_mass, mass / volume.raw[:, 0], density)
+    certain = (volume.raw[:, 0] > volume.rounding_error[:, 0]) & (density > 0.0) & (density < np.inf)
+    rows = np.flatnonzero(certain)
+    fixed = second_order_frames(volume.at(rows))
+    if not fixed.is_body.all():
+        rows = rows[fixed.is_body]
+        fixed = second_order_frames(volume.at(rows))
+    if not len(rows):
+        return None
+    if len(rows) < len(members):  # the others are refused by themselves
+        members, keys = _chosen(members, rows), [keys[i] for i in rows.tolist()]
+        which, matrices, density, from_mass = which[rows], matrices[rows], density[rows], from_mass[rows]
+        volume, area = volume.at(rows), area.at(rows)
+    rotation = rotation_matrix([member.quaternion for member in members])
+
+    def higher(left: NDArray[np.intp]) -> OwnMoments:
+        needed, first, shape = np.unique(which[left], return_index=True, return_inverse=True)
+        sixth = [members[left[i]].shape.sixth_order(own.about[row]) for row, i in zip(needed.tolist(), first.tolist())]
+        return own_moments(sixth, shape.ravel(), matrices[left, :3, :3])
+
+    properties = MassProperties.of_stack(volume, density, rotation, fixed, higher)
+    geometry = np.ascontiguousarray(np.concatenate([volume.raw, area.raw], axis=1))
+    return MeasuredStack(
+        members,
+        from_mass,
+        density,
+        volume,
+        area,
+        properties,
+        volume.raw[:, 0] / own.raw[which, 0],
+        rotation,
+        np.array([member.location for member in members]) * unit,
+        [fingerprint(numbers, key, member.settings) for numbers, key, member in zip(geometry, keys, members)],
+        [member.shape.findings for member in members],
+    )
+
+
+def _chosen(members: list[Member], which: NDArray) -> list[Member]:
+    return [members[i] for i in (np.flatnonzero(which) if which.dtype == bool else which).tolist()]
+
+
+def _placed(moments: Moments, matrices: NDArray) -> Moments:
+    """The images about the images of their reference points, as `sum_of_images` gives them."""
+    linear, about = matrices[:, :3, :3], moments.about
+    center = linear[..., 0] * about[:, :1] + linear[..., 1] * about[:, 1:2] + linear[..., 2] * about[:, 2:]
+    return image(moments, matrices, center + matrices[:, :3, 3])
+
+
+def _areas(area: Moments, matrices: NDArray, members: list[Member]) -> Moments:
+    """The areas of the images, of uneven ones from the mapped surfaces."""
+    even = are_similarities(matrices[:, :3, :3])
+    if even.all():
+        return _placed(area, matrices)
+    regular = matrices.copy()
+    regular[~even, :3, :3] = np.eye(3)
+    placed = _placed(area, regular)
+    for i in np.flatnonzero(~even).tolist():
+        found = area_of_images(members[i].shape.surface, matrices[i : i + 1, :3, :3])
+        for name in ("raw", "rounding_error", "input_error", "about"):
+            getattr(placed, name)[i] = getattr(found, name)
+    return placed

@@ -1,0 +1,138 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Rigid bodies: exact mass, origin and axes in one step; compounds, joints; nothing visible moves."""
+
+import bpy
+import numpy as np
+import pytest
+
+from tests.blender.bodies.test_assembly import box, boxes_inertia
+from tests.blender.objects import add, measured, mesh_body, only, place, seen
+from tests.close import close
+
+pytestmark = pytest.mark.usefixtures("registered", "scene")
+
+
+def slanted(name="Body", **settings):
+    obj = add(mesh_body(), name, (1, 2, 3), (0.3, 0.2, 0.1), (1, 2, 0.5))
+    obj.body_moments.density = 1000.0
+    return obj
+
+
+def make(**options):
+    return bpy.ops.object.body_moments_rigid_bodies(**options)
+
+
+def is_what_bullet_takes_it_for(obj):
+    local = measured(obj).in_object_frame()
+    off = local.inertia - np.diag(np.diag(local.inertia))
+    size = local.radii_of_gyration.max()
+    return np.abs(local.center).max() < 1e-5 * size and np.abs(off).max() < 1e-6 * np.trace(local.inertia)
+
+
+def test_mass_origin_and_axes_are_right_and_nothing_moves():
+    obj = slanted()
+    before, mass = seen(obj), measured(obj).mass_properties.mass
+    assert make() == {"FINISHED"}
+    assert np.abs(seen(obj) - before).max() < 1e-5
+    assert close(obj.rigid_body.mass, mass, 1e-6) and obj.rigid_body.collision_shape == "CONVEX_HULL"
+    assert is_what_bullet_takes_it_for(obj) and np.abs(np.array(obj.scale) - 1).max() < 1e-6
+    for _ in range(2):  # again: nothing is left to do
+        matrix = place(obj)
+        assert make() == {"FINISHED"} and (place(obj) == matrix).all()
+
+
+def test_calculate_mass_is_shown_beside(reported):
+    obj = slanted()
+    obj.scale = (1, 1, 1)
+    bpy.context.view_layer.update()
+    make(frame="KEEP", shape="BOX")
+    values = reported.values("rigid_bodies_made")
+    bpy.ops.rigidbody.mass_calculate(material="Custom", density=1000.0)
+    assert close(values["calculated"], obj.rigid_body.mass, 1e-6)
+    assert (
+        close(values["mass"], measured(obj).mass_properties.mass, 1e-12) and values["calculated"] > 1.1 * values["mass"]
+    )
+
+
+def test_one_density_for_all_and_types_and_shapes():
+    first, second = slanted("a"), slanted("b")
+    only(first, second)
+    assert make(use_density=True, density=2700.0, type="PASSIVE", shape="BOX", frame="ORIGIN") == {"FINISHED"}
+    for obj in (first, second):
+        assert obj.rigid_body.type == "PASSIVE" and obj.rigid_body.collision_shape == "BOX"
+        assert close(obj.rigid_body.mass, 2700.0 * measured(obj).volume, 1e-6)
+        assert np.abs(measured(obj).in_object_frame().center).max() < 1e-5
+        assert np.abs(np.array(obj.scale) - (1, 2, 0.5)).max() < 1e-6
+
+
+def test_a_parent_with_its_children_is_one_compound():
+    scene = bpy.context.scene.collection
+    root = box(scene, (1, 2, 4), (8, 0, -2), 7850, "root")
+    child, grandchild = box(scene, (2, 2, 2), (-4, 6, 1), 1000, "child"), box(scene, (1, 1, 1), (0, 0, 9), 500, "leaf")
+    for lower, upper in ((child, root), (grandchild, child)):
+        lower.parent, lower.matrix_parent_inverse = upper, upper.matrix_world.inverted()
+    alone = box(scene, (1, 1, 1), (20, 0, 0), 1000, "alone")
+    bpy.context.view_layer.update()
+    only(root, child, grandchild, alone)
+    before = [seen(obj) for obj in (root, child, grandchild)]
+    assert make() == {"FINISHED"}
+    after = [seen(obj) for obj in (root, child, grandchild)]
+    assert all(np.abs(a - b).max() < 1e-5 for a, b in zip(before, after))
+    mass, center, tensor = boxes_inertia(
+        [(7850, (1, 2, 4), (8, 0, -2)), (1000, (2, 2, 2), (-4, 6, 1)), (500, (1, 1, 1), (0, 0, 9))]
+    )
+    assert close(root.rigid_body.mass, mass, 1e-6) and close(alone.rigid_body.mass, 1000.0, 1e-6)
+    assert [obj.rigid_body.collision_shape for obj in (root, child, grandchild)] == [
+        "COMPOUND", "COMPOUND", "CONVEX_HULL",
+    ]  # fmt: skip
+    frame = place(root)
+    assert np.abs(frame[:3, 3] - center).max() < 1e-5
+    turned = frame[:3, :3].T @ tensor @ frame[:3, :3]
+    assert np.abs(turned - np.diag(np.diag(turned))).max() < 1e-6 * np.trace(tensor)
+    assert make(compounds=False) == {"FINISHED"}
+    assert close(root.rigid_body.mass, 7850 * 8, 1e-6)
+
+
+def test_joints_stay_where_they_are():
+    first, second = slanted("a"), slanted("b")
+    hinge = bpy.data.objects.new("Hinge", None)
+    bpy.context.scene.collection.objects.link(hinge)
+    hinge.location, hinge.parent = (4, 4, 4), first
+    only(second)
+    bpy.ops.rigidbody.world_add()
+    bpy.ops.rigidbody.constraint_add(type="HINGE")
+    second.rigid_body_constraint.object1, second.rigid_body_constraint.object2 = first, second
+    second.rigid_body_constraint.use_limit_ang_z = True
+    bpy.context.view_layer.update()
+    empty_place, joint_place = place(hinge), place(second)
+    only(first, second)
+    assert make() == {"FINISHED"}
+    assert np.abs(place(hinge) - empty_place).max() < 1e-5
+    joint = bpy.data.objects["b Joint"]
+    assert second.rigid_body_constraint is None
+    constraint = joint.rigid_body_constraint
+    assert constraint.type == "HINGE" and constraint.use_limit_ang_z
+    assert (constraint.object1, constraint.object2) == (first, second)
+    found = place(joint)
+    assert np.abs(found[:3, 3] - joint_place[:3, 3]).max() < 1e-5
+    turn = joint_place[:3, :3] / np.linalg.norm(joint_place[:3, :3], axis=0)
+    assert np.abs(found[:3, :3] - turn).max() < 1e-5
+
+
+def test_what_cannot_be_one_is_left_as_it_is_with_the_reason(reported):
+    good, text = slanted("good"), add(bpy.data.curves.new("T", "FONT"), "Text")
+    text.data.body, text.data.extrude = "A", 0.5
+    tiny = slanted("tiny")
+    tiny.body_moments.density = 1e-9
+    bpy.context.view_layer.update()
+    only(good, text, tiny)
+    was = place(tiny)
+    assert make() == {"FINISHED"}
+    assert good.rigid_body and not text.rigid_body and not tiny.rigid_body and (place(tiny) == was).all()
+    assert {"rigid_body_needs_mesh", "rigid_body_mass_too_small"} <= set(reported.codes)
+
+
+def test_one_undo_step_is_enough_for_what_is_registered():
+    operator = bpy.types.OBJECT_OT_body_moments_rigid_bodies
+    assert {"REGISTER", "UNDO"} <= set(operator.bl_options)

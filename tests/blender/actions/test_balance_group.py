@@ -1,0 +1,255 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Balance Group: the path of a free flight is a parabola, that of several objects the sum of theirs; keys, signals."""
+
+import bpy
+import numpy as np
+import pytest
+from mathutils import Matrix, Quaternion
+
+from tests.blender import objects
+from tests.blender.actions.test_stability import box
+from tests.close import close
+
+
+def size_of(obj):
+    return float(np.ptp(objects.seen(obj), axis=0).max())
+
+
+def key_matrix(obj, frame, matrix):
+    obj.rotation_mode = "QUATERNION"
+    obj.matrix_world = Matrix(matrix)
+    for channel in ("location", "rotation_quaternion"):
+        obj.keyframe_insert(channel, frame=frame)
+
+
+def path_of(empty):
+    from body_moments.operators.session import balance
+
+    return balance.path(empty)
+
+
+def groups():
+    from body_moments.operators.session import balance
+
+    return list(balance.groups(bpy.context.scene))
+
+
+def spin(obj, frames, start, center, velocity, gravity):
+    """Key a body that flies free: its center on a parabola, turning about an axis of its own."""
+    axis = np.array([1.0, 2.0, -0.5]) / np.linalg.norm([1.0, 2.0, -0.5])
+    for frame in frames:
+        t = frame / len(frames)
+        turn = np.array(Quaternion(axis, 7.0 * t).to_matrix())
+        u, _, v = np.linalg.svd(turn)
+        turn = u @ v
+        place = start + velocity * t + gravity * t * t / 2.0
+        matrix = np.eye(4)
+        matrix[:3, :3], matrix[:3, 3] = turn, place - turn @ center
+        key_matrix(obj, frame, matrix)
+
+
+def test_the_path_of_a_free_flight_is_a_parabola(scene):
+    obj = objects.add(objects.mesh_body())
+    size = size_of(obj)
+    center = objects.measured(obj).mass_properties.center
+    scene.frame_start, scene.frame_end = 1, 40
+    velocity, gravity = np.array([7.0, 1.0, 5.0]) * size, np.array([0.0, 0.0, -9.0]) * size
+    spin(obj, range(1, 41), np.array([-4.0, 1.0, 2.0]) * size, center, velocity, gravity)
+    assert bpy.ops.object.body_moments_balance_group() == {"FINISHED"}
+    (empty,) = groups()
+    path = path_of(empty)
+    assert path.frames.tolist() == list(range(1, 41)) and path.inside is None
+    t = path.frames / 40.0
+    assert np.ptp(path.centers, axis=0).max() > 5.0 * size
+    fit = np.polynomial.polynomial.polyfit(t, path.centers, 2)
+    off = path.centers - np.polynomial.polynomial.polyval(t, fit).T
+    assert np.abs(off).max() <= 1e-6 * size
+    assert np.abs(2.0 * fit[2] - gravity).max() <= 1e-4 * size
+    scene.frame_set(17)
+    assert np.abs(np.array(empty.matrix_world.translation) - path.centers[16]).max() <= 1e-6 * size
+
+
+def character():
+    """An armature with ten meshes: half of them deformed by its bones, half of them parented to them."""
+    data = bpy.data.armatures.new("Rig")
+    rig = objects.add(data, "Rig")
+    bpy.ops.object.mode_set(mode="EDIT")
+    for number in range(5):
+        bone = data.edit_bones.new(f"Bone {number}")
+        bone.head, bone.tail = (0.0, 0.0, number), (0.0, 0.0, number + 1.0)
+        if number:
+            bone.parent = data.edit_bones[number - 1]
+    bpy.ops.object.mode_set(mode="OBJECT")
+    meshes = []
+    for number in range(5):
+        skin = objects.add(objects.mesh_body(f"Skin {number}"), f"Skin {number}", location=(0.1, 0.2, number))
+        skin.data.update()
+        skin.parent = rig
+        skin.modifiers.new("Armature", "ARMATURE").object = rig
+        group = skin.vertex_groups.new(name=f"Bone {number}")
+        for vertex in range(len(skin.data.vertices)):
+            group.add([vertex], 0.3 + 0.6 * (vertex % 2), "REPLACE")
+        hat = objects.add(
+            objects.mesh_body(f"Hat {number}"), f"Hat {number}", location=(1.0, 0.0, 0.5), scale=(0.3,) * 3
+        )
+        hat.parent, hat.parent_type, hat.parent_bone = rig, "BONE", f"Bone {number}"
+        hat.body_moments.density = 2000.0 + number
+        meshes += [skin, hat]
+    for frame in range(1, 13):
+        for number, bone in enumerate(rig.pose.bones):
+            bone.rotation_mode = "XYZ"
+            bone.rotation_euler = (0.3 * np.sin(frame + number), 0.1 * frame, 0.2 * np.cos(frame))
+            bone.keyframe_insert("rotation_euler", frame=frame)
+        rig.location = (0.5 * frame, 0.0, abs(np.sin(frame)))
+        rig.keyframe_insert("location", frame=frame)
+    bpy.context.view_layer.update()
+    return rig, meshes
+
+
+def test_the_center_of_a_character_is_that_of_its_parts(scene):
+    from body_moments.core.inertia.mass_properties import combine
+    from body_moments.operators.session.motion import Motion
+
+    _, meshes = character()
+    motion = Motion(frames=12)
+    for frame in range(1, 13):
+        scene.frame_set(frame)
+        depsgraph = bpy.context.evaluated_depsgraph_get()
+        masses, centers = zip(*(motion.mass_and_center(obj, depsgraph) for obj in meshes))
+        parts = [objects.measured(obj).mass_moments for obj in meshes]
+        truth = combine(parts)
+        total = np.sum(masses)
+        center = np.einsum("i,ij->j", np.array(masses) / total, np.array(centers))
+        assert close(total, truth.mass, 1e-12)
+        assert np.abs(center - truth.center).max() <= 1e-12 * 10.0
+
+
+def test_an_armature_stands_for_its_meshes(scene):
+    rig, meshes = character()
+    scene.frame_start, scene.frame_end = 1, 12
+    objects.only(rig)
+    assert bpy.ops.object.body_moments_balance_group() == {"FINISHED"}
+    (empty,) = groups()
+    assert empty["body_balance_group"].split("\n") == sorted(obj.name for obj in meshes)
+    assert len(path_of(empty).frames) == 12
+
+
+@pytest.mark.parametrize("mass", [None, 12.0])
+def test_shape_keys_are_followed_by_their_polynomials(scene, mass):
+    from body_moments.operators.session.motion import Motion
+
+    obj = objects.add(objects.mesh_body(), location=(1.0, 2.0, 3.0), rotation=(0.3, 0.2, 0.1), scale=(2.0, 2.0, 2.0))
+    if mass is not None:
+        obj.body_moments.mass_from, obj.body_moments.mass = "MASS", mass
+    obj.shape_key_add(name="Basis")
+    random = np.random.default_rng(4)
+    for name in ("Fat", "Tall"):
+        key = obj.shape_key_add(name=name)
+        for point in key.data:
+            point.co.x *= 1.4 if name == "Fat" else 1.0
+            point.co.z *= 1.5 if name == "Tall" else 1.0
+            point.co.y += 0.1 * point.co.x
+        for frame in range(1, 41):
+            key.value = random.uniform(0.0, 1.0)
+            key.keyframe_insert("value", frame=frame)
+    motion = Motion(frames=40)
+    for frame in range(1, 41, 3):
+        scene.frame_set(frame)
+        total, center = motion.mass_and_center(obj, bpy.context.evaluated_depsgraph_get())
+        truth = objects.measured(obj).mass_properties
+        assert close(total, truth.mass, 1e-6)
+        assert np.abs(center - truth.center).max() <= 1e-6 * 10.0
+    assert motion._followed[obj].mixes is not None
+
+
+def test_scales_that_change_are_followed(scene):
+    from body_moments.operators.session.motion import Motion
+
+    solid = objects.add(objects.mesh_body(), location=(1.0, 0.0, 0.0))
+    sheet = objects.add(objects.mesh_body("Sheet"), "Sheet")
+    sheet.body_moments.kind, sheet.body_moments.thickness = "SHELL", 0.01
+    motion = Motion(frames=3)
+    for scale in ((1.0, 1.0, 1.0), (2.0, 2.0, 2.0), (1.0, -3.0, 0.5)):
+        for obj in (solid, sheet):
+            obj.scale = scale
+        bpy.context.view_layer.update()
+        for obj in (solid, sheet):
+            total, center = motion.mass_and_center(obj, bpy.context.evaluated_depsgraph_get())
+            truth = objects.measured(obj).mass_properties
+            assert close(total, truth.mass, 1e-6)
+            assert np.abs(center - truth.center).max() <= 1e-6 * 10.0
+
+
+def test_a_signal_says_when_the_center_leaves_the_support_polygon(scene):
+    """A weight that slides over a foot from -2 to 2: over the foot as long as their common center is within ±1."""
+    foot = objects.add(box((2.0, 2.0, 0.1), (-1.0, -1.0, 0.0)), "Foot")
+    weight = objects.add(box((1.0, 1.0, 1.0), (-0.5, -0.5, 0.0)), "Weight")
+    for frame in range(1, 42):
+        weight.location = (-2.03 + 0.1 * (frame - 1), 0.0, 1.0)
+        foot.location = (0.0, 0.0, 0.0 if frame < 31 else 1.0)
+        for obj in (foot, weight):
+            obj.keyframe_insert("location", frame=frame)
+    collection = bpy.data.collections.new("Feet")
+    scene.collection.children.link(collection)
+    collection.objects.link(foot)
+    scene.frame_start, scene.frame_end = 1, 41
+    objects.only(foot, weight)
+    assert bpy.ops.object.body_moments_balance_group(contacts="Feet") == {"FINISHED"}
+    (empty,) = groups()
+    path = path_of(empty)
+    share = 1.0 / 1.4
+    expected = (np.abs(share * (-2.03 + 0.1 * (path.frames - 1))) < 1.0) & (path.frames < 31)
+    assert path.inside.tolist() == expected.tolist()
+    scene.frame_set(20)
+    assert empty["body_balance_inside"] == 1
+    scene.frame_set(1)
+    assert empty["body_balance_inside"] == 0
+
+
+def test_the_frame_and_the_selection_stay_and_one_empty_is_made(scene):
+    first = objects.add(objects.mesh_body(), "First")
+    second = objects.add(objects.mesh_body(), "Second", location=(4.0, 0.0, 0.0))
+    objects.only(first, second)
+    scene.frame_set(7)
+    for end in (10, 5):
+        assert bpy.ops.object.body_moments_balance_group(use_scene_range=False, frame_start=2, frame_end=end) == {
+            "FINISHED"
+        }
+        assert scene.frame_current == 7
+        assert first.select_get() and second.select_get() and bpy.context.object == first
+        (empty,) = groups()
+        assert path_of(empty).frames.tolist() == list(range(2, end + 1))
+    assert np.abs(np.ptp(path_of(empty).centers, axis=0)).max() == 0.0
+    assert not any(obj.animation_data for obj in (first, second))
+
+
+def test_a_collection_is_followed(scene):
+    obj = objects.add(objects.mesh_body())
+    collection = bpy.data.collections.new("Parts")
+    scene.collection.children.link(collection)
+    collection.objects.link(obj)
+    bpy.ops.object.select_all(action="DESELECT")
+    arguments = {"use_scene_range": False, "frame_start": 1, "frame_end": 2}
+    assert bpy.ops.object.body_moments_balance_group(collection="Parts", **arguments) == {"FINISHED"}
+    assert groups()[0]["body_balance_group"] == obj.name
+
+
+@pytest.mark.parametrize("arguments", [{}, {"collection": "Nowhere"}, {"contacts": "Nowhere"}, {"contacts": "Lamps"}])
+def test_refusals_name_what_is_missing(scene, reported, arguments):
+    bpy.data.collections.new("Lamps")
+    if arguments:
+        objects.add(objects.mesh_body())
+    codes = {"": "balance_group_empty_group", "Lamps": "balance_group_without_contacts"}
+    with pytest.raises(RuntimeError):
+        bpy.ops.object.body_moments_balance_group(**arguments)
+    assert reported.codes[-1] == codes.get("".join(arguments.values()), "no_such_collection")
+    assert not groups()
+
+
+def test_an_object_without_a_certain_center_ends_it(scene, reported):
+    objects.add(objects.strip_mesh())
+    scene.frame_set(5)
+    with pytest.raises(RuntimeError):
+        bpy.ops.object.body_moments_balance_group()
+    assert "open_object" in reported.codes and scene.frame_current == 5 and not groups()

@@ -1,0 +1,259 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Constant sets of trilinear densities against closed forms, and against quadrature with the axes in another order."""
+
+import math
+
+import numpy as np
+import pytest
+from body_moments.core.density import threshold
+from body_moments.core.density.threshold import threshold_body
+from body_moments.core.moments.moments import monomials
+from body_moments.core.verdict.finding import MeasureError
+
+from tests.close import close
+
+RNG = np.random.default_rng(11)
+
+
+def points(n):
+    """(n, n, n) each of x, y and z from -1 to 1."""
+    return np.meshgrid(*[np.linspace(-1.0, 1.0, n)] * 3, indexing="ij")
+
+
+def ball(n, radius=0.7, center=(0.0, 0.0, 0.0)):
+    return radius - np.sqrt(sum((x - c) ** 2 for x, c in zip(points(n), center)))
+
+
+def torus(n):
+    x, y, z = points(n)
+    return 0.31 - np.sqrt((np.hypot(x, y) - 0.55) ** 2 + z**2)
+
+
+def touching_balls(n):
+    return np.maximum(ball(n, 0.45, (-0.45, 0.03, 0.0)), ball(n, 0.45, (0.45, 0.03, 0.0)))
+
+
+BODIES = {"ball": ball, "torus": torus, "touching balls": touching_balls}
+
+
+# The oracle: columns along x, whatever the density does along them; double exponential rules between all roots.
+
+_T = np.arange(-3.2, 3.2001, 0.1)
+NODES = 0.5 + 0.5 * np.tanh(0.5 * np.pi * np.sinh(_T))
+WEIGHTS = 0.1 * 0.25 * np.pi * np.cosh(_T) / np.cosh(0.5 * np.pi * np.sinh(_T)) ** 2
+
+
+def between(roots):
+    """Nodes and weights over [0, 1] between roots (…, k)."""
+    inside = np.where((roots > 0.0) & (roots < 1.0), roots, 0.0)
+    edges = np.sort(np.concatenate([np.zeros_like(roots[..., :1]), inside, np.ones_like(roots[..., :1])], -1), -1)
+    start, length = edges[..., :-1, None], np.diff(edges)[..., None]
+    nodes, weights = start + length * NODES, length * WEIGHTS
+    return nodes.reshape(*nodes.shape[:-2], -1), weights.reshape(*weights.shape[:-2], -1)
+
+
+def cell_moments(corners, origin, order):
+    """The volume moments of {≥ 0} in the cell at `origin`, by columns along x, then y, then z."""
+    c = corners
+    with np.errstate(all="ignore"):
+        edges = (c[:, :, 0] / (c[:, :, 0] - c[:, :, 1])).ravel()
+        low, step = c[:, :, 0], c[:, :, 1] - c[:, :, 0]  # x, y: at z = 0, and along z
+        both = np.polynomial.Polynomial([0.0])
+        for sign, (i, j) in ((1, (0, 1)), (-1, (1, 0))):
+            first = np.polynomial.Polynomial([low[i, 0], step[i, 0]])
+            slope = np.polynomial.Polynomial([low[j, 1] - low[j, 0], step[j, 1] - step[j, 0]])
+            both = both + sign * first * slope
+        crossing = [root.real for root in both.trim().roots() if abs(root.imag) < 1e-9] if both.trim().degree() else []
+        z, weight_z = between(np.nan_to_num(np.array([*edges, *crossing])))
+        line = low + z[:, None, None] * step  # z, x, y
+        y, weight = between(np.nan_to_num(line[:, :, 0] / (line[:, :, 0] - line[:, :, 1])))
+        ends = line[:, :, 0, None] + y[:, None, :] * (line[:, :, 1] - line[:, :, 0])[:, :, None]
+        crossed = ends[:, 0] / (ends[:, 0] - ends[:, 1])
+    begin = np.where(ends[:, 0] >= 0.0, 0.0, np.where(ends[:, 1] >= 0.0, crossed, 1.0))
+    end = np.where(ends[:, 1] >= 0.0, 1.0, np.where(ends[:, 0] >= 0.0, crossed, begin))
+    weight = weight * weight_z[:, None]
+    z = np.broadcast_to(z[:, None], y.shape)
+    begin, end, y, z = begin + origin[0], end + origin[0], y + origin[1], z + origin[2]
+    return np.array(
+        [
+            (weight * (end ** (p + 1) - begin ** (p + 1)) / (p + 1) * y**q * z**r).sum()
+            for p, q, r in monomials(order).tolist()
+        ]
+    )
+
+
+def oracle(samples, order):
+    total = np.zeros(len(monomials(order)))
+    for place in np.ndindex(*np.array(samples.shape) - 1):
+        i, j, k = place
+        corners = samples[i : i + 2, j : j + 2, k : k + 2]
+        if (corners >= 0.0).any():
+            total += cell_moments(corners, place, order)
+    return total
+
+
+@pytest.mark.parametrize("name", BODIES)
+def test_a_sampled_body_has_the_moments_of_its_interpolant(name):
+    samples = BODIES[name](8)
+    found = threshold_body(samples, 0.0, order=3)
+    truth = oracle(samples, 3)
+    volume = found.volume.about_point((0.0, 0.0, 0.0))
+    assert close(volume.raw, truth, rel=1e-10)
+    assert close(found.volume.center, truth[1:4] / truth[0], rel=1e-10)
+    assert (np.abs(volume.raw - truth) <= volume.rounding_error + 1e-13 * np.abs(truth)).all()
+    assert not found.clipped
+
+
+def test_noise_has_the_moments_of_its_interpolant_at_every_threshold():
+    """Cells of every kind: tunnels, saddles, axes along which nothing is monotone."""
+    samples = RNG.normal(size=(4, 5, 3))
+    for level in (-0.7, 0.0, 0.9):
+        found = threshold_body(samples, level, order=2)
+        truth = oracle(samples - level, 2)
+        assert close(found.volume.about_point((0.0, 0.0, 0.0)).raw, truth, rel=1e-9)
+        assert found.clipped
+
+
+@pytest.mark.parametrize("level", [0.9, 0.3, 0.01, 1e-4])
+def test_a_product_has_its_closed_form(level):
+    """xyz ≥ t in the unit cube: 1 - t (1 - ln t + ln² t / 2)."""
+    corner = np.zeros((2, 2, 2))
+    corner[1, 1, 1] = 1.0
+    log = math.log(level)
+    found = threshold_body(corner, level)
+    assert close(found.volume.total, 1.0 - level * (1.0 - log + log * log / 2.0), rel=1e-11)
+
+
+@pytest.mark.parametrize("axis", range(3))
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_a_half_space_is_exact_with_its_density_and_its_face(axis, sign):
+    """f = ±x over a box of 6 x 3 x 4 cells, cut at x = 2.25."""
+    shape = np.roll([7, 4, 5], axis)
+    x = np.arange(7.0).reshape(np.roll([7, 1, 1], axis))
+    samples = np.broadcast_to(sign * x, shape)
+    low, high = (2.25, 6.0) if sign > 0.0 else (0.0, 2.25)
+    found = threshold_body(samples, sign * 2.25, with_density=True)
+    assert close(found.volume.total, 12.0 * (high - low), rel=1e-14)
+    assert close(found.area.total, 12.0, rel=1e-14)
+    assert close(found.mass.total, sign * 6.0 * (high**2 - low**2), rel=1e-14)
+    assert close(found.volume.center[axis], (low + high) / 2.0, rel=1e-14)
+    assert close(found.area.center[axis], 2.25, rel=1e-14)
+    assert close(found.mass.center[axis], 2.0 / 3.0 * (high**3 - low**3) / (high**2 - low**2), rel=1e-14)
+    # with its density to third order: ∫ x³ x
+    powers = [0, 0, 0]
+    powers[axis] = 3
+    about = found.mass.about_point((0.0, 0.0, 0.0))
+    assert close(about[tuple(powers)], sign * 12.0 * (high**5 - low**5) / 5.0, rel=1e-13)
+
+
+def test_a_slanted_plane_is_exact_in_volume_and_area():
+    """x + 2y + 3z ≥ t cuts a simplex off a corner: t³/36, with a face of √14 t²/12."""
+    x, y, z = np.meshgrid(*[np.arange(8.0)] * 3, indexing="ij")
+    found = threshold_body(-(x + 2 * y + 3 * z), -5.3)
+    assert close(found.volume.total, 5.3**3 / 36.0, rel=1e-11)
+    assert close(found.area.total, math.sqrt(14.0) * 5.3**2 / 12.0, rel=1e-11)
+    assert close(found.volume.center, 5.3 / 4.0 / np.array([1.0, 2.0, 3.0]), rel=1e-11)
+
+
+def test_sampled_balls_converge_to_the_ball_with_the_square_of_the_spacing():
+    errors = []
+    for n in (16, 31, 61):
+        found, spacing = threshold_body(ball(n), 0.0), 2.0 / (n - 1)
+        errors.append(
+            (
+                found.volume.total * spacing**3 / (4.0 / 3.0 * np.pi * 0.343) - 1.0,
+                found.area.total * spacing**2 / (4.0 * np.pi * 0.49) - 1.0,
+            )
+        )
+    ratios = np.array(errors[:-1]) / np.array(errors[1:])
+    assert (np.abs(ratios - 4.0) < 0.4).all()
+
+
+def test_the_area_is_the_derivative_of_the_volume():
+    """d volume / d threshold = -∫ dA / |∇f|, and |∇f| = 1 along the samples of a plane's distance."""
+    normal = np.array([1.0, 2.0, -2.0]) / 3.0
+    samples = sum(n * x for n, x in zip(normal, points(9))) * 4.0
+    low, high = (threshold_body(samples, level) for level in (0.1 - 1e-4, 0.1 + 1e-4))
+    middle = threshold_body(samples, 0.1)
+    assert close((low.volume.total - high.volume.total) / 2e-4, middle.area.total, rel=1e-7)
+
+
+def test_turned_and_mirrored_samples_give_turned_and_mirrored_bodies():
+    samples = RNG.normal(size=(5, 6, 7))
+    plain = threshold_body(samples, 0.2, with_density=True)
+    turned = threshold_body(samples.transpose(2, 0, 1)[::-1], 0.2, with_density=True)
+    for name in ("volume", "area", "mass"):
+        one, other = getattr(plain, name), getattr(turned, name)
+        assert close(one.total, other.total, rel=1e-9)
+        x, y, z = one.center
+        assert close(other.center, (6.0 - z, x, y), rel=1e-8)
+
+
+def test_a_sheared_grid_gives_the_area_and_the_moments_of_the_sheared_body():
+    """A plane's piece in the image of the grid, whose corners are known; a volume and a center under the map."""
+    matrix = np.array(
+        [[0.02, 0.003, 0.0, 5.0], [0.0, -0.05, 0.01, 6.0], [0.004, 0.0, 0.003, -7.0], [0.0, 0.0, 0.0, 1.0]]
+    )
+    x, y, z = np.meshgrid(*[np.arange(8.0)] * 3, indexing="ij")
+    samples = -(x + 2 * y + 3 * z)
+    plain, mapped = threshold_body(samples, -5.3), threshold_body(samples, -5.3, matrix=matrix, with_density=True)
+    corners = (matrix @ np.array([[5.3, 0, 0, 1], [0, 2.65, 0, 1], [0, 0, 5.3 / 3.0, 1]]).T).T[:, :3]
+    area = np.linalg.norm(np.cross(corners[1] - corners[0], corners[2] - corners[0])) / 2.0
+    assert close(mapped.area.total, area, rel=1e-10)
+    assert close(mapped.area.center, corners.mean(axis=0), rel=1e-10)
+    assert close(mapped.volume.total, plain.volume.total * abs(np.linalg.det(matrix[:3, :3])), rel=1e-12)
+    assert close(mapped.volume.center, matrix[:3, :3] @ plain.volume.center + matrix[:3, 3], rel=1e-13)
+    assert mapped.mass.total < 0.0  # these densities are negative
+    with pytest.raises(MeasureError):
+        threshold_body(samples, -5.3, matrix=np.diag([1.0, 1.0, 0.0, 1.0]))
+
+
+def test_beyond_the_grid_is_nothing_or_the_background():
+    samples = np.full((2, 2, 2), 3.0)
+    alone = threshold_body(samples, 1.0)
+    assert close(alone.volume.total, 1.0, rel=1e-14) and alone.area.total == 0.0 and alone.clipped
+    closed = threshold_body(samples, 1.0, background=0.0)
+    assert not closed.clipped and closed.volume.total > 1.0 and closed.area.total > 6.0
+    assert close(closed.volume.center, (0.5, 0.5, 0.5), rel=1e-13)
+    one = threshold_body(np.array([[[1.0]]]), 0.25, background=0.0)
+    log = math.log(0.25)
+    assert close(one.volume.total, 8.0 * (1.0 - 0.25 * (1.0 - log + log * log / 2.0)), rel=1e-10)
+
+
+def test_slabs_and_batches_change_nothing(monkeypatch):
+    samples = RNG.normal(size=(9, 4, 4))
+    whole = threshold_body(samples, 0.1, with_density=True, background=-1.0)
+    monkeypatch.setattr(threshold, "CELLS_PER_SLAB", 1)
+    monkeypatch.setattr(threshold, "CELLS_PER_BATCH", 7)
+    parts = threshold_body(samples, 0.1, with_density=True, background=-1.0)
+    for name in ("volume", "area", "mass"):
+        assert close(getattr(parts, name).raw, getattr(whole, name).raw, rel=1e-12)
+    assert parts.cut_cells == whole.cut_cells
+
+
+def test_a_preview_is_near_and_claims_nothing():
+    samples = torus(24)
+    exact, preview = (threshold_body(samples, 0.05, order=1, preview=quick) for quick in (False, True))
+    assert close(preview.volume.total, exact.volume.total, rel=1e-6)
+    assert abs(preview.volume.total - exact.volume.total) > 0.0
+
+
+def test_nothing_inside_everything_inside_and_bad_samples():
+    samples = RNG.uniform(size=(3, 4, 5))
+    assert threshold_body(samples, 2.0).volume.total == 0.0 and not threshold_body(samples, 2.0).clipped
+    assert close(threshold_body(samples, -1.0).volume.total, 24.0, rel=1e-14)
+    samples[1, 1, 1] = np.nan
+    with pytest.raises(MeasureError) as refused:
+        threshold_body(samples, 0.5)
+    assert refused.value.finding.code == "density_non_finite"
+    with pytest.raises(ValueError, match="two samples per axis"):
+        threshold_body(np.ones((1, 4, 4)), 0.5)
+
+
+def test_a_saddle_line_is_bounded_and_ends():
+    """f = xy: no axis is monotone along the line x = y = 0, however small the cell."""
+    x, y, _ = points(3)
+    found = threshold_body(x * y, 0.0)
+    assert abs(found.volume.total - 4.0) <= found.volume.rounding_error[0] + 1e-14
+    assert found.volume.rounding_error[0] < 1e-3
