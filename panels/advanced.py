@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The sub-panel of what few need: error bounds, the display mesh, live numbers, the Fourier transform. The moments to a
+"""The sub-panel of what few need: error bounds, the display mesh, the Fourier transform. The moments to a
 chosen order, sections and shapes are sub-panels of it.
 """
 
@@ -39,8 +39,6 @@ class AdvancedPanel:
         if shown is not None and live.current_numbers(obj) is None:
             _bounds(layout, obj, units, shown)
             _display_mesh(layout, obj, units, shown)
-        if obj.type == "SURFACE":
-            layout.operator("object.body_moments_live", icon="REC", depress=live.is_live(obj))
         layout.operator("object.body_moments_fourier", text="Fourier Transform...", icon="MOD_WAVE")
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from bpy.types import Context
 
-from ..operators.session import results
+from ..operators.session import live, posed, results
 from ..operators.write.units import Units
 from . import remedies, rows
 from .density import material_row
@@ -43,6 +43,8 @@ class BodyPanel:
         row = layout.row(align=True)
         row.scale_y = 1.4
         rows.button(row, context, "object.body_moments_measure", "PHYSICS")
+        followed = any(live.is_live(subject) for subject in posed.subjects([obj]))
+        row.operator("object.body_moments_live", text="", icon="REC", depress=followed)
         row.operator("object.body_moments_select_faults", text="", icon="ZOOM_SELECTED")
         if shown is not None:
             remedies.unit_question(layout, context, shown)

@@ -10,7 +10,7 @@ from bpy.types import Context, Object, UILayout
 
 from ..core.verdict.finding import Finding, finding
 from ..core.verdict.method import Method, Source
-from ..operators.session import live, results, staleness
+from ..operators.session import live, posed, results, staleness, trust
 from ..operators.write import properties
 from ..operators.write.messages import METHODS, method_key
 from ..operators.write.translations import localized
@@ -28,6 +28,12 @@ ICONS = {
     "assembly": "OUTLINER_COLLECTION",
 }
 SOURCES = {Source.NURBS: "NURBS: {:s}", Source.GRID: "Grid: {:s}"}  # of what was measured, before a verdict
+
+LIVE = {
+    live.Lag.NONE: "panel_live",
+    live.Lag.FIRST_ORDER: "panel_live_first_order",
+    live.Lag.BEHIND: "panel_live_behind",
+}
 
 
 def method_and_findings(obj: Object) -> tuple[Method | None, Sequence[Finding]]:
@@ -51,17 +57,36 @@ def verdict(layout: UILayout, context: Context, obj: Object, measured: bool) -> 
         remedies.remedies(column, context, refusal)
     if not measured:
         return
+    if posed.stands_for_meshes(obj):
+        _posed(column, context, obj)
+        return
     _headline(column, context, obj)
     now = live.current_numbers(obj)
     if now is not None and now.measurement is not None:
         if live.is_stale(obj, context.scene):
             rows.stale_row(column, context, "stale_settings")
             return
-        rows.message(column, context, finding("panel_live", milliseconds=1e3 * now.seconds), icon="REC")
+        code = LIVE[live.lag(obj)]
+        rows.message(column, context, finding(code, milliseconds=1e3 * now.seconds), icon="REC")
         return
     if now is not None:
         rows.message(column, context, now.refusal)
     rows.stale_row(column, context, staleness.stale_reason(obj, context.scene))
+
+
+def _posed(column: UILayout, context: Context, armature: Object) -> None:
+    """Which meshes an armature stands for, and which of them have no numbers, or none that hold."""
+    meshes = posed.deformed_meshes(armature)
+    rows.message(column, context, finding("panel_posed", count=len(meshes)), icon="POSE_HLT")
+    lacking = [mesh.name for mesh in meshes if results.in_world(mesh, context.scene) is None]
+    stale = [
+        mesh.name
+        for mesh in meshes
+        if mesh.name not in lacking and trust.trust(mesh, context.scene) == trust.Trust.OUT_OF_DATE
+    ]
+    for code, names in (("panel_posed_missing", lacking), ("panel_posed_stale", stale)):
+        if names:
+            rows.message(column, context, finding(code, objects=names))
 
 
 def _headline(column: UILayout, context: Context, obj: Object) -> None:

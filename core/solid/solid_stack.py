@@ -113,11 +113,10 @@ def measure_stack(surfaces: Sequence[Surface]) -> SolidStack:
     intersection = np.full(len(stack), Intersection.NOT_CHECKED, object)
     rows = np.flatnonzero(is_exact)
     if len(rows):
-        excluded = rows[same_sign(*cones[rows].T)]
-        excluded = excluded[_surrounded_once(stack, volume.about, size)[excluded]]
-        intersection[excluded] = Intersection.EXCLUDED
-        rows = np.setdiff1d(rows, excluded, assume_unique=True)
-        intersection[rows] = _looked_for(stack, rows, volume, size)
+        agree = same_sign(*cones[rows].T)
+        once = agree & _surrounded_once(stack, volume.about, size)[rows]
+        intersection[rows[once]] = Intersection.EXCLUDED
+        intersection[rows[~once]] = _looked_for(stack, rows[~once], agree[~once], volume, size)
     is_exact &= (intersection == Intersection.EXCLUDED) | (intersection == Intersection.NOT_FOUND)
     return SolidStack(is_exact, volume, area, planarity, intersection)
 
@@ -130,8 +129,11 @@ def _surrounded_once(stack: SurfaceStack, points: NDArray, size: NDArray) -> NDA
     return np.abs(turns) == 1.0
 
 
-def _looked_for(stack: SurfaceStack, rows: NDArray, volume: Moments, size: NDArray) -> NDArray[np.object_]:
-    """(k,) of those of the surfaces whether they go through themselves, as `find_self_intersection` says of one."""
+def _looked_for(
+    stack: SurfaceStack, rows: NDArray, agree: NDArray[np.bool_], volume: Moments, size: NDArray
+) -> NDArray[np.object_]:
+    """(k,) of those of the surfaces whether they go through themselves, as `find_self_intersection` says of one. agree:
+    (k,) whether all their cones agree about the middles of their boxes."""
     if not len(rows):
         return np.empty(0, object)
     part = stack.some(rows)
@@ -141,8 +143,8 @@ def _looked_for(stack: SurfaceStack, rows: NDArray, volume: Moments, size: NDArr
     a, b, c = (part.points[part.triangles[:, k]].T.astype(np.float64) - center[owner].T for k in range(3))
     cones = dot(a, cross(b, c))
     starts = segment_starts(part.triangle_counts)
-    agree = same_sign(np.add.reduceat(np.abs(cones), starts), np.add.reduceat(cones, starts))
-    excluded = agree & _surrounded_once(part, center, size[rows])
+    about_center = same_sign(np.add.reduceat(np.abs(cones), starts), np.add.reduceat(cones, starts))
+    excluded = ~agree & about_center & _surrounded_once(part, center, size[rows])
     state = np.full(len(rows), Intersection.EXCLUDED, object)
     left = np.flatnonzero(~excluded)
     if not len(left):

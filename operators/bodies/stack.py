@@ -32,6 +32,7 @@ from ...core.verdict.health import DefectiveElements, MeshReport
 from ...core.verdict.method import Method, Verdict
 from ..read.fingerprint import fingerprint, surface_digest, transform_keys
 from ..read.reading import are_singular, to_si
+from ..settings.accepted import accepted_codes, with_acceptance
 from .body import own_moments
 
 EXACT = Method(Verdict.EXACT)
@@ -323,8 +324,14 @@ def measure_members(members: list[Member], shapes: list[Shape], unit: float) -> 
         rotation,
         np.array([member.location for member in members]) * unit,
         [fingerprint(numbers, key, member.settings) for numbers, key, member in zip(geometry, keys, members)],
-        [member.shape.findings for member in members],
+        [_findings(member) for member in members],
     )
+
+
+def _findings(member: Member) -> tuple[Finding, ...]:
+    """Of the member's shape, those marked that were accepted for the object."""
+    found = member.shape.findings
+    return with_acceptance(found, accepted_codes(member.obj)) if found else ()
 
 
 def _chosen(members: list[Member], which: NDArray) -> list[Member]:

@@ -29,6 +29,7 @@ from ...core.verdict.method import Source
 from ..bodies.array import ArrayOptions, measure_array
 from ..bodies.measure_object import THREADS, measure_object
 from ..bodies.shape import NoShapeError, shape_of
+from ..read.quiet import paused
 from ..read.total_caveats import boolean_operands, open_body_caveats, total_caveats
 from ..session.staleness import mark_up_to_date
 from ..settings import properties as settings
@@ -318,7 +319,8 @@ class Run:
         for label, obj, one in measured:
             try:
                 store(obj, one)
-                settings.apply_options(obj.body_moments, wanted, bpy.context.scene)
+                with paused():  # what is stored is already that of these settings
+                    settings.apply_options(obj.body_moments, wanted, bpy.context.scene)
             except MeasureError as refusal:
                 yield failure(label, refusal.finding)
             except Exception as error:

@@ -47,6 +47,15 @@ def mesh_surface(mesh, *, edges: bool = True) -> Surface:
     return Surface(points, corner_vertices=corners, corner_edges=named, **faces)
 
 
+def mesh_points(mesh, corners: NDArray[np.int32]) -> NDArray[np.float32] | None:
+    """(n, 3) the vertices of a `bpy.types.Mesh` that has these vertices at its corners; None of any other."""
+    if len(mesh.loops) != len(corners):
+        return None
+    if not np.array_equal(_attribute(mesh, ".corner_vert", "value", corners.shape, np.int32), corners):
+        return None
+    return _attribute(mesh, "position", "vector", (len(mesh.vertices), 3), np.float32)
+
+
 def _faces(mesh, corners: NDArray[np.int32]) -> dict[str, NDArray]:
     """The triangles and quads of a Surface, and which faces they are of."""
     faces = len(mesh.polygons)

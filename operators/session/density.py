@@ -17,6 +17,7 @@ from bpy.types import Context, Object, PropertyGroup, Scene
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import EditRefusedError, Finding, finding
 from ..read.fingerprint import VERSION, given_density, settings_hash, settings_hash_with
+from ..read.quiet import paused
 from ..settings import hooks
 from ..settings.density import default_density
 from ..write import properties
@@ -57,6 +58,11 @@ def follow_density(obj: Object, scene: Scene) -> None:
         settings_hash_with(obj, scene, None, mass),
     ):
         return
+    now, findings = settings_hash(obj, scene), _findings(obj, scene)
+    if now == mark.settings:  # a measured density may have more digits than the setting holds
+        if findings != list(properties.findings(obj)):
+            properties.store_findings(obj, findings)
+        return
     settings = obj.body_moments
     is_mass_given = settings.mass_from == "MASS"
     density = shortest_decimal(settings.mass) / extent if is_mass_given else given_density(obj, scene)
@@ -66,8 +72,8 @@ def follow_density(obj: Object, scene: Scene) -> None:
         obj,
         0.0 if settings.kind == "WIRE" else density,
         density * extent,
-        _findings(obj, scene),
-        ":".join(mark._replace(settings=settings_hash(obj, scene))),
+        findings,
+        ":".join(mark._replace(settings=now)),
     )
     staleness.replace_mark(obj, ":".join(mark))
     reference.follow(obj, scene, reference.stored_choice(obj))
@@ -94,7 +100,7 @@ def _findings(obj: Object, scene: Scene) -> list[Finding]:
 
 
 def _on_density(settings: PropertyGroup, context: Context) -> None:
-    if isinstance(settings.id_data, Object) and context.scene is not None:
+    if isinstance(settings.id_data, Object) and context.scene is not None and not paused.depth:
         follow_density(settings.id_data, context.scene)
 
 

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 
 import bpy
 from bpy.app.handlers import persistent
-from bpy.types import Collection, Depsgraph, Object, Scene
+from bpy.types import ID, Collection, Depsgraph, Object, Scene
 
 from . import cache
 
@@ -80,24 +80,40 @@ def _call(subscribers: Sequence[Callable[..., None]], *args: Updates) -> None:
             calls.callback(subscriber, *args)
 
 
+# Evaluated data-blocks → session uids of their originals, 0 of those that are neither objects nor collections, between
+# two frames of an animation, while no other update comes: looking them up takes most of the time of thousands.
+_uids: dict[ID, int] = {}
+_evaluated_collections: set[ID] = set()
+
+
 def _updates(scene: Scene, depsgraph: Depsgraph, frame_changed: bool) -> Updates:
-    reshaped: list[int] = []
-    moved: list[int] = []
-    others: list[int] = []
-    collections: list[int] = []
-    # An evaluated data-block has no session uid.
-    for update in depsgraph.updates:  # for some thousand objects a frame: no call, no look-up that is not needed
+    if not frame_changed:
+        _forget_evaluated()
+    updates = Updates(scene, depsgraph, [], [], [], [], frame_changed)
+    for update in depsgraph.updates:  # no call and no attribute that is not needed
         data = update.id
-        if isinstance(data, Object):
-            if update.is_updated_geometry:
-                reshaped.append(data.original.session_uid)
-            elif update.is_updated_transform:
-                moved.append(data.original.session_uid)
-            else:
-                others.append(data.original.session_uid)
-        elif isinstance(data, Collection) and update.is_updated_geometry:
-            collections.append(data.original.session_uid)
-    return Updates(scene, depsgraph, reshaped, moved, others, collections, frame_changed)
+        if data in _uids:
+            uid = _uids[data]
+        else:
+            uid = _uids[data] = data.original.session_uid if isinstance(data, Object | Collection) else 0
+            if isinstance(data, Collection):
+                _evaluated_collections.add(data)
+        if not uid:
+            continue
+        if update.is_updated_geometry:
+            (updates.collections if data in _evaluated_collections else updates.reshaped).append(uid)
+        elif update.is_updated_transform:
+            updates.moved.append(uid)
+        else:
+            updates.others.append(uid)
+    if updates.collections:  # there may be other objects
+        _forget_evaluated()
+    return updates
+
+
+def _forget_evaluated() -> None:
+    _uids.clear()
+    _evaluated_collections.clear()
 
 
 @persistent
@@ -118,6 +134,7 @@ def _note_update(scene: Scene, depsgraph: Depsgraph | None, frame_changed: bool)
 
 @persistent
 def _before_undo(*_args) -> None:
+    _forget_evaluated()
     _call(before_undo)
 
 
@@ -130,6 +147,7 @@ def _on_undo(*_args) -> None:
 @persistent
 def _on_load(*_args) -> None:
     count_change()
+    _forget_evaluated()
     cache.clear_all()
     _call(on_load)
 
@@ -163,4 +181,5 @@ def unregister() -> None:
         functions = getattr(bpy.app.handlers, name)
         if function in functions:  # scripts and other add-ons may empty these lists
             functions.remove(function)
+    _forget_evaluated()
     cache.clear_all()

@@ -1,39 +1,62 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Numbers of NURBS objects that follow an edit while Live is on: shown, never stored.
+"""Numbers of objects that follow their edits while Live is on: shown, never stored.
 
-What Blender has evaluated anew is noted, in memory, of objects with Live on, and a timer measures them once
-Blender is idle: nothing is written to any data, and nothing is measured while Blender evaluates, renders or draws. What
-takes long is measured less often. A body is tracked (core/nurbs/tracked_solid.py) as long as its patches and what was
-decided about them stay; Measure stores the numbers, with the bounds of their errors. Which objects have Live on is kept
-in memory too: a property of the object would make Blender report an edit of its geometry when it is switched.
+Nothing is written to any data. An object that moves is not measured again: its numbers are mapped to where it is. One
+that deforms while it is played or posed gets volume and center at once, in a light pass over its faces (outline.py),
+as far as the budget of a redraw lasts. Full numbers come from a timer, never from a handler: at once where they take
+no longer than the budget, else when neither updates nor frames come any more. Until then the numbers lag, and say so.
+B-spline patches are tracked (core/nurbs/tracked_solid.py).
+
+Which objects have Live on is kept in memory too: a property of the object would make Blender report an edit of its
+geometry when it is switched.
 """
 
 from __future__ import annotations
 
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from enum import StrEnum
 
 import bpy
 import numpy as np
 from bpy.types import Depsgraph, Object, Scene
+from numpy.typing import NDArray
 
-from ...core.measurement import Measurement
+from ...core.inertia.affine_image import affine_image
+from ...core.measurement import DENSITY_FROM_MASS, Measurement
+from ...core.numerics.float32 import shortest_decimal
+from ...core.numerics.rotations import rotation_matrix
 from ...core.nurbs.tracked_solid import TrackedSolid
 from ...core.verdict import internal_error
 from ...core.verdict.finding import Finding, MeasureError
 from ...core.verdict.method import Method, Source, Verdict
 from ..bodies.body import Body
-from ..bodies.measure_object import measure_object
+from ..bodies.measure_object import measure_body
 from ..bodies.measurement import measurement_of
 from ..bodies.request import Request
 from ..read import read_patches
-from ..read.fingerprint import settings_hash
+from ..read.fingerprint import has_transform, settings_hash, transform_key
+from ..read.reading import float64_matrix
 from ..settings.options import MeasureOptions
-from . import handlers
+from ..settings.preferences import preferences
+from ..write.properties import StoredProperties
+from . import handlers, updates
+from .affected import shown_by
 from .cache import SessionCache
+from .outline import Outline
 
-MAX_WAIT = 2.0  # s between two measurements of a body that takes long
+BUDGET = 0.01  # s a redraw, where there are no preferences
+IDLE = 0.25  # s without an update, after which what takes longer than the budget is measured
+POLL = 0.1  # s between two looks whether that is so
+
+
+class Lag(StrEnum):
+    """How far live numbers are behind what is shown."""
+
+    NONE = ""
+    FIRST_ORDER = "first order"  # volume, mass and center are current, inertia is that of the last measurement
+    BEHIND = "behind"
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,15 +72,28 @@ class LiveResult:
 
 @dataclass(eq=False)
 class _Followed:
-    """An object with Live on. tracked: its body, where that is followed rather than measured each time. is_pending:
-    whether it was evaluated anew since it was measured."""
+    """An object with Live on.
+
+    matrix, transform: where it was when it was measured, and the key of what its numbers depend on of that. number: the
+    last update then. tracked: its body, where that is followed rather than measured each time. outline: its faces,
+    where a light pass can follow them; outlined: volume and center in its own coordinates after the last such pass.
+    is_pending: whether it was evaluated anew since it was measured.
+    """
 
     result: LiveResult | None = None
+    matrix: NDArray[np.float64] | None = None
+    transform: str = ""
+    number: int = 0
     tracked: TrackedSolid | None = None
+    outline: Outline | None = None
+    outlined: tuple[float, NDArray[np.float64]] | None = None
+    pass_seconds: float = 0.0
+    shows_others: bool = False
     is_pending: bool = False
 
 
 _followed: SessionCache[_Followed] = SessionCache()
+_last_event = 0.0  # time of the last update
 
 
 def is_live(obj: Object) -> bool:
@@ -72,9 +108,17 @@ def is_pending(obj: Object) -> bool:
 
 
 def current_numbers(obj: Object) -> LiveResult | None:
-    """The numbers of an object with Live on, None before they were first measured."""
+    """The numbers of an object with Live on when it was last measured, None before that."""
     followed = _followed.get(obj)
     return None if followed is None else followed.result
+
+
+def lag(obj: Object) -> Lag:
+    """Return how far the live numbers of an object are behind what is shown."""
+    followed = _followed.get(obj)
+    if followed is None or not followed.is_pending:
+        return Lag.NONE
+    return Lag.BEHIND if followed.outlined is None else Lag.FIRST_ORDER
 
 
 def is_stale(obj: Object, scene: Scene) -> bool:
@@ -83,40 +127,105 @@ def is_stale(obj: Object, scene: Scene) -> bool:
     return now is not None and now.settings != settings_hash(obj, scene)
 
 
+def current_properties(obj: Object, scene: Scene) -> StoredProperties | None:
+    """Return what an object with Live on has now, in its own frame, mapped to where it is and what it has become.
+
+    Parameters
+    ----------
+    obj : bpy.types.Object
+        An original object.
+    scene : bpy.types.Scene
+        Whose unit scale counts.
+
+    Returns
+    -------
+    StoredProperties or None
+        None where Live is off, or it could not be measured.
+    """
+    followed = _followed.get(obj)
+    if followed is None or followed.result is None or followed.result.measurement is None:
+        return None
+    measured = followed.result.measurement
+    shown = StoredProperties(
+        measured.density, measured.volume, measured.area, measured.in_object_frame(), measured.error_bound
+    )
+    if followed.outlined is None and has_transform(obj, followed.transform):
+        return shown
+    return _mapped(obj, followed, shown, shortest_decimal(scene.unit_settings.scale_length))
+
+
+def _mapped(obj: Object, followed: _Followed, shown: StoredProperties, unit: float) -> StoredProperties:
+    """The same where the object is stretched, and with the volume and center that a light pass has found."""
+    measured, now = followed.result.measurement, float64_matrix(obj.matrix_world)
+    to_own = rotation_matrix(obj.matrix_world.to_quaternion()).T
+    try:
+        linear = now[:3, :3] @ np.linalg.inv(followed.matrix[:3, :3])
+    except np.linalg.LinAlgError:
+        return shown
+    stretch = abs(np.linalg.det(linear))
+    center = measured.mass_properties.center / unit
+    if followed.outlined is None:
+        volume = measured.volume * stretch
+        center = now[:3, :3] @ np.linalg.solve(followed.matrix[:3, :3], center - followed.matrix[:3, 3]) + now[:3, 3]
+    else:
+        volume, center = followed.outlined
+        volume = volume * abs(np.linalg.det(now[:3, :3])) * unit**3
+        center = now[:3, :3] @ center + now[:3, 3]
+    if measured.kind != "solid" or not volume > 0.0 or not np.isfinite(linear).all():
+        return shown
+    is_mass_given = measured.density_from == DENSITY_FROM_MASS
+    mass = measured.mass_properties.mass if is_mass_given else measured.mass_properties.mass / measured.volume * volume
+    axes = rotation_matrix(obj.matrix_world.to_quaternion()) @ shown.body.principal.axes
+    image = affine_image(measured.mass_properties, linear, center * unit, mass, axes)
+    location = now[:3, 3] * unit
+    return replace(
+        shown,
+        density=mass / volume,
+        volume=volume,
+        area=shown.area * stretch ** (2.0 / 3.0),
+        body=image.in_frame(to_own.T, location),
+    )
+
+
 def update(obj: Object, depsgraph: Depsgraph) -> LiveResult:
     """Measure an object with Live on as it is now, and keep the outcome to be shown."""
     followed, start = _followed.get(obj), time.perf_counter()
     measurement, refusal = None, None
     try:
-        measurement = _measure(obj, followed, depsgraph)
+        measurement, followed.outline = _measure(obj, followed, depsgraph)
     except MeasureError as error:
         refusal = error.finding
     except Exception as error:
         refusal = internal_error.finding_of(error)
         followed.tracked = None  # what is half followed is no start for the next edit
     followed.result = LiveResult(measurement, refusal, time.perf_counter() - start, settings_hash(obj, depsgraph.scene))
+    followed.matrix, followed.transform = float64_matrix(obj.matrix_world), transform_key(obj)
+    followed.outlined, followed.is_pending, followed.number = None, False, updates.count()
+    handlers.count_change()
     return followed.result
 
 
 def start(obj: Object, depsgraph: Depsgraph) -> LiveResult:
     """Let the object's numbers follow its edits; the first of them."""
-    _followed[obj] = _Followed()
+    _followed[obj] = _Followed(shows_others=next(shown_by(obj), None) is not None)
     return update(obj, depsgraph)
 
 
 def stop(obj: Object) -> None:
     """Let the object's numbers follow its edits no more."""
     _followed.forget(obj)
+    handlers.count_change()
 
 
-def _measure(obj: Object, followed: _Followed, depsgraph: Depsgraph) -> Measurement:
+def _measure(obj: Object, followed: _Followed, depsgraph: Depsgraph) -> tuple[Measurement, Outline | None]:
     plain = MeasureOptions(compare=False)
     request = Request.of(obj, depsgraph, plain)
     options, unit = request.options, request.unit
     can_track = options.kind == "solid" and options.overlap == "signed" and request.density is None
-    reading = read_patches(obj, depsgraph) if can_track else None
+    reading = read_patches(obj, depsgraph) if can_track and obj.type == "SURFACE" else None
     if reading is None or reading.all_singular:
-        return measure_object(obj, depsgraph, plain)
+        measured = measure_body(obj, depsgraph, plain)
+        return measured.measurement, Outline.of(measured)
     (part,) = reading.parts
     matrix = part.matrices[0].copy()
     matrix[:3] *= unit
@@ -137,17 +246,55 @@ def _measure(obj: Object, followed: _Followed, depsgraph: Depsgraph) -> Measurem
         (*part.splines.findings, *measure.findings),
         estimated=True,
     )
-    return measurement_of(reading, measured_body, request)
+    return measurement_of(reading, measured_body, request), None
 
 
-def _note_updates(updates: handlers.Updates) -> None:
-    for uid in (*updates.reshaped, *updates.moved) if len(_followed) else ():
-        if (followed := _followed.by_uid(uid)) is not None:
-            followed.is_pending = True
-    pending = [followed for followed in _followed if followed.is_pending]
-    if pending and not bpy.app.background and not bpy.app.timers.is_registered(_tick):
-        slowest = max(followed.result.seconds if followed.result else 0.0 for followed in pending)
-        bpy.app.timers.register(_tick, first_interval=min(2.0 * slowest, MAX_WAIT))
+# ---------------------------------------------------------------- When
+
+
+def _budget() -> float:
+    """Seconds a redraw."""
+    settings = preferences()
+    return BUDGET if settings is None else settings.live_budget / 1e3
+
+
+def _note_updates(events: handlers.Updates) -> None:
+    global _last_event
+    if not len(_followed):
+        return
+    _last_event = time.monotonic()
+    changed = [uid for uid in events.reshaped if _followed.by_uid(uid) is not None]
+    for uid in changed:
+        _followed.by_uid(uid).is_pending = True
+    moved = any(_followed.by_uid(uid) is not None for uid in events.moved)
+    if changed and not bpy.app.is_job_running("RENDER"):
+        _follow_at_once(events, set(changed))
+    others = events.collections or events.moved or events.reshaped
+    if changed or moved or others and any(followed.shows_others for followed in _followed):
+        _schedule(0.0)
+
+
+def _follow_at_once(events: handlers.Updates, changed: set[int]) -> None:
+    """As much as the budget of a redraw allows: what is looked at first, the objects whose numbers take least."""
+    budget = _budget()
+    objects = [obj for obj in events.depsgraph.view_layer.objects if obj.session_uid in changed]
+    for obj in sorted(objects, key=lambda obj: _followed.get(obj).pass_seconds):
+        followed, start = _followed.get(obj), time.perf_counter()
+        if followed.outline is not None and followed.pass_seconds <= budget:
+            followed.outlined = followed.outline.follow(obj, events.depsgraph)
+            followed.pass_seconds = time.perf_counter() - start
+        else:
+            followed.outlined = None
+        budget -= time.perf_counter() - start
+
+
+def _schedule(seconds: float) -> None:
+    if not bpy.app.background and not bpy.app.timers.is_registered(_tick):
+        bpy.app.timers.register(_tick, first_interval=seconds)
+
+
+def _is_playing() -> bool:
+    return any(window.screen.is_animation_playing for window in bpy.context.window_manager.windows)
 
 
 def _tick() -> float | None:
@@ -155,16 +302,31 @@ def _tick() -> float | None:
         return 0.5
     layer = bpy.context.view_layer
     depsgraph = bpy.context.evaluated_depsgraph_get()  # may evaluate, and so note more
-    due = [obj for obj in layer.objects if is_pending(obj)]
-    for followed in _followed:
-        followed.is_pending = False
-    for obj in due:
-        update(obj, depsgraph)
-    for window in bpy.context.window_manager.windows:
+    due = [obj for obj in layer.objects if obj in _followed and _is_due(obj, depsgraph.scene)]
+    budget, idle = _budget(), time.monotonic() - _last_event >= IDLE and not _is_playing()
+    waiting = False
+    for obj in sorted(due, key=lambda obj: _followed.get(obj).result.seconds):
+        seconds = _followed.get(obj).result.seconds
+        if seconds <= budget or idle:
+            update(obj, depsgraph)
+            budget -= seconds
+        else:
+            waiting = True
+    for window in bpy.context.window_manager.windows if due else ():
         for area in window.screen.areas:
             if area.type in {"VIEW_3D", "PROPERTIES"}:
                 area.tag_redraw()
-    return None
+    return POLL if waiting else None
+
+
+def _is_due(obj: Object, scene: Scene) -> bool:
+    """Whether an object has to be measured again: more than its place has changed."""
+    followed = _followed.get(obj)
+    if not followed.is_pending:
+        followed.is_pending = updates.last_edit(obj).number > followed.number or not has_transform(
+            obj, followed.transform
+        )
+    return followed.is_pending
 
 
 def register() -> None:

@@ -10,16 +10,18 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import chain, groupby
 
 import bpy
+import numpy as np
 from bpy.types import Context, Object, Scene
 from mathutils import Matrix
 
 from ...core.inertia.mass_properties import MassProperties, combine
 from ...core.numerics.float32 import shortest_decimal
+from ...core.numerics.rotations import rotation_matrix
 from ...core.verdict.finding import Finding, MeasureError
 from ...core.verdict.method import Method, Verdict
 from ..bodies.measure_object import Measured
@@ -28,14 +30,15 @@ from ..bodies.wall import WallBody
 from ..read.fingerprint import settings_hash
 from ..read.total_caveats import open_body_caveats, total_caveats
 from ..write import properties
-from . import faults, handlers, live, reference, staleness, walls
+from . import faults, handlers, live, posed, reference, staleness, trust, walls
 from .cache import SessionCache
 
 
 @dataclass(frozen=True, eq=False)
 class Total:
     """Selected objects as one body, SI, world axes. count: objects with results; body: None where they have no mass;
-    missing, stale: names of others; findings: on what may be no part of it."""
+    missing: names of those without; stale, doubtful: of those whose results are out of date or not to be trusted;
+    findings: on what may be no part of it."""
 
     count: int
     volume: float
@@ -43,6 +46,7 @@ class Total:
     body: MassProperties | None
     missing: tuple[str, ...]
     stale: tuple[str, ...]
+    doubtful: tuple[str, ...]
     findings: tuple[Finding, ...]
 
 
@@ -135,17 +139,29 @@ def in_world(obj: Object, scene: Scene) -> properties.StoredProperties | None:
 
 
 def _of_object(obj: Object, scene: Scene, in_own_frame: bool) -> properties.StoredProperties | None:
-    now = live.current_numbers(obj)
-    if now is not None and now.measurement is not None:
-        measurement = now.measurement
-        body = measurement.in_object_frame() if in_own_frame else measurement.mass_properties
-        return properties.StoredProperties(
-            measurement.density, measurement.volume, measurement.area, body, measurement.error_bound
-        )
+    if posed.stands_for_meshes(obj) and (posed_body := _of_meshes(obj, scene)) is not None:
+        location, turn, _ = obj.matrix_world.decompose()
+        own = rotation_matrix(turn), np.array(location, np.float64) * _unit(scene)
+        return replace(posed_body, body=posed_body.body.in_frame(*own)) if in_own_frame else posed_body
+    shown = live.current_properties(obj, scene)
+    if shown is not None:
+        return shown if in_own_frame else shown.in_world(obj.matrix_world, _unit(scene))
     numbers = properties.numbers(obj)
     if numbers is None:
         return None
     return _in_frame(numbers, None if in_own_frame else _world_matrix(obj), _unit(scene))
+
+
+def _of_meshes(armature: Object, scene: Scene) -> properties.StoredProperties | None:
+    """The sum of those meshes of an armature that have numbers, in the world."""
+    parts = [part for mesh in posed.deformed_meshes(armature) if (part := _of_object(mesh, scene, False)) is not None]
+    if not parts:
+        return None
+    body = combine([(part.body.as_moments(), 1.0) for part in parts])
+    volume = sum([part.volume for part in parts])
+    return properties.StoredProperties(
+        body.mass / volume if volume else 0.0, volume, sum([part.area for part in parts]), body, parts[0].error_bound
+    )
 
 
 def total(context: Context) -> Total:
@@ -159,19 +175,23 @@ def total(context: Context) -> Total:
 
 def _sum(context: Context) -> Total:
     scene = context.scene
-    stored, counted, missing, stale = [], [], [], []
-    selected = set(context.view_layer.objects.selected)
-    for obj in context.view_layer.objects.selected:
+    stored, counted, missing, stale, doubtful = [], [], [], [], []
+    chosen = posed.subjects(context.view_layer.objects.selected)
+    selected = set(chosen)
+    for obj in chosen:
         if properties.method(obj) == ASSEMBLY and not selected.isdisjoint(obj.children_recursive):
             continue  # what it holds counts by itself
-        numbers = properties.numbers(obj)
-        if numbers is None:
+        body_now = in_world(obj, scene)
+        if body_now is None:
             missing.append(obj.name)
             continue
-        stored.append(_in_frame(numbers, _world_matrix(obj), _unit(scene)))
+        stored.append(body_now)
         counted.append(obj)
-        if staleness.stale_reason(obj, scene):
+        verdict = trust.trust(obj, scene)
+        if verdict == trust.Trust.OUT_OF_DATE:
             stale.append(obj.name)
+        elif verdict == trust.Trust.DOUBTFUL:
+            doubtful.append(obj.name)
     caveats = open_body_caveats((obj.name, properties.method(obj)) for obj in counted)
     body = None
     if stored:
@@ -184,6 +204,7 @@ def _sum(context: Context) -> Total:
         body,
         tuple(missing),
         tuple(stale),
+        tuple(doubtful),
         (*caveats, *total_caveats(counted, context.view_layer)),
     )
 

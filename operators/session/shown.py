@@ -2,13 +2,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What is drawn of measured objects: where their mass is now, and how far that is to be trusted.
 
-A viewport is drawn at every movement of the mouse, so the answer is kept until Blender reports a change.
+A viewport is drawn at every movement of the mouse, so the answer is kept until Blender reports a change, and mapped to
+where the object is until it reports one of the object itself.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from enum import StrEnum
 
 import bpy
 import numpy as np
@@ -16,27 +16,13 @@ from bpy.types import Object, Scene
 from numpy.typing import NDArray
 
 from ...core.numerics.float32 import shortest_decimal
-from ...core.verdict.finding import Severity
-from ...core.verdict.method import Method, Verdict
-from ..write import properties
-from ..write.messages import severity
-from . import handlers, live, results, staleness
+from ...core.numerics.rotations import rotation_matrix
+from ..settings.preferences import default_density
+from . import handlers, live, posed, results, staleness, updates
 from .cache import SessionCache
+from .trust import Trust, trust
 
-REPAIRED = (Verdict.CAPPED, Verdict.REORIENTED)
-# Warnings that say how the surface was closed: those of a repaired body.
-REPAIRS = frozenset(
-    {"vertices_welded", "duplicate_faces_ignored", "flipped_faces", "inverted_components", "holes_capped"}
-)
-
-
-class Trust(StrEnum):
-    """How far shown numbers are to be trusted."""
-
-    EXACT = "exact"
-    REPAIRED = "repaired"
-    DOUBTFUL = "doubtful"
-    OUT_OF_DATE = "out of date"
+BY_OTHERS = ("MATERIALS", "VOLUME")  # densities that change without an update of the object
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,7 +49,20 @@ class ShownBody:
     verdict: Trust
 
 
+@dataclass(frozen=True, eq=False)
+class _Own:
+    """What is stored on an object, in its own frame, lengths in Blender units, and what that was found for."""
+
+    key: tuple
+    center: NDArray[np.float64]
+    axes: NDArray[np.float64]
+    gyration: NDArray[np.float64]
+    mass: float
+    verdict: Trust
+
+
 _shown: SessionCache[tuple[tuple, ShownBody | None]] = SessionCache()  # and after which change of which scene
+_own: SessionCache[_Own] = SessionCache()
 
 
 def shown_body(obj: Object, scene: Scene | None = None) -> ShownBody | None:
@@ -90,42 +89,37 @@ def shown_body(obj: Object, scene: Scene | None = None) -> ShownBody | None:
 
 
 def _shown_now(obj: Object, scene: Scene) -> ShownBody | None:
+    if live.is_live(obj) or posed.stands_for_meshes(obj) or obj.body_moments.density_from in BY_OTHERS:
+        return _computed(obj, scene)
+    if "body_mass" not in obj:
+        return None
+    key = (
+        updates.last_change_but_moves(obj),
+        obj.get("body_fingerprint"),
+        scene.session_uid,
+        scene.unit_settings.scale_length,
+        default_density(scene),
+    )
+    own = _own.get(obj)
+    if own is None or own.key != key or not staleness.has_transform_of_results(obj):
+        return _computed(obj, scene, key)
+    location, turn, _ = obj.matrix_world.decompose()
+    rotation = rotation_matrix(turn)
+    return ShownBody(rotation @ own.center + location, rotation @ own.axes, own.gyration, own.mass, own.verdict)
+
+
+def _computed(obj: Object, scene: Scene, key: tuple | None = None) -> ShownBody | None:
+    """What is shown, by the long way, remembered for `key` where that is given."""
     stored = results.in_world(obj, scene)
-    if stored is None:
+    if stored is None or not stored.body.mass > 0.0:
         return None
     body, unit = stored.body, shortest_decimal(scene.unit_settings.scale_length)
-    return ShownBody(
+    shown = ShownBody(
         body.center / unit, body.principal.axes, body.radii_of_gyration / unit, body.mass, trust(obj, scene)
     )
-
-
-def trust(obj: Object, scene: Scene) -> Trust:
-    """Return how far the object's numbers, live or stored, are to be trusted.
-
-    Parameters
-    ----------
-    obj : bpy.types.Object
-        An original object with numbers.
-    scene : bpy.types.Scene
-        Whose unit scale counts.
-
-    Returns
-    -------
-    Trust
-    """
-    now = live.current_numbers(obj)
-    if now is not None and now.measurement is not None:
-        if live.is_pending(obj) or live.is_stale(obj, scene):
-            return Trust.OUT_OF_DATE
-        method, findings = now.measurement.method, now.measurement.findings
-    elif staleness.stale_reason(obj, scene):
-        return Trust.OUT_OF_DATE
-    else:
-        method, findings = properties.method(obj), properties.findings(obj)
-    return _trust_of(method, [found.code for found in findings if severity(found) != Severity.NOTE])
-
-
-def _trust_of(method: Method | None, warnings: list[str]) -> Trust:
-    if method is None or method.verdict == Verdict.OPEN or not REPAIRS.issuperset(warnings):
-        return Trust.DOUBTFUL
-    return Trust.REPAIRED if warnings or method.verdict in REPAIRED else Trust.EXACT
+    if key is not None and staleness.has_transform_of_results(obj):
+        location, turn, _ = obj.matrix_world.decompose()
+        to_own = rotation_matrix(turn).T
+        center = to_own @ (shown.center - location)
+        _own[obj] = _Own(key, center, to_own @ shown.axes, shown.gyration, shown.mass, shown.verdict)
+    return shown

@@ -183,6 +183,12 @@ def stale_reason(obj: Object, scene: Scene) -> str | None:
     return None if has_transform(obj, mark.transform) else "stale_transform"
 
 
+def has_transform_of_results(obj: Object) -> bool:
+    """Return whether an object is scaled as it was when its results were stored, and stands where they hold."""
+    mark = marks.parse(marks.of_results(obj))
+    return mark is not None and has_transform(obj, mark.transform)
+
+
 def section_stale_reason(obj: Object) -> str | None:
     """Compare the stored section with the object.
 

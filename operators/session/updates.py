@@ -108,6 +108,21 @@ def last_change_of_geometry(obj: Object) -> int:
     return max(last_edit(obj).number, last_return(obj).number)
 
 
+def last_change_but_moves(obj: Object) -> int:
+    """Return the number of the last update of anything of an object, or of what it shows, but its own transform.
+
+    Parameters
+    ----------
+    obj : bpy.types.Object
+        An original object.
+
+    Returns
+    -------
+    int
+    """
+    return max(last_change_of_geometry(obj), _touches.get(obj.session_uid, NEVER).number)
+
+
 def last_change(obj: Object) -> int:
     """Return the number of the last update of anything of an object, or of what it shows.
 
@@ -120,8 +135,7 @@ def last_change(obj: Object) -> int:
     -------
     int
     """
-    uid = obj.session_uid
-    return max(last_change_of_geometry(obj), _moves.get(uid, NEVER).number, _touches.get(uid, NEVER).number)
+    return max(last_change_but_moves(obj), _moves.get(obj.session_uid, NEVER).number)
 
 
 def depsgraph_of(stamp: Stamp) -> Depsgraph | None:

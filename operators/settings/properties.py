@@ -51,7 +51,7 @@ def _density_in(unit: str, description: str):
     factor, name = DENSITY_UNITS[unit]
     return FloatProperty(
         name="Density ({:s})".format(name),
-        description="{:s}, in {:s}".format(description, name),
+        description=description.format(name),
         get=lambda settings: _shown_density(settings) / factor,
         set=lambda settings, value: setattr(settings, "density", value * factor),
         min=0.0,
@@ -159,10 +159,10 @@ class BodyMomentsObjectSettings(GivenPartProperties, PropertyGroup):
         precision=3,
         update=_density_changed,
     )
-    density_kg_m3: _density_in("KG_M3", "Density")
-    density_g_cm3: _density_in("G_CM3", "Density")
-    density_lb_in3: _density_in("LB_IN3", "Density")
-    density_lb_ft3: _density_in("LB_FT3", "Density")
+    density_kg_m3: _density_in("KG_M3", "Density in {:s}")
+    density_g_cm3: _density_in("G_CM3", "Density in {:s}")
+    density_lb_in3: _density_in("LB_IN3", "Density in {:s}")
+    density_lb_ft3: _density_in("LB_FT3", "Density in {:s}")
     linear_density: FloatProperty(
         name="Linear Density",
         description="Mass per length of the wire in kg/m, independent of the scene units",
@@ -305,10 +305,10 @@ class BodyMomentsMaterialSettings(PropertyGroup):
         precision=3,
         update=_forget_material,
     )
-    density_kg_m3: _density_in("KG_M3", "Density, 0 for that of the object,")
-    density_g_cm3: _density_in("G_CM3", "Density, 0 for that of the object,")
-    density_lb_in3: _density_in("LB_IN3", "Density, 0 for that of the object,")
-    density_lb_ft3: _density_in("LB_FT3", "Density, 0 for that of the object,")
+    density_kg_m3: _density_in("KG_M3", "Density in {:s}. At 0, the density of the object is used")
+    density_g_cm3: _density_in("G_CM3", "Density in {:s}. At 0, the density of the object is used")
+    density_lb_in3: _density_in("LB_IN3", "Density in {:s}. At 0, the density of the object is used")
+    density_lb_ft3: _density_in("LB_FT3", "Density in {:s}. At 0, the density of the object is used")
     material: StringProperty(
         name="Material",
         description="Entry of the material table that the density was taken from",

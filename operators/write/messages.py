@@ -1559,7 +1559,6 @@ MESSAGES: dict[str, Message] = {
     "poll_active_surface": _note("Make an object with a surface active"),
     "poll_active_selected": _note("Make an object active and select it"),
     "poll_active_mesh": _note("Make a mesh object active"),
-    "poll_nurbs_only": _note("Live numbers are available for NURBS surfaces only"),
     "poll_match_selection": _note("Select the objects to move, then the object to match"),
     "poll_edit_vertices": _note("Switch to Edit Mode and select the vertices that may move"),
     "poll_vertices_or_group": _note("Select the vertices that may move in Edit Mode, or add a vertex group"),
@@ -1572,6 +1571,13 @@ MESSAGES: dict[str, Message] = {
     "panel_density_mean": _note("Mean density, from {cause}"),
     "panel_no_material_slots": _note("No material slots"),
     "panel_unit_question": _note("{length} long and {mass}: is a unit of this scene a millimeter?"),
+    "panel_live_first_order": _note(
+        "Live: mass, volume and center of this frame; inertia follows when it stops ({milliseconds:.0f} ms)"
+    ),
+    "panel_live_behind": _warning("Live lags: measuring takes {milliseconds:.0f} ms, and waits until the edit stops"),
+    "panel_posed": _note("Sum of {count} mesh of the armature", "Sum of {count} meshes of the armature"),
+    "panel_posed_missing": _warning("Not measured: {objects}"),
+    "panel_posed_stale": _warning("Out of date: {objects}"),
     "panel_live": _note("Live ({milliseconds:.0f} ms). Press Measure to store"),
     "panel_orders_copied": _note("Orders {first} to {last} are only in the copy."),
     "panel_symmetry_tolerance": _note("The surface matches its images within {share:.2g} of the radius of gyration"),

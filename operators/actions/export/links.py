@@ -13,7 +13,7 @@ from ....core.measurement import Measurement
 from ....core.robots.model import Robot
 from ....core.verdict.finding import EditRefusedError, Finding, MeasureError, finding
 from ...bodies.assembly import measure_assembly
-from ...bodies.measure_object import measure_object
+from ...bodies.many import measured_in_turn
 from ...read import measurable
 from ...read.links import link_entry
 from ...write import record, reports
@@ -70,8 +70,10 @@ def measure_scene(context: Context, objects: list[Object]) -> MeasuredScene:
     depsgraph = context.evaluated_depsgraph_get()
     scene = MeasuredScene()
 
+    measured = measured_in_turn(objects, depsgraph)
+
     def measure(obj: Object) -> bool:
-        scene.measured[obj] = measure_object(obj, depsgraph)
+        scene.measured[obj] = measured(obj).measurement
         return True
 
     _, scene.failures = selection.apply_to_all(objects, measure)

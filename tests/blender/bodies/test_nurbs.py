@@ -448,7 +448,8 @@ def test_live_numbers_follow_hooks_keys_transforms_and_frames():
     bpy.ops.object.body_moments_live()
 
 
-def test_live_numbers_follow_what_was_renamed_and_the_linked_one_of_two_with_one_name(tmp_path):
+def test_live_numbers_follow_what_was_renamed_and_the_linked_one_of_two_with_one_name(tmp_path, monkeypatch):
+    monkeypatch.setattr(live, "IDLE", 0.0)
     path, own = str(tmp_path / "library.blend"), primitive("sphere")
     bpy.data.libraries.write(path, {own})
     with bpy.data.libraries.load(path, link=True) as (_, found):

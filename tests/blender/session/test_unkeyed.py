@@ -151,7 +151,8 @@ def test_drivers_follow_what_was_stored_and_cleared_and_no_geometry_is_evaluated
     assert obj.scale.x == 2.0
 
 
-def test_live_keeps_what_is_not_keyed_yet_and_comes_to_rest():
+def test_live_keeps_what_is_not_keyed_yet_and_comes_to_rest(monkeypatch):
+    monkeypatch.setattr(live, "IDLE", 0.0)
     bpy.ops.surface.primitive_nurbs_surface_sphere_add()
     obj = bpy.context.object
     obj.keyframe_insert("scale", frame=1)

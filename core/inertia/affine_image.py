@@ -1,0 +1,64 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What an affine map makes of a body's mass properties, from these alone."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from .mass_properties import MassProperties
+from .principal_frame import PrincipalFrame
+
+
+def affine_image(
+    properties: MassProperties, linear: ArrayLike, center: ArrayLike, mass: float, preferred_axes: ArrayLike
+) -> MassProperties:
+    """Return the mass properties of a body that is stretched, sheared and turned.
+
+    Parameters
+    ----------
+    properties : MassProperties
+    linear : (3, 3) array_like
+        The linear part of the map.
+    center : (3,) array_like
+        Where the center of mass comes to lie.
+    mass : float
+        The mass of the image.
+    preferred_axes : (3, 3) array_like
+        As columns, what the principal axes are near to: each points the way of one of these.
+
+    Returns
+    -------
+    MassProperties
+        With the bounds of `properties`, of which nothing is known here. The frame is no choice of the canonical rule:
+        second moments alone leave the signs open.
+
+    Examples
+    --------
+    >>> from body_moments.core import MassProperties, Surface, polyhedron_moments
+    >>> from body_moments.core.inertia.affine_image import affine_image
+    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    >>> body = MassProperties.from_moments(polyhedron_moments(surface)[0], density=6.0)
+    >>> image = affine_image(body, np.diag([2.0, 1.0, 1.0]), (0.5, 0.25, 0.25), 2.0, np.eye(3))
+    >>> image.inertia.diagonal().round(6).tolist()
+    [0.15, 0.375, 0.375]
+    """
+    linear, preferred = np.asarray(linear, np.float64), np.asarray(preferred_axes, np.float64)
+    second = np.trace(properties.inertia) / 2.0 * np.eye(3) - properties.inertia
+    second = linear @ second @ linear.T * (mass / properties.mass)
+    spread, axes = np.linalg.eigh(second)
+    spread, axes = np.maximum(spread[::-1], 0.0), axes[:, ::-1]
+    axes = axes * np.where((axes * preferred).sum(axis=0) < 0.0, -1.0, 1.0)
+    if np.linalg.det(axes) < 0.0:
+        axes[:, np.abs((axes * preferred).sum(axis=0)).argmin()] *= -1.0
+    moments = np.array([spread[1] + spread[2], spread[2] + spread[0], spread[0] + spread[1]])
+    return replace(
+        properties,
+        mass=float(mass),
+        center=np.asarray(center, np.float64),
+        inertia=np.trace(second) * np.eye(3) - second,
+        principal=PrincipalFrame(moments, axes, symmetry="", is_unique=False, finding=None),
+    )

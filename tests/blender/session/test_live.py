@@ -1,0 +1,277 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Live numbers are those of what is shown: after a move without measuring, while it deforms, and in full afterwards."""
+
+from math import isclose
+
+import numpy as np
+import pytest
+
+pytest.importorskip("bpy")
+import bpy
+from body_moments.operators.session import live, posed, results, updates
+from body_moments.operators.session.shown import shown_body
+from body_moments.operators.session.trust import Trust
+from mathutils import Euler, Matrix
+
+from tests.blender.objects import add, measured, mesh_body, only
+from tests.close import close
+
+pytestmark = pytest.mark.usefixtures("scene")
+
+
+def update():
+    bpy.context.view_layer.update()
+
+
+def start(*objects):
+    only(*objects)
+    assert bpy.ops.object.body_moments_live() == {"FINISHED"}
+    assert all(live.is_live(obj) for obj in objects)
+
+
+def tick(monkeypatch, idle=True):
+    """Let the timer come, after a while without updates."""
+    with monkeypatch.context() as patch:
+        patch.setattr(live, "IDLE", 0.0 if idle else 1e9)
+        return live._tick()
+
+
+def forbid_measuring(monkeypatch):
+    monkeypatch.setattr(live, "measure_body", lambda *_args: pytest.fail("It was measured."))
+
+
+def assert_current(obj, inertia=True, rel=1e-6):
+    """What is shown is what measuring would give."""
+    truth = measured(obj)
+    shown = results.in_world(obj, bpy.context.scene)
+    body = truth.mass_properties
+    assert close([shown.volume, shown.body.mass], [truth.volume, body.mass], rel)
+    reach = np.linalg.norm(body.center) + np.linalg.norm(body.radii_of_gyration)
+    assert np.linalg.norm(shown.body.center - body.center) <= rel * reach
+    if inertia:
+        assert np.abs(shown.body.inertia - body.inertia).max() <= 10.0 * rel * body.principal.moments.max()
+        assert close(shown.body.principal.moments, body.principal.moments, 10.0 * rel)
+
+
+def with_key(name="Body"):
+    obj = add(mesh_body(), name, location=(3, -1, 2), rotation=(0.3, 0.2, 1.0), scale=(1, 2, -0.5))
+    obj.shape_key_add(name="Basis")
+    key = obj.shape_key_add(name="Key")
+    for i in range(3):
+        key.data[i].co.x -= 1.0 + i
+    for frame, value in ((1, 0.0), (11, 1.0)):
+        key.value = value
+        key.keyframe_insert("value", frame=frame)
+    bpy.context.scene.frame_set(1)
+    return obj
+
+
+@pytest.mark.parametrize("given_mass", [False, True])
+@pytest.mark.parametrize("unit", [1.0, 0.001])
+def test_an_object_that_moves_is_not_measured(unit, given_mass, monkeypatch):
+    bpy.context.scene.unit_settings.scale_length = unit
+    obj = add(mesh_body(), location=(3, -2, 5), rotation=(0.3, -0.7, 2.1), scale=(1, 2, -0.7))
+    if given_mass:
+        obj.body_moments.mass_from, obj.body_moments.mass = "MASS", 3.5
+    start(obj)
+    assert_current(obj)
+    with monkeypatch.context() as patch:
+        forbid_measuring(patch)
+        for matrix in (Matrix.Translation((5, 6, -70)), Euler((1, 2, 3)).to_matrix().to_4x4()):
+            obj.matrix_world = matrix @ obj.matrix_world
+            update()
+            assert_current(obj)
+            assert shown_body(obj).verdict == Trust.EXACT and live.lag(obj) == live.Lag.NONE
+            assert tick(patch) is None
+        obj.scale = (0.5, -3.0, 2.0)
+        update()
+        assert_current(obj)
+    assert tick(monkeypatch) is None
+    assert_current(obj)
+    assert close(live.current_numbers(obj).measurement.area, measured(obj).area, 1e-12)
+
+
+def test_what_deforms_has_volume_and_center_at_every_frame_and_all_when_it_stops(monkeypatch):
+    obj = with_key()
+    start(obj)
+    before = list(obj.keys())
+    with monkeypatch.context() as patch:
+        forbid_measuring(patch)
+        for frame in (3, 7, 11):
+            bpy.context.scene.frame_set(frame)
+            assert live.lag(obj) == live.Lag.FIRST_ORDER
+            assert_current(obj, inertia=False)
+            obj.location.x += 1.0
+            update()
+            assert_current(obj, inertia=False)
+        monkeypatch.setattr(live, "_is_playing", lambda: True)
+        live._followed.get(obj).result = live.LiveResult(
+            live.current_numbers(obj).measurement, None, 1.0, live.current_numbers(obj).settings
+        )
+        assert tick(patch) == live.POLL  # it waits for the end
+    monkeypatch.setattr(live, "_is_playing", lambda: False)
+    assert tick(monkeypatch) is None and live.lag(obj) == live.Lag.NONE
+    assert_current(obj)
+    assert list(obj.keys()) == before
+
+
+def test_what_takes_longer_than_the_budget_lags_and_says_so(monkeypatch):
+    objects = [with_key("A"), with_key("B")]
+    start(*objects)
+    live._followed.get(objects[0]).pass_seconds = 10.0
+    bpy.context.scene.frame_set(5)
+    assert [live.lag(obj) for obj in objects] == [live.Lag.BEHIND, live.Lag.FIRST_ORDER]
+    assert [shown_body(obj).verdict for obj in objects] == [Trust.OUT_OF_DATE, Trust.EXACT]
+    for obj in objects:
+        live._followed.get(obj).result = live.LiveResult(
+            live.current_numbers(obj).measurement, None, 5.0, live.current_numbers(obj).settings
+        )
+    assert tick(monkeypatch, idle=False) == live.POLL and live.is_pending(objects[0])
+    assert tick(monkeypatch) is None
+    for obj in objects:
+        assert_current(obj)
+
+
+def other_faces(obj):
+    obj.modifiers.new("Solidify", "SOLIDIFY").thickness = 0.01
+
+
+def in_edit_mode(obj):
+    only(obj)
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="SELECT")
+    bpy.ops.transform.resize(value=(2, 1, 1))
+
+
+def sculpted(obj):
+    only(obj)
+    bpy.ops.object.mode_set(mode="SCULPT")
+    obj.data.vertices[0].co.x -= 1.0
+    obj.data.update()
+
+
+def flipped(obj):
+    obj.data.polygons[0].flip()
+    obj.data.update()
+
+
+@pytest.mark.parametrize("change", [other_faces, in_edit_mode, sculpted, flipped])
+def test_an_edit_measures_that_object_alone(change, monkeypatch):
+    obj, other = add(mesh_body()), add(mesh_body(), "Other", (9, 0, 0))
+    start(obj, other)
+    kept = live.current_numbers(other)
+    change(obj)
+    update()
+    assert live.is_pending(obj) and not live.is_pending(other)
+    assert tick(monkeypatch) is None
+    assert_current(obj)
+    assert live.current_numbers(other) is kept
+    if bpy.context.mode != "OBJECT":
+        bpy.ops.object.mode_set(mode="OBJECT")
+
+
+def shell(obj):
+    obj.body_moments.kind, obj.body_moments.thickness = "SHELL", 0.01
+
+
+def capped(obj):
+    obj.data.polygons[0].flip()
+
+
+def varying(obj):
+    obj.body_moments.density_from, obj.body_moments.density_frame = "POLYNOMIAL", "WORLD"
+    obj.body_moments.density_polynomial = "1000 + 20*x"
+
+
+@pytest.mark.parametrize("kind", [shell, capped, varying])
+def test_every_kind_is_current_after_a_move_a_stretch_and_an_edit(kind, monkeypatch):
+    obj = add(mesh_body(), location=(1, 2, 3))
+    kind(obj)
+    start(obj)
+    for change in (
+        lambda: setattr(obj, "location", (5, 6, 7)),
+        lambda: setattr(obj, "scale", (1, 2, 3)),
+        lambda: setattr(obj.data.vertices[0].co, "x", -1.0),
+    ):
+        change()
+        obj.data.update()
+        update()
+        assert tick(monkeypatch) is None
+        assert_current(obj)
+
+
+def test_an_instancer_follows_what_it_shows(monkeypatch):
+    member = add(mesh_body(), "Member")
+    collection = bpy.data.collections.new("Shown")
+    bpy.context.scene.collection.children.link(collection)
+    collection.objects.link(member)
+    empty = add(None, "Empty", (0, 20, 0))
+    empty.instance_type, empty.instance_collection = "COLLECTION", collection
+    update()
+    start(empty)
+    member.data.vertices[0].co.x -= 1.0
+    member.data.update()
+    update()
+    assert tick(monkeypatch) is None
+    assert_current(empty)
+
+
+def armature_with(*meshes):
+    data = bpy.data.armatures.new("Armature")
+    armature = add(data, "Armature")
+    only(armature)
+    bpy.ops.object.mode_set(mode="EDIT")
+    bone = data.edit_bones.new("Bone")
+    bone.head, bone.tail = (0, 0, 0), (0, 0, 1)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    for mesh in meshes:
+        mesh.parent = armature
+        mesh.modifiers.new("Armature", "ARMATURE").object = armature
+        mesh.vertex_groups.new(name="Bone").add(list(range(6, 12)), 1.0, "REPLACE")
+    update()
+    return armature
+
+
+def test_in_pose_mode_the_armature_stands_for_its_meshes(monkeypatch):
+    meshes = [add(mesh_body(), "A"), add(mesh_body(), "B", (4, 0, 0))]
+    armature, other = armature_with(*meshes), add(mesh_body(), "Other", (0, 9, 0))
+    assert posed.subjects([armature]) == [armature]
+    only(armature)
+    bpy.ops.object.mode_set(mode="POSE")
+    assert posed.subjects([armature]) == meshes
+    assert bpy.ops.object.body_moments_live() == {"FINISHED"}
+    assert [live.is_live(obj) for obj in (*meshes, other, armature)] == [True, True, False, False]
+    with monkeypatch.context() as patch:
+        forbid_measuring(patch)
+        armature.pose.bones["Bone"].location = (0.0, 1.0, 0.0)
+        update()
+        parts = [measured(mesh) for mesh in meshes]
+        shown = results.in_world(armature, bpy.context.scene)
+        mass = sum(part.mass_properties.mass for part in parts)
+        center = sum(part.mass_properties.mass * part.mass_properties.center for part in parts) / mass
+        assert isclose(shown.body.mass, mass, rel_tol=1e-6)
+        assert np.linalg.norm(shown.body.center - center) <= 1e-6 * np.linalg.norm(center)
+        assert np.linalg.norm(shown_body(armature).center - center) <= 1e-6 * np.linalg.norm(center)
+        assert results.total(bpy.context).count == 2
+    bpy.ops.object.body_moments_live()
+    assert not any(live.is_live(obj) for obj in meshes)
+    bpy.ops.object.mode_set(mode="OBJECT")
+
+
+def test_undo_is_followed(monkeypatch):
+    obj = add(mesh_body())
+    start(obj)
+    bpy.ops.ed.undo_push(message="Before")
+    obj.data.vertices[0].co.x -= 1.0
+    obj.data.update()
+    update()
+    bpy.ops.ed.undo_push(message="Edited")
+    tick(monkeypatch)
+    bpy.ops.ed.undo()
+    update()
+    obj = bpy.data.objects["Body"]
+    assert live.is_live(obj)
+    tick(monkeypatch)
+    assert_current(obj)
+    assert live._followed.get(obj).number == updates.count()

@@ -1,0 +1,98 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A frame of an animation costs the session nothing but writing down what was updated, and nothing of it is lost."""
+
+import statistics
+import time
+
+import pytest
+
+pytest.importorskip("bpy")
+import bpy
+from body_moments.operators.session import handlers, staleness, updates
+
+from tests.blender.objects import add, mesh_body, only
+
+pytestmark = pytest.mark.usefixtures("scene")
+
+
+def reason(obj):
+    return staleness.stale_reason(obj, bpy.context.scene)
+
+
+def deforming(name, select=False):
+    obj = add(mesh_body(), name, select=select)
+    obj.shape_key_add(name="Basis")
+    key = obj.shape_key_add(name="Key")
+    key.data[0].co.x -= 1.0
+    for frame, value in ((1, 0.0), (11, 1.0)):
+        key.value = value
+        key.keyframe_insert("value", frame=frame)
+    return obj
+
+
+def moving(name):
+    obj = add(mesh_body(), name, select=False)
+    for frame, place in ((1, 0.0), (11, 10.0)):
+        obj.location.x = place
+        obj.keyframe_insert("location", frame=frame)
+    return obj
+
+
+def measure(*objects):
+    bpy.context.scene.frame_set(1)
+    only(*objects)
+    assert bpy.ops.object.body_moments_measure() == {"FINISHED"}
+    bpy.context.view_layer.update()
+    assert [reason(obj) for obj in objects] == [None] * len(objects)
+
+
+def test_frames_compare_nothing_and_what_they_changed_is_known_afterwards(monkeypatch):
+    deformed, moved, still = deforming("Deformed"), moving("Moved"), add(mesh_body(), "Still")
+    measure(deformed, moved, still)
+    with monkeypatch.context() as patch:
+        for name in ("shape_digest", "settings_hash", "has_transform"):
+            patch.setattr(staleness, name, lambda *_args: pytest.fail("A frame compared something."))
+        for frame in range(2, 8):
+            bpy.context.scene.frame_set(frame)
+    assert [reason(obj) for obj in (deformed, moved, still)] == ["stale_geometry", None, None]
+    bpy.context.scene.frame_set(1)
+    assert [reason(obj) for obj in (deformed, moved, still)] == [None, None, None]
+
+
+def test_an_object_made_between_frames_is_not_taken_for_another(monkeypatch):
+    deformed = deforming("Deformed")
+    measure(deformed)
+    for frame in range(2, 6):
+        bpy.context.scene.frame_set(frame)
+        added = deforming("Added", select=False)
+        bpy.context.scene.frame_set(frame + 1)
+        uids = {obj.session_uid for obj in bpy.data.objects}
+        assert {uid for uid in handlers._uids.values() if uid} - uids <= {
+            collection.session_uid for collection in (bpy.context.scene.collection, *bpy.data.collections)
+        }
+        assert updates.last_change_of_geometry(added) == updates.count()
+        bpy.data.objects.remove(added)
+
+
+def test_the_handler_takes_little_more_than_asking_for_the_updates():
+    objects = [moving(str(i)) if i % 2 else deforming(str(i)) for i in range(200)]
+    measure(*objects[:50])
+    ours, least = [], []
+    scene = bpy.context.scene
+
+    def timed(scene, depsgraph):
+        for times, work in ((least, lambda: [update.id for update in depsgraph.updates]), (ours, None)):
+            start = time.perf_counter()
+            work() if work else handlers._on_frame(scene, depsgraph)
+            times.append(time.perf_counter() - start)
+
+    bpy.app.handlers.frame_change_post.remove(handlers._on_frame)
+    bpy.app.handlers.frame_change_post.append(timed)
+    try:
+        for frame in range(2, 42):
+            scene.frame_set(frame)
+    finally:
+        bpy.app.handlers.frame_change_post.remove(timed)
+        bpy.app.handlers.frame_change_post.append(handlers._on_frame)
+    assert statistics.median(ours) < 5.0 * statistics.median(least)
