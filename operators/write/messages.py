@@ -739,6 +739,23 @@ MESSAGES: dict[str, Message] = {
     "density_grid_too_fine": _error(
         "The grid “{grid}” of “{object}” has too many voxels around the object, {samples:size}. Use a coarser grid."
     ),
+    "threshold_measured": _note(
+        "The body where the grid “{grid}” is at least {threshold}, by its interpolant. Its surface passes through "
+        "{cells} cells."
+    ),
+    "threshold_clipped": _warning(
+        "The body reaches the edge of the grid “{grid}” and is cut off there. Raise Threshold, or enlarge the grid."
+    ),
+    "threshold_not_reached": _error(
+        "No value of the grid “{grid}” reaches the threshold {threshold}; the largest is {largest}. Lower Threshold."
+    ),
+    "threshold_needs_factor": _error(
+        "Within a threshold, values become densities by a factor alone. Set Values to Factor, or Filled With to "
+        "Material."
+    ),
+    "threshold_too_large": _error(
+        "The grid “{grid}” spans too many voxels, {samples}, for a threshold. Resample it, or crop it."
+    ),
     "grid_as_shell": _error("A grid of voxels cannot be a shell. Set Kind to Solid."),
     "open_surface_of_grid": _error("The surface is open, so the inside of the grid is undefined. Close the mesh."),
     "object_without_grid": _error("The Volume object shows no grid. Choose another one."),
@@ -1288,6 +1305,9 @@ MESSAGES: dict[str, Message] = {
     "usage_fourier_one_object": _error("argument --fourier: takes one object of one FILE"),
     "usage_path_twice": _error("argument --fourier: {path} is used twice"),
     "usage_frequency_count": _error("{text!r} is not a number of frequencies from 2 to {limit}"),
+    "usage_density_source": _error("{text!r} is not value, materials, attribute:NAME or volume:NAME"),
+    "material_unknown": _error("There is no material “{name}”. Known are {names}"),
+    "density_volume_unknown": _error("There is no Volume object “{name}” in the scene. Name one that is."),
     "usage_range": _error("{text!r} is not A:B, two whole numbers with A no larger than B"),
     "usage_needs_supervisor": _error("argument --{option}: applies to FILEs that are measured by other processes"),
     "usage_resume_output": _error("argument --resume: needs the --output of the run to go on with"),
@@ -1297,6 +1317,9 @@ MESSAGES: dict[str, Message] = {
         "argument --output: {path} is in the way of the older result, and is none itself. Move it, or use --force"
     ),
     "folder_without_files": _error("No file that can be measured is in the folder {folder}. Name files"),
+    "results_unreadable": _error("The results {file} cannot be read: {error}"),
+    "results_malformed": _error("{file} is not a result of body_moments. Name what “measure” has written"),
+    "compare_two": _error("“compare” takes two results"),
     "manifest_unreadable": _error("The list {file} cannot be read: {error}"),
     "manifest_malformed": _error("{file} is not a list of files. Make one with “manifest FOLDER”"),
     "usage_result_not_written": _error("the result cannot be written: {error}"),
@@ -1628,6 +1651,7 @@ MESSAGES: dict[str, Message] = {
         "{count} object without mass is no link: {links}.", "{count} objects without mass are no links: {links}."
     ),
     "robot_without_links": _error("There is no link. Measure objects with mass."),
+    "robot_without_bones": _error("There is no link. Select an armature with what it moves."),
     "robot_one_file": _error("A robot is one file. Name one FILE for this format, not {count}."),
     "robot_base_added": _note(
         "{count} objects have no parent. They are fixed to an added link without mass, {name}. Parent them to one of "

@@ -4,6 +4,10 @@
 
 # Codes of messages → German, and for several where the English has such a text
 MESSAGES = {
+    "rigid_bodies_made": (
+        "{count} Starrkörper von {mass:.7g} kg; Masse berechnen würde {calculated:.7g} kg sagen",
+        "{count} Starrkörper von {mass:.7g} kg; Masse berechnen würde {calculated:.7g} kg sagen",
+    ),
     "stale_member": ("Ein Mitglied hat sich geändert oder wurde neu gemessen",),
     "stale_members": ("Mitglieder wurden hinzugefügt, entfernt oder bewegt, oder gegebene Massen haben sich geändert",),
     "stale_fingerprint": ("Fingerabdruck beschädigt",),

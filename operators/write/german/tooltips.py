@@ -167,11 +167,6 @@ TEXTS = {
         "Zahl der Abtastwerte einer .raw-Datei entlang x, y und z, x am schnellsten. 0, wenn der Dateiname sie nennt"
     ),
     "The most significant byte comes first in a .raw file": "In einer .raw-Datei kommt das höchstwertige Byte zuerst",
-    "Update the numbers while control points are edited or animated, until the file is closed. Press Measure to "
-    "store them": (
-        "Die Zahlen erneuern, während Kontrollpunkte bearbeitet oder animiert werden, bis die Datei geschlossen "
-        "wird. Messen speichert sie"
-    ),
     "Move and rotate the other selected objects onto the active object by centers of mass and principal axes, and "
     "report the distance between the surfaces. Symmetric objects take the nearest of their poses; mirror images are "
     "left unchanged": (
@@ -337,5 +332,19 @@ TEXTS = {
     "Export objects as links of a model in SDFormat, with their exact mass, center and inertia": (
         "Objekte als Glieder eines Modells in SDFormat exportieren, mit exakter Masse, exaktem Mittelpunkt und "
         "exakter Trägheit"
+    ),
+    "Export objects as links of a robot in URDF, with their exact mass, center and inertia": (
+        "Objekte als Glieder eines Roboters in URDF exportieren, mit exakter Masse, exaktem Mittelpunkt und exakter "
+        "Trägheit"
+    ),
+    "Export the geometry as Blender does, and a layer of text that gives it the exact mass, center and inertia": (
+        "Die Geometrie wie Blender exportieren und eine Textebene, die ihr exakte Masse, exakten Mittelpunkt und "
+        "exakte Trägheit gibt"
+    ),
+    "Draw the center of mass and the principal axes of measured objects in the 3D Viewport": (
+        "Massenmittelpunkt und Hauptträgheitsachsen gemessener Objekte im 3D-Ansichtsfenster zeichnen"
+    ),
+    "Draw all visible measured objects instead of the selected ones": (
+        "Alle sichtbaren gemessenen Objekte statt der ausgewählten zeichnen"
     ),
 }

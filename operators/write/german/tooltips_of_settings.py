@@ -4,20 +4,6 @@
 
 # Texts of the interface, as they stand in the source → German
 TEXTS = {
-    "Export objects as links of a robot in URDF, with their exact mass, center and inertia": (
-        "Objekte als Glieder eines Roboters in URDF exportieren, mit exakter Masse, exaktem Mittelpunkt und exakter "
-        "Trägheit"
-    ),
-    "Export the geometry as Blender does, and a layer of text that gives it the exact mass, center and inertia": (
-        "Die Geometrie wie Blender exportieren und eine Textebene, die ihr exakte Masse, exakten Mittelpunkt und "
-        "exakte Trägheit gibt"
-    ),
-    "Draw the center of mass and the principal axes of measured objects in the 3D Viewport": (
-        "Massenmittelpunkt und Hauptträgheitsachsen gemessener Objekte im 3D-Ansichtsfenster zeichnen"
-    ),
-    "Draw all visible measured objects instead of the selected ones": (
-        "Alle sichtbaren gemessenen Objekte statt der ausgewählten zeichnen"
-    ),
     "Draw the principal axes 1, 2 and 3, each as long as its radius of gyration in both directions": (
         "Die Hauptträgheitsachsen 1, 2 und 3 zeichnen, jede in beide Richtungen so lang wie ihr Trägheitsradius"
     ),
@@ -120,6 +106,13 @@ TEXTS = {
     "The grid is a level set that bounds a solid filled with material": (
         "Das Raster ist eine Niveaumenge, die einen mit Material gefüllten Körper begrenzt"
     ),
+    "The body where the values, linear between voxels, are at least a threshold": (
+        "Der Körper, in dem die Werte, linear zwischen den Voxeln, mindestens ein Schwellwert sind"
+    ),
+    "Grid value from which on a point belongs to the body": "Rasterwert, ab dem ein Punkt zum Körper gehört",
+    "What the body within the threshold is made of": "Woraus der Körper innerhalb des Schwellwerts besteht",
+    "One density, as for any solid": "Eine Dichte, wie für jeden Körper",
+    "The density that the values of the grid represent": "Die Dichte, die die Werte des Rasters darstellen",
     "Use a transfer table, for example for CT numbers": "Eine Übertragungstabelle verwenden, etwa für CT-Zahlen",
     "Pairs of a grid value and a density in kg/m³, separated by commas. Linear in between, constant beyond. The "
     "default converts CT numbers to tissue densities": (
@@ -272,5 +265,34 @@ TEXTS = {
     ),
     "The capsule of the same mass and center, and of the inertia that comes nearest": (
         "Die Kapsel von gleicher Masse und gleichem Mittelpunkt mit der nächsten Trägheit"
+    ),
+    "Move origins to the centers of mass and align the local axes with the principal axes, as the physics engine "
+    "takes them to be. Nothing visible moves": (
+        "Ursprünge in die Massenmittelpunkte bewegen und die lokalen Achsen auf die Hauptträgheitsachsen "
+        "ausrichten, wie die Physik es annimmt. Nichts Sichtbares bewegt sich"
+    ),
+    "Leave the shape of rigid bodies as it is; new ones get a convex hull": (
+        "Die Form von Starrkörpern lassen, wie sie ist; neue bekommen eine konvexe Hülle"
+    ),
+    "Origin at the center of mass, axes along the principal axes, unit scale": (
+        "Ursprung im Massenmittelpunkt, Achsen entlang der Hauptträgheitsachsen, Skalierung eins"
+    ),
+    "What the physics engine takes as center of mass and principal axes": (
+        "Was die Physik als Massenmittelpunkt und Hauptachsen nimmt"
+    ),
+    "Make an object and the selected objects that are parented to it one body with their total mass": (
+        "Ein Objekt und die ausgewählten Objekte, die daran hängen, zu einem Körper mit ihrer Gesamtmasse machen"
+    ),
+    "Make the selected objects rigid bodies: mass from density and true volume, origin at the center of mass, axes "
+    "along the principal axes. Nothing visible moves, and joints stay where they are": (
+        "Die ausgewählten Objekte zu Starrkörpern machen: Masse aus Dichte und wahrem Volumen, Ursprung im "
+        "Massenmittelpunkt, Achsen entlang der Hauptträgheitsachsen. Nichts Sichtbares bewegt sich, und Gelenke "
+        "bleiben, wo sie sind"
+    ),
+    "Update the numbers of the selected objects while they are edited, sculpted, posed or animated, until the file "
+    "is closed. In Pose Mode, those of the meshes that the armature deforms. Press Measure to store them": (
+        "Die Zahlen der ausgewählten Objekte erneuern, während sie bearbeitet, geformt, gestellt oder animiert "
+        "werden, bis die Datei geschlossen wird. Im Posenmodus die der Netze, die die Armatur verformt. Messen "
+        "speichert sie"
     ),
 }
