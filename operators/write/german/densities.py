@@ -239,12 +239,12 @@ MESSAGES = {
         "verwenden.",
     ),
     "threshold_measured": (
-        "Der Körper, in dem das Raster „{grid}“ mindestens {threshold} ist, nach seinem Interpolanten. Seine Oberfläche "
-        "geht durch {cells} Zellen.",
+        "Der Körper, in dem das Raster „{grid}“ mindestens {threshold} ist, nach seinem Interpolanten. Seine "
+        "Oberfläche geht durch {cells} Zellen.",
     ),
     "threshold_clipped": (
-        "Der Körper reicht bis an den Rand des Rasters „{grid}“ und ist dort abgeschnitten. Schwellwert erhöhen oder das "
-        "Raster vergrößern.",
+        "Der Körper reicht bis an den Rand des Rasters „{grid}“ und ist dort abgeschnitten. Schwellwert erhöhen oder "
+        "das Raster vergrößern.",
     ),
     "threshold_not_reached": (
         "Kein Wert des Rasters „{grid}“ erreicht den Schwellwert {threshold}; der größte ist {largest}. Schwellwert "
