@@ -146,6 +146,10 @@ MESSAGES: dict[str, Message] = {
     "no_faces": _error("No faces. Add faces, or select another object."),
     "no_geometry": _error("No geometry. Add faces, or check whether a modifier removes them."),
     "no_face_area": _error("All faces have zero area. Move their vertices apart, or select another object."),
+    "surface_not_closed": _error(
+        "The surface does not close, and its volume depends on the reference point. Use the moments of the body that "
+        "measure_solid makes of it."
+    ),
     "no_volume": _error(
         "The faces enclose no volume. Set Kind to Shell, close the mesh, or use Measure Section for a flat shape."
     ),
@@ -752,6 +756,23 @@ MESSAGES: dict[str, Message] = {
     "density_grid_too_fine": _error(
         "The grid “{grid}” of “{object}” has too many voxels around the object, {samples:size}. Use a coarser grid."
     ),
+    "threshold_measured": _note(
+        "The body where the grid “{grid}” is at least {threshold}, by its interpolant. Its surface passes through "
+        "{cells} cells."
+    ),
+    "threshold_clipped": _warning(
+        "The body reaches the edge of the grid “{grid}” and is cut off there. Raise Threshold, or enlarge the grid."
+    ),
+    "threshold_not_reached": _error(
+        "No value of the grid “{grid}” reaches the threshold {threshold}; the largest is {largest}. Lower Threshold."
+    ),
+    "threshold_needs_factor": _error(
+        "Within a threshold, values become densities by a factor alone. Set Values to Factor, or Filled With to "
+        "Material."
+    ),
+    "threshold_too_large": _error(
+        "The grid “{grid}” spans too many voxels, {samples}, for a threshold. Resample it, or crop it."
+    ),
     "grid_as_shell": _error("A grid of voxels cannot be a shell. Set Kind to Solid."),
     "open_surface_of_grid": _error("The surface is open, so the inside of the grid is undefined. Close the mesh."),
     "object_without_grid": _error("The Volume object shows no grid. Choose another one."),
@@ -1320,6 +1341,7 @@ MESSAGES: dict[str, Message] = {
     "manifest_malformed": _error("{file} is not a list of files. Make one with “manifest FOLDER”"),
     "usage_result_not_written": _error("the result cannot be written: {error}"),
     # ------------------------------------------------------------------ Rigid bodies
+    "joint_not_added": _error("Blender did not make the joint. Check that the scene has a rigid body world."),
     "rigid_bodies_made": _note(
         "{count} rigid body of {mass:.7g} kg; Calculate Mass would say {calculated:.7g} kg",
         "{count} rigid bodies of {mass:.7g} kg; Calculate Mass would say {calculated:.7g} kg",
@@ -1647,6 +1669,7 @@ MESSAGES: dict[str, Message] = {
         "{count} object without mass is no link: {links}.", "{count} objects without mass are no links: {links}."
     ),
     "robot_without_links": _error("There is no link. Measure objects with mass."),
+    "robot_without_bones": _error("There is no link. Select an armature with what it moves."),
     "robot_one_file": _error("A robot is one file. Name one FILE for this format, not {count}."),
     "robot_base_added": _note(
         "{count} objects have no parent. They are fixed to an added link without mass, {name}. Parent them to one of "
