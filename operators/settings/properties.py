@@ -20,7 +20,7 @@ from ...core.polyhedron import MAX_ORDER
 from .density import object_density
 from .given import GIVEN_PROPERTIES, is_point_mass
 from .given_properties import GivenPartProperties
-from .hooks import changed, density_changed, wall_changed
+from .hooks import changed, density_changed, threshold_changed, wall_changed
 from .overlay import BodyMomentsOverlaySettings
 from .preferences import CLASSES as PREFERENCES
 from .preferences import SceneDefaults
@@ -30,7 +30,17 @@ TRANSLATION_CONTEXT = "Body Moments"  # for words that mean something else in Bl
 COPIED_PROPERTIES = (
     *("kind", "wall", "thickness", "mass_from", "density", "linear_density", "material", "mass", "overlap"),
     *("density_from", "density_polynomial", "density_frame", "density_attribute"),
-    *("density_volume", "grid", "grid_as", "values_from", "value_density", "transfer_table", "spline_order"),
+    *(
+        "density_volume",
+        "grid",
+        "grid_as",
+        "threshold",
+        "threshold_fill",
+        "values_from",
+        "value_density",
+        "transfer_table",
+        "spline_order",
+    ),
     *GIVEN_PROPERTIES,
 )
 
@@ -236,8 +246,27 @@ class BodyMomentsObjectSettings(GivenPartProperties, PropertyGroup):
         items=(
             ("DENSITY", "Density", "The values determine the density of each voxel"),
             ("SOLID", "Solid", "The grid is a level set that bounds a solid filled with material"),
+            ("THRESHOLD", "Threshold", "The body where the values, linear between voxels, are at least a threshold"),
         ),
         default="DENSITY",
+        update=changed,
+    )
+    threshold: FloatProperty(
+        name="Threshold",
+        description="Grid value from which on a point belongs to the body",
+        default=0.5,
+        step=1,
+        precision=4,
+        update=threshold_changed,
+    )
+    threshold_fill: EnumProperty(
+        name="Filled With",
+        description="What the body within the threshold is made of",
+        items=(
+            ("MATERIAL", "Material", "One density, as for any solid"),
+            ("GRID", "Grid", "The density that the values of the grid represent"),
+        ),
+        default="MATERIAL",
         update=changed,
     )
     values_from: EnumProperty(
