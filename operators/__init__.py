@@ -51,6 +51,7 @@ PARTS = (
             "clear",
             "copy",
             "moments",
+            "library",
             "reference",
             "fourier",
         )
