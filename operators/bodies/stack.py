@@ -79,9 +79,9 @@ class Shape:
         return surface_digest(self.surface, self.face_count)
 
     def sixth_order(self, about: NDArray) -> Moments:
-        """The volume's moments that axes are found by."""
-        surface = self.surface if self.alone is None else self.alone.repaired_surface
+        """The volume's moments that axes are found by, of one that was measured by itself."""
         with np.errstate(over="ignore", invalid="ignore"):
+            surface = self.alone.repaired_surface
             return polyhedron_moments(surface, MAX_ORDER, about=about, exact=True, allow_open=True)[0]
 
 
@@ -309,7 +309,16 @@ def measure_members(members: list[Member], shapes: list[Shape], unit: float) -> 
 
     def higher(left: NDArray[np.intp]) -> OwnMoments:
         needed, first, shape = np.unique(which[left], return_index=True, return_inverse=True)
-        sixth = [members[left[i]].shape.sixth_order(own.about[row]) for row, i in zip(needed.tolist(), first.tolist())]
+        shapes = [members[left[i]].shape for i in first.tolist()]
+        sixth = [own.at(0)] * len(shapes)
+        together = [i for i, each in enumerate(shapes) if each.alone is None]
+        if together:
+            found = shapes[together[0]].solids.to_order(needed[together], MAX_ORDER)
+            for row, i in enumerate(together):
+                sixth[i] = found.at(row)
+        for i, each in enumerate(shapes):
+            if each.alone is not None:
+                sixth[i] = each.sixth_order(own.about[needed[i]])
         return own_moments(sixth, shape.ravel(), matrices[left, :3, :3])
 
     properties = MassProperties.of_stack(volume, density, rotation, fixed, higher)
