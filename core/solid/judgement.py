@@ -7,7 +7,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from ..mesh.planarity import Planarity
 from ..mesh.surface import Surface
@@ -48,6 +48,8 @@ class SolidIntegrals:
         The decisions taken; those about the whole surface have no elements.
     oriented : OrientedSolid
         The surface that was measured, and its components.
+    given_surface : Surface
+        The one that was given, without vertices of no face.
 
     Examples
     --------
@@ -56,6 +58,8 @@ class SolidIntegrals:
     >>> body = measure_solid(surface)
     >>> str(body.method), [found.code for found in body.findings], round(body.exact_third_order().total * 6, 9)
     ('capped', ['holes_capped'], 1.0)
+    >>> round(body.moments(8, about=(0, 0, 0))[0][8, 0, 0] * 990, 9)
+    1.0
     """
 
     volume: Moments
@@ -64,11 +68,52 @@ class SolidIntegrals:
     method: Verdict
     findings: tuple[Finding, ...]
     oriented: OrientedSolid
+    given_surface: Surface
 
     @property
     def repaired_surface(self) -> Surface:
         """The surface whose signed sum ``volume`` is."""
         return self.oriented.surface
+
+    def moments(
+        self, order: int, area_order: int | None = None, *, about: ArrayLike | None = None, threads: int = 1
+    ) -> tuple[Moments, Moments | None]:
+        """Return the body's moments to any order.
+
+        Parameters
+        ----------
+        order : int
+            Of the volume's moments.
+        area_order : int, optional
+            Of the area's, which are those of the faces that were given, as ``area`` is. By default none.
+        about : (3,) array_like, optional
+            The point that they are about; by default that of ``volume``, on which those of an open body depend.
+        threads : int
+
+        Returns
+        -------
+        volume : Moments
+        area : Moments, or None where none is asked for
+
+        Raises
+        ------
+        MeasureError
+            If a moment is beyond the range of numbers.
+        """
+        reference = self.volume.about
+        volume, area = polyhedron_moments(
+            self.repaired_surface, order, about=reference, exact=True, threads=threads, allow_open=True
+        )
+        if not self.volume.raw.any():  # what rounding leaves of a flat body
+            error = volume.rounding_error + np.abs(volume.raw)
+            volume = replace(volume, raw=np.zeros_like(volume.raw), rounding_error=error)
+        if area_order is not None:
+            area = polyhedron_moments(
+                self.given_surface, 0, area_order=area_order, about=reference, threads=threads, allow_open=True
+            )[1]
+        if about is None:
+            return volume, area
+        return volume.about_point(about), None if area is None else area.about_point(about)
 
     def parts(self) -> ClosedParts:
         """The same surface by closed part."""
@@ -76,7 +121,7 @@ class SolidIntegrals:
 
     def exact_third_order(self, threads: int = 1) -> Moments:
         """`volume` with its third order exact to rounding, for what its bounds leave undecided."""
-        return polyhedron_moments(self.repaired_surface, exact=True, threads=threads)[0]
+        return polyhedron_moments(self.repaired_surface, exact=True, threads=threads, allow_open=True)[0]
 
 
 def judge(
@@ -131,7 +176,7 @@ def judge(
         _health(checked, given.planarity, oriented, flipped, len(inverted), cap_share),
         self_intersection=Intersection.NOT_CHECKED if intersection is None else intersection.state,
     )
-    return SolidIntegrals(volume, given.area, health, verdict, tuple(findings), oriented)
+    return SolidIntegrals(volume, given.area, health, verdict, tuple(findings), oriented, checked.surface)
 
 
 def _flipped_faces(mesh: RepairedMesh, turned: NDArray[np.bool_]) -> tuple[NDArray[np.integer], NDArray[np.intp]]:

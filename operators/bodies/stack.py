@@ -82,7 +82,7 @@ class Shape:
         """The volume's moments that axes are found by."""
         surface = self.surface if self.alone is None else self.alone.repaired_surface
         with np.errstate(over="ignore", invalid="ignore"):
-            return polyhedron_moments(surface, MAX_ORDER, about=about, exact=True)[0]
+            return polyhedron_moments(surface, MAX_ORDER, about=about, exact=True, allow_open=True)[0]
 
 
 def measure_shapes(shapes: list[Shape]) -> tuple[Moments, Moments]:

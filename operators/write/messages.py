@@ -146,6 +146,10 @@ MESSAGES: dict[str, Message] = {
     "no_faces": _error("No faces. Add faces, or select another object."),
     "no_geometry": _error("No geometry. Add faces, or check whether a modifier removes them."),
     "no_face_area": _error("All faces have zero area. Move their vertices apart, or select another object."),
+    "surface_not_closed": _error(
+        "The surface does not close, and its volume depends on the reference point. Use the moments of the body that "
+        "measure_solid makes of it."
+    ),
     "no_volume": _error(
         "The faces enclose no volume. Set Kind to Shell, close the mesh, or use Measure Section for a flat shape."
     ),

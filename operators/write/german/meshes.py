@@ -79,6 +79,10 @@ MESSAGES = {
         "Einseitige Komponenten lassen sich nicht schließen: {count} von {total}. Volumen, Massenmittelpunkt und "
         "Trägheit hängen vom Bezugspunkt ab. Art auf Schale setzen.",
     ),
+    "surface_not_closed": (
+        "Die Oberfläche schließt sich nicht, und ihr Volumen hängt vom Bezugspunkt ab. Die Momente des Körpers "
+        "nehmen, den measure_solid daraus macht.",
+    ),
     "non_manifold_components": (
         "Komponenten lassen sich nicht schließen, wo mehr als zwei Flächen an einer Kante liegen: {count} von "
         "{total}. Volumen, Massenmittelpunkt und Trägheit hängen vom Bezugspunkt ab. Innere Flächen löschen und "
