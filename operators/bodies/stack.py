@@ -33,7 +33,7 @@ from ...core.verdict.method import Method, Verdict
 from ..read.fingerprint import fingerprint, surface_digest, transform_keys
 from ..read.reading import are_singular, to_si
 from ..settings.accepted import accepted_codes, with_acceptance
-from .body import own_moments
+from .body import own_moments, with_known
 
 EXACT = Method(Verdict.EXACT)
 
@@ -78,11 +78,14 @@ class Shape:
         """Of what it shows, for staleness; None of a large one."""
         return surface_digest(self.surface, self.face_count)
 
-    def sixth_order(self, about: NDArray) -> Moments:
+    def sixth_order(self) -> Moments:
         """The volume's moments that axes are found by, of one that was measured by itself."""
+        solid = self.alone
         with np.errstate(over="ignore", invalid="ignore"):
-            surface = self.alone.repaired_surface
-            return polyhedron_moments(surface, MAX_ORDER, about=about, exact=True, allow_open=True)[0]
+            found = polyhedron_moments(
+                solid.repaired_surface, MAX_ORDER, about=solid.volume.about, exact=True, allow_open=True
+            )
+        return with_known(found[0], solid.volume)
 
 
 def measure_shapes(shapes: list[Shape]) -> tuple[Moments, Moments]:
@@ -318,7 +321,7 @@ def measure_members(members: list[Member], shapes: list[Shape], unit: float) -> 
                 sixth[i] = found.at(row)
         for i, each in enumerate(shapes):
             if each.alone is not None:
-                sixth[i] = each.sixth_order(own.about[needed[i]])
+                sixth[i] = each.sixth_order()
         return own_moments(sixth, shape.ravel(), matrices[left, :3, :3])
 
     properties = MassProperties.of_stack(volume, density, rotation, fixed, higher)
