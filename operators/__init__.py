@@ -49,6 +49,7 @@ PARTS = (
             "select_faults",
             "clear",
             "copy",
+            "listed",
             "moments",
             "reference",
             "fourier",
