@@ -22,6 +22,7 @@ PARTS = (
         "session.updates",
         "session.density",
         "session.walls",
+        "session.threshold",
         "session.live",
         "session.assembly",
         "session.rig",

@@ -73,6 +73,7 @@ def _measure(argv: list[str], channel: int, file_needed: bool) -> int:
     if (options.files or options.manifest) and not options.no_supervisor:
         bpy = sys.modules.get("bpy")
         return supervised.measure(options, channel, bpy.data.filepath if bpy else None)
+    options.files = supervised.files_of(options)
     _load_settings()
 
     from .command import checks, output, results
@@ -91,12 +92,15 @@ def _measure(argv: list[str], channel: int, file_needed: bool) -> int:
 
 def _serve(argv: list[str], channel: int, _file_needed: bool) -> int:
     """Be a child of the supervisor. Ends the process."""
-    _load_settings()
+    from .supervisor.lifeline import Lifeline
 
-    from .command import child
-
+    line = Lifeline(channel, int(argv[1]) if argv[1:] else None)  # first: importing bpy may take seconds
     try:
-        child.serve(argv[1:], channel)
+        _load_settings()
+
+        from .command import child
+
+        child.serve(line)
     except BaseException:
         traceback.print_exc()
         os._exit(INTERNAL_ERROR)
@@ -131,7 +135,18 @@ def _audit(argv: list[str], channel: int, _file_needed: bool) -> int:
     return SOME_FAILED if faults or not is_written else ALL_MEASURED
 
 
-_COMMANDS: dict[str, Callable[[list[str], int, bool], int]] = {"similar": _similar, "audit": _audit, "child": _serve}
+def _gather(argv: list[str], channel: int, file_needed: bool) -> int:
+    """Prepare and gather the results of many files."""
+    from .command import gather
+
+    return gather.run(argv, channel, file_needed)
+
+
+_GATHER = ("manifest", "merge", "to-csv", "summary", "compare", "report")
+_COMMANDS: dict[str, Callable[[list[str], int, bool], int]] = {
+    **{"similar": _similar, "audit": _audit, "child": _serve},
+    **dict.fromkeys(_GATHER, _gather),
+}
 
 
 def _load_settings() -> None:

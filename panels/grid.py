@@ -18,7 +18,12 @@ def settings_rows(layout: UILayout, context: Context, obj: Object) -> bool:
     column.row().prop(settings, "grid_as", expand=True)
     if settings.grid_as == "SOLID":
         return False
+    if settings.grid_as == "THRESHOLD":
+        column.prop(settings, "threshold")
+        column.row().prop(settings, "threshold_fill", expand=True)
     column.prop(settings, "spline_order")
+    if settings.grid_as == "THRESHOLD" and settings.threshold_fill == "MATERIAL":
+        return False
     column.row().prop(settings, "mass_from", expand=True)
     column.row().prop(settings, "values_from", expand=True)
     if settings.values_from == "FACTOR":

@@ -48,6 +48,8 @@ class VIEW3D_MT_body_moments(Menu):
             ),
             (
                 ("object.body_moments_measure_section", "Measure Section", "FACESEL"),
+                ("object.body_moments_compute_moments", "Compute Moments", "PHYSICS"),
+                ("object.body_moments_fourier", "Fourier Transform...", "MOD_WAVE"),
                 ("object.body_moments_find_symmetry", "Find Symmetry", "MOD_MIRROR"),
                 ("object.body_moments_find_similar", "Find Similar", "VIEWZOOM"),
                 ("object.body_moments_match_pose", "Match Pose", "SNAP_ON"),

@@ -62,6 +62,12 @@ def _poses(layout: UILayout, context: Context, obj: Object) -> None:
     if not isinstance(poses, RestingPoses):
         return
     column = layout.column(align=True)
+    heading = column.row()
+    heading.label(text="Probability")
+    cell = heading.row()
+    cell.alignment = "RIGHT"
+    cell.label(text="Tips at")
+    cell.label(icon="BLANK1")
     angles = np.degrees(poses.tipping_angles)
     for place, (share, angle) in enumerate(zip(poses.shares[:MAX_POSES], angles)):
         row = column.row(align=True)

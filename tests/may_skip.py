@@ -6,6 +6,7 @@ import os
 import re
 
 REASONS = {
+    "no Chromium": "the report is read as text all the same",
     "could not import 'bornagain'": "a program of others, installed by hand, whose numbers ours are compared with",
     "comprehensions are calls of their own": "Python 3.11 counts more calls than the ones that are limited",
     "not on this system": "Windows has no such devices, signals, owners or links",

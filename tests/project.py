@@ -9,6 +9,7 @@
     python tests/project.py benchmark    times and ratios against trimesh and libigl
     python tests/project.py tables       the tables of Soldea, Elber and Rivlin beside ours
     python tests/project.py lint         check the rules, the format and the types
+    python tests/project.py soak         what takes long: hostile files, kills, random damage, ...
 
 Each sets up what it needs in .envs/: one environment for each Blender that exists as a Python
 module, with the Python which that module is made for. Environments are used again until their
@@ -478,6 +479,11 @@ def tables(options: argparse.Namespace) -> int:
     return show([prepare_blender(any_blender()), "-P", TESTS / "paper_tables.py"])
 
 
+def soak(options: argparse.Namespace) -> int:
+    """What takes long, on one Blender; reports are in .envs/soak/."""
+    return show([prepare_blender(any_blender()), "-P", TESTS / "soak", *options.arguments])
+
+
 def lint(options: argparse.Namespace) -> int:
     """Check the rules, the format and the types: all three, whatever the first ones say."""
     python = prepare("lint", sys.executable, RUNNING, ["requirements-lint.txt"])
@@ -500,6 +506,7 @@ def main() -> int:
         (build, "build the extension's zip"),
         (benchmark, "times and ratios against trimesh and libigl"),
         (tables, "the paper's tables of trivariate densities beside ours"),
+        (soak, "what takes long: hostile files, kills, random damage; --minutes N, --seed S, names"),
         (lint, "check the rules, the format and the types"),
     ):
         command = commands.add_parser(function.__name__, help=text)
@@ -511,8 +518,8 @@ def main() -> int:
             command.add_argument("--only", action="append", choices=GROUPS, help="repeatable")
             command.add_argument("-k", metavar="WORDS", help="tests with such names, as in pytest")
             command.epilog = "What follows -- is for pytest."
-        if function is benchmark:
-            command.add_argument("arguments", nargs=argparse.REMAINDER, help="for benchmark.py")
+        if function in (benchmark, soak):
+            command.add_argument("arguments", nargs=argparse.REMAINDER, help="for what is called")
     words = sys.argv[1:]
     split = words.index("--") if words[:1] == ["test"] and "--" in words else len(words)
     options = parser.parse_args(words[:split])

@@ -82,7 +82,8 @@ def threshold_body(
     matrix : (4, 4) array_like, optional
         Affine: the sample (i, j, k) stands at matrix @ (i, j, k, 1); by default at (i, j, k).
     background : float, optional
-        The density beyond the grid: a layer of it is added on every side. Without it, nothing is beyond.
+        The density beyond the grid: a layer of it is added on every side. Without it, or where it is inside, nothing is
+        beyond.
     with_density : bool
         Also the moments of mass, of the density itself inside.
     preview : bool
@@ -112,6 +113,8 @@ def threshold_body(
     (11.0, 4.0, True)
     """
     samples = np.asarray(samples)
+    if background is not None and background >= threshold:
+        background = None
     margin = 0 if background is None else 1
     shape = np.array(samples.shape) + 2 * margin
     if (shape < 2).any():
@@ -128,8 +131,7 @@ def threshold_body(
         if not np.isfinite(values).all():
             raise MeasureError("density_non_finite")
         inside = values >= threshold
-        if not margin:
-            clipped = clipped or _reaches_edge(inside, first == 0, first + len(values) == shape[0])
+        clipped = clipped or _reaches_edge(inside, first == 0, first + len(values) == shape[0])
         corners = _corner_counts(inside)
         origin = np.array([first, 0, 0]) - margin - about
         sums.add_whole_cells(values, corners == 8, origin)

@@ -15,7 +15,11 @@ from bpy.types import Context, Event
 from ...core.verdict.finding import Finding
 from ..write import reports
 
-STEP_SECONDS = 0.1  # seconds of work between two looks at the window's events
+# seconds of work between two looks at the window's events; as many as what the window does in between takes, where
+# drawing it is dear
+STEP_SECONDS, MAX_STEP_SECONDS = 0.1, 1.0
+
+MAX_OBJECTS_WITHOUT_REDRAW = 4  # up to so many objects are measured before the window is drawn again
 
 
 def redraw(context: Context) -> None:
@@ -53,6 +57,7 @@ class ModalSteps:
     PROGRESS: Finding
     CANCELED: Finding
     _steps: Generator[float, None, None]
+    _left = 0.0  # when the window was last left to itself
 
     def _finish(self, context: Context) -> set[str]:
         raise NotImplementedError
@@ -72,6 +77,7 @@ class ModalSteps:
         manager.modal_handler_add(self)
         manager.progress_begin(0, count)
         self._show_progress(context, 0)
+        self._left = perf_counter()
         return {"RUNNING_MODAL"}
 
     def modal(self, context: Context, event: Event) -> set[str]:
@@ -82,10 +88,12 @@ class ModalSteps:
         if event.type != "TIMER":
             return {"RUNNING_MODAL"}
         try:
-            until = perf_counter() + STEP_SECONDS
+            now = perf_counter()
+            until = now + max(STEP_SECONDS, min(now - self._left, MAX_STEP_SECONDS))
             for done in self._steps:
                 if perf_counter() >= until:
                     self._show_progress(context, done)
+                    self._left = perf_counter()
                     return {"RUNNING_MODAL"}
         except BaseException:
             self._stop_modal(context)

@@ -25,6 +25,7 @@ from ..settings.grid import GridOptions
 from .body import MAX_MASS_MOMENT, Body, MeshBody
 from .mesh import mesh_body
 from .request import Request
+from .threshold import threshold_grid, threshold_grid_body
 
 MEASURED_AS = frozenset({"solid", "shell", "wire"})  # the others to be refused
 
@@ -111,6 +112,8 @@ def body(reading: VolumeReading, request: Request) -> Body:
 
 def grid_body(reading: VolumeReading, options: GridOptions, unit: float, threads: int = 1) -> Body:
     """The body of one grid. unit: metres per Blender unit. MeasureError where there is none."""
+    if options.threshold is not None:
+        return threshold_grid_body(threshold_grid(reading, unit), options)
     if options.solid:
         return _solid(reading, unit, threads)
     if reading.level_set:

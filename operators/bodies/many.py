@@ -9,7 +9,7 @@ varies, is measured by `measure_body`; so is what is refused, for the reason.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 
 import bpy
 import numpy as np
@@ -58,6 +58,31 @@ def measure_many(
             pending, collector = [], _Collector(depsgraph, options)
     if pending:
         yield from _outcomes(pending, collector)
+
+
+def measured_in_turn(
+    objects: Sequence[bpy.types.Object], depsgraph: bpy.types.Depsgraph, options: MeasureOptions = AS_SET
+) -> Callable[[bpy.types.Object], Measured | Stacked]:
+    """Measure objects together that are asked for one after the other, while nothing changes.
+
+    Returns
+    -------
+    callable
+        Gives the measurement of one of the objects, or raises why there is none. Each is asked for once, in their
+        order; some may be left out.
+    """
+    waiting: dict[bpy.types.Object, Outcome] = {}
+    slices = measure_many(objects, depsgraph, options)
+
+    def measured(obj: bpy.types.Object) -> Measured | Stacked:
+        while obj not in waiting:
+            waiting.update(next(slices))
+        outcome = waiting.pop(obj)
+        if isinstance(outcome, Exception):
+            raise outcome
+        return outcome
+
+    return measured
 
 
 def _outcomes(

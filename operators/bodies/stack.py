@@ -32,6 +32,7 @@ from ...core.verdict.health import DefectiveElements, MeshReport
 from ...core.verdict.method import Method, Verdict
 from ..read.fingerprint import fingerprint, surface_digest, transform_keys
 from ..read.reading import are_singular, to_si
+from ..settings.accepted import accepted_codes, with_acceptance
 from .body import own_moments
 
 EXACT = Method(Verdict.EXACT)
@@ -81,7 +82,7 @@ class Shape:
         """The volume's moments that axes are found by."""
         surface = self.surface if self.alone is None else self.alone.repaired_surface
         with np.errstate(over="ignore", invalid="ignore"):
-            return polyhedron_moments(surface, MAX_ORDER, about=about, exact=True)[0]
+            return polyhedron_moments(surface, MAX_ORDER, about=about, exact=True, allow_open=True)[0]
 
 
 def measure_shapes(shapes: list[Shape]) -> tuple[Moments, Moments]:
@@ -287,7 +288,8 @@ def measure_members(members: list[Member], shapes: list[Shape], unit: float) -> 
     keys, matrices = transform_keys(matrices), to_si(matrices, unit)
     volume = _placed(own.at(which), matrices)
     area = _areas(own_area.at(which), matrices, members)
-    density, mass = (np.array([getattr(member, name) for member in members]) for name in ("density", "mass"))
+    density = np.array([member.density for member in members])
+    mass = np.array([member.mass for member in members])
     from_mass = ~np.isnan(mass)
     with np.errstate(divide="ignore", invalid="ignore"):
         density = np.where(from_mass, mass / volume.raw[:, 0], density)
@@ -323,8 +325,14 @@ def measure_members(members: list[Member], shapes: list[Shape], unit: float) -> 
         rotation,
         np.array([member.location for member in members]) * unit,
         [fingerprint(numbers, key, member.settings) for numbers, key, member in zip(geometry, keys, members)],
-        [member.shape.findings for member in members],
+        [_findings(member) for member in members],
     )
+
+
+def _findings(member: Member) -> tuple[Finding, ...]:
+    """Of the member's shape, those marked that were accepted for the object."""
+    found = member.shape.findings
+    return with_acceptance(found, accepted_codes(member.obj)) if found else ()
 
 
 def _chosen(members: list[Member], which: NDArray) -> list[Member]:

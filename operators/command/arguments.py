@@ -28,7 +28,7 @@ _OF_RUNS = {
     *("resume", "no_supervisor", "blender"),
 }
 _PATHS = ("output", "fourier", "q", "manifest")
-_TRIPLES = ("spacing", "origin")
+_TRIPLES = ("spacing", "origin", "about")
 
 _EPILOG = """\
 FILE is .blend, .stl, .obj, .ply, .glb, .gltf, .usd, .usda, .usdc, .usdz or .fbx, or an array or
@@ -96,7 +96,7 @@ def from_record(record: dict[str, Any]) -> argparse.Namespace:
             setattr(options, name, Path(getattr(options, name)))
     options.forced = [Path(path) for path in options.forced]
     for name in _TRIPLES:
-        if getattr(options, name) is not None:
+        if isinstance(getattr(options, name), list):
             setattr(options, name, tuple(getattr(options, name)))
     return options
 
@@ -130,7 +130,7 @@ def _join_negative_values(argv: list[str]) -> list[str]:
     """With `--origin -1,2,3` as `--origin=-1,2,3`: the parser would take what begins with a minus for an option."""
     joined: list[str] = []
     for word in argv:
-        if joined and joined[-1] in {"--origin", "--spacing"} and word[:2].strip("0123456789.") == "-":
+        if joined and joined[-1] in {"--origin", "--spacing", "--about"} and word[:2].strip("0123456789.") == "-":
             joined[-1] += "=" + word
         else:
             joined.append(word)
@@ -172,7 +172,12 @@ def _add_settings(parser: argparse.ArgumentParser) -> None:
         help="also what is not rendered, and what is only an operand of Boolean modifiers, displayed as wire or "
         "bounds (left out, and listed in left_out)",
     )
-    add("--kind", choices=("solid", "shell"), help="(each object's setting, or solid)")
+    add("--kind", choices=("solid", "shell", "wire"), help="(each object's setting, or solid)")
+    add(
+        "--wall",
+        choices=("thin", "inward", "outward", "centered"),
+        help="of a shell: without or with real thickness, to which side of the surface (each object's setting)",
+    )
     add(
         "--thickness",
         type=types.positive,
@@ -182,6 +187,16 @@ def _add_settings(parser: argparse.ArgumentParser) -> None:
     group = parser.add_mutually_exclusive_group()
     group.add_argument("--density", type=types.positive, metavar="D", help="kg/m³ (each object's setting, or 1000)")
     group.add_argument("--mass", type=types.positive, metavar="M", help="kg, for each object")
+    group.add_argument("--material", metavar="NAME", help="the density of a material of the panel's list")
+    group.add_argument(
+        "--polynomial", metavar="TEXT", help="density as a polynomial in x, y, z in meters along the object's axes"
+    )
+    group.add_argument(
+        "--density-from",
+        type=types.source,
+        metavar="SOURCE",
+        help="value, materials, attribute:NAME (of a shell's vertices), or volume:NAME (a Volume object)",
+    )
     add(
         "--overlap",
         choices=("signed", "union"),
@@ -240,10 +255,17 @@ def _add_results(parser: argparse.ArgumentParser) -> None:
         help="of centers, tensors, axes and moments (world)",
     )
     add(
+        "--about",
+        type=types.about,
+        metavar="POINT",
+        help="add inertia_about, and take moments about this point: center (of mass), origin (the object's), world, or "
+        "X,Y,Z in the frame (moments about the frame's origin)",
+    )
+    add(
         "--order",
         type=types.order,
         metavar="N",
-        help="add volume moments up to this order, at most {}, about the frame's origin".format(types.MAX_ORDER),
+        help="add volume moments up to this order, at most {}".format(types.MAX_ORDER),
     )
     add(
         "--surface-moments",
@@ -273,6 +295,11 @@ def _add_results(parser: argparse.ArgumentParser) -> None:
         "--signature",
         action="store_true",
         help="add the numbers by which `similar` finds the shape again",
+    )
+    add(
+        "--thumbnails",
+        action="store_true",
+        help="add a small picture of each body with its principal axes, for `report`",
     )
     add(
         "--format",

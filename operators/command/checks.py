@@ -14,7 +14,7 @@ import bpy
 
 from ...core.verdict.finding import MeasureError, finding
 from ..settings.limits import scan_limits
-from . import fourier, inputs, targets
+from . import density_options, fourier, inputs, targets
 from .arguments import fail
 
 
@@ -37,6 +37,7 @@ def check(options: Namespace) -> None:
 def prepare(options: Namespace) -> None:
     """What measuring needs: `options.limits` of scans, and `options.waves`, the wave vectors of the transform."""
     try:
+        density_options.check(options)
         options.limits = replace(scan_limits(), allow_outside=options.allow_outside)
     except MeasureError as error:
         fail(error)

@@ -21,9 +21,8 @@ from .interruption import Progress
 from .run import Run
 
 
-def serve(words: list[str], channel: int) -> None:
-    """Work until the supervisor closes the pipe. words: the descriptor to watch, where there is one."""
-    line = Lifeline(channel, int(words[0]) if words else None)
+def serve(line: Lifeline) -> None:
+    """Work until the supervisor closes the pipe."""
     messages = line.messages()
     setup = next(messages, None)
     if setup is None:

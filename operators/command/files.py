@@ -10,9 +10,13 @@ STL cut short (read as an empty mesh, or as half of one), a file in which no obj
 
 from __future__ import annotations
 
+import gzip
 import os
+import re
 import struct
-from collections.abc import Callable
+import zlib
+from collections.abc import Callable, Iterator
+from contextlib import suppress
 from functools import partial
 from pathlib import Path
 
@@ -25,6 +29,8 @@ from .finite import check_numbers
 from .references import unresolved_references
 
 BLEND = ".blend"
+_OLDEST = (2, 50)  # what older ones have saved can be damaged by reading it
+_KNOWN_FORMAT = 1  # of .blend files
 _TRACEBACK = "Traceback (most recent call last)"
 UNITLESS = (".stl", ".obj", ".ply")
 USD = (".usd", ".usda", ".usdc", ".usdz")
@@ -57,13 +63,12 @@ def open_file(path: str) -> list[Finding]:
     kind = file_suffix(path)
     _check(path, kind)
     check_numbers(path, kind)
-    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
     absolute = os.path.abspath(path)
+    if kind == BLEND:  # which replaces all that was open
+        _open_blend(absolute)
+        return []
+    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
     try:
-        if kind == BLEND:
-            # With the interface, so that saving the file again keeps its windows and workspaces.
-            bpy.ops.wm.open_mainfile(filepath=absolute, load_ui=True, use_scripts=False)
-            return []
         if kind in (".glb", ".gltf"):
             # An add-on that comes with Blender, and may be switched off.
             addon_utils.enable("io_scene_gltf2")
@@ -78,6 +83,44 @@ def open_file(path: str) -> list[Finding]:
     if not bpy.context.scene.objects:
         raise FileError(unresolved[0] if unresolved else finding("file_without_objects", suffix=kind))
     return unresolved
+
+
+def _open_blend(path: str) -> None:
+    try:
+        # With the interface, so that saving the file again keeps its windows and workspaces.
+        bpy.ops.wm.open_mainfile(filepath=path, load_ui=True, use_scripts=False)
+    except RuntimeError as error:
+        version = _saved_by(path)
+        is_readable = version is not None and _OLDEST <= version <= tuple(bpy.app.version[:2])
+        if version is None or is_readable:
+            raise FileError("import_failed", error=reason(error)) from error
+        values = {"blender": bpy.app.version_string, "version": "{}.{}".format(*version) if version > (0, 0) else "-"}
+        raise FileError("file_version_unsupported", **values) from error
+
+
+def _saved_by(path: str) -> tuple[int, int] | None:
+    """The version of Blender that a .blend file names, if it is not compressed with zstd: (0, 0) for one whose numbers
+    are big-endian, (99, 0) for a file format of the future; None where there is no such header.
+    """
+    with open(path, "rb") as file:
+        head = file.read(20)
+    if head.startswith(b"\x1f\x8b"):
+        with suppress(OSError, EOFError, zlib.error), gzip.open(path) as unpacked:
+            head = unpacked.read(20)
+    old = re.match(rb"BLENDER[-_]([vV])(\d)(\d\d)", head)
+    new = re.match(rb"BLENDER\d\d-(\d\d)v(\d\d)(\d\d)", head)
+    if old:
+        return (0, 0) if old[1] == b"V" else (int(old[2]), int(old[3]))
+    if new:
+        return (99, 0) if int(new[1]) > _KNOWN_FORMAT else (int(new[2]), int(new[3]))
+    return None
+
+
+def newer_version() -> Iterator[Finding]:
+    """That a newer Blender has saved the open file, where that is so."""
+    version = tuple(bpy.data.version[:2])
+    if version > tuple(bpy.app.version[:2]):
+        yield finding("file_newer_version", version="{}.{}".format(*version), blender=bpy.app.version_string)
 
 
 def _check(path: str, kind: str) -> None:

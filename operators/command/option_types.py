@@ -95,6 +95,30 @@ def format_name(text: str) -> str:
     return text
 
 
+ABOUT = ("center", "origin", "world")
+SOURCES = ("value", "materials", "attribute", "volume")  # of density, as in the panel
+_NAMED_SOURCES = ("attribute", "volume")
+
+
+def about(text: str) -> str | tuple[float, ...]:
+    """A point by its name or its coordinates."""
+    return text if text in ABOUT else triple(text)
+
+
+def split_source(text: str) -> tuple[str, str]:
+    """A source of density, and the name behind it."""
+    source, _, name = text.partition(":")
+    return source, name
+
+
+def source(text: str) -> str:
+    """Where a density comes from: a word, with a name behind it where that is needed."""
+    word, name = split_source(text)
+    if word not in SOURCES or bool(name) != (word in _NAMED_SOURCES):
+        raise _refuse("usage_density_source", text=text)
+    return text
+
+
 def file_range(text: str) -> tuple[int, int | None]:
     """A:B, the files from number A on and before number B, counted from 0; either may be left out."""
     begin, colon, end = text.partition(":")

@@ -18,7 +18,7 @@ from ...core.mesh.surface import Surface
 from ...core.numerics.float32 import shortest_decimal
 from ...core.robots.model import Robot
 from ...core.verdict.finding import Finding, finding
-from ..read.links import link_entry, link_surface
+from ..read.links import link_surface, object_entry
 from ..write.documents import ROBOT_FORMATS
 from ..write.messages import sentence
 from ..write.robots.formats import robot_text
@@ -37,7 +37,7 @@ def complete(
     if options.format not in ROBOT_FORMATS:
         return document
     labels = {obj: label for label, obj, _ in measured if obj is not None}
-    links = {label: link_entry(obj, one, labels) for label, obj, one in measured if obj is not None}
+    links = {label: object_entry(obj, one, labels) for label, obj, one in measured if obj is not None}
     for entry in document["objects"]:
         if entry["name"] in links:
             entry["link"] = links[entry["name"]]

@@ -39,13 +39,14 @@ from ..write import record
 from ..write.documents import document
 from ..write.properties import store
 from ..write.terminal import tell
-from . import fourier, robots
-from .files import BLEND, UNITLESS, file_suffix, open_file
+from . import density_options, fourier, robots
+from .files import BLEND, UNITLESS, file_suffix, newer_version, open_file
 from .interruption import Progress, check_interruption
 from .objects import failure, objects_to_measure, other_scenes, why_nothing
 from .references import blocked_scripts, missing_links
 from .saving import Place, reserved
 from .scripts import scripts_of_open_file
+from .thumbnails import thumbnail_of
 
 _OF_ARRAYS = ("spacing", "origin", "spline_order", "density_scale")
 _STATUSES = {"file_missing": "missing", "file_version_unsupported": "unsupported_version"}
@@ -69,10 +70,11 @@ class Run:
     def __post_init__(self) -> None:
         self._status: str | None = None  # of the document under way, where it is not just that of its errors
         measure_options = {
-            name: getattr(self.options, name) for name in ("kind", "density", "mass", "thickness", "overlap")
+            name: getattr(self.options, name) for name in ("kind", "mass", "thickness", "overlap", "wall")
         }
         self._measure_options = MeasureOptions(
             **measure_options,
+            density=density_options.density_of(self.options),
             order=self.options.order,
             surface=self.options.surface_moments,
             threads=self.threads,
@@ -124,6 +126,7 @@ class Run:
                     *_unit_findings(path, self.options.unit_scale),
                     *_unused_array_options(self.options),
                     *blocked_scripts(),
+                    *newer_version(),
                 )
                 operands = boolean_operands(bpy.context.scene) if self.options.object is None else {}
                 for label, obj in chosen:
@@ -182,6 +185,7 @@ class Run:
         then the record goes without them, and an error is added that says so. findings: about its file.
         """
         order = self.options.order
+        density_options.apply(obj, self.options)
         try:
             measurement, more, of_shape = self._measure(obj, measure_options)
         except MeasureError as refusal:
@@ -196,11 +200,13 @@ class Run:
             *(*self._default_density(obj, measurement), *self._unused_options(measurement)),
         )
         named = replace(measurement, name=label, findings=findings)
-        return measurement, record.record(named, self.options.frame, order, surface, more)
+        if self.options.thumbnails:
+            more["thumbnail"] = thumbnail_of(obj, measurement, measure_options.unit_scale)
+        return measurement, record.record(named, self.options.frame, order, surface, more, self.options.about)
 
     def _default_density(self, obj: bpy.types.Object, measurement: Measurement) -> Iterator[Finding]:
         """That nobody has set the density, where that is so."""
-        if self.options.density is not None or self.options.mass is not None:
+        if self.options.density is not None or self.options.mass is not None or self.options.material is not None:
             return
         unset = unset_density(obj, measurement, bpy.context.scene)
         if unset == "density":
@@ -238,7 +244,9 @@ class Run:
         measurement = replace(
             measurement, findings=(*measurement.findings, *self._unused_options(measurement), *shapeless)
         )
-        entry = record.record(measurement, self.options.frame, self.options.order, surface, dict.fromkeys(requested))
+        entry = record.record(
+            measurement, self.options.frame, self.options.order, surface, dict.fromkeys(requested), self.options.about
+        )
         return [entry], [(name, None, measurement)], errors
 
     def _open(self, path: str | None, file: str | None) -> list[Finding]:

@@ -46,7 +46,7 @@ def measure(options: Namespace, channel: int, opened: str | None) -> int:
     """
     with interruption.stopped_by_signals():
         targets.check_places(options)
-        paths = _paths(options)
+        paths = files_of(options)
         command = processes.child_command(_blender(options))
         if command is None:
             fail(finding("usage_no_blender"))
@@ -72,7 +72,8 @@ def measure(options: Namespace, channel: int, opened: str | None) -> int:
                 return 3
 
 
-def _paths(options: Namespace) -> list[str]:
+def files_of(options: Namespace) -> list[str]:
+    """The files that are meant: those named, those in folders and those of a manifest, of these the range."""
     try:
         paths = [*listing.expand(options.files)]
         if options.manifest is not None:

@@ -26,11 +26,12 @@ from ...core.verdict.finding import Finding, MeasureError
 from ...core.verdict.method import Method, Verdict
 from ..bodies.measure_object import Measured
 from ..bodies.stack import MeasuredStack, Stacked
+from ..bodies.threshold import ThresholdGridBody
 from ..bodies.wall import WallBody
 from ..read.fingerprint import settings_hash
 from ..read.total_caveats import open_body_caveats, total_caveats
 from ..write import properties
-from . import faults, handlers, live, posed, reference, staleness, trust, walls
+from . import faults, handlers, live, posed, reference, staleness, threshold, trust, walls
 from .cache import SessionCache
 
 
@@ -65,6 +66,8 @@ def store(obj: Object, measured: Measured, scene: Scene) -> None:
     reference.follow(obj, scene, about)
     if isinstance(measured.body, WallBody):
         walls.cache_walls(obj, measured, _unit(scene))
+    elif isinstance(measured.body, ThresholdGridBody):
+        threshold.cache_grid(obj, measured, _unit(scene))
 
 
 def store_many(

@@ -19,13 +19,17 @@ from ...core.verdict.finding import Finding, ReadError, finding
 class GridOptions:
     """How a grid is taken.
 
-    grid: its name, "" for the likeliest. solid: a level set as the solid it bounds. value_density: kg/m³ where a value
-    is 1; table: a transfer table instead, "" for none. spline_order: 1 voxels, 2 trilinear, 4 cubic.
+    grid: its name, "" for the likeliest. solid: a level set as the solid it bounds. threshold: the body where values
+    are at least that, None for all of the grid; filled: with the grid's own density, not with one material.
+    value_density: kg/m³ where a value is 1; table: a transfer table instead, "" for none. spline_order: 1 voxels, 2
+    trilinear, 4 cubic.
     negative: the code of the refusal of negative densities, by where they come from.
     """
 
     grid: str = ""
     solid: bool = False
+    threshold: float | None = None
+    filled: bool = False
     value_density: float = 1.0
     table: str = ""
     spline_order: int = 1
@@ -38,6 +42,8 @@ class GridOptions:
         return cls(
             settings.grid,
             settings.grid_as == "SOLID",
+            shortest_decimal(settings.threshold) if settings.grid_as == "THRESHOLD" else None,
+            settings.threshold_fill == "GRID",
             shortest_decimal(settings.value_density if density is None else density),
             table,
             settings.spline_order,
@@ -46,8 +52,10 @@ class GridOptions:
     @property
     def key(self) -> tuple:
         """What the numbers depend on."""
+        if self.threshold is not None and not self.filled:
+            return self.grid, "threshold", self.threshold, self.spline_order
         values = (self.grid, "solid") if self.solid else (self.grid, self.table or self.value_density)
-        return (*values, self.spline_order)
+        return (*values, self.spline_order) if self.threshold is None else (*values, self.spline_order, self.threshold)
 
     def to_densities(self, background: float | None) -> Callable[[NDArray], NDArray]:
         """What makes densities in kg/m³ of values, and raises ReadError where it cannot. The background, if any, is

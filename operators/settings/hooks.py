@@ -13,6 +13,7 @@ Hook = Callable[[PropertyGroup, Context], None]
 on_change: list[Hook] = []  # any setting of an object
 on_density_change: list[Hook] = []  # what an object's mass is multiplied by: a density, a given mass, which of them
 on_wall_change: list[Hook] = []  # the side of a shell's material, or its thickness
+on_threshold_change: list[Hook] = []  # the value from which on a grid's points are inside
 on_default_density_change: list[Hook] = []  # that of a scene's objects that have none of their own
 
 
@@ -31,6 +32,12 @@ def wall_changed(settings: PropertyGroup, context: Context) -> None:
     """The update function of the settings that say where the material of a shell is."""
     _call(on_change, settings, context)
     _call(on_wall_change, settings, context)
+
+
+def threshold_changed(settings: PropertyGroup, context: Context) -> None:
+    """The update function of the threshold of a grid."""
+    _call(on_change, settings, context)
+    _call(on_threshold_change, settings, context)
 
 
 def default_density_changed(settings: PropertyGroup, context: Context) -> None:

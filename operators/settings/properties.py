@@ -20,7 +20,7 @@ from ...core.polyhedron import MAX_ORDER
 from .density import object_density
 from .given import GIVEN_PROPERTIES, is_point_mass
 from .given_properties import GivenPartProperties
-from .hooks import changed, density_changed, wall_changed
+from .hooks import changed, density_changed, threshold_changed, wall_changed
 from .overlay import BodyMomentsOverlaySettings
 from .preferences import CLASSES as PREFERENCES
 from .preferences import SceneDefaults
@@ -30,7 +30,17 @@ TRANSLATION_CONTEXT = "Body Moments"  # for words that mean something else in Bl
 COPIED_PROPERTIES = (
     *("kind", "wall", "thickness", "mass_from", "density", "linear_density", "material", "mass", "overlap"),
     *("density_from", "density_polynomial", "density_frame", "density_attribute"),
-    *("density_volume", "grid", "grid_as", "values_from", "value_density", "transfer_table", "spline_order"),
+    *(
+        "density_volume",
+        "grid",
+        "grid_as",
+        "threshold",
+        "threshold_fill",
+        "values_from",
+        "value_density",
+        "transfer_table",
+        "spline_order",
+    ),
     *GIVEN_PROPERTIES,
 )
 
@@ -51,7 +61,7 @@ def _density_in(unit: str, description: str):
     factor, name = DENSITY_UNITS[unit]
     return FloatProperty(
         name="Density ({:s})".format(name),
-        description="{:s}, in {:s}".format(description, name),
+        description=description.format(name),
         get=lambda settings: _shown_density(settings) / factor,
         set=lambda settings, value: setattr(settings, "density", value * factor),
         min=0.0,
@@ -159,10 +169,10 @@ class BodyMomentsObjectSettings(GivenPartProperties, PropertyGroup):
         precision=3,
         update=_density_changed,
     )
-    density_kg_m3: _density_in("KG_M3", "Density")
-    density_g_cm3: _density_in("G_CM3", "Density")
-    density_lb_in3: _density_in("LB_IN3", "Density")
-    density_lb_ft3: _density_in("LB_FT3", "Density")
+    density_kg_m3: _density_in("KG_M3", "Density in {:s}")
+    density_g_cm3: _density_in("G_CM3", "Density in {:s}")
+    density_lb_in3: _density_in("LB_IN3", "Density in {:s}")
+    density_lb_ft3: _density_in("LB_FT3", "Density in {:s}")
     linear_density: FloatProperty(
         name="Linear Density",
         description="Mass per length of the wire in kg/m, independent of the scene units",
@@ -236,8 +246,27 @@ class BodyMomentsObjectSettings(GivenPartProperties, PropertyGroup):
         items=(
             ("DENSITY", "Density", "The values determine the density of each voxel"),
             ("SOLID", "Solid", "The grid is a level set that bounds a solid filled with material"),
+            ("THRESHOLD", "Threshold", "The body where the values, linear between voxels, are at least a threshold"),
         ),
         default="DENSITY",
+        update=changed,
+    )
+    threshold: FloatProperty(
+        name="Threshold",
+        description="Grid value from which on a point belongs to the body",
+        default=0.5,
+        step=1,
+        precision=4,
+        update=threshold_changed,
+    )
+    threshold_fill: EnumProperty(
+        name="Filled With",
+        description="What the body within the threshold is made of",
+        items=(
+            ("MATERIAL", "Material", "One density, as for any solid"),
+            ("GRID", "Grid", "The density that the values of the grid represent"),
+        ),
+        default="MATERIAL",
         update=changed,
     )
     values_from: EnumProperty(
@@ -305,10 +334,10 @@ class BodyMomentsMaterialSettings(PropertyGroup):
         precision=3,
         update=_forget_material,
     )
-    density_kg_m3: _density_in("KG_M3", "Density, 0 for that of the object,")
-    density_g_cm3: _density_in("G_CM3", "Density, 0 for that of the object,")
-    density_lb_in3: _density_in("LB_IN3", "Density, 0 for that of the object,")
-    density_lb_ft3: _density_in("LB_FT3", "Density, 0 for that of the object,")
+    density_kg_m3: _density_in("KG_M3", "Density in {:s}. At 0, the density of the object is used")
+    density_g_cm3: _density_in("G_CM3", "Density in {:s}. At 0, the density of the object is used")
+    density_lb_in3: _density_in("LB_IN3", "Density in {:s}. At 0, the density of the object is used")
+    density_lb_ft3: _density_in("LB_FT3", "Density in {:s}. At 0, the density of the object is used")
     material: StringProperty(
         name="Material",
         description="Entry of the material table that the density was taken from",

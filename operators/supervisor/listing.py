@@ -58,7 +58,7 @@ def _walk(top: str) -> Iterator[str]:
                 if (status.st_dev, status.st_ino) not in known:
                     known.add((status.st_dev, status.st_ino))
                     names = sorted(name for name in os.listdir(path) if not name.startswith("."))
-                    waiting.append(os.path.join(path, name) for name in names)
+                    waiting.append(iter([os.path.join(path, name) for name in names]))
 
 
 def write_lines(paths: Iterable[str]) -> Iterator[str]:
@@ -83,4 +83,5 @@ def read(path: Path) -> list[str]:
         raise QueryError("manifest_unreadable", file=str(path), error=error.strerror or str(error)) from error
     except (ValueError, KeyError, TypeError, IndexError, RecursionError) as error:
         raise QueryError("manifest_malformed", file=str(path)) from error
-    return [os.path.join(path.parent, name) for name in names]
+    folder = "" if path.parent == Path() else path.parent
+    return [os.path.join(folder, name) for name in names]

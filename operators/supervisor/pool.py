@@ -25,7 +25,7 @@ from .lifeline import MARK
 ATTEMPTS = 2  # of a file that ends its child: the second one in a fresh child
 GROWTH = 256 << 20  # bytes that a child may keep of the files that it has measured before another one takes its place
 START_LIMIT = 300.0  # seconds in which a child must be ready
-MAX_FAILED_STARTS = 3  # in a row
+MAX_FAILED_STARTS = 5  # in a row
 _WATCH = 0.05 if sys.platform.startswith("linux") else 1.0  # seconds between looks at the memory of children
 _GROWTH_PERIOD = 16  # files of a child between looks at its growth
 _END = 10.0  # seconds in which a child must end that has nothing more to do
@@ -277,7 +277,7 @@ class Pool:
         self._close(child)
         if not child.ready:
             self._failed_starts += 1
-            if not self.about or self._failed_starts >= MAX_FAILED_STARTS:
+            if self._failed_starts >= MAX_FAILED_STARTS:
                 raise ChildError(" ".join(said.split()) or processes.how_it_ended(child.process.returncode))
             return []
         if child.task is None:

@@ -146,6 +146,10 @@ MESSAGES: dict[str, Message] = {
     "no_faces": _error("No faces. Add faces, or select another object."),
     "no_geometry": _error("No geometry. Add faces, or check whether a modifier removes them."),
     "no_face_area": _error("All faces have zero area. Move their vertices apart, or select another object."),
+    "surface_not_closed": _error(
+        "The surface does not close, and its volume depends on the reference point. Use the moments of the body that "
+        "measure_solid makes of it."
+    ),
     "no_volume": _error(
         "The faces enclose no volume. Set Kind to Shell, close the mesh, or use Measure Section for a flat shape."
     ),
@@ -194,9 +198,13 @@ MESSAGES: dict[str, Message] = {
         "Flipped face measured as reversed: {elements}. Use Mesh > Normals > Recalculate Outside.",
         "{count} flipped faces measured as reversed: {elements}. Use Mesh > Normals > Recalculate Outside.",
     ),
+    "flipped_faces_slightly": _note(
+        "Flipped face measured as reversed: {elements}.", "{count} flipped faces measured as reversed: {elements}."
+    ),
     "inverted_components": _warning(
         "Inside-out components measured as reversed: {count} of {total}. Use Mesh > Normals > Recalculate Outside."
     ),
+    "inverted_components_slightly": _note("Inside-out components measured as reversed: {count} of {total}."),
     "holes_capped": _warning(
         "Holes capped: {count} ({flat} flat, {curved} curved; {share:percent} of the area). Use Mesh > Clean Up > Fill "
         "Holes."
@@ -222,6 +230,10 @@ MESSAGES: dict[str, Message] = {
         "{count} cavities break through their walls, by up to {share:percent} of the size; what lies outside counts as "
         "negative. Make the cavities smaller or the walls thicker.",
     ),
+    "cavities_break_through_slightly": _note(
+        "{count} cavity breaks through its wall, by up to {share:percent} of the size.",
+        "{count} cavities break through their walls, by up to {share:percent} of the size.",
+    ),
     "components_nested": _warning(
         "{count} outward component lies inside another; the shared space counts twice. Flip cavities, or set "
         "Overlaps to "
@@ -230,9 +242,14 @@ MESSAGES: dict[str, Message] = {
         "Overlaps to "
         "Count as Union.",
     ),
+    "components_nested_slightly": _note(
+        "{count} outward component lies inside another; the shared space counts twice.",
+        "{count} outward components lie inside others; the shared space counts twice.",
+    ),
     "components_overlap": _warning(
         "{count} components overlap; the shared space counts twice. Set Overlaps to Count as Union."
     ),
+    "components_overlap_slightly": _note("{count} components overlap; the shared space counts twice."),
     "overlap_unchecked": _warning(
         "{count} pair of components was not checked for overlap, which would take too long.",
         "{count} pairs of components were not checked for overlap, which would take too long.",
@@ -240,6 +257,10 @@ MESSAGES: dict[str, Message] = {
     "flat_components": _warning(
         "{count} of {total} components is flat and has no volume. Delete it, or set Kind to Shell.",
         "{count} of {total} components are flat and have no volume. Delete them, or set Kind to Shell.",
+    ),
+    "flat_components_slightly": _note(
+        "{count} of {total} components is flat and has no volume.",
+        "{count} of {total} components are flat and have no volume.",
     ),
     "flat_surface": _warning("The surface is flat and encloses no volume. Set Kind to Shell."),
     "self_intersecting": _warning(
@@ -734,6 +755,23 @@ MESSAGES: dict[str, Message] = {
     "outside_grid_slightly": _note("{share:percent} of the volume is outside the grid and counts as empty."),
     "density_grid_too_fine": _error(
         "The grid “{grid}” of “{object}” has too many voxels around the object, {samples:size}. Use a coarser grid."
+    ),
+    "threshold_measured": _note(
+        "The body where the grid “{grid}” is at least {threshold}, by its interpolant. Its surface passes through "
+        "{cells} cells."
+    ),
+    "threshold_clipped": _warning(
+        "The body reaches the edge of the grid “{grid}” and is cut off there. Raise Threshold, or enlarge the grid."
+    ),
+    "threshold_not_reached": _error(
+        "No value of the grid “{grid}” reaches the threshold {threshold}; the largest is {largest}. Lower Threshold."
+    ),
+    "threshold_needs_factor": _error(
+        "Within a threshold, values become densities by a factor alone. Set Values to Factor, or Filled With to "
+        "Material."
+    ),
+    "threshold_too_large": _error(
+        "The grid “{grid}” spans too many voxels, {samples}, for a threshold. Resample it, or crop it."
     ),
     "grid_as_shell": _error("A grid of voxels cannot be a shell. Set Kind to Solid."),
     "open_surface_of_grid": _error("The surface is open, so the inside of the grid is undefined. Close the mesh."),
@@ -1284,6 +1322,9 @@ MESSAGES: dict[str, Message] = {
     "usage_fourier_one_object": _error("argument --fourier: takes one object of one FILE"),
     "usage_path_twice": _error("argument --fourier: {path} is used twice"),
     "usage_frequency_count": _error("{text!r} is not a number of frequencies from 2 to {limit}"),
+    "usage_density_source": _error("{text!r} is not value, materials, attribute:NAME or volume:NAME"),
+    "material_unknown": _error("There is no material “{name}”. Known are {names}"),
+    "density_volume_unknown": _error("There is no Volume object “{name}” in the scene. Name one that is."),
     "usage_range": _error("{text!r} is not A:B, two whole numbers with A no larger than B"),
     "usage_needs_supervisor": _error("argument --{option}: applies to FILEs that are measured by other processes"),
     "usage_resume_output": _error("argument --resume: needs the --output of the run to go on with"),
@@ -1293,10 +1334,14 @@ MESSAGES: dict[str, Message] = {
         "argument --output: {path} is in the way of the older result, and is none itself. Move it, or use --force"
     ),
     "folder_without_files": _error("No file that can be measured is in the folder {folder}. Name files"),
+    "results_unreadable": _error("The results {file} cannot be read: {error}"),
+    "results_malformed": _error("{file} is not a result of body_moments. Name what “measure” has written"),
+    "compare_two": _error("“compare” takes two results"),
     "manifest_unreadable": _error("The list {file} cannot be read: {error}"),
     "manifest_malformed": _error("{file} is not a list of files. Make one with “manifest FOLDER”"),
     "usage_result_not_written": _error("the result cannot be written: {error}"),
     # ------------------------------------------------------------------ Rigid bodies
+    "joint_not_added": _error("Blender did not make the joint. Check that the scene has a rigid body world."),
     "rigid_bodies_made": _note(
         "{count} rigid body of {mass:.7g} kg; Calculate Mass would say {calculated:.7g} kg",
         "{count} rigid bodies of {mass:.7g} kg; Calculate Mass would say {calculated:.7g} kg",
@@ -1627,6 +1672,7 @@ MESSAGES: dict[str, Message] = {
         "{count} object without mass is no link: {links}.", "{count} objects without mass are no links: {links}."
     ),
     "robot_without_links": _error("There is no link. Measure objects with mass."),
+    "robot_without_bones": _error("There is no link. Select an armature with what it moves."),
     "robot_one_file": _error("A robot is one file. Name one FILE for this format, not {count}."),
     "robot_base_added": _note(
         "{count} objects have no parent. They are fixed to an added link without mass, {name}. Parent them to one of "

@@ -16,6 +16,7 @@ from contextlib import suppress
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ...core.inertia.mass_properties import MassProperties, combine
 from ...core.measurement import UNIFORM_DENSITIES, Measurement
@@ -32,12 +33,14 @@ def record(
     order: int | None = None,
     surface: Moments | None = None,
     more: dict[str, Any] | None = None,
+    about: str | Sequence[float] | None = None,
 ) -> dict[str, Any]:
     """One object's record.
 
     frame: "world" or "object". order: adds `moments`, volume moments up to that order, which the
     measurement must have, about the frame's origin; of a shell, those of its thin volume. surface:
-    area moments of the same object, world frame, added to them. more: further entries.
+    area moments of the same object, world frame, added to them. more: further entries. about: "center", "origin",
+    "world", or a point in the frame: adds `inertia_about`, and the moments are about it.
     """
     properties = measurement.mass_properties if frame == "world" else measurement.in_object_frame()
     entry = {
@@ -59,17 +62,20 @@ def record(
             "length": measurement.length,
             "linear_density": properties.mass / measurement.length,
         }
+    point = _point(about, measurement, properties, frame)
+    if about is not None:
+        entry["inertia_about"] = {"point": point, "inertia": _inertia_about(point, properties)}
     if order is not None:
         volume = measurement.volume_moments
         if volume is None:
             volume = measurement.area_moments * measurement.thickness
-        entry["moments"] = {"order": order, "about": [0.0, 0.0, 0.0]}
-        entry["moments"]["volume"] = _about_origin(volume, order, measurement, frame)
+        entry["moments"] = {"order": order, "about": point}
+        entry["moments"]["volume"] = _about(point, volume, order, measurement, frame)
         if measurement.length is not None:
             length = measurement.mass_moments[0]
-            entry["moments"]["length"] = _about_origin(length, min(order, length.order), measurement, frame)
+            entry["moments"]["length"] = _about(point, length, min(order, length.order), measurement, frame)
         if surface is not None:
-            entry["moments"]["surface"] = _about_origin(surface, order, measurement, frame)
+            entry["moments"]["surface"] = _about(point, surface, order, measurement, frame)
     entry |= more or {}
     if measurement.display_volume is not None:
         entry["display_mesh"] = {
@@ -156,11 +162,32 @@ def _inertial(properties: MassProperties) -> dict[str, Any]:
     }
 
 
-def _about_origin(moments: Moments, order: int, measurement: Measurement, frame: str) -> dict[str, float]:
-    """World-frame moments by exponents, about the origin of the frame and along its axes."""
+def _point(
+    about: str | Sequence[float] | None, measurement: Measurement, properties: MassProperties, frame: str
+) -> NDArray[np.float64]:
+    """Where a point is in the frame; without one, the frame's origin."""
+    if about == "center":
+        return properties.center
+    if about == "origin" and frame == "world":
+        return np.asarray(measurement.location, np.float64)
+    if about == "world" and frame == "object":
+        return -measurement.rotation.T @ measurement.location
+    return np.zeros(3) if about is None or isinstance(about, str) else np.asarray(about, np.float64)
+
+
+def _inertia_about(point: NDArray[np.float64], properties: MassProperties) -> NDArray[np.float64]:
+    """The tensor about another point, by the parallel-axis theorem."""
+    arm = point - properties.center
+    return properties.inertia + properties.mass * (arm @ arm * np.eye(3) - np.outer(arm, arm))
+
+
+def _about(
+    point: NDArray[np.float64], moments: Moments, order: int, measurement: Measurement, frame: str
+) -> dict[str, float]:
+    """World-frame moments by exponents, about a point of the frame and along its axes."""
     moments = moments.truncate(order)
     if frame == "object":
-        moments = moments.in_frame(measurement.rotation, measurement.location)
+        moments = moments.in_frame(measurement.rotation, measurement.location + measurement.rotation @ point)
     else:
-        moments = moments.about_point(np.zeros(3))
+        moments = moments.about_point(point)
     return {",".join(map(str, powers)): value for powers, value in zip(monomials(order), moments.raw, strict=True)}

@@ -18,6 +18,7 @@ import gpu
 import numpy as np
 from bpy.types import Context, SpaceView3D
 from gpu_extras.batch import batch_for_shader
+from mathutils import Matrix
 from numpy.typing import NDArray
 
 from ...operators.session import handlers
@@ -39,7 +40,7 @@ class _Drawn:
     """What was made for a region, and what it was made for."""
 
     key: tuple = ()
-    view_key: bytes = b""
+    view_key: tuple = ()
     bodies: Bodies | None = None
     lines: tuple[Batch, ...] = ()  # faint, full
     fills: tuple[Batch, ...] = ()
@@ -68,15 +69,15 @@ def draw() -> None:
     key = _key(context)
     if drawn.key != key:
         _make(drawn, context)
-        drawn.key, drawn.view_key = key, b""
+        drawn.key, drawn.view_key = key, ()
     if not (drawn.lines or drawn.fills or len(drawn.bodies)):
         return
-    view = _view()
-    if drawn.view_key != view.key:
-        drawn.discs = _discs(drawn.bodies, view, context.scene.body_moments.overlay.show_axes)
-        drawn.view_key = view.key
+    view_key = gpu.matrix.get_model_view_matrix(), gpu.matrix.get_projection_matrix(), gpu.state.viewport_get()[2:]
+    if drawn.view_key != view_key:
+        drawn.discs = _discs(drawn.bodies, _view(*view_key), settings.show_axes)
+        drawn.view_key = view_key
     with _restored_state():
-        _draw_batches(drawn, view)
+        _draw_batches(drawn, view_key[2])
 
 
 def _drawn(context: Context) -> _Drawn:
@@ -105,13 +106,8 @@ def _scale() -> float:
     return bpy.context.preferences.system.ui_scale
 
 
-def _view() -> View:
-    size = np.array(gpu.state.viewport_get()[2:], np.float64)
-    return View(
-        np.array(gpu.matrix.get_model_view_matrix(), np.float64),
-        np.array(gpu.matrix.get_projection_matrix(), np.float64),
-        size,
-    )
+def _view(view: Matrix, projection: Matrix, size: tuple[int, int]) -> View:
+    return View(np.array(view, np.float64), np.array(projection, np.float64), np.array(size, np.float64))
 
 
 # ---------------------------------------------------------------- What is drawn
@@ -181,7 +177,7 @@ def _restored_state() -> Iterator[None]:
         state.line_width_set(width)
 
 
-def _draw_batches(drawn: _Drawn, view: View) -> None:
+def _draw_batches(drawn: _Drawn, size: tuple[int, int]) -> None:
     scale = _scale()
     gpu.state.depth_test_set("NONE")
     for batch in drawn.fills:
@@ -192,7 +188,7 @@ def _draw_batches(drawn: _Drawn, view: View) -> None:
         gpu.state.depth_test_set(depth)
         for shader, width in ((uniform, look.LINE + 2.0 * look.OUTLINE), (colored, look.LINE)):
             shader.bind()
-            shader.uniform_float("viewportSize", view.size)
+            shader.uniform_float("viewportSize", size)
             shader.uniform_float("lineWidth", scale * width)
             if shader is uniform:
                 shader.uniform_float("color", (*look.DARK[:3], 0.6 * opacity))

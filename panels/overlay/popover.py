@@ -7,6 +7,17 @@ from __future__ import annotations
 import bpy
 from bpy.types import Context, Menu, Panel, UILayout
 
+# settings → labels that fit into half of the popover
+SWITCHES = {
+    "show_axes": "Principal Axes",
+    "show_drop_line": "Drop Line",
+    "show_all": "All Objects",
+    "show_sum": "Total",
+    "show_support": "Support",
+    "show_faults": "Faults",
+    "show_path": "Paths",
+}
+
 
 def header_switch(layout: UILayout, context: Context) -> None:
     """Draw the overlay's button, for the header of the panel."""
@@ -23,15 +34,11 @@ def section(self: Panel | Menu, context: Context) -> None:
     column.prop(settings, "show")
     column = column.column()
     column.active = settings.show
-    grid = column.grid_flow(columns=2, even_columns=True, align=True)
-    for name in (
-        *("show_all", "show_sum", "show_axes", "show_drop_line"),
-        *("show_faults", "show_support", "show_path"),
-    ):
-        grid.prop(settings, name)
-    row = column.row(align=True)
-    row.label(text="Equal Inertia")
-    row.prop(settings, "equivalent", expand=True)
+    grid = column.grid_flow(row_major=True, columns=2, even_columns=True, align=True)
+    for name, text in SWITCHES.items():
+        grid.prop(settings, name, text=text)
+    column.label(text="Equal Inertia")
+    column.row(align=True).prop(settings, "equivalent", expand=True)
 
 
 def register() -> None:

@@ -26,11 +26,6 @@ class View:
     projection: NDArray[np.float64]
     size: NDArray[np.float64]
 
-    @property
-    def key(self) -> bytes:
-        """Equal for equal views."""
-        return self.view.tobytes() + self.projection.tobytes() + self.size.tobytes()
-
     def depths(self, points: NDArray) -> NDArray[np.float64]:
         """(n,) distances of (n, 3) points from the eye along the view, negative behind it in perspective."""
         return -(points @ self.view[2, :3] + self.view[2, 3])

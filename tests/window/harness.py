@@ -179,13 +179,51 @@ class Window:
 
     def press(self, operator: str) -> None:
         """Click the button of an operator in the sidebar, after scrolling to it if need be."""
+        self.click(*self.place(operator))
+
+    def place(self, operator: str) -> tuple[float, float]:
+        """Where the button of an operator is in the sidebar, after scrolling to it if need be."""
         place = self.buttons.get(operator)
         if place is None or self._button_at(*place) != operator:
             place = self._find_button(operator)
-        self.click(*place)
+        return place
+
+    def choose(self, menu: str, operator: str) -> None:
+        """Open a menu at the pointer, as its key or header does, and click the entry of an operator."""
+        x, y, width, height = self.region("WINDOW")
+        x, y = x + width * 0.3, y + height - 60
+        self.move(x, y)
+        self.ask(f"bpy.ops.wm.call_menu(name={menu!r})")
+        for down in range(0, height - 80, 9):
+            if self._button_at(x, y - down) == operator:
+                self._xdotool("click", 1)
+                self.get("True")
+                return
+        self.picture("no-entry")
+        self.key("Escape")
+        raise LookupError(f"no entry for {operator} in {menu}\n{self.output()}")
+
+    def commands(self) -> list[str]:
+        """The commands of all buttons in the part of the sidebar that is seen, from top to bottom, with their values.
+
+        What a row shows is what its button would copy.
+        """
+        x, y, width, height = self.region("UI")
+        found = {}
+        for down in range(24, height, 16):
+            for share in (0.5, 0.93):
+                command = self._command_at(x + (width - 28) * share, y + height - down, tries=2)
+                if command:
+                    found[command] = None
+        return list(found)
 
     def _button_at(self, x: float, y: float) -> str | None:
-        """The operator of the button there.
+        """The operator of the button there."""
+        command = self._command_at(x, y)
+        return command and command.removeprefix("bpy.ops.").partition("(")[0]
+
+    def _command_at(self, x: float, y: float, tries: int = 4) -> str | None:
+        """The command of the button there.
 
         Blender tells no positions of buttons, but Ctrl C over one copies its command.
         """
@@ -193,10 +231,10 @@ class Window:
         self.move(x, y)
         self.get("True")
         self.key("ctrl+c")
-        for _ in range(4):
+        for _ in range(tries):
             copied = self.get("bpy.context.window_manager.clipboard")
             if copied.startswith("bpy.ops."):
-                return copied.removeprefix("bpy.ops.").partition("(")[0]
+                return copied
         return None
 
     def _find_button(self, operator: str) -> tuple[float, float]:
@@ -206,7 +244,7 @@ class Window:
         self.buttons.clear()
         for page in range(PAGES):
             for down in range(30 if page == 0 else 8, height, 14):
-                for share in (0.25, 0.75):
+                for share in (0.25, 0.75, 0.93):
                     place = (x + column * share, y + height - down)
                     found = self._button_at(*place)
                     if found == operator:

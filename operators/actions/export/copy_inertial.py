@@ -7,12 +7,12 @@ from __future__ import annotations
 from bpy.props import EnumProperty
 from bpy.types import Context, Operator
 
-from ....core.verdict.finding import finding
+from ....core.verdict.finding import MeasureError, finding
 from ...write import reports
 from ...write.robots.formats import robot_text
 from .. import selection
 from ..measure.copy import copy_text
-from .links import left_out, measure_scene, object_links
+from .links import object_links
 
 FORMATS = (
     ("urdf", "URDF", "Tensor along the axes of the object"),
@@ -36,16 +36,15 @@ class OBJECT_OT_body_moments_copy_inertial(Operator):
         return selection.poll_selection(cls, context)
 
     def execute(self, context: Context) -> set[str]:
-        objects = selection.selected_measurable(context)
-        scene = measure_scene(context, objects)
-        if not scene.measured:
-            selection.report(self, *(reports.first(scene.failures) or [finding("nothing_measurable")]))
+        try:
+            made = object_links(context, "robot", selection.selected_measurable(context))
+        except MeasureError as error:
+            selection.report(self, reports.refusal(error))
             return {"CANCELLED"}
-        robot, findings, _ = object_links("robot", scene)
-        text, _ = robot_text(robot, self.format, findings, inertial_only=True)
-        copy_text(self, context, text, finding("robot_copied", count=len(robot.links)))
-        if scene.failures:
-            selection.report(self, *left_out(scene.failures, len(objects)))
+        text, _ = robot_text(made.robot, self.format, made.findings, inertial_only=True)
+        copy_text(self, context, text, finding("robot_copied", count=len(made.robot.links)))
+        if made.findings:
+            selection.report(self, *made.findings)
         return {"FINISHED"}
 
 

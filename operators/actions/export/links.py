@@ -7,125 +7,141 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 import bpy
+import numpy as np
 from bpy.types import Collection, Context, Object
+from numpy.typing import NDArray
 
 from ....core.measurement import Measurement
+from ....core.mesh.surface import Surface, join_surfaces
+from ....core.numerics.float32 import shortest_decimal
 from ....core.robots.model import Robot
 from ....core.verdict.finding import EditRefusedError, Finding, MeasureError, finding
 from ...bodies.assembly import measure_assembly
-from ...bodies.measure_object import measure_object
+from ...bodies.many import measured_in_turn
+from ...bodies.rig import measure_rig
 from ...read import measurable
-from ...read.links import link_entry
-from ...write import record, reports
-from ...write.robots.from_records import robot_of_records
+from ...read.links import bone_freedom, bone_parents, link_entry, link_surface, object_entry
+from ...read.rig import pose_bone_of
+from ...write import reports
+from ...write.robots.from_records import brief_record, robot_of_records
 from .. import selection
 
 
-@dataclass
-class MeasuredScene:
-    """Objects that were measured, and why others were not.
+@dataclass(frozen=True)
+class SceneLinks:
+    """A robot made from the scene.
 
-    measured: by object. failures: one for each object that could not be measured.
+    robot, findings: and what was left out. members: the objects of each link. pieces: of each bone, the surfaces and
+    the maps that put them into the world, m.
     """
 
-    measured: dict[Object, Measurement] = field(default_factory=dict)
-    failures: list[Finding] = field(default_factory=list)
+    robot: Robot
+    findings: list[Finding]
+    members: dict[str, list[Object]] = field(default_factory=dict)
+    pieces: dict[str, tuple[tuple[Surface, NDArray[np.float64]], ...]] = field(default_factory=dict)
+
+    def surface(self, context: Context, label: str) -> Surface | None:
+        """Return what a link shows, in meters along its own axes; None where it shows no faces."""
+        pose = self.robot.link(label).pose
+        if label not in self.pieces:
+            depsgraph = context.evaluated_depsgraph_get()
+            return link_surface(self.members.get(label, ()), depsgraph, pose, meters_per_unit(context))
+        to_link = pose.inverse()
+        return join_surfaces(
+            [
+                surface.transform(
+                    to_link.rotation @ matrix[:3, :3], to_link.rotation @ matrix[:3, 3] + to_link.position
+                )
+                for surface, matrix in self.pieces[label]
+            ]
+        )
 
 
-def objects_to_export(context: Context, collection: str, selected: bool) -> list[Object]:
-    """Return the objects that are to be links.
+def meters_per_unit(context: Context) -> float:
+    """Return what a Blender unit is in the scene."""
+    return shortest_decimal(context.scene.unit_settings.scale_length)
 
-    Parameters
-    ----------
-    context : Context
-    collection : str
-        The name of the collection that is exported; "" for none.
-    selected : bool
-        Only the selected ones; else all that are rendered.
 
-    Returns
-    -------
-    list of Object
-
-    Raises
-    ------
-    EditRefusedError
-        If there is none.
-    """
-    chosen: list[Object] = list(context.view_layer.objects)
+def candidates(context: Context, collection: str, selected: bool) -> list[Object]:
+    """Return the objects of the collection of that name, where there is one; else the selected ones, or all that are
+    rendered."""
     if collection:
-        chosen = list(bpy.data.collections[collection].all_objects)
-    elif selected:
-        chosen = list(context.view_layer.objects.selected)
-    else:
-        chosen = [obj for obj in chosen if not obj.hide_render]
-    chosen = [obj for obj in chosen if measurable(obj)]
-    if not chosen:
-        raise EditRefusedError("robot_without_links")
-    return chosen
+        return list(bpy.data.collections[collection].all_objects)
+    if selected:
+        return list(context.view_layer.objects.selected)
+    return [obj for obj in context.view_layer.objects if not obj.hide_render]
 
 
-def measure_scene(context: Context, objects: list[Object]) -> MeasuredScene:
-    """Measure objects as their settings say."""
+def object_links(context: Context, name: str, objects: list[Object]) -> SceneLinks:
+    """Return a robot with a link for each object that can be measured. MeasureError where there is none."""
     depsgraph = context.evaluated_depsgraph_get()
-    scene = MeasuredScene()
+    chosen = [obj for obj in objects if measurable(obj)]
+    measured: dict[Object, Measurement] = {}
+    in_turn = measured_in_turn(chosen, depsgraph)
 
     def measure(obj: Object) -> bool:
-        scene.measured[obj] = measure_object(obj, depsgraph)
+        measured[obj] = in_turn(obj).measurement
         return True
 
-    _, scene.failures = selection.apply_to_all(objects, measure)
-    return scene
-
-
-def object_links(name: str, scene: MeasuredScene) -> tuple[Robot, list[Finding], dict[str, list[Object]]]:
-    """Return a robot with a link for each object, what was left out, and the objects of each link."""
-    labels = {obj: obj.name_full for obj in scene.measured}
+    _, failures = selection.apply_to_all(chosen, measure)
+    if not measured:
+        raise EditRefusedError(failures[0] if failures else finding("robot_without_links"))
+    labels = {obj: obj.name_full for obj in measured}
     records = []
-    for obj, measurement in scene.measured.items():
-        entry = record.record(measurement, "object")
-        records.append({**entry, "name": labels[obj], "link": link_entry(obj, measurement, labels)})
+    for obj, measurement in measured.items():
+        records.append(brief_record(labels[obj], measurement, object_entry(obj, measurement, labels)))
     robot, findings = robot_of_records(name, records)
-    return robot, findings, {label: [obj] for obj, label in labels.items()}
+    members = {label: [obj] for obj, label in labels.items()}
+    return SceneLinks(robot, [*findings, *left_out(failures, len(chosen))], members)
 
 
-def collection_links(
-    context: Context, name: str, root: Collection, objects: list[Object]
-) -> tuple[Robot, list[Finding], dict[str, list[Object]]]:
+def collection_links(context: Context, name: str, root: Collection, objects: list[Object]) -> SceneLinks:
     """Return a robot with a link for each collection in one, or for the collection itself where there is none in it.
-    They are assemblies, along the world's axes, with all that they hold.
-
-    Parameters
-    ----------
-    context : Context
-    name : str
-    root : Collection
-    objects : list of Object
-        What counts of what they hold is their own decision; what their meshes show is of these.
-
-    Returns
-    -------
-    Robot
-    list of Finding
-        Why other collections are no links.
-    dict of str to list of Object
-        The objects of each link.
-    """
+    They are assemblies, along the world's axes, with all that they hold. objects: what their meshes show."""
     depsgraph = context.evaluated_depsgraph_get()
-    records, findings, members = [], [], {}
-    for collection in list(root.children) or [root]:
+    records, failures, members = [], [], {}
+    collections = list(root.children) or [root]
+    for collection in collections:
         label = collection.name_full
         try:
             measurement = measure_assembly(collection, depsgraph).measurement
         except MeasureError as error:
-            findings.append(reports.failure(label, error.finding))
+            failures.append(reports.failure(label, error.finding))
             continue
         held = {*collection.all_objects}
-        members[label] = [obj for obj in objects if obj in held]
-        place = {"position": [0.0, 0.0, 0.0], "rotation": [1.0, 0.0, 0.0, 0.0], "scale": [1.0, 1.0, 1.0], "parents": []}
-        records.append({**record.record(measurement, "world"), "name": label, "link": place})
-    robot, left_out = robot_of_records(name, records)
-    return robot, [*findings, *left_out], members
+        members[label] = [obj for obj in objects if obj in held and measurable(obj)]
+        records.append(brief_record(label, measurement, link_entry(measurement)))
+    if not records:
+        raise EditRefusedError(failures[0])
+    robot, findings = robot_of_records(name, records)
+    return SceneLinks(robot, [*findings, *left_out(failures, len(collections))], members)
+
+
+def bone_links(context: Context, name: str, objects: list[Object]) -> SceneLinks:
+    """Return a robot with a link for each bone that has a part, in its rest frame, and joints with the bones' limits.
+    MeasureError where there is no character."""
+    records, findings, pieces = [], [], {}
+    armatures = [obj for obj in objects if obj.type == "ARMATURE"]
+    for armature in armatures:
+        rig = measure_rig(context, armature)
+        findings += rig.measurement.findings
+        several = len(armatures) > 1
+        labels = {
+            part.name: "{}:{}".format(armature.name, part.name) if several else part.name
+            for part in rig.parts
+            if part.measurement is not None
+        }
+        for part in rig.parts:
+            if part.measurement is None:
+                continue
+            bone, label = pose_bone_of(armature, part.name), labels[part.name]
+            entry = link_entry(part.measurement, bone_parents(bone, labels), free=bone_freedom(bone))
+            records.append(brief_record(label, part.measurement, entry))
+            pieces[label] = part.surfaces
+    if not records:
+        raise EditRefusedError("robot_without_bones")
+    robot, left = robot_of_records(name, records)
+    return SceneLinks(robot, [*findings, *left], pieces=pieces)
 
 
 def left_out(failures: list[Finding], total: int) -> list[Finding]:

@@ -14,11 +14,8 @@ from bpy.props import BoolProperty, EnumProperty, StringProperty
 from bpy.types import Context, FileHandler, Menu, Object, Operator, UILayout
 from bpy_extras.io_utils import ExportHelper
 
-from ....core.mesh.surface import Surface
-from ....core.numerics.float32 import shortest_decimal
-from ....core.robots.model import Robot
 from ....core.verdict.finding import EditRefusedError, FileError, Finding, MeasureError, finding
-from ...read.links import USD_ROOT, link_surface, sheared_objects, usd_path
+from ...read.links import USD_ROOT, sheared_objects, usd_path
 from ...write import reports
 from ...write.messages import sentence
 from ...write.robots import gltf, usd
@@ -28,11 +25,12 @@ from ...write.robots.stl import write_meshes
 from ...write.whole_file import whole_file
 from .. import selection
 from . import links as scenes
+from .links import SceneLinks, meters_per_unit
 
-Links = tuple[Robot, list[Finding], dict[str, list[Object]]]
 LINKS = (
     ("OBJECT", "Objects", "Each object is a link; its parent holds it by a fixed joint"),
     ("COLLECTION", "Collections", "Each collection with all that it holds is a link, along the world's axes"),
+    ("BONE", "Bones", "Each bone of a character is a link in its rest frame, with joints of the bones' limits"),
 )
 GEOMETRY = (
     ("MESH", "Meshes", "Name a mesh file for each link"),
@@ -41,10 +39,6 @@ GEOMETRY = (
     ("CAPSULE", "Capsules", "The capsule of the same mass and center, with the inertia that comes nearest"),
     ("NONE", "None", "Links have no geometry"),
 )
-
-
-def meters_per_unit(context: Context) -> float:
-    return shortest_decimal(context.scene.unit_settings.scale_length)
 
 
 class RobotExport(ExportHelper):
@@ -74,7 +68,7 @@ class RobotExport(ExportHelper):
 
     def execute(self, context: Context) -> set[str]:
         try:
-            objects = scenes.objects_to_export(context, self.collection, self.use_selection)
+            objects = scenes.candidates(context, self.collection, self.use_selection)
             findings = self._export(context, objects, Path(bpy.path.abspath(self.filepath)))
         except MeasureError as error:
             selection.report(self, reports.refusal(error))
@@ -85,30 +79,23 @@ class RobotExport(ExportHelper):
         selection.report(self, *findings)
         return {"FINISHED"}
 
-    def _robot(self, context: Context, objects: list[Object], name: str) -> Links:
+    def _links(self, context: Context, objects: list[Object], name: str) -> SceneLinks:
+        if self.links == "BONE":
+            return scenes.bone_links(context, name, objects)
         if self.links == "COLLECTION":
             root = bpy.data.collections[self.collection] if self.collection else context.scene.collection
             return scenes.collection_links(context, name, root, objects)
-        scene = scenes.measure_scene(context, objects)
-        if not scene.measured:
-            raise EditRefusedError(scene.failures[0])
-        robot, findings, members = scenes.object_links(name, scene)
-        return robot, [*findings, *scenes.left_out(scene.failures, len(objects))], members
+        return scenes.object_links(context, name, objects)
 
     def _export(self, context: Context, objects: list[Object], path: Path) -> list[Finding]:
-        robot, findings, members = self._robot(context, objects, path.stem)
-        robot = robot if self.geometry == "MESH" else with_primitives(robot, self.geometry.lower())
-        text, found = robot_text(robot, self.FORMAT, findings, inertial_only=self.inertial_only)
+        made = self._links(context, objects, path.stem)
+        robot = made.robot if self.geometry == "MESH" else with_primitives(made.robot, self.geometry.lower())
+        text, findings = robot_text(robot, self.FORMAT, made.findings, inertial_only=self.inertial_only)
         with whole_file(path) as file:
             file.write(text.encode("utf-8"))
         if self.geometry == "MESH" and self.write_meshes and not self.inertial_only:
-            depsgraph, unit = context.evaluated_depsgraph_get(), meters_per_unit(context)
-
-            def surface(label: str) -> Surface | None:
-                return link_surface(members[label], depsgraph, robot.link(label).pose, unit)
-
-            found.append(write_meshes(robot, surface, path.parent))
-        return [finding("robot_exported", count=len(robot.links), file=path.name), *found]
+            findings.append(write_meshes(robot, lambda label: made.surface(context, label), path.parent))
+        return [finding("robot_exported", count=len(robot.links), file=path.name), *findings]
 
     def draw(self, _context: Context) -> None:
         layout = self.layout
@@ -160,12 +147,12 @@ class EXPORT_SCENE_OT_body_moments_mjcf(RobotExport, Operator):
 class GeometryExport(RobotExport):
     """Of those that leave the geometry to Blender's own exporter, which knows objects."""
 
-    def _robot(self, context: Context, objects: list[Object], name: str) -> Links:
-        robot, findings, members = super()._robot(context, objects, name)
-        sheared = sheared_objects([obj for held in members.values() for obj in held])
+    def _links(self, context: Context, objects: list[Object], name: str) -> SceneLinks:
+        made = scenes.object_links(context, name, objects)
+        sheared = sheared_objects([obj for held in made.members.values() for obj in held])
         if sheared:
-            findings.append(finding("robot_sheared", count=len(sheared), links=sheared))
-        return robot, findings, members
+            made.findings.append(finding("robot_sheared", count=len(sheared), links=sheared))
+        return made
 
     def _run_exporter(self, exporter: str, path: Path, options: dict) -> None:
         """Run Blender's own exporter on the same objects."""
@@ -190,8 +177,9 @@ class EXPORT_SCENE_OT_body_moments_usd(GeometryExport, Operator):
     def _export(self, context: Context, objects: list[Object], path: Path) -> list[Finding]:
         if self.inertial_only or self.geometry != "MESH":
             return super()._export(context, objects, path)
-        robot, findings, members = self._robot(context, objects, path.stem)
-        paths = {label: usd_path(held[0], usd.identifier) for label, held in members.items()}
+        made = self._links(context, objects, path.stem)
+        robot, findings = made.robot, made.findings
+        paths = {label: usd_path(held[0], usd.identifier) for label, held in made.members.items()}
         alike = [label for label, prim in paths.items() if list(paths.values()).count(prim) > 1]
         if alike:
             raise EditRefusedError("robot_names_alike", names=alike)
@@ -225,7 +213,8 @@ class EXPORT_SCENE_OT_body_moments_gltf(GeometryExport, Operator):
     filter_glob: StringProperty(default="*.glb", options={"HIDDEN"})
 
     def _export(self, context: Context, objects: list[Object], path: Path) -> list[Finding]:
-        robot, findings, _ = self._robot(context, objects, path.stem)
+        made = self._links(context, objects, path.stem)
+        robot, findings = made.robot, made.findings
         options = {"use_selection": self.use_selection, "export_format": "GLB", "export_yup": True}
         self._run_exporter("export_scene.gltf", path, options)
         data = path.read_bytes()

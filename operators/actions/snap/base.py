@@ -11,7 +11,7 @@ between two measured frames.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -25,7 +25,9 @@ from ....core.numerics.float32 import shortest_decimal
 from ....core.verdict import internal_error
 from ....core.verdict.finding import EditRefusedError, Finding, finding
 from ....core.verdict.method import Verdict
-from ...bodies.measure_object import measure_body
+from ...bodies.many import measure_many, measured_in_turn
+from ...bodies.measure_object import Measured, measure_body
+from ...bodies.stack import Stacked
 from ...read.quiet import paused
 from ...scene import reframe
 from ...session import results, staleness
@@ -42,6 +44,7 @@ STRICT_PROPERTY = BoolProperty(
     ),
     default=False,
 )
+POSE = MeasureOptions(pose=True)
 MAX_DIRECTION_NOISE = 1e-3  # what float32 coordinates may turn directions by that moments of higher order fix
 DIAGONAL_RTOL = 4e-7  # of the trace: what float32 coordinates leave of products of inertia
 
@@ -92,10 +95,23 @@ class SnapTarget:
         return bool((np.abs(cosines - expected) <= MAX_DIRECTION_NOISE).all())
 
 
+def targets_in_turn(
+    context: Context, objects: Sequence[Object], strict: bool = False
+) -> Callable[[Object], SnapTarget]:
+    """`snap_target` of objects that are asked for one after the other, while nothing changes: they are measured
+    together."""
+    measured = measured_in_turn(objects, context.evaluated_depsgraph_get(), POSE)
+    return lambda obj: target_of(context, obj, measured(obj), strict)
+
+
 def snap_target(context: Context, obj: Object, strict: bool = False) -> SnapTarget:
     """Measure an object; EditRefusedError where its numbers depend on a reference point. strict: with the axes of Zhang
     and Chen's rule, or refused where it has none."""
-    measured = measure_body(obj, context.evaluated_depsgraph_get(), MeasureOptions(pose=True))
+    return target_of(context, obj, measure_body(obj, context.evaluated_depsgraph_get(), POSE), strict)
+
+
+def target_of(context: Context, obj: Object, measured: Measured | Stacked, strict: bool) -> SnapTarget:
+    """What `snap_target` says of an object that was measured."""
     measurement = measured.measurement
     if measurement.method.verdict == Verdict.OPEN:
         raise EditRefusedError("open_object")
@@ -103,8 +119,8 @@ def snap_target(context: Context, obj: Object, strict: bool = False) -> SnapTarg
     body = measurement.mass_properties
     principal = body.principal
     if strict:
-        varied = measurement.kind == "shell" or measured.body.mass is not None
-        principal = zhang_chen_frame(measurement.mass_moments[0], None if varied else measured.body.third_order)
+        exact = isinstance(measured, Stacked) or measurement.kind == "shell" or measured.body.mass is not None
+        principal = zhang_chen_frame(measurement.mass_moments[0], None if exact else measured.body.third_order)
     return SnapTarget(
         obj=obj,
         center=body.center / unit,
@@ -126,16 +142,56 @@ def remeasure(context: Context, objects: list[Object]) -> None:
     if not stored:
         return
     context.view_layer.update()
-    depsgraph = context.evaluated_depsgraph_get()
-    fresh = []
-    for obj in stored:
-        try:
-            results.store(obj, measure_body(obj, depsgraph, MeasureOptions(pose=True)), context.scene)
-        except Exception as error:  # what is stored stays, and the panel shows that it is out of date
-            internal_error.finding_of(error)
-            continue
-        fresh.append(obj)
-    staleness.mark_up_to_date(context, fresh)
+    measured, fresh, shapes = [], [], {}
+    for together in measure_many(stored, context.evaluated_depsgraph_get(), POSE):
+        for obj, outcome in together:
+            if isinstance(outcome, Exception):  # what is stored stays, and the panel shows that it is out of date
+                internal_error.finding_of(outcome)
+            else:
+                measured.append((obj, outcome))
+                if isinstance(outcome, Stacked):
+                    shapes[obj] = outcome.shape_digest
+    for obj, refusal in results.store_many(measured, context.scene):
+        if refusal is None:
+            fresh.append(obj)
+        else:
+            internal_error.finding_of(refusal)
+    staleness.mark_up_to_date(context, fresh, shapes)
+
+
+def reframe_objects(
+    context: Context,
+    objects: Sequence[Object],
+    target_matrix: Callable[[Object, SnapTarget], NDArray | None],
+    move_only: bool,
+    strict: bool = False,
+) -> tuple[list[reframe.Plan], list[Finding]]:
+    """Do for objects what `reframe_selected` does; what was changed, and why others were not."""
+
+    def plans_of(chosen: Sequence[Object]) -> tuple[list[reframe.Plan], list[Finding]]:
+        plans: list[reframe.Plan] = []
+        target_in_turn = targets_in_turn(context, chosen, strict)
+
+        def plan(obj: Object) -> bool:
+            reframe.check(obj)
+            body = target_in_turn(obj)
+            target = target_matrix(obj, body)
+            if target is not None:
+                plans.append(reframe.Plan(obj, target, body.size, move_only=move_only))
+            return True
+
+        return plans, selection.apply_to_all(chosen, plan)[1]
+
+    plans, failures = plans_of(objects)
+    with paused(), progress(len(plans)) as step:
+        changed, refused = reframe.reframe(context, plans, step)
+        failures += [reports.failure(obj.name_full, refusal) for obj, refusal in refused]
+        if not move_only:  # without its scale Blender cuts what is not flat into other triangles: another body
+            reframe.reframe(context, plans_of([plan_done.obj for plan_done in changed])[0])
+    remeasure(context, [plan.obj for plan in changed])
+    if not move_only:
+        staleness.mark_axes_changed(plan.obj for plan in changed)
+    return changed, failures
 
 
 def reframe_selected(
@@ -150,27 +206,7 @@ def reframe_selected(
     it. `target_matrix` returns None where the object is right as it is. done: the report; it gets the value `count`.
     """
     objects = selection.selected_measurable(context)
-    plans: list[reframe.Plan] = []
-
-    def plan(obj: Object) -> bool:
-        reframe.check(obj)
-        body = snap_target(context, obj, strict)
-        target = target_matrix(obj, body)
-        if target is not None:
-            plans.append(reframe.Plan(obj, target, body.size, move_only=move_only))
-        return True
-
-    _, failures = selection.apply_to_all(objects, plan)
-    with paused(), progress(len(plans)) as step:
-        changed, refused = reframe.reframe(context, plans, step)
-        failures += [reports.failure(obj.name_full, refusal) for obj, refusal in refused]
-        if not move_only:  # without its scale Blender cuts what is not flat into other triangles: another body
-            plans.clear()
-            selection.apply_to_all([plan_done.obj for plan_done in changed], plan)
-            reframe.reframe(context, plans)
-    remeasure(context, [plan.obj for plan in changed])
-    if not move_only:
-        staleness.mark_axes_changed(plan.obj for plan in changed)
+    changed, failures = reframe_objects(context, objects, target_matrix, move_only, strict)
     findings = [found.of_sources([plan.obj.name]) for plan in changed for found in plan.findings]
     done = replace(done, values={"count": len(changed)})
     idle = finding("already_in_place")

@@ -11,7 +11,7 @@ from ....core.inertia.mass_properties import combine
 from ....core.numerics.float32 import shortest_decimal
 from ....core.verdict.finding import EditRefusedError, finding
 from ....core.verdict.method import Verdict
-from ...bodies.measure_object import measure_object
+from ...bodies.many import measured_in_turn
 from .. import selection
 
 
@@ -34,11 +34,10 @@ class VIEW3D_OT_body_moments_cursor_to_center(Operator):
 
     def execute(self, context: Context) -> set[str]:
         objects = selection.selected_measurable(context)
-        depsgraph = context.evaluated_depsgraph_get()
-        bodies = []
+        measured, bodies = measured_in_turn(objects, context.evaluated_depsgraph_get()), []
 
         def add(obj: Object) -> bool:
-            measurement = measure_object(obj, depsgraph)
+            measurement = measured(obj).measurement
             if measurement.method.verdict == Verdict.OPEN:
                 raise EditRefusedError("open_object")
             bodies.append((measurement.mass_moments, measurement.mass_properties))

@@ -76,7 +76,7 @@ class OBJECT_OT_body_moments_add_empty(Operator):
             try:
                 if self.parent and abs(np.linalg.det(world(obj)[:3, :3])) == 0.0:
                     raise EditRefusedError("scale_zero_axis_of_parent_target")
-                body = snapping.snap_target(context, obj)
+                body = target_in_turn(obj)
                 step(len(placed) + len(failures))
                 yield  # all are measured before the scene changes
                 if (yield from self._place(existing.get(obj), context, body)):
@@ -88,6 +88,7 @@ class OBJECT_OT_body_moments_add_empty(Operator):
         followers = dependents(existing.values())  # what moves with an empty is measured after that
         with progress(len(objects)) as step:
             for several in independent_rounds((obj, {obj, *followers.get(existing.get(obj), ())}) for obj in objects):
+                target_in_turn = snapping.targets_in_turn(context, several)
                 run_change(context, run_together(map(add, several)))
         done, idle = finding("empties_placed", count=len(placed)), finding("empties_in_place")
         return selection.summarize(self, len(placed), len(objects), done, failures, findings, idle)

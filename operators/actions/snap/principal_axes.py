@@ -39,14 +39,15 @@ class OBJECT_OT_body_moments_axes_to_principal(Operator):
         return snapping.reframe_selected(
             self,
             context,
-            _matrix_along_axes,
+            matrix_along_axes,
             finding("axes_made_principal"),
             move_only=False,
             strict=self.strict,
         )
 
 
-def _matrix_along_axes(obj: Object, body: snapping.SnapTarget) -> np.ndarray | None:
+def matrix_along_axes(obj: Object, body: snapping.SnapTarget) -> np.ndarray | None:
+    """Where the object is to be, its axes along the body's; None where it is."""
     if _is_there(obj, body):
         return None
     target = np.eye(4)

@@ -10,7 +10,7 @@ inertia along the object's axes; Axes to Principal Axes makes that right.
 import bpy
 import numpy as np
 from bpy.props import BoolProperty
-from bpy.types import Context, Object, Operator
+from bpy.types import Context, Event, Object, Operator
 
 from ....core.numerics.float32 import shortest_decimal
 from ....core.verdict.finding import EditRefusedError, Finding, finding
@@ -19,10 +19,12 @@ from ...scene import reframe
 from ...scene.transforms import require_storable_data, world
 from ...write import reports
 from .. import selection
+from ..modal import MAX_OBJECTS_WITHOUT_REDRAW, ModalSteps
 from . import base as snapping
+from .principal_axes import matrix_along_axes
 
 
-class OBJECT_OT_body_moments_set_rigid_body_mass(Operator):
+class OBJECT_OT_body_moments_set_rigid_body_mass(ModalSteps, Operator):
     """Set the mass of rigid bodies to the measured mass in kilograms"""
 
     bl_idname = "object.body_moments_set_rigid_body_mass"
@@ -32,10 +34,20 @@ class OBJECT_OT_body_moments_set_rigid_body_mass(Operator):
         "of mass; use Axes to Principal Axes as well"
     )
     bl_options = {"REGISTER", "UNDO"}
+    PROGRESS = finding("progress_measuring")
+    CANCELED = finding("canceled_measuring")
 
     add: BoolProperty(
         name="Add Rigid Bodies",
         description="Add an active rigid body to objects without one",
+        default=False,
+    )
+    axes: BoolProperty(
+        name="Set Origins and Axes",
+        description=(
+            "Move origins to the centers of mass and align the local axes with the principal axes, as the physics "
+            "engine takes them to be. Nothing visible moves"
+        ),
         default=False,
     )
 
@@ -44,48 +56,69 @@ class OBJECT_OT_body_moments_set_rigid_body_mass(Operator):
         return selection.poll_selection(cls, context)
 
     def execute(self, context: Context) -> set[str]:
-        objects = selection.selected_measurable(context)
-        bodies: list[snapping.SnapTarget] = []
+        return self.run_all_steps(context, self._begin(context))
 
-        def measure(obj: Object) -> bool:
+    def invoke(self, context: Context, event: Event) -> set[str]:
+        count = self._begin(context)
+        if count <= MAX_OBJECTS_WITHOUT_REDRAW or context.window is None:
+            return self.run_all_steps(context, count)
+        return self.start_modal(context, count)
+
+    def _begin(self, context: Context) -> int:
+        self._objects = selection.selected_measurable(context)
+        self._bodies: list[snapping.SnapTarget] = []
+        self._failures: list[Finding] = []
+        context.view_layer.update()  # edits of before are noted as such
+        target_in_turn = snapping.targets_in_turn(context, self._objects)
+
+        def measure(obj: Object) -> None:
             require_storable_data(obj, "library_override_mass")
             if obj.rigid_body is None and not self.add:
                 raise EditRefusedError("not_a_rigid_body")
             if obj.rigid_body is None and obj.type != "MESH":
                 raise EditRefusedError("rigid_body_needs_mesh")
-            body = snapping.snap_target(context, obj)
+            body = target_in_turn(obj)
             limit = bpy.types.RigidBodyObject.bl_rna.properties["mass"].hard_min
             if body.mass < limit:
                 raise EditRefusedError("rigid_body_mass_too_small", mass=float(body.mass), limit=limit)
-            bodies.append(body)
-            return True
+            self._bodies.append(body)
 
-        context.view_layer.update()  # edits of before are noted as such
+        self._steps = selection.iterate_objects(self._objects, measure, self._failures)
+        return len(self._objects)
+
+    def _finish(self, context: Context) -> set[str]:
+        bodies, failures = self._bodies, self._failures
         with paused():  # Blender reports a rigid body as a change of the shape
-            _, failures = selection.apply_to_all(objects, measure)
             new = [body.obj for body in bodies if body.obj.rigid_body is None]
             failures += _add_rigid_bodies(context, new)
             changed = {obj for obj in new if obj.rigid_body is not None}
+            bodies = [body for body in bodies if body.obj.rigid_body is not None]
             for body in bodies:
-                if body.obj.rigid_body is not None and np.float32(body.obj.rigid_body.mass) != np.float32(body.mass):
+                if np.float32(body.obj.rigid_body.mass) != np.float32(body.mass):
                     body.obj.rigid_body.mass = body.mass
                     changed.add(body.obj)
-            count = len(changed)
             context.view_layer.update()
+        findings = []
+        if self.axes:
+            plans, refused = snapping.reframe_objects(
+                context, [body.obj for body in bodies], matrix_along_axes, move_only=False
+            )
+            failures += refused
+            changed |= {plan.obj for plan in plans}
+            findings += [found.of_sources([plan.obj.name]) for plan in plans for found in plan.findings]
         elsewhere = [
             body.obj.name
             for body in bodies
-            if body.obj.rigid_body is not None
-            and np.abs(world(body.obj)[:3, 3] - body.center).max() > reframe.location_tolerance(body.obj, body.size)
+            if np.abs(world(body.obj)[:3, 3] - body.center).max() > reframe.location_tolerance(body.obj, body.size)
         ]
-        findings = []
+        count = len(changed)
         unit = shortest_decimal(context.scene.unit_settings.scale_length)
         if count and unit != 1.0 and context.scene.unit_settings.system != "NONE":
             findings.append(finding("rigid_body_display_scaled", factor=unit**3))
         if elsewhere and count:
             findings.append(finding("rigid_body_center_elsewhere", objects=elsewhere))
         done, idle = finding("rigid_body_masses_set", count=count), finding("rigid_body_masses_equal")
-        return selection.summarize(self, count, len(objects), done, failures, findings, idle)
+        return selection.summarize(self, count, len(self._objects), done, failures, findings, idle)
 
 
 def _add_rigid_bodies(context: Context, objects: list[Object]) -> list[Finding]:

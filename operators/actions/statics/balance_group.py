@@ -12,11 +12,13 @@ from bpy.props import BoolProperty, FloatProperty, IntProperty, StringProperty
 from bpy.types import Context, Depsgraph, Event, Object, Operator
 from numpy.typing import NDArray
 
+from ....core.numerics.float32 import shortest_decimal
 from ....core.statics.support import Support, support_of_contacts
 from ....core.verdict import internal_error
 from ....core.verdict.finding import EditRefusedError, Finding, finding
+from ...bodies.assembly import measure_assembly
 from ...read import measurable
-from ...read.assembly import Member, MemberKind, members_of
+from ...read.assembly import Member, MemberKind, members_of, settings_of
 from ...session import balance, stability
 from ...session.motion import Motion
 from ...settings.preferences import copy_defaults
@@ -39,6 +41,7 @@ class OBJECT_OT_body_moments_balance_group(ModalSteps, Operator):
     bl_options = {"REGISTER", "UNDO"}
     PROGRESS = finding("progress_balance")
     CANCELED = finding("canceled_balance")
+    _assembly = None  # the collection, where its mass is given
     _is_interactive = False  # whether it was called from the window, and not from a script
 
     collection: StringProperty(
@@ -124,7 +127,6 @@ class OBJECT_OT_body_moments_balance_group(ModalSteps, Operator):
         if self.use_scene_range:
             start, end = scene.frame_start, scene.frame_end
         frames = range(start, max(start, end) + 1, self.frame_step)
-        self._masses: list[float] = []
         self._centers: list[NDArray] = []
         self._supports: list[Support | None] = []
         self._failure: Finding | None = None
@@ -142,7 +144,9 @@ class OBJECT_OT_body_moments_balance_group(ModalSteps, Operator):
         """The objects that are followed, by name."""
         if self.collection:
             depsgraph = context.evaluated_depsgraph_get()
-            objects: Iterable[Object] = counted(members_of(self._collection(self.collection), depsgraph))
+            root = members_of(self._collection(self.collection), depsgraph)
+            objects: Iterable[Object] = counted(root)
+            self._assembly = root.data if has_given_mass(root) else None
         else:
             objects = context.view_layer.objects.selected
             if context.mode == "POSE":
@@ -174,15 +178,20 @@ class OBJECT_OT_body_moments_balance_group(ModalSteps, Operator):
             scene.frame_set(before, subframe=subframe)
 
     def _add_frame(self, motion: Motion, depsgraph: Depsgraph) -> None:
+        center = self._center(motion, depsgraph)
+        self._centers.append(center)
+        self._supports.append(self._support(motion, depsgraph, center) if self._feet else None)
+
+    def _center(self, motion: Motion, depsgraph: Depsgraph) -> NDArray[np.float64]:
+        """The common center at this frame, in Blender's units."""
+        if self._assembly is not None:
+            body = measure_assembly(self._assembly, depsgraph).measurement.mass_properties
+            return body.center / shortest_decimal(depsgraph.scene.unit_settings.scale_length)
         masses, centers = zip(*[motion.mass_and_center(obj, depsgraph) for obj in self._objects])
         total = float(np.sum(masses))
         if not total > 0.0:
             raise EditRefusedError("balance_group_without_mass")
-        first = centers[0]
-        center = first + np.einsum("i,ij->j", np.array(masses) / total, np.array(centers) - first)
-        self._masses.append(total)
-        self._centers.append(center)
-        self._supports.append(self._support(motion, depsgraph, center) if self._feet else None)
+        return centers[0] + np.einsum("i,ij->j", np.array(masses) / total, np.array(centers) - centers[0])
 
     def _support(self, motion: Motion, depsgraph: Depsgraph, center: NDArray) -> Support | None:
         """What the contact objects stand on at this frame, None where they are all in the air."""
@@ -236,6 +245,21 @@ def counted(member: Member) -> Iterator[Object]:
     if member.kind != MemberKind.INSTANCE:
         for below in member.members:
             yield from counted(below)
+
+
+def has_given_mass(root: Member) -> bool:
+    """Return whether the mass of an assembly, or of one in it, is given: then it is not the sum of its objects'.
+
+    Parameters
+    ----------
+    root : Member
+
+    Returns
+    -------
+    bool
+    """
+    kinds = (MemberKind.COLLECTION, MemberKind.EMPTY)
+    return any(member.kind in kinds and settings_of(member.data).mass_from == "MASS" for member in root.walk())
 
 
 def deformed_by(armature: Object, objects: Iterable[Object]) -> list[Object]:

@@ -16,6 +16,7 @@ from typing import Any
 
 import numpy as np
 
+from ....core.measurement import Measurement
 from ....core.numerics.rotations import rotation_matrix
 from ....core.robots.model import FreeAxis, Inertial, Joint, Link, Pose, Robot, Shape
 from ....core.verdict.finding import Finding, finding
@@ -59,6 +60,22 @@ def robot_of_records(name: str, records: Sequence[Mapping[str, Any]]) -> tuple[R
     if not usable:
         findings.append(finding("robot_without_links"))
     return Robot(name, tuple(links), tuple(joints)), findings
+
+
+def brief_record(name: str, measurement: Measurement, link: Mapping[str, Any]) -> dict[str, Any]:
+    """Return what a link takes of a record, in the frame "object", from the measurement itself."""
+    body = measurement.in_object_frame()
+    return {
+        "name": name,
+        "type": measurement.type,
+        "kind": measurement.kind,
+        "mass": body.mass,
+        "center_of_mass": body.center,
+        "inertia": body.inertia,
+        "principal_moments": body.principal.moments,
+        "principal_axes": body.principal.axes,
+        "link": link,
+    }
 
 
 def mesh_files(names: Iterable[str]) -> dict[str, str]:

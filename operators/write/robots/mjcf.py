@@ -12,7 +12,7 @@ from xml.etree.ElementTree import Element, SubElement
 from ....core.numerics.rotations import quaternion
 from ....core.robots.model import FreeAxis, Inertial, Joint, Link, Pose, Robot, Shape
 from ....core.verdict.finding import Finding, finding
-from .text import document, number, numbers, unique_names, xml_text
+from .text import document, is_identity, number, numbers, unique_names, xml_text
 
 LEAST = 1e-15  # mjMINVAL: MuJoCo refuses what moves and has less mass or inertia, kg and kg·m²
 
@@ -88,7 +88,7 @@ def _add_place(element: Element, pose: Pose) -> None:
 def _add_joints(body: Element, robot: Robot, link: Link, joint: Joint | None, names: dict[str, str]) -> None:
     """A root moves freely, where it has mass; several degrees of freedom are several joints of one body."""
     if joint is None:
-        if robot.rigid_inertial(link) is not None:
+        if any(part.inertial is not None for part in robot.rigid_parts(link)):
             SubElement(body, "freejoint")
         return
     if joint.is_ball:
@@ -113,7 +113,8 @@ def _add_inertial(body: Element, inertial: Inertial) -> None:
 
 def _add_geom(body: Element, shape: Shape, meshes: dict[tuple, str]) -> None:
     geom = SubElement(body, "geom", type=shape.kind)
-    _add_place(geom, shape.pose)
+    if not is_identity(shape.pose):
+        _add_place(geom, shape.pose)
     if shape.kind == "mesh":
         geom.set("mesh", meshes[_mesh_key(shape)])
         if shape.sheet:  # a flat one has no convex hull to collide as

@@ -14,7 +14,7 @@ import numpy as np
 
 from ....core.robots.model import FreeAxis, Inertial, Pose, Robot, Shape
 from ....core.verdict.finding import Finding, finding
-from .text import document, number, numbers, roll_pitch_yaw, unique_names, xml_text
+from .text import document, is_identity, number, numbers, roll_pitch_yaw, unique_names, xml_text
 
 BASE = "base_link"
 # A limited joint must state these, and nothing here knows them: N·m or N, and rad/s or m/s, which bind nothing.
@@ -86,6 +86,9 @@ def _free_name(name: str, taken: set[str]) -> str:
 
 
 def _add_origin(parent: Element, pose: Pose) -> None:
+    if is_identity(pose):
+        SubElement(parent, "origin", xyz="0 0 0", rpy="0 0 0")
+        return
     SubElement(parent, "origin", xyz=numbers(pose.position), rpy=numbers(roll_pitch_yaw(pose.rotation)))
 
 

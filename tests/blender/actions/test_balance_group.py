@@ -235,6 +235,22 @@ def test_a_collection_is_followed(scene):
     assert groups()[0]["body_balance_group"] == obj.name
 
 
+def test_masses_given_for_a_nested_collection_count(scene):
+    """A cube of 1000 kg at 0, and one in a collection that weighs 3000 kg at 4."""
+    outer, inner = bpy.data.collections.new("Outer"), bpy.data.collections.new("Inner")
+    scene.collection.children.link(outer)
+    outer.children.link(inner)
+    for place, collection in ((0.0, outer), (4.0, inner)):
+        obj = objects.add(box((1.0, 1.0, 1.0), (-0.5, -0.5, -0.5)), location=(place, 0.0, 0.0))
+        collection.objects.link(obj)
+        scene.collection.objects.unlink(obj)
+    inner.body_moments.mass_from, inner.body_moments.mass = "MASS", 3000.0
+    bpy.context.view_layer.update()
+    arguments = {"use_scene_range": False, "frame_start": 1, "frame_end": 2}
+    assert bpy.ops.object.body_moments_balance_group(collection="Outer", **arguments) == {"FINISHED"}
+    assert close(path_of(groups()[0]).centers[:, 0], 3.0, 1e-6)
+
+
 @pytest.mark.parametrize("arguments", [{}, {"collection": "Nowhere"}, {"contacts": "Nowhere"}, {"contacts": "Lamps"}])
 def test_refusals_name_what_is_missing(scene, reported, arguments):
     bpy.data.collections.new("Lamps")

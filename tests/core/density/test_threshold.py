@@ -216,6 +216,8 @@ def test_beyond_the_grid_is_nothing_or_the_background():
     closed = threshold_body(samples, 1.0, background=0.0)
     assert not closed.clipped and closed.volume.total > 1.0 and closed.area.total > 6.0
     assert close(closed.volume.center, (0.5, 0.5, 0.5), rel=1e-13)
+    infinite = threshold_body(samples, 1.0, background=2.0)
+    assert infinite.clipped and close(infinite.volume.total, 1.0, rel=1e-14)
     one = threshold_body(np.array([[[1.0]]]), 0.25, background=0.0)
     log = math.log(0.25)
     assert close(one.volume.total, 8.0 * (1.0 - 0.25 * (1.0 - log + log * log / 2.0)), rel=1e-10)

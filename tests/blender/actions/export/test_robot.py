@@ -5,20 +5,26 @@
 import json
 import re
 import struct
+from time import perf_counter
 from xml.etree import ElementTree
 
 import pytest
 
 pytest.importorskip("bpy")
+import bmesh
 import bpy
 import numpy as np
 from body_moments.core.inertia.mass_properties import combine
 from body_moments.core.numerics.rotations import rotation_matrix
+from body_moments.operators.actions.export import links
 from body_moments.operators.bodies.measure_object import measure_object
+from body_moments.operators.bodies.rig import measure_rig
 from body_moments.operators.write.robots import gltf
 
+from tests.blender.characters import armature_of, pose, skin_of
 from tests.blender.objects import add, mesh_body, only
 from tests.close import close
+from tests.core import characters
 
 pytestmark = pytest.mark.usefixtures("scene")
 
@@ -169,3 +175,76 @@ def test_nothing_to_export_and_nowhere_to_write_are_refused(tmp_path):
     with pytest.raises(RuntimeError, match="cannot be written"):
         export("urdf", tmp_path / "missing" / "robot.urdf")
     assert not [*tmp_path.iterdir()]
+
+
+def test_bones_are_links_in_their_rest_frames_with_their_limits(tmp_path):
+    """A chain of boxes skinned to bones, posed: the links are where they rest."""
+    character = characters.humanoid()
+    names = list(character.names)
+    parents = {child: names[0] for child in names[1:]}
+    armature = armature_of(character, parents=parents)
+    armature.location, armature.rotation_euler = (1, 2, 3), (0.1, 0.2, 0.3)
+    skin_of(character, armature)
+    pose(armature)
+    bone = armature.pose.bones[names[1]]
+    bone.use_ik_limit_x, bone.ik_min_x, bone.ik_max_x, bone.lock_ik_y = True, -0.5, 1.0, True
+    rig = measure_rig(bpy.context, armature)
+    assert export("urdf", tmp_path / "rig.urdf", links="BONE") == {"FINISHED"}
+    root = ElementTree.parse(tmp_path / "rig.urdf").getroot()
+    inertials = {link.get("name"): link.find("inertial") for link in root.iter("link")}
+    assert {part.name for part in rig.parts} <= inertials.keys()
+    for part in rig.parts:
+        body = part.measurement.in_object_frame()
+        assert float(inertials[part.name].find("mass").get("value")) == body.mass
+        assert inertials[part.name].find("origin").get("xyz").split() == [repr(x + 0.0) for x in body.center.tolist()]
+    joints = [joint for joint in root.iter("joint") if joint.find("child").get("link").startswith(names[1])]
+    assert [(joint.get("type"), joint.find("axis").get("xyz")) for joint in joints] == [
+        ("continuous", "0.0 0.0 1.0"),
+        ("revolute", "1.0 0.0 0.0"),
+    ]
+    assert close(float(joints[1].find("limit").get("upper")), 1.0, 1e-6)
+    assert joints[0].find("parent").get("link") == names[0]
+    place = np.array(joints[0].find("origin").get("xyz").split(), float)
+    rest = armature.data.bones[names[0]].matrix_local.inverted() @ armature.data.bones[names[1]].head_local
+    assert np.abs(place - np.array(rest)).max() < 1e-5
+    assert (tmp_path / "meshes" / (names[1].lower() + ".stl")).is_file()
+    only(armature)
+    export("mjcf", tmp_path / "rig.xml", links="BONE", use_selection=True, write_meshes=False)
+    first = ElementTree.parse(tmp_path / "rig.xml").getroot().find("worldbody/body")
+    assert first.find("freejoint") is not None and len(first.findall("body")) == len(names) - 1
+
+
+def test_an_export_takes_no_fifth_longer_than_its_measurements(tmp_path, monkeypatch):
+    """In one run, so that a busy machine slows both alike."""
+    for index in range(150):
+        mesh, made = bpy.data.meshes.new("Part"), bmesh.new()
+        bmesh.ops.create_uvsphere(made, u_segments=24, v_segments=12, radius=1.0)
+        for vertex in made.verts:
+            x, y, z = vertex.co
+            vertex.co = x * (1 + 0.01 * index), y, z + 0.1 * x * x + 0.05 * x * y
+        made.to_mesh(mesh)
+        made.free()
+        add(mesh, "Link {}".format(index), (index, 0, 0), (0.1, 0.2, index), select=False)
+    spent, in_turn = [], links.measured_in_turn
+
+    def timed(*arguments):
+        measured = in_turn(*arguments)
+
+        def one(obj):
+            start = perf_counter()
+            try:
+                return measured(obj)
+            finally:
+                spent.append(perf_counter() - start)
+
+        return one
+
+    monkeypatch.setattr(links, "measured_in_turn", timed)
+    ratios = []
+    for name in ("urdf", "sdf", "mjcf") * 2:
+        spent.clear()
+        start = perf_counter()
+        export(name, tmp_path / ("r." + name), write_meshes=False)
+        ratios.append((perf_counter() - start) / sum(spent))
+        assert len(spent) == 150
+    assert min(ratios) < 1.2, ratios

@@ -1,0 +1,48 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""--material, --polynomial and --density-from: what the panel has under *Density From*, for every object.
+
+They are put into the objects' settings, in memory. Only --write saves them, with the results that they have led to.
+"""
+
+from __future__ import annotations
+
+from argparse import Namespace
+
+import bpy
+
+from ...core.density.materials import BY_NAME
+from ...core.density.polynomial import parse_polynomial
+from ...core.verdict.finding import QueryError
+from .option_types import split_source
+
+
+def check(options: Namespace) -> None:
+    """Raise MeasureError where there is no such material, or the polynomial cannot be read."""
+    if options.material is not None and options.material not in BY_NAME:
+        raise QueryError("material_unknown", name=options.material, names=sorted(BY_NAME))
+    if options.polynomial is not None:
+        parse_polynomial(options.polynomial)
+
+
+def density_of(options: Namespace) -> float | None:
+    """The one density that was given, as a number or as a material's name."""
+    return options.density if options.material is None else BY_NAME[options.material].density
+
+
+def apply(obj: bpy.types.Object, options: Namespace) -> None:
+    """Set where the object's density comes from, where that was given. Raises MeasureError."""
+    settings = obj.body_moments
+    if options.polynomial is not None:
+        settings.mass_from, settings.density_from = "DENSITY", "POLYNOMIAL"
+        settings.density_polynomial = options.polynomial
+    elif options.density_from is not None:
+        source, name = split_source(options.density_from)
+        settings.mass_from, settings.density_from = "DENSITY", source.upper()
+        if source == "attribute":
+            settings.density_attribute = name
+        elif source == "volume":
+            volume = bpy.context.scene.objects.get(name)
+            if volume is None or volume.type != "VOLUME":
+                raise QueryError("density_volume_unknown", name=name)
+            settings.density_volume = volume

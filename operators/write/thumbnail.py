@@ -1,0 +1,93 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A small picture of a body with its principal axes, drawn without a window or a graphics card."""
+
+from __future__ import annotations
+
+import base64
+import struct
+import zlib
+
+import numpy as np
+from numpy.typing import NDArray
+
+SIZE = 128  # pixels
+_SAMPLES = 200_000  # points of the surface that are drawn
+_MARGIN = 0.1
+_VIEW = np.array([[0.8, -0.6, 0.0], [0.36, 0.48, 0.8], [0.48, 0.64, -0.6]]).T  # columns: right, up, away from the eye
+_AXES = ((214, 64, 64), (72, 160, 72), (72, 96, 214))  # red, green, blue: axes 1, 2 and 3
+_BODY = np.array([205.0, 208.0, 214.0])
+
+
+def thumbnail(
+    points: NDArray[np.float64], triangles: NDArray[np.integer], center: NDArray[np.float64], axes: NDArray[np.float64]
+) -> str:
+    """Draw triangles from an oblique direction, and return a PNG as a data URL.
+
+    Parameters
+    ----------
+    points : (n, 3) array
+        In any one frame and unit, as are the others.
+    triangles : (m, 3) integer array
+    center : (3,) array
+        The center of mass.
+    axes : (3, 3) array
+        The principal axes as columns.
+
+    Returns
+    -------
+    str
+        ``data:image/png;base64,…``
+    """
+    corners = np.asarray(points, np.float64)[triangles] @ _VIEW
+    low, high = corners.reshape(-1, 3).min(axis=0), corners.reshape(-1, 3).max(axis=0)
+    scale = (1.0 - 2.0 * _MARGIN) * SIZE / (max(high[:2] - low[:2]) or 1.0)
+    middle = 0.5 * (low + high)
+    corners = (corners - middle) * scale
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    areas = np.linalg.norm(normals, axis=1)
+    image = np.full((SIZE, SIZE, 4), 0, np.uint8)
+    if areas.sum() > 0.0:
+        _draw(image, corners, normals, areas)
+    start = (np.asarray(center, np.float64) @ _VIEW - middle) * scale
+    for axis, color in zip(np.asarray(axes, np.float64).T @ _VIEW, _AXES, strict=True):
+        steps = np.linspace(-1.0, 1.0, 2 * SIZE)[:, None] * axis * 0.42 * SIZE + start
+        for right, up in ((0, 0), (1, 0), (0, 1)):
+            _put(image, steps + (right, up, 0), np.array([*color, 255], np.uint8))
+    return "data:image/png;base64," + base64.b64encode(_png(image)).decode()
+
+
+def _draw(image: NDArray, corners: NDArray, normals: NDArray, areas: NDArray) -> None:
+    """Points of the triangles, spread over their areas, the nearest in front; each is shaded by its normal."""
+    chance = np.random.default_rng(0)
+    chosen = np.searchsorted(np.cumsum(areas), chance.random(_SAMPLES) * areas.sum()).clip(0, len(areas) - 1)
+    a, b = chance.random((2, _SAMPLES, 1))
+    a, b = np.where(a + b > 1.0, 1.0 - a, a), np.where(a + b > 1.0, 1.0 - b, b)
+    triangles = corners[chosen]
+    spots = triangles[:, 0] + a * (triangles[:, 1] - triangles[:, 0]) + b * (triangles[:, 2] - triangles[:, 0])
+    order = np.argsort(-spots[:, 2])  # the farthest first: the last one put at a pixel stays
+    light = np.abs(normals[chosen] @ (0.75, 0.75, -0.35)) / np.maximum(areas[chosen], 1e-300)
+    colors = np.empty((_SAMPLES, 4), np.uint8)
+    colors[:, :3] = _BODY * (0.35 + 0.65 * light[:, None].clip(0.0, 1.0))
+    colors[:, 3] = 255
+    _put(image, spots[order], colors[order])
+
+
+def _put(image: NDArray, spots: NDArray, colors: NDArray) -> None:
+    places = np.rint(spots[:, :2] + 0.5 * SIZE).astype(int)
+    inside = ((places >= 0) & (places < SIZE)).all(axis=1)
+    column, row = places[inside].T
+    image[SIZE - 1 - row, column] = colors[inside] if colors.ndim == 2 else colors
+
+
+def _png(image: NDArray[np.uint8]) -> bytes:
+    """https://www.w3.org/TR/png/: 8 bits, red, green, blue, opacity."""
+
+    def chunk(kind: bytes, data: bytes) -> bytes:
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+    height, width, _ = image.shape
+    rows = np.concatenate([np.zeros((height, 1), np.uint8), image.reshape(height, 4 * width)], axis=1)
+    head = struct.pack(">IIBBBBB", width, height, 8, 6, 0, 0, 0)
+    body = zlib.compress(rows.tobytes(), 9)
+    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", body) + chunk(b"IEND", b"")

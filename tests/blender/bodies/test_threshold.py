@@ -1,0 +1,148 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The body of a Volume object within a threshold: numbers through every transform, fillings, refusals, the slider."""
+
+import math
+
+import numpy as np
+import pytest
+
+bpy = pytest.importorskip("bpy")
+from body_moments.operators.bodies import threshold as threshold_module
+from body_moments.operators.session import staleness
+from body_moments.operators.write import properties
+
+from tests.blender.bodies.test_grid import SHEARED, measure
+from tests.blender.findings import refused, said
+from tests.blender.grids import vdb_grid, volume_object
+from tests.close import close
+
+pytestmark = pytest.mark.usefixtures("scene")
+
+
+def ramp(tmp_path, shape=(12, 9, 7), matrix=None, dtype=np.float32, name="ramp"):
+    """A volume whose values are 1 + i along x: as a body, a box whose face moves with the threshold."""
+    values = (1.0 + np.arange(shape[0]))[:, None, None] * np.ones(shape)
+    obj = volume_object(tmp_path / (name + ".vdb"), vdb_grid(values.astype(dtype), matrix=matrix, background=-1e6))
+    obj.body_moments.grid_as, obj.body_moments.threshold = "THRESHOLD", 3.25
+    return obj
+
+
+def sampled_ball(tmp_path, n=24, radius=9.3):
+    index = np.arange(n) - (n - 1) / 2.0
+    values = radius - np.sqrt(index[:, None, None] ** 2 + index[:, None] ** 2 + index**2)
+    obj = volume_object(tmp_path / "ball.vdb", vdb_grid(values.astype(np.float32), background=-30.0))
+    obj.body_moments.grid_as, obj.body_moments.threshold = "THRESHOLD", 0.0
+    return obj, values.astype(np.float32)
+
+
+@pytest.mark.parametrize("matrix", [None, SHEARED], ids=["plain", "sheared"])
+def test_a_ball_is_the_set_above_the_threshold_wherever_the_grid_stands(tmp_path, matrix):
+    obj, values = sampled_ball(tmp_path)
+    plain = measure(obj)
+    assert close(plain.volume, 4.0 / 3.0 * math.pi * 9.3**3, rel=1e-2) and str(plain.method) == "grid exact"
+    assert close(plain.area, 4.0 * math.pi * 9.3**2, rel=1e-2)
+    assert close(plain.mass_properties.mass, 1000.0 * plain.volume, rel=1e-14)
+    assert "threshold_measured" in said(plain) and "threshold_clipped" not in said(plain)
+    if matrix is not None:
+        obj.matrix_world = matrix.T.tolist()
+        moved = measure(obj)
+        stored = np.array(obj.matrix_world)
+        assert close(moved.volume, plain.volume * abs(np.linalg.det(stored[:3, :3])), rel=1e-6)
+        expected = stored[:3, :3] @ plain.mass_properties.center + stored[:3, 3]
+        assert close(moved.mass_properties.center, expected, rel=1e-6)
+
+
+def test_the_body_of_a_ramp_is_a_box_filled_with_material_or_with_the_ramp(tmp_path):
+    """Beyond the last layer the density falls to the background within one voxel, almost at once."""
+    obj = ramp(tmp_path)
+    obj.body_moments.density = 2000.0
+    solid = measure(obj)
+    box = (11.0 - 2.25) * 8.0 * 6.0  # from x = 2.25 to 11
+    assert close(solid.volume, box, rel=1e-4) and close(solid.mass_properties.mass, 2000.0 * box, rel=1e-4)
+    assert close(solid.mass_properties.center[0], (11.0 + 2.25) / 2.0, rel=1e-4)
+    obj.body_moments.threshold_fill, obj.body_moments.value_density = "GRID", 7.0
+    filled = measure(obj)
+    assert close(filled.volume, solid.volume, rel=1e-12)
+    assert close(filled.mass_properties.mass, 7.0 * 48.0 * (12.0**2 - 3.25**2) / 2.0, rel=1e-4)
+
+
+def test_moments_of_any_order_are_those_of_the_body(tmp_path):
+    measured = measure(ramp(tmp_path), order=6, surface=True)
+    about = measured.volume_moments.about_point((0.0, 0.0, 0.0))
+    assert close(about[6, 0, 0], 48.0 * (11.0**7 - 2.25**7) / 7.0, rel=1e-3)
+    assert measured.area_moments.order == 6
+
+
+def test_a_cubic_spline_is_measured_within_its_bound(tmp_path):
+    index = np.arange(-6.0, 7.0)
+    values = 20.0 - (index[:, None, None] ** 2 + index[:, None] ** 2 + index**2)
+    obj = volume_object(tmp_path / "cubic.vdb", vdb_grid(values.astype(np.float32), background=-60.0))
+    obj.body_moments.grid_as, obj.body_moments.threshold, obj.body_moments.spline_order = "THRESHOLD", 0.0, 4
+    measured = measure(obj)
+    truth = 4.0 / 3.0 * math.pi * 19.0**1.5  # Σ i² B = x² + 1/3
+    assert abs(measured.volume - truth) <= measured.error_bound["volume"] < 1e-3 * truth
+    assert measured.error_bound["estimated"]
+
+
+def test_what_reaches_the_edge_is_reported_where_nothing_is_known_beyond(tmp_path):
+    values = np.full((4, 4, 4), 2.0, np.float32)
+    obj = volume_object(tmp_path / "full.vdb", vdb_grid(values, background=5.0))
+    obj.body_moments.grid_as, obj.body_moments.threshold = "THRESHOLD", 1.0
+    assert "threshold_clipped" in said(measure(obj))
+
+
+def test_refusals_name_the_remedy(tmp_path):
+    obj = ramp(tmp_path)
+    obj.body_moments.threshold = 99.0
+    with refused("threshold_not_reached", obj.name, largest=12.0):
+        measure(obj)
+    obj.body_moments.threshold, obj.body_moments.threshold_fill = 2.0, "GRID"
+    obj.body_moments.values_from = "TABLE"
+    with refused("threshold_needs_factor", obj.name):
+        measure(obj)
+
+
+def stored(obj):
+    bpy.context.view_layer.objects.active = obj
+    obj.select_set(True)
+    assert bpy.ops.object.body_moments_measure() == {"FINISHED"}
+    return obj["body_volume"]
+
+
+def test_the_threshold_is_a_slider_after_measure(tmp_path):
+    obj, _ = sampled_ball(tmp_path)
+    before = stored(obj)
+    obj.body_moments.threshold = 2.0
+    assert obj["body_volume"] < before and close(obj["body_volume"], measure(obj).volume, rel=1e-13)
+    assert staleness.stale_reason(obj, bpy.context.scene) is None
+    obj.body_moments.threshold = 99.0  # nothing is above: the numbers stay, and are out of date
+    assert staleness.stale_reason(obj, bpy.context.scene) == "stale_settings"
+    obj.body_moments.threshold = 2.0
+    assert staleness.stale_reason(obj, bpy.context.scene) is None
+
+
+def test_the_slider_leaves_what_was_edited_since(tmp_path):
+    obj, _ = sampled_ball(tmp_path)
+    before = stored(obj)
+    obj.scale = (2.0, 1.0, 1.0)
+    bpy.context.view_layer.update()
+    obj.body_moments.threshold = 2.0
+    assert obj["body_volume"] == before
+    assert staleness.stale_reason(obj, bpy.context.scene) is not None
+
+
+def test_a_large_grid_is_followed_coarsely(tmp_path, monkeypatch):
+    monkeypatch.setattr(threshold_module, "PREVIEW_CELLS", 2000)
+    obj, _ = sampled_ball(tmp_path)
+    reading_sizes = []
+    plain = threshold_module.threshold_grid_body
+    monkeypatch.setattr(
+        "body_moments.operators.session.threshold.threshold_grid_body",
+        lambda grid, *more: reading_sizes.append(grid.values.size) or plain(grid, *more),
+    )
+    stored(obj)
+    obj.body_moments.threshold = 1.0
+    assert len(reading_sizes) == 2 and reading_sizes[0] <= 2000 < reading_sizes[1]
+    assert close(obj["body_volume"], measure(obj).volume, rel=1e-13)
+    assert properties.numbers(obj) is not None
