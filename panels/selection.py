@@ -50,7 +50,7 @@ class BODY_MOMENTS_UL_measured(UIList):
         name="Warnings First", description="List what is out of date or doubtful before all others"
     )
 
-    def draw_item(self, context, layout, _data, obj, _icon, _active_data, _active_property) -> None:
+    def draw_item(self, context, layout, _data, obj, _icon, _active_data, _active_property, _index) -> None:
         body = shown_body(obj, context.scene)
         if body is None:
             layout.label(text=obj.name, translate=False)

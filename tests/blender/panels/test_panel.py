@@ -14,9 +14,6 @@ from tests.blender.objects import add, measured, mesh_body, only, strip_mesh
 pytestmark = pytest.mark.usefixtures("scene")
 
 
-FILTERED = ("sort_by", "warnings_first")  # settings of the lists
-
-
 class Layout:
     """Records labels, properties and operators, in the order of drawing. Checks that what is
     drawn exists.
@@ -82,18 +79,6 @@ class Layout:
     def popover(self, name, **_options):
         assert hasattr(bpy.types, name)
         self.record.append(("popover", name))
-
-    def template_list(self, kind, _identifier, data, name, active_data, active_name, **_options):
-        """A list with its first line drawn, filtered as Blender would."""
-        shown = getattr(bpy.types, kind)
-        items = getattr(data, name)
-        settings = {key: item.default for key, item in shown.bl_rna.properties.items() if key in FILTERED}
-        listed = SimpleNamespace(bitflag_filter_item=1 << 30, filter_name="", **settings)
-        flags, _order = shown.filter_items(listed, bpy.context, data, name)
-        first = [item for item, flag in zip(items, flags, strict=True) if flag][:1]
-        self.record.append(("list", kind, len([flag for flag in flags if flag])))
-        for item in first:
-            shown.draw_item(listed, bpy.context, self, data, item, 0, active_data, active_name)
 
 
 def drawn(closed=(), without=()):
