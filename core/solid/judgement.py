@@ -26,6 +26,9 @@ from .triage import CheckedSurface, GivenIntegrals
 
 MIN_REPORTED_AMBIGUITY = 1e-6  # of the volume: below, nobody needs to know
 
+# Codes about components that have a second one, where the components are too small to matter
+WITH_SLIGHT = ("cavities_break_through", "components_nested", "components_overlap", "flat_components")
+
 
 @dataclass(frozen=True, eq=False)
 class SolidIntegrals:
@@ -160,13 +163,14 @@ def judge(
         findings.append(_weld_finding(mesh.max_displacement, checked.size, given.area.total, volume.total))
     findings += [_of_input(item, checked.vertices) for item in mesh.findings]
     if len(flipped):
-        findings.append(finding("flipped_faces", flipped, count=len(flipped)))
+        slight = _is_slight(mesh, np.isin(mesh.face, flipped), checked.size, volume.total)
+        findings.append(finding("flipped_faces_slightly" if slight else "flipped_faces", flipped, count=len(flipped)))
     if len(inverted):
-        findings.append(_inverted_finding(mesh, inverted))
+        findings.append(_inverted_finding(mesh, inverted, checked.size, volume.total))
     if caps[:2].any():
         findings.append(_cap_finding(checked, oriented, caps, cap_share))
     if oriented.comparison is not None:
-        findings += _component_findings(mesh, oriented.comparison, checked.size)
+        findings += _component_findings(mesh, oriented.comparison, checked.size, volume.total)
     if self_intersecting:
         findings.append(finding("self_intersecting"))
     elif intersection is not None and verdict is not Verdict.OPEN:
@@ -250,11 +254,24 @@ def _weld_finding(displacement: float, size: float, area: float, volume: float) 
     return finding("vertices_welded_slightly" if slight else "vertices_welded", share=float(displacement / size))
 
 
-def _inverted_finding(mesh: RepairedMesh, inverted: NDArray[np.intp]) -> Finding:
+def _is_slight(mesh: RepairedMesh, rows: NDArray[np.bool_], size: float, volume: float) -> bool:
+    """Whether these triangles are too small to matter, however they are decided about: their moments, all together, are
+    below their area times the body's size. rows: (t,)."""
+    return bool(_areas(mesh, rows).sum() * size < NEGLIGIBLE * volume)
+
+
+def _areas(mesh: RepairedMesh, rows: NDArray[np.bool_]) -> NDArray[np.float64]:
+    a, b, c = np.moveaxis(mesh.points[mesh.triangles[rows]].astype(np.float64), 1, 0)
+    return 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1)
+
+
+def _inverted_finding(mesh: RepairedMesh, inverted: NDArray[np.intp], size: float, volume: float) -> Finding:
     which = np.zeros(mesh.number, bool)
     which[inverted] = True
     faces = NO_FACES if which.all() else mesh.faces_of(which)
-    return finding("inverted_components", faces, count=len(inverted), total=int(mesh.number))
+    slight = not which.all() and _is_slight(mesh, which[mesh.component], size, volume)
+    code = "inverted_components_slightly" if slight else "inverted_components"
+    return finding(code, faces, count=len(inverted), total=int(mesh.number))
 
 
 def _cap_finding(checked: CheckedSurface, oriented: OrientedSolid, caps: NDArray[np.float64], share: float) -> Finding:
@@ -269,27 +286,38 @@ def _cap_finding(checked: CheckedSurface, oriented: OrientedSolid, caps: NDArray
     return finding("holes_capped", edges, count=flat + curved, flat=flat, curved=curved, share=share)
 
 
-def _component_findings(mesh: RepairedMesh, comparison: ComponentComparison, size: float) -> list[Finding]:
+def _component_findings(
+    mesh: RepairedMesh, comparison: ComponentComparison, size: float, volume: float
+) -> list[Finding]:
     """About components that are in others, go through others, or have no volume."""
-    findings, nested, crossing, solid = [], comparison.nested, comparison.intersecting, comparison.solid
-    cavities, breaking = comparison.cavities & ~comparison.breaking, comparison.breaking
+    solid = comparison.solid
+    breakthrough = {"share": float(comparison.breakthrough / size)}
     flat = ~solid & ~mesh.open if solid.any() else np.zeros(mesh.number, bool)
-    if cavities.any():
-        findings.append(finding("cavities_subtracted", mesh.faces_of(cavities), count=int(cavities.sum())))
-    if breaking.any():
-        share = float(comparison.breakthrough / size)
-        findings.append(
-            finding("cavities_break_through", mesh.faces_of(breaking), count=int(breaking.sum()), share=share)
-        )
-    if nested.any():
-        findings.append(finding("components_nested", mesh.faces_of(nested), count=int(nested.sum())))
-    if crossing.any():
-        findings.append(finding("components_overlap", mesh.faces_of(crossing), count=int(crossing.sum())))
-    if flat.any():
-        findings.append(finding("flat_components", mesh.faces_of(flat), count=int(flat.sum()), total=int(mesh.number)))
+    findings = []
+    for code, which, values in (
+        ("cavities_subtracted", comparison.cavities & ~comparison.breaking, {}),
+        ("cavities_break_through", comparison.breaking, breakthrough),
+        ("components_nested", comparison.nested, {}),
+        ("components_overlap", comparison.intersecting, {}),
+        ("flat_components", flat, {"total": int(mesh.number)}),
+    ):
+        if which.any():
+            decided = _all_but_largest(mesh, which) if code == "components_overlap" else which
+            slight = code in WITH_SLIGHT and _is_slight(mesh, decided[mesh.component], size, volume)
+            name = code + "_slightly" if slight else code
+            findings.append(finding(name, mesh.faces_of(which), count=int(which.sum()), **values))
     if comparison.undecided_pairs:
         findings.append(finding("overlap_unchecked", count=int(comparison.undecided_pairs)))
     return findings
+
+
+def _all_but_largest(mesh: RepairedMesh, which: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Some components but for the one with the largest area: what they share is in the others."""
+    rows = which[mesh.component]
+    areas = np.bincount(mesh.component[rows], _areas(mesh, rows), minlength=mesh.number)
+    others = which.copy()
+    others[np.argmax(areas)] = False
+    return others
 
 
 def _intersection_findings(intersection: SelfIntersection, volume: float) -> list[Finding]:

@@ -288,7 +288,8 @@ def measure_members(members: list[Member], shapes: list[Shape], unit: float) -> 
     keys, matrices = transform_keys(matrices), to_si(matrices, unit)
     volume = _placed(own.at(which), matrices)
     area = _areas(own_area.at(which), matrices, members)
-    density, mass = (np.array([getattr(member, name) for member in members]) for name in ("density", "mass"))
+    density = np.array([member.density for member in members])
+    mass = np.array([member.mass for member in members])
     from_mass = ~np.isnan(mass)
     with np.errstate(divide="ignore", invalid="ignore"):
         density = np.where(from_mass, mass / volume.raw[:, 0], density)
