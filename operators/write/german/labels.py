@@ -108,7 +108,7 @@ TEXTS = {
     "Measure": "Messen",
     "Select Defects": "Fehlerstellen auswählen",
     "Copy Report": "Bericht kopieren",
-    "Clear Results": "Ergebnisse löschen",
+    "Clear Results": "Werte löschen",
     "Moments": "Momente",
     "Section": "Querschnitt",
     "Measure Section": "Querschnitt messen",
@@ -268,5 +268,4 @@ TEXTS = {
     "Export glTF with Rigid Bodies": "glTF mit Starrkörpern exportieren",
     "Selected Objects": "Ausgewählte Objekte",
     "Links": "Glieder",
-    "What is one rigid body": "Was ein Starrkörper ist",
 }
