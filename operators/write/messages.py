@@ -1234,6 +1234,11 @@ MESSAGES: dict[str, Message] = {
     "gltf_buffer_short": _error(
         "The buffer “{buffer}” is cut short: {size} of {expected} bytes. Export the file again."
     ),
+    "threemf_damaged": _error("The 3MF file is damaged: {error}. Export it again."),
+    "threemf_extension": _error(
+        "The 3MF file needs an extension that changes its shape and is not read: {name}. Export it as plain meshes."
+    ),
+    "threemf_instances": _error("The 3MF file places more than {limit} meshes. Join some of them."),
     "stl_size": _error("The STL file is cut short or damaged: its size does not match its number of triangles."),
     "stl_cut_short": _error("The STL file is cut short: “endsolid” is missing."),
     "file_exists": _error("The file “{file}” exists. Turn on Overwrite."),
