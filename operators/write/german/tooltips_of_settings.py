@@ -288,4 +288,7 @@ TEXTS = {
         "werden, bis die Datei geschlossen wird. Im Posenmodus die der Netze, die die Armatur verformt. Messen "
         "speichert sie"
     ),
+    "Each bone of a character is a link in its rest frame, with joints of the bones' limits": (
+        "Jeder Knochen einer Figur ist ein Glied in seinem Ruhesystem, mit Gelenken nach den Grenzen der Knochen"
+    ),
 }
