@@ -26,7 +26,8 @@ RELATIONS = (
     'Target="/3D/a.model" Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/></Relationships>'
 )
 MODEL = '<model xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02"><resources><object id="1"><mesh>'
-MODEL += "<vertices>{}</vertices><triangles>{}</triangles></mesh></object></resources><build><item objectid='1'/></build></model>"
+MODEL += "<vertices>{}</vertices><triangles>{}</triangles></mesh></object></resources>"
+MODEL += "<build><item objectid='1'/></build></model>"
 MODEL = MODEL.format(
     "".join("<vertex x='{}' y='{}' z='{}'/>".format(*corner) for corner in CORNERS),
     "".join("<triangle v1='{}' v2='{}' v3='{}'/>".format(*face) for face in FACES),
