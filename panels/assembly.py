@@ -8,7 +8,7 @@ collection's properties too.
 
 from __future__ import annotations
 
-from bpy.types import Collection, Context, Panel, UILayout, UIList
+from bpy.types import Collection, Context, Panel, PropertyGroup, UILayout, UIList
 
 from ..operators.read.assembly import Root, is_assembly, settings_of
 from ..operators.session import assembly as stored_assembly
@@ -16,7 +16,7 @@ from ..operators.write import properties
 from ..operators.write.messages import severity
 from ..operators.write.translations import localized
 from ..operators.write.units import Units
-from . import rows
+from . import remedies, rows
 from .given import given_rows
 from .numbers import AXIS_LABELS, PRINCIPAL_LABELS
 from .places import in_both_places
@@ -43,7 +43,7 @@ class BODY_MOMENTS_UL_assembly(UIList):
             line.prop(row, "is_open", text="", icon=icon, emboss=False)
         else:
             line.label(text="", icon="BLANK1")
-        split = line.split(factor=0.52, align=True)
+        split = line.split(factor=0.44, align=True)
         name = split.row(align=True)
         name.active = row.is_counted
         name.label(text=row.name, icon=MEMBER_ICONS[row.member], translate=False)
@@ -88,19 +88,14 @@ def draw_assembly(layout: UILayout, context: Context, root: Root) -> None:
     numbers = properties.numbers(root)
     if numbers is None or properties.method_text(root) != "assembly":
         return
-    _total(layout, context, root, properties.from_numbers(numbers))
-    layout.template_list(
-        BODY_MOMENTS_UL_assembly.__name__,
-        "",
-        settings,
-        "rows",
-        settings,
-        "active_row",
-        rows=min(LINES, len(settings.rows)),
-    )
-    if 0 <= settings.active_row < len(settings.rows):
-        for found in properties.findings_in(settings.rows[settings.active_row].findings):
-            rows.message(layout, context, found)
+    stored, units = properties.from_numbers(numbers), Units.of(context.scene.unit_settings)
+    findings = properties.findings(root)
+    rows.stale_row(layout, context, stored_assembly.stale_reason(root))
+    remedies.warnings(layout, context, "body_moments_assembly_warnings", findings, can_accept=False)
+    rows.value(layout, units, "Mass", "mass", stored.body.mass)
+    _tree(layout, context, settings)
+    _numbers(layout, units, stored, isinstance(root, Collection))
+    remedies.notes(layout, context, "body_moments_assembly_notes", findings)
     row = layout.row(align=True)
     row.operator("object.body_moments_export_bill", text="Bill of Masses...", icon="EXPORT").target = target
     row.operator("object.body_moments_clear_assembly", text="", icon="TRASH").target = target
@@ -111,26 +106,36 @@ def draw_assembly(layout: UILayout, context: Context, root: Root) -> None:
     column.operator("object.body_moments_assembly_origin", text=text, icon="OBJECT_ORIGIN").target = target
 
 
-def _total(layout: UILayout, context: Context, root: Root, stored: properties.StoredProperties) -> None:
-    units = Units.of(context.scene.unit_settings)
-    rows.stale_row(layout, context, stored_assembly.stale_reason(root))
-    findings = properties.findings(root)
-    rows.warnings(layout, context, "body_moments_assembly_warnings", findings)
+def _tree(layout: UILayout, context: Context, settings: PropertyGroup) -> None:
+    """The members, and what is to be said of the one that is highlighted."""
+    layout.template_list(
+        BODY_MOMENTS_UL_assembly.__name__,
+        "",
+        settings,
+        "rows",
+        settings,
+        "active_row",
+        rows=max(min(LINES, len(settings.rows)), 2),
+    )
+    if 0 <= settings.active_row < len(settings.rows):
+        for found in properties.findings_in(settings.rows[settings.active_row].findings):
+            rows.message(layout, context, found)
+
+
+def _numbers(layout: UILayout, units: Units, stored: properties.StoredProperties, in_world: bool) -> None:
     column = layout.column(align=True)
-    rows.value(column, units, "Mass", "mass", stored.body.mass)
     if stored.volume:
         rows.value(column, units, "Volume", "volume", stored.volume)
+    if stored.area:
+        rows.value(column, units, "Area", "area", stored.area)
     column = layout.column(align=True)
-    in_world = isinstance(root, Collection)
-    rows.heading(
-        column, "Center of Mass (World)" if in_world else "Center of Mass (Object)", "length", stored.body.center
-    )
+    heading = "Center of Mass (World)" if in_world else "Center of Mass (Object)"
+    rows.heading(column, heading, "length", stored.body.center)
     rows.values(column, units, AXIS_LABELS, "length", stored.body.center, stored.body.radii_of_gyration.max())
     column = layout.column(align=True)
     moments = stored.body.principal.moments
     rows.heading(column, "Principal Moments", "inertia", moments)
     rows.values(column, units, PRINCIPAL_LABELS, "inertia", moments)
-    rows.notes(layout, context, "body_moments_assembly_notes", findings)
 
 
 class AssemblyPanel:

@@ -35,8 +35,6 @@ class BonesPanel:
         if not properties.is_stored(armature):
             return
         rows.stale_row(layout, context, stored_rig.stale_reason(armature, context.scene))
-        findings = properties.findings(armature)
-        rows.warnings(layout, context, "body_moments_bone_warnings", findings)
         units = Units.of(context.scene.unit_settings)
         measured = [bone for bone in armature.pose.bones if "body_mass" in bone]
         total = sum(bone["body_mass"] for bone in measured)
@@ -50,7 +48,6 @@ class BonesPanel:
             cell.label(text="{:.1f}%".format(100.0 * bone["body_mass"] / total), translate=False)
         if len(measured) > LISTED:
             rows.filled(layout, "And {:d} more", len(measured) - LISTED)
-        rows.notes(layout, context, "body_moments_bone_notes", findings)
         column = layout.column(align=True)
         column.operator("object.body_moments_physics_rig", icon="RIGID_BODY")
         column.operator("object.body_moments_rig_center", icon="EMPTY_AXIS")

@@ -19,6 +19,7 @@ ORDER = (
     "stability",
     "selection",
     "assembly",
+    "bones",
     "advanced",
 )  # of CAD's mass property dialogs
 ROOT = "body_moments"

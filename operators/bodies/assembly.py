@@ -34,10 +34,12 @@ from .body import KNOWN_ORDER
 from .combined import combined_measurement
 from .given import given_moments
 from .instances import merge_health
-from .measure_object import Measured, measure_body
+from .many import measure_many
+from .measure_object import Measured
+from .stack import Stacked
 
 POWERS = {"solid": 3, "shell": 2, "wire": 1, "point": 0}
-Results = dict[Object, Measured | Finding]
+Results = dict[Object, Measured | Stacked | Finding]
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,8 +53,8 @@ class MemberBody:
         In kg to third order, by the power of an instance's scale that they grow with; empty where nothing counts.
     volume, area, volume_error, area_error : float
         m³ and m², with bounds of their rounding.
-    measured : Measured, optional
-        Of an object.
+    measured : Measured or Stacked, optional
+        Of an object, with its measurement.
     refusal : Finding, optional
         Why it could not be measured.
     parts : tuple of MemberBody
@@ -67,7 +69,8 @@ class MemberBody:
     area: float = 0.0
     volume_error: float = 0.0
     area_error: float = 0.0
-    measured: Measured | None = None
+    measured: Measured | Stacked | None = None
+    measurement: Measurement | None = None
     refusal: Finding | None = None
     parts: tuple[MemberBody, ...] = ()
     findings: tuple[Finding, ...] = ()
@@ -128,12 +131,10 @@ def measure_members(
 ) -> Generator[int, None, None]:
     """Measure each object of an assembly once, into `results`; yields how many are done. What refuses ends nothing."""
     objects = {member.data: None for member in root.walk() if member.is_measured or _is_sheared(member)}
-    for done, obj in enumerate(objects, 1):
-        try:
-            results[obj] = measure_body(obj, depsgraph, options)
-        except Exception as error:
-            results[obj] = internal_error.finding_of(error)
-        yield done
+    for together in measure_many(list(objects), depsgraph, options):
+        for obj, outcome in together:
+            results[obj] = internal_error.finding_of(outcome) if isinstance(outcome, Exception) else outcome
+        yield len(results)
 
 
 def assemble(root: Member, results: Results, depsgraph: Depsgraph, options: MeasureOptions = AS_SET) -> Assembly:
@@ -164,7 +165,7 @@ def assembly_measurement(whole: MemberBody, depsgraph: Depsgraph, unit: float) -
     if isinstance(data, bpy.types.Object):
         at = locate(data, depsgraph)
         rotation, location, place = at.rotation, at.location * unit, matrix_hash(data)
-    measured = [part.measured.measurement for part in whole.walk() if part.measured is not None]
+    measured = [part.measurement for part in whole.walk() if part.measurement is not None]
     inputs = [measurement.error_bound["input"] for measurement in measured]
     given = settings_of(data).mass_from == "MASS"
     return combined_measurement(
@@ -230,18 +231,16 @@ def findings_of(whole: MemberBody, scene: bpy.types.Scene) -> Iterator[Finding]:
             )
     for code, names in left_out.items():
         yield finding(code, count=len(names), names=names)
-    objects = [part for part in members if part.measured is not None]
+    objects = [part for part in members if part.measurement is not None]
     hidden = _with_code(objects, {"hidden_object_measured"})
     if hidden:
         yield finding("members_hidden", count=len(hidden), names=hidden)
     unset = [
-        part.member.name
-        for part in objects
-        if unset_density(part.member.data, part.measured.measurement, scene) is not None
+        part.member.name for part in objects if unset_density(part.member.data, part.measurement, scene) is not None
     ]
     if unset:
         yield finding("members_density_unset", count=len(unset), names=unset)
-    yield from open_body_caveats((part.member.name, part.measured.measurement.method) for part in objects)
+    yield from open_body_caveats((part.member.name, part.measurement.method) for part in objects)
     given = [
         part.member.name for part in members[1:] if any(one.code == "assembly_mass_given" for one in part.findings)
     ]
@@ -257,16 +256,14 @@ _LEFT_OUT = {
 
 
 def _with_code(parts: Iterable[MemberBody], codes: set[str]) -> list[str]:
-    return [part.member.name for part in parts if any(one.code in codes for one in part.measured.measurement.findings)]
+    return [part.member.name for part in parts if any(one.code in codes for one in part.measurement.findings)]
 
 
 def _fingerprints(whole: MemberBody) -> dict[Object, str]:
-    return {
-        part.member.data: part.measured.measurement.fingerprint for part in whole.walk() if part.measured is not None
-    }
+    return {part.member.data: part.measurement.fingerprint for part in whole.walk() if part.measurement is not None}
 
 
-def _object_body(member: Member, result: Measured | Finding) -> MemberBody:
+def _object_body(member: Member, result: Measured | Stacked | Finding) -> MemberBody:
     if isinstance(result, Finding):
         return MemberBody(member, refusal=result)
     measurement = result.measurement
@@ -275,7 +272,14 @@ def _object_body(member: Member, result: Measured | Finding) -> MemberBody:
     mass = replace(moments.truncate(KNOWN_ORDER), measure=Measure.MASS) * factor
     bound = measurement.error_bound
     return MemberBody(
-        member, {power: mass}, measurement.volume, measurement.area, bound["volume"], bound["area"], measured=result
+        member,
+        {power: mass},
+        measurement.volume,
+        measurement.area,
+        bound["volume"],
+        bound["area"],
+        measured=result,
+        measurement=measurement,
     )
 
 

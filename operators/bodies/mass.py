@@ -271,7 +271,7 @@ def _sheet_moments(
     def measured(surface: Surface) -> Moments:
         triangles, faces = surface.all_triangles()
         density = values[triangles] if by_vertex else values[faces]
-        area = polyhedron_moments(surface, area_order=3, threads=threads)[1]
+        area = polyhedron_moments(surface, area_order=3, threads=threads, allow_open=True)[1]
         return sheet_mass_moments(surface.points, triangles, density, area, stored=by_vertex)
 
     return area_of_instances(part.surface, measured(part.surface), to_si(part.matrices, unit), measured)

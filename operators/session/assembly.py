@@ -17,6 +17,8 @@ from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict import internal_error
 from ...core.verdict.finding import Finding, Severity
 from ..bodies.assembly import Assembly, MemberBody, assembly_measurement, members_key, structure_hash
+from ..bodies.measure_object import Measured
+from ..bodies.stack import Stacked
 from ..read.assembly import MemberKind, Root, members_of, settings_of
 from ..read.fingerprint import VERSION, digest, matrix_hash
 from ..write import properties
@@ -48,25 +50,31 @@ def store(context: Context, assembly: Assembly) -> list[tuple[str, Finding]]:
     reference.follow(root, scene, about)
     done: dict[Root, None] = {root: None}
     failures: list[tuple[str, Finding]] = []
-    measured: list[Object] = []
+    measured: list[tuple[Object, Measured | Stacked]] = []
     for part in assembly.root.walk():  # an assembly comes before the point mass that it may be itself
         data = part.member.data
         if data in done:
             continue
         done[data] = None
-        try:
-            if part.measured is not None:
-                results.store(data, part.measured, scene)
-                results.remember_failure(data, None)
-                measured.append(data)
-            elif part.member.kind in (MemberKind.COLLECTION, MemberKind.EMPTY) and part.masses:
+        if part.measured is not None:
+            measured.append((data, part.measured))
+        elif part.refusal is not None and part.member.kind in (MemberKind.OBJECT, MemberKind.POINT):
+            results.remember_failure(data, part.refusal)
+        elif part.member.kind in (MemberKind.COLLECTION, MemberKind.EMPTY) and part.masses:
+            try:
                 properties.store(data, assembly_measurement(part, depsgraph, unit))
-            elif part.refusal is not None and part.member.kind in (MemberKind.OBJECT, MemberKind.POINT):
-                results.remember_failure(data, part.refusal)
-        except Exception as error:
-            failures.append((data.name_full, internal_error.finding_of(error)))
+            except Exception as error:
+                failures.append((data.name_full, internal_error.finding_of(error)))
+    stored = []
+    for obj, refusal in results.store_many(measured, scene):
+        results.remember_failure(obj, None)
+        if refusal is None:
+            stored.append(obj)
+        else:
+            failures.append((obj.name_full, internal_error.finding_of(refusal)))
     _write_rows(assembly)
-    staleness.mark_up_to_date(context, measured)
+    shapes = {obj: found.shape_digest for obj, found in measured if isinstance(found, Stacked)}
+    staleness.mark_up_to_date(context, stored, shapes)
     return failures
 
 
@@ -145,8 +153,8 @@ def _row_findings(part: MemberBody) -> list[Finding]:
         return [part.member.left_out]
     if part.refusal is not None:
         return [part.refusal]
-    if part.measured is not None:
-        return of_severity(part.measured.measurement.findings, Severity.WARNING, Severity.ERROR)
+    if part.measurement is not None:
+        return of_severity(part.measurement.findings, Severity.WARNING, Severity.ERROR)
     return list(part.findings)
 
 

@@ -95,7 +95,7 @@ class OBJECT_OT_body_moments_measure_assembly(ModalSteps, Operator):
         findings: list[Finding] = of_severity(assembly.measurement.findings, Severity.WARNING, Severity.ERROR)
         if failures:
             findings.append(finding("members_not_stored", count=len(failures), names=[name for name, _ in failures]))
-        counted = sum(part.measured is not None for part in assembly.root.walk())
+        counted = sum(part.measurement is not None for part in assembly.root.walk())
         name, mass = assembly.measurement.name, assembly.measurement.mass_properties.mass
         selection.report(
             self, finding("assembly_measured", assembly=name, count=counted, mass=mass), *reports.first(findings)

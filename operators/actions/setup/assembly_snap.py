@@ -35,7 +35,7 @@ class _SnapToAssembly:
         try:
             assembly = measured_assembly(context, self.target)
             if any(
-                part.measured is not None and part.measured.measurement.method.verdict == Verdict.OPEN
+                part.measurement is not None and part.measurement.method.verdict == Verdict.OPEN
                 for part in assembly.root.walk()
             ):
                 raise EditRefusedError("assembly_has_open_members", subject=assembly.measurement.name)

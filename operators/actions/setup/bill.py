@@ -34,7 +34,7 @@ def bill_rows(part: MemberBody, mass: float, level: int = 0, counted: bool = Tru
         Whether its mass is part of the whole.
     """
     moments = part.mass
-    measurement = None if part.measured is None else part.measured.measurement
+    measurement = part.measurement
     findings = part.findings if measurement is None else measurement.findings
     reason = part.member.left_out or part.refusal
     yield BillRow(

@@ -7,6 +7,7 @@ weighs the collision shape. So mass, origin and axes belong together, and what C
 beside the exact mass.
 """
 
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
 import bpy
@@ -20,8 +21,9 @@ from ....core.inertia.second_order import EQUAL_AXES
 from ....core.numerics.float32 import shortest_decimal
 from ....core.verdict.finding import EditRefusedError, Finding, finding
 from ....core.verdict.method import Verdict
+from ...bodies.many import measured_in_turn
 from ...bodies.measure_object import Measured as MeasuredBody
-from ...bodies.measure_object import measure_body
+from ...bodies.stack import Stacked
 from ...read.quiet import paused
 from ...scene import reframe
 from ...scene.transforms import require_storable_data, world
@@ -31,6 +33,7 @@ from ...write import properties, reports
 from ...write.translations import localized
 from ...write.units import Units
 from .. import selection
+from ..joints import add_joint, remove_joint
 from ..modal import progress
 from ..snap import base as snapping
 
@@ -54,7 +57,7 @@ class Measured:
     body: Body
     target: snapping.SnapTarget
     density: float
-    parts: tuple[tuple[Object, MeasuredBody], ...]
+    parts: tuple[tuple[Object, MeasuredBody | Stacked], ...]
 
 
 class OBJECT_OT_body_moments_rigid_bodies(Operator):
@@ -138,8 +141,10 @@ class OBJECT_OT_body_moments_rigid_bodies(Operator):
         measured: dict[Object, Measured] = {}
         by_obj = {body.obj: body for body in bodies}
 
+        ask = _asked(context, by_obj.values())
+
         def measure(obj: Object) -> bool:
-            measured[obj] = _measured(context, by_obj[obj])
+            measured[obj] = _measured(context, by_obj[obj], ask)
             return True
 
         _, failures = selection.apply_to_all(list(by_obj), measure)
@@ -179,8 +184,9 @@ class OBJECT_OT_body_moments_rigid_bodies(Operator):
             for obj, refusal in refused:
                 failures.append(reports.failure(obj.name_full, refusal))
                 del measured[obj]
+            ask = _asked(context, [measured[plan.obj].body for plan in changed])
             for plan in changed:
-                measured[plan.obj] = _measured(context, measured[plan.obj].body)
+                measured[plan.obj] = _measured(context, measured[plan.obj].body, ask)
             if not move_only:
                 staleness.mark_axes_changed(plan.obj for plan in changed)
         return failures
@@ -260,14 +266,20 @@ def _bodies(objects: list[Object]) -> list[Body]:
     return [Body(obj, tuple(below)) for obj, below in members.items()]
 
 
-def _measured(context: Context, body: Body) -> Measured:
+def _asked(context: Context, bodies: Iterable[Body]) -> Callable[[Object], MeasuredBody | Stacked]:
+    """What gives the measurements of all their objects in turn."""
+    parts = [part for body in bodies for part in (body.obj, *body.members)]
+    return measured_in_turn(parts, context.evaluated_depsgraph_get(), MeasureOptions(pose=True))
+
+
+def _measured(context: Context, body: Body, ask: Callable[[Object], MeasuredBody | Stacked]) -> Measured:
     """A body as it is now. EditRefusedError where it can be no rigid body."""
-    depsgraph, measurements, parts = context.evaluated_depsgraph_get(), [], []
+    measurements, parts = [], []
     for part in (body.obj, *body.members):
         require_storable_data(part, "library_override_mass")
         if part.type != "MESH":
             raise EditRefusedError("rigid_body_needs_mesh", subject=part.name)
-        measured = measure_body(part, depsgraph, MeasureOptions(pose=True))
+        measured = ask(part)
         measurement = measured.measurement
         parts.append((part, measured))
         if measurement.method.verdict == Verdict.OPEN:
@@ -298,13 +310,10 @@ def _measured(context: Context, body: Body) -> Measured:
 
 def _store(context: Context, measured: dict[Object, Measured]) -> None:
     """Keep up to date what is stored on the objects."""
-    fresh = []
-    for one in measured.values():
-        for obj, result in one.parts:
-            if properties.is_stored(obj):
-                results.store(obj, result, context.scene)
-                fresh.append(obj)
-    staleness.mark_up_to_date(context, fresh)
+    found = [item for one in measured.values() for item in one.parts if properties.is_stored(item[0])]
+    stored = [obj for obj, refusal in results.store_many(found, context.scene) if refusal is None]
+    shapes = {obj: result.shape_digest for obj, result in found if isinstance(result, Stacked)}
+    staleness.mark_up_to_date(context, stored, shapes)
 
 
 def _frame(obj: Object, target: snapping.SnapTarget, move_only: bool) -> NDArray[np.float64] | None:
@@ -345,16 +354,13 @@ def _keep_joint(context: Context, obj: Object) -> None:
     location, turn, _scale = obj.matrix_world.decompose()
     empty.rotation_mode = "QUATERNION"
     empty.location, empty.rotation_quaternion = location, turn
-    with context.temp_override(object=empty, active_object=empty, selected_objects=[empty]):
-        bpy.ops.rigidbody.constraint_add(type=joint.type)
-    copy = empty.rigid_body_constraint
+    copy = add_joint(context, empty, joint.type)
     for prop in joint.bl_rna.properties:
         if not prop.is_readonly:
             setattr(copy, prop.identifier, getattr(joint, prop.identifier))
     context.view_layer.update()
     empty.parent, empty.matrix_parent_inverse = obj, obj.matrix_world.inverted()
-    with context.temp_override(object=obj, active_object=obj, selected_objects=[obj]):
-        bpy.ops.rigidbody.constraint_remove()
+    remove_joint(context, obj)
     context.view_layer.update()
 
 

@@ -238,6 +238,25 @@ MESSAGES = {
         "Das Raster „{grid}“ von „{object}“ hat um das Objekt zu viele Voxel, {samples:size}. Ein gröberes Raster "
         "verwenden.",
     ),
+    "threshold_measured": (
+        "Der Körper, in dem das Raster „{grid}“ mindestens {threshold} ist, nach seinem Interpolanten. Seine "
+        "Oberfläche geht durch {cells} Zellen.",
+    ),
+    "threshold_clipped": (
+        "Der Körper reicht bis an den Rand des Rasters „{grid}“ und ist dort abgeschnitten. Schwellwert erhöhen oder "
+        "das Raster vergrößern.",
+    ),
+    "threshold_not_reached": (
+        "Kein Wert des Rasters „{grid}“ erreicht den Schwellwert {threshold}; der größte ist {largest}. Schwellwert "
+        "senken.",
+    ),
+    "threshold_needs_factor": (
+        "Innerhalb eines Schwellwerts werden Werte nur mit einem Faktor zu Dichten. Werte auf Faktor setzen oder "
+        "Gefüllt mit auf Material.",
+    ),
+    "threshold_too_large": (
+        "Das Raster „{grid}“ umfasst zu viele Voxel, {samples}, für einen Schwellwert. Neu abtasten oder zuschneiden.",
+    ),
     "grid_as_shell": ("Ein Raster aus Voxeln kann keine Schale sein. Art auf Massiv setzen.",),
     "open_surface_of_grid": (
         "Die Oberfläche ist offen, das Innere des Rasters also nicht bestimmt. Das Netz schließen.",

@@ -50,6 +50,8 @@ TEXTS = {
     "Material that the density was taken from": "Material, von dem die Dichte genommen wurde",
     "Grid": "Raster",
     "Measure As": "Messen als",
+    "Threshold": "Schwellwert",
+    "Filled With": "Gefüllt mit",
     "What the values of the grid represent": "Was die Werte des Rasters darstellen",
     "Values": "Werte",
     "How grid values are converted to densities": "Wie Rasterwerte zu Dichten werden",

@@ -106,6 +106,13 @@ TEXTS = {
     "The grid is a level set that bounds a solid filled with material": (
         "Das Raster ist eine Niveaumenge, die einen mit Material gefüllten Körper begrenzt"
     ),
+    "The body where the values, linear between voxels, are at least a threshold": (
+        "Der Körper, in dem die Werte, linear zwischen den Voxeln, mindestens ein Schwellwert sind"
+    ),
+    "Grid value from which on a point belongs to the body": "Rasterwert, ab dem ein Punkt zum Körper gehört",
+    "What the body within the threshold is made of": "Woraus der Körper innerhalb des Schwellwerts besteht",
+    "One density, as for any solid": "Eine Dichte, wie für jeden Körper",
+    "The density that the values of the grid represent": "Die Dichte, die die Werte des Rasters darstellen",
     "Use a transfer table, for example for CT numbers": "Eine Übertragungstabelle verwenden, etwa für CT-Zahlen",
     "Pairs of a grid value and a density in kg/m³, separated by commas. Linear in between, constant beyond. The "
     "default converts CT numbers to tissue densities": (

@@ -12,7 +12,6 @@ import numpy as np
 from ....core.mesh.surface import Surface
 from ....core.robots.model import Robot
 from ....core.verdict.finding import Finding, finding
-from ..whole_file import whole_file
 
 _TRIANGLE = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 
@@ -57,7 +56,6 @@ def write_meshes(robot: Robot, surface_of: Callable[[str], Surface | None], fold
             if surface is not None:
                 path = folder / shape.file
                 path.parent.mkdir(parents=True, exist_ok=True)
-                with whole_file(path) as file:
-                    file.write(to_stl(surface))
+                path.write_bytes(to_stl(surface))
                 written += 1
     return finding("robot_meshes_written", count=written, folder=str(folder))

@@ -60,6 +60,11 @@ class Layout:
         self.record.append(("operator", name, properties))
         return properties
 
+    def template_list(self, name, _identifier, data, listed, active_data, active, **_options):
+        assert hasattr(bpy.types, name) and active in active_data.bl_rna.properties
+        for index, row in enumerate(getattr(data, listed)):
+            getattr(bpy.types, name).draw_item(None, bpy.context, self, data, row, 0, active_data, active, index)
+
     def prop_search(self, data, name, owner, collection, **_options):
         assert collection in owner.bl_rna.properties
         self.prop(data, name)
