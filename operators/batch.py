@@ -87,7 +87,8 @@ def _measure(argv: list[str], channel: int, file_needed: bool) -> int:
     is_written = output.written(FORMATS[options.format](run.documents), options.output, channel, check)
     if run.internal_errors:
         return INTERNAL_ERROR
-    return SOME_FAILED if run.errors or not is_written else ALL_MEASURED
+    failed = run.errors and not options.errors_exit_0
+    return SOME_FAILED if failed or not is_written else ALL_MEASURED
 
 
 def _serve(argv: list[str], channel: int, _file_needed: bool) -> int:

@@ -7,6 +7,8 @@ import re
 
 REASONS = {
     "no Chromium": "the report is read as text all the same",
+    "no GNU parallel": "an engine of others",
+    "no Node": "runs the job type of Flamenco with stubs",
     "could not import 'bornagain'": "a program of others, installed by hand, whose numbers ours are compared with",
     "comprehensions are calls of their own": "Python 3.11 counts more calls than the ones that are limited",
     "not on this system": "Windows has no such devices, signals, owners or links",

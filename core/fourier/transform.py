@@ -136,7 +136,7 @@ class Transform:
         self.q = waves = q if isinstance(q, FrequencyGrid) else wave_vectors(q, 3)
         self.measure, self.threads = of, threads
         self.faces = self.direct = SortedTriangles(surface)
-        self.volume, self.area = polyhedron_moments(surface, area_order=0, threads=threads)
+        self.volume, self.area = polyhedron_moments(surface, area_order=0, threads=threads, allow_open=True)
         self.gap = 0.0
         if of == Measure.VOLUME:
             self.gap = float(np.linalg.norm(np.cross(GENERIC_WAVE_VECTOR[0], self._vector_sum()))) / 1.5

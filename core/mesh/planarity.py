@@ -180,7 +180,7 @@ class StackPlanarity:
 
 def stack_planarity(stack: SurfaceStack) -> StackPlanarity:
     """Look at the faces of a stack, one by one, as `PlanarityAccumulator` does where it has to."""
-    count, face_count = len(stack), int(stack.face_counts.sum())
+    count, face_count = len(stack.face_counts), int(stack.face_counts.sum())
     low, high = stack.box
     exponent = np.frexp(np.maximum((high - low).max(axis=1), float(np.finfo(np.float32).tiny)))[1]
     error = np.sqrt(np.add.reduce(stack.coordinate_error**2, axis=1))
@@ -205,13 +205,13 @@ def stack_planarity(stack: SurfaceStack) -> StackPlanarity:
         degenerate |= (narrow > 0) & (narrow == pieces)
     polygons = np.flatnonzero(sizes > 4)
     if len(polygons):
-        first_corner = segment_starts(stack.corner_counts) - segment_starts(sizes)[segment_starts(stack.face_counts)]
+        first_corner = segment_starts(stack.corner_counts) - segment_starts(sizes)[stack.first_face]
         begin = (segment_starts(sizes) + first_corner[face_owner])[polygons]
         row, corners = _tetrahedra(stack.corner_vertices, begin, sizes[polygons])
         owner, volumes, _ = classify(corners, polygons[row], QUAD)
         non_planar[polygons[row[volumes > 0.0]]] = True
         total += np.bincount(owner, volumes, count)
-    first_face = segment_starts(stack.face_counts)
+    first_face = stack.first_face
     return StackPlanarity(
         np.add.reduceat(non_planar, first_face, dtype=np.intp),
         np.ldexp(total, 3 * exponent) / 6.0,

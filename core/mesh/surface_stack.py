@@ -11,7 +11,6 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from ..numerics.arrays import segment_starts
 from ..numerics.graph import connected_components
 from .surface import Surface, flipped_quads, indices_in_range
 
@@ -73,19 +72,19 @@ class SurfaceStack:
     @classmethod
     def of(cls, surfaces: Sequence[Surface]) -> SurfaceStack:
         """Stack surfaces that it `takes`, at least one."""
-        point_counts = _lengths([surface.points for surface in surfaces])
-        corner_counts = _lengths([surface.corner_vertices for surface in surfaces])
-        single, quad_counts = (
-            _lengths([getattr(surface, name) for surface in surfaces]) for name in ("triangles", "quads")
-        )
+        point_counts, corner_counts, single, quad_counts = np.array(
+            [
+                [len(array) for array in (surface.points, surface.corner_vertices, surface.triangles, surface.quads)]
+                for surface in surfaces
+            ]
+        ).T
         edge_counts = np.array([int(surface.corner_edges.max()) + 1 for surface in surfaces])
         face_counts = np.array([_face_count(surface) for surface in surfaces])
         points = np.concatenate([surface.points for surface in surfaces])
-        first_point, first_face = segment_starts(point_counts), segment_starts(face_counts)
-        triangles, quads = (
-            np.concatenate([getattr(surface, name) for surface in surfaces]).astype(np.intp)
-            for name in ("triangles", "quads")
-        )
+        first_point, first_face = np.cumsum(point_counts) - point_counts, np.cumsum(face_counts) - face_counts
+        first_edge = np.cumsum(edge_counts) - edge_counts
+        triangles = np.concatenate([surface.triangles for surface in surfaces]).astype(np.intp)
+        quads = np.concatenate([surface.quads for surface in surfaces]).astype(np.intp)
         triangles += np.repeat(first_point, single)[:, None]
         quads += np.repeat(first_point, quad_counts)[:, None]
         faces = [
@@ -95,7 +94,7 @@ class SurfaceStack:
         corners = np.concatenate([surface.corner_vertices for surface in surfaces]).astype(np.intp)
         corners += np.repeat(first_point, corner_counts)
         edges = np.concatenate([surface.corner_edges for surface in surfaces]).astype(np.intp)
-        edges += np.repeat(segment_starts(edge_counts), corner_counts)
+        edges += np.repeat(first_edge, corner_counts)
         cut, cut_faces = triangles, faces[0]
         if len(quads):
             turned = np.where(flipped_quads(points, quads)[:, None], np.roll(quads, -1, axis=1), quads)
@@ -157,12 +156,26 @@ class SurfaceStack:
         )
 
     @cached_property
+    def first_point(self) -> NDArray[np.intp]:
+        """(n,) where each one's points begin."""
+        return np.cumsum(self.point_counts) - self.point_counts
+
+    @cached_property
+    def first_triangle(self) -> NDArray[np.intp]:
+        """(n,) where each one's triangles begin."""
+        return np.cumsum(self.triangle_counts) - self.triangle_counts
+
+    @cached_property
+    def first_face(self) -> NDArray[np.intp]:
+        """(n,) where each one's faces begin."""
+        return np.cumsum(self.face_counts) - self.face_counts
+
+    @cached_property
     def box(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """(n, 3) and (n, 3) the smallest and the largest coordinates of each surface."""
-        rows, starts = np.ascontiguousarray(self.points.T), segment_starts(self.point_counts)
-        return tuple(
-            function.reduceat(rows, starts, axis=1).T.astype(np.float64) for function in (np.minimum, np.maximum)
-        )
+        rows, starts = np.ascontiguousarray(self.points.T), self.first_point
+        low, high = np.minimum.reduceat(rows, starts, axis=1), np.maximum.reduceat(rows, starts, axis=1)
+        return low.T.astype(np.float64), high.T.astype(np.float64)
 
     @cached_property
     def coordinate_error(self) -> NDArray[np.float64]:
@@ -184,13 +197,13 @@ class SurfaceStack:
         """(n,) whether each point of a surface is a corner of some face."""
         used = np.zeros(len(self.points), bool)
         used[self.triangles] = True
-        return np.logical_and.reduceat(used, segment_starts(self.point_counts))
+        return np.logical_and.reduceat(used, self.first_point)
 
     def component_counts(self) -> NDArray[np.intp]:
         """(n,) of each surface that its own edges prove closed and oriented, as `closed_side_faces` says, how many
         components it has; 0 of others."""
         sizes, corners = self.face_sizes, self.corner_vertices
-        first_face = segment_starts(self.face_counts)
+        first_face = self.first_face
         fits = np.add.reduceat(sizes, first_face) == self.corner_counts
         fits &= np.minimum.reduceat(sizes, first_face) > 0
         if not fits.all():  # the rings of the others are not known; their corners must not be taken for rings
@@ -206,7 +219,7 @@ class SurfaceStack:
         sides = np.full(2 * count, -1)
         sides[edges + count * (corners < following)] = np.repeat(np.flatnonzero(sizes), sizes_met)
         above, below = sides.reshape(2, count) >= 0
-        first_edge = segment_starts(self.edge_counts)
+        first_edge = np.cumsum(self.edge_counts) - self.edge_counts
         paired = np.add.reduceat(above & below, first_edge, dtype=np.intp)
         closed = fits & (np.add.reduceat(above | below, first_edge, dtype=np.intp) == paired)
         closed &= 2 * paired == self.corner_counts
@@ -214,10 +227,6 @@ class SurfaceStack:
         component, _ = connected_components(len(sizes), *sides.reshape(2, count)[:, linked])
         last = np.maximum.reduceat(component, first_face)  # they are numbered in the order of their first faces
         return np.where(closed, np.diff(last, prepend=-1), 0)
-
-
-def _lengths(arrays: Sequence[NDArray]) -> NDArray[np.intp]:
-    return np.array([len(array) for array in arrays])
 
 
 def _faces(surface: Surface, name: str) -> NDArray[np.integer]:
@@ -228,7 +237,8 @@ def _faces(surface: Surface, name: str) -> NDArray[np.integer]:
 
 def _face_count(surface: Surface) -> int:
     """How many faces the mesh of a surface has."""
-    return max(
+    counts = [
         len(rows) if faces is None else int(faces.max(initial=-1)) + 1
         for rows, faces in ((surface.triangles, surface.triangle_faces), (surface.quads, surface.quad_faces))
-    )
+    ]
+    return max(counts)

@@ -339,10 +339,8 @@ def image(moments: Moments, matrices: NDArray, center: NDArray) -> Moments:
     )
     offset = origins - center
     lead = linear.shape[:-2]
-    weight, weight_error, uneven = (
-        factor.reshape(*lead, 1)
-        for factor in measure_scale_factors(moments.measure, linear.reshape(-1, 3, 3).transpose(1, 2, 0).copy())
-    )
+    factors = measure_scale_factors(moments.measure, linear.reshape(-1, 3, 3).transpose(1, 2, 0).copy())
+    weight, weight_error, uneven = [factor.reshape(*lead, 1) for factor in factors]
     # The images of the reference point are rounded, and the body moves with them.
     stretch = np.abs(linear).sum(axis=-1).max(axis=-1)
     tolerance = (
@@ -359,7 +357,7 @@ def image(moments: Moments, matrices: NDArray, center: NDArray) -> Moments:
     shifted = apply_translation(
         apply_linear(values, order, linear), order, np.stack([offset, away, away, away + tolerance], axis=-2)
     )
-    mapped, error, mapped_input, size = (shifted[..., i, :] for i in range(4))
+    mapped, error, mapped_input, size = [shifted[..., i, :] for i in range(4)]
     rounding = weight * error + (weight_error + (4.0 * order + 50.0) * U * weight) * size
     for axis, raised in enumerate(product_indices(order) if order else ()):
         moved = monomials(order)[raised, axis] * tolerance * weight * size[..., : len(raised)]

@@ -8,20 +8,22 @@ To third order a kernel of its own is several times as fast (`third_order`); hig
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from math import isfinite
 from typing import Any, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..mesh.boundary import BoundarySum
 from ..mesh.planarity import PlanarityAccumulator
-from ..mesh.surface import Surface
+from ..mesh.surface import Surface, indices_in_range
 from ..moments.moments import Moments
 from ..moments.monomials import monomial_count
 from ..verdict.finding import MeasureError
 from . import any_order, third_order
 from .third_order import box_center, finite_box, nothing
+from .third_order_kernel import NO_VERTEX
 
 MAX_ORDER = 30  # 5456 moments; the core knows no limit, but beyond it double precision says little
 THIRD = 3  # orders up to this one have their own kernel
@@ -36,6 +38,7 @@ def polyhedron_moments(
     about: ArrayLike | None = None,
     reach: float | None = None,
     exact: bool = False,
+    allow_open: bool = False,
     threads: int = 1,
     progress: Callable[[int], None] | None = None,
     planarity: PlanarityAccumulator | None = None,
@@ -51,6 +54,7 @@ def polyhedron_moments(
     about: ArrayLike | None = None,
     reach: float | None = None,
     exact: bool = False,
+    allow_open: bool = False,
     threads: int = 1,
     progress: Callable[[int], None] | None = None,
     planarity: PlanarityAccumulator | None = None,
@@ -65,14 +69,16 @@ def polyhedron_moments(
     about: ArrayLike | None = None,
     reach: float | None = None,
     exact: bool = False,
+    allow_open: bool = False,
     threads: int = 1,
     progress: Callable[[int], None] | None = None,
     planarity: PlanarityAccumulator | None = None,
 ) -> tuple[Moments, Moments | None]:
     """Return the moments of the body that a closed surface bounds, and of the surface itself.
 
-    The volume's are positive for outward faces, signed otherwise. An open surface is closed by the cone from the
-    reference point. `rounding_error` bounds the rounding of every moment, `input_error` the change that storing
+    The volume's are positive for outward faces, signed otherwise. Those of a surface that does not close would depend
+    on the reference point: it is refused unless `allow_open`. `solid.measure_solid` repairs it, and its body has
+    moments of any order. `rounding_error` bounds the rounding of every moment, `input_error` the change that storing
     coordinates as float32 may have made (of a closed surface). Memory beside what `body` holds: for each thread a
     block's scratch, some 13 MB at order 4, 30 MB at order 20 and 65 MB at order 30, and some 15 MB for the bounds; to
     third order less.
@@ -96,6 +102,9 @@ def polyhedron_moments(
         Whether the third order is exact to rounding whatever the size of the mesh. Otherwise meshes of more than
         100,000 triangles leave out what is of the order of an edge cubed, and `rounding_error` bounds it. Other orders
         are always exact to rounding.
+    allow_open : bool
+        Whether faces are taken as they are: what does not close is closed by the cone from the reference point. Saves
+        the check, too.
     threads : int
         Threads that share the faces.
     progress : callable, optional
@@ -114,7 +123,7 @@ def polyhedron_moments(
         If coordinates are not finite, a face has an index without a point, or a piece of a stream reaches much farther
         than the first.
     MeasureError
-        If a moment is beyond the range of numbers.
+        If the faces do not close, or a moment is beyond the range of numbers.
 
     Notes
     -----
@@ -137,7 +146,7 @@ def polyhedron_moments(
         about = np.array(about, np.float64)
         if about.shape != (3,) or not np.isfinite(about).all():
             raise ValueError("about must be finite (3,)")
-    highest = order if area_order is None else max(order, area_order)
+    highest, boundary = order if area_order is None else max(order, area_order), BoundarySum()
     if isinstance(body, Surface):
         stream = iter([body])
     else:
@@ -146,6 +155,8 @@ def polyhedron_moments(
             body = [_as_surface(piece) for piece in body]
             about = _center(body) if about is None else about
         stream = map(_as_surface, body)
+    if not allow_open:
+        stream = _summed(stream, boundary)
     if highest <= THIRD:
         shell = area_order is not None and area_order >= min(order, 1)
         options = {"area": area_order is not None, "shell": shell, "exact": exact and order == THIRD}
@@ -155,9 +166,21 @@ def polyhedron_moments(
             raise MeasureError("moments_overflow", order=int(order))
     else:
         volume, area = any_order.integrate(stream, highest, area_order is not None, threads, progress, about, reach)
+    if not boundary.is_zero:
+        raise MeasureError("surface_not_closed")
     if area_order is None or area is None:
         return _to_order(volume, order), None
     return _to_order(volume, order), _to_order(area, area_order)
+
+
+def _summed(stream: Iterable[Surface], boundary: BoundarySum) -> Iterator[Surface]:
+    """The pieces, whose sides are added up on the way."""
+    for piece in stream:
+        for faces in (piece.triangles, piece.quads):
+            if not indices_in_range(faces, len(piece.points)):
+                raise ValueError(NO_VERTEX)
+        boundary.add(piece)
+        yield piece
 
 
 def _as_surface(piece: Surface | NDArray) -> Surface:

@@ -19,7 +19,6 @@ from numpy.typing import NDArray
 
 from ..moments.moments import Measure, Moments, U
 from ..moments.monomials import monomials
-from ..numerics.arrays import segment_starts
 from .third_order_kernel import PAIR_INDEX, TRIPLES
 
 EXPONENTS = monomials(3)
@@ -105,7 +104,7 @@ def _segment_sums(
     Returns (n, 20) Σ w f of which `DIVISORS` make moments; the same with doubled areas as weights, or (n, 0); the
     largest components of b-a and of c-a, (n, 3) each; and (n, 2) Σ |w| and Σ doubled area.
     """
-    starts = segment_starts(counts)
+    starts = np.cumsum(counts) - counts
     edges = corners[:, 1:] - corners[:, :1]
     above, below = edges.take(NEXT_AXIS, 0), edges.take(PREVIOUS_AXIS, 0)
     normals = above[:, 0] * below[:, 1] - below[:, 0] * above[:, 1]

@@ -53,7 +53,7 @@ class BonePiece:
 
     def moments(self, order: int = 3) -> Moments:
         """Return the moments of its volume, in the surface's coordinates."""
-        return polyhedron_moments(self.surface, order, exact=True)[0]
+        return polyhedron_moments(self.surface, order, exact=True, allow_open=True)[0]
 
 
 def bone_pieces(

@@ -7,7 +7,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from ..mesh.planarity import Planarity
 from ..mesh.surface import Surface
@@ -25,6 +25,9 @@ from .self_intersection import SelfIntersection
 from .triage import CheckedSurface, GivenIntegrals
 
 MIN_REPORTED_AMBIGUITY = 1e-6  # of the volume: below, nobody needs to know
+
+# Codes about components that have a second one, where the components are too small to matter
+WITH_SLIGHT = ("cavities_break_through", "components_nested", "components_overlap", "flat_components")
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,6 +51,8 @@ class SolidIntegrals:
         The decisions taken; those about the whole surface have no elements.
     oriented : OrientedSolid
         The surface that was measured, and its components.
+    given_surface : Surface
+        The one that was given, without vertices of no face.
 
     Examples
     --------
@@ -56,6 +61,8 @@ class SolidIntegrals:
     >>> body = measure_solid(surface)
     >>> str(body.method), [found.code for found in body.findings], round(body.exact_third_order().total * 6, 9)
     ('capped', ['holes_capped'], 1.0)
+    >>> round(body.moments(8, about=(0, 0, 0))[0][8, 0, 0] * 990, 9)
+    1.0
     """
 
     volume: Moments
@@ -64,11 +71,52 @@ class SolidIntegrals:
     method: Verdict
     findings: tuple[Finding, ...]
     oriented: OrientedSolid
+    given_surface: Surface
 
     @property
     def repaired_surface(self) -> Surface:
         """The surface whose signed sum ``volume`` is."""
         return self.oriented.surface
+
+    def moments(
+        self, order: int, area_order: int | None = None, *, about: ArrayLike | None = None, threads: int = 1
+    ) -> tuple[Moments, Moments | None]:
+        """Return the body's moments to any order.
+
+        Parameters
+        ----------
+        order : int
+            Of the volume's moments.
+        area_order : int, optional
+            Of the area's, which are those of the faces that were given, as ``area`` is. By default none.
+        about : (3,) array_like, optional
+            The point that they are about; by default that of ``volume``, on which those of an open body depend.
+        threads : int
+
+        Returns
+        -------
+        volume : Moments
+        area : Moments, or None where none is asked for
+
+        Raises
+        ------
+        MeasureError
+            If a moment is beyond the range of numbers.
+        """
+        reference = self.volume.about
+        volume, area = polyhedron_moments(
+            self.repaired_surface, order, about=reference, exact=True, threads=threads, allow_open=True
+        )
+        if not self.volume.raw.any():  # what rounding leaves of a flat body
+            error = volume.rounding_error + np.abs(volume.raw)
+            volume = replace(volume, raw=np.zeros_like(volume.raw), rounding_error=error)
+        if area_order is not None:
+            area = polyhedron_moments(
+                self.given_surface, 0, area_order=area_order, about=reference, threads=threads, allow_open=True
+            )[1]
+        if about is None:
+            return volume, area
+        return volume.about_point(about), None if area is None else area.about_point(about)
 
     def parts(self) -> ClosedParts:
         """The same surface by closed part."""
@@ -76,7 +124,7 @@ class SolidIntegrals:
 
     def exact_third_order(self, threads: int = 1) -> Moments:
         """`volume` with its third order exact to rounding, for what its bounds leave undecided."""
-        return polyhedron_moments(self.repaired_surface, exact=True, threads=threads)[0]
+        return polyhedron_moments(self.repaired_surface, exact=True, threads=threads, allow_open=True)[0]
 
 
 def judge(
@@ -115,13 +163,14 @@ def judge(
         findings.append(_weld_finding(mesh.max_displacement, checked.size, given.area.total, volume.total))
     findings += [_of_input(item, checked.vertices) for item in mesh.findings]
     if len(flipped):
-        findings.append(finding("flipped_faces", flipped, count=len(flipped)))
+        slight = _is_slight(mesh, np.isin(mesh.face, flipped), checked.size, volume.total)
+        findings.append(finding("flipped_faces_slightly" if slight else "flipped_faces", flipped, count=len(flipped)))
     if len(inverted):
-        findings.append(_inverted_finding(mesh, inverted))
+        findings.append(_inverted_finding(mesh, inverted, checked.size, volume.total))
     if caps[:2].any():
         findings.append(_cap_finding(checked, oriented, caps, cap_share))
     if oriented.comparison is not None:
-        findings += _component_findings(mesh, oriented.comparison, checked.size)
+        findings += _component_findings(mesh, oriented.comparison, checked.size, volume.total)
     if self_intersecting:
         findings.append(finding("self_intersecting"))
     elif intersection is not None and verdict is not Verdict.OPEN:
@@ -131,7 +180,7 @@ def judge(
         _health(checked, given.planarity, oriented, flipped, len(inverted), cap_share),
         self_intersection=Intersection.NOT_CHECKED if intersection is None else intersection.state,
     )
-    return SolidIntegrals(volume, given.area, health, verdict, tuple(findings), oriented)
+    return SolidIntegrals(volume, given.area, health, verdict, tuple(findings), oriented, checked.surface)
 
 
 def _flipped_faces(mesh: RepairedMesh, turned: NDArray[np.bool_]) -> tuple[NDArray[np.integer], NDArray[np.intp]]:
@@ -205,11 +254,24 @@ def _weld_finding(displacement: float, size: float, area: float, volume: float) 
     return finding("vertices_welded_slightly" if slight else "vertices_welded", share=float(displacement / size))
 
 
-def _inverted_finding(mesh: RepairedMesh, inverted: NDArray[np.intp]) -> Finding:
+def _is_slight(mesh: RepairedMesh, rows: NDArray[np.bool_], size: float, volume: float) -> bool:
+    """Whether these triangles are too small to matter, however they are decided about: their moments, all together, are
+    below their area times the body's size. rows: (t,)."""
+    return bool(_areas(mesh, rows).sum() * size < NEGLIGIBLE * volume)
+
+
+def _areas(mesh: RepairedMesh, rows: NDArray[np.bool_]) -> NDArray[np.float64]:
+    a, b, c = np.moveaxis(mesh.points[mesh.triangles[rows]].astype(np.float64), 1, 0)
+    return 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1)
+
+
+def _inverted_finding(mesh: RepairedMesh, inverted: NDArray[np.intp], size: float, volume: float) -> Finding:
     which = np.zeros(mesh.number, bool)
     which[inverted] = True
     faces = NO_FACES if which.all() else mesh.faces_of(which)
-    return finding("inverted_components", faces, count=len(inverted), total=int(mesh.number))
+    slight = not which.all() and _is_slight(mesh, which[mesh.component], size, volume)
+    code = "inverted_components_slightly" if slight else "inverted_components"
+    return finding(code, faces, count=len(inverted), total=int(mesh.number))
 
 
 def _cap_finding(checked: CheckedSurface, oriented: OrientedSolid, caps: NDArray[np.float64], share: float) -> Finding:
@@ -224,27 +286,38 @@ def _cap_finding(checked: CheckedSurface, oriented: OrientedSolid, caps: NDArray
     return finding("holes_capped", edges, count=flat + curved, flat=flat, curved=curved, share=share)
 
 
-def _component_findings(mesh: RepairedMesh, comparison: ComponentComparison, size: float) -> list[Finding]:
+def _component_findings(
+    mesh: RepairedMesh, comparison: ComponentComparison, size: float, volume: float
+) -> list[Finding]:
     """About components that are in others, go through others, or have no volume."""
-    findings, nested, crossing, solid = [], comparison.nested, comparison.intersecting, comparison.solid
-    cavities, breaking = comparison.cavities & ~comparison.breaking, comparison.breaking
+    solid = comparison.solid
+    breakthrough = {"share": float(comparison.breakthrough / size)}
     flat = ~solid & ~mesh.open if solid.any() else np.zeros(mesh.number, bool)
-    if cavities.any():
-        findings.append(finding("cavities_subtracted", mesh.faces_of(cavities), count=int(cavities.sum())))
-    if breaking.any():
-        share = float(comparison.breakthrough / size)
-        findings.append(
-            finding("cavities_break_through", mesh.faces_of(breaking), count=int(breaking.sum()), share=share)
-        )
-    if nested.any():
-        findings.append(finding("components_nested", mesh.faces_of(nested), count=int(nested.sum())))
-    if crossing.any():
-        findings.append(finding("components_overlap", mesh.faces_of(crossing), count=int(crossing.sum())))
-    if flat.any():
-        findings.append(finding("flat_components", mesh.faces_of(flat), count=int(flat.sum()), total=int(mesh.number)))
+    findings = []
+    for code, which, values in (
+        ("cavities_subtracted", comparison.cavities & ~comparison.breaking, {}),
+        ("cavities_break_through", comparison.breaking, breakthrough),
+        ("components_nested", comparison.nested, {}),
+        ("components_overlap", comparison.intersecting, {}),
+        ("flat_components", flat, {"total": int(mesh.number)}),
+    ):
+        if which.any():
+            decided = _all_but_largest(mesh, which) if code == "components_overlap" else which
+            slight = code in WITH_SLIGHT and _is_slight(mesh, decided[mesh.component], size, volume)
+            name = code + "_slightly" if slight else code
+            findings.append(finding(name, mesh.faces_of(which), count=int(which.sum()), **values))
     if comparison.undecided_pairs:
         findings.append(finding("overlap_unchecked", count=int(comparison.undecided_pairs)))
     return findings
+
+
+def _all_but_largest(mesh: RepairedMesh, which: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Some components but for the one with the largest area: what they share is in the others."""
+    rows = which[mesh.component]
+    areas = np.bincount(mesh.component[rows], _areas(mesh, rows), minlength=mesh.number)
+    others = which.copy()
+    others[np.argmax(areas)] = False
+    return others
 
 
 def _intersection_findings(intersection: SelfIntersection, volume: float) -> list[Finding]:

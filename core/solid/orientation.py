@@ -243,7 +243,7 @@ def _integrate_oriented(
     """The volume's moments of the surface that is measured, of its caps alone where the rest is as given."""
     caps = _caps_only(surface, mesh, flip, measured)
     about = None if caps is None else given.volume.about
-    volume = polyhedron_moments(caps or measured, area_order=0, about=about, threads=threads)[0]
+    volume = polyhedron_moments(caps or measured, area_order=0, about=about, threads=threads, allow_open=True)[0]
     return volume if caps is None else sum_moments([given.volume, volume])
 
 

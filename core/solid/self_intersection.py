@@ -71,8 +71,9 @@ def find_self_intersection(checked: CheckedSurface, given: GivenIntegrals, orien
     else:
         center = volume.about + volume.raw[1:4] / volume.total
         as_given = oriented.is_proven and given.all_cones_agree
-        about = volume.about if as_given else center
-        if (as_given or all_cones_agree(surface, center)) and surrounds_once(surface, about, checked.size):
+        if (as_given and surrounds_once(surface, volume.about, checked.size)) or (
+            all_cones_agree(surface, center) and surrounds_once(surface, center, checked.size)
+        ):
             return SelfIntersection(Intersection.EXCLUDED)
     low, high = surface.box
     faces = np.array([len(surface.triangles) + 2 * len(surface.quads)])

@@ -19,16 +19,14 @@ from ..mesh.scan_lines import LineGrids, find_crossings, line_counts
 from ..mesh.surface import Surface
 from ..mesh.surface_stack import SurfaceStack
 from ..moments.moments import SECOND_MOMENT_INDEX, Moments, U
-from ..numerics.arrays import segment_starts
-from ..numerics.vectors import cross, dot
 from ..polyhedron.third_order import MAX_SMALL_TRIANGLES, MAX_UNSCALED_REACH
-from ..polyhedron.third_order_small import small_moments
+from ..polyhedron.third_order_small import NEXT_AXIS, PREVIOUS_AXIS, small_moments
 from ..verdict.finding import Finding
 from ..verdict.health import NO_FACES, Intersection, MeshReport
 from ..verdict.tolerances import CLOSED_SHEET_VOLUME_RTOL, MAX_COORDINATE, MIN_SIZE, WELDING_RTOL
 from .judgement import shape_findings
 from .self_intersection import MAX_UNSURE_LINES, measure_excess
-from .triage import same_sign
+from .triage import SUM_ROUNDING
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,10 +86,11 @@ def measure_stack(surfaces: Sequence[Surface]) -> SolidStack:
     SolidStack
     """
     stack = SurfaceStack.of(surfaces)
+    starts = stack.first_triangle
     low, high = stack.box
     center = (low / 2.0 + high / 2.0).astype(np.float32).astype(np.float64)
     reach = np.maximum(high - center, center - low) * (1.0 + 4.0 * U)
-    volume, area, cones = small_moments(
+    volume, area, _ = small_moments(
         stack.points,
         stack.triangles,
         stack.triangle_counts,
@@ -110,53 +109,43 @@ def measure_stack(surfaces: Sequence[Surface]) -> SolidStack:
     is_exact &= volume.raw[:, 0] > none
     rows = np.flatnonzero(is_exact)
     is_exact[rows] = _are_physical(volume.at(rows), low[rows], high[rows], size[rows])
-    intersection = np.full(len(stack), Intersection.NOT_CHECKED, object)
-    rows = np.flatnonzero(is_exact)
-    if len(rows):
-        agree = same_sign(*cones[rows].T)
-        once = agree & _surrounded_once(stack, volume.about, size)[rows]
-        intersection[rows[once]] = Intersection.EXCLUDED
-        intersection[rows[~once]] = _looked_for(stack, rows[~once], agree[~once], volume, size)
-    is_exact &= (intersection == Intersection.EXCLUDED) | (intersection == Intersection.NOT_FOUND)
+    intersection = np.full(len(starts), Intersection.NOT_CHECKED, object)
+    intersection[is_exact] = Intersection.EXCLUDED
+    centers = volume.about + volume.raw[:, 1:4] / np.where(is_exact, volume.raw[:, 0], 1.0)[:, None]
+    is_star = _are_stars(stack, starts, centers)
+    if not is_star[is_exact].all():
+        is_star |= _are_stars(stack, starts, volume.about)
+        rows = np.flatnonzero(is_exact & ~is_star)
+        if len(rows):
+            intersection[rows] = _looked_for(stack.some(rows), size[rows])
+            is_exact[rows] = intersection[rows] == Intersection.NOT_FOUND
     return SolidStack(is_exact, volume, area, planarity, intersection)
 
 
-def _surrounded_once(stack: SurfaceStack, points: NDArray, size: NDArray) -> NDArray[np.bool_]:
-    """(n,) whether each surface goes around its point, (n, 3), once."""
-    body = np.repeat(np.arange(len(stack)), stack.point_counts)
-    found = find_crossings(Surface(stack.points, stack.triangles), LineGrids.through_points(points, size), body)
-    turns = np.bincount(found.body, np.where(found.along > 0.0, found.sign, 0), len(stack))
-    return np.abs(turns) == 1.0
+def _are_stars(stack: SurfaceStack, starts: NDArray[np.intp], points: NDArray) -> NDArray[np.bool_]:
+    """(n,) whether the cones over all faces of a surface, from its point, (n, 3), agree and surround it once: by their
+    solid angles (van Oosterom and Strackee 1983)."""
+    places = points.take(np.repeat(np.arange(len(starts)), stack.triangle_counts), 0).T[:, None]
+    corners = stack.points.T.take(stack.triangles.T, 1) - places
+    after, before = corners.take(NEXT_AXIS, 0), corners.take(PREVIOUS_AXIS, 0)
+    cones = np.add.reduce(corners[:, 0] * (after[:, 1] * before[:, 2] - before[:, 1] * after[:, 2]))
+    la, lb, lc = np.sqrt(np.add.reduce(corners * corners))
+    ab, bc, ca = np.add.reduce(corners * corners.take(NEXT_AXIS, 1))
+    halves = np.arctan2(cones, la * lb * lc + ab * lc + bc * la + ca * lb)
+    total, signed, angle = np.add.reduceat(np.stack([np.abs(cones), cones, halves]), starts, axis=1)
+    return (total - signed <= SUM_ROUNDING * total) & (np.rint(angle / (2.0 * np.pi)) == 1.0)
 
 
-def _looked_for(
-    stack: SurfaceStack, rows: NDArray, agree: NDArray[np.bool_], volume: Moments, size: NDArray
-) -> NDArray[np.object_]:
-    """(k,) of those of the surfaces whether they go through themselves, as `find_self_intersection` says of one. agree:
-    (k,) whether all their cones agree about the middles of their boxes."""
-    if not len(rows):
-        return np.empty(0, object)
-    part = stack.some(rows)
-    low, high = part.box
-    center = volume.about[rows] + volume.raw[rows, 1:4] / volume.raw[rows, :1]
-    owner = np.repeat(np.arange(len(rows)), part.triangle_counts)
-    a, b, c = (part.points[part.triangles[:, k]].T.astype(np.float64) - center[owner].T for k in range(3))
-    cones = dot(a, cross(b, c))
-    starts = segment_starts(part.triangle_counts)
-    about_center = same_sign(np.add.reduceat(np.abs(cones), starts), np.add.reduceat(cones, starts))
-    excluded = ~agree & about_center & _surrounded_once(part, center, size[rows])
-    state = np.full(len(rows), Intersection.EXCLUDED, object)
-    left = np.flatnonzero(~excluded)
-    if not len(left):
-        return state
-    part, low, high = part.some(left), low[left], high[left]
-    body = np.repeat(np.arange(len(left)), part.point_counts)
-    grids = LineGrids.over_boxes(low, high, line_counts(part.triangle_counts))
-    error = np.sqrt(np.add.reduce(part.coordinate_error**2, axis=1))
-    tolerance = np.maximum(WELDING_RTOL * size[rows[left]], 4.0 * error)
-    excess = measure_excess(find_crossings(Surface(part.points, part.triangles), grids, body), grids, tolerance)
-    state[left] = np.where(excess.volume > 0.0, Intersection.FOUND, Intersection.NOT_FOUND)
-    state[left[excess.unsure > MAX_UNSURE_LINES]] = Intersection.NOT_CHECKED
+def _looked_for(stack: SurfaceStack, size: NDArray) -> NDArray[np.object_]:
+    """(k,) whether surfaces go through themselves, as `find_self_intersection` finds by lines."""
+    low, high = stack.box
+    body = np.repeat(np.arange(len(size)), stack.point_counts)
+    grids = LineGrids.over_boxes(low, high, line_counts(stack.triangle_counts))
+    error = np.sqrt(np.add.reduce(stack.coordinate_error**2, axis=1))
+    crossings = find_crossings(Surface(stack.points, stack.triangles), grids, body)
+    excess = measure_excess(crossings, grids, np.maximum(WELDING_RTOL * size, 4.0 * error))
+    state = np.where(excess.volume > 0.0, Intersection.FOUND, Intersection.NOT_FOUND).astype(object)
+    state[excess.unsure > MAX_UNSURE_LINES] = Intersection.NOT_CHECKED
     return state
 
 

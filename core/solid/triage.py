@@ -140,10 +140,10 @@ def integrate_and_prove(checked: CheckedSurface, shell: bool, threads: int) -> G
     if min(threads, (len(surface.triangles) + 2 * len(surface.quads)) // third_order.MIN_TRIANGLES_PER_THREAD) > 1:
         with ThreadPoolExecutor(1) as pool:
             waiting = pool.submit(prove_closed, surface)
-            volume, area = polyhedron_moments(surface, planarity=accumulator, **options)
+            volume, area = polyhedron_moments(surface, planarity=accumulator, **options, allow_open=True)
         proven = waiting.result()
     else:
-        volume, area = polyhedron_moments(surface, planarity=accumulator, **options)
+        volume, area = polyhedron_moments(surface, planarity=accumulator, **options, allow_open=True)
         proven = prove_closed(surface)
     agree = accumulator.cones is not None and same_sign(*accumulator.cones)
     return GivenIntegrals(volume, area, accumulator.planarity(), agree, proven)

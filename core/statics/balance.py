@@ -211,7 +211,9 @@ class _Problem:
         self.sign = 1.0 if shell else float(np.sign(self._moments(self.start).total))
 
     def _moments(self, points: NDArray) -> Moments:
-        volume, area = polyhedron_moments(replace(self.surface, points=points), area_order=3 if self.shell else 0)
+        volume, area = polyhedron_moments(
+            replace(self.surface, points=points), area_order=3 if self.shell else 0, allow_open=True
+        )
         return area if self.shell and area is not None else volume
 
     def evaluate(self, points: NDArray) -> tuple[NDArray, NDArray, NDArray] | None:
@@ -293,7 +295,7 @@ class _Fans:
         else:
             surface = Surface(self.points, self.fan)
             gradient = volume_gradient(surface, center, order=1).by_vertex[:, 1:4]
-            total = polyhedron_moments(surface, area_order=0)[0].total
+            total = polyhedron_moments(surface, area_order=0, allow_open=True)[0].total
         gradient /= total
         vertex_gradient, middle = gradient[: self.count].reshape(-1, 9), gradient[self.count :].reshape(-1, 9)
         for column, shared in zip(vertex_gradient.T, middle.T):

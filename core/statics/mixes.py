@@ -105,7 +105,7 @@ def fit_mixes(surface: Surface, offsets: ArrayLike) -> Mixes:
     samples = np.empty((len(nodes), 4))
     for place, values in enumerate(nodes):
         mixed = points + np.tensordot(values, offsets, axes=1)
-        volume, _ = polyhedron_moments(Surface.from_triangles(mixed, triangles), 1, about=about)
+        volume, _ = polyhedron_moments(Surface.from_triangles(mixed, triangles), 1, about=about, allow_open=True)
         samples[place] = volume.raw
     coefficients = np.linalg.solve(_powers(nodes, exponents), samples)
     return Mixes(np.asarray(coefficients, np.float64), exponents, about)

@@ -147,7 +147,9 @@ class MeshBody(Body):
         alone = 0 if order <= 3 else None  # up to third order the area is found on the way, and makes bounds smaller
 
         def measured(surface: Surface) -> Moments:
-            return polyhedron_moments(surface, order, area_order=order, exact=True, threads=self.threads)[1]
+            return polyhedron_moments(
+                surface, order, area_order=order, exact=True, threads=self.threads, allow_open=True
+            )[1]
 
         for (solid, matrices), surface in zip(self.solids, self.sheets):
             same = (
@@ -162,6 +164,7 @@ class MeshBody(Body):
                 about=solid.volume.about,  # of an open surface they depend on it
                 exact=True,
                 threads=self.threads,
+                allow_open=True,
             )
             volumes.append(sum_of_images(volume, matrices))
             if area:

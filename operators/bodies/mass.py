@@ -135,7 +135,12 @@ def _by_material(reading: Reading, body: MeshBody, request: Request, order: int)
             volume = solid.volume
             if order > volume.order:
                 volume = polyhedron_moments(
-                    solid.repaired_surface, order, about=volume.about, exact=True, threads=request.options.threads
+                    solid.repaired_surface,
+                    order,
+                    about=volume.about,
+                    exact=True,
+                    threads=request.options.threads,
+                    allow_open=True,
                 )[0]
             weighed, findings, by_area = _solid_moments(solid, volume, matrices, values, names)
             parts += weighed
@@ -286,7 +291,7 @@ def _sheet_moments(
     def measured(surface: Surface) -> Moments:
         triangles, faces = surface.all_triangles()
         density = values[triangles] if by_vertex else values[faces]
-        area = polyhedron_moments(surface, area_order=order, threads=request.options.threads)[1]
+        area = polyhedron_moments(surface, area_order=order, threads=request.options.threads, allow_open=True)[1]
         return sheet_mass_moments(surface.points, triangles, density, area, stored=by_vertex)
 
     return area_of_instances(part.surface, measured(part.surface), to_si(part.matrices, request.unit), measured)

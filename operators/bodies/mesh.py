@@ -156,7 +156,7 @@ def _area(threads: int) -> Callable[[Surface], Moments]:
     """What measures the area of a mapped surface."""
 
     def measured(surface: Surface) -> Moments:
-        return polyhedron_moments(surface, area_order=3, threads=threads)[1]
+        return polyhedron_moments(surface, area_order=3, threads=threads, allow_open=True)[1]
 
     return measured
 

@@ -64,7 +64,13 @@ def polynomial_mass_result(
     area_order = order if shell else 0 if order == 3 else None  # to third order it is found on the way
     for piece in pieces:
         volume, area = polyhedron_moments(
-            piece.surface, order, area_order=area_order, about=piece.about, exact=True, threads=threads
+            piece.surface,
+            order,
+            area_order=area_order,
+            about=piece.about,
+            exact=True,
+            threads=threads,
+            allow_open=True,
         )
         parts.append(polynomial_mass_of_images(area if shell else volume, polynomial, piece.matrices, piece.fields))
     return parts, findings

@@ -344,9 +344,9 @@ class _Measuring:
 def _area(sheet: Surface, metric: NDArray[np.float64], order: int) -> Moments:
     """The area's moments of a sheet where it stands."""
     if are_similarities(metric[None, :3, :3])[0]:
-        area = polyhedron_moments(sheet, 0, area_order=order)[1]
+        area = polyhedron_moments(sheet, 0, area_order=order, allow_open=True)[1]
         return area.transform(metric)
-    return polyhedron_moments(sheet.transform(metric[:3, :3], metric[:3, 3]), 0, area_order=order)[1]
+    return polyhedron_moments(sheet.transform(metric[:3, :3], metric[:3, 3]), 0, area_order=order, allow_open=True)[1]
 
 
 def _total(entries: list[tuple[float, float, float]]) -> tuple[float, float, float]:

@@ -76,6 +76,7 @@ class Shape:
             area_order=MAX_ORDER if self._sheets else None,
             about=self.center,
             threads=self.threads,
+            allow_open=True,
         )
         return (area if self._sheets else volume).about_center()
 
@@ -131,6 +132,7 @@ class Shape:
             about=np.zeros(3),
             reach=radius,
             threads=self.threads,
+            allow_open=True,
         )
         result = signature(area if sheets else volume, radius)
         if (order > MAX_ORDER_BY_MOMENTS or result.error > MAX_DESCRIPTOR_ERROR) and not sheets:

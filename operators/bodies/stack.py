@@ -82,7 +82,7 @@ class Shape:
         """The volume's moments that axes are found by."""
         surface = self.surface if self.alone is None else self.alone.repaired_surface
         with np.errstate(over="ignore", invalid="ignore"):
-            return polyhedron_moments(surface, MAX_ORDER, about=about, exact=True)[0]
+            return polyhedron_moments(surface, MAX_ORDER, about=about, exact=True, allow_open=True)[0]
 
 
 def measure_shapes(shapes: list[Shape]) -> tuple[Moments, Moments]:
@@ -288,7 +288,8 @@ def measure_members(members: list[Member], shapes: list[Shape], unit: float) -> 
     keys, matrices = transform_keys(matrices), to_si(matrices, unit)
     volume = _placed(own.at(which), matrices)
     area = _areas(own_area.at(which), matrices, members)
-    density, mass = (np.array([getattr(member, name) for member in members]) for name in ("density", "mass"))
+    density = np.array([member.density for member in members])
+    mass = np.array([member.mass for member in members])
     from_mass = ~np.isnan(mass)
     with np.errstate(divide="ignore", invalid="ignore"):
         density = np.where(from_mass, mass / volume.raw[:, 0], density)

@@ -186,7 +186,7 @@ def find_walls(reading: Reading, body: MeshBody, side: str) -> Walls:
 def _orient_outward(surface: Surface, solid: SolidIntegrals, findings: list[Finding]) -> Surface:
     """The surface with its faces outward where it is closed, else as it is."""
     if solid.method in (Verdict.EXACT, Verdict.REORIENTED):
-        area = polyhedron_moments(solid.repaired_surface, area_order=0)[1].total
+        area = polyhedron_moments(solid.repaired_surface, area_order=0, allow_open=True)[1].total
         if abs(area - solid.area.total) <= SAME_AREA_RTOL * solid.area.total:  # else the repair has left something out
             if solid.method == Verdict.REORIENTED:
                 findings.append(finding("wall_faces_reversed"))

@@ -25,13 +25,13 @@ TARGETS = ("output", "fourier")  # options whose files are written
 # What changes no number: two runs that differ in these alone have the same records.
 _OF_RUNS = {
     *("command", "files", "format", "output", "force", "forced", "jobs", "timeout", "memory_mb", "range", "manifest"),
-    *("resume", "no_supervisor", "blender"),
+    *("resume", "no_supervisor", "blender", "errors_exit_0"),
 }
 _PATHS = ("output", "fourier", "q", "manifest")
 _TRIPLES = ("spacing", "origin", "about")
 
 _EPILOG = """\
-FILE is .blend, .stl, .obj, .ply, .glb, .gltf, .usd, .usda, .usdc, .usdz or .fbx, or an array or
+FILE is .blend, .stl, .obj, .ply, .glb, .gltf, .usd, .usda, .usdc, .usdz, .fbx or .3mf, or an array or
 scan of densities: .npy, .npz, .nrrd, .nhdr, .nii, .nii.gz, or .raw if called NAME_XxYxZ_TYPE.raw;
 or a folder, whose files of these kinds are measured, those in its folders too. Without one, the file
 that Blender has open is measured. All numbers are SI: kilograms and meters.
@@ -355,6 +355,11 @@ def _add_supervision(parser: argparse.ArgumentParser) -> None:
         action="store_true",
         help="go on with an earlier run of the same --output: files that are recorded in its journal and unchanged "
         "are not measured again",
+    )
+    add(
+        "--errors-exit-0",
+        action="store_true",
+        help="exit with 0 where something is listed under errors too: for engines that give up a job for a bad file",
     )
     add("--blender", metavar="PATH", help="the Blender that measures (this one, or the bpy module)")
     add(

@@ -26,6 +26,7 @@ import bpy
 from ...core.scans import formats as scans
 from ...core.verdict.finding import FileError, Finding, finding
 from .finite import check_numbers
+from .import_3mf import import_3mf
 from .references import unresolved_references
 
 BLEND = ".blend"
@@ -42,6 +43,7 @@ _IMPORTERS: dict[str, Callable[[str], object]] = {
     ".obj": lambda path: bpy.ops.wm.obj_import(filepath=path),
     ".ply": lambda path: bpy.ops.wm.ply_import(filepath=path),
     ".fbx": lambda path: bpy.ops.wm.fbx_import(filepath=path),
+    ".3mf": import_3mf,
     **dict.fromkeys(
         (".glb", ".gltf"),
         lambda path: bpy.ops.import_scene.gltf(filepath=path, disable_bone_shape=True),

@@ -195,6 +195,7 @@ class _Supervised:
             self._places.journal.unlink()  # there is nothing to go on with
         if self._faults:
             return 70
+        failed = failed and not self._options.errors_exit_0
         return 1 if failed or not is_written else 0
 
     def _measure(self, pool: Pool, journal: Journal) -> None:

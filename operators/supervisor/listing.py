@@ -19,7 +19,7 @@ from ...core.verdict.finding import QueryError
 
 SCHEMA = "body-moments-manifest/1"
 SUFFIXES = (
-    *(".blend", ".stl", ".obj", ".ply", ".fbx", ".glb", ".gltf", ".usd", ".usda", ".usdc", ".usdz"),
+    *(".blend", ".stl", ".obj", ".ply", ".fbx", ".glb", ".gltf", ".usd", ".usda", ".usdc", ".usdz", ".3mf"),
     *(".npy", ".npz", ".nrrd", ".nhdr", ".nii", ".nii.gz"),
 )
 _RAW = re.compile(r"_\d+x\d+x\d+_[a-z0-9]+\.raw$", re.IGNORECASE)  # others are data files of headers

@@ -146,6 +146,10 @@ MESSAGES: dict[str, Message] = {
     "no_faces": _error("No faces. Add faces, or select another object."),
     "no_geometry": _error("No geometry. Add faces, or check whether a modifier removes them."),
     "no_face_area": _error("All faces have zero area. Move their vertices apart, or select another object."),
+    "surface_not_closed": _error(
+        "The surface does not close, and its volume depends on the reference point. Use the moments of the body that "
+        "measure_solid makes of it."
+    ),
     "no_volume": _error(
         "The faces enclose no volume. Set Kind to Shell, close the mesh, or use Measure Section for a flat shape."
     ),
@@ -197,9 +201,13 @@ MESSAGES: dict[str, Message] = {
         "Flipped face measured as reversed: {elements}. Use Mesh > Normals > Recalculate Outside.",
         "{count} flipped faces measured as reversed: {elements}. Use Mesh > Normals > Recalculate Outside.",
     ),
+    "flipped_faces_slightly": _note(
+        "Flipped face measured as reversed: {elements}.", "{count} flipped faces measured as reversed: {elements}."
+    ),
     "inverted_components": _warning(
         "Inside-out components measured as reversed: {count} of {total}. Use Mesh > Normals > Recalculate Outside."
     ),
+    "inverted_components_slightly": _note("Inside-out components measured as reversed: {count} of {total}."),
     "holes_capped": _warning(
         "Holes capped: {count} ({flat} flat, {curved} curved; {share:percent} of the area). Use Mesh > Clean Up > Fill "
         "Holes."
@@ -225,6 +233,10 @@ MESSAGES: dict[str, Message] = {
         "{count} cavities break through their walls, by up to {share:percent} of the size; what lies outside counts as "
         "negative. Make the cavities smaller or the walls thicker.",
     ),
+    "cavities_break_through_slightly": _note(
+        "{count} cavity breaks through its wall, by up to {share:percent} of the size.",
+        "{count} cavities break through their walls, by up to {share:percent} of the size.",
+    ),
     "components_nested": _warning(
         "{count} outward component lies inside another; the shared space counts twice. Flip cavities, or set "
         "Overlaps to "
@@ -233,9 +245,14 @@ MESSAGES: dict[str, Message] = {
         "Overlaps to "
         "Count as Union.",
     ),
+    "components_nested_slightly": _note(
+        "{count} outward component lies inside another; the shared space counts twice.",
+        "{count} outward components lie inside others; the shared space counts twice.",
+    ),
     "components_overlap": _warning(
         "{count} components overlap; the shared space counts twice. Set Overlaps to Count as Union."
     ),
+    "components_overlap_slightly": _note("{count} components overlap; the shared space counts twice."),
     "overlap_unchecked": _warning(
         "{count} pair of components was not checked for overlap, which would take too long.",
         "{count} pairs of components were not checked for overlap, which would take too long.",
@@ -243,6 +260,10 @@ MESSAGES: dict[str, Message] = {
     "flat_components": _warning(
         "{count} of {total} components is flat and has no volume. Delete it, or set Kind to Shell.",
         "{count} of {total} components are flat and have no volume. Delete them, or set Kind to Shell.",
+    ),
+    "flat_components_slightly": _note(
+        "{count} of {total} components is flat and has no volume.",
+        "{count} of {total} components are flat and have no volume.",
     ),
     "flat_surface": _warning("The surface is flat and encloses no volume. Set Kind to Shell."),
     "self_intersecting": _warning(
@@ -1216,6 +1237,11 @@ MESSAGES: dict[str, Message] = {
     "gltf_buffer_short": _error(
         "The buffer “{buffer}” is cut short: {size} of {expected} bytes. Export the file again."
     ),
+    "threemf_damaged": _error("The 3MF file is damaged: {error}. Export it again."),
+    "threemf_extension": _error(
+        "The 3MF file needs an extension that changes its shape and is not read: {name}. Export it as plain meshes."
+    ),
+    "threemf_instances": _error("The 3MF file places more than {limit} meshes. Join some of them."),
     "stl_size": _error("The STL file is cut short or damaged: its size does not match its number of triangles."),
     "stl_cut_short": _error("The STL file is cut short: “endsolid” is missing."),
     "file_exists": _error("The file “{file}” exists. Turn on Overwrite."),
@@ -1323,6 +1349,7 @@ MESSAGES: dict[str, Message] = {
     "manifest_malformed": _error("{file} is not a list of files. Make one with “manifest FOLDER”"),
     "usage_result_not_written": _error("the result cannot be written: {error}"),
     # ------------------------------------------------------------------ Rigid bodies
+    "joint_not_added": _error("Blender did not make the joint. Check that the scene has a rigid body world."),
     "rigid_bodies_made": _note(
         "{count} rigid body of {mass:.7g} kg; Calculate Mass would say {calculated:.7g} kg",
         "{count} rigid bodies of {mass:.7g} kg; Calculate Mass would say {calculated:.7g} kg",

@@ -243,7 +243,9 @@ def _write(obj: Owner, values: dict) -> None:
         if key not in values and key in obj:
             del obj[key]
     for key, value in values.items():
-        _set(obj, key, value)
+        obj[key] = value
+        if not isinstance(value, str):
+            obj.id_properties_ui(key).update(description=_description(key, type(obj)), precision=6)
 
 
 def _set(obj: Owner, key: str, value: object) -> None:

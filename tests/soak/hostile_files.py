@@ -21,6 +21,17 @@ import numpy as np
 
 CORNERS = ((0, 0, 0), (1, 0, 0), (0, 2, 0), (0, 0, 3))
 FACES = ((0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3))
+RELATIONS = (
+    '<Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships"><Relationship Id="r" '
+    'Target="/3D/a.model" Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/></Relationships>'
+)
+MODEL = '<model xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02"><resources><object id="1"><mesh>'
+MODEL += "<vertices>{}</vertices><triangles>{}</triangles></mesh></object></resources>"
+MODEL += "<build><item objectid='1'/></build></model>"
+MODEL = MODEL.format(
+    "".join("<vertex x='{}' y='{}' z='{}'/>".format(*corner) for corner in CORNERS),
+    "".join("<triangle v1='{}' v2='{}' v3='{}'/>".format(*face) for face in FACES),
+)
 STATUSES = {"ok", "error", "crashed", "timeout", "memory", "unsupported_version", "missing"}
 TEXT = {".obj", ".gltf", ".usda", ".nrrd"}  # damaged by words rather than by bits
 
@@ -70,6 +81,12 @@ def seeds(folder: Path) -> dict[str, bytes]:
     struct.pack_into("<8f", nifti, 76, 1, 1, 1, 1, 1, 1, 1, 1)
     struct.pack_into("<f", nifti, 108, 352.0)
     nifti[344:348] = b"n+1\0"
+    parts = {"_rels/.rels": RELATIONS, "3D/a.model": MODEL}
+    stream = io.BytesIO()
+    with zipfile.ZipFile(stream, "w") as archive:
+        for name, text in parts.items():
+            archive.writestr(name, text)
+    found[".3mf"] = stream.getvalue()
     found[".nii"] = bytes(nifti) + values.tobytes()
     found[".nii.gz"] = gzip.compress(found[".nii"])
     return found

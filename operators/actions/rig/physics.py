@@ -18,6 +18,7 @@ from ...read.quiet import paused
 from ...read.rig import require_armature
 from ...write import reports
 from .. import selection
+from ..joints import add_joint
 from ..modal import redraw
 from .measure import poll_armature
 
@@ -144,9 +145,7 @@ def _joint(context: Context, collection: Collection, bone: PoseBone, above: Obje
     joint.rotation_mode = "QUATERNION"
     joint.location, joint.rotation_quaternion = location, turn
     context.view_layer.update()
-    with context.temp_override(object=joint, active_object=joint, selected_objects=[joint]):
-        bpy.ops.rigidbody.constraint_add(type="GENERIC")
-    constraint = joint.rigid_body_constraint
+    constraint = add_joint(context, joint, "GENERIC")
     constraint.object1, constraint.object2, constraint.disable_collisions = above, below, True
     for axis in "xyz":
         setattr(constraint, "use_limit_lin_" + axis, True)

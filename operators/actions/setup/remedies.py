@@ -21,7 +21,8 @@ from ...write import properties, reports
 from .. import selection
 from ..measure.select_faults import require_editable_mesh
 
-REVERSED = ("flipped_faces", "inverted_components")  # findings whose elements are the faces that were reversed
+# Findings whose elements are the faces that were reversed; without elements, all faces were
+REVERSED = ("flipped_faces", "flipped_faces_slightly", "inverted_components", "inverted_components_slightly")
 MILLIMETER = 0.001
 
 
@@ -124,8 +125,10 @@ class OBJECT_OT_body_moments_recalculate_outside(Operator):
             measurement = measure_object(obj, context.evaluated_depsgraph_get())
         except MeasureError as refusal:
             return _refuse(self, refusal.about(obj.name_full))
-        found = [np.asarray(shown.elements, np.int64) for shown in measurement.findings if shown.code in REVERSED]
-        faces = np.unique(np.concatenate(found)) if found else np.empty(0, np.int64)
+        found = [shown.elements for shown in measurement.findings if shown.code in REVERSED]
+        whole = np.arange(len(obj.data.polygons)) if any(not len(elements) for elements in found) else ()
+        faces = np.unique(np.concatenate([np.empty(0, np.int64), *(np.asarray(e, np.int64) for e in found), whole]))
+        faces = faces.astype(np.int64)
         if not len(faces):
             reports.report(self, finding("nothing_to_do", cause=finding("no_reversed_faces").as_record()))
             return {"CANCELLED"}

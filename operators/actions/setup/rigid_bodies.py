@@ -33,6 +33,7 @@ from ...write import properties, reports
 from ...write.translations import localized
 from ...write.units import Units
 from .. import selection
+from ..joints import add_joint, remove_joint
 from ..modal import progress
 from ..snap import base as snapping
 
@@ -353,16 +354,13 @@ def _keep_joint(context: Context, obj: Object) -> None:
     location, turn, _scale = obj.matrix_world.decompose()
     empty.rotation_mode = "QUATERNION"
     empty.location, empty.rotation_quaternion = location, turn
-    with context.temp_override(object=empty, active_object=empty, selected_objects=[empty]):
-        bpy.ops.rigidbody.constraint_add(type=joint.type)
-    copy = empty.rigid_body_constraint
+    copy = add_joint(context, empty, joint.type)
     for prop in joint.bl_rna.properties:
         if not prop.is_readonly:
             setattr(copy, prop.identifier, getattr(joint, prop.identifier))
     context.view_layer.update()
     empty.parent, empty.matrix_parent_inverse = obj, obj.matrix_world.inverted()
-    with context.temp_override(object=obj, active_object=obj, selected_objects=[obj]):
-        bpy.ops.rigidbody.constraint_remove()
+    remove_joint(context, obj)
     context.view_layer.update()
 
 

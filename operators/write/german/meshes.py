@@ -70,10 +70,15 @@ MESSAGES = {
         "{count} verdrehte Flächen umgedreht gemessen: {elements}. Masche > Normalen > Äußeres neu berechnen "
         "verwenden.",
     ),
+    "flipped_faces_slightly": (
+        "Verdrehte Fläche umgedreht gemessen: {elements}.",
+        "{count} verdrehte Flächen umgedreht gemessen: {elements}.",
+    ),
     "inverted_components": (
         "Umgestülpte Komponenten umgedreht gemessen: {count} von {total}. Masche > Normalen > Äußeres neu berechnen "
         "verwenden.",
     ),
+    "inverted_components_slightly": ("Umgestülpte Komponenten umgedreht gemessen: {count} von {total}.",),
     "holes_capped": (
         "Löcher geschlossen: {count} ({flat} eben, {curved} gekrümmt; {share:percent} der Fläche). Masche > "
         "Aufräumen > Löcher füllen verwenden.",
@@ -82,6 +87,10 @@ MESSAGES = {
     "one_sided_components": (
         "Einseitige Komponenten lassen sich nicht schließen: {count} von {total}. Volumen, Massenmittelpunkt und "
         "Trägheit hängen vom Bezugspunkt ab. Art auf Schale setzen.",
+    ),
+    "surface_not_closed": (
+        "Die Oberfläche schließt sich nicht, und ihr Volumen hängt vom Bezugspunkt ab. Die Momente des Körpers "
+        "nehmen, den measure_solid daraus macht.",
     ),
     "non_manifold_components": (
         "Komponenten lassen sich nicht schließen, wo mehr als zwei Flächen an einer Kante liegen: {count} von "
@@ -98,16 +107,25 @@ MESSAGES = {
         "{count} Hohlräume durchbrechen ihre Wände, um bis zu {share:percent} der Größe; was außerhalb liegt, zählt "
         "negativ. Die Hohlräume verkleinern oder die Wände verstärken.",
     ),
+    "cavities_break_through_slightly": (
+        "{count} Hohlraum durchbricht seine Wand, um bis zu {share:percent} der Größe.",
+        "{count} Hohlräume durchbrechen ihre Wände, um bis zu {share:percent} der Größe.",
+    ),
     "components_nested": (
         "{count} nach außen gewandte Komponente liegt in einer anderen; der gemeinsame Raum zählt doppelt. "
         "Hohlräume umdrehen oder Überlappungen auf Als Vereinigung zählen setzen.",
         "{count} nach außen gewandte Komponenten liegen in anderen; der gemeinsame Raum zählt doppelt. Hohlräume "
         "umdrehen oder Überlappungen auf Als Vereinigung zählen setzen.",
     ),
+    "components_nested_slightly": (
+        "{count} nach außen gewandte Komponente liegt in einer anderen; der gemeinsame Raum zählt doppelt.",
+        "{count} nach außen gewandte Komponenten liegen in anderen; der gemeinsame Raum zählt doppelt.",
+    ),
     "components_overlap": (
         "{count} Komponenten überlappen sich; der gemeinsame Raum zählt doppelt. Überlappungen auf Als Vereinigung "
         "zählen setzen.",
     ),
+    "components_overlap_slightly": ("{count} Komponenten überlappen sich; der gemeinsame Raum zählt doppelt.",),
     "overlap_unchecked": (
         "{count} Paar von Komponenten wurde nicht auf Überlappung geprüft, was zu lange dauern würde.",
         "{count} Paare von Komponenten wurden nicht auf Überlappung geprüft, was zu lange dauern würde.",
@@ -115,6 +133,10 @@ MESSAGES = {
     "flat_components": (
         "{count} von {total} Komponenten ist eben und hat kein Volumen. Sie löschen oder Art auf Schale setzen.",
         "{count} von {total} Komponenten sind eben und haben kein Volumen. Sie löschen oder Art auf Schale setzen.",
+    ),
+    "flat_components_slightly": (
+        "{count} von {total} Komponenten ist eben und hat kein Volumen.",
+        "{count} von {total} Komponenten sind eben und haben kein Volumen.",
     ),
     "flat_surface": ("Die Oberfläche ist eben und umschließt kein Volumen. Art auf Schale setzen.",),
     "self_intersecting": (

@@ -67,6 +67,13 @@ def test_reversed_faces_are_those_that_were_measured_as_reversed_and_a_cavity_st
     assert orders(mesh) == before
 
 
+def test_a_mesh_that_is_inside_out_as_a_whole_is_turned():
+    mesh = boxes(2.0, reverse=range(6))
+    obj = add(mesh)
+    assert bpy.ops.object.body_moments_recalculate_outside() == {"FINISHED"}
+    assert obj["body_method"] == "exact" and findings_of(obj, "warning") == []
+
+
 def test_a_mesh_that_its_modifiers_make_is_not_edited_and_the_refusal_stands_in_the_panel(reported):
     mesh = boxes(2.0, reverse=[0])
     obj = add(mesh)

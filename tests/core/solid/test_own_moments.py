@@ -1,0 +1,73 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A measured body has moments of its own to any order; faces that do not close have none by accident."""
+
+import numpy as np
+import pytest
+from body_moments.core import MassProperties, Surface, measure_solid, polyhedron_moments
+
+from tests.close import close
+from tests.core.bodies import TOP, box, inverted, joined, moved, sphere, surface, torus, with_flipped, without
+from tests.core.findings import refused
+
+HIGH = box((0, 0, 0), (1, 2, 3))
+
+
+def box_moment(p, q, r):
+    return 1.0 / (p + 1) * 2.0 ** (q + 1) / (q + 1) * 3.0 ** (r + 1) / (r + 1)
+
+
+@pytest.mark.parametrize("part", [HIGH, inverted(HIGH), with_flipped(HIGH, 1, 7), without(HIGH, *TOP)])
+@pytest.mark.parametrize("order", [0, 2, 3, 4, 12])
+def test_the_body_has_moments_to_any_order_however_it_was_repaired(part, order):
+    body = measure_solid(surface(moved(part, offset=(5, 6, 7))))
+    volume, area = body.moments(order, about=(5, 6, 7))
+    assert area is None and volume.order == order and volume.about.tolist() == [5, 6, 7]
+    for exponents in ((0, 0, 0), (order, 0, 0), (order // 2, 0, order // 2)):
+        assert close(volume[exponents], box_moment(*exponents), rel=1e-10)
+    mass = MassProperties.from_moments(body.volume, density=2.0)
+    assert close(mass.mass, 12.0, rel=1e-14) and close(2.0 * volume.total, mass.mass, rel=1e-12)
+    assert body.moments(order)[0].about.tolist() == body.volume.about.tolist()
+
+
+def test_the_area_is_that_of_the_faces_that_were_given():
+    for part, area in ((HIGH, 22.0), (without(HIGH, *TOP), 20.0), (joined(HIGH, moved(HIGH, offset=(9, 0, 0))), 44.0)):
+        body = measure_solid(surface(part))
+        found = body.moments(2, area_order=4)[1]
+        assert close(found.total, area, rel=1e-13) and close(body.area.total, area, rel=1e-13) and found.order == 4
+
+
+def test_a_flat_body_has_no_moments():
+    body = measure_solid(surface(joined(box((0, 0, 0), (1, 1, 0)))))
+    volume, area = body.moments(6, area_order=0)
+    assert not volume.raw.any() and close(area.total, 2.0, rel=1e-14)
+
+
+@pytest.mark.parametrize(
+    "part", [with_flipped(HIGH, 1), without(HIGH, 4), without(HIGH, *TOP, 0, 1), without(torus(), 3)]
+)
+@pytest.mark.parametrize("order", [0, 3, 8])
+def test_faces_that_do_not_close_are_refused_unless_they_are_meant(part, order):
+    """The README's example measured a repaired copy and took the moments of the input: 0.333 beside a mass of 1."""
+    with refused("surface_not_closed"):
+        polyhedron_moments(surface(part), order)
+    with refused("surface_not_closed"):
+        polyhedron_moments([part[0][part[1][:5]], part[0][part[1][5:]]], order)
+    with refused("surface_not_closed"):
+        polyhedron_moments(iter([surface(part)]), order, about=(0, 0, 0), reach=4.0)
+    assert polyhedron_moments(surface(part), order, allow_open=True)[0].order == order
+    assert measure_solid(surface(part)).moments(order)[0].total > 0.0
+
+
+@pytest.mark.parametrize("order", [2, 6])
+def test_what_closes_is_not_refused_in_whatever_pieces(order):
+    points, triangles = moved(sphere(3), offset=(1, 2, 3))
+    whole = polyhedron_moments(Surface.from_triangles(points, triangles), order)[0]
+    pieces = [points[triangles[k::3]] for k in range(3)]
+    assert close(polyhedron_moments(pieces, order)[0].total, whole.total, rel=1e-13)
+    assert close(polyhedron_moments(iter(pieces), order, about=(1, 2, 3))[0].total, whole.total, rel=1e-13)
+    with pytest.raises(ValueError):
+        polyhedron_moments(Surface(points, triangles + len(points)), order)
+    assert np.isfinite(
+        polyhedron_moments(surface(joined(HIGH, inverted(box((0.1, 0.1, 0.1), (0.2, 0.2, 0.2))))))[0].raw
+    ).all()

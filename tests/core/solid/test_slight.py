@@ -1,0 +1,55 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What changes mass, size and inertia by less than a ten-thousandth is a note, by a code of its own."""
+
+import numpy as np
+import pytest
+from body_moments.core.mesh.surface import Surface
+from body_moments.core.solid.measure_solid import measure_solid
+from body_moments.core.verdict.tolerances import NEGLIGIBLE
+
+from tests.core.bodies import box, inverted, joined
+
+# A cube of side s has area 6 s², beside or in a box of volume 8 whose diagonal is 2√3.
+LIMIT = np.sqrt(NEGLIGIBLE * 8.0 / (6.0 * np.sqrt(12.0)))
+
+
+def cube(side, center=(0.0, 0.0, 0.0)):
+    middle, half = np.array(center), side / 2.0
+    return box(middle - half, middle + half)
+
+
+def codes(part, scale=1.0, shift=(0.0, 0.0, 0.0)):
+    points, triangles = part
+    solid = measure_solid(Surface.from_triangles(scale * points + np.array(shift) * scale, triangles))
+    return {found.code for found in solid.findings}
+
+
+@pytest.mark.parametrize(
+    ("scale", "shift"), [(1.0, (0, 0, 0)), (1e-6, (0, 0, 0)), (1e6, (0, 0, 0)), (1.0, (30, -20, 7))]
+)
+@pytest.mark.parametrize(
+    ("code", "body"),
+    [
+        ("components_nested", lambda side: joined(cube(2.0), cube(side))),
+        ("components_overlap", lambda side: joined(cube(2.0), cube(side, (1.0, 0.0, 0.0)))),
+        ("inverted_components", lambda side: joined(cube(2.0), inverted(cube(side, (1.0 + side, 0.0, 0.0))))),
+    ],
+)
+def test_components_too_small_to_matter_are_a_note(code, body, scale, shift):
+    assert code in codes(body(1.1 * LIMIT), scale, shift)
+    found = codes(body(0.9 * LIMIT), scale, shift)
+    assert code + "_slightly" in found and code not in found
+
+
+def test_so_are_flipped_faces():
+    for side, code in ((2.2 * LIMIT, "flipped_faces"), (0.9 * LIMIT, "flipped_faces_slightly")):
+        points, triangles = joined(cube(2.0), cube(side, (3.0, 0.0, 0.0)))
+        triangles = triangles.copy()
+        triangles[-2:] = triangles[-2:, ::-1]
+        found = codes((points, triangles))
+        assert code in found and not {"flipped_faces", "flipped_faces_slightly"} - {code} & found
+
+
+def test_a_body_that_is_inside_out_as_a_whole_is_never_too_small():
+    assert codes(inverted(cube(1e-9))) == {"inverted_components"}
