@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from ...core.numerics.float32 import shortest_decimal
 from ...operators.session import results
-from ...operators.session.shown import shown_body
+from ...operators.session.shown import shown_body, shown_bone
 from . import appearance as look
 
 
@@ -51,12 +51,17 @@ def drawn_objects(context: Context, show_all: bool) -> Iterator[Object]:
 
 
 def collect(context: Context) -> Bodies:
-    """Gather what is shown of the objects, and of the selection as one body where that is switched on."""
+    """Gather what is shown of the objects, of the selected pose bones, and of the selection as one body where that is
+    switched on."""
     scene = context.scene
     settings = scene.body_moments.overlay
     bodies = []
     for obj in drawn_objects(context, settings.show_all):
         body = shown_body(obj)
+        if body is not None:
+            bodies.append((body.center, body.axes, body.gyration, look.VERDICTS.index(body.verdict)))
+    for bone in context.selected_pose_bones or ():
+        body = shown_bone(bone, scene)
         if body is not None:
             bodies.append((body.center, body.axes, body.gyration, look.VERDICTS.index(body.verdict)))
     if settings.show_sum:

@@ -4,6 +4,14 @@
 
 # Texts of the interface, as they stand in the source → German
 TEXTS = {
+    "Copy the stored mass properties of the selected objects to the clipboard as a table, in SI units": (
+        "Die gespeicherten Masseneigenschaften der ausgewählten Objekte als Tabelle in die Zwischenablage kopieren, in "
+        "SI-Einheiten"
+    ),
+    "Save the stored mass properties of the selected objects and their total, in SI units, as .csv, .json or .jsonl": (
+        "Die gespeicherten Masseneigenschaften der ausgewählten Objekte und ihre Summe in SI-Einheiten als .csv, .json "
+        "oder .jsonl speichern"
+    ),
     "Overlapping components were united by Blender's exact Boolean, accurate to 7 digits": (
         "Überlappende Komponenten wurden mit Blenders exaktem Boolean vereinigt, auf 7 Stellen genau"
     ),
