@@ -42,6 +42,11 @@ MESSAGES = {
     "no_results_to_remove": ("Die ausgewählten Objekte haben keine Ergebnisse",),
     "value_copied": ("{value} kopiert",),
     "no_value_to_copy": ("Kein Wert zu kopieren",),
+    "csv_copied": ("{count} Zeile kopiert.", "{count} Zeilen kopiert."),
+    "numbers_saved": ("{count} Objekt in „{file}“ gespeichert.", "{count} Objekte in „{file}“ gespeichert."),
+    "numbers_suffix": (
+        "Das Format von „{file}“ ist unbekannt. Lassen Sie den Namen auf .csv, .json oder .jsonl enden.",
+    ),
     "report_copied": ("Bericht von {count} Objekt kopiert", "Bericht von {count} Objekten kopiert"),
     "section_copied": ("Querschnitt von {object} kopiert",),
     "moments_computed": ("{count} Momente von {object} berechnet",),
