@@ -35,6 +35,10 @@ MESSAGES = {
         "Um diesen Ursprung übersteigen Momente der Ordnung {order} den Zahlenbereich. Bezogen auf: Mittelpunkt "
         "wählen.",
     ),
+    "mass_moments_unknown": (
+        "Für dieses Objekt sind Momente der Masse nicht bis zur Ordnung {order} verfügbar. Ordnung auf 3 setzen oder "
+        "Bereich auf Volumen.",
+    ),
     "normalization_undefined": (
         "Die Momente lassen sich nicht normieren: Volumen oder Fläche ist null. Bezogen auf: Mittelpunkt wählen.",
     ),

@@ -139,7 +139,10 @@ TEXTS = {
     "Highest p + q + r of the computed moments ∫ x^p y^q z^r": (
         "Höchstes p + q + r der berechneten Momente ∫ x^p y^q z^r"
     ),
-    "What the moments integrate over, without density": "Worüber die Momente integrieren, ohne Dichte",
+    "What the moments integrate over": "Worüber die Momente integrieren",
+    "Volume, or for shells the area, times the density wherever it comes from": (
+        "Volumen, bei Schalen die Fläche, mal der Dichte, woher sie auch kommt"
+    ),
     "Center of the volume or surface: central moments": (
         "Mittelpunkt des Volumens oder der Oberfläche: zentrale Momente"
     ),
