@@ -169,6 +169,9 @@ MESSAGES: dict[str, Message] = {
     "moments_overflow_at_origin": _error(
         "About this origin, moments of order {order} exceed the range of numbers. Set About to Center."
     ),
+    "mass_moments_unknown": _error(
+        "Moments of the mass are not available to order {order} for this object. Set Order to 3, or Domain to Volume."
+    ),
     "normalization_undefined": _error(
         "The moments cannot be normalized: the volume or area is zero. Set About to Center."
     ),
