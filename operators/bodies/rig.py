@@ -238,12 +238,17 @@ class _Measuring:
             return
         weights = vertex_weights(obj, part, self.bones, self.depsgraph)
         triangles, face = surface.all_triangles()
-        pairs = np.unique(np.stack([np.repeat(face, 3), triangles.ravel()], axis=1), axis=0)
-        used = np.unique(pairs[:, 1])
-        bare = np.intersect1d(weights.unweighted(len(surface.points)), used)
+        number = len(surface.points)
+        corners = np.unique(np.repeat(face, 3).astype(np.int64) * number + triangles.ravel())  # of an n-gon each once
+        pairs = np.stack([corners // number, corners % number], axis=1)
+        used = np.zeros(number, bool)
+        used[pairs[:, 1]] = True
+        bare = weights.unweighted(number)
+        bare = bare[used[bare]]
         if len(bare):
+            count = int(np.count_nonzero(used))
             self.findings.append(
-                finding("unweighted_vertices", bare, count=len(bare), total=len(used)).of_sources([obj.name])
+                finding("unweighted_vertices", bare, count=len(bare), total=count).of_sources([obj.name])
             )
         solid = None if shell else measure_solid(surface)
         if solid is not None and solid.method == Verdict.OPEN:

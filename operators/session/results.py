@@ -8,7 +8,7 @@ the totals until Blender reports any change.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import lru_cache
@@ -29,6 +29,7 @@ from ..bodies.stack import MeasuredStack, Stacked
 from ..bodies.threshold import ThresholdGridBody
 from ..bodies.wall import WallBody
 from ..read.fingerprint import settings_hash
+from ..read.rig import skinned_objects
 from ..read.total_caveats import open_body_caveats, total_caveats
 from ..write import properties
 from . import faults, handlers, live, posed, reference, staleness, threshold, trust, walls
@@ -182,7 +183,7 @@ def _sum(context: Context) -> Total:
     chosen = posed.subjects(context.view_layer.objects.selected)
     selected = set(chosen)
     for obj in chosen:
-        if properties.method(obj) == ASSEMBLY and not selected.isdisjoint(obj.children_recursive):
+        if properties.method(obj) == ASSEMBLY and not selected.isdisjoint(_held(obj, selected)):
             continue  # what it holds counts by itself
         body_now = in_world(obj, scene)
         if body_now is None:
@@ -210,6 +211,11 @@ def _sum(context: Context) -> Total:
         tuple(doubtful),
         (*caveats, *total_caveats(counted, context.view_layer)),
     )
+
+
+def _held(obj: Object, objects: Iterable[Object]) -> list[Object]:
+    """What an assembly or a character is made of."""
+    return [*obj.children_recursive, *(skinned_objects(obj, objects) if obj.type == "ARMATURE" else ())]
 
 
 @lru_cache(maxsize=512)

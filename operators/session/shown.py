@@ -12,15 +12,16 @@ from dataclasses import dataclass
 
 import bpy
 import numpy as np
-from bpy.types import Object, Scene
+from bpy.types import Object, PoseBone, Scene
 from numpy.typing import NDArray
 
 from ...core.numerics.float32 import shortest_decimal
 from ...core.numerics.rotations import rotation_matrix
 from ..settings.preferences import default_density
+from ..write import properties
 from . import handlers, live, posed, results, staleness, updates
 from .cache import SessionCache
-from .trust import Trust, trust
+from .trust import Trust, trust, trust_of
 
 BY_OTHERS = ("MATERIALS", "VOLUME")  # densities that change without an update of the object
 
@@ -123,3 +124,33 @@ def _computed(obj: Object, scene: Scene, key: tuple | None = None) -> ShownBody 
         center = to_own @ (shown.center - location)
         _own[obj] = _Own(key, center, to_own @ shown.axes, shown.gyration, shown.mass, shown.verdict)
     return shown
+
+
+def shown_bone(bone: PoseBone, scene: Scene) -> ShownBody | None:
+    """Return what is to be drawn of a pose bone's part, where the bone is now.
+
+    Parameters
+    ----------
+    bone : bpy.types.PoseBone
+        Of an original armature object.
+    scene : bpy.types.Scene
+
+    Returns
+    -------
+    ShownBody or None
+        None where it has no numbers.
+    """
+    numbers = properties.numbers(bone)
+    if numbers is None:
+        return None
+    body, armature = properties.from_numbers(numbers).body, bone.id_data
+    location, turn, _ = (armature.matrix_world @ bone.matrix).decompose()
+    rotation, unit = rotation_matrix(turn), shortest_decimal(scene.unit_settings.scale_length)
+    is_stale = staleness.stale_reason(armature, scene) is not None
+    return ShownBody(
+        rotation @ (body.center / unit) + location,
+        rotation @ body.principal.axes,
+        body.radii_of_gyration / unit,
+        body.mass,
+        Trust.OUT_OF_DATE if is_stale else trust_of(properties.method(bone), properties.findings(armature)),
+    )

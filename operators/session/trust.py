@@ -52,13 +52,13 @@ def trust(obj: Object, scene: Scene) -> Trust:
     if now is not None and now.measurement is not None:
         if live.lag(obj) == live.Lag.BEHIND or live.is_stale(obj, scene):
             return Trust.OUT_OF_DATE
-        return _trust_of(now.measurement.method, now.measurement.findings)
+        return trust_of(now.measurement.method, now.measurement.findings)
     if staleness.stale_reason(obj, scene):
         return Trust.OUT_OF_DATE
-    return _trust_of(properties.method(obj), properties.findings(obj))
+    return trust_of(properties.method(obj), properties.findings(obj))
 
 
-def _trust_of(method: Method | None, findings: Iterable[Finding]) -> Trust:
+def trust_of(method: Method | None, findings: Iterable[Finding]) -> Trust:
     warnings = [found.code for found in findings if severity(found) != Severity.NOTE]
     if method is None or method.verdict == Verdict.OPEN or not REPAIRS.issuperset(warnings):
         return Trust.DOUBTFUL

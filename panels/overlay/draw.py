@@ -97,6 +97,7 @@ def _key(context: Context) -> tuple:
         context.scene.session_uid,
         context.view_layer.name,
         context.space_data.local_view is not None,
+        tuple(bone.name for bone in context.selected_pose_bones or ()),
         *(getattr(settings, name) for name in SETTINGS),
         _scale(),
     )

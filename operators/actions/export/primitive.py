@@ -11,7 +11,7 @@ from __future__ import annotations
 import bmesh
 import bpy
 from bpy.props import BoolProperty, EnumProperty
-from bpy.types import Context, Mesh, Object, Operator
+from bpy.types import Context, Menu, Mesh, Object, Operator
 from mathutils import Matrix
 
 from ....core.numerics.float32 import shortest_decimal
@@ -117,4 +117,16 @@ def _mesh(name: str, shape: Shape, unit: float) -> Mesh:
     return mesh
 
 
-CLASSES = (OBJECT_OT_body_moments_equal_inertia,)
+def _menu(menu: Menu, _context: Context) -> None:
+    menu.layout.separator()
+    menu.layout.operator(OBJECT_OT_body_moments_equal_inertia.bl_idname, icon="MESH_CUBE")
+
+
+def register() -> None:
+    bpy.utils.register_class(OBJECT_OT_body_moments_equal_inertia)
+    bpy.types.VIEW3D_MT_object_rigid_body.append(_menu)
+
+
+def unregister() -> None:
+    bpy.types.VIEW3D_MT_object_rigid_body.remove(_menu)
+    bpy.utils.unregister_class(OBJECT_OT_body_moments_equal_inertia)

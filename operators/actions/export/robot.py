@@ -25,6 +25,7 @@ from ...write.robots.stl import write_meshes
 from ...write.whole_file import whole_file
 from .. import selection
 from . import links as scenes
+from .copy_inertial import OBJECT_OT_body_moments_copy_inertial
 from .links import SceneLinks, meters_per_unit
 
 LINKS = (
@@ -264,6 +265,8 @@ class TOPBAR_MT_body_moments_export(Menu):
         for exporter, label in zip(EXPORTERS, LABELS):
             text = "{} ({})".format(label, exporter.filename_ext)
             self.layout.operator(exporter.bl_idname, text=text, translate=False)
+        self.layout.separator()
+        self.layout.operator_menu_enum(OBJECT_OT_body_moments_copy_inertial.bl_idname, "format")
 
 
 def _menu(menu: Menu, _context: Context) -> None:

@@ -7,7 +7,9 @@ import numpy as np
 import pytest
 from body_moments.operators.bodies.measure_object import measure_object
 from body_moments.operators.bodies.rig import measure_rig
+from body_moments.operators.session import results
 from body_moments.operators.session import rig as session
+from body_moments.operators.session.shown import shown_bone
 from body_moments.operators.write import properties
 
 from tests.blender.bodies.test_assembly import box_mesh
@@ -195,6 +197,23 @@ def test_modifiers_after_the_armature_count():
     whole = measure_object(skin, bpy.context.evaluated_depsgraph_get())
     assert close(rig.measurement.mass_properties.mass, whole.mass_properties.mass, 1e-12)
     assert len(rig.parts) == 7
+
+
+def test_selected_bones_are_drawn_where_they_are_now():
+    armature, skin = character()
+    bpy.ops.object.body_moments_measure_bones()
+    armature.location = (3, 2, 1)
+    pose(armature, 3)
+    bone = armature.pose.bones["arm.L"]
+    shown = shown_bone(bone, bpy.context.scene)
+    matrix = np.array(armature.matrix_world @ bone.matrix, np.float64)
+    center = matrix @ [*bone["body_center_of_mass"].to_list(), 1.0]
+    assert np.abs(shown.center - center[:3]).max() < 1e-5 and shown.verdict == "exact"
+    assert close(shown.mass, 8000.0, 1e-6)
+    only(skin, armature)
+    bpy.ops.object.body_moments_measure()
+    total = results.total(bpy.context)
+    assert total.count == 1  # the character is not counted beside its skin
 
 
 def test_refusals_say_why():
