@@ -21,7 +21,7 @@ from ..numerics.rotations import rotation_matrix
 from ..verdict.finding import Finding, finding
 from .stated import StatedInertial, rotation_of_angles
 
-AGREES, DIFFERS = 2e-3, 1e-2  # of radius of gyration and inertia: the same; more than digits can explain
+AGREES, DIFFERS = 5e-3, 1e-2  # of radius of gyration and inertia: the same; more than digits can explain
 LENGTH_UNITS = (1e-3, 1e-2, 1e3, 1e2, 0.0254, 1.0 / 0.0254)
 INERTIA_UNITS = (1e-6, 1e-3, 1e-9, 1e-4, 1e-7, 1e6, 1e3, 1e9, 1e4, 1e7)
 DENSITIES = (10.0, 30_000.0)  # kg/m³ of what robots are made of: foam, and more than the heaviest metal
