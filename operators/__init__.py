@@ -50,6 +50,7 @@ PARTS = (
             "select_faults",
             "clear",
             "copy",
+            "listed",
             "moments",
             "reference",
             "fourier",

@@ -60,14 +60,15 @@ def wall_links(
     border = border[wall[border[:, 2] // 3] == wall[border[:, 3] // 3]]
     if not len(border):
         return NO_LINKS
-    layers = np.concatenate([within[:, :2], within[:, 2:]])
+    layers = _layer_links(edges, within, wall)
     part, _ = connected_components(
         len(triangles),
         np.concatenate([pairs[0] // 3, layers[:, 0] // 3]),
         np.concatenate([pairs[1] // 3, layers[:, 1] // 3]),
     )
-    body = part[border[:, :2] // 3]
-    border = np.where((body[:, 0] > body[:, 1])[:, None], border[:, [1, 0, 2, 3]], border)
+    for columns in ([0, 1], [2, 3]):  # the same body, and the same layer, in a column along the whole border
+        swap = np.diff(part[border[:, columns] // 3], axis=1)[:, 0] < 0
+        border[np.ix_(swap, columns)] = border[np.ix_(swap, columns[::-1])]
     # a wall is between two bodies only, the same along its border
     wall = np.unique(part[border[:, 2:] // 3] @ [len(triangles), 1], return_inverse=True)[1].ravel()
     lower, upper = part[border[:, 0] // 3], part[border[:, 1] // 3]
@@ -83,6 +84,21 @@ def wall_links(
     border[swapped] = border[swapped][:, [0, 1, 3, 2]]
     links = np.concatenate([layers, border[:, [0, 2]], border[:, [1, 3]]]) if len(border) else layers[:0]
     return links[:, 0], links[:, 1]
+
+
+def _layer_links(edges: Edges, within: NDArray[np.intp], wall: NDArray[np.intp]) -> NDArray[np.intp]:
+    """(k, 2) the sides that are joined within walls. within: (e, 4) sides on edges between two faces of a wall, of the
+    first layer and then of the other one; wall: (t,) as of `_layers`.
+
+    Which copy of a face is the first one is an accident: a copy goes with the one of its neighbors that it agrees with.
+    """
+    crossed = wall[within[:, 1] // 3] != wall[within[:, 3] // 3]
+    within = np.where(crossed[:, None], within[:, [0, 1, 3, 2]], within)  # of one face, and of the other, twice
+    up = edges.upward[within]
+    straight = (up[:, 0] != up[:, 1]).astype(int) + (up[:, 2] != up[:, 3])
+    across = (up[:, 0] != up[:, 3]).astype(int) + (up[:, 2] != up[:, 1])
+    within = np.where((across > straight)[:, None], within[:, [0, 3, 2, 1]], within)
+    return np.concatenate([within[:, :2], within[:, 2:]])
 
 
 def _layers(

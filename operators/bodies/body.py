@@ -45,6 +45,8 @@ class Body:
         As in `Measurement`.
     mass : Moments, optional
         Of a body whose density is not one number, its moments in kg.
+    higher_mass : Moments, optional
+        The same to the order that was asked for, above third.
     density_from : Finding, optional
         Where such a density came from, with a code ``density_from_…``.
     density_key : str
@@ -72,6 +74,7 @@ class Body:
     method: Method
     findings: tuple[Finding, ...]
     mass: Moments | None = None
+    higher_mass: Moments | None = None
     density_from: Finding | None = None
     density_key: str = ""
     materials: tuple[str, ...] = ()

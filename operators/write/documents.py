@@ -159,7 +159,7 @@ def _columns(entry: dict[str, Any]) -> dict[str, Any]:
         }
     row |= _nested("display_mesh", entry.get("display_mesh", {}))
     row |= _nested("health", entry["health"]) | _nested("error_bound", entry["error_bound"])
-    for name in ("volume", "length", "surface"):
+    for name in ("volume", "length", "surface", "mass"):
         powers = entry.get("moments", {}).get(name, {})
         row |= {f"{name}_moment_{key.replace(',', '_')}": value for key, value in powers.items()}
     if entry.get("pose"):

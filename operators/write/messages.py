@@ -169,6 +169,9 @@ MESSAGES: dict[str, Message] = {
     "moments_overflow_at_origin": _error(
         "About this origin, moments of order {order} exceed the range of numbers. Set About to Center."
     ),
+    "mass_moments_unknown": _error(
+        "Moments of the mass are not available to order {order} for this object. Set Order to 3, or Domain to Volume."
+    ),
     "normalization_undefined": _error(
         "The moments cannot be normalized: the volume or area is zero. Set About to Center."
     ),
@@ -1504,6 +1507,9 @@ MESSAGES: dict[str, Message] = {
     "no_results_to_remove": _note("The selected objects have no results"),
     "value_copied": _note("Copied {value}"),
     "no_value_to_copy": _warning("No value to copy"),
+    "csv_copied": _note("Copied {count} row.", "Copied {count} rows."),
+    "numbers_saved": _note("Saved {count} object to “{file}”.", "Saved {count} objects to “{file}”."),
+    "numbers_suffix": _error("The format of “{file}” is unknown. Let its name end in .csv, .json or .jsonl."),
     "report_copied": _note("Copied the report of {count} object", "Copied the report of {count} objects"),
     "section_copied": _note("Copied the section of {object}"),
     "moments_computed": _note("Computed {count} moments of {object}"),
