@@ -25,7 +25,8 @@ from numpy.typing import NDArray
 
 from ..moments.moments import Moments
 from ..verdict.finding import Finding, MeasureError, finding
-from .canonical_frame import NOISE_LEVEL, EquivalentFrames, allowed_by_higher_moments, canonical_frames
+from .canonical_frame import NOISE_LEVEL, EquivalentFrames, canonical_frames
+from .canonical_stack import settle_half_turns, settle_revolution
 from .second_order import HALF_TURN_SIGNS, IS_FIXED, SYMMETRIES, SecondOrderFrames, second_order_frames
 
 # traces closer than the one are equal whatever the noise, than the other never
@@ -237,21 +238,21 @@ def _frames_of_shapes(fixed: SecondOrderFrames, left: NDArray[np.intp], known: O
     if known.rotation is not None:
         fixed, which = second_order_frames(known.moments), np.arange(len(known.moments.raw))
     results: list[EquivalentFrames | None] = [None] * len(which)
+
+    def settle(shapes: NDArray[np.intp], allowed: NDArray[np.bool_]) -> None:
+        for shape, signs in zip(shapes.tolist(), allowed):
+            body = which[shape]
+            frames, free = fixed.axes[body] * HALF_TURN_SIGNS[signs, None], fixed.free(body)
+            revolution = (3 - sum(free),) if free else ()
+            results[shape] = EquivalentFrames(frames, NO_VALUES, NO_VALUES, revolution, float(fixed.tilt[body]))
+
     by_signs = np.flatnonzero(fixed.symmetry[which] == 0)
     if len(by_signs):
-        bodies = which[by_signs]
-        allowed = allowed_by_higher_moments(
-            known.moments.at(by_signs),
-            fixed.axes[bodies],
-            fixed.size[bodies],
-            fixed.step[bodies],
-            fixed.tilt[bodies],
-            fixed.noise,
-            fixed.allowed[bodies],
-        )
-        for shape, body, signs in zip(by_signs.tolist(), bodies.tolist(), allowed):
-            frames = fixed.axes[body] * HALF_TURN_SIGNS[signs, None]
-            results[shape] = EquivalentFrames(frames, NO_VALUES, NO_VALUES, (), float(fixed.tilt[body]))
+        settle(by_signs, settle_half_turns(known.moments.at(by_signs), fixed, which[by_signs]))
+    about_axis = np.flatnonzero((fixed.symmetry[which] == 1) | (fixed.symmetry[which] == 2))
+    if len(about_axis):
+        is_round, allowed = settle_revolution(known.moments.at(about_axis), fixed, which[about_axis])
+        settle(about_axis[is_round], allowed[is_round])
     return [
         canonical_frames(known.moments.at(shape), fixed.spread(which[shape]), fixed.frames(which[shape]))
         if found is None

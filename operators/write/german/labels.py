@@ -119,7 +119,6 @@ TEXTS = {
     "Sort By": "Sortieren nach",
     "Verdict": "Urteil",
     "Doubtful: {:s}": "Zweifelhaft: {:s}",
-    "Clear Results": "Ergebnisse löschen",
     "Moments": "Momente",
     "Section": "Querschnitt",
     "Measure Section": "Querschnitt messen",
