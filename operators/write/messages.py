@@ -1322,6 +1322,7 @@ MESSAGES: dict[str, Message] = {
     "usage_spline_order": _error("{text!r} is not an order from 1 to {limit}"),
     "usage_order": _error("{text!r} is not an order from 0 to {limit}"),
     "usage_order_too_high": _error("{text!r} is above the highest order, {limit}"),
+    "usage_links_of_bones": _error("--links bone takes what the bones' settings say, and no --{option}"),
     "usage_meshes_need_output": _error("--meshes needs --output, beside which they are written"),
     "usage_format_unknown": _error("{text!r} is not one of {formats}"),
     "usage_needs_fourier": _error("argument --{option}: needs --fourier OUT.npz"),
