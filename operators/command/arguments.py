@@ -59,6 +59,9 @@ def parse(argv: list[str], file_needed: bool = False) -> argparse.Namespace:
         if len(options.files) > 1:
             fail(finding("robot_one_file", count=len(options.files)))
         options.frame = "object"  # of the links
+        given = [name for name in ("density", "mass", "kind", "thickness") if getattr(options, name) is not None]
+        if options.links == "bone" and given:
+            fail(finding("usage_links_of_bones", option=given[0]))
     if options.meshes and (options.output is None or is_stdout(options.output)):
         fail(finding("usage_meshes_need_output"))
     if options.surface_moments and options.order is None:
@@ -312,6 +315,12 @@ def _add_results(parser: argparse.ArgumentParser) -> None:
         "--inertial-only",
         action="store_true",
         help="urdf, sdf, mjcf, usd: the links with their inertials alone, without geometry, places and joints",
+    )
+    add(
+        "--links",
+        choices=("object", "collection", "bone"),
+        default="object",
+        help="urdf, sdf, mjcf, usd: what is one rigid body (object)",
     )
     add(
         "--meshes",

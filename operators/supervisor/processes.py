@@ -42,7 +42,7 @@ def start(command: Sequence[str], folder: Path, log: Path) -> tuple[subprocess.P
     temporary = dict.fromkeys(("TMPDIR", "TEMP", "TMP"), str(folder))
     environment = {**os.environ, **temporary, "BLENDER_USER_RESOURCES": str(folder / "user")}
     # A terminal's Ctrl+C is for the supervisor alone.
-    options = {"creationflags": subprocess.CREATE_NEW_PROCESS_GROUP} if _WINDOWS else {"start_new_session": True}
+    flags = getattr(subprocess, "CREATE_NEW_PROCESS_GROUP", 0)  # on Windows; elsewhere a session of its own
     passed = () if watched is None else (watched,)
     try:
         with open(log, "ab") as errors:
@@ -53,7 +53,8 @@ def start(command: Sequence[str], folder: Path, log: Path) -> tuple[subprocess.P
                 stderr=errors,
                 env=environment,
                 pass_fds=passed,
-                **options,
+                creationflags=flags,
+                start_new_session=not _WINDOWS,
             )
     except OSError:
         if kept is not None:

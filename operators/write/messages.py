@@ -1322,6 +1322,7 @@ MESSAGES: dict[str, Message] = {
     "usage_spline_order": _error("{text!r} is not an order from 1 to {limit}"),
     "usage_order": _error("{text!r} is not an order from 0 to {limit}"),
     "usage_order_too_high": _error("{text!r} is above the highest order, {limit}"),
+    "usage_links_of_bones": _error("--links bone takes what the bones' settings say, and no --{option}"),
     "usage_meshes_need_output": _error("--meshes needs --output, beside which they are written"),
     "usage_format_unknown": _error("{text!r} is not one of {formats}"),
     "usage_needs_fourier": _error("argument --{option}: needs --fourier OUT.npz"),
@@ -1734,7 +1735,7 @@ MESSAGES: dict[str, Message] = {
     ),
     # ------------------------------------------------------------------ Audit of robot descriptions: files
     "xml_entities": _error("The file declares a document type, with which entities could be declared. Remove it."),
-    "xml_too_large": _error("The file nests more than {depth} elements or has more than {elements}."),
+    "xml_too_large": _error("The file nests more than {depth} elements or has more than {limit}."),
     "xml_invalid": _error("The file is not XML: {error}."),
     "usda_invalid": _error("The file is not text of USD (line {line})."),
     "usd_not_text": _error("Only the text form of USD is read. Convert the file to .usda with usdcat."),

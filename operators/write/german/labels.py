@@ -108,6 +108,7 @@ TEXTS = {
     "Measure": "Messen",
     "Select Defects": "Fehlerstellen auswählen",
     "Copy Report": "Bericht kopieren",
+    "Clear Results": "Werte löschen",
     "Copy as CSV": "Als CSV kopieren",
     "Save CSV or JSON": "CSV oder JSON speichern",
     "Save CSV or JSON...": "CSV oder JSON speichern...",
@@ -118,7 +119,6 @@ TEXTS = {
     "Sort By": "Sortieren nach",
     "Verdict": "Urteil",
     "Doubtful: {:s}": "Zweifelhaft: {:s}",
-    "Clear Results": "Ergebnisse löschen",
     "Moments": "Momente",
     "Section": "Querschnitt",
     "Measure Section": "Querschnitt messen",
@@ -278,5 +278,4 @@ TEXTS = {
     "Export glTF with Rigid Bodies": "glTF mit Starrkörpern exportieren",
     "Selected Objects": "Ausgewählte Objekte",
     "Links": "Glieder",
-    "What is one rigid body": "Was ein Starrkörper ist",
 }

@@ -4,6 +4,7 @@
 
 # Codes of messages → German, and for several where the English has such a text
 MESSAGES = {
+    "joint_not_added": ("Blender hat das Gelenk nicht angelegt. Prüfen, ob die Szene eine Starrkörperwelt hat.",),
     "rigid_bodies_made": (
         "{count} Starrkörper von {mass:.7g} kg; Masse berechnen würde {calculated:.7g} kg sagen",
         "{count} Starrkörper von {mass:.7g} kg; Masse berechnen würde {calculated:.7g} kg sagen",
@@ -229,6 +230,7 @@ MESSAGES = {
         "{count} Objekte ohne Masse sind keine Glieder: {links}.",
     ),
     "robot_without_links": ("Es gibt kein Glied. Objekte mit Masse messen.",),
+    "robot_without_bones": ("Es gibt kein Glied. Eine Armatur mit dem, was sie bewegt, auswählen.",),
     "robot_base_added": (
         "{count} Objekte haben kein Elternobjekt. Sie sind an einem zusätzlichen Glied ohne Masse fest, {name}. Sie "
         "an eines davon hängen, um das zu vermeiden.",

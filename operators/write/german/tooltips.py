@@ -355,4 +355,10 @@ TEXTS = {
     "Draw all visible measured objects instead of the selected ones": (
         "Alle sichtbaren gemessenen Objekte statt der ausgewählten zeichnen"
     ),
+    "Draw the principal axes 1, 2 and 3, each as long as its radius of gyration in both directions": (
+        "Die Hauptträgheitsachsen 1, 2 und 3 zeichnen, jede in beide Richtungen so lang wie ihr Trägheitsradius"
+    ),
+    "Draw a line from the center of mass straight down or up to the floor, Z = 0": (
+        "Eine Linie vom Massenmittelpunkt senkrecht zum Boden Z = 0 zeichnen"
+    ),
 }
