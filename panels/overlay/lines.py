@@ -66,7 +66,7 @@ def disc_triangles(
     parts = [
         _glyphs(bodies, group, view, scale, digits) for group, digits in ((seen[~named], False), (seen[named], True))
     ]
-    starts = np.cumsum([0, *(len(points) for points, _, _ in parts)])
+    starts = np.cumsum([0, *(len(points) for points, _, _ in parts)], dtype=np.int32)
     points, colors, triangles = zip(*parts)
     numbered = [corners + start for corners, start in zip(triangles, starts)]
     return np.concatenate(points), np.concatenate(colors), np.concatenate(numbered)
@@ -74,7 +74,7 @@ def disc_triangles(
 
 def _glyphs(
     bodies: Bodies, group: NDArray[np.intp], view: View, scale: float, with_digits: bool
-) -> tuple[NDArray[np.float32], NDArray[np.float32], NDArray[np.intp]]:
+) -> tuple[NDArray[np.float32], NDArray[np.float32], NDArray[np.int32]]:
     """As `disc_triangles`, of some bodies, in this order."""
     count, centers, verdicts = len(group), bodies.centers[group], bodies.verdicts[group]
     discs = glyphs.discs()

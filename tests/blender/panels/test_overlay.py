@@ -142,6 +142,7 @@ def test_discs_are_made_where_they_are_seen_and_named_where_axes_are_long(view):
     assert len(short[0]) == len(short[1]) == 3 * disc
     assert len(long[0]) == 3 * (disc + 3 * digit)
     for points, _, triangles in (short, long):
+        assert triangles.dtype == np.int32 and points.dtype == np.float32  # as the GPU takes them
         assert triangles.min() == 0 and triangles.max() < len(points)
         assert np.isfinite(points).all()
         assert np.abs(view.pixels(points.astype(float)) - view.size / 2.0).max() < view.size.max() + 500.0
