@@ -1735,7 +1735,7 @@ MESSAGES: dict[str, Message] = {
     ),
     # ------------------------------------------------------------------ Audit of robot descriptions: files
     "xml_entities": _error("The file declares a document type, with which entities could be declared. Remove it."),
-    "xml_too_large": _error("The file nests more than {depth} elements or has more than {elements}."),
+    "xml_too_large": _error("The file nests more than {depth} elements or has more than {limit}."),
     "xml_invalid": _error("The file is not XML: {error}."),
     "usda_invalid": _error("The file is not text of USD (line {line})."),
     "usd_not_text": _error("Only the text form of USD is read. Convert the file to .usda with usdcat."),
