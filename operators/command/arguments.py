@@ -155,6 +155,7 @@ def _parser() -> argparse.ArgumentParser:
     _add_settings(parser)
     _add_of_files(parser)
     _add_results(parser)
+    _add_assets(parser)
     _add_supervision(parser)
     return parser
 
@@ -338,6 +339,15 @@ def _add_results(parser: argparse.ArgumentParser) -> None:
         "--write",
         action="store_true",
         help="store the results on the objects and save the .blend file, unless something else has saved it meanwhile",
+    )
+
+
+def _add_assets(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "--asset-metadata",
+        choices=("copy", "file"),
+        help="put mass, volume, center and more into the metadata of the objects that are assets, and save copies "
+        "beside the files, as NAME.body_moments.blend, or the files themselves",
     )
 
 

@@ -23,13 +23,18 @@ _WORD = "child"  # the command that serves a supervisor
 
 def child_command(blender: str | None) -> list[str] | None:
     """What starts a child: a Blender, or without one this Python, which must have the bpy module (else None)."""
+    return run_command(blender, [_WORD])
+
+
+def run_command(blender: str | None, words: Sequence[str]) -> list[str] | None:
+    """What starts our command line with these words, in a Blender, or in this Python as above."""
     batch = importlib.util.find_spec("..batch", __package__)
     script = str(Path(batch.origin or "").resolve()) if batch else ""
     if blender is not None:
-        return [blender, *_SWITCHES, "--python", script, "--", _WORD]
+        return [blender, *_SWITCHES, "--python", script, "--", *words]
     if importlib.util.find_spec("bpy") is None:
         return None
-    return [sys.executable, script, _WORD]
+    return [sys.executable, script, *words]
 
 
 def start(command: Sequence[str], folder: Path, log: Path) -> tuple[subprocess.Popen[bytes], int | None]:
