@@ -190,21 +190,16 @@ class Window:
 
     def choose(self, menu: str, operator: str) -> None:
         """Open a menu at the pointer, as its key or header does, and click the entry of an operator."""
+        # A menu opens with the entry under the pointer that was chosen last: some others may be above it.
         x, y, width, height = self.region("WINDOW")
-        x, y = x + width * 0.3, y + height * 0.5
+        x, y = x + width * 0.3, y + height - 60
         self.move(x, y)
         self.ask(f"bpy.ops.wm.call_menu(name={menu!r})")
-        # A menu opens with the entry under the pointer that was chosen last, and closes when the pointer leaves it.
-        for step in (9, -9):
-            missed, place = 0, y
-            while missed < 4:
-                found = self._button_at(x, place)
-                if found == operator:
-                    self._xdotool("click", 1)
-                    self.get("True")
-                    return
-                missed = missed + 1 if found is None else 0
-                place += step
+        for down in (*range(0, -55, -9), *range(9, height - 80, 9)):
+            if self._button_at(x, y - down) == operator:
+                self._xdotool("click", 1)
+                self.get("True")
+                return
         self.picture("no-entry")
         self.key("Escape")
         raise LookupError(f"no entry for {operator} in {menu}\n{self.output()}")

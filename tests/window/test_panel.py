@@ -67,7 +67,7 @@ def test_the_origin_goes_to_the_center_of_mass_and_the_body_stays(window):
         f"{CUBE}.data.update()"
     )
     before = window.get(corners)
-    window.press("object.body_moments_origin_to_center")
+    window.choose("VIEW3D_MT_body_moments", "object.body_moments_origin_to_center")
     window.wait(f"{PLACE} == [2.5, 2.25, 3.0]")
     window.picture("5-origin")
     for corner, moved in zip(window.get(corners), before, strict=True):
