@@ -139,6 +139,14 @@ def table(title: str, times: dict[str, list[float]], against: list[str], per: in
         print("    {:<40s}{:>10.1f}{:>10.1f}{:>15s}{:s}".format(name, median * 1e3, least * 1e3, each, ratios))
 
 
+def beside(name: str) -> ModuleType:
+    """A module in this folder."""
+    spec = importlib.util.spec_from_file_location(name, Path(__file__).parent / (name + ".py"))
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
 def optional(name: str) -> ModuleType | None:
     """A module, or None where it is not installed."""
     return importlib.import_module(name) if importlib.util.find_spec(name) else None
@@ -802,6 +810,9 @@ def main() -> None:
         import bpy  # noqa: F401
 
         sys.modules["body_moments"].register()
+        parts = beside("benchmark_many")
+        parts.single(rounds)
+        parts.many(300 if quick else 1000, rounds)
         blender(side, rounds)
         instances(1000 if quick else 10_000, rounds)
         volumes(rounds)
