@@ -185,6 +185,27 @@ def compare(title: str, points: np.ndarray, quads: np.ndarray, paired: bool, rou
         )
 
 
+def verdicts(side: int, rounds: int) -> None:
+    """Closedness and verdict from bare arrays of triangles, beside the integral and the way of others."""
+    points, quads = torus(side, side, 0.02)
+    triangles = halves(quads, True)
+    surface, trimesh = Surface(points, triangles), optional("trimesh")
+    rows = {
+        "integral, 1 thread": lambda: polyhedron_moments(surface),
+        "verdict, 1 thread": lambda: measure_solid(surface),
+        "verdict, 2 threads": lambda: measure_solid(surface, threads=2),
+    }
+    if trimesh:
+
+        def watertight() -> None:
+            mesh = trimesh.Trimesh(points, triangles, process=False)
+            assert mesh.is_watertight and mesh.mass_properties is not None
+
+        rows["trimesh watertight and mass_properties"] = watertight
+    title = "{:,} triangles in bare arrays: is it closed, and what is it".format(len(triangles))
+    table(title, interleaved(rows, rounds), ["integral, 1 thread"], len(triangles))
+
+
 def walls_and_derivatives(side: int, rounds: int) -> None:
     """What a wall and the derivatives cost beside a solid, and a new thickness beside measuring again."""
     points, quads = torus(side, side, 0.0, lopsided=True)
@@ -795,6 +816,7 @@ def main() -> None:
         )
     )
     arrays(side, rounds)
+    verdicts(side, rounds)
     walls_and_derivatives(side // 4, rounds)
     memory(side)
     latency(rounds)

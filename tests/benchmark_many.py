@@ -10,6 +10,7 @@ from __future__ import annotations
 import statistics
 import time
 from collections.abc import Callable
+from functools import partial
 
 import bpy
 import numpy as np
@@ -124,7 +125,7 @@ def many(count: int, rounds: int) -> None:
         objects, times = make(count, part, rng), {row: [] for row in rows}
         measure = bpy.ops.object.body_moments_measure
         for round_ in range(rounds + 1):
-            sample = {"floor": timed(lambda: floor(objects, name.startswith("linked"))), "Measure": timed(measure)}
+            sample = {"floor": timed(partial(floor, objects, name.startswith("linked"))), "Measure": timed(measure)}
             for row in sample:
                 times[row] += [sample[row]] * bool(round_)
         steps = {
