@@ -58,6 +58,7 @@ class VIEW3D_MT_body_moments(Menu):
                 ("object.body_moments_set_material", "Set Material", "MATERIAL"),
                 ("object.body_moments_copy_settings", "Copy Settings to Selected", "PASTEDOWN"),
             ),
+            (("object.body_moments_measure_library", "Measure Library...", "FILE_FOLDER"),),
         )
         self.layout.operator_context = "INVOKE_DEFAULT"
         for number, group in enumerate(groups):

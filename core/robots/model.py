@@ -332,7 +332,11 @@ class Robot:
             part = waiting.pop()
             parts.append(part)
             waiting.extend(
-                [child for child in reversed(self.children(part.name)) if not self.joint_of(child.name).free]
+                [
+                    child
+                    for child in reversed(self.children(part.name))
+                    if (joint := self.joint_of(child.name)) is not None and not joint.free
+                ]
             )
         return parts
 
@@ -340,10 +344,10 @@ class Robot:
         """Return the inertial of a link with everything that fixed joints hold to it, along the link's axes; None
         where none of it has mass."""
         to_link = link.pose.inverse()
-        parts = [part for part in self.rigid_parts(link) if part.inertial is not None]
-        if len(parts) == 1 and parts[0] is link:
+        parts = [(part, part.inertial) for part in self.rigid_parts(link) if part.inertial is not None]
+        if len(parts) == 1 and parts[0][0] is link:
             return link.inertial
-        return combine_inertials([part.inertial.place(to_link @ part.pose) for part in parts]) if parts else None
+        return combine_inertials([own.place(to_link @ part.pose) for part, own in parts]) if parts else None
 
 
 def combine_inertials(inertials: list[Inertial]) -> Inertial:

@@ -79,7 +79,7 @@ def to_json(documents: Iterable[dict[str, Any]]) -> Iterator[str]:
     """One document as itself, several as an array, indented for a reader with each row of numbers
     on one line.
     """
-    waiting = ""
+    waiting, several = "", False
     for number, entry in enumerate(documents):
         text = json.dumps(entry, indent=2, ensure_ascii=False, allow_nan=False)
         text = _NUMBER_ROWS.sub(lambda match: "[" + re.sub(r"\s+", " ", match[1]) + "]", text)

@@ -101,7 +101,7 @@ class _Parser:
     def prim(self, depth: int) -> Prim:
         self.count += 1
         if depth > MAX_DEPTH or self.count > MAX_ELEMENTS:
-            raise FileError("xml_too_large", elements=MAX_ELEMENTS, depth=MAX_DEPTH)
+            raise FileError("xml_too_large", limit=MAX_ELEMENTS, depth=MAX_DEPTH)
         self.take()  # the specifier
         words = []
         while self.peek() not in ("(", "{", ""):
@@ -258,7 +258,7 @@ def _inertial(prim: Prim, local: NDArray, unit: float) -> StatedInertial | None:
         return None  # computed from the colliders
     center = prim.vector("physics:centerOfMass", 3, (0.0, 0.0, 0.0))
     axes = prim.vector("physics:principalAxes", 4, (1.0, 0.0, 0.0, 0.0))
-    axes = axes if axes.any() else np.array([1.0, 0.0, 0.0, 0.0])
+    axes = axes if axes is not None and axes.any() else np.array([1.0, 0.0, 0.0, 0.0])
     placed = (local[:3, :3] @ center + local[:3, 3]) * unit
     tensor = np.diag(diagonal) * unit**2
     return StatedInertial(float(mass[0]), placed, tensor, rotation_matrix(axes), None, tuple(axes.tolist()))

@@ -278,4 +278,10 @@ TEXTS = {
     "Export glTF with Rigid Bodies": "glTF mit Starrkörpern exportieren",
     "Selected Objects": "Ausgewählte Objekte",
     "Links": "Glieder",
+    "Measure Library": "Bibliothek messen",
+    "Measure Library...": "Bibliothek messen ...",
+    "Write Asset Metadata": "Asset-Metadaten schreiben",
+    "Overwrite Files": "Dateien überschreiben",
+    "Pictures": "Bilder",
+    "Folder": "Ordner",
 }

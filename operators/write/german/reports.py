@@ -306,4 +306,15 @@ MESSAGES = {
     "defect_degenerate_faces": ("{count} Fläche ohne Inhalt", "{count} Flächen ohne Inhalt"),
     "defect_non_planar_faces": ("{count} unebene Fläche", "{count} unebene Flächen"),
     "defect_flipped_faces": ("{count} verdrehte Fläche", "{count} verdrehte Flächen"),
+    "progress_library": ("Bibliothek wird gemessen: {share:.0%}. Esc hält an",),
+    "canceled_library": ("Angehalten. Die bisher gemessenen Dateien stehen im Journal",),
+    "library_not_started": ("Es lässt sich kein Prozess starten: {error}.",),
+    "library_failed": (
+        "Das Messen der Bibliothek endete mit dem Code {code}. Auf der Kommandozeile zeigt sich der Grund.",
+    ),
+    "library_measured": ("{count} Datei gemessen; Bericht: {file}", "{count} Dateien gemessen; Bericht: {file}"),
+    "library_measured_with_failures": (
+        "{count} Datei gemessen, {failed} ohne Ergebnis; Bericht: {file}",
+        "{count} Dateien gemessen, {failed} davon nicht oder nicht ganz; Bericht: {file}",
+    ),
 }

@@ -361,4 +361,17 @@ TEXTS = {
     "Draw a line from the center of mass straight down or up to the floor, Z = 0": (
         "Eine Linie vom Massenmittelpunkt senkrecht zum Boden Z = 0 zeichnen"
     ),
+    "Measure all files of a folder or an asset library in separate processes, and write results and a report there": (
+        "Alle Dateien eines Ordners oder einer Asset-Bibliothek in eigenen Prozessen messen und Ergebnisse und einen "
+        "Bericht dort ablegen"
+    ),
+    "Folder with the files to measure": "Ordner mit den zu messenden Dateien",
+    "Folder or asset library to measure": "Zu messender Ordner oder zu messende Asset-Bibliothek",
+    "Write mass, volume and center into the metadata of the objects that are assets": (
+        "Masse, Volumen und Mittelpunkt in die Metadaten der Objekte schreiben, die Assets sind"
+    ),
+    "Save the metadata in the asset files themselves instead of in copies beside them": (
+        "Die Metadaten in den Asset-Dateien selbst speichern statt in Kopien daneben"
+    ),
+    "Draw a picture of each body in the report": "Jeden Körper im Bericht abbilden",
 }

@@ -85,7 +85,7 @@ def add_rigid_bodies(document: dict[str, Any], robot: Robot, meters_per_unit: fl
             continue
         if np.abs(link.scale - 1.0).max() > UNIFORM_RTOL:
             scaled.append(link.name)
-        values = motion(inertial, meters_per_unit, link.scale)
+        values = motion(inertial, meters_per_unit, link.scale.tolist())
         extensions = found[0].setdefault("extensions", {})
         extensions[KHR] = {"motion": values}
         extensions[OMI] = {"motion": {"type": "dynamic", **values}}

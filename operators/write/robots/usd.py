@@ -44,10 +44,9 @@ def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = Fa
     lines = header(robot.name, remarks, 1.0, ROOT)
     lines += ['def Xform "{}"'.format(ROOT), "{"]
     for link in robot.ordered():
-        body = link.inertial is not None
-        lines += _indented(_prim("def Xform", names[link.name], APIS if body else ()))
+        lines += _indented(_prim("def Xform", names[link.name], APIS if link.inertial is not None else ()))
         lines += _indented(["{"])
-        if body:
+        if link.inertial is not None:
             lines += _indented(mass_attributes(link.inertial), 2)
         if not inertial_only:
             lines += _indented(_transform(link.pose), 2)
@@ -218,7 +217,7 @@ def _transform(pose: Pose, scale: ArrayLike | None = None) -> list[str]:
         "quatd xformOp:orient = {}".format(_doubles(quaternion(pose.rotation))),
     ]
     if scale is not None:
-        lines.append("double3 xformOp:scale = {}".format(_doubles(scale)))
+        lines.append("double3 xformOp:scale = {}".format(_doubles(np.asarray(scale).tolist())))
     names = ", ".join(quoted("xformOp:" + operation) for operation in operations)
     return [*lines, "uniform token[] xformOpOrder = [{}]".format(names)]
 
