@@ -51,6 +51,7 @@ from body_moments.core.mesh.surface import Surface
 from body_moments.core.offset.walls import offset_solid
 from body_moments.core.papers.sheynin_tuzikov_2001 import triangle_moments as explicit_moments
 from body_moments.core.polyhedron import integration
+from body_moments.core.solid.measure_solid import measure_solid
 from body_moments.core.statics.gradient import area_gradient, volume_gradient
 
 polyhedron_moments = partial(integration.polyhedron_moments, allow_open=True)  # as a measurement calls it

@@ -12,6 +12,7 @@ from body_moments.core.verdict.method import Verdict
 from tests.core import bodies
 
 RNG = np.random.default_rng(7)
+PARTS = bodies.box(), bodies.sphere(2), bodies.torus(), bodies.joined(bodies.box(), bodies.box((3, 0, 0), (4, 1, 1)))
 
 
 def shuffled(part):
