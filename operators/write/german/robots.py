@@ -5,8 +5,8 @@
 TEXTS = {
     "Audit Robot Description": "Roboterbeschreibung prüfen",
     "Check mass, center and inertia in a robot description against its meshes. What is found becomes a text": (
-        "Masse, Schwerpunkt und Trägheit in einer Roboterbeschreibung an ihren Meshes prüfen. Was sich findet, wird ein "
-        "Text"
+        "Masse, Schwerpunkt und Trägheit in einer Roboterbeschreibung an ihren Meshes prüfen. Was sich findet, wird "
+        "ein Text"
     ),
     "Robot Description for Audit (.urdf/.sdf/.xml/.usda)": "Roboterbeschreibung zum Prüfen (.urdf/.sdf/.xml/.usda)",
     "Mesh Folder": "Ordner der Meshes",
