@@ -332,11 +332,7 @@ class Robot:
             part = waiting.pop()
             parts.append(part)
             waiting.extend(
-                [
-                    child
-                    for child in reversed(self.children(part.name))
-                    if (joint := self.joint_of(child.name)) is not None and not joint.free
-                ]
+                [child for child in reversed(self.children(part.name)) if not self._joint_by_child[child.name].free]
             )
         return parts
 
@@ -347,7 +343,9 @@ class Robot:
         parts = [(part, part.inertial) for part in self.rigid_parts(link) if part.inertial is not None]
         if len(parts) == 1 and parts[0][0] is link:
             return link.inertial
-        return combine_inertials([own.place(to_link @ part.pose) for part, own in parts]) if parts else None
+        if not parts:
+            return None
+        return combine_inertials([inertial.place(to_link @ part.pose) for part, inertial in parts])
 
 
 def combine_inertials(inertials: list[Inertial]) -> Inertial:

@@ -19,16 +19,16 @@ LEAST = 1e-15  # mjMINVAL: MuJoCo refuses what moves and has less mass or inerti
 
 def check(robot: Robot) -> list[Finding]:
     """Return what MuJoCo refuses, and what the format cannot say."""
-    sizes = [
-        (link.name, min(link.inertial.mass, float(link.inertial.moments[0])))
+    least = {
+        link.name: float(min(link.inertial.mass, link.inertial.moments[0]))
         for link in robot.links
         if link.inertial is not None
-    ]
-    small = [(name, size) for name, size in sizes if size < LEAST]
+    }
+    small = [name for name, value in least.items() if value < LEAST]
     if not small:
         return []
-    names, least = [name for name, _ in small], min(size for _, size in small)
-    return [finding("mjcf_inertia_too_small", count=len(small), links=names, least=least, limit=LEAST)]
+    smallest = min(least.values())
+    return [finding("mjcf_inertia_too_small", count=len(small), links=small, least=smallest, limit=LEAST)]
 
 
 def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = False) -> str:
