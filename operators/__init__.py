@@ -50,7 +50,9 @@ PARTS = (
             "select_faults",
             "clear",
             "copy",
+            "listed",
             "moments",
+            "library",
             "reference",
             "fourier",
         )

@@ -1,19 +1,83 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The sub-panel of the selection: its total."""
+"""The sub-panel of the selection: the measured objects as a list, and the selected ones as one body."""
 
 from __future__ import annotations
 
-from bpy.types import Context, UILayout
+from bpy.props import BoolProperty, EnumProperty
+from bpy.types import Context, UILayout, UIList
 
 from ..core.verdict.finding import finding
 from ..operators.session import results
+from ..operators.session.listing import SortBy, listing
+from ..operators.session.shown import shown_body
+from ..operators.session.trust import Trust
 from ..operators.write.messages import truncate_list
 from ..operators.write.translations import localized
 from ..operators.write.units import Units
 from . import rows
 from .numbers import AXIS_LABELS, PRINCIPAL_LABELS
 from .places import in_both_places
+
+VERDICT_ICONS = {  # the form says it, not the color alone
+    Trust.EXACT: "CHECKMARK",
+    Trust.REPAIRED: "MODIFIER",
+    Trust.DOUBTFUL: "ERROR",
+    Trust.OUT_OF_DATE: "FILE_REFRESH",
+}
+VERDICT_NAMES = {
+    Trust.EXACT: "Exact",
+    Trust.REPAIRED: "Repaired",
+    Trust.DOUBTFUL: "Doubtful",
+    Trust.OUT_OF_DATE: "Out of Date",
+}
+LINES = 5  # of the list, before it scrolls
+
+
+class BODY_MOMENTS_UL_measured(UIList):
+    """The measured objects of the view layer with mass and verdict"""
+
+    sort_by: EnumProperty(
+        name="Sort By",
+        items=(
+            (SortBy.NAME, "Name", "By name"),
+            (SortBy.MASS, "Mass", "The heaviest first"),
+            (SortBy.VERDICT, "Verdict", "The least trustworthy first"),
+        ),
+        default=SortBy.NAME,
+    )
+    warnings_first: BoolProperty(
+        name="Warnings First", description="List what is out of date or doubtful before all others"
+    )
+
+    def draw_item(self, context, layout, _data, obj, _icon, _active_data, _active_property, _index) -> None:
+        body = shown_body(obj, context.scene)
+        if body is None:
+            layout.label(text=obj.name, translate=False)
+            return
+        row = layout.row(align=True)
+        row.alert = body.verdict == Trust.OUT_OF_DATE
+        row.active = obj.select_get()
+        narrow = rows.is_narrow(context)
+        split = row.split(factor=0.6 if narrow else 0.45, align=True)
+        split.label(text=obj.name, icon=VERDICT_ICONS[body.verdict], translate=False)
+        values = split.row(align=True)
+        values.label(text=Units.of(context.scene.unit_settings).text("mass", body.mass), translate=False)
+        if not narrow:
+            values.label(text=VERDICT_NAMES[body.verdict])
+
+    def draw_filter(self, _context, layout) -> None:
+        row = layout.row(align=True)
+        row.prop(self, "filter_name", text="", icon="VIEWZOOM")
+        row.prop(self, "warnings_first", text="", icon="ERROR")
+        row.prop(self, "use_filter_sort_reverse", text="", icon="SORT_DESC")
+        layout.row(align=True).prop(self, "sort_by", expand=True)
+
+    def filter_items(self, context, _data, _name) -> tuple[list[int], list[int]]:
+        listed, lines = listing(
+            context.scene, context.view_layer, self.filter_name, SortBy(self.sort_by), self.warnings_first
+        )
+        return [self.bitflag_filter_item if shown else 0 for shown in listed], lines
 
 
 class SelectionPanel:
@@ -26,7 +90,24 @@ class SelectionPanel:
         layout = self.layout
         if len(context.selected_objects) > 1:
             layout.operator("object.body_moments_copy_settings", icon="PASTEDOWN")
+        _listed(layout, context)
         _total(layout, context, Units.of(context.scene.unit_settings))
+
+
+def _listed(layout: UILayout, context: Context) -> None:
+    """Draw the measured objects, and what makes a table of the selected ones."""
+    layout.template_list(
+        BODY_MOMENTS_UL_measured.__name__,
+        "",
+        context.view_layer,
+        "objects",
+        context.scene,
+        "body_moments_listed",
+        rows=LINES,
+    )
+    row = layout.column(align=True) if rows.is_narrow(context) else layout.row(align=True)
+    row.operator("object.body_moments_copy_csv", icon="COPYDOWN")
+    row.operator("object.body_moments_save_numbers", text="Save CSV or JSON...", icon="FILE_TICK")
 
 
 def _total(layout: UILayout, context: Context, units: Units) -> None:
@@ -37,7 +118,11 @@ def _total(layout: UILayout, context: Context, units: Units) -> None:
         rows.message(column, context, finding("panel_nothing_measured"))
         return
     rows.filled(column, "1 Object" if total.count == 1 else "{:d} Objects", total.count, icon="GROUP")
-    for names, text in ((total.missing, "Not measured: {:s}"), (total.stale, "Out of date: {:s}")):
+    for names, text in (
+        (total.missing, "Not measured: {:s}"),
+        (total.stale, "Out of date: {:s}"),
+        (total.doubtful, "Doubtful: {:s}"),
+    ):
         if names:
             row = column.row()
             row.alert = True
@@ -62,6 +147,7 @@ def _total(layout: UILayout, context: Context, units: Units) -> None:
     rows.values(column, units, PRINCIPAL_LABELS, "inertia", moments)
 
 
-CLASSES = VIEW3D_PT_body_moments_selection, OBJECT_PT_body_moments_selection = in_both_places(
+PANELS = VIEW3D_PT_body_moments_selection, OBJECT_PT_body_moments_selection = in_both_places(
     SelectionPanel, "selection"
 )
+CLASSES = (BODY_MOMENTS_UL_measured, *PANELS)

@@ -20,7 +20,6 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from ..moments.affine_maps import rotate_moments
 from ..moments.moments import Measure, Moments
 from ..moments.monomials import monomial_index, monomials
 from ..moments.symmetric_tensors import _contract, _rotate_tensor, _tensor_positions, distinct_arrays, tensor_index
@@ -36,10 +35,6 @@ MAX_EQUAL_SHARE = 0.25  # of what distinguishes directions: at most that much co
 START_DIRECTIONS = 240  # directions from which extreme ones are looked for
 MAX_START_GAP = 0.18  # from any direction to the nearest of them
 ASCENT_STEPS = 16  # from there to a maximum, most of them for those that are hardly curved
-# by whether p, q and r are odd: 0 where half turns change no sign, else which of p, q and r differs from the two others
-ODD_KIND = np.array([[[0, 3], [2, 1]], [[1, 2], [3, 0]]])
-# of the moments of each such kind, the signs that no half turn and those about axes 1, 2 and 3 give them
-HALF_TURN_PARITY = np.array([[1.0, 1.0, -1.0, -1.0], [1.0, -1.0, 1.0, -1.0], [1.0, -1.0, -1.0, 1.0]])
 MAX_ISOLATED_DIRECTIONS = 40  # more directions than these are a circle of them, or all
 
 
@@ -85,65 +80,6 @@ def canonical_frames(moments: Moments, spread: SecondMomentAxes, starts: NDArray
     frames, round_about, tilt = _candidates(central, spread, starts)
     values, noise = _normalized_moments(central, spread, frames)
     return EquivalentFrames(*_lexicographic_maximum(frames, values, noise), round_about, tilt)
-
-
-def allowed_by_higher_moments(
-    moments: Moments,
-    axes: NDArray,
-    size: NDArray,
-    step: NDArray,
-    tilt: NDArray,
-    noise: float,
-    allowed: NDArray[np.bool_],
-) -> NDArray[np.bool_]:
-    """Choose, of the frames that differ by the signs of fixed axes alone, those that `canonical_frames` chooses, for
-    many bodies.
-
-    Half a turn about an axis changes the signs of the moments that are odd in both others. So of the normalized moments
-    in the frames only the first ones that are more than noise decide, for each of the three kinds of odd moments.
-
-    Parameters
-    ----------
-    moments : Moments
-        Of n bodies, to MAX_ORDER.
-    axes : (n, 3, 3) array
-    size, step, tilt, noise
-        As in `SecondMomentAxes`, for each body.
-    allowed : (n, 4) bool
-        The half turns that third moments allow: about no axis, 1, 2 and 3, as in `second_order.HALF_TURN_SIGNS`.
-
-    Returns
-    -------
-    (n, 4) bool
-    """
-    central = moments.about_center()
-    order, total = central.order, central.raw[:, :1]
-    with np.errstate(over="ignore"):
-        reach = total[:, 0] * size.max(axis=1) ** order
-    if not ((reach > np.finfo(float).tiny) & (reach < np.inf)).all():
-        raise MeasureError("moments_overflow", order=order)
-    turned = axes.transpose(0, 2, 1)
-    raw = rotate_moments(central.raw / total, order, turned)
-    error = rotate_moments(central.rounding_error / total, order, np.abs(turned))
-    powers = monomials(order)[monomial_index(3, 0, 0) :]
-    degree = powers.sum(axis=1)
-    extents = np.where(size > FLAT_EXTENT_RTOL * size.max(axis=1, keepdims=True), size, np.inf)
-    unit = np.multiply.reduce(extents[:, None] ** powers, axis=2)
-    thin = np.minimum.reduce(np.where(powers > 0, extents[:, None], np.inf), axis=2)
-    least = noise + 4.0 * step[:, None] / thin + degree * tilt[:, None]
-    least = np.array(NOISE_GROWTH)[degree] * least + error[:, -len(powers) :] / unit
-    values = raw[:, -len(powers) :] / unit
-    is_clear = 2.0 * np.abs(values) > least
-    kind = ODD_KIND[tuple(powers.T % 2)]
-    of_kind = is_clear[:, None] & (kind == np.arange(1, 4)[:, None])  # (n, 3, columns)
-    bodies, first = np.arange(len(values)), np.where(of_kind.any(axis=2), of_kind.argmax(axis=2), len(powers))
-    for deciding in first.argsort(axis=1).T:
-        column = first[bodies, deciding]
-        value = values[bodies, np.minimum(column, len(powers) - 1)]
-        positive = allowed & (HALF_TURN_PARITY[deciding] * value[:, None] > 0.0)
-        decides = (column < len(powers)) & positive.any(axis=1)
-        allowed = np.where(decides[:, None], positive, allowed)
-    return allowed
 
 
 def _candidates(central: Moments, spread: SecondMomentAxes, starts: NDArray) -> tuple[NDArray, tuple[int, ...], float]:

@@ -39,7 +39,7 @@ from ..write import record
 from ..write.documents import document
 from ..write.properties import store
 from ..write.terminal import tell
-from . import density_options, fourier, robots
+from . import assets, density_options, fourier, robots
 from .files import BLEND, UNITLESS, file_suffix, newer_version, open_file
 from .interruption import Progress, check_interruption
 from .objects import failure, objects_to_measure, other_scenes, why_nothing
@@ -101,7 +101,8 @@ class Run:
     def _place(self, path: str | None) -> AbstractContextManager[Place | None]:
         """Where --write is going to store the results."""
         target = path or bpy.data.filepath
-        if not self.options.write or path is not None and file_suffix(path) != BLEND or not os.path.isfile(target):
+        is_saved = self.options.write or self.options.asset_metadata == "file"
+        if not is_saved or path is not None and file_suffix(path) != BLEND or not os.path.isfile(target):
             return nullcontext()
         asked = _requested_file() if path is None else None
         at_start = asked is not None and os.path.realpath(asked) == os.path.realpath(target)
@@ -152,6 +153,7 @@ class Run:
                     errors.append(failure(None, why_nothing(len(left_out))))
             if self.options.write:
                 errors.extend(self._store(path, measured, wanted))
+            if self._changes_assets(path, measured) or self.options.write:
                 caveats += _save(place, file)
         except MeasureError as refusal:
             errors.append(failure(None, refusal.finding))
@@ -310,6 +312,17 @@ class Run:
         reason = internal_error.finding_of(error)
         self.internal_errors += reason.code == internal_error.CODE
         return failure(name, reason)
+
+    def _changes_assets(
+        self, path: str | None, measured: list[tuple[str, bpy.types.Object | None, Measurement]]
+    ) -> bool:
+        """Put the numbers into the metadata of assets, where that is asked for; whether the file is to be saved."""
+        asked = self.options.asset_metadata
+        if asked is None or path is None or file_suffix(path) != BLEND or not assets.store(measured):
+            return False
+        if asked == "copy":
+            assets.save_copy(path)
+        return asked == "file"
 
     def _store(
         self,

@@ -80,16 +80,16 @@ def _call(subscribers: Sequence[Callable[..., None]], *args: Updates) -> None:
             calls.callback(subscriber, *args)
 
 
-# Evaluated data-blocks → session uids of their originals, 0 of those that are neither objects nor collections, between
-# two frames of an animation, while no other update comes: looking them up takes most of the time of thousands.
+# Evaluated data-blocks → session uids of their originals, 0 of those that are neither objects nor collections, as long
+# as Blender builds no other graph: looking them up takes most of the time of thousands.
 _uids: dict[ID, int] = {}
 _evaluated_collections: set[ID] = set()
 
 
 def _updates(scene: Scene, depsgraph: Depsgraph, frame_changed: bool) -> Updates:
-    if not frame_changed:
-        _forget_evaluated()
     updates = Updates(scene, depsgraph, [], [], [], [], frame_changed)
+    if not frame_changed and depsgraph.id_type_updated("SCENE"):  # as when objects come, go, or are hidden
+        _forget_evaluated()
     for update in depsgraph.updates:  # no call and no attribute that is not needed
         data = update.id
         if data in _uids:

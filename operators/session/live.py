@@ -47,6 +47,8 @@ from .cache import SessionCache
 from .outline import Outline
 
 BUDGET = 0.01  # s a redraw, where there are no preferences
+MAX_PASS = 5.0  # budgets that the only pass of a redraw may take
+RETRY = 0.7  # of what a pass has taken, after it was left out
 IDLE = 0.25  # s without an update, after which what takes longer than the budget is measured
 POLL = 0.1  # s between two looks whether that is so
 
@@ -275,17 +277,19 @@ def _note_updates(events: handlers.Updates) -> None:
 
 
 def _follow_at_once(events: handlers.Updates, changed: set[int]) -> None:
-    """As much as the budget of a redraw allows: what is looked at first, the objects whose numbers take least."""
-    budget = _budget()
+    """One object, and as many others as the budget of a redraw allows: those first whose passes take least."""
+    budget, is_first = _budget(), True
     objects = [obj for obj in events.depsgraph.view_layer.objects if obj.session_uid in changed]
     for obj in sorted(objects, key=lambda obj: _followed.get(obj).pass_seconds):
         followed, start = _followed.get(obj), time.perf_counter()
-        if followed.outline is not None and followed.pass_seconds <= budget:
-            followed.outlined = followed.outline.follow(obj, events.depsgraph)
-            followed.pass_seconds = time.perf_counter() - start
-        else:
+        allowed = MAX_PASS * _budget() if is_first else budget
+        if followed.outline is None or followed.pass_seconds > allowed:
             followed.outlined = None
-        budget -= time.perf_counter() - start
+            followed.pass_seconds *= RETRY  # a busy moment is not for ever
+            continue
+        followed.outlined = followed.outline.follow(obj, events.depsgraph)
+        followed.pass_seconds = time.perf_counter() - start
+        budget, is_first = budget - followed.pass_seconds, False
 
 
 def _schedule(seconds: float) -> None:

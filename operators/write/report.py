@@ -41,6 +41,18 @@ def report_text(
     outdated: names of those whose results no longer hold. Objects without results are named too.
     caveats: about their total.
     """
+    return text(stored_document(context, objects, outdated, caveats))
+
+
+def stored_document(
+    context: Any,
+    objects: Sequence[Any],
+    outdated: Collection[str] = (),
+    caveats: Sequence[Finding] = (),
+    file: str | None = None,
+    blender: str | None = None,
+) -> dict[str, Any]:
+    """The document of the results stored on `objects`; see `report_text`. The health of their meshes is not stored."""
     scene = context.scene
     unit, frame = shortest_decimal(scene.unit_settings.scale_length), scene.body_moments.frame.lower()
     entries, bodies, errors = [], [], []
@@ -54,7 +66,7 @@ def report_text(
         bodies.append(world.body)
         entries.append(_stored_record(obj, world if frame == "world" else stored, obj.name in outdated))
     total = _stored_total(entries, bodies) | described(caveats)
-    return text(document(entries, total, errors, file=None, blender=None, frame=frame))
+    return document(entries, total, errors, file=file, blender=blender, frame=frame)
 
 
 def text(document: dict[str, Any]) -> str:
@@ -204,6 +216,8 @@ def _stored_record(obj: Any, stored: properties.StoredProperties, outdated: bool
         "inertia": stored.body.inertia,
         "principal_moments": stored.body.principal.moments,
         "principal_axes": stored.body.principal.axes,
+        "symmetry": None,
+        "health": {},
         "error_bound": {**stored.error_bound, **({"estimated": True} if properties.is_estimated(obj) else {})},
         **described(findings),
     }

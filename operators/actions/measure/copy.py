@@ -3,6 +3,7 @@
 """Getting numbers out: one value to the last digit, or the whole report as text."""
 
 import sys
+from typing import Any
 
 import bpy
 from bpy.props import StringProperty
@@ -12,7 +13,7 @@ from ....core.verdict.finding import Finding, finding
 from ...read.total_caveats import open_body_caveats, total_caveats
 from ...session import staleness
 from ...write import properties, reports
-from ...write.report import report_text
+from ...write.report import stored_document, text
 from ...write.translations import localized
 from .. import selection
 
@@ -48,6 +49,26 @@ class OBJECT_OT_body_moments_copy_value(Operator):
         return {"FINISHED"}
 
 
+def poll_stored(cls: type[Operator], context: Context) -> bool:
+    """Whether a selected object has stored results; says why not."""
+    if not selection.poll_selection(cls, context, any_mode=True):
+        return False
+    if not any(properties.is_stored(obj) for obj in context.view_layer.objects.selected):
+        return reports.unavailable(cls, finding("poll_measure_selected"))
+    return True
+
+
+def selected_document(context: Context) -> dict[str, Any]:
+    """The stored results of the selected objects and their total, with what is out of date or doubtful in it."""
+    objects = selection.selected_measurable(context)
+    outdated = {obj.name for obj in objects if staleness.stale_reason(obj, context.scene)}
+    counted = [obj for obj in objects if properties.is_stored(obj)]
+    caveats = open_body_caveats((obj.name, properties.method(obj)) for obj in counted)
+    caveats += total_caveats(counted, context.view_layer)
+    version = ".".join(map(str, bpy.app.version))
+    return stored_document(context, objects, outdated, caveats, bpy.data.filepath or None, version)
+
+
 class OBJECT_OT_body_moments_copy_report(Operator):
     """Copy the stored mass properties of the selected objects"""
 
@@ -60,20 +81,12 @@ class OBJECT_OT_body_moments_copy_report(Operator):
 
     @classmethod
     def poll(cls, context: Context) -> bool:
-        if not selection.poll_selection(cls, context, any_mode=True):
-            return False
-        if not any(properties.is_stored(obj) for obj in context.view_layer.objects.selected):
-            return reports.unavailable(cls, finding("poll_measure_selected"))
-        return True
+        return poll_stored(cls, context)
 
     def execute(self, context: Context) -> set[str]:
-        objects = selection.selected_measurable(context)
-        outdated = {obj.name for obj in objects if staleness.stale_reason(obj, context.scene)}
-        counted = [obj for obj in objects if properties.is_stored(obj)]
-        caveats = open_body_caveats((obj.name, properties.method(obj)) for obj in counted)
-        caveats += total_caveats(counted, context.view_layer)
-        text = report_text(context, objects, outdated, caveats)
-        copy_text(self, context, text, finding("report_copied", count=len(objects)))
+        document = selected_document(context)
+        count = len(document["objects"]) + len(document["errors"])
+        copy_text(self, context, text(document), finding("report_copied", count=count))
         return {"FINISHED"}
 
 

@@ -96,3 +96,34 @@ def test_the_handler_takes_little_more_than_asking_for_the_updates():
         bpy.app.handlers.frame_change_post.remove(timed)
         bpy.app.handlers.frame_change_post.append(handlers._on_frame)
     assert statistics.median(ours) < 5.0 * statistics.median(least)
+
+
+def removed(obj):
+    bpy.data.objects.remove(obj)
+
+
+def hidden(obj):
+    obj.hide_set(True)
+
+
+@pytest.mark.parametrize("change", [removed, hidden])
+def test_objects_that_come_and_go_between_moves_are_told_apart(change):
+    """The memory of evaluated objects that are gone may be that of others."""
+    bpy.context.scene.frame_set(1)
+    for _ in range(6):
+        objects = [add(mesh_body(), str(i), select=False) for i in range(20)]
+        for obj in objects:
+            obj.location.x += 1.0
+        bpy.context.view_layer.update()
+        for obj in objects[::2]:
+            change(obj)
+        bpy.context.view_layer.update()
+        kept = objects[1::2]
+        for obj in kept:
+            obj.location.y += 1.0
+        bpy.context.view_layer.update()
+        assert [updates.last_change(obj) for obj in kept] == [updates.count()] * len(kept)
+        for obj in kept[:5]:
+            obj.location.y += 1.0
+        bpy.context.view_layer.update()
+        assert [updates.last_change(obj) == updates.count() for obj in kept] == [True] * 5 + [False] * 5

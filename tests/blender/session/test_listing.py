@@ -1,0 +1,119 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The list of measured objects: what it shows in which order, what a click does, and the files of their numbers."""
+
+import csv
+import io
+import json
+
+import pytest
+
+pytest.importorskip("bpy")
+import bpy
+from body_moments.operators.session import results
+from body_moments.operators.session.listing import SortBy, listing
+
+from tests.blender.objects import add, mesh_body, only, strip_mesh
+from tests.close import close
+
+pytestmark = pytest.mark.usefixtures("scene")
+
+
+def shown(sort_by=SortBy.NAME, name="", warnings_first=False):
+    scene, layer = bpy.context.scene, bpy.context.view_layer
+    listed, lines = listing(scene, layer, name, sort_by, warnings_first)
+    assert sorted(lines) == list(range(len(layer.objects)))
+    names = {line: obj.name for obj, is_listed, line in zip(layer.objects, listed, lines, strict=True) if is_listed}
+    return [names[line] for line in sorted(names)]
+
+
+def four():
+    """Measured: light, heavy and doubtful; one that was not."""
+    objects = [
+        add(mesh_body(), "b light"),
+        add(mesh_body(), "C heavy", scale=(3, 3, 3)),
+        add(strip_mesh(), "a strip"),
+    ]
+    add(mesh_body(), "Not Measured")
+    only(*objects)
+    assert bpy.ops.object.body_moments_measure() == {"FINISHED"}
+    bpy.context.view_layer.update()
+    return objects
+
+
+def test_measured_objects_are_listed_and_sorted():
+    light, heavy, _strip = four()
+    assert shown() == ["a strip", "b light", "C heavy"]
+    assert shown(SortBy.MASS)[0] == "C heavy" and shown(SortBy.VERDICT)[0] == "a strip"
+    assert shown(name="HEAV") == ["C heavy"]
+    heavy.data.vertices[0].co.x -= 1.0
+    heavy.data.update()
+    bpy.context.view_layer.update()
+    assert shown(warnings_first=True) == ["a strip", "C heavy", "b light"]
+    assert shown(SortBy.VERDICT) == ["C heavy", "a strip", "b light"]
+    light.body_moments.density = 1e6
+    bpy.context.view_layer.update()
+    assert shown(SortBy.MASS)[0] == "b light"
+
+
+def test_a_click_selects_that_object_alone():
+    objects, scene, layer = four(), bpy.context.scene, bpy.context.view_layer
+    for obj in objects:
+        scene.body_moments_listed = layer.objects.find(obj.name)
+        assert layer.objects.active == obj and list(layer.objects.selected) == [obj]
+        assert scene.body_moments_listed == layer.objects.find(obj.name)
+    bpy.ops.object.mode_set(mode="EDIT")
+    scene.body_moments_listed = 0
+    assert layer.objects.active == objects[-1]
+    bpy.ops.object.mode_set(mode="OBJECT")
+
+
+def test_the_total_names_what_is_doubtful_out_of_date_and_missing():
+    _light, heavy, _strip = four()
+    bpy.ops.object.select_all(action="SELECT")
+    heavy.scale.x = 1.0
+    bpy.context.view_layer.update()
+    total = results.total(bpy.context)
+    assert (total.missing, total.stale, total.doubtful) == (("Not Measured",), ("C heavy",), ("a strip",))
+
+
+def test_the_table_has_a_row_for_each_object(capsys):
+    objects = four()
+    assert bpy.ops.object.body_moments_copy_csv() == {"FINISHED"}
+    text = capsys.readouterr().out
+    table = list(csv.DictReader(io.StringIO(text[text.index("file,") :])))
+    assert [row["name"] for row in table] == sorted(obj.name for obj in objects)
+    for row in table:
+        obj = bpy.data.objects[row["name"]]
+        assert close(float(row["mass"]), obj["body_mass"], 1e-15) and row["method"] == obj["body_method"]
+
+
+@pytest.mark.parametrize("suffix", [".csv", ".json", ".jsonl"])
+def test_the_file_has_the_numbers_and_is_replaced_as_a_whole(suffix, tmp_path, reported):
+    objects, path = four(), tmp_path / ("numbers" + suffix)
+    path.write_text("before")
+    assert bpy.ops.object.body_moments_save_numbers(filepath=str(path)) == {"FINISHED"}
+    assert [file.name for file in tmp_path.iterdir()] == [path.name]
+    text = path.read_text(encoding="utf-8")
+    if suffix == ".csv":
+        assert len(list(csv.DictReader(io.StringIO(text)))) == 3
+    else:
+        document = json.loads(text)
+        assert [entry["name"] for entry in document["objects"]] == sorted(obj.name for obj in objects)
+        assert close(document["total"]["mass"], sum(obj["body_mass"] for obj in objects), 1e-14)
+        assert document["total"]["warnings"]
+    assert reported.values("numbers_saved")["count"] == 3
+
+
+def test_what_cannot_be_saved_is_refused_with_the_reason(tmp_path, reported):
+    four()
+    for path, code in (("", "no_export_file"), (tmp_path / "a.txt", "numbers_suffix"), (tmp_path, "numbers_suffix")):
+        save_fails(path)
+        assert code in reported.codes
+    save_fails(tmp_path / "none" / "a.csv")
+    assert "file_not_written" in reported.codes and not list(tmp_path.iterdir())
+
+
+def save_fails(path):
+    with pytest.raises(RuntimeError):  # a report of an error is one to Python
+        bpy.ops.object.body_moments_save_numbers(filepath=str(path))
