@@ -40,6 +40,7 @@ from ..write.documents import document
 from ..write.properties import store
 from ..write.terminal import tell
 from . import assets, density_options, fourier, robots
+from .combined import Combined, measure_combined
 from .files import BLEND, UNITLESS, file_suffix, newer_version, open_file
 from .interruption import Progress, check_interruption
 from .objects import failure, objects_to_measure, other_scenes, why_nothing
@@ -110,7 +111,7 @@ class Run:
 
     def _measured(self, path: str | None, file: str | None, place: Place | None) -> dict[str, Any]:
         measured: list[tuple[str, bpy.types.Object, Measurement]] = []
-        objects, errors, caveats, left_out = [], [], [], []
+        objects, errors, caveats, left_out, combined = [], [], [], [], Combined()
         self._status = None
         try:
             if path is not None and scans.scan_suffix(path):
@@ -147,12 +148,15 @@ class Run:
                 if self.options.object is None:  # else whoever named them knows what they count
                     caveats += total_caveats([obj for _, obj, _ in measured], bpy.context.view_layer)
                     caveats += other_scenes(bpy.context.scene)
+                    combined = measure_combined(wanted, self._internal_error)
+                    errors += combined.errors
                 if self.options.fourier:
                     errors.extend(self._fourier(chosen, wanted, objects))
                 if not objects and not errors:
                     errors.append(failure(None, why_nothing(len(left_out))))
             if self.options.write:
                 errors.extend(self._store(path, measured, wanted))
+                errors.extend(combined.store(self._internal_error))
             if self._changes_assets(path, measured) or self.options.write:
                 caveats += _save(place, file)
         except MeasureError as refusal:
@@ -173,7 +177,7 @@ class Run:
             frame=self.options.frame,
             status=self._status,
         )
-        return robots.complete(made, measured, self.options)
+        return robots.complete(made | combined.records(self.options.frame), measured, self.options)
 
     def _measure_record(
         self,
