@@ -4,13 +4,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .inertia.mass_properties import MassProperties
-from .moments.moments import Moments
+from .moments.moments import Measure, Moments
 from .verdict.finding import Finding, finding
 from .verdict.health import MeshReport
 from .verdict.method import Method
@@ -30,6 +30,7 @@ class Measurement:
     volume_moments: to order 3, None for a thin shell; area_moments: to order 3 for a shell, else order 0; both to a
         higher order where that was asked for.
     mass_moments: the moments that carry the mass, and the mass in kg per unit of them.
+    higher_mass: where the density is not one number, its moments in kg to the order that was asked for, above third.
     rotation, location: (3, 3) and (3,) the object frame, its unit scale.
     error_bound: absolute bounds "volume", "area", "center_of_mass", "inertia" of rounding, and the same under "input"
         for what storing coordinates as float32 may have moved; "estimated": True where the former are estimates.
@@ -63,6 +64,19 @@ class Measurement:
     materials: tuple[str, ...] = ()
     length: float | None = None
     display_volume: float | None = None
+    higher_mass: Moments | None = None
+
+    def moments_of_mass(self, order: int) -> Moments | None:
+        """The moments of the mass, kg, to an order; None where they are not known to that."""
+        moments, factor = self.mass_moments
+        if order <= moments.order:
+            return replace(moments.truncate(order), measure=Measure.MASS) * factor
+        if self.higher_mass is not None:
+            return self.higher_mass.truncate(order)
+        extent = self.area_moments if self.volume_moments is None else self.volume_moments
+        if self.density_from not in UNIFORM_DENSITIES or self.length is not None or extent.order < order:
+            return None
+        return replace(extent.truncate(order), measure=Measure.MASS) * factor
 
     def in_object_frame(self) -> MassProperties:
         """The mass properties in the object's own frame."""

@@ -52,6 +52,7 @@ PARTS = (
             "copy",
             "listed",
             "moments",
+            "library",
             "reference",
             "fourier",
         )

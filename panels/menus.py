@@ -42,6 +42,11 @@ class VIEW3D_MT_body_moments(Menu):
                 ("object.body_moments_create_orientation", "Orientation from Principal Axes", "EMPTY_AXIS"),
             ),
             (
+                ("object.body_moments_stability", "Check Stability", "CON_FLOOR"),
+                ("object.body_moments_rest_on_ground", "Rest on Ground", "TRIA_DOWN_BAR"),
+                ("object.body_moments_balance_group", "Balance Group...", "CON_FOLLOWPATH"),
+            ),
+            (
                 ("object.body_moments_set_rigid_body_mass", "Set Rigid Body Mass", "RIGID_BODY"),
                 ("object.body_moments_add_nodes", "Center of Mass Node Group", "GEOMETRY_NODES"),
                 ("object.body_moments_sculpt_balance", "Sculpt Balance", "SCULPTMODE_HLT"),
@@ -58,6 +63,7 @@ class VIEW3D_MT_body_moments(Menu):
                 ("object.body_moments_set_material", "Set Material", "MATERIAL"),
                 ("object.body_moments_copy_settings", "Copy Settings to Selected", "PASTEDOWN"),
             ),
+            (("object.body_moments_measure_library", "Measure Library...", "FILE_FOLDER"),),
         )
         self.layout.operator_context = "INVOKE_DEFAULT"
         for number, group in enumerate(groups):

@@ -106,7 +106,8 @@ def last_action(layout: UILayout, context: Context) -> None:
         return
     box = layout.box()
     header = box.row(align=True)
-    rows.sentence(header, context, localized(last.action), icon="ERROR", boxed=True)
+    icon = "NONE" if rows.is_narrow(context) else "ERROR"
+    rows.sentence(header, context, localized(last.action), icon=icon, boxed=True)
     header.operator("wm.body_moments_dismiss", text="", icon="X", emboss=False)
     column = box.column(align=True)
     shown, more = truncate(last.findings, MAX_SHOWN)

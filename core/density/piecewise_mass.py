@@ -19,21 +19,50 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
+from functools import lru_cache
 from math import factorial
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..moments.moments import FLOAT32_HALF_ULP, PAIRWISE_SUM_ROUNDINGS, Measure, Moments, U, monomial_index, monomials
+from ..moments.moments import (
+    FLOAT32_HALF_ULP,
+    PAIRWISE_SUM_ROUNDINGS,
+    Measure,
+    Moments,
+    U,
+    monomial_count,
+    monomial_index,
+    monomials,
+)
 
-TRIANGLES_PER_BLOCK = 4096  # triangles whose table stays in the cache
-EXPONENTS = monomials(3)
-DEGREE = EXPONENTS.sum(axis=1)
-FACTORIALS = np.array([factorial(p) * factorial(q) * factorial(r) for p, q, r in EXPONENTS.tolist()], float)
+TRIANGLES_PER_BLOCK = 4096  # triangles whose table of 20 monomials stays in the cache
+MIN_TRIANGLES_PER_BLOCK = 64
+
+
+@lru_cache
+def _degrees(order: int) -> NDArray[np.intp]:
+    """(K,) p + q + r of each monomial."""
+    return monomials(order).sum(axis=1)
+
+
+@lru_cache
+def _scales(order: int, more: int) -> NDArray[np.float64]:
+    """(K,) α! / (|α| + more)!"""
+    return np.array(
+        [
+            factorial(p) * factorial(q) * factorial(r) / factorial(p + q + r + more)
+            for p, q, r in monomials(order).tolist()
+        ]
+    )
+
+
+def _block_size(order: int) -> int:
+    return max(TRIANGLES_PER_BLOCK * 20 // monomial_count(order), MIN_TRIANGLES_PER_BLOCK)
 
 
 def solid_mass_moments(points: NDArray, triangles: NDArray, density: NDArray, like: Moments) -> Moments:
-    """Return ∫ ρ x^p y^q z^r dV to third order of the parts that triangles bound, each part of one density.
+    """Return ∫ ρ x^p y^q z^r dV of the parts that triangles bound, each part of one density.
 
     Parameters
     ----------
@@ -42,7 +71,7 @@ def solid_mass_moments(points: NDArray, triangles: NDArray, density: NDArray, li
     density : (t,) array
         That of the part which the triangle bounds, not negative.
     like : Moments
-        The same parts' volume moments, whose point and coordinate error are taken.
+        The same parts' volume moments, whose order, point and coordinate error are taken.
 
     Returns
     -------
@@ -64,98 +93,98 @@ def solid_mass_moments(points: NDArray, triangles: NDArray, density: NDArray, li
     >>> round(mass.total, 9)
     100.0
     """
-    sums, sizes, tau = _accumulate(points, triangles, density, like.about, solid=True)
+    sums, sizes, tau = _accumulate(points, triangles, density, like, solid=True)
     reach = _reach(points, triangles, like.about)
-    norm = np.array([factorial(n + 3) for n in DEGREE], float)
-    raw = sums * FACTORIALS / norm
+    raw = sums * _scales(like.order, 3)
     error = (
-        (9.0 * U * (reach @ tau) + _relative_rounding(len(triangles)) * sizes)
-        / (2.0 * DEGREE + 6.0)
-        * _monomial_bounds(reach)
+        (9.0 * U * (reach @ tau) + _relative_rounding(len(triangles), like.order) * sizes)
+        / (2.0 * _degrees(like.order) + 6.0)
+        * _monomial_bounds(reach, like.order)
     )
     return Moments(
         raw,
         like.about,
         Measure.VOLUME,
         error + 8.0 * U * np.abs(raw),
-        like.input_error[:20] * float(density.max(initial=0.0)),
+        like.input_error * float(density.max(initial=0.0)),
     )
 
 
 def sheet_mass_moments(
     points: NDArray, triangles: NDArray, density: NDArray, like: Moments, stored: bool = False
 ) -> Moments:
-    """∫ ρ x^p y^q z^r dA to third order, with a density for each triangle, (t,), or, linear between them, for each of
+    """∫ ρ x^p y^q z^r dA, with a density for each triangle, (t,), or, linear between them, for each of
     its corners, (t, 3); none negative.
 
-    like: the area moments to third order. stored: the densities were float32, which goes into `input_error`. The result
-    maps as an area does.
+    like: the area moments, to the order that is wanted. stored: the densities were float32, which goes into
+    `input_error`. The result maps as an area does.
     """
-    sums, sizes, tau = _accumulate(points, triangles, density, like.about, solid=False)
+    sums, sizes, tau = _accumulate(points, triangles, density, like, solid=False)
     reach = _reach(points, triangles, like.about)
     more = density.ndim - 1
-    norm = np.array([factorial(n + 2 + more) for n in DEGREE], float)
-    raw = sums * FACTORIALS / norm
-    size = sizes / 2.0 * _monomial_bounds(reach)
-    error = 9.0 * U * tau.sum() / 2.0 * _monomial_bounds(reach) + _relative_rounding(len(triangles)) * size
-    inputs = like.input_error[:20] * float(density.max(initial=0.0)) + (FLOAT32_HALF_ULP * size if stored else 0.0)
+    raw = sums * _scales(like.order, 2 + more)
+    bounds = _monomial_bounds(reach, like.order)
+    size = sizes / 2.0 * bounds
+    error = 9.0 * U * tau.sum() / 2.0 * bounds + _relative_rounding(len(triangles), like.order) * size
+    inputs = like.input_error * float(density.max(initial=0.0)) + (FLOAT32_HALF_ULP * size if stored else 0.0)
     return Moments(raw, like.about, Measure.AREA, error + 8.0 * U * np.abs(raw), inputs)
 
 
 def _accumulate(
-    points: NDArray, triangles: NDArray, density: NDArray, center: NDArray, solid: bool
+    points: NDArray, triangles: NDArray, density: NDArray, like: Moments, solid: bool
 ) -> tuple[NDArray[np.float64], float, NDArray[np.float64]]:
-    """(20,) Σ weight h; Σ |weight| ρ; and (3,) Σ ρ τ, where weights are ρ det or, of sheets, ρ times doubled areas."""
-    block_sums, sizes, tau = [np.zeros(20)], 0.0, np.zeros(3)
+    """(K,) Σ weight h; Σ |weight| ρ; and (3,) Σ ρ τ, where weights are ρ det or, of sheets, ρ times doubled areas."""
+    order, step = like.order, _block_size(like.order)
+    block_sums, sizes, tau = [np.zeros(monomial_count(order))], 0.0, np.zeros(3)
     columns = [np.ascontiguousarray(column, np.float64) for column in points.T]
-    for start in range(0, len(triangles), TRIANGLES_PER_BLOCK):
-        index_of = np.ascontiguousarray(triangles[start : start + TRIANGLES_PER_BLOCK].T, np.intp)
-        block_density = density[start : start + TRIANGLES_PER_BLOCK]
+    for start in range(0, len(triangles), step):
+        index_of = np.ascontiguousarray(triangles[start : start + step].T, np.intp)
+        block_density = density[start : start + step]
         place = np.array([column.take(index_of) for column in columns])  # (3 axes, 3 corners, k)
         (ax, bx, cx), (ay, by, cy), (az, bz, cz) = place
         ux, uy, uz, vx, vy, vz = bx - ax, by - ay, bz - az, cx - ax, cy - ay, cz - az
         products = ((uy * vz, uz * vy), (uz * vx, ux * vz), (ux * vy, uy * vx))
         normal = np.array([plus - minus for plus, minus in products])
-        place -= center[:, None, None]
+        place -= like.about[:, None, None]
         mean = block_density if block_density.ndim == 1 else block_density.sum(axis=1) / 3.0
         weight = (normal * place[:, 0]).sum(axis=0) if solid else np.sqrt((normal * normal).sum(axis=0))
         sizes += float(np.abs(weight) @ mean)
         tau += [float((np.abs(plus) + np.abs(minus)) @ mean) for plus, minus in products]
         if block_density.ndim == 1:
             block_sums.append(
-                np.array([np.add.reduce(row * weight) for row in _complete_homogeneous(place, block_density)])
+                np.array([np.add.reduce(row * weight) for row in _complete_homogeneous(place, block_density, order)])
             )
         else:
             block_sums.append(
-                np.array([np.add.reduce(row * weight) for row in _with_linear_density(place, block_density.T)])
+                np.array([np.add.reduce(row * weight) for row in _with_linear_density(place, block_density.T, order)])
             )
     return np.add.reduce(np.array(block_sums)), sizes, tau
 
 
-def _complete_homogeneous(corners: NDArray, density: NDArray) -> Iterator[NDArray]:
+def _complete_homogeneous(corners: NDArray, density: NDArray, order: int) -> Iterator[NDArray]:
     """ρ h_α of each triangle, one α after the other. corners: (3 axes, 3 corners, k)."""
-    table = np.zeros((20, corners.shape[2]))
+    table = np.zeros((monomial_count(order), corners.shape[2]))
     table[0] = density
     for corner in range(3):
-        _multiply_by_geometric_series(table, corners[:, corner])
+        _multiply_by_geometric_series(table, corners[:, corner], order)
     yield from table
 
 
-def _with_linear_density(corners: NDArray, density: NDArray) -> Iterator[NDArray]:
+def _with_linear_density(corners: NDArray, density: NDArray, order: int) -> Iterator[NDArray]:
     """h_(α,1) of each triangle, one α after the other. density: (3 corners, k)."""
-    table, linear = np.zeros((2, 20, corners.shape[2]))
+    table, linear = np.zeros((2, monomial_count(order), corners.shape[2]))
     table[0] = 1.0
     for corner in range(3):
-        _multiply_by_geometric_series(table, corners[:, corner])
+        _multiply_by_geometric_series(table, corners[:, corner], order)
         linear += table * density[corner]
         # 1/(1 - v·t - ρ s): the part linear in s is that of before plus ρ times the whole, then divided by (1 - v·t).
-        _multiply_by_geometric_series(linear, corners[:, corner])
+        _multiply_by_geometric_series(linear, corners[:, corner], order)
     yield from linear
 
 
-def _multiply_by_geometric_series(table: NDArray, vertex: NDArray) -> None:
-    """The series in `table`, (20, k), times 1 / (1 - v·t), in place; (3, k) vertices."""
-    for at, (p, q, r) in enumerate(EXPONENTS.tolist()):
+def _multiply_by_geometric_series(table: NDArray, vertex: NDArray, order: int) -> None:
+    """The series in `table`, (K, k), times 1 / (1 - v·t), in place; (3, k) vertices."""
+    for at, (p, q, r) in enumerate(monomials(order).tolist()):
         for axis, lower in enumerate(((p - 1, q, r), (p, q - 1, r), (p, q, r - 1))):
             if lower[axis] >= 0:
                 table[at] += vertex[axis] * table[monomial_index(*lower)]
@@ -171,14 +200,14 @@ def _reach(points: NDArray, triangles: NDArray, center: NDArray) -> NDArray[np.f
     return reach * (1.0 + 4.0 * U)
 
 
-def _relative_rounding(count: int) -> NDArray[np.float64]:
-    """(20,) what rounding adds, relatively to the sum of the terms' sizes."""
-    return U * (27.0 * (DEGREE + 1) + PAIRWISE_SUM_ROUNDINGS + count / TRIANGLES_PER_BLOCK + 2.0)
+def _relative_rounding(count: int, order: int) -> NDArray[np.float64]:
+    """(K,) what rounding adds, relatively to the sum of the terms' sizes."""
+    return U * (27.0 * (_degrees(order) + 1) + PAIRWISE_SUM_ROUNDINGS + count / _block_size(order) + 2.0)
 
 
-def _monomial_bounds(reach: NDArray) -> NDArray[np.float64]:
-    """(20,) the largest value of each monomial within reach."""
-    return np.multiply.reduce(reach**EXPONENTS, axis=1)
+def _monomial_bounds(reach: NDArray, order: int) -> NDArray[np.float64]:
+    """(K,) the largest value of each monomial within reach."""
+    return np.multiply.reduce(reach ** monomials(order), axis=1)
 
 
 def to_mass_moments(moments: Moments, factor: float = 1.0) -> Moments:

@@ -163,7 +163,7 @@ def _slabs(samples: NDArray, background: float | None) -> Iterator[tuple[int, ND
         last = min(first + step + 1, planes)
         with np.errstate(invalid="ignore"):  # of NaN that signal
             slab = np.asarray(samples[max(first - margin, 0) : last - margin], np.float64)
-        if margin:
+        if background is not None:
             beside = int(first == 0), int(last == planes)
             slab = np.pad(slab, (beside, (1, 1), (1, 1)), constant_values=background)
         yield first, slab
@@ -258,7 +258,7 @@ class _Sums:
                 break
             cells = cells.cut_in_eight()
             signs = cells.corners >= 0.0
-            inside = signs.all(axis=(1, 2, 3))
+            inside = np.asarray(signs.all(axis=(1, 2, 3)))
             self._add_boxes(cells[inside], threshold)
             cells = cells[~inside & signs.any(axis=(1, 2, 3))]
         self._give_up(cells, threshold)

@@ -20,7 +20,6 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from ..moments.affine_maps import rotate_moments
 from ..moments.moments import Measure, Moments
 from ..moments.monomials import monomial_index, monomials
 from ..moments.symmetric_tensors import _contract, _rotate_tensor, _tensor_positions, distinct_arrays, tensor_index
@@ -36,10 +35,8 @@ MAX_EQUAL_SHARE = 0.25  # of what distinguishes directions: at most that much co
 START_DIRECTIONS = 240  # directions from which extreme ones are looked for
 MAX_START_GAP = 0.18  # from any direction to the nearest of them
 ASCENT_STEPS = 16  # from there to a maximum, most of them for those that are hardly curved
-# by whether p, q and r are odd: 0 where half turns change no sign, else which of p, q and r differs from the two others
-ODD_KIND = np.array([[[0, 3], [2, 1]], [[1, 2], [3, 0]]])
-# of the moments of each such kind, the signs that no half turn and those about axes 1, 2 and 3 give them
-HALF_TURN_PARITY = np.array([[1.0, 1.0, -1.0, -1.0], [1.0, -1.0, 1.0, -1.0], [1.0, -1.0, -1.0, 1.0]])
+# before which of them directions closer than this, which go to one maximum, are merged; a step that is none
+STEPS_TO_MERGE, MERGED_DIRECTIONS, ARRIVED = (3, 4, 5, 6, 8), 1e-4, 1e-15
 MAX_ISOLATED_DIRECTIONS = 40  # more directions than these are a circle of them, or all
 
 
@@ -85,65 +82,6 @@ def canonical_frames(moments: Moments, spread: SecondMomentAxes, starts: NDArray
     frames, round_about, tilt = _candidates(central, spread, starts)
     values, noise = _normalized_moments(central, spread, frames)
     return EquivalentFrames(*_lexicographic_maximum(frames, values, noise), round_about, tilt)
-
-
-def allowed_by_higher_moments(
-    moments: Moments,
-    axes: NDArray,
-    size: NDArray,
-    step: NDArray,
-    tilt: NDArray,
-    noise: float,
-    allowed: NDArray[np.bool_],
-) -> NDArray[np.bool_]:
-    """Choose, of the frames that differ by the signs of fixed axes alone, those that `canonical_frames` chooses, for
-    many bodies.
-
-    Half a turn about an axis changes the signs of the moments that are odd in both others. So of the normalized moments
-    in the frames only the first ones that are more than noise decide, for each of the three kinds of odd moments.
-
-    Parameters
-    ----------
-    moments : Moments
-        Of n bodies, to MAX_ORDER.
-    axes : (n, 3, 3) array
-    size, step, tilt, noise
-        As in `SecondMomentAxes`, for each body.
-    allowed : (n, 4) bool
-        The half turns that third moments allow: about no axis, 1, 2 and 3, as in `second_order.HALF_TURN_SIGNS`.
-
-    Returns
-    -------
-    (n, 4) bool
-    """
-    central = moments.about_center()
-    order, total = central.order, central.raw[:, :1]
-    with np.errstate(over="ignore"):
-        reach = total[:, 0] * size.max(axis=1) ** order
-    if not ((reach > np.finfo(float).tiny) & (reach < np.inf)).all():
-        raise MeasureError("moments_overflow", order=order)
-    turned = axes.transpose(0, 2, 1)
-    raw = rotate_moments(central.raw / total, order, turned)
-    error = rotate_moments(central.rounding_error / total, order, np.abs(turned))
-    powers = monomials(order)[monomial_index(3, 0, 0) :]
-    degree = powers.sum(axis=1)
-    extents = np.where(size > FLAT_EXTENT_RTOL * size.max(axis=1, keepdims=True), size, np.inf)
-    unit = np.multiply.reduce(extents[:, None] ** powers, axis=2)
-    thin = np.minimum.reduce(np.where(powers > 0, extents[:, None], np.inf), axis=2)
-    least = noise + 4.0 * step[:, None] / thin + degree * tilt[:, None]
-    least = np.array(NOISE_GROWTH)[degree] * least + error[:, -len(powers) :] / unit
-    values = raw[:, -len(powers) :] / unit
-    is_clear = 2.0 * np.abs(values) > least
-    kind = ODD_KIND[tuple(powers.T % 2)]
-    of_kind = is_clear[:, None] & (kind == np.arange(1, 4)[:, None])  # (n, 3, columns)
-    bodies, first = np.arange(len(values)), np.where(of_kind.any(axis=2), of_kind.argmax(axis=2), len(powers))
-    for deciding in first.argsort(axis=1).T:
-        column = first[bodies, deciding]
-        value = values[bodies, np.minimum(column, len(powers) - 1)]
-        positive = allowed & (HALF_TURN_PARITY[deciding] * value[:, None] > 0.0)
-        decides = (column < len(powers)) & positive.any(axis=1)
-        allowed = np.where(decides[:, None], positive, allowed)
-    return allowed
 
 
 def _candidates(central: Moments, spread: SecondMomentAxes, starts: NDArray) -> tuple[NDArray, tuple[int, ...], float]:
@@ -198,8 +136,7 @@ def _clear_harmonic(
     """The first harmonic about that axis of the bases that is above noise, those above CLEAR_HARMONIC before weaker
     ones: its m, (n,) its value in each basis, and what of it is noise."""
     first, second = (axis + 1) % 3, (axis + 2) % 3
-    order, size = [first, second, axis], _extents(spread)
-    harmonics = {}
+    order, size, weaker = [first, second, axis], _extents(spread), None
     for degree in range(3, central.order + 1):
         tensor = _rotate_tensor(central.raw[tensor_index(degree)], bases[:, :, order])
         noise = _normalization(central, replace(spread, noise=NOISE_LEVEL), degree)[1]
@@ -207,14 +144,15 @@ def _clear_harmonic(
             for k in range((degree - m) % 2, degree - m + 1, 2):
                 c = _harmonic(tensor, degree, m, k) / (size[first] ** (degree - k) * size[axis] ** k)
                 weight = 2.0 ** (degree - k)  # of the sum of moments that a harmonic is
-                powers = np.zeros(3, int)
-                powers[[first, axis]] = degree - k, k
-                harmonics[degree, m, k] = c, weight * noise[monomial_index(*powers) - monomial_index(degree, 0, 0)]
-    for clear in (CLEAR_HARMONIC, 0.0):
-        for (_, m, _), (c, least) in harmonics.items():
-            if np.abs(c).max() > max(least, clear):
-                return m, c, least
-    return None
+                powers = [0, 0, 0]
+                powers[first], powers[axis] = degree - k, k
+                least = weight * noise[monomial_index(*powers) - monomial_index(degree, 0, 0)]
+                largest = np.abs(c).max()
+                if largest > max(least, CLEAR_HARMONIC):
+                    return m, c, least
+                if weaker is None and largest > least:
+                    weaker = m, c, least
+    return weaker
 
 
 def _harmonic(tensor: NDArray, degree: int, m: int, k: int) -> NDArray[np.complex128]:
@@ -257,8 +195,8 @@ def _extreme_directions(
 
 
 def _maximize_on_sphere(tensor: NDArray, degree: int, span: float, within: float) -> NDArray[np.float64]:
-    """The maxima on the sphere, the best approached first, that are no more than `within` below the largest; each
-    several times. span: between the largest and the least value.
+    """The maxima on the sphere, the best approached first, that are no more than `within` below the largest; some
+    of them several times. span: between the largest and the least value.
 
     From the highest points of all over it: along the sphere the function is a trigonometric polynomial, so that by
     Bernstein's inequality it loses at most (degree MAX_START_GAP)² span / 4 on the way from a maximum to the nearest of
@@ -268,7 +206,9 @@ def _maximize_on_sphere(tensor: NDArray, degree: int, span: float, within: float
     height = _contract(tensor, degree, points)
     points = points[height >= height.max() - within - (degree * MAX_START_GAP) ** 2 / 4.0 * span]
     uphill = np.zeros_like(points)
-    for _ in range(ASCENT_STEPS):
+    for step in range(ASCENT_STEPS):
+        if step in STEPS_TO_MERGE:
+            points = distinct_arrays(points, MERGED_DIRECTIONS)
         contracted_twice = _contract(tensor, degree - 2, points)
         contracted_once = degree * np.einsum("nij,nj->ni", contracted_twice, points)
         along = (contracted_once * points).sum(axis=1)[:, None]
@@ -281,6 +221,8 @@ def _maximize_on_sphere(tensor: NDArray, degree: int, span: float, within: float
         move /= np.maximum(np.linalg.norm(move, axis=1) / MAX_START_GAP, 1.0)[:, None]
         points = points + np.einsum("nij,nj->ni", vectors, move)
         points /= np.linalg.norm(points, axis=1)[:, None]
+        if np.abs(move).max() < ARRIVED:
+            break
     steep = np.linalg.norm(uphill, axis=1)
     order = np.argsort(steep)
     return points[order[steep[order] <= max(1e-4 * scale, steep.min())]]

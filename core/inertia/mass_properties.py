@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..moments.moments import SECOND_MOMENT_INDEX, Measure, Moments, U, monomial_count, sum_moments
+from ..numerics.arrays import PerBody
 from ..verdict.finding import MeasureError
 from .principal_frame import OwnMoments, PrincipalFrame, principal_frame, principal_frames
 from .second_order import SecondOrderFrames
@@ -50,12 +51,12 @@ class MassProperties:
     (1000.0, [62.5, 62.5, 100.0])
     """
 
-    mass: float
+    mass: PerBody
     center: NDArray[np.float64]
     inertia: NDArray[np.float64]
     principal: PrincipalFrame
-    rounding_error: dict[str, float]
-    input_error: dict[str, float]
+    rounding_error: dict[str, PerBody]
+    input_error: dict[str, PerBody]
 
     @classmethod
     def from_moments(
@@ -258,5 +259,5 @@ def _propagate_error(moments: Moments, density: NDArray, delta: NDArray, rounded
 def _lengths(vectors: NDArray) -> NDArray[np.float64]:
     """(...,) of (..., k) vectors, whose squares may vanish."""
     if vectors.ndim == 1:
-        return np.float64(hypot(*vectors.tolist()))
+        return np.asarray(hypot(*vectors.tolist()))
     return np.array([hypot(*vector) for vector in vectors.tolist()])

@@ -24,8 +24,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..moments.moments import Moments
-from ..verdict.finding import Finding, MeasureError, finding
-from .canonical_frame import NOISE_LEVEL, EquivalentFrames, allowed_by_higher_moments, canonical_frames
+from ..numerics.arrays import PerBody
+from ..verdict.finding import MeasureError, finding
+from .canonical_frame import NOISE_LEVEL, EquivalentFrames, canonical_frames
+from .canonical_stack import settle_half_turns, settle_revolution
 from .second_order import HALF_TURN_SIGNS, IS_FIXED, SYMMETRIES, SecondOrderFrames, second_order_frames
 
 # traces closer than the one are equal whatever the noise, than the other never
@@ -79,10 +81,10 @@ class PrincipalFrame:
 
     moments: NDArray[np.float64]
     axes: NDArray[np.float64]
-    symmetry: str
-    is_unique: bool
-    finding: Finding | None
-    undetermined_axes: tuple[int, ...] = ()
+    symmetry: PerBody
+    is_unique: PerBody
+    finding: PerBody
+    undetermined_axes: PerBody = ()
 
     def rotate(self, rotation: NDArray) -> PrincipalFrame:
         """Return the same frame in coordinates new = rotation @ old."""
@@ -167,10 +169,11 @@ def principal_frame(
     preferred_axes = np.eye(3) if preferred_axes is None else np.asarray(preferred_axes, np.float64)
 
     def higher_of_all(_which: NDArray[np.intp]) -> OwnMoments:
+        assert higher is not None
         found = higher()
         return found if isinstance(found, OwnMoments) else OwnMoments(found.at(None), np.zeros(1, np.intp))
 
-    fixed = second_order_frames(moments.at(None), None if refine is None else lambda _which: refine().at(None))
+    fixed = second_order_frames(moments.at(None), (lambda _which: refine().at(None)) if refine else None)
     if not fixed.is_body[0]:
         raise MeasureError("negative_inertia")
     return principal_frames(fixed, preferred_axes[None], None if higher is None else higher_of_all).at(0)
@@ -237,21 +240,21 @@ def _frames_of_shapes(fixed: SecondOrderFrames, left: NDArray[np.intp], known: O
     if known.rotation is not None:
         fixed, which = second_order_frames(known.moments), np.arange(len(known.moments.raw))
     results: list[EquivalentFrames | None] = [None] * len(which)
+
+    def settle(shapes: NDArray[np.intp], allowed: NDArray[np.bool_]) -> None:
+        for shape, signs in zip(shapes.tolist(), allowed):
+            body = int(which[shape])
+            frames, free = fixed.axes[body] * HALF_TURN_SIGNS[signs, None], fixed.free(body)
+            revolution = (3 - sum(free),) if free else ()
+            results[shape] = EquivalentFrames(frames, NO_VALUES, NO_VALUES, revolution, float(fixed.tilt[body]))
+
     by_signs = np.flatnonzero(fixed.symmetry[which] == 0)
     if len(by_signs):
-        bodies = which[by_signs]
-        allowed = allowed_by_higher_moments(
-            known.moments.at(by_signs),
-            fixed.axes[bodies],
-            fixed.size[bodies],
-            fixed.step[bodies],
-            fixed.tilt[bodies],
-            fixed.noise,
-            fixed.allowed[bodies],
-        )
-        for shape, body, signs in zip(by_signs.tolist(), bodies.tolist(), allowed):
-            frames = fixed.axes[body] * HALF_TURN_SIGNS[signs, None]
-            results[shape] = EquivalentFrames(frames, NO_VALUES, NO_VALUES, (), float(fixed.tilt[body]))
+        settle(by_signs, settle_half_turns(known.moments.at(by_signs), fixed, which[by_signs]))
+    about_axis = np.flatnonzero((fixed.symmetry[which] == 1) | (fixed.symmetry[which] == 2))
+    if len(about_axis):
+        is_round, allowed = settle_revolution(known.moments.at(about_axis), fixed, which[about_axis])
+        settle(about_axis[is_round], allowed[is_round])
     return [
         canonical_frames(known.moments.at(shape), fixed.spread(which[shape]), fixed.frames(which[shape]))
         if found is None

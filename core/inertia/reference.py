@@ -70,8 +70,8 @@ class Reference:
         along = way / length
         side = IDENTITY_3[np.abs(along).argmin()]
         side = side - (side @ along) * along
-        side = side / np.linalg.norm(side)
-        return cls(first, np.column_stack([side, np.cross(along, side), along]))
+        side = side / float(np.linalg.norm(side))
+        return cls(first, np.column_stack([side, np.cross(along, side), along]).astype(np.float64))
 
     def refer(self, properties: MassProperties) -> ReferredInertia:
         """Refer the inertia of one body to this frame, from its mass properties.

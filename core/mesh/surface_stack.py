@@ -72,13 +72,15 @@ class SurfaceStack:
     @classmethod
     def of(cls, surfaces: Sequence[Surface]) -> SurfaceStack:
         """Stack surfaces that it `takes`, at least one."""
+        corner_vertices = [np.asarray(surface.corner_vertices) for surface in surfaces]
+        corner_edges = [np.asarray(surface.corner_edges) for surface in surfaces]
         point_counts, corner_counts, single, quad_counts = np.array(
             [
-                [len(array) for array in (surface.points, surface.corner_vertices, surface.triangles, surface.quads)]
-                for surface in surfaces
+                [len(array) for array in (surface.points, corners, surface.triangles, surface.quads)]
+                for surface, corners in zip(surfaces, corner_vertices)
             ]
         ).T
-        edge_counts = np.array([int(surface.corner_edges.max()) + 1 for surface in surfaces])
+        edge_counts = np.array([int(edges.max()) + 1 for edges in corner_edges])
         face_counts = np.array([_face_count(surface) for surface in surfaces])
         points = np.concatenate([surface.points for surface in surfaces])
         first_point, first_face = np.cumsum(point_counts) - point_counts, np.cumsum(face_counts) - face_counts
@@ -91,10 +93,11 @@ class SurfaceStack:
             np.concatenate([_faces(surface, name) for surface in surfaces]) + np.repeat(first_face, counts)
             for name, counts in (("triangles", single), ("quads", quad_counts))
         ]
-        corners = np.concatenate([surface.corner_vertices for surface in surfaces]).astype(np.intp)
+        corners = np.concatenate(corner_vertices).astype(np.intp)
         corners += np.repeat(first_point, corner_counts)
-        edges = np.concatenate([surface.corner_edges for surface in surfaces]).astype(np.intp)
+        edges = np.concatenate(corner_edges).astype(np.intp)
         edges += np.repeat(first_edge, corner_counts)
+        faces = [numbers.astype(np.intp) for numbers in faces]
         cut, cut_faces = triangles, faces[0]
         if len(quads):
             turned = np.where(flipped_quads(points, quads)[:, None], np.roll(quads, -1, axis=1), quads)

@@ -20,6 +20,7 @@ from typing import cast
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..numerics.arrays import PerBody
 from .affine_maps import SIMILARITY_RTOL, anisotropy, apply_linear, apply_translation
 from .monomials import monomial_count, monomial_index, monomials, order_from_count, product_indices
 
@@ -108,16 +109,16 @@ class Moments:
         """The largest p+q+r."""
         return order_from_count(self.raw.shape[-1])
 
-    def __getitem__(self, exponents: tuple[int, int, int]) -> float:
+    def __getitem__(self, exponents: tuple[int, int, int]) -> PerBody:
         value = self.raw[..., monomial_index(*exponents)]
         return value if value.ndim else float(value)
 
     @property
-    def total(self) -> float:
+    def total(self) -> PerBody:
         """The volume, area, length or mass itself."""
         return self.raw[..., 0] if self.raw.ndim > 1 else float(self.raw[0])
 
-    def at(self, which: int | slice | NDArray) -> Moments:
+    def at(self, which: int | slice | NDArray | None) -> Moments:
         """Return one body of a stack, or a stack of some of them."""
         return replace(
             self,

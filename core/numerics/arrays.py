@@ -5,10 +5,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import cast
+from typing import Any, TypeAlias, cast
 
 import numpy as np
 from numpy.typing import NDArray
+
+# A number, a text or the like of one body; of a stack of bodies an array with one for each.
+PerBody: TypeAlias = Any
 
 
 def spread_bits(value: NDArray[np.int64]) -> NDArray[np.int64]:

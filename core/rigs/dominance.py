@@ -129,7 +129,8 @@ def _scores(
     pairs, place = np.unique(key, return_inverse=True)
     score = np.bincount(place.ravel(), weights.normalized()[entry], minlength=len(pairs))
     positive = score > 0.0
-    return pairs[positive] // number, pairs[positive] % number, score[positive]
+    face, bone = np.divmod(pairs[positive].astype(np.intp), number)
+    return face, bone, score[positive].astype(np.float64)
 
 
 def _nearest(face: NDArray[np.integer], bone: NDArray[np.integer], away: NDArray[np.float64]) -> NDArray[np.integer]:

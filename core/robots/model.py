@@ -332,7 +332,7 @@ class Robot:
             part = waiting.pop()
             parts.append(part)
             waiting.extend(
-                [child for child in reversed(self.children(part.name)) if not self.joint_of(child.name).free]
+                [child for child in reversed(self.children(part.name)) if not self._joint_by_child[child.name].free]
             )
         return parts
 
@@ -340,10 +340,12 @@ class Robot:
         """Return the inertial of a link with everything that fixed joints hold to it, along the link's axes; None
         where none of it has mass."""
         to_link = link.pose.inverse()
-        parts = [part for part in self.rigid_parts(link) if part.inertial is not None]
-        if len(parts) == 1 and parts[0] is link:
+        parts = [(part, part.inertial) for part in self.rigid_parts(link) if part.inertial is not None]
+        if len(parts) == 1 and parts[0][0] is link:
             return link.inertial
-        return combine_inertials([part.inertial.place(to_link @ part.pose) for part in parts]) if parts else None
+        if not parts:
+            return None
+        return combine_inertials([inertial.place(to_link @ part.pose) for part, inertial in parts])
 
 
 def combine_inertials(inertials: list[Inertial]) -> Inertial:

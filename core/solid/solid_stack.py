@@ -19,6 +19,7 @@ from ..mesh.scan_lines import LineGrids, find_crossings, line_counts
 from ..mesh.surface import Surface
 from ..mesh.surface_stack import SurfaceStack
 from ..moments.moments import SECOND_MOMENT_INDEX, Moments, U
+from ..polyhedron.any_order_small import extend_small_moments
 from ..polyhedron.third_order import MAX_SMALL_TRIANGLES, MAX_UNSCALED_REACH
 from ..polyhedron.third_order_small import NEXT_AXIS, PREVIOUS_AXIS, small_moments
 from ..verdict.finding import Finding
@@ -41,6 +42,7 @@ class SolidStack:
         Of each, to order 3 and 0, about a point of its own; only those that are exact mean anything.
     planarity : StackPlanarity
     intersection : (n,) array of Intersection
+    surfaces : SurfaceStack
     """
 
     is_exact: NDArray[np.bool_]
@@ -48,6 +50,7 @@ class SolidStack:
     area: Moments
     planarity: StackPlanarity
     intersection: NDArray[np.object_]
+    surfaces: SurfaceStack
 
     def health(self, i: int) -> MeshReport:
         """What the surface of an exact one is like."""
@@ -66,6 +69,13 @@ class SolidStack:
             return ()
         planarity = Planarity(int(flat.non_planar_counts[i]), float(flat.volume_ambiguity[i]), NO_FACES)
         return tuple(shape_findings(True, planarity, self.volume.at(i)))
+
+    def to_order(self, rows: NDArray[np.intp], order: int) -> Moments:
+        """The volumes of some, in ascending order, to a higher order than third."""
+        stack, volume = self.surfaces.some(rows), self.volume.at(rows)
+        low, high = stack.box
+        reach = np.maximum(high - volume.about, volume.about - low) * (1.0 + 4.0 * U) + stack.coordinate_error
+        return extend_small_moments(volume, order, stack.points, stack.triangles, stack.triangle_counts, reach)
 
 
 def can_be_stacked(surface: Surface) -> bool:
@@ -119,7 +129,7 @@ def measure_stack(surfaces: Sequence[Surface]) -> SolidStack:
         if len(rows):
             intersection[rows] = _looked_for(stack.some(rows), size[rows])
             is_exact[rows] = intersection[rows] == Intersection.NOT_FOUND
-    return SolidStack(is_exact, volume, area, planarity, intersection)
+    return SolidStack(is_exact, volume, area, planarity, intersection, stack)
 
 
 def _are_stars(stack: SurfaceStack, starts: NDArray[np.intp], points: NDArray) -> NDArray[np.bool_]:

@@ -82,12 +82,12 @@ def resting_poses(hull: ConvexHull, center: ArrayLike, tolerance: float = PLANE_
     Parameters
     ----------
     hull : ConvexHull
-        Of the body.
+        Of the body, with a tolerance that is not below the noise of its points.
     center : (3,) array_like
         Its center of mass.
     tolerance : float
         Of the hull's largest extent: triangles with corners that near to one plane are one face, and faces with a
-        smaller margin are not stable.
+        smaller margin are not stable. At least twice what points may be outside the hull.
 
     Returns
     -------
@@ -107,16 +107,17 @@ def resting_poses(hull: ConvexHull, center: ArrayLike, tolerance: float = PLANE_
     5
     """
     points = hull.points - np.asarray(center, np.float64)
-    least = tolerance * float(np.ptp(hull.points, axis=0).max())
+    least = max(tolerance * float(np.ptp(hull.points, axis=0).max()), 2.0 * hull.gap)
     faces = _faces(points, hull, least)
-    if faces.heights.min() < -least:
+    if faces.heights.min() < -least or hull.is_flat and faces.margins.max() < -least:
         raise MeasureError("center_outside_hull")
-    if hull.is_flat:
-        shares = np.full(len(faces.heights), 0.5)
-    else:
-        shares = sums_by_index(faces.face, _solid_angles(points, hull.triangles), len(faces.heights)) / (4.0 * np.pi)
+    shares = sums_by_index(faces.face, _solid_angles(points, hull.triangles), len(faces.heights)) / (4.0 * np.pi)
+    # Of a face that the center lies in the solid angle is not certain: it is what the others leave.
+    around = faces.heights <= 1e-9 * float(np.ptp(hull.points, axis=0).max())
+    if around.any():
+        shares[around] = (1.0 - shares[~around].sum()) / np.count_nonzero(around)
     stable = faces.margins > least
-    # Of faces that are equally high to rounding none sinks: the body stays where it is.
+    # Over the edge of a face with a margin near zero the center may rise: the body stays where it is.
     rests = stable | (faces.heights[faces.beyond] >= faces.heights)
     ends = np.where(rests, np.arange(len(rests)), faces.beyond)
     while not np.array_equal(further := ends[ends], ends):

@@ -85,11 +85,11 @@ def ground_axes(down: ArrayLike) -> NDArray[np.float64]:
     [0.0, 0.0, 1.0]
     """
     up = -np.asarray(down, np.float64)
-    up = up / np.linalg.norm(up)
+    up = up / float(np.linalg.norm(up))
     first = np.eye(3)[np.argmin(np.abs(up))]
     first = first - (first @ up) * up
-    first = first / np.linalg.norm(first)
-    return np.stack([first, np.cross(up, first), up], axis=1)
+    first = first / float(np.linalg.norm(first))
+    return np.stack([first, np.cross(up, first), up], axis=1).astype(np.float64)
 
 
 def find_support(

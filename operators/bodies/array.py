@@ -16,6 +16,7 @@ from ...core.verdict.finding import MeasureError, ReadError, finding
 from ..read import Reading
 from ..settings.grid import GridOptions
 from ..settings.options import MeasureOptions
+from .body import KNOWN_ORDER
 from .grid import density_body
 from .measurement import measurement_of
 from .request import Request
@@ -57,7 +58,9 @@ def measure_array(
         if options.density is not None:
             findings += (finding("given_density_ignored"),)
         scale = scan.slope, scan.intercept
-        samples = density_body(scan.samples, shape, matrix, grid, None, findings, *scale, progress)
+        samples = density_body(
+            scan.samples, shape, matrix, grid, None, findings, *scale, progress, options.order or KNOWN_ORDER
+        )
         reading = Reading(name, "ARRAY", np.eye(4), np.eye(3), np.zeros(3))
         used = replace(options, kind="solid", density=None, thickness=0.0, overlap="signed", wall="thin")
         body = replace(samples, density_from=finding("density_from_samples"), density_key=repr(grid.key))

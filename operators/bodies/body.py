@@ -45,6 +45,8 @@ class Body:
         As in `Measurement`.
     mass : Moments, optional
         Of a body whose density is not one number, its moments in kg.
+    higher_mass : Moments, optional
+        The same to the order that was asked for, above third.
     density_from : Finding, optional
         Where such a density came from, with a code ``density_from_…``.
     density_key : str
@@ -72,6 +74,7 @@ class Body:
     method: Method
     findings: tuple[Finding, ...]
     mass: Moments | None = None
+    higher_mass: Moments | None = None
     density_from: Finding | None = None
     density_key: str = ""
     materials: tuple[str, ...] = ()
@@ -174,7 +177,7 @@ class MeshBody(Body):
             solid, matrices = self.solids[0]
             if are_similarities(matrices[:, :3, :3])[0]:
                 in_place = replace(self, solids=((solid, np.eye(4)[None]),), _known={})
-                own = in_place.moments(order, area)[1 if area else 0]
+                own = with_known(in_place.moments(order, area)[1 if area else 0], solid.area if area else solid.volume)
                 return own_moments([own], np.zeros(1, np.intp), matrices[:, :3, :3])
         return super().moments_for_axes(order, area)
 
@@ -189,6 +192,19 @@ class MeshBody(Body):
         for (solid, matrices), surface in zip(self.solids, self.sheets):
             piece = surface if sheets else solid.repaired_surface
             yield from (piece.transform(matrix[:3, :3], matrix[:3, 3]) for matrix in matrices)
+
+
+def with_known(moments: Moments, known: Moments) -> Moments:
+    """Return moments with those that are known to a lower order, about the same point, in place of their own: whoever
+    finds axes sees the same bounds."""
+    if not np.array_equal(moments.about, known.about):
+        return moments
+    names = "raw", "rounding_error", "input_error"
+    lower = len(known.raw)
+    return replace(
+        moments,
+        **{name: np.concatenate([getattr(known, name), getattr(moments, name)[lower:]]) for name in names},
+    )
 
 
 def own_moments(shapes: Sequence[Moments], which: NDArray[np.intp], linear: NDArray) -> OwnMoments:

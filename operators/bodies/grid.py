@@ -22,7 +22,7 @@ from ..read.quiet import paused
 from ..read.volume import VolumeReading, volume_reading
 from ..settings.digest import density_key, grid_key
 from ..settings.grid import GridOptions
-from .body import MAX_MASS_MOMENT, Body, MeshBody
+from .body import KNOWN_ORDER, MAX_MASS_MOMENT, Body, MeshBody
 from .mesh import mesh_body
 from .request import Request
 from .threshold import threshold_grid, threshold_grid_body
@@ -104,16 +104,20 @@ def read(request: Request) -> VolumeReading | None:
 def body(reading: VolumeReading, request: Request) -> Body:
     """Return the body of one grid. Raises MeasureError where there is none."""
     obj, density, options = request.obj, request.given.density, request.options
-    made = grid_body(reading, GridOptions.of(obj.body_moments, density), request.unit, options.threads)
+    order = KNOWN_ORDER if options.order is None else options.order
+    made = grid_body(reading, GridOptions.of(obj.body_moments, density), request.unit, options.threads, order)
     key = grid_key(obj, density) if obj.type == "VOLUME" else density_key(obj, (), request.scene)
     source = None if made.mass is None else finding("density_from_grid", grid=reading.grid)
     return replace(made, density_from=source, density_key=key)
 
 
-def grid_body(reading: VolumeReading, options: GridOptions, unit: float, threads: int = 1) -> Body:
-    """The body of one grid. unit: metres per Blender unit. MeasureError where there is none."""
+def grid_body(
+    reading: VolumeReading, options: GridOptions, unit: float, threads: int = 1, order: int = KNOWN_ORDER
+) -> Body:
+    """The body of one grid. unit: metres per Blender unit. order: to which the mass is wanted. MeasureError where there
+    is none."""
     if options.threshold is not None:
-        return threshold_grid_body(threshold_grid(reading, unit), options)
+        return threshold_grid_body(threshold_grid(reading, unit), options, order=order)
     if options.solid:
         return _solid(reading, unit, threads)
     if reading.level_set:
@@ -125,7 +129,7 @@ def grid_body(reading: VolumeReading, options: GridOptions, unit: float, threads
     density = finding(
         "grid_density", grid=reading.grid, samples=list(reading.shape), cause=options.meaning().as_record()
     )
-    return density_body(reading.blocks, reading.shape, matrix, options, reading.background, (density,))
+    return density_body(reading.blocks, reading.shape, matrix, options, reading.background, (density,), order=order)
 
 
 def density_body(
@@ -138,10 +142,12 @@ def density_body(
     slope: float = 1.0,
     intercept: float = 0.0,
     progress: Callable[[int], None] = lambda samples: None,
+    order: int = KNOWN_ORDER,
 ) -> GridBody:
     """The body of samples at matrix @ (i, j, k, 1), in metres, that stand for slope · sample + intercept.
 
-    background: a value that counts as empty. progress: called with how many samples are about to be read.
+    background: a value that counts as empty. progress: called with how many samples are about to be read. order: to
+    which the mass is wanted.
     """
     if min(shape) < 1:
         raise ReadError("grid_empty")
@@ -152,6 +158,9 @@ def density_body(
         return weigh.densities(block)
 
     mass = grid_moments(samples, shape, matrix, options.spline_order, value=densities)
+    higher = None
+    if order > KNOWN_ORDER:
+        higher = grid_moments(samples, shape, matrix, options.spline_order, order, densities)
     if not np.abs(mass.raw).max() < MAX_MASS_MOMENT:
         raise ReadError("mass_overflow")
     if not mass.total > 0.0:
@@ -165,6 +174,7 @@ def density_body(
         Method(Verdict.EXACT, Source.GRID),
         findings,
         mass=mass,
+        higher_mass=higher,
         samples=samples,
         shape=shape,
         matrix=matrix,

@@ -13,7 +13,8 @@ from ...core.mesh.surface import Surface
 from ...core.verdict.finding import EditRefusedError
 from ..read import read_object
 
-HULL_RTOL = 2e-7  # of the extent: what float32 coordinates leave of flat faces
+HULL_RTOL = 1e-6  # of the extent: points that are outside by less are left out
+NOISE = 4.0  # half ulps of float32 coordinates by which flat faces may be uneven
 MAX_CORNERS = 10000  # of a hull: finely divided round bodies have more
 
 
@@ -39,12 +40,16 @@ def object_hull(obj: Object, depsgraph: Depsgraph) -> ConvexHull:
     if reading.is_singular:
         raise EditRefusedError("scale_zero_axis")
     to_local = np.linalg.inv(reading.matrix)
-    points = []
+    points, noise = [], 0.0
     for part in reading.parts:
         corners = _corners(part.surface) if len(part.matrices) > 1 else _used_points(part.surface)
         for matrix in to_local @ part.matrices:
             points.append(corners @ matrix[:3, :3].T + matrix[:3, 3])
-    return convex_hull(np.concatenate(points), HULL_RTOL, MAX_CORNERS)
+            noise = max(noise, float((np.abs(matrix[:3, :3]) @ part.surface.coordinate_error).max()))
+    joined = np.concatenate(points)
+    extent = float(np.ptp(joined, axis=0).max(initial=0.0)) if len(joined) else 0.0
+    tolerance = max(HULL_RTOL, NOISE * noise / extent) if extent > 0.0 else HULL_RTOL
+    return convex_hull(joined, tolerance, MAX_CORNERS)
 
 
 def _used_points(surface: Surface) -> NDArray[np.float64]:

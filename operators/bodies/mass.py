@@ -26,9 +26,9 @@ from ...core.verdict.finding import Finding, ReadError, finding, truncate_findin
 from ...core.verdict.method import Verdict
 from ..read import Reading
 from ..read.reading import said_of, to_si
-from ..settings.density import DensityField, material_density
+from ..settings.density import material_density
 from ..settings.digest import density_key
-from .body import MAX_MASS_MOMENT, MeshBody
+from .body import KNOWN_ORDER, MAX_MASS_MOMENT, MeshBody
 from .instances import area_of_instances, findings_by_part
 from .measurement import extent
 from .polynomial_mass import polynomial_mass_result
@@ -50,28 +50,24 @@ class _Weighed:
 
 
 def weigh(reading: Reading, body: MeshBody, request: Request) -> MeshBody:
-    """Return the body with the mass that its density gives it.
+    """Return the body with the mass that its density gives it, and its moments to the order that is asked for.
 
     Raises
     ------
     MeasureError
         Where the density is missing or negative somewhere.
     """
-    density, options = request.density, request.options
-    shell = options.kind == "shell"
-    factor = options.thickness if shell else 1.0
-    extent(body, options)  # refused before it is weighed
-    if density.kind == "volume":
-        if shell:
+    extent(body, request.options)  # refused before it is weighed
+    order = request.options.order
+    if request.density.kind == "volume":
+        if request.options.kind == "shell":
             raise ReadError("density_volume_of_shell")
-        filled = filled_by_volume(body, request)
-        return replace(filled, density_key=density_key(request.obj, (), request.scene))
-    if density.kind == "polynomial":
-        weighed = _by_polynomial(reading, body, density, request.unit, shell, factor, options.threads)
-    elif density.kind == "attribute":
-        weighed = _by_attribute(reading, density, request.unit, shell, factor, options.threads)
-    else:
-        weighed = _by_material(reading, body, request.unit, shell, factor, options.density, options.threads)
+        filled = filled_by_volume(body, request, KNOWN_ORDER)
+        higher = filled_by_volume(body, request, order).mass if order is not None and order > KNOWN_ORDER else None
+        return replace(filled, higher_mass=higher, density_key=density_key(request.obj, (), request.scene))
+    weighed = _weigh(reading, body, request, KNOWN_ORDER)
+    if order is not None and order > KNOWN_ORDER:
+        body = replace(body, higher_mass=_weigh(reading, body, request, order).mass)
     return replace(
         body,
         mass=weighed.mass,
@@ -82,48 +78,71 @@ def weigh(reading: Reading, body: MeshBody, request: Request) -> MeshBody:
     )
 
 
-def _by_polynomial(
-    reading: Reading, body: MeshBody, density: DensityField, unit: float, shell: bool, factor: float, threads: int
-) -> _Weighed:
-    parts, findings = polynomial_mass_result(reading, body, density, unit=unit, shell=shell, threads=threads)
-    mass = sum_moments(parts) * factor
+def _weigh(reading: Reading, body: MeshBody, request: Request, order: int) -> _Weighed:
+    if request.density.kind == "polynomial":
+        return _by_polynomial(reading, body, request, order)
+    if request.density.kind == "attribute":
+        return _by_attribute(reading, request, order)
+    return _by_material(reading, body, request, order)
+
+
+def _thickness(request: Request) -> float:
+    """What area moments are multiplied by; 1 of solids."""
+    return request.options.thickness if request.options.kind == "shell" else 1.0
+
+
+def _by_polynomial(reading: Reading, body: MeshBody, request: Request, order: int) -> _Weighed:
+    density, shell = request.density, request.options.kind == "shell"
+    parts, findings = polynomial_mass_result(
+        reading, body, density, unit=request.unit, shell=shell, threads=request.options.threads, order=order
+    )
+    mass = sum_moments(parts) * _thickness(request)
     if not np.abs(mass.raw).max() < MAX_MASS_MOMENT:
         raise ReadError("mass_overflow")
     return _Weighed(mass, density.polynomial_source(), findings)
 
 
-def _by_attribute(
-    reading: Reading, density: DensityField, unit: float, shell: bool, factor: float, threads: int
-) -> _Weighed:
+def _by_attribute(reading: Reading, request: Request, order: int) -> _Weighed:
+    density = request.density
     if any(part.attributes is None for part in reading.parts):
         raise ReadError("density_needs_polygons")
-    if not shell:
+    if request.options.kind != "shell":
         raise ReadError("density_attribute_of_solid")
     parts = [
-        _sheet_moments(reading, i, _vertex_density(reading, i, density.attribute), unit, threads, by_vertex=True)
+        _sheet_moments(reading, i, _vertex_density(reading, i, density.attribute), request, order, by_vertex=True)
         for i in range(len(reading.parts))
     ]
     source = finding("density_from_attribute", attribute=density.attribute)
-    return _Weighed(to_mass_moments(sum_moments([moments for part in parts for moments in part]), factor), source)
+    total = sum_moments([moments for part in parts for moments in part])
+    return _Weighed(to_mass_moments(total, _thickness(request)), source)
 
 
-def _by_material(
-    reading: Reading, body: MeshBody, unit: float, shell: bool, factor: float, default_density: float, threads: int
-) -> _Weighed:
+def _by_material(reading: Reading, body: MeshBody, request: Request, order: int) -> _Weighed:
+    shell = request.options.kind == "shell"
     if any(part.attributes is None for part in reading.parts):
         raise ReadError("density_needs_polygons")
     if body.method.verdict == Verdict.UNION:
         raise ReadError("materials_of_union")
-    face_densities = _FaceDensities(reading, default_density)
+    face_densities = _FaceDensities(reading, request.options.density)
     parts: list[Moments] = []
     by_part: list[tuple[str, list[Finding]]] = []
     mixed = False
     if shell:
         for i, values in enumerate(face_densities.values):
-            parts.extend(_sheet_moments(reading, i, values, unit, threads))
+            parts.extend(_sheet_moments(reading, i, values, request, order))
     else:
         for i, ((solid, matrices), (values, names)) in enumerate(zip(body.solids, face_densities.with_names())):
-            weighed, findings, by_area = _solid_moments(solid, matrices, values, names)
+            volume = solid.volume
+            if order > volume.order:
+                volume = polyhedron_moments(
+                    solid.repaired_surface,
+                    order,
+                    about=volume.about,
+                    exact=True,
+                    threads=request.options.threads,
+                    allow_open=True,
+                )[0]
+            weighed, findings, by_area = _solid_moments(solid, volume, matrices, values, names)
             parts += weighed
             by_part.append((reading.parts[i].source_object_name, findings))
             mixed = mixed or by_area
@@ -132,7 +151,10 @@ def _by_material(
     if not shell and health.nested_components + health.overlapping_components and face_densities.has_several:
         findings.append(finding("overlapping_densities"))
     return _Weighed(
-        to_mass_moments(sum_moments(parts), factor), face_densities.source(mixed), findings, face_densities.names
+        to_mass_moments(sum_moments(parts), _thickness(request)),
+        face_densities.source(mixed),
+        findings,
+        face_densities.names,
     )
 
 
@@ -201,10 +223,10 @@ class _FaceDensities:
 
 
 def _solid_moments(
-    solid: SolidIntegrals, matrices: NDArray, values: NDArray, names: NDArray
+    solid: SolidIntegrals, volume: Moments, matrices: NDArray, values: NDArray, names: NDArray
 ) -> tuple[list[Moments], list[Finding], bool]:
-    """∫ρ dV of a surface's places, findings about its components, and whether any takes a mean by area. values, names:
-    of its mesh faces."""
+    """∫ρ dV of a surface's places, findings about its components, and whether any takes a mean by area. volume: its
+    volume moments, to the order that is wanted. values, names: of its mesh faces."""
     components = solid.parts()
     moments, findings = [], []
     mixed = bool(part_densities(components, values).has_several_materials.any())
@@ -213,9 +235,7 @@ def _solid_moments(
         part_density = part_densities(components, values, matrix_group[0, :3, :3])
         density = part_density.density[components.part]
         moments.append(
-            sum_of_images(
-                solid_mass_moments(components.points, components.triangles, density, solid.volume), matrix_group
-            )
+            sum_of_images(solid_mass_moments(components.points, components.triangles, density, volume), matrix_group)
         )
         findings += _mixed_parts_notes(components, part_density, names)
     if part_density.has_foreign_cavity_material.any():
@@ -263,7 +283,7 @@ def _vertex_density(reading: Reading, i: int, name: str) -> NDArray[np.float64]:
 
 
 def _sheet_moments(
-    reading: Reading, i: int, values: NDArray, unit: float, threads: int, by_vertex: bool = False
+    reading: Reading, i: int, values: NDArray, request: Request, order: int, by_vertex: bool = False
 ) -> Iterator[Moments]:
     """∫ρ dA of a part's images. values: of its mesh faces, or of its vertices and linear between them."""
     part = reading.parts[i]
@@ -271,7 +291,7 @@ def _sheet_moments(
     def measured(surface: Surface) -> Moments:
         triangles, faces = surface.all_triangles()
         density = values[triangles] if by_vertex else values[faces]
-        area = polyhedron_moments(surface, area_order=3, threads=threads, allow_open=True)[1]
+        area = polyhedron_moments(surface, area_order=order, threads=request.options.threads, allow_open=True)[1]
         return sheet_mass_moments(surface.points, triangles, density, area, stored=by_vertex)
 
-    return area_of_instances(part.surface, measured(part.surface), to_si(part.matrices, unit), measured)
+    return area_of_instances(part.surface, measured(part.surface), to_si(part.matrices, request.unit), measured)

@@ -73,6 +73,7 @@ def measurement_of(reading: Reading | VolumeReading, body: Body, request: Reques
         volume_moments=volume_moments,
         area_moments=area_moments,
         mass_moments=(moments, factor),
+        higher_mass=None if body.higher_mass is None else body.higher_mass * factor,
         health=body.health,
         findings=with_acceptance((*reading.findings, *body.findings, *frame), request.accepted),
         rotation=rotation,

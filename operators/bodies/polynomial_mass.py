@@ -44,9 +44,9 @@ class _Piece:
 
 
 def polynomial_mass_result(
-    reading: Reading, body: MeshBody, density: DensityField, *, unit: float, shell: bool, threads: int
+    reading: Reading, body: MeshBody, density: DensityField, *, unit: float, shell: bool, threads: int, order: int
 ) -> tuple[list[Moments], list[Finding]]:
-    """The mass moments of all parts (of a shell for a thickness of one metre), and the findings.
+    """The mass moments of all parts to an order (of a shell for a thickness of one metre), and the findings.
 
     ReadError where the density is negative.
     """
@@ -60,7 +60,7 @@ def polynomial_mass_result(
         findings.append(finding("sheared_density_axes"))
     findings += _negative_density_note(density, pieces, shell)
     parts = []
-    order = 3 + polynomial.degree
+    order += polynomial.degree
     area_order = order if shell else 0 if order == 3 else None  # to third order it is found on the way
     for piece in pieces:
         volume, area = polyhedron_moments(

@@ -33,7 +33,7 @@ from ...core.verdict.method import Method, Verdict
 from ..read.fingerprint import fingerprint, surface_digest, transform_keys
 from ..read.reading import are_singular, to_si
 from ..settings.accepted import accepted_codes, with_acceptance
-from .body import own_moments
+from .body import own_moments, with_known
 
 EXACT = Method(Verdict.EXACT)
 
@@ -78,11 +78,14 @@ class Shape:
         """Of what it shows, for staleness; None of a large one."""
         return surface_digest(self.surface, self.face_count)
 
-    def sixth_order(self, about: NDArray) -> Moments:
-        """The volume's moments that axes are found by."""
-        surface = self.surface if self.alone is None else self.alone.repaired_surface
+    def sixth_order(self) -> Moments:
+        """The volume's moments that axes are found by, of one that was measured by itself."""
+        solid = self.alone
         with np.errstate(over="ignore", invalid="ignore"):
-            return polyhedron_moments(surface, MAX_ORDER, about=about, exact=True, allow_open=True)[0]
+            found = polyhedron_moments(
+                solid.repaired_surface, MAX_ORDER, about=solid.volume.about, exact=True, allow_open=True
+            )
+        return with_known(found[0], solid.volume)
 
 
 def measure_shapes(shapes: list[Shape]) -> tuple[Moments, Moments]:
@@ -309,7 +312,16 @@ def measure_members(members: list[Member], shapes: list[Shape], unit: float) -> 
 
     def higher(left: NDArray[np.intp]) -> OwnMoments:
         needed, first, shape = np.unique(which[left], return_index=True, return_inverse=True)
-        sixth = [members[left[i]].shape.sixth_order(own.about[row]) for row, i in zip(needed.tolist(), first.tolist())]
+        shapes = [members[left[i]].shape for i in first.tolist()]
+        sixth = [own.at(0)] * len(shapes)
+        together = [i for i, each in enumerate(shapes) if each.alone is None]
+        if together:
+            found = shapes[together[0]].solids.to_order(needed[together], MAX_ORDER)
+            for row, i in enumerate(together):
+                sixth[i] = found.at(row)
+        for i, each in enumerate(shapes):
+            if each.alone is not None:
+                sixth[i] = each.sixth_order()
         return own_moments(sixth, shape.ravel(), matrices[left, :3, :3])
 
     properties = MassProperties.of_stack(volume, density, rotation, fixed, higher)

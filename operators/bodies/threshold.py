@@ -110,8 +110,10 @@ def threshold_grid(reading: VolumeReading, unit: float) -> ThresholdGrid:
     return ThresholdGrid(reading.grid, values, matrix, float(reading.background))
 
 
-def threshold_grid_body(grid: ThresholdGrid, options: GridOptions, preview: bool = False) -> ThresholdGridBody:
-    """Return the body where the values of a grid are at least a threshold.
+def threshold_grid_body(
+    grid: ThresholdGrid, options: GridOptions, preview: bool = False, order: int = KNOWN_ORDER
+) -> ThresholdGridBody:
+    """Return the body where the values of a grid are at least a threshold. order: to which the mass is wanted.
 
     Raises
     ------
@@ -130,6 +132,9 @@ def threshold_grid_body(grid: ThresholdGrid, options: GridOptions, preview: bool
     mass = None if above.mass is None else above.mass * scale
     if mass is not None and not 0.0 < mass.total < MAX_MASS_MOMENT:
         raise ReadError("grid_empty")
+    higher = None
+    if mass is not None and order > KNOWN_ORDER:
+        higher = grid.set_above(options, order).mass * scale
     return ThresholdGridBody(
         above.volume,
         above.area,
@@ -137,6 +142,7 @@ def threshold_grid_body(grid: ThresholdGrid, options: GridOptions, preview: bool
         Method(Verdict.EXACT, Source.GRID),
         _findings(grid, options, above),
         mass=mass,
+        higher_mass=higher,
         density_from=None if mass is None else finding("density_from_grid", grid=grid.name),
         estimated=True,
         grid=grid,

@@ -20,13 +20,13 @@ from ..read.quiet import paused
 from ..read.reading import said_of
 from ..read.volume import VolumeReading, volume_reading
 from ..settings.grid import GridOptions
-from .body import MAX_MASS_MOMENT, MeshBody
+from .body import KNOWN_ORDER, MAX_MASS_MOMENT, MeshBody
 from .request import Request
 
 MAX_OUTSIDE_SHARE = 1e-9  # of the volume: below this, rounding
 
 
-def filled_by_volume(body: MeshBody, request: Request) -> MeshBody:
+def filled_by_volume(body: MeshBody, request: Request, order: int) -> MeshBody:
     """Return the solid with the density of the Volume object that its settings name.
 
     Raises
@@ -40,7 +40,7 @@ def filled_by_volume(body: MeshBody, request: Request) -> MeshBody:
         with paused(), volume_reading(source, request.depsgraph, grid.grid) as volume:
             if volume is None:
                 raise ReadError("object_without_grid")
-            filled = voxel_filled_body(body, volume, grid, request.unit, name)
+            filled = voxel_filled_body(body, volume, grid, request.unit, name, order)
             origin = finding("density_from_grid_of", grid=volume.grid, object=source.name)
             return replace(filled, density_from=origin)
     except MeasureError as error:
@@ -51,8 +51,10 @@ def filled_by_volume(body: MeshBody, request: Request) -> MeshBody:
         ) from error
 
 
-def voxel_filled_body(body: MeshBody, reading: VolumeReading, options: GridOptions, unit: float, name: str) -> MeshBody:
-    """The body with the mass that the grid gives its inside. unit: metres per Blender unit.
+def voxel_filled_body(
+    body: MeshBody, reading: VolumeReading, options: GridOptions, unit: float, name: str, order: int = KNOWN_ORDER
+) -> MeshBody:
+    """The body with the mass that the grid gives its inside, to an order. unit: metres per Blender unit.
 
     name: of the object, which MeasureErrors are about that are not about the grid alone.
     """
@@ -74,7 +76,7 @@ def voxel_filled_body(body: MeshBody, reading: VolumeReading, options: GridOptio
     high = np.clip(np.ceil(triangles.max(axis=(0, 1))), low + 1, reading.shape).astype(np.int64)
     if np.prod((high - low).astype(float)) > MOST_VOXELS:
         raise ReadError("density_grid_too_fine", subject=name, **whose, samples=(high - low).tolist())
-    moments, volume = inside_moments(triangles - low, _box_densities(reading, options, low, high))
+    moments, volume = inside_moments(triangles - low, _box_densities(reading, options, low, high), order)
     volume *= abs(np.linalg.det(matrix[:3, :3]))
     first = np.eye(4)
     first[:3, 3] = low
@@ -124,6 +126,7 @@ def _box_densities(reading: VolumeReading, options: GridOptions, low: NDArray, h
 
 def _input_error(body: MeshBody, mass: Moments) -> NDArray[np.float64]:
     """What float32 coordinates may have moved, as a share of each moment like that of the solid's own."""
-    solid = body.volume.about_point(mass.about).truncate(mass.order)
+    solid = body.volume if mass.order <= body.volume.order else body.moments(mass.order, False)[0]
+    solid = solid.about_point(mass.about).truncate(mass.order)
     scale = np.abs(mass.raw).max() / max(np.abs(solid.raw).max(), np.finfo(float).tiny)
     return solid.input_error * max(scale, mass.total / solid.total)

@@ -59,6 +59,9 @@ def parse(argv: list[str], file_needed: bool = False) -> argparse.Namespace:
         if len(options.files) > 1:
             fail(finding("robot_one_file", count=len(options.files)))
         options.frame = "object"  # of the links
+        given = [name for name in ("density", "mass", "kind", "thickness") if getattr(options, name) is not None]
+        if options.links == "bone" and given:
+            fail(finding("usage_links_of_bones", option=given[0]))
     if options.meshes and (options.output is None or is_stdout(options.output)):
         fail(finding("usage_meshes_need_output"))
     if options.surface_moments and options.order is None:
@@ -152,6 +155,7 @@ def _parser() -> argparse.ArgumentParser:
     _add_settings(parser)
     _add_of_files(parser)
     _add_results(parser)
+    _add_assets(parser)
     _add_supervision(parser)
     return parser
 
@@ -314,6 +318,12 @@ def _add_results(parser: argparse.ArgumentParser) -> None:
         help="urdf, sdf, mjcf, usd: the links with their inertials alone, without geometry, places and joints",
     )
     add(
+        "--links",
+        choices=("object", "collection", "bone"),
+        default="object",
+        help="urdf, sdf, mjcf, usd: what is one rigid body (object)",
+    )
+    add(
         "--meshes",
         action="store_true",
         help="urdf, sdf, mjcf: write the meshes that the file names, in a folder beside --output",
@@ -329,6 +339,15 @@ def _add_results(parser: argparse.ArgumentParser) -> None:
         "--write",
         action="store_true",
         help="store the results on the objects and save the .blend file, unless something else has saved it meanwhile",
+    )
+
+
+def _add_assets(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "--asset-metadata",
+        choices=("copy", "file"),
+        help="put mass, volume, center and more into the metadata of the objects that are assets, and save copies "
+        "beside the files, as NAME.body_moments.blend, or the files themselves",
     )
 
 

@@ -185,7 +185,7 @@ def _summary(options: argparse.Namespace) -> tuple[Iterable[str], bool]:
         if document["status"] != "ok" and len(failed) < _LISTED:
             failed.append("{}  {}: {}".format(document["status"], file, document["errors"][0]["reason"]))
         if "seconds" in about:
-            slowest = sorted([*slowest, (about["seconds"], file)], reverse=True)[:_LISTED]
+            slowest = sorted([*slowest, (float(about["seconds"]), str(file))], reverse=True)[:_LISTED]
         for entry in document["objects"]:
             methods[entry["method"]] += 1
             codes.update({(one["severity"], one["code"]) for one in entry["findings"]})

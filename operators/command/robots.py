@@ -14,53 +14,61 @@ from typing import Any
 import bpy
 
 from ...core.measurement import Measurement
-from ...core.mesh.surface import Surface
-from ...core.numerics.float32 import shortest_decimal
 from ...core.robots.model import Robot
-from ...core.verdict.finding import Finding, finding
-from ..read.links import link_surface, object_entry
+from ...core.verdict.finding import Finding, MeasureError, finding
+from ..read.links import object_entry
+from ..session.robot_links import SceneLinks, bone_links, collection_links
+from ..settings.options import MeasureOptions
 from ..write.documents import ROBOT_FORMATS
 from ..write.messages import sentence
 from ..write.robots.formats import robot_text
-from ..write.robots.from_records import robot_of_document
+from ..write.robots.from_records import robot_name, robot_of_document
 from ..write.robots.stl import write_meshes
 from ..write.terminal import tell
 
+MeasuredObject = tuple[str, bpy.types.Object | None, Measurement]
 
-def complete(
-    document: dict[str, Any],
-    measured: Sequence[tuple[str, bpy.types.Object | None, Measurement]],
-    options: Namespace,
-) -> dict[str, Any]:
+
+def complete(document: dict[str, Any], measured: Sequence[MeasuredObject], options: Namespace) -> dict[str, Any]:
     """Return a document with its records as links and the entry `robot`, where such a format is asked for; what the
     format cannot say goes to the standard error."""
     if options.format not in ROBOT_FORMATS:
         return document
+    made = _by_object(document, measured) if options.links == "object" else _of_scene(document, measured, options)
+    text, findings = robot_text(made.robot, options.format, made.findings, inertial_only=options.inertial_only)
+    if options.meshes and not options.inertial_only:
+        findings.append(_write_meshes(made, options))
+    for one in findings:
+        tell(sentence(one))
+    return {**document, "robot": text}
+
+
+def _by_object(document: dict[str, Any], measured: Sequence[MeasuredObject]) -> SceneLinks:
+    """From the records of objects, which get the entry `link`."""
     labels = {obj: label for label, obj, _ in measured if obj is not None}
     links = {label: object_entry(obj, one, labels) for label, obj, one in measured if obj is not None}
     for entry in document["objects"]:
         if entry["name"] in links:
             entry["link"] = links[entry["name"]]
     robot, findings = robot_of_document(document)
-    text, findings = robot_text(robot, options.format, findings, inertial_only=options.inertial_only)
-    if options.meshes:
-        findings.append(_write_meshes(robot, measured, options))
-    for one in findings:
-        tell(sentence(one))
-    return {**document, "robot": text}
+    return SceneLinks(robot, findings, {label: [obj] for obj, label in labels.items()})
 
 
-def _write_meshes(
-    robot: Robot, measured: Sequence[tuple[str, bpy.types.Object | None, Measurement]], options: Namespace
-) -> Finding:
-    depsgraph = bpy.context.evaluated_depsgraph_get()
-    unit = options.unit_scale or shortest_decimal(depsgraph.scene.unit_settings.scale_length)
-    sources = {label: obj for label, obj, _ in measured if obj is not None}
-
-    def surface(name: str) -> Surface | None:
-        return link_surface([sources[name]], depsgraph, robot.link(name).pose, unit)
-
+def _of_scene(document: dict[str, Any], measured: Sequence[MeasuredObject], options: Namespace) -> SceneLinks:
+    """From the scene's collections or bones."""
+    name, context = robot_name(document["file"]), bpy.context
     try:
-        return write_meshes(robot, surface, options.output.parent)
+        if options.links == "bone":
+            return bone_links(context, name, [obj for obj in context.view_layer.objects if not obj.hide_render])
+        given = MeasureOptions(**{key: getattr(options, key) for key in ("kind", "density", "mass", "thickness")})
+        objects = [obj for _, obj, _ in measured if obj is not None]
+        return collection_links(context, name, context.scene.collection, objects, given)
+    except MeasureError as error:
+        return SceneLinks(Robot(name, ()), [error.finding])
+
+
+def _write_meshes(made: SceneLinks, options: Namespace) -> Finding:
+    try:
+        return write_meshes(made.robot, lambda label: made.surface(bpy.context, label), options.output.parent)
     except OSError as error:
         return finding("robot_meshes_not_written", error=error.strerror or str(error))

@@ -39,7 +39,8 @@ from ..write import record
 from ..write.documents import document
 from ..write.properties import store
 from ..write.terminal import tell
-from . import density_options, fourier, robots
+from . import assets, density_options, fourier, robots
+from .combined import Combined, measure_combined
 from .files import BLEND, UNITLESS, file_suffix, newer_version, open_file
 from .interruption import Progress, check_interruption
 from .objects import failure, objects_to_measure, other_scenes, why_nothing
@@ -101,7 +102,8 @@ class Run:
     def _place(self, path: str | None) -> AbstractContextManager[Place | None]:
         """Where --write is going to store the results."""
         target = path or bpy.data.filepath
-        if not self.options.write or path is not None and file_suffix(path) != BLEND or not os.path.isfile(target):
+        is_saved = self.options.write or self.options.asset_metadata == "file"
+        if not is_saved or path is not None and file_suffix(path) != BLEND or not os.path.isfile(target):
             return nullcontext()
         asked = _requested_file() if path is None else None
         at_start = asked is not None and os.path.realpath(asked) == os.path.realpath(target)
@@ -109,7 +111,7 @@ class Run:
 
     def _measured(self, path: str | None, file: str | None, place: Place | None) -> dict[str, Any]:
         measured: list[tuple[str, bpy.types.Object, Measurement]] = []
-        objects, errors, caveats, left_out = [], [], [], []
+        objects, errors, caveats, left_out, combined = [], [], [], [], Combined()
         self._status = None
         try:
             if path is not None and scans.scan_suffix(path):
@@ -146,12 +148,16 @@ class Run:
                 if self.options.object is None:  # else whoever named them knows what they count
                     caveats += total_caveats([obj for _, obj, _ in measured], bpy.context.view_layer)
                     caveats += other_scenes(bpy.context.scene)
+                    combined = measure_combined(wanted, self._internal_error)
+                    errors += combined.errors
                 if self.options.fourier:
                     errors.extend(self._fourier(chosen, wanted, objects))
                 if not objects and not errors:
                     errors.append(failure(None, why_nothing(len(left_out))))
             if self.options.write:
                 errors.extend(self._store(path, measured, wanted))
+                errors.extend(combined.store(self._internal_error))
+            if self._changes_assets(path, measured) or self.options.write:
                 caveats += _save(place, file)
         except MeasureError as refusal:
             errors.append(failure(None, refusal.finding))
@@ -171,7 +177,7 @@ class Run:
             frame=self.options.frame,
             status=self._status,
         )
-        return robots.complete(made, measured, self.options)
+        return robots.complete(made | combined.records(self.options.frame), measured, self.options)
 
     def _measure_record(
         self,
@@ -310,6 +316,17 @@ class Run:
         reason = internal_error.finding_of(error)
         self.internal_errors += reason.code == internal_error.CODE
         return failure(name, reason)
+
+    def _changes_assets(
+        self, path: str | None, measured: list[tuple[str, bpy.types.Object | None, Measurement]]
+    ) -> bool:
+        """Put the numbers into the metadata of assets, where that is asked for; whether the file is to be saved."""
+        asked = self.options.asset_metadata
+        if asked is None or path is None or file_suffix(path) != BLEND or not assets.store(measured):
+            return False
+        if asked == "copy":
+            assets.save_copy(path)
+        return asked == "file"
 
     def _store(
         self,

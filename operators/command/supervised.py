@@ -107,7 +107,7 @@ class _Places:
         self._replaced: list[Path] = []
         target = options.output
         self.journal_is_kept = not (target is None or output.is_stdout(target) or _is_device(target))
-        if not self.journal_is_kept:
+        if target is None or not self.journal_is_kept:
             folder = Path(tempfile.mkdtemp(prefix="body_moments_"))
             ends.callback(shutil.rmtree, folder, ignore_errors=True)
             self.work, self.journal = folder / "work", folder / "journal"

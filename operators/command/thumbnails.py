@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import bpy
+import numpy as np
 
 from ...core.measurement import Measurement
 from ...core.numerics.float32 import shortest_decimal
@@ -25,4 +26,4 @@ def thumbnail_of(obj: bpy.types.Object, measurement: Measurement, unit: float | 
     if not len(triangles):
         return None
     properties = measurement.mass_properties
-    return thumbnail(surface.points * unit, triangles, properties.center, properties.principal.axes)
+    return thumbnail(surface.points.astype(np.float64) * unit, triangles, properties.center, properties.principal.axes)

@@ -209,11 +209,11 @@ def surface_digest(surface: Surface, face_count: int) -> bytes | None:
         return None
     shape = hashlib.blake2b(digest_size=16)
     for array in (surface.points, surface.triangles, surface.quads):
-        shape.update(np.ascontiguousarray(array))
+        shape.update(np.ascontiguousarray(array).data)
         shape.update(repr(array.shape).encode())
     return shape.digest()
 
 
 def digest(data: bytes | NDArray) -> str:
     """A short text that differs for different data."""
-    return hashlib.blake2s(data, digest_size=6).hexdigest()
+    return hashlib.blake2s(data if isinstance(data, bytes) else data.data, digest_size=6).hexdigest()

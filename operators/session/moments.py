@@ -43,12 +43,14 @@ SUPERSCRIPTS = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 @dataclass(frozen=True, eq=False)
 class ComputedMoments:
-    """One object's moments, SI, world axes. volume: of a shell those of its thin volume. rotation, location: the object
+    """One object's moments, SI, world axes. volume: of a shell those of its thin volume. mass: None where it is not
+    known to that order. rotation, location: the object
     frame. key: what they were computed from."""
 
     name: str
     volume: Moments
     area: Moments
+    mass: Moments | None
     rotation: NDArray[np.float64]
     location: NDArray[np.float64]
     key: tuple[str, str, int]
@@ -142,27 +144,34 @@ def in_frame(
     computed: ComputedMoments, of: str, about: str, frame: str, order: int, reference: Reference | None = None
 ) -> Moments:
     """The moments along the axes of the frame, "WORLD" or "OBJECT", about its "ORIGIN" or the body's "CENTER"; or
-    "NORMALIZED", as `normalize` by size; or about a "REFERENCE", along its axes. MeasureError where that cannot be, or
-    leaves the range of numbers."""
+    "NORMALIZED", as `normalize` by size, of a mass by gyration; or about a "REFERENCE", along its axes. MeasureError
+    where that cannot be, or leaves the range of numbers."""
     with np.errstate(over="ignore", invalid="ignore"):
         if reference is None:
             moments = _in_frame(computed, of, about, frame, order)
         else:
-            moments = (computed.volume if of == "VOLUME" else computed.area).truncate(order)
+            moments = _of(computed, of).truncate(order)
             moments = moments.in_frame(reference.axes, reference.origin)
     if not np.isfinite([moments.raw, moments.rounding_error, moments.input_error]).all():
         raise ReadError("moments_overflow_at_origin", order=order)
     return moments
 
 
+def _of(computed: ComputedMoments, of: str) -> Moments:
+    moments = {"VOLUME": computed.volume, "SURFACE": computed.area, "MASS": computed.mass}[of]
+    if moments is None:
+        raise ReadError("mass_moments_unknown", order=computed.order)
+    return moments
+
+
 def _in_frame(computed: ComputedMoments, of: str, about: str, frame: str, order: int) -> Moments:
-    moments = (computed.volume if of == "VOLUME" else computed.area).truncate(order)
+    moments = _of(computed, of).truncate(order)
     rotation = np.eye(3) if frame == "WORLD" else computed.rotation
     origin = moments.center if about != "ORIGIN" else np.zeros(3) if frame == "WORLD" else computed.location
     if frame == "OBJECT":
         moments = moments.in_frame(rotation, origin)
     if about == "NORMALIZED":
-        return normalize(moments)
+        return normalize(moments, "gyration" if of == "MASS" else "size")
     return moments if frame == "OBJECT" else moments.about_point(origin)
 
 
@@ -176,6 +185,8 @@ def unit(of: str, about: str, degree: int) -> str:
     """m⁵, or nothing for normalized ones."""
     if about == "NORMALIZED":
         return ""
+    if of == "MASS":
+        return "kg" + ("·m" + str(degree).translate(SUPERSCRIPTS) * (degree > 1) if degree else "")
     return "m" + str(degree + (3 if of == "VOLUME" else 2)).translate(SUPERSCRIPTS)
 
 
@@ -192,7 +203,9 @@ def as_csv(computed: ComputedMoments, of: str, about: str, frame: str, reference
                 "ORIGIN": "about the frame's origin, in SI units",
                 "CENTER": "about the center, in SI units",
                 "REFERENCE": "about its origin, in SI units",
-                "NORMALIZED": "central, of the body scaled to a {:s} of 1".format(of.lower()),
+                "NORMALIZED": "central, of the body scaled to a {:s} of 1".format(
+                    "mass and a radius of gyration" if of == "MASS" else of.lower()
+                ),
             }[about],
         )
     )

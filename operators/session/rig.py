@@ -19,6 +19,7 @@ from ..bodies.rig import Rig, rig_hash, rig_objects
 from ..read.fingerprint import VERSION
 from ..read.quiet import paused
 from ..read.rig import skinned_objects
+from ..settings import hooks
 from ..write import properties
 from . import handlers, marks, staleness
 from .cache import SessionCache
@@ -108,6 +109,10 @@ def _watch_all() -> None:
             _watch(obj, bpy.data.objects)
 
 
+def _count_change(*_args: object) -> None:
+    handlers.count_change()
+
+
 def _write_notes() -> None:
     if len(_edited):
         for obj in bpy.data.objects:
@@ -120,6 +125,7 @@ SUBSCRIPTIONS = (
     (handlers.on_undo, _watch_all),  # which makes Python's references to objects invalid
     (handlers.on_load, _watch_all),
     (handlers.on_save, _write_notes),
+    (hooks.on_part_change, _count_change),
 )
 
 

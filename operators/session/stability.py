@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from ...core.mesh.convex_hull import ConvexHull
 from ...core.numerics.rotations import rotation_matrix
 from ...core.statics.resting import RestingPoses, resting_poses
-from ...core.statics.support import Support, find_support
+from ...core.statics.support import CONTACT_RTOL, Support, find_support
 from ...core.verdict.finding import Finding, MeasureError
 from ..bodies.hull import object_hull
 from ..read.fingerprint import shape_digest
@@ -114,9 +114,19 @@ def support(obj: Object, scene: Scene | None = None) -> Support | None:
         body = shown_body(obj, scene)
         matrix = np.array(obj.matrix_world, np.float64)
         points = remembered.hull.points @ matrix[:3, :3].T + matrix[:3, 3]
-        remembered.support = None if body is None else find_support(points, body.center, down(scene))
+        remembered.support = (
+            None
+            if body is None
+            else find_support(points, body.center, down(scene), _tolerance(points, remembered.hull, matrix))
+        )
         remembered.support_key = key
     return remembered.support
+
+
+def _tolerance(points: NDArray, hull: ConvexHull, matrix: NDArray) -> float:
+    """Of the extent: what is a contact, where points may be outside the hull."""
+    gap = hull.gap * float(np.linalg.norm(matrix[:3, :3], 2))
+    return max(CONTACT_RTOL, 2.0 * gap / float(np.ptp(points, axis=0).max()))
 
 
 def poses(obj: Object, scene: Scene | None = None) -> RestingPoses | Finding | None:

@@ -7,6 +7,7 @@ from bpy.props import BoolProperty, CollectionProperty, EnumProperty, FloatPrope
 from bpy.types import PropertyGroup
 
 from .given_properties import GivenPartProperties
+from .hooks import part_changed
 
 
 class BodyMomentsAssemblyRow(PropertyGroup):
@@ -42,6 +43,7 @@ class BodyMomentsAssemblySettings(GivenPartProperties, PropertyGroup):
             ("MASS", "Mass", "Enter the mass of the whole; the members give its center and inertia unless entered"),
         ),
         default="MEMBERS",
+        update=part_changed,
     )
     mass: FloatProperty(
         name="Mass",
@@ -50,6 +52,7 @@ class BodyMomentsAssemblySettings(GivenPartProperties, PropertyGroup):
         min=0.0,
         step=10,
         precision=6,
+        update=part_changed,
     )
     rows: CollectionProperty(name="Members", type=BodyMomentsAssemblyRow)
     active_row: IntProperty(name="Active Member", description="Member that is highlighted in the tree")

@@ -6,6 +6,8 @@ import bpy
 from bpy.props import EnumProperty, FloatProperty
 from bpy.types import PropertyGroup
 
+from .hooks import part_changed
+
 
 class BodyMomentsBoneSettings(PropertyGroup):
     """What the part of a bone is made of."""
@@ -19,6 +21,7 @@ class BodyMomentsBoneSettings(PropertyGroup):
             ("MASS", "Mass", "The mass of the bone's whole part"),
         ),
         default="MESH",
+        update=part_changed,
     )
     density: FloatProperty(
         name="Density",
@@ -28,6 +31,7 @@ class BodyMomentsBoneSettings(PropertyGroup):
         soft_max=25000.0,
         step=1000,
         precision=3,
+        update=part_changed,
     )
     mass: FloatProperty(
         name="Mass",
@@ -36,6 +40,7 @@ class BodyMomentsBoneSettings(PropertyGroup):
         min=0.0,
         step=10,
         precision=6,
+        update=part_changed,
     )
 
 

@@ -4,7 +4,7 @@
 
 from bpy.props import BoolProperty, FloatVectorProperty
 
-from .hooks import changed
+from .hooks import given_changed
 
 
 class GivenPartProperties:
@@ -14,7 +14,7 @@ class GivenPartProperties:
         name="Given Center",
         description="Enter the center of mass instead of taking that of the geometry",
         default=False,
-        update=changed,
+        update=given_changed,
     )
     given_center: FloatVectorProperty(
         name="Center of Mass",
@@ -22,13 +22,13 @@ class GivenPartProperties:
         subtype="XYZ",
         unit="LENGTH",
         precision=6,
-        update=changed,
+        update=given_changed,
     )
     use_inertia: BoolProperty(
         name="Given Inertia",
         description="Enter the inertia tensor instead of taking that of the geometry with the given mass",
         default=False,
-        update=changed,
+        update=given_changed,
     )
     given_inertia_diagonal: FloatVectorProperty(
         name="Ixx, Iyy, Izz",
@@ -38,11 +38,11 @@ class GivenPartProperties:
         ),
         min=0.0,
         precision=6,
-        update=changed,
+        update=given_changed,
     )
     given_inertia_products: FloatVectorProperty(
         name="Ixy, Ixz, Iyz",
         description="Tensor entries off the diagonal in kg·m², independent of the scene units: Ixy = −∫xy dm",
         precision=6,
-        update=changed,
+        update=given_changed,
     )

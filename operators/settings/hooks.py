@@ -15,11 +15,23 @@ on_density_change: list[Hook] = []  # what an object's mass is multiplied by: a 
 on_wall_change: list[Hook] = []  # the side of a shell's material, or its thickness
 on_threshold_change: list[Hook] = []  # the value from which on a grid's points are inside
 on_default_density_change: list[Hook] = []  # that of a scene's objects that have none of their own
+on_part_change: list[Hook] = []  # what an assembly or a bone's part weighs
+
+
+def part_changed(settings: PropertyGroup, context: Context) -> None:
+    """The update function of the settings of assemblies and of bones, whose changes Blender reports of no object."""
+    _call(on_part_change, settings, context)
 
 
 def changed(settings: PropertyGroup, context: Context) -> None:
     """The update function of an object's settings."""
     _call(on_change, settings, context)
+
+
+def given_changed(settings: PropertyGroup, context: Context) -> None:
+    """The update function of what is given of a part, an object or an assembly."""
+    _call(on_change, settings, context)
+    _call(on_part_change, settings, context)
 
 
 def density_changed(settings: PropertyGroup, context: Context) -> None:

@@ -369,10 +369,11 @@ class BodyMomentsSceneSettings(SceneDefaults, PropertyGroup):
     )
     moments_of: EnumProperty(
         name="Domain",
-        description="What the moments integrate over, without density",
+        description="What the moments integrate over",
         items=(
             ("VOLUME", "Volume", "Volume. For shells, area times thickness"),
             ("SURFACE", "Surface", "Area of the faces"),
+            ("MASS", "Mass", "Volume, or for shells the area, times the density wherever it comes from"),
         ),
         default="VOLUME",
     )

@@ -21,12 +21,13 @@ from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager, suppress
 from typing import Any
 
-_BY_SIGNAL = sys.platform.startswith("linux")
 MARK = b"\x1e"  # begins an answer; what Blender prints before it comes to us does not
 _LATE = 5.0  # seconds after which a child ends itself whose supervisor should have ended it
 
-if _BY_SIGNAL:
+try:
     import fcntl
+except ImportError:  # Windows
+    fcntl = None
 
 
 class Lifeline:
@@ -41,7 +42,7 @@ class Lifeline:
         self._waiting: queue.SimpleQueue[bytes] | None = None
         with suppress(OSError), open("/proc/self/oom_score_adj", "w") as file:
             file.write("500")  # where memory runs out this goes first, not what watches over it
-        if _BY_SIGNAL and watched is not None:
+        if fcntl is not None and sys.platform.startswith("linux") and watched is not None:
             signal.signal(signal.SIGIO, signal.SIG_DFL)
             fcntl.fcntl(watched, fcntl.F_SETOWN, os.getpid())
             fcntl.fcntl(watched, fcntl.F_SETFL, fcntl.fcntl(watched, fcntl.F_GETFL) | os.O_ASYNC)

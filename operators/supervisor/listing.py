@@ -22,6 +22,7 @@ SUFFIXES = (
     *(".blend", ".stl", ".obj", ".ply", ".fbx", ".glb", ".gltf", ".usd", ".usda", ".usdc", ".usdz", ".3mf"),
     *(".npy", ".npz", ".nrrd", ".nhdr", ".nii", ".nii.gz"),
 )
+COPY_SUFFIX = ".body_moments.blend"  # what our own copies of .blend files end with
 _RAW = re.compile(r"_\d+x\d+x\d+_[a-z0-9]+\.raw$", re.IGNORECASE)  # others are data files of headers
 
 
@@ -50,7 +51,7 @@ def _walk(top: str) -> Iterator[str]:
         if path is None:
             waiting.pop()
         elif not os.path.isdir(path):
-            if path.lower().endswith(SUFFIXES) or _RAW.search(path):
+            if _is_measurable(path):
                 yield path
         else:
             with suppress(OSError):
@@ -59,6 +60,11 @@ def _walk(top: str) -> Iterator[str]:
                     known.add((status.st_dev, status.st_ino))
                     names = sorted(name for name in os.listdir(path) if not name.startswith("."))
                     waiting.append(iter([os.path.join(path, name) for name in names]))
+
+
+def _is_measurable(path: str) -> bool:
+    name = path.lower()
+    return bool(name.endswith(SUFFIXES) and not name.endswith(COPY_SUFFIX) or _RAW.search(path))
 
 
 def write_lines(paths: Iterable[str]) -> Iterator[str]:

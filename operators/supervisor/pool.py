@@ -17,7 +17,7 @@ from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, BinaryIO
+from typing import IO, Any
 
 from . import processes
 from .lifeline import MARK
@@ -91,6 +91,18 @@ class _Child:
     base: int = 0
     measured: int = 0
     doomed: str = ""
+
+    @property
+    def requests(self) -> IO[bytes]:
+        """What it is sent goes there."""
+        assert self.process.stdin is not None
+        return self.process.stdin
+
+    @property
+    def answers(self) -> IO[bytes]:
+        """What it answers comes from there."""
+        assert self.process.stdout is not None
+        return self.process.stdout
 
 
 class Pool:
@@ -198,12 +210,12 @@ class Pool:
 
     def _send(self, child: _Child, message: dict[str, Any]) -> None:
         with suppress(OSError):  # it has died, which its reader finds out
-            child.process.stdin.write(json.dumps(message).encode() + b"\n")
-            child.process.stdin.flush()
+            child.requests.write(json.dumps(message).encode() + b"\n")
+            child.requests.flush()
 
     def _read(self, child: _Child) -> None:
         """In a thread: put what a child answers among the events, and at last that it has ended."""
-        stream: BinaryIO = child.process.stdout
+        stream = child.answers
         try:
             while line := stream.readline():
                 if not line.startswith(MARK):
@@ -267,7 +279,7 @@ class Pool:
         """Let a child end by itself, and another one take its place."""
         self._children.remove(child)
         with suppress(OSError):
-            child.process.stdin.close()
+            child.requests.close()
         self._ending.append((child, time.monotonic() + _END))
 
     def _ended(self, child: _Child) -> list[Outcome]:
@@ -324,7 +336,7 @@ class Pool:
 
     def _close(self, child: _Child) -> None:
         """Let go of a child that has ended, and of its files."""
-        for stream in (child.process.stdin, child.process.stdout):
+        for stream in (child.requests, child.answers):
             with suppress(OSError):
                 stream.close()
         if child.kept is not None:

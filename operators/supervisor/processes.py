@@ -23,13 +23,18 @@ _WORD = "child"  # the command that serves a supervisor
 
 def child_command(blender: str | None) -> list[str] | None:
     """What starts a child: a Blender, or without one this Python, which must have the bpy module (else None)."""
+    return run_command(blender, [_WORD])
+
+
+def run_command(blender: str | None, words: Sequence[str]) -> list[str] | None:
+    """What starts our command line with these words, in a Blender, or in this Python as above."""
     batch = importlib.util.find_spec("..batch", __package__)
     script = str(Path(batch.origin or "").resolve()) if batch else ""
     if blender is not None:
-        return [blender, *_SWITCHES, "--python", script, "--", _WORD]
+        return [blender, *_SWITCHES, "--python", script, "--", *words]
     if importlib.util.find_spec("bpy") is None:
         return None
-    return [sys.executable, script, _WORD]
+    return [sys.executable, script, *words]
 
 
 def start(command: Sequence[str], folder: Path, log: Path) -> tuple[subprocess.Popen[bytes], int | None]:
@@ -42,7 +47,7 @@ def start(command: Sequence[str], folder: Path, log: Path) -> tuple[subprocess.P
     temporary = dict.fromkeys(("TMPDIR", "TEMP", "TMP"), str(folder))
     environment = {**os.environ, **temporary, "BLENDER_USER_RESOURCES": str(folder / "user")}
     # A terminal's Ctrl+C is for the supervisor alone.
-    options = {"creationflags": subprocess.CREATE_NEW_PROCESS_GROUP} if _WINDOWS else {"start_new_session": True}
+    flags = getattr(subprocess, "CREATE_NEW_PROCESS_GROUP", 0)  # on Windows; elsewhere a session of its own
     passed = () if watched is None else (watched,)
     try:
         with open(log, "ab") as errors:
@@ -53,7 +58,8 @@ def start(command: Sequence[str], folder: Path, log: Path) -> tuple[subprocess.P
                 stderr=errors,
                 env=environment,
                 pass_fds=passed,
-                **options,
+                creationflags=flags,
+                start_new_session=not _WINDOWS,
             )
     except OSError:
         if kept is not None:

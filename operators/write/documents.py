@@ -79,7 +79,7 @@ def to_json(documents: Iterable[dict[str, Any]]) -> Iterator[str]:
     """One document as itself, several as an array, indented for a reader with each row of numbers
     on one line.
     """
-    waiting = ""
+    waiting, several = "", False
     for number, entry in enumerate(documents):
         text = json.dumps(entry, indent=2, ensure_ascii=False, allow_nan=False)
         text = _NUMBER_ROWS.sub(lambda match: "[" + re.sub(r"\s+", " ", match[1]) + "]", text)
@@ -159,7 +159,7 @@ def _columns(entry: dict[str, Any]) -> dict[str, Any]:
         }
     row |= _nested("display_mesh", entry.get("display_mesh", {}))
     row |= _nested("health", entry["health"]) | _nested("error_bound", entry["error_bound"])
-    for name in ("volume", "length", "surface"):
+    for name in ("volume", "length", "surface", "mass"):
         powers = entry.get("moments", {}).get(name, {})
         row |= {f"{name}_moment_{key.replace(',', '_')}": value for key, value in powers.items()}
     if entry.get("pose"):

@@ -169,6 +169,9 @@ MESSAGES: dict[str, Message] = {
     "moments_overflow_at_origin": _error(
         "About this origin, moments of order {order} exceed the range of numbers. Set About to Center."
     ),
+    "mass_moments_unknown": _error(
+        "Moments of the mass are not available to order {order} for this object. Set Order to 3, or Domain to Volume."
+    ),
     "normalization_undefined": _error(
         "The moments cannot be normalized: the volume or area is zero. Set About to Center."
     ),
@@ -1319,6 +1322,7 @@ MESSAGES: dict[str, Message] = {
     "usage_spline_order": _error("{text!r} is not an order from 1 to {limit}"),
     "usage_order": _error("{text!r} is not an order from 0 to {limit}"),
     "usage_order_too_high": _error("{text!r} is above the highest order, {limit}"),
+    "usage_links_of_bones": _error("--links bone takes what the bones' settings say, and no --{option}"),
     "usage_meshes_need_output": _error("--meshes needs --output, beside which they are written"),
     "usage_format_unknown": _error("{text!r} is not one of {formats}"),
     "usage_needs_fourier": _error("argument --{option}: needs --fourier OUT.npz"),
@@ -1592,6 +1596,15 @@ MESSAGES: dict[str, Message] = {
     "canceled_search": _note("Search canceled; nothing was changed"),
     "canceled_match_pose": _note("Match Pose canceled; nothing was moved"),
     "canceled_fourier": _note("Fourier transform canceled; nothing was written"),
+    "progress_library": _note("Measuring the library: {share:.0%}. Esc to stop"),
+    "canceled_library": _warning("Stopped. The files measured so far stand in the journal"),
+    "library_not_started": _error("No process can be started: {error}."),
+    "library_failed": _error("Measuring the library failed with exit code {code}. Use the command line to see why."),
+    "library_measured": _note("{count} file measured; report: {file}", "{count} files measured; report: {file}"),
+    "library_measured_with_failures": _warning(
+        "{count} file measured, {failed} without a result; report: {file}",
+        "{count} files measured, {failed} of them not or not fully; report: {file}",
+    ),
     "progress_measuring": _note("Measuring: {share:.0%}. Esc to cancel"),
     "progress_comparing": _note("Comparing: {share:.0%}. Esc to cancel"),
     "progress_symmetry": _note("Finding symmetry: {share:.0%}. Esc to cancel"),
@@ -1731,7 +1744,7 @@ MESSAGES: dict[str, Message] = {
     ),
     # ------------------------------------------------------------------ Audit of robot descriptions: files
     "xml_entities": _error("The file declares a document type, with which entities could be declared. Remove it."),
-    "xml_too_large": _error("The file nests more than {depth} elements or has more than {elements}."),
+    "xml_too_large": _error("The file nests more than {depth} elements or has more than {limit}."),
     "xml_invalid": _error("The file is not XML: {error}."),
     "usda_invalid": _error("The file is not text of USD (line {line})."),
     "usd_not_text": _error("Only the text form of USD is read. Convert the file to .usda with usdcat."),

@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 from ...core.inertia.mass_properties import MassProperties, combine
 from ...core.measurement import UNIFORM_DENSITIES, Measurement
 from ...core.moments.moments import Moments, monomials
+from ...core.moments.monomials import order_from_count
 from ...core.verdict.finding import Finding, MeasureError, Severity
 from .messages import sentence, severity
 
@@ -69,13 +70,23 @@ def record(
         volume = measurement.volume_moments
         if volume is None:
             volume = measurement.area_moments * measurement.thickness
-        entry["moments"] = {"order": order, "about": point}
-        entry["moments"]["volume"] = _about(point, volume, order, measurement, frame)
-        if measurement.length is not None:
-            length = measurement.mass_moments[0]
-            entry["moments"]["length"] = _about(point, length, min(order, length.order), measurement, frame)
+        domains = {"volume": volume.truncate(order)}
+        length = None if measurement.length is None else measurement.mass_moments[0]
+        if length is not None:
+            domains["length"] = length.truncate(min(order, length.order))
         if surface is not None:
-            entry["moments"]["surface"] = _about(point, surface, order, measurement, frame)
+            domains["surface"] = surface.truncate(order)
+        mass = measurement.moments_of_mass(order if length is None else min(order, length.order))
+        if mass is not None:
+            domains["mass"] = mass
+        placed = {name: _about(point, moments, measurement, frame) for name, moments in domains.items()}
+        entry["moments"] = {
+            "order": order,
+            "about": point,
+            **{name: _by_powers(moments.raw) for name, moments in placed.items()},
+            "error": {name: _by_powers(moments.rounding_error) for name, moments in placed.items()},
+            "input": {name: _by_powers(moments.input_error) for name, moments in placed.items()},
+        }
     entry |= more or {}
     if measurement.display_volume is not None:
         entry["display_mesh"] = {
@@ -181,13 +192,14 @@ def _inertia_about(point: NDArray[np.float64], properties: MassProperties) -> ND
     return properties.inertia + properties.mass * (arm @ arm * np.eye(3) - np.outer(arm, arm))
 
 
-def _about(
-    point: NDArray[np.float64], moments: Moments, order: int, measurement: Measurement, frame: str
-) -> dict[str, float]:
-    """World-frame moments by exponents, about a point of the frame and along its axes."""
-    moments = moments.truncate(order)
+def _about(point: NDArray[np.float64], moments: Moments, measurement: Measurement, frame: str) -> Moments:
+    """World-frame moments about a point of the frame and along its axes."""
     if frame == "object":
-        moments = moments.in_frame(measurement.rotation, measurement.location + measurement.rotation @ point)
-    else:
-        moments = moments.about_point(point)
-    return {",".join(map(str, powers)): value for powers, value in zip(monomials(order), moments.raw, strict=True)}
+        return moments.in_frame(measurement.rotation, measurement.location + measurement.rotation @ point)
+    return moments.about_point(point)
+
+
+def _by_powers(values: NDArray[np.float64]) -> dict[str, float]:
+    """Numbers by the exponents of their monomials, as "p,q,r"."""
+    powers = monomials(order_from_count(len(values))).tolist()
+    return {",".join(map(str, exponents)): value for exponents, value in zip(powers, values.tolist(), strict=True)}

@@ -12,7 +12,7 @@ from bpy.types import Context, Object
 from numpy.typing import NDArray
 
 from ...core.numerics.float32 import shortest_decimal
-from ...operators.session import results
+from ...operators.session import live, posed, results
 from ...operators.session.shown import shown_body, shown_bone
 from . import appearance as look
 
@@ -43,10 +43,12 @@ class Bodies:
 
 
 def drawn_objects(context: Context, show_all: bool) -> Iterator[Object]:
-    """The objects whose numbers are drawn in a view, where they have any: visible and, if not all, selected."""
+    """The objects whose numbers are drawn in a view: visible and, if not all, selected. In Pose Mode an armature stands
+    for its meshes."""
     layer, space = context.view_layer, context.space_data
     for obj in layer.objects if show_all else layer.objects.selected:
-        if "body_mass" in obj and obj.visible_in_viewport_get(space):
+        has_numbers = "body_mass" in obj or live.is_live(obj) or posed.stands_for_meshes(obj)
+        if has_numbers and obj.visible_in_viewport_get(space):
             yield obj
 
 

@@ -150,6 +150,8 @@ def _discs(bodies: Bodies, view: View, with_digits: bool) -> tuple[Batch, ...]:
     if not len(bodies):
         return ()
     points, colors, triangles = lines.disc_triangles(bodies, view, _scale(), with_digits)
+    if not len(points):
+        return ()
     shader = gpu.shader.from_builtin("FLAT_COLOR")
     return (batch_for_shader(shader, "TRIS", {"pos": points, "color": colors}, indices=triangles),)
 

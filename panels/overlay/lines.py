@@ -15,6 +15,8 @@ from . import glyphs, solids
 from .bodies import Bodies
 from .view import View
 
+MARGIN = 40.0  # pixels around the view in which discs are still made
+MIN_NAMED = 8.0  # pixels of the longest axis from which on axes are named
 Segments = tuple[NDArray[np.float64], NDArray[np.float32]]  # (k, 2, 3) in the world, (k, 4) colors
 
 
@@ -55,22 +57,40 @@ def disc_triangles(
     triangles : (l, 3) array
         The nearest bodies last.
     """
-    order = np.argsort(-view.depths(bodies.centers), kind="stable")
-    centers, verdicts = bodies.centers[order], bodies.verdicts[order]
-    discs, count = glyphs.discs(), len(order)
+    sizes = view.pixel_sizes(bodies.centers).max(axis=1)
+    reach = np.divide(bodies.gyration.max(axis=1), sizes, out=np.zeros(len(bodies)), where=sizes > 0.0)  # in pixels
+    away = np.abs(view.pixels(bodies.centers) - view.size / 2.0) - view.size / 2.0
+    seen = np.flatnonzero((sizes > 0.0) & (away <= (reach + scale * MARGIN)[:, None]).all(axis=1))
+    seen = seen[np.argsort(-view.depths(bodies.centers[seen]), kind="stable")]
+    named = with_digits & (reach[seen] >= scale * MIN_NAMED)
+    parts = [
+        _glyphs(bodies, group, view, scale, digits) for group, digits in ((seen[~named], False), (seen[named], True))
+    ]
+    starts = np.cumsum([0, *(len(points) for points, _, _ in parts)], dtype=np.int32)
+    points, colors, triangles = zip(*parts)
+    numbered = [corners + start for corners, start in zip(triangles, starts)]
+    return np.concatenate(points), np.concatenate(colors), np.concatenate(numbered)
+
+
+def _glyphs(
+    bodies: Bodies, group: NDArray[np.intp], view: View, scale: float, with_digits: bool
+) -> tuple[NDArray[np.float32], NDArray[np.float32], NDArray[np.int32]]:
+    """As `disc_triangles`, of some bodies, in this order."""
+    count, centers, verdicts = len(group), bodies.centers[group], bodies.verdicts[group]
+    discs = glyphs.discs()
     points, colors = [view.place(centers, scale * discs.corners[verdicts])], [discs.colors[verdicts]]
     triangles = [discs.triangles[verdicts]]
     if with_digits:
         digits = glyphs.digits()
-        tips = (centers[:, None] + (bodies.axes * bodies.gyration[:, None, :]).transpose(0, 2, 1)[order]).reshape(-1, 3)
+        arms = bodies.axes[group] * bodies.gyration[group][:, None, :]
+        tips = (centers[:, None] + arms.transpose(0, 2, 1)).reshape(-1, 3)
         away = _digit_offsets(view.pixels(centers), view.pixels(tips).reshape(-1, 3, 2), scale).astype(np.float32)
-        offsets = (scale * digits.corners + away[:, :, None]).reshape(3 * count, -1, 2)
-        points.append(view.place(tips, offsets).reshape(count, -1, 3))
-        colors.append(np.broadcast_to(digits.colors.reshape(1, -1, 4), (count, digits.colors.shape[1] * 3, 4)))
+        offsets = (scale * digits.corners + away[:, :, None]).reshape(3 * count, digits.corners.shape[1], 2)
+        points.append(view.place(tips, offsets).reshape(count, 3 * digits.corners.shape[1], 3))
+        colors.append(np.broadcast_to(digits.colors.reshape(1, -1, 4), (count, 3 * digits.colors.shape[1], 4)))
         first = discs.corners.shape[1] + digits.corners.shape[1] * np.arange(3, dtype=np.int32)[:, None, None]
-        triangles.append(
-            np.broadcast_to((digits.triangles + first).reshape(1, -1, 3), (count, digits.triangles.size // 3, 3))
-        )
+        named = (digits.triangles + first).reshape(1, -1, 3)
+        triangles.append(np.broadcast_to(named, (count, *named.shape[1:])))
     placed, tints = np.concatenate(points, axis=1), np.concatenate(colors, axis=1)
     start = placed.shape[1] * np.arange(count, dtype=np.int32)[:, None, None]
     corners = np.concatenate(triangles, axis=1) + start

@@ -191,14 +191,20 @@ class Window:
     def choose(self, menu: str, operator: str) -> None:
         """Open a menu at the pointer, as its key or header does, and click the entry of an operator."""
         x, y, width, height = self.region("WINDOW")
-        x, y = x + width * 0.3, y + height - 60
+        x, y = x + width * 0.3, y + height * 0.5
         self.move(x, y)
         self.ask(f"bpy.ops.wm.call_menu(name={menu!r})")
-        for down in range(0, height - 80, 9):
-            if self._button_at(x, y - down) == operator:
-                self._xdotool("click", 1)
-                self.get("True")
-                return
+        # A menu opens with the entry under the pointer that was chosen last, and closes when the pointer leaves it.
+        for step in (9, -9):
+            missed, place = 0, y
+            while missed < 4:
+                found = self._button_at(x, place)
+                if found == operator:
+                    self._xdotool("click", 1)
+                    self.get("True")
+                    return
+                missed = missed + 1 if found is None else 0
+                place += step
         self.picture("no-entry")
         self.key("Escape")
         raise LookupError(f"no entry for {operator} in {menu}\n{self.output()}")
@@ -211,7 +217,7 @@ class Window:
         x, y, width, height = self.region("UI")
         found = {}
         for down in range(24, height, 16):
-            for share in (0.5, 0.93):
+            for share in (0.5, 0.9, 0.95):
                 command = self._command_at(x + (width - 28) * share, y + height - down, tries=2)
                 if command:
                     found[command] = None
@@ -244,7 +250,7 @@ class Window:
         self.buttons.clear()
         for page in range(PAGES):
             for down in range(30 if page == 0 else 8, height, 14):
-                for share in (0.25, 0.75, 0.93):
+                for share in (0.25, 0.75, 0.9):
                     place = (x + column * share, y + height - down)
                     found = self._button_at(*place)
                     if found == operator:

@@ -76,4 +76,11 @@ def test_it_is_switched_off(window, switch):
 def test_nothing_is_drawn_when_the_add_on_is_disabled(window):
     window.ask(f"bpy.ops.preferences.addon_disable(module={PACKAGE!r})")
     assert not is_near(center_color(window, "overlay-disabled"), EXACT)
+    left = window.ask(
+        "lists = [getattr(bpy.app.handlers, name) for name in dir(bpy.app.handlers)]\n"
+        "functions = [entry for entries in lists if isinstance(entries, list) for entry in entries]\n"
+        "functions += bpy.types.VIEW3D_PT_overlay_object._dyn_ui_initialize()\n"
+        f"result = [str(entry) for entry in functions if str(entry.__module__).startswith({PACKAGE!r})]"
+    )
+    assert left == []
     assert "Traceback" not in window.output()

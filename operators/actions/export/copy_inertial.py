@@ -8,11 +8,11 @@ from bpy.props import EnumProperty
 from bpy.types import Context, Operator
 
 from ....core.verdict.finding import MeasureError, finding
+from ...session.robot_links import object_links
 from ...write import reports
 from ...write.robots.formats import robot_text
 from .. import selection
 from ..measure.copy import copy_text
-from .links import object_links
 
 FORMATS = (
     ("urdf", "URDF", "Tensor along the axes of the object"),

@@ -16,6 +16,8 @@ from bpy_extras.io_utils import ExportHelper
 
 from ....core.verdict.finding import EditRefusedError, FileError, Finding, MeasureError, finding
 from ...read.links import USD_ROOT, sheared_objects, usd_path
+from ...session import robot_links as scenes
+from ...session.robot_links import SceneLinks, meters_per_unit
 from ...write import reports
 from ...write.messages import sentence
 from ...write.robots import gltf, usd
@@ -24,9 +26,8 @@ from ...write.robots.shapes import with_primitives
 from ...write.robots.stl import write_meshes
 from ...write.whole_file import whole_file
 from .. import selection
-from . import links as scenes
+from ..modal import progress
 from .copy_inertial import OBJECT_OT_body_moments_copy_inertial
-from .links import SceneLinks, meters_per_unit
 
 LINKS = (
     ("OBJECT", "Objects", "Each object is a link; its parent holds it by a fixed joint"),
@@ -86,7 +87,8 @@ class RobotExport(ExportHelper):
         if self.links == "COLLECTION":
             root = bpy.data.collections[self.collection] if self.collection else context.scene.collection
             return scenes.collection_links(context, name, root, objects)
-        return scenes.object_links(context, name, objects)
+        with progress(len(objects)) as step:
+            return scenes.object_links(context, name, objects, step)
 
     def _export(self, context: Context, objects: list[Object], path: Path) -> list[Finding]:
         made = self._links(context, objects, path.stem)

@@ -95,6 +95,7 @@ def _collection(context: Context, armature: Object) -> Collection:
 
 def _body(collection: Collection, armature: Object, part: BonePart, unit: float) -> Object:
     """The object of a part: its closed pieces, in a frame at its center along its principal axes."""
+    assert part.measurement is not None
     body = part.measurement.mass_properties
     frame = np.eye(4)
     frame[:3, :3], frame[:3, 3] = body.principal.axes, body.center / unit

@@ -200,7 +200,7 @@ class OBJECT_OT_body_moments_accept(Operator):
     @classmethod
     def description(cls, _context: Context, values) -> str:
         if values.accepted:
-            return cls.__doc__
+            return cls.__doc__ or ""
         return "Show this note as a warning again"
 
     @classmethod
@@ -234,7 +234,8 @@ class OBJECT_OT_body_moments_select_refused(Operator):
         return outcome.last() is not None
 
     def execute(self, context: Context) -> set[str]:
-        names = set(outcome.last().objects)
+        last = outcome.last()
+        names = set() if last is None else set(last.objects)
         objects = [obj for obj in context.view_layer.objects if obj.name_full in names]
         if not objects:
             return {"CANCELLED"}

@@ -151,8 +151,11 @@ class OBJECT_OT_body_moments_rigid_bodies(Operator):
         context.view_layer.update()
         with paused():  # Blender reports a rigid body as a change of the shape
             failures += self._place(context, measured)
-            failures += self._add(context, measured)
+            new, refused = self._add(context, measured)
+            failures += refused
             blender = _calculated_masses(context, measured)
+            for obj in new:
+                obj.rigid_body.mesh_source = "FINAL"  # the mesh that was weighed; Calculate Mass goes by the default
             for obj, one in measured.items():
                 obj.rigid_body.mass = one.target.mass
             context.view_layer.update()
@@ -191,8 +194,8 @@ class OBJECT_OT_body_moments_rigid_bodies(Operator):
                 staleness.mark_axes_changed(plan.obj for plan in changed)
         return failures
 
-    def _add(self, context: Context, measured: dict[Object, Measured]) -> list[Finding]:
-        """Make them rigid bodies with their shapes."""
+    def _add(self, context: Context, measured: dict[Object, Measured]) -> tuple[list[Object], list[Finding]]:
+        """Make them rigid bodies with their shapes; the objects that were none, and why others are none."""
         failures: list[Finding] = []
         parts = [part for one in measured.values() for part in (one.body.obj, *one.body.members)]
         new = [obj for obj in parts if obj.rigid_body is None]
@@ -214,12 +217,11 @@ class OBJECT_OT_body_moments_rigid_bodies(Operator):
                     continue
                 if part in fresh:
                     part.rigid_body.collision_shape = "CONVEX_HULL"
-                    part.rigid_body.mesh_source = "FINAL"
                 if part in inner:
                     part.rigid_body.collision_shape = "COMPOUND"
                 elif self.shape != "KEEP":
                     part.rigid_body.collision_shape = self.shape
-        return failures
+        return [obj for obj in new if obj.rigid_body is not None], failures
 
     def _report(
         self,

@@ -58,6 +58,7 @@ SHAPES = {similarity: "shapes_" + similarity for similarity in Similarity}  # co
 class _SearchMixin:
     """What both searches share."""
 
+    bl_label: str
     bl_options = {"REGISTER", "UNDO"}
     mirrored: bool
     scaled: bool

@@ -119,8 +119,9 @@ def target_of(context: Context, obj: Object, measured: Measured | Stacked, stric
     body = measurement.mass_properties
     principal = body.principal
     if strict:
-        exact = isinstance(measured, Stacked) or measurement.kind == "shell" or measured.body.mass is not None
-        principal = zhang_chen_frame(measurement.mass_moments[0], None if exact else measured.body.third_order)
+        body_of = None if isinstance(measured, Stacked) or measurement.kind == "shell" else measured.body
+        refine = None if body_of is None or body_of.mass is not None else body_of.third_order
+        principal = zhang_chen_frame(measurement.mass_moments[0], refine)
     return SnapTarget(
         obj=obj,
         center=body.center / unit,

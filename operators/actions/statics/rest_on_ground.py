@@ -107,6 +107,8 @@ class OBJECT_OT_body_moments_rest_on_ground(Operator):
         place = (self.pose - 1) % len(normals) if self.pose else int((normals @ down).argmax())
         turn = shortest_turn(normals[place], down)
         body = shown_body(obj, context.scene)
+        if body is None:
+            raise EditRefusedError("no_stable_pose")
         size = float(body.gyration.max())
         target = world(obj)
         target[:3, :3] = turn @ target[:3, :3]
@@ -123,7 +125,8 @@ class OBJECT_OT_body_moments_rest_on_ground(Operator):
     def _ground(self, context: Context, obj: Object, center: NDArray, down: NDArray) -> float:
         """How far the ground is below the center."""
         if self.ground == "LOWEST":
-            return stability.support(obj, context.scene).height
+            support = stability.support(obj, context.scene)
+            return 0.0 if support is None else support.height
         point = np.array(context.scene.cursor.location, np.float64) if self.ground == "CURSOR" else np.zeros(3)
         return float((point - center) @ down)
 

@@ -47,11 +47,11 @@ class Prim:
             return None
         return np.array(_NUMBER.findall(self.values[name]), np.float64)
 
-    def vector(self, name: str, count: int, default: tuple[float, ...] | None) -> NDArray[np.float64] | None:
-        """Return so many numbers of an attribute. Raises ValueError where there are others."""
-        values = self.numbers(name)
+    def vector(self, name: str, default: tuple[float, ...]) -> NDArray[np.float64]:
+        """Return the numbers of an attribute, as many as its default has. Raises ValueError where there are others."""
+        values, count = self.numbers(name), len(default)
         if values is None:
-            return None if default is None else np.array(default, np.float64)
+            return np.array(default, np.float64)
         if len(values) != count:
             raise ValueError(self.values[name][:80])
         return values
@@ -101,7 +101,7 @@ class _Parser:
     def prim(self, depth: int) -> Prim:
         self.count += 1
         if depth > MAX_DEPTH or self.count > MAX_ELEMENTS:
-            raise FileError("xml_too_large", elements=MAX_ELEMENTS, depth=MAX_DEPTH)
+            raise FileError("xml_too_large", limit=MAX_ELEMENTS, depth=MAX_DEPTH)
         self.take()  # the specifier
         words = []
         while self.peek() not in ("(", "{", ""):
@@ -252,12 +252,12 @@ def _link(prim: Prim, matrix: NDArray, path: str, unit: float, text: str) -> Sta
 
 
 def _inertial(prim: Prim, local: NDArray, unit: float) -> StatedInertial | None:
-    mass = prim.vector("physics:mass", 1, None)
-    diagonal = prim.vector("physics:diagonalInertia", 3, None)
-    if mass is None or not mass[0] or diagonal is None or not diagonal.any():
+    mass = prim.vector("physics:mass", (0.0,))
+    diagonal = prim.vector("physics:diagonalInertia", (0.0, 0.0, 0.0))
+    if not mass[0] or not diagonal.any():
         return None  # computed from the colliders
-    center = prim.vector("physics:centerOfMass", 3, (0.0, 0.0, 0.0))
-    axes = prim.vector("physics:principalAxes", 4, (1.0, 0.0, 0.0, 0.0))
+    center = prim.vector("physics:centerOfMass", (0.0, 0.0, 0.0))
+    axes = prim.vector("physics:principalAxes", (1.0, 0.0, 0.0, 0.0))
     axes = axes if axes.any() else np.array([1.0, 0.0, 0.0, 0.0])
     placed = (local[:3, :3] @ center + local[:3, 3]) * unit
     tensor = np.diag(diagonal) * unit**2

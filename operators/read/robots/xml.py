@@ -39,7 +39,7 @@ class Node:
 
     def walk(self) -> Iterator[Node]:
         """Yield it and everything below."""
-        waiting = [self]
+        waiting: list[Node] = [self]
         while waiting:
             node = waiting.pop()
             yield node
@@ -70,7 +70,7 @@ class _Builder:
     def _start(self, tag: str, attributes: dict[str, str]) -> None:
         self.count += 1
         if self.count > MAX_ELEMENTS or len(self.open) >= MAX_DEPTH:
-            raise FileError("xml_too_large", elements=MAX_ELEMENTS, depth=MAX_DEPTH)
+            raise FileError("xml_too_large", limit=MAX_ELEMENTS, depth=MAX_DEPTH)
         node = Node(tag, attributes, self.parser.CurrentByteIndex)
         if self.open:
             self.open[-1].children.append(node)

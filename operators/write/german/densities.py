@@ -243,8 +243,8 @@ MESSAGES = {
         "Oberfläche geht durch {cells} Zellen.",
     ),
     "threshold_clipped": (
-        "Der Körper reicht bis an den Rand des Rasters „{grid}“ und ist dort abgeschnitten. Schwellwert erhöhen oder "
-        "das Raster vergrößern.",
+        "Der Körper reicht bis an den Rand des Rasters „{grid}“ und ist dort abgeschnitten. Schwellwert erhöhen "
+        "oder das Raster vergrößern.",
     ),
     "threshold_not_reached": (
         "Kein Wert des Rasters „{grid}“ erreicht den Schwellwert {threshold}; der größte ist {largest}. Schwellwert "

@@ -4,6 +4,7 @@
 
 # Texts of the interface, as they stand in the source → German
 TEXTS = {
+    "What is one rigid body": "Was ein Starrkörper ist",
     "Objects": "Objekte",
     "Collections": "Sammlungen",
     "Geometry": "Geometrie",
@@ -269,4 +270,5 @@ TEXTS = {
     "Origin": "Ursprung",
     "Compound Parents": "Eltern als Verbund",
     "Active": "Aktiv",
+    "One density, as for any solid": "Eine Dichte, wie für jeden Körper",
 }

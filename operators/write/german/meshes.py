@@ -9,6 +9,10 @@ MESSAGES = {
     "no_face_area": (
         "Alle Flächen haben den Inhalt null. Ihre Punkte auseinanderbewegen oder ein anderes Objekt auswählen.",
     ),
+    "surface_not_closed": (
+        "Die Oberfläche schließt sich nicht, und ihr Volumen hängt vom Bezugspunkt ab. Die Momente des Körpers "
+        "nehmen, den measure_solid daraus macht.",
+    ),
     "no_volume": (
         "Die Flächen umschließen kein Volumen. Art auf Schale setzen, das Netz schließen oder für einen ebenen "
         "Umriss Querschnitt messen verwenden.",
@@ -30,6 +34,10 @@ MESSAGES = {
     "moments_overflow_at_origin": (
         "Um diesen Ursprung übersteigen Momente der Ordnung {order} den Zahlenbereich. Bezogen auf: Mittelpunkt "
         "wählen.",
+    ),
+    "mass_moments_unknown": (
+        "Für dieses Objekt sind Momente der Masse nicht bis zur Ordnung {order} verfügbar. Ordnung auf 3 setzen oder "
+        "Bereich auf Volumen.",
     ),
     "normalization_undefined": (
         "Die Momente lassen sich nicht normieren: Volumen oder Fläche ist null. Bezogen auf: Mittelpunkt wählen.",
@@ -83,10 +91,6 @@ MESSAGES = {
     "one_sided_components": (
         "Einseitige Komponenten lassen sich nicht schließen: {count} von {total}. Volumen, Massenmittelpunkt und "
         "Trägheit hängen vom Bezugspunkt ab. Art auf Schale setzen.",
-    ),
-    "surface_not_closed": (
-        "Die Oberfläche schließt sich nicht, und ihr Volumen hängt vom Bezugspunkt ab. Die Momente des Körpers "
-        "nehmen, den measure_solid daraus macht.",
     ),
     "non_manifold_components": (
         "Komponenten lassen sich nicht schließen, wo mehr als zwei Flächen an einer Kante liegen: {count} von "

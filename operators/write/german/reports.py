@@ -4,6 +4,7 @@
 
 # Codes of messages → German, and for several where the English has such a text
 MESSAGES = {
+    "joint_not_added": ("Blender hat das Gelenk nicht angelegt. Prüfen, ob die Szene eine Starrkörperwelt hat.",),
     "rigid_bodies_made": (
         "{count} Starrkörper von {mass:.7g} kg; Masse berechnen würde {calculated:.7g} kg sagen",
         "{count} Starrkörper von {mass:.7g} kg; Masse berechnen würde {calculated:.7g} kg sagen",
@@ -229,6 +230,7 @@ MESSAGES = {
         "{count} Objekte ohne Masse sind keine Glieder: {links}.",
     ),
     "robot_without_links": ("Es gibt kein Glied. Objekte mit Masse messen.",),
+    "robot_without_bones": ("Es gibt kein Glied. Eine Armatur mit dem, was sie bewegt, auswählen.",),
     "robot_base_added": (
         "{count} Objekte haben kein Elternobjekt. Sie sind an einem zusätzlichen Glied ohne Masse fest, {name}. Sie "
         "an eines davon hängen, um das zu vermeiden.",
@@ -304,4 +306,15 @@ MESSAGES = {
     "defect_degenerate_faces": ("{count} Fläche ohne Inhalt", "{count} Flächen ohne Inhalt"),
     "defect_non_planar_faces": ("{count} unebene Fläche", "{count} unebene Flächen"),
     "defect_flipped_faces": ("{count} verdrehte Fläche", "{count} verdrehte Flächen"),
+    "progress_library": ("Bibliothek wird gemessen: {share:.0%}. Esc hält an",),
+    "canceled_library": ("Angehalten. Die bisher gemessenen Dateien stehen im Journal",),
+    "library_not_started": ("Es lässt sich kein Prozess starten: {error}.",),
+    "library_failed": (
+        "Das Messen der Bibliothek endete mit dem Code {code}. Auf der Kommandozeile zeigt sich der Grund.",
+    ),
+    "library_measured": ("{count} Datei gemessen; Bericht: {file}", "{count} Dateien gemessen; Bericht: {file}"),
+    "library_measured_with_failures": (
+        "{count} Datei gemessen, {failed} ohne Ergebnis; Bericht: {file}",
+        "{count} Dateien gemessen, {failed} davon nicht oder nicht ganz; Bericht: {file}",
+    ),
 }

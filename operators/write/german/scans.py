@@ -232,6 +232,12 @@ MESSAGES = {
     "file_missing": ("Keine solche Datei.",),
     "file_not_regular": ("Keine gewöhnliche Datei.",),
     "file_unreadable": ("Die Datei lässt sich nicht lesen: {error}.",),
+    "threemf_damaged": ("Die 3MF-Datei ist beschädigt: {error}. Sie neu exportieren.",),
+    "threemf_extension": (
+        "Die 3MF-Datei braucht eine Erweiterung, die ihre Form ändert und nicht gelesen wird: {name}. Sie als "
+        "einfache Netze exportieren.",
+    ),
+    "threemf_instances": ("Die 3MF-Datei setzt mehr als {limit} Netze. Einige verbinden.",),
     "file_exists": ("Die Datei „{file}“ gibt es schon. Überschreiben einschalten.",),
     "volume_not_written": ("Das Volumen lässt sich nicht schreiben: {error}",),
     "openvdb_missing": ("Dieses Python hat kein Modul openvdb. Blender verwenden.",),

@@ -84,9 +84,9 @@ TEXTS = {
     "Remove the stored results of the active armature and its bones. Settings are kept": (
         "Die gespeicherten Ergebnisse der aktiven Armatur und ihrer Knochen entfernen. Einstellungen bleiben"
     ),
-    "Compute all moments of the active object's volume and surface up to the chosen order. A million triangles take "
-    "about 1 second at order 4 and 20 seconds at order 20": (
-        "Alle Momente von Volumen und Oberfläche des aktiven Objekts bis zur gewählten Ordnung berechnen. Eine "
+    "Compute all moments of the active object's volume, surface and mass up to the chosen order. A million triangles "
+    "take about 1 second at order 4 and 20 seconds at order 20": (
+        "Alle Momente von Volumen, Oberfläche und Masse des aktiven Objekts bis zur gewählten Ordnung berechnen. Eine "
         "Million Dreiecke brauchen bei Ordnung 4 etwa 1 Sekunde, bei Ordnung 20 etwa 20"
     ),
     "Copy all computed moments and their error bounds to the clipboard as CSV": (
@@ -355,4 +355,23 @@ TEXTS = {
     "Draw all visible measured objects instead of the selected ones": (
         "Alle sichtbaren gemessenen Objekte statt der ausgewählten zeichnen"
     ),
+    "Draw the principal axes 1, 2 and 3, each as long as its radius of gyration in both directions": (
+        "Die Hauptträgheitsachsen 1, 2 und 3 zeichnen, jede in beide Richtungen so lang wie ihr Trägheitsradius"
+    ),
+    "Draw a line from the center of mass straight down or up to the floor, Z = 0": (
+        "Eine Linie vom Massenmittelpunkt senkrecht zum Boden Z = 0 zeichnen"
+    ),
+    "Measure all files of a folder or an asset library in separate processes, and write results and a report there": (
+        "Alle Dateien eines Ordners oder einer Asset-Bibliothek in eigenen Prozessen messen und Ergebnisse und einen "
+        "Bericht dort ablegen"
+    ),
+    "Folder with the files to measure": "Ordner mit den zu messenden Dateien",
+    "Folder or asset library to measure": "Zu messender Ordner oder zu messende Asset-Bibliothek",
+    "Write mass, volume and center into the metadata of the objects that are assets": (
+        "Masse, Volumen und Mittelpunkt in die Metadaten der Objekte schreiben, die Assets sind"
+    ),
+    "Save the metadata in the asset files themselves instead of in copies beside them": (
+        "Die Metadaten in den Asset-Dateien selbst speichern statt in Kopien daneben"
+    ),
+    "Draw a picture of each body in the report": "Jeden Körper im Bericht abbilden",
 }

@@ -4,12 +4,6 @@
 
 # Texts of the interface, as they stand in the source → German
 TEXTS = {
-    "Draw the principal axes 1, 2 and 3, each as long as its radius of gyration in both directions": (
-        "Die Hauptträgheitsachsen 1, 2 und 3 zeichnen, jede in beide Richtungen so lang wie ihr Trägheitsradius"
-    ),
-    "Draw a line from the center of mass straight down or up to the floor, Z = 0": (
-        "Eine Linie vom Massenmittelpunkt senkrecht zum Boden Z = 0 zeichnen"
-    ),
     "Draw the body of uniform density that has the same mass and the same principal moments": (
         "Den Körper gleichmäßiger Dichte mit gleicher Masse und gleichen Hauptträgheitsmomenten zeichnen"
     ),
@@ -111,7 +105,6 @@ TEXTS = {
     ),
     "Grid value from which on a point belongs to the body": "Rasterwert, ab dem ein Punkt zum Körper gehört",
     "What the body within the threshold is made of": "Woraus der Körper innerhalb des Schwellwerts besteht",
-    "One density, as for any solid": "Eine Dichte, wie für jeden Körper",
     "The density that the values of the grid represent": "Die Dichte, die die Werte des Rasters darstellen",
     "Use a transfer table, for example for CT numbers": "Eine Übertragungstabelle verwenden, etwa für CT-Zahlen",
     "Pairs of a grid value and a density in kg/m³, separated by commas. Linear in between, constant beyond. The "
@@ -146,7 +139,10 @@ TEXTS = {
     "Highest p + q + r of the computed moments ∫ x^p y^q z^r": (
         "Höchstes p + q + r der berechneten Momente ∫ x^p y^q z^r"
     ),
-    "What the moments integrate over, without density": "Worüber die Momente integrieren, ohne Dichte",
+    "What the moments integrate over": "Worüber die Momente integrieren",
+    "Volume, or for shells the area, times the density wherever it comes from": (
+        "Volumen, bei Schalen die Fläche, mal der Dichte, woher sie auch kommt"
+    ),
     "Center of the volume or surface: central moments": (
         "Mittelpunkt des Volumens oder der Oberfläche: zentrale Momente"
     ),
@@ -294,5 +290,8 @@ TEXTS = {
         "Die Zahlen der ausgewählten Objekte erneuern, während sie bearbeitet, geformt, gestellt oder animiert "
         "werden, bis die Datei geschlossen wird. Im Posenmodus die der Netze, die die Armatur verformt. Messen "
         "speichert sie"
+    ),
+    "Each bone of a character is a link in its rest frame, with joints of the bones' limits": (
+        "Jeder Knochen einer Figur ist ein Glied in seinem Ruhesystem, mit Gelenken nach den Grenzen der Knochen"
     ),
 }

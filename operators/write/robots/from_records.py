@@ -24,13 +24,17 @@ from .text import unique_names
 
 DEFAULT_NAME = "robot"
 MESH_FOLDER = "meshes"
-_NOT_IN_FILES = re.compile(r"[^\w.-]")
+_NOT_IN_FILES = re.compile(r"[^\w.-]", re.ASCII)
 
 
 def robot_of_document(document: Mapping[str, Any]) -> tuple[Robot, list[Finding]]:
     """Return what the records of a file are as a robot, called like the file, and what was left out."""
-    name = PurePath(document["file"]).stem if document["file"] else DEFAULT_NAME
-    return robot_of_records(name, document["objects"])
+    return robot_of_records(robot_name(document["file"]), document["objects"])
+
+
+def robot_name(file: str | None) -> str:
+    """Return what a robot of a file is called."""
+    return PurePath(file).stem if file else DEFAULT_NAME
 
 
 def robot_of_records(name: str, records: Sequence[Mapping[str, Any]]) -> tuple[Robot, list[Finding]]:

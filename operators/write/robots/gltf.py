@@ -11,10 +11,11 @@ from __future__ import annotations
 
 import json
 import struct
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ....core.numerics.rotations import quaternion
 from ....core.robots.model import Inertial, Robot
@@ -26,7 +27,7 @@ UNIFORM_RTOL = 1e-6  # of scales that float32 rounding alone sets apart
 _GLB, _JSON = 0x46546C67, 0x4E4F534A
 
 
-def motion(inertial: Inertial, meters_per_unit: float, scale: Sequence[float]) -> dict[str, Any]:
+def motion(inertial: Inertial, meters_per_unit: float, scale: ArrayLike) -> dict[str, Any]:
     """Return what both extensions call a motion, in the axes and units of the file.
 
     Parameters
@@ -35,7 +36,7 @@ def motion(inertial: Inertial, meters_per_unit: float, scale: Sequence[float]) -
         Along the axes of Blender's object.
     meters_per_unit : float
         Of the Blender scene.
-    scale : (3,) sequence
+    scale : (3,) array_like
         Of the object, in whose unscaled space the center is.
 
     Returns
@@ -85,7 +86,7 @@ def add_rigid_bodies(document: dict[str, Any], robot: Robot, meters_per_unit: fl
             continue
         if np.abs(link.scale - 1.0).max() > UNIFORM_RTOL:
             scaled.append(link.name)
-        values = motion(inertial, meters_per_unit, link.scale)
+        values = motion(inertial, meters_per_unit, link.scale.tolist())
         extensions = found[0].setdefault("extensions", {})
         extensions[KHR] = {"motion": values}
         extensions[OMI] = {"motion": {"type": "dynamic", **values}}

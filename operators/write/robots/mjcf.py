@@ -19,15 +19,16 @@ LEAST = 1e-15  # mjMINVAL: MuJoCo refuses what moves and has less mass or inerti
 
 def check(robot: Robot) -> list[Finding]:
     """Return what MuJoCo refuses, and what the format cannot say."""
-    small = [
-        link.name
+    least = {
+        link.name: float(min(link.inertial.mass, link.inertial.moments[0]))
         for link in robot.links
-        if link.inertial is not None and min(link.inertial.mass, link.inertial.moments[0]) < LEAST
-    ]
+        if link.inertial is not None
+    }
+    small = [name for name, value in least.items() if value < LEAST]
     if not small:
         return []
-    least = min(min(link.inertial.mass, link.inertial.moments[0]) for link in robot.links if link.name in {*small})
-    return [finding("mjcf_inertia_too_small", count=len(small), links=small, least=float(least), limit=LEAST)]
+    smallest = min(least.values())
+    return [finding("mjcf_inertia_too_small", count=len(small), links=small, least=smallest, limit=LEAST)]
 
 
 def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = False) -> str:

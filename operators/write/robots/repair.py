@@ -84,7 +84,7 @@ def _usd(link: StatedLink, inertial: StatedInertial, description: Description, o
     unit, local = description.scales["length"], np.eye(4) if link.local is None else link.local
     pair = principal_pair(inertial)
     center = np.linalg.solve(local[:3, :3], inertial.center / unit - local[:3, 3])
-    placed = Inertial(pair.mass, center * unit, pair.inertia, pair.moments, pair.axes)
+    placed = Inertial(pair.mass, np.asarray(center * unit, np.float64), pair.inertia, pair.moments, pair.axes)
     below = re.search(r"\n[ \t]*(?:def|over|class)\b", old)
     split = below.start() if below else len(old)
     own, rest = old[:split], old[split:]

@@ -44,11 +44,11 @@ def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = Fa
     lines = header(robot.name, remarks, 1.0, ROOT)
     lines += ['def Xform "{}"'.format(ROOT), "{"]
     for link in robot.ordered():
-        body = link.inertial is not None
-        lines += _indented(_prim("def Xform", names[link.name], APIS if body else ()))
+        inertial = link.inertial
+        lines += _indented(_prim("def Xform", names[link.name], () if inertial is None else APIS))
         lines += _indented(["{"])
-        if body:
-            lines += _indented(mass_attributes(link.inertial), 2)
+        if inertial is not None:
+            lines += _indented(mass_attributes(inertial), 2)
         if not inertial_only:
             lines += _indented(_transform(link.pose), 2)
             for count, shape in enumerate(link.shapes, start=1):
@@ -211,7 +211,7 @@ def _prim(kind: str, name: str, apis: Sequence[str] = ()) -> list[str]:
     return [start + " (", "    prepend apiSchemas = [{}]".format(", ".join(map(quoted, apis))), ")"]
 
 
-def _transform(pose: Pose, scale: ArrayLike | None = None) -> list[str]:
+def _transform(pose: Pose, scale: Sequence[float] | None = None) -> list[str]:
     operations = ["translate", "orient"] + ["scale"] * (scale is not None)
     lines = [
         "double3 xformOp:translate = {}".format(_doubles(pose.position)),

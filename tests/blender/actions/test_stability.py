@@ -8,6 +8,7 @@ from math import atan2, degrees
 import bpy
 import numpy as np
 import pytest
+from mathutils import Matrix
 
 from tests.blender import objects
 from tests.close import close
@@ -214,3 +215,20 @@ def test_faults_are_where_they_are(scene):
     obj.data.update()
     bpy.context.view_layer.update()
     assert faults.of_object(obj) is None
+
+
+def test_a_body_far_from_its_origin_rests_on_its_faces(scene):
+    """Coordinates of 200 sizes: float32 makes its faces uneven by 1e-5 of the size."""
+    from body_moments.operators.session import stability
+
+    bpy.ops.mesh.primitive_grid_add(x_subdivisions=8, y_subdivisions=8)
+    obj = bpy.context.object
+    solidify = obj.modifiers.new("Solidify", "SOLIDIFY")
+    solidify.thickness, solidify.offset = 1.5, 0.0
+    bpy.ops.object.modifier_apply(modifier="Solidify")
+    obj.data.transform(Matrix.Rotation(0.7, 4, (1.0, 2.0, 3.0)))
+    obj.data.transform(Matrix.Translation((400.0, 300.0, -200.0)))
+    bpy.ops.object.body_moments_stability()
+    poses = stability.poses(obj)
+    assert len(poses.shares) == 6
+    assert close(np.sort(poses.margins), np.repeat([0.75, 1.0], [4, 2]), 1e-3)

@@ -16,8 +16,10 @@ from body_moments.operators.command.run import Run
 from body_moments.operators.write import documents
 
 from tests.blender.batch_files import document, parsed
+from tests.blender.characters import PARENTS, armature_of, skin_of
 from tests.blender.objects import add, mesh_body
 from tests.close import close
+from tests.core import characters
 
 pytestmark = pytest.mark.usefixtures("scene")
 UNITS = (1.0, 0.001)
@@ -158,3 +160,24 @@ def test_an_older_robot_of_ours_is_replaced_and_another_is_not(tmp_path):
 
 def test_several_files_are_no_robot(tmp_path):
     assert refused("measure", "--format", "urdf", str(tmp_path / "a.stl"), str(tmp_path / "b.stl"))
+
+
+def test_collections_and_bones_are_links_too(tmp_path):
+    upper, forearm, tool = arm()
+    hand = bpy.data.collections.new("Hand")
+    bpy.context.scene.collection.children.link(hand)
+    for obj in (upper, forearm):
+        bpy.context.scene.collection.objects.unlink(obj)
+        hand.objects.link(obj)
+    root = ElementTree.fromstring(text("measure", "--format", "mjcf", "--links", "collection", "--density", "2000"))
+    (body,) = root.iter("body")
+    total = document("--density", "2000", "--object", "Upper", "--object", "Fore arm")["total"]
+    assert body.get("name") == "Hand" and close(float(body.find("inertial").get("mass")), total["mass"], 1e-14)
+    character = characters.box_skeleton()
+    armature = armature_of(character, parents=PARENTS)
+    skin_of(character, armature)
+    path = tmp_path / "rig.urdf"
+    root = ElementTree.fromstring(text("measure", "--format", "urdf", "--links", "bone", "--meshes", "--output", path))
+    assert {*character.names} <= {link.get("name") for link in root.iter("link")}
+    assert len([*(tmp_path / "meshes").iterdir()]) == len(character.names)
+    assert refused("measure", "--format", "urdf", "--links", "bone", "--density", "1")

@@ -124,3 +124,25 @@ def test_nothing_is_registered_to_draw_in_background_mode(registered):
     from body_moments.panels.overlay import draw
 
     assert bpy.app.background and draw._state.handle is None
+
+
+def test_discs_are_made_where_they_are_seen_and_named_where_axes_are_long(view):
+    from body_moments.panels.overlay.bodies import Bodies
+    from body_moments.panels.overlay.glyphs import digits, discs
+    from body_moments.panels.overlay.lines import disc_triangles
+
+    places = np.array([(0.0, 0.0, -8.0), (1.0, 1.0, -8.0), (-1.0, 0.5, -7.0), (0.0, 0.0, 8.0), (50.0, 0.0, -8.0)])
+    centers = (places - view.view[:3, 3]) @ view.view[:3, :3]  # three before the eye, one behind it, one beside
+    axes, verdicts = np.tile(np.eye(3), (5, 1, 1)), np.zeros(5, np.intp)
+    short, long = (
+        disc_triangles(Bodies(centers, axes, np.full((5, 3), gyration), verdicts), view, 1.0, True)
+        for gyration in (1e-3, 1.0)
+    )
+    disc, digit = discs().corners.shape[1], digits().corners.shape[1]
+    assert len(short[0]) == len(short[1]) == 3 * disc
+    assert len(long[0]) == 3 * (disc + 3 * digit)
+    for points, _, triangles in (short, long):
+        assert triangles.dtype == np.int32 and points.dtype == np.float32  # as the GPU takes them
+        assert triangles.min() == 0 and triangles.max() < len(points)
+        assert np.isfinite(points).all()
+        assert np.abs(view.pixels(points.astype(float)) - view.size / 2.0).max() < view.size.max() + 500.0

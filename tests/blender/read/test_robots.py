@@ -29,6 +29,7 @@ LINK = '<link name="a"><visual><geometry><mesh filename="{}"/></geometry></visua
 def refusal(function, *arguments):
     with pytest.raises(FileError) as refused:
         function(*arguments)
+    assert str(refused.value).endswith(".")  # it has a sentence
     return refused.value.finding.code
 
 

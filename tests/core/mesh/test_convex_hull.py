@@ -151,3 +151,18 @@ def test_an_affine_image_is_the_hull_of_the_images(linear):
     require_closed(hull)
     assert volume(hull) > 0.0
     assert highest_outside(hull, points @ np.asarray(linear).T) <= 3e-8
+
+
+def test_small_clouds_in_degenerate_places_have_closed_hulls():
+    random = np.random.default_rng(12)
+    for count in random.integers(5, 60, 300):
+        points = random.integers(0, 5, (count, 3)) + 0.3 * random.integers(0, 2, (count, 3)) * random.random((count, 3))
+        hull = convex_hull(points)
+        require_closed(hull)
+        assert highest_outside(hull, points) <= 3e-8
+
+
+@pytest.mark.parametrize("height, corners", [(0.6e-3, 8), (1.6e-3, 9)])
+def test_the_tolerance_is_of_the_extent(height, corners):
+    points = 7.0 * np.concatenate([lattice(2), [[0.4, 0.6, 1.0 + height]]])
+    assert len(convex_hull(points, tolerance=1e-3).points) == corners

@@ -185,3 +185,41 @@ def test_a_center_outside_the_hull_is_refused():
     with pytest.raises(MeasureError) as refusal:
         resting_poses(convex_hull(box(1, 1, 1)), [2.0, 0.5, 0.5])
     assert refusal.value.finding.code == "center_outside_hull"
+
+
+def test_a_square_plate_rests_on_both_sides_equally():
+    """Its center is on a diagonal, from which triangles have no certain solid angle."""
+    plate = np.array([(x, y, 0.0) for x in (-1.0, 1.0) for y in (-1.0, 1.0)])
+    poses = resting_poses(convex_hull(plate), np.zeros(3))
+    assert poses.shares.tolist() == [0.5, 0.5] and poses.margins.tolist() == [1.0, 1.0]
+    with pytest.raises(MeasureError) as refusal:
+        resting_poses(convex_hull(plate), [1.5, 0.0, 0.0])
+    assert refusal.value.finding.code == "center_outside_hull"
+
+
+def test_a_center_above_an_edge_is_not_stable():
+    """A cube whose center of mass is in its top face: from the sides it tips onto that."""
+    normals, shares, margins, _ = poses_of(box(1, 1, 1), np.array([0.5, 0.5, 1.0]))
+    assert len(shares) == 2
+    bottom = atan(1.0 / (2.0 * sqrt(1.0 + 1.0 + 4.0))) / pi
+    place = facing(normals, (0, 0, -1))
+    assert close(shares[place], bottom, 1e-11) and close(shares[1 - place], 1.0 - bottom, 1e-11)
+
+
+def test_a_round_side_is_no_face():
+    """A dome on a base: its facets are smaller than the tolerance, and together they are not flat."""
+    angles, heights = np.meshgrid(2.0 * pi / 160 * np.arange(160), np.linspace(0.0, 1.0, 60)[:-1])
+    radius = np.sqrt(1.0 - heights**2)
+    dome = np.stack([radius * np.cos(angles), radius * np.sin(angles), heights], axis=-1).reshape(-1, 3)
+    poses = resting_poses(convex_hull(np.concatenate([dome, [[0.0, 0.0, 1.0]]])), [0.0, 0.0, 0.375], tolerance=0.02)
+    assert facing(poses.normals, (0, 0, -1)) == 0
+    assert len(poses.shares) == 1
+
+
+def test_noise_on_edges_changes_no_face():
+    """Corners of a cube doubled by points that stand out by half of the tolerance."""
+    corners = box(2, 2, 2) - 1.0
+    noise = corners * (1.0 - 1e-5, 1.0 + 5e-7, 1.0)
+    poses = resting_poses(convex_hull(np.concatenate([corners, noise]), tolerance=1e-6), np.zeros(3))
+    assert len(poses.shares) == 6
+    assert close(poses.shares, 1.0 / 6.0, 1e-5) and close(poses.margins, 1.0, 1e-5)

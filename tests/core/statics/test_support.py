@@ -66,7 +66,8 @@ def test_tolerance_is_relative_to_the_body():
         raised = size * BOX + np.where(BOX[:, :1] > 0.0, (0.0, 0.0, 1e-4 * size), 0.0)
         center = size * np.array([2.0, 1.0, 3.0])
         assert len(find_support(raised, center).polygon) == 2
-        assert len(find_support(raised, center, tolerance=1e-4).polygon) == 4
+        assert len(find_support(raised, center, tolerance=0.9 * 1e-4 / 6.0).polygon) == 2
+        assert len(find_support(raised, center, tolerance=1.1 * 1e-4 / 6.0).polygon) == 4
 
 
 def test_what_balances_on_an_edge_or_a_point_does_not_stand():

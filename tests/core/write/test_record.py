@@ -165,7 +165,10 @@ def test_the_object_frame_turns_and_moves_what_has_a_direction_and_nothing_else(
 @pytest.mark.parametrize("order", [0, 1, 2, 3])
 def test_moments_are_about_the_worlds_origin(order):
     entry = record.record(box(low=(1, 2, 3), high=(2, 4, 6)), order=order)["moments"]
-    assert entry["order"] == order and entry["about"] == [0, 0, 0] and set(entry) == {"order", "about", "volume"}
+    assert entry["order"] == order and entry["about"] == [0, 0, 0]
+    assert set(entry) == {"order", "about", "volume", "mass", "error", "input"}
+    assert set(entry["error"]) == set(entry["input"]) == {"volume", "mass"}
+    assert entry["error"]["volume"].keys() == entry["input"]["mass"].keys() == entry["volume"].keys()
     assert list(entry["volume"]) == [",".join(map(str, powers)) for powers in monomials(order)]
     for powers in monomials(order):
         key = ",".join(map(str, powers))

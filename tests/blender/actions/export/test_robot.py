@@ -16,9 +16,9 @@ import bpy
 import numpy as np
 from body_moments.core.inertia.mass_properties import combine
 from body_moments.core.numerics.rotations import rotation_matrix
-from body_moments.operators.actions.export import links
 from body_moments.operators.bodies.measure_object import measure_object
 from body_moments.operators.bodies.rig import measure_rig
+from body_moments.operators.session import robot_links as links
 from body_moments.operators.write.robots import gltf
 
 from tests.blender.characters import armature_of, pose, skin_of

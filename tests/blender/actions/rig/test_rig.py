@@ -184,6 +184,11 @@ def test_posing_is_no_edit_and_sculpting_and_settings_are():
     assert session.stale_reason(armature, bpy.context.scene) is not None
     bpy.ops.object.body_moments_measure_bones()
     assert session.stale_reason(armature, bpy.context.scene) is None
+    armature.pose.bones["head"].body_moments.mass_from = "MASS"
+    bpy.context.view_layer.update()
+    assert session.stale_reason(armature, bpy.context.scene) == "stale_rig"
+    bpy.ops.object.body_moments_measure_bones()
+    assert session.stale_reason(armature, bpy.context.scene) is None
     skin.data.vertices[0].co.x += 1.0
     skin.data.update()
     bpy.context.view_layer.update()

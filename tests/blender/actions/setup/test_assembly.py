@@ -91,6 +91,7 @@ def test_the_tree_has_masses_shares_and_reasons():
         (lambda root: setattr(bpy.data.objects["b1"], "location", (9, 9, 9)), "stale_member"),
         (lambda root: box(root, (1, 1, 1), name="new"), "stale_members"),
         (lambda root: setattr(root.body_moments, "mass_from", "MASS"), "stale_members"),
+        (lambda root: setattr(bpy.data.collections["Arm"].body_moments, "mass_from", "MASS"), "stale_members"),
         (lambda root: setattr(bpy.data.objects["b0"], "hide_render", True), "stale_members"),
         (lambda root: None, None),
     ],
@@ -98,6 +99,7 @@ def test_the_tree_has_masses_shares_and_reasons():
 def test_an_assembly_is_out_of_date_when_a_member_is(change, reason):
     root = assembly_of_boxes()
     bpy.ops.object.body_moments_measure_assembly()
+    assert session.stale_reason(root) is None
     change(root)
     bpy.context.view_layer.update()
     assert session.stale_reason(root) == reason

@@ -55,6 +55,15 @@ def test_calculate_mass_is_shown_beside(reported):
     )
 
 
+def test_a_modifier_counts_and_calculate_mass_does_not_see_it(reported):
+    obj = slanted()
+    obj.modifiers.new("Array", "ARRAY").count = 3
+    bpy.context.view_layer.update()
+    assert make(frame="KEEP") == {"FINISHED"}
+    values = reported.values("rigid_bodies_made")
+    assert close(values["mass"], 3.0 * values["calculated"], 1e-5) and obj.rigid_body.mesh_source == "FINAL"
+
+
 def test_one_density_for_all_and_types_and_shapes():
     first, second = slanted("a"), slanted("b")
     only(first, second)

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import bpy
@@ -11,20 +12,20 @@ import numpy as np
 from bpy.types import Collection, Context, Object
 from numpy.typing import NDArray
 
-from ....core.measurement import Measurement
-from ....core.mesh.surface import Surface, join_surfaces
-from ....core.numerics.float32 import shortest_decimal
-from ....core.robots.model import Robot
-from ....core.verdict.finding import EditRefusedError, Finding, MeasureError, finding
-from ...bodies.assembly import measure_assembly
-from ...bodies.many import measured_in_turn
-from ...bodies.rig import measure_rig
-from ...read import measurable
-from ...read.links import bone_freedom, bone_parents, link_entry, link_surface, object_entry
-from ...read.rig import pose_bone_of
-from ...write import reports
-from ...write.robots.from_records import brief_record, robot_of_records
-from .. import selection
+from ...core.measurement import Measurement
+from ...core.mesh.surface import Surface, join_surfaces
+from ...core.numerics.float32 import shortest_decimal
+from ...core.robots.model import Robot
+from ...core.verdict.finding import EditRefusedError, Finding, MeasureError, finding
+from ..bodies.assembly import measure_assembly
+from ..bodies.many import measured_in_turn
+from ..bodies.rig import measure_rig
+from ..read import measurable
+from ..read.links import bone_freedom, bone_parents, link_entry, link_surface, object_entry
+from ..read.rig import pose_bone_of
+from ..settings.options import AS_SET, MeasureOptions
+from ..write import reports
+from ..write.robots.from_records import brief_record, robot_of_records
 
 
 @dataclass(frozen=True)
@@ -72,18 +73,21 @@ def candidates(context: Context, collection: str, selected: bool) -> list[Object
     return [obj for obj in context.view_layer.objects if not obj.hide_render]
 
 
-def object_links(context: Context, name: str, objects: list[Object]) -> SceneLinks:
-    """Return a robot with a link for each object that can be measured. MeasureError where there is none."""
+def object_links(
+    context: Context, name: str, objects: list[Object], step: Callable[[float], None] = lambda done: None
+) -> SceneLinks:
+    """Return a robot with a link for each object that can be measured. MeasureError where there is none. step: is
+    called with how many are done."""
     depsgraph = context.evaluated_depsgraph_get()
     chosen = [obj for obj in objects if measurable(obj)]
     measured: dict[Object, Measurement] = {}
-    in_turn = measured_in_turn(chosen, depsgraph)
-
-    def measure(obj: Object) -> bool:
-        measured[obj] = in_turn(obj).measurement
-        return True
-
-    _, failures = selection.apply_to_all(chosen, measure)
+    in_turn, failures = measured_in_turn(chosen, depsgraph), []
+    for done, obj in enumerate(chosen, 1):
+        try:
+            measured[obj] = in_turn(obj).measurement
+        except Exception as error:
+            failures.append(reports.failure(obj.name_full, error))
+        step(done)
     if not measured:
         raise EditRefusedError(failures[0] if failures else finding("robot_without_links"))
     labels = {obj: obj.name_full for obj in measured}
@@ -95,7 +99,9 @@ def object_links(context: Context, name: str, objects: list[Object]) -> SceneLin
     return SceneLinks(robot, [*findings, *left_out(failures, len(chosen))], members)
 
 
-def collection_links(context: Context, name: str, root: Collection, objects: list[Object]) -> SceneLinks:
+def collection_links(
+    context: Context, name: str, root: Collection, objects: list[Object], options: MeasureOptions = AS_SET
+) -> SceneLinks:
     """Return a robot with a link for each collection in one, or for the collection itself where there is none in it.
     They are assemblies, along the world's axes, with all that they hold. objects: what their meshes show."""
     depsgraph = context.evaluated_depsgraph_get()
@@ -104,7 +110,7 @@ def collection_links(context: Context, name: str, root: Collection, objects: lis
     for collection in collections:
         label = collection.name_full
         try:
-            measurement = measure_assembly(collection, depsgraph).measurement
+            measurement = measure_assembly(collection, depsgraph, options).measurement
         except MeasureError as error:
             failures.append(reports.failure(label, error.finding))
             continue

@@ -1,0 +1,169 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What `canonical_frames` chooses, for many bodies at once: where only signs of axes are left, and for bodies that no
+moment fixes about an axis.
+
+A frame turned by half a turn about one of its axes has the same normalized moments, but for the signs of those that are
+odd in both other axes. So of frames that differ by half turns those with the largest moments are found from the first
+moments, of each kind of odd ones, that are more than noise.
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..moments.affine_maps import rotate_moments
+from ..moments.moments import Moments
+from ..moments.monomials import monomial_count, monomial_index, monomials
+from ..verdict.finding import MeasureError
+from .canonical_frame import FLAT_EXTENT_RTOL, NOISE_GROWTH
+from .second_order import EQUAL_AXES, HALF_TURN_SIGNS, SYMMETRIES, SecondOrderFrames
+
+THIRD = monomial_count(2)  # where the moments of third order begin
+# by whether p, q and r are odd: 0 where half turns change no sign, else which of p, q and r differs from the two others
+ODD_KIND = np.array([[[0, 3], [2, 1]], [[1, 2], [3, 0]]])
+# of the moments of each such kind, the signs that no half turn and those about axes 1, 2 and 3 give them
+HALF_TURN_PARITY = np.array([[1.0, 1.0, -1.0, -1.0], [1.0, -1.0, 1.0, -1.0], [1.0, -1.0, -1.0, 1.0]])
+
+
+def settle_half_turns(moments: Moments, fixed: SecondOrderFrames, bodies: NDArray[np.intp]) -> NDArray[np.bool_]:
+    """Choose, for bodies without axes of equal moments, the half turns of their axes that `canonical_frames` chooses.
+
+    Parameters
+    ----------
+    moments : Moments
+        Of n bodies, to sixth order.
+    fixed : SecondOrderFrames
+    bodies : (n,) int
+        Which of those they are.
+
+    Returns
+    -------
+    (n, 4) bool
+        Of `second_order.HALF_TURN_SIGNS`.
+    """
+    values, least, _ = _along_axes(moments, fixed, bodies)
+    return _settle(values, least, fixed.allowed[bodies])
+
+
+def settle_revolution(
+    moments: Moments, fixed: SecondOrderFrames, bodies: NDArray[np.intp]
+) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+    """Choose, for bodies with two axes of equal moments, the half turns that `canonical_frames` chooses where no moment
+    fixes the directions of these axes.
+
+    Parameters
+    ----------
+    moments, fixed, bodies
+        As for `settle_half_turns`.
+
+    Returns
+    -------
+    is_round : (n,) bool
+        Whether that is so; the others have to be looked at one by one.
+    allowed : (n, 4) bool
+        Of one direction of the axis, or of both, one half turn each.
+    """
+    values, least, raw = _along_axes(moments, fixed, bodies)
+    is_round, allowed = np.ones(len(bodies), bool), fixed.allowed[bodies]
+    for name in ("prolate", "oblate"):
+        rows = np.flatnonzero(fixed.symmetry[bodies] == SYMMETRIES.index(name))
+        if not len(rows):
+            continue
+        first, second = EQUAL_AXES[name]
+        axis = 3 - first - second
+        degrees, weights, columns, forms = _harmonics((axis + 1) % 3, (axis + 2) % 3, axis, moments.order)
+        size = fixed.size[bodies[rows]]
+        powers = monomials(moments.order)[columns + THIRD]
+        unit = np.multiply.reduce(_extents(size)[:, None] ** powers, axis=2)
+        harmonic = np.abs(raw[rows][:, THIRD:] @ forms.T) / unit
+        is_round[rows] = ~(harmonic > weights * least[rows][:, columns]).any(axis=1)
+        # of the frames with the same direction of the axis only the first is looked at
+        ahead = HALF_TURN_SIGNS[:, axis] > 0.0
+        for way in (ahead, ~ahead):
+            later = np.cumsum(allowed[np.ix_(rows, np.flatnonzero(way))], axis=1) > 1
+            kept = allowed[np.ix_(rows, np.flatnonzero(way))] & ~later
+            allowed[np.ix_(rows, np.flatnonzero(way))] = kept
+    return is_round, _settle(values, least, allowed)
+
+
+def _settle(values: NDArray, least: NDArray, allowed: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """(n, 4) of the half turns that are allowed those with the largest normalized moments, (n, columns), column after
+    column; what differs by no more than `least` is equal."""
+    kind = ODD_KIND[tuple(monomials(_order_of(values))[THIRD:].T % 2)]
+    clear = (2.0 * np.abs(values) > least)[:, None] & (kind == np.arange(1, 4)[:, None])  # (n, 3, columns)
+    count = values.shape[1]
+    bodies, first = np.arange(len(values)), np.where(clear.any(axis=2), clear.argmax(axis=2), count)
+    for deciding in first.argsort(axis=1).T:
+        column = first[bodies, deciding]
+        value = values[bodies, np.minimum(column, count - 1)]
+        positive = allowed & (HALF_TURN_PARITY[deciding] * value[:, None] > 0.0)
+        decides = (column < count) & positive.any(axis=1)
+        allowed = np.where(decides[:, None], positive, allowed)
+    return allowed
+
+
+def _order_of(values: NDArray) -> int:
+    order = 3
+    while monomial_count(order) - THIRD < values.shape[1]:
+        order += 1
+    return order
+
+
+def _along_axes(
+    moments: Moments, fixed: SecondOrderFrames, bodies: NDArray[np.intp]
+) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+    """(n, columns) the normalized central moments of third to the highest order along the axes, and what of them is
+    noise; (n, K) the central moments along the axes by the total."""
+    central = moments.about_center()
+    order, total, size = central.order, central.raw[:, :1], fixed.size[bodies]
+    with np.errstate(over="ignore"):
+        reach = total[:, 0] * size.max(axis=1) ** order
+    if not ((reach > np.finfo(float).tiny) & (reach < np.inf)).all():
+        raise MeasureError("moments_overflow", order=order)
+    turned = fixed.axes[bodies].transpose(0, 2, 1)
+    raw = rotate_moments(central.raw / total, order, turned)
+    error = rotate_moments(central.rounding_error / total, order, np.abs(turned))[:, THIRD:]
+    powers = monomials(order)[THIRD:]
+    degree, extents = powers.sum(axis=1), _extents(size)
+    unit = np.multiply.reduce(extents[:, None] ** powers, axis=2)
+    thin = np.minimum.reduce(np.where(powers > 0, extents[:, None], np.inf), axis=2)
+    noise = fixed.noise + 4.0 * fixed.step[bodies, None] / thin + degree * fixed.tilt[bodies, None]
+    return raw[:, THIRD:] / unit, np.array(NOISE_GROWTH)[degree] * noise + error / unit, raw
+
+
+def _extents(size: NDArray) -> NDArray[np.float64]:
+    """(n, 3) the extents; infinite along an axis that has hardly any."""
+    return np.where(size > FLAT_EXTENT_RTOL * size.max(axis=1, keepdims=True), size, np.inf)
+
+
+@lru_cache
+def _harmonics(
+    first: int, second: int, axis: int, order: int
+) -> tuple[NDArray[np.intp], NDArray[np.float64], NDArray[np.intp], NDArray[np.complex128]]:
+    """E[(x+iy)^m (x²+y²)^j z^k] for all degrees m + 2j + k from 3 to `order` with m > 0, x, y and z along these axes:
+    (h,) the degrees, (h,) how many moments' noise each holds, (h,) the column, from third order on, of the moment whose
+    size it has, and (h, columns) what it is made from."""
+    degrees, weights, columns, forms = [], [], [], []
+    for degree in range(3, order + 1):
+        for m in range(1, degree + 1):
+            for k in range((degree - m) % 2, degree - m + 1, 2):
+                j, form = (degree - m - k) // 2, np.zeros(monomial_count(order) - THIRD, complex)
+                planar = np.polynomial.polynomial.polypow([1.0, 1.0j], m)  # of y by x
+                planar = np.polynomial.polynomial.polymul(
+                    planar, np.polynomial.polynomial.polypow([1.0, 0.0, 1.0], j) if j else [1.0]
+                )
+                for power, coefficient in enumerate(planar):
+                    exponents = [0, 0, 0]
+                    exponents[first], exponents[second], exponents[axis] = degree - k - power, power, k
+                    form[monomial_index(*exponents) - THIRD] += coefficient
+                exponents = [0, 0, 0]
+                exponents[first], exponents[axis] = degree - k, k
+                degrees.append(degree)
+                weights.append(2.0 ** (degree - k))
+                columns.append(monomial_index(*exponents) - THIRD)
+                forms.append(form)
+    return np.array(degrees), np.array(weights), np.array(columns), np.array(forms)

@@ -1,0 +1,94 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The volume moments of a stack of small bodies beyond third order, for the axes of many.
+
+The recursion is that of `any_order_kernel`, on all triangles of all bodies at once; each body's sums run over its own
+segment of the rows.
+"""
+
+from __future__ import annotations
+
+from math import factorial
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..moments.moments import Measure, Moments, U
+from ..moments.monomials import count_of_degree, monomial_count, monomials, quotient_indices
+
+TRIANGLES_PER_BLOCK = 256  # whose levels stay in the cache
+
+
+def extend_small_moments(
+    volume: Moments,
+    order: int,
+    points: NDArray,
+    triangles: NDArray[np.integer],
+    counts: NDArray[np.integer],
+    reach: NDArray,
+) -> Moments:
+    """Return the moments of n bodies to a higher order.
+
+    Parameters
+    ----------
+    volume : Moments
+        To third order, (n, 20), each about a point in its body.
+    order : int
+    points : (p, 3) array
+    triangles : (t, 3) int
+        One body after the other.
+    counts : (n,) int
+        How many of them each body has, at least one.
+    reach : (n, 3) array
+        What bounds the distances of a body's points from there, and how far storing may have moved them.
+    """
+    known, ends = volume.raw.shape[1], np.cumsum(counts)
+    powers = monomials(order)[known:]
+    degree = powers.sum(axis=1)
+    coordinates, first, sums, sizes = np.ascontiguousarray(points.T), 0, [], []
+    while first < len(counts):
+        start = ends[first] - counts[first]
+        last = max(first + 1, int(np.searchsorted(ends, start + TRIANGLES_PER_BLOCK, "right")))
+        part, own = slice(first, last), counts[first:last]
+        corners = coordinates.take(triangles[start : ends[last - 1]].T, axis=1).astype(np.float64, copy=False)
+        corners = corners - np.repeat(volume.about[part].T, own, axis=1)[:, None]
+        a, b, c = corners.transpose(1, 0, 2)
+        det = np.add.reduce(a * np.cross(b - a, c - a, axis=0))
+        starts = np.cumsum(own) - own
+        sums.append(np.add.reduceat(_coefficients(a, b, c, order)[known:] * det, starts, axis=1).T)
+        sizes.append(np.add.reduceat(np.abs(det), starts))
+        first = last
+    factors = np.array(
+        [np.prod([float(factorial(p)) for p in row]) / factorial(sum(row) + 2) for row in powers.tolist()]
+    )
+    raw = np.concatenate(sums) * (factors / (degree + 3.0))
+    largest = np.multiply.reduce(reach[:, None] ** powers, axis=2)
+    # a coefficient is off by (6 n + 8) u, a determinant by what the known total is, and the sums by their lengths
+    relative = U * (14.0 * degree + 16.0 + 3.0 * counts[:, None])
+    size = np.concatenate(sizes)[:, None] / (2.0 * degree + 6.0)
+    error = (relative * size + 2.0 * volume.rounding_error[:, :1]) * largest + 8.0 * U * np.abs(raw)
+    return Moments(
+        np.concatenate([volume.raw, raw], axis=1),
+        volume.about,
+        Measure.VOLUME,
+        np.concatenate([volume.rounding_error, error], axis=1),
+        np.concatenate([volume.input_error, volume.input_error[:, :1] * largest], axis=1),
+    )
+
+
+def _coefficients(a: NDArray, b: NDArray, c: NDArray, order: int) -> NDArray[np.float64]:
+    """(K, t) the S_α of triangles with corners (3, t)."""
+    levels = np.zeros((3, 2, a.shape[1]))  # C, D and S of degree 0, and a row of zeros
+    levels[:, 0] = 1.0
+    vectors, out = np.stack([a, c, b]), np.empty((monomial_count(order), a.shape[1]))
+    out[0] = 1.0
+    for degree in range(1, order + 1):
+        below, count = count_of_degree(degree - 1), count_of_degree(degree)
+        grown = np.zeros((3, count + 1, a.shape[1]))
+        for axis, quotients in enumerate(quotient_indices(degree, below)):
+            grown[:, :-1] += levels.take(quotients, axis=1) * vectors[:, axis, None]
+        grown[1] += grown[0]
+        grown[2] += grown[1]
+        out[monomial_count(degree - 1) : monomial_count(degree)] = grown[2, :-1]
+        levels = grown
+    return out

@@ -1,0 +1,56 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A whole run over files in a process of its own, for a window that goes on living meanwhile: the same command line."""
+
+from __future__ import annotations
+
+import subprocess
+from collections.abc import Sequence
+from pathlib import Path
+
+from . import processes
+
+_STOP = 5.0  # seconds that a run may take to stop
+
+
+class WholeRun:
+    """`measure` with these words under way. output: its result. blender: the Blender to start; None for this Python,
+    which must have the bpy module then. Raises OSError.
+    """
+
+    def __init__(self, words: Sequence[str], output: Path, blender: str | None) -> None:
+        command = processes.run_command(blender, ["measure", *words, "--output", str(output)])
+        if command is None:
+            raise FileNotFoundError(0, "No module named 'bpy' is here")
+        self._journal = output.with_name(output.name + ".journal")
+        self._place, self._lines = 0, 0
+        self._process = subprocess.Popen(
+            command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
+        )
+
+    @property
+    def exit_code(self) -> int | None:
+        """None while it is under way."""
+        return self._process.poll()
+
+    def done(self) -> int:
+        """How many files it has measured."""
+        try:
+            with open(self._journal, "rb") as file:
+                file.seek(self._place)
+                data = file.read()
+        except OSError:
+            return self._lines
+        self._place += len(data)
+        self._lines += data.count(b"\n")
+        return self._lines
+
+    def stop(self) -> None:
+        """End it, and its children with it. What it has measured stays in its journal."""
+        if self._process.poll() is None:
+            self._process.terminate()
+            try:
+                self._process.wait(_STOP)
+            except subprocess.TimeoutExpired:
+                self._process.kill()
+                self._process.wait()

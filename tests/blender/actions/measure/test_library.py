@@ -1,0 +1,77 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Measure Library: the files of a folder in other processes, a report, and the metadata of assets."""
+
+import json
+
+import bpy
+import pytest
+
+from tests.blender import batch_files as files
+from tests.close import close
+
+pytestmark = pytest.mark.usefixtures("scene")
+
+
+@pytest.fixture
+def library(tmp_path):
+    """Two files with an asset each, and one that is damaged."""
+    folder = tmp_path / "library"
+    folder.mkdir()
+    for name in "ab":
+        files.empty_scene()
+        files.add_box("Box").asset_mark()
+        files.save(folder / "{}.blend".format(name))
+    (folder / "c.blend").write_bytes(b"BLENDER garbage")
+    files.empty_scene()
+    return folder
+
+
+def measure(folder, **more):
+    return bpy.ops.object.body_moments_measure_library("EXEC_DEFAULT", directory=str(folder), **more)
+
+
+def statuses(folder):
+    text = (folder / "body_moments.jsonl").read_text(encoding="utf-8")
+    return [json.loads(line)["status"] for line in text.splitlines()]
+
+
+def mass_in_metadata(path):
+    bpy.ops.wm.open_mainfile(filepath=str(path))
+    return bpy.data.objects["Box"].asset_data.get("body_mass")
+
+
+def test_a_folder_is_measured_and_reported(library, reported):
+    before = (library / "a.blend").read_bytes()
+    assert measure(library) == {"FINISHED"}
+    assert statuses(library) == ["ok", "ok", "error"]
+    assert reported.values("library_measured_with_failures")["failed"] == 1
+    page = (library / "body_moments.html").read_text(encoding="utf-8")
+    assert "data:image/png" in page and "a.blend" in page
+    assert (library / "a.blend").read_bytes() == before and mass_in_metadata(library / "a.blend") is None
+
+
+def test_metadata_goes_into_copies_unless_told_otherwise(library):
+    before = (library / "a.blend").read_bytes()
+    assert measure(library, asset_metadata=True) == {"FINISHED"}
+    assert (library / "a.blend").read_bytes() == before
+    assert close(mass_in_metadata(library / "a.body_moments.blend"), 6000.0, 1e-6)
+    assert measure(library, asset_metadata=True, overwrite=True) == {"FINISHED"}
+    assert statuses(library) == ["ok", "ok", "error"]  # the copies are not measured
+    assert close(mass_in_metadata(library / "b.blend"), 6000.0, 1e-6)
+
+
+def test_an_empty_folder_is_refused(tmp_path, reported):
+    with pytest.raises(RuntimeError, match="No file that can be measured"):
+        measure(tmp_path)
+    assert "folder_without_files" in reported.codes
+
+
+def test_an_asset_library_of_the_preferences(library):
+    libraries = bpy.context.preferences.filepaths.asset_libraries
+    bpy.ops.preferences.asset_library_add(directory=str(library))
+    try:
+        assert measure("/", source="LIBRARY_{}".format(len(libraries) - 1)) == {"FINISHED"}
+        assert statuses(library) == ["ok", "ok", "error"]
+    finally:
+        bpy.ops.preferences.asset_library_remove(index=len(libraries) - 1)

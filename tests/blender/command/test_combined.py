@@ -1,0 +1,63 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Assemblies and bones on the command line: in the document where a file has them, and stored with --write."""
+
+import bpy
+import pytest
+
+from tests.blender import batch_files as files
+from tests.blender.actions.rig.test_rig import character
+from tests.blender.actions.setup.test_assembly import assembly_of_boxes
+from tests.blender.bodies.test_assembly import collection
+from tests.close import close
+
+pytestmark = pytest.mark.usefixtures("registered", "scene")
+
+
+def saved(tmp_path):
+    path = tmp_path / "file.blend"
+    bpy.ops.wm.save_as_mainfile(filepath=str(path))
+    return path
+
+
+def document(*arguments):
+    (found,) = files.run(*map(str, arguments)).documents
+    return found
+
+
+def test_assemblies_and_bones_that_were_measured_are_in_the_document(tmp_path):
+    assembly_of_boxes()
+    character()
+    plain = document(saved(tmp_path))
+    assert "assemblies" not in plain and "bones" not in plain
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "file.blend"))
+    bpy.context.view_layer.objects.active = bpy.data.objects["Rig"]
+    bpy.ops.object.body_moments_measure_bones()
+    bpy.data.collections["Robot"].body_moments.mass_from = "MASS"
+    bpy.data.collections["Robot"].body_moments.mass = 100.0
+    found = document(saved(tmp_path))
+    (robot,) = found["assemblies"]
+    assert robot["name"] == "Robot" and robot["kind"] == "assembly" and close(robot["mass"], 100.0, 1e-14)
+    assert len(found["bones"]) == 7 and {bone["armature"] for bone in found["bones"]} == {"Rig"}
+    bones = {bone["name"]: bone for bone in found["bones"]}
+    assert close(bones["head"]["mass"], 8000.0, 1e-6) and bones["head"]["kind"] == "bone"
+
+
+def test_results_are_stored_on_collections_and_pose_bones(tmp_path):
+    assembly_of_boxes()
+    armature, _ = character()
+    bpy.ops.object.body_moments_measure_bones()
+    bpy.data.collections["Robot"].body_moments.mass_from = "MASS"
+    path = saved(tmp_path)
+    document("--write", "--density", "2", path)
+    bpy.ops.wm.open_mainfile(filepath=str(path))
+    assert close(bpy.data.collections["Robot"]["body_mass"], 1.0, 1e-14)
+    assert "body_mass" in bpy.data.objects["Rig"].pose.bones["head"]
+
+
+def test_an_assembly_that_has_no_mass_is_an_error_and_ends_nothing(tmp_path):
+    assembly_of_boxes()
+    nothing = collection("Nothing")
+    nothing.body_moments.mass_from, nothing.body_moments.mass = "MASS", 0.0
+    found = document(saved(tmp_path))
+    assert [error["name"] for error in found["errors"]] == ["Nothing"] and len(found["objects"]) == 2

@@ -1,0 +1,56 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Small bodies in a stack: their moments are those of each alone to the bit, to any order within their bounds."""
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from body_moments.core.mesh.surface import Surface
+from body_moments.core.polyhedron import polyhedron_moments
+from body_moments.core.polyhedron.any_order_small import extend_small_moments
+from body_moments.core.polyhedron.third_order_small import small_moments
+
+from tests.core import bodies, exact, shapes
+
+PARTS = [shapes.TETRAHEDRON, shapes.L_PRISM, shapes.prism(7), bodies.sphere(1), shapes.SHEARED]
+PLACES = [(1.0, 0.0), (1e-5, 3e-5), (1.0, 1e4), (3e3, -7e5)]
+
+
+def stacked(size, offset):
+    parts = [((points * size + offset).astype(np.float32).astype(float), faces) for points, faces in PARTS]
+    starts = np.cumsum([0] + [len(points) for points, _ in parts])
+    triangles = np.concatenate([faces + start for (_, faces), start in zip(parts, starts)])
+    counts = np.array([len(faces) for _, faces in parts])
+    low, high = (np.array([function(points, axis=0) for points, _ in parts]) for function in (np.min, np.max))
+    center = low / 2.0 + high / 2.0
+    reach = np.maximum(high - center, center - low) * (1.0 + 4.0 * 2.0**-53)
+    return parts, np.concatenate([points for points, _ in parts]), triangles, counts, center, reach
+
+
+@pytest.mark.parametrize(("size", "offset"), PLACES)
+def test_a_stack_is_each_body_to_the_bit(size, offset):
+    parts, points, triangles, counts, center, reach = stacked(size, offset)
+    volume, area, cones = small_moments(
+        points, triangles, counts, center, reach, np.zeros((5, 3)), area=True, shell=True
+    )
+    for i, (own, faces) in enumerate(parts):
+        alone = polyhedron_moments(Surface(own, faces), area_order=3)
+        for stack, one in zip((volume, area), alone):
+            for name in ("raw", "about", "rounding_error", "input_error"):
+                assert np.array_equal(getattr(stack, name)[i], getattr(one, name)), name
+        assert abs(cones[i, 1] - 6.0 * volume.raw[i, 0]) <= 1e-12 * cones[i, 0]
+
+
+@pytest.mark.parametrize(("size", "offset"), PLACES)
+def test_higher_orders_are_exact_within_their_bounds(size, offset):
+    parts, points, triangles, counts, center, reach = stacked(size, offset)
+    volume, _, _ = small_moments(points, triangles, counts, center, reach, np.zeros((5, 3)), area=True, shell=False)
+    sixth = extend_small_moments(volume, 6, points, triangles, counts, reach)
+    for i, (own, faces) in enumerate(parts):
+        alone = polyhedron_moments(Surface(own, faces), 6, about=center[i])[0]
+        off = np.abs(sixth.raw[i] - alone.raw)
+        assert (off <= sixth.rounding_error[i] + alone.rounding_error).all()
+        assert (sixth.rounding_error[i, 20:] <= 100.0 * alone.rounding_error[20:]).all()  # and they say something
+    right = exact.volume_moments(*parts[1], center[1], 6)
+    assert all([abs(Fraction(float(x)) - y) <= e for x, y, e in zip(sixth.raw[1], right, sixth.rounding_error[1])])
