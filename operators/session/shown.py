@@ -21,9 +21,7 @@ from ..settings.preferences import default_density
 from ..write import properties
 from . import handlers, live, posed, results, staleness, updates
 from .cache import SessionCache
-from .trust import Trust, trust, trust_of
-
-BY_OTHERS = ("MATERIALS", "VOLUME")  # densities that change without an update of the object
+from .trust import BY_OTHERS, Trust, trust, trust_of
 
 
 @dataclass(frozen=True, eq=False)
