@@ -151,13 +151,14 @@ _COMMANDS: dict[str, Callable[[list[str], int, bool], int]] = {
 
 
 def _load_settings() -> None:
-    """The settings that objects carry, where the add-on is not registered."""
+    """The settings that objects, collections and bones carry, where the add-on is not registered."""
     import bpy
 
-    from .settings import properties
+    from .settings import assembly, bone, properties, reference
 
     if not hasattr(bpy.types.Object, PACKAGE):
-        properties.register()
+        for part in (properties, assembly, reference, bone):
+            part.register()
 
 
 def register() -> None:

@@ -51,6 +51,7 @@ from body_moments.core.mesh.surface import Surface
 from body_moments.core.offset.walls import offset_solid
 from body_moments.core.papers.sheynin_tuzikov_2001 import triangle_moments as explicit_moments
 from body_moments.core.polyhedron import integration
+from body_moments.core.solid.measure_solid import measure_solid
 from body_moments.core.statics.gradient import area_gradient, volume_gradient
 
 polyhedron_moments = partial(integration.polyhedron_moments, allow_open=True)  # as a measurement calls it
@@ -139,6 +140,14 @@ def table(title: str, times: dict[str, list[float]], against: list[str], per: in
         print("    {:<40s}{:>10.1f}{:>10.1f}{:>15s}{:s}".format(name, median * 1e3, least * 1e3, each, ratios))
 
 
+def beside(name: str) -> ModuleType:
+    """A module in this folder."""
+    spec = importlib.util.spec_from_file_location(name, Path(__file__).parent / (name + ".py"))
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
 def optional(name: str) -> ModuleType | None:
     """A module, or None where it is not installed."""
     return importlib.import_module(name) if importlib.util.find_spec(name) else None
@@ -175,6 +184,27 @@ def compare(title: str, points: np.ndarray, quads: np.ndarray, paired: bool, rou
                 *(statistics.median(times["trimesh mass_properties"]) / statistics.median(times[name]) for name in ours)
             )
         )
+
+
+def verdicts(side: int, rounds: int) -> None:
+    """Closedness and verdict from bare arrays of triangles, beside the integral and the way of others."""
+    points, quads = torus(side, side, 0.02)
+    triangles = halves(quads, True)
+    surface, trimesh = Surface(points, triangles), optional("trimesh")
+    rows = {
+        "integral, 1 thread": lambda: polyhedron_moments(surface),
+        "verdict, 1 thread": lambda: measure_solid(surface),
+        "verdict, 2 threads": lambda: measure_solid(surface, threads=2),
+    }
+    if trimesh:
+
+        def watertight() -> None:
+            mesh = trimesh.Trimesh(points, triangles, process=False)
+            assert mesh.is_watertight and mesh.mass_properties is not None
+
+        rows["trimesh watertight and mass_properties"] = watertight
+    title = "{:,} triangles in bare arrays: is it closed, and what is it".format(len(triangles))
+    table(title, interleaved(rows, rounds), ["integral, 1 thread"], len(triangles))
 
 
 def walls_and_derivatives(side: int, rounds: int) -> None:
@@ -787,6 +817,7 @@ def main() -> None:
         )
     )
     arrays(side, rounds)
+    verdicts(side, rounds)
     walls_and_derivatives(side // 4, rounds)
     memory(side)
     latency(rounds)
@@ -802,6 +833,9 @@ def main() -> None:
         import bpy  # noqa: F401
 
         sys.modules["body_moments"].register()
+        parts = beside("benchmark_many")
+        parts.single(rounds)
+        parts.many(300 if quick else 1000, rounds)
         blender(side, rounds)
         instances(1000 if quick else 10_000, rounds)
         volumes(rounds)

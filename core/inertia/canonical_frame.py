@@ -35,6 +35,8 @@ MAX_EQUAL_SHARE = 0.25  # of what distinguishes directions: at most that much co
 START_DIRECTIONS = 240  # directions from which extreme ones are looked for
 MAX_START_GAP = 0.18  # from any direction to the nearest of them
 ASCENT_STEPS = 16  # from there to a maximum, most of them for those that are hardly curved
+# before which of them directions closer than this, which go to one maximum, are merged; a step that is none
+STEPS_TO_MERGE, MERGED_DIRECTIONS, ARRIVED = (3, 4, 5, 6, 8), 1e-4, 1e-15
 MAX_ISOLATED_DIRECTIONS = 40  # more directions than these are a circle of them, or all
 
 
@@ -134,8 +136,7 @@ def _clear_harmonic(
     """The first harmonic about that axis of the bases that is above noise, those above CLEAR_HARMONIC before weaker
     ones: its m, (n,) its value in each basis, and what of it is noise."""
     first, second = (axis + 1) % 3, (axis + 2) % 3
-    order, size = [first, second, axis], _extents(spread)
-    harmonics = {}
+    order, size, weaker = [first, second, axis], _extents(spread), None
     for degree in range(3, central.order + 1):
         tensor = _rotate_tensor(central.raw[tensor_index(degree)], bases[:, :, order])
         noise = _normalization(central, replace(spread, noise=NOISE_LEVEL), degree)[1]
@@ -143,14 +144,15 @@ def _clear_harmonic(
             for k in range((degree - m) % 2, degree - m + 1, 2):
                 c = _harmonic(tensor, degree, m, k) / (size[first] ** (degree - k) * size[axis] ** k)
                 weight = 2.0 ** (degree - k)  # of the sum of moments that a harmonic is
-                powers = np.zeros(3, int)
-                powers[[first, axis]] = degree - k, k
-                harmonics[degree, m, k] = c, weight * noise[monomial_index(*powers) - monomial_index(degree, 0, 0)]
-    for clear in (CLEAR_HARMONIC, 0.0):
-        for (_, m, _), (c, least) in harmonics.items():
-            if np.abs(c).max() > max(least, clear):
-                return m, c, least
-    return None
+                powers = [0, 0, 0]
+                powers[first], powers[axis] = degree - k, k
+                least = weight * noise[monomial_index(*powers) - monomial_index(degree, 0, 0)]
+                largest = np.abs(c).max()
+                if largest > max(least, CLEAR_HARMONIC):
+                    return m, c, least
+                if weaker is None and largest > least:
+                    weaker = m, c, least
+    return weaker
 
 
 def _harmonic(tensor: NDArray, degree: int, m: int, k: int) -> NDArray[np.complex128]:
@@ -193,8 +195,8 @@ def _extreme_directions(
 
 
 def _maximize_on_sphere(tensor: NDArray, degree: int, span: float, within: float) -> NDArray[np.float64]:
-    """The maxima on the sphere, the best approached first, that are no more than `within` below the largest; each
-    several times. span: between the largest and the least value.
+    """The maxima on the sphere, the best approached first, that are no more than `within` below the largest; some
+    of them several times. span: between the largest and the least value.
 
     From the highest points of all over it: along the sphere the function is a trigonometric polynomial, so that by
     Bernstein's inequality it loses at most (degree MAX_START_GAP)² span / 4 on the way from a maximum to the nearest of
@@ -204,7 +206,9 @@ def _maximize_on_sphere(tensor: NDArray, degree: int, span: float, within: float
     height = _contract(tensor, degree, points)
     points = points[height >= height.max() - within - (degree * MAX_START_GAP) ** 2 / 4.0 * span]
     uphill = np.zeros_like(points)
-    for _ in range(ASCENT_STEPS):
+    for step in range(ASCENT_STEPS):
+        if step in STEPS_TO_MERGE:
+            points = distinct_arrays(points, MERGED_DIRECTIONS)
         contracted_twice = _contract(tensor, degree - 2, points)
         contracted_once = degree * np.einsum("nij,nj->ni", contracted_twice, points)
         along = (contracted_once * points).sum(axis=1)[:, None]
@@ -217,6 +221,8 @@ def _maximize_on_sphere(tensor: NDArray, degree: int, span: float, within: float
         move /= np.maximum(np.linalg.norm(move, axis=1) / MAX_START_GAP, 1.0)[:, None]
         points = points + np.einsum("nij,nj->ni", vectors, move)
         points /= np.linalg.norm(points, axis=1)[:, None]
+        if np.abs(move).max() < ARRIVED:
+            break
     steep = np.linalg.norm(uphill, axis=1)
     order = np.argsort(steep)
     return points[order[steep[order] <= max(1e-4 * scale, steep.min())]]

@@ -28,11 +28,9 @@ from ..numerics.arrays import PerBody
 from ..verdict.finding import MeasureError, finding
 from .canonical_frame import NOISE_LEVEL, EquivalentFrames, canonical_frames
 from .canonical_stack import settle_half_turns, settle_revolution
-from .second_order import HALF_TURN_SIGNS, IS_FIXED, SYMMETRIES, SecondOrderFrames, second_order_frames
+from .frame_choice import align_frames, complete_free_axes, nearest_frames
+from .second_order import HALF_TURN_SIGNS, SYMMETRIES, SecondOrderFrames, second_order_frames
 
-# traces closer than the one are equal whatever the noise, than the other never
-EQUAL_TRACE_ATOL, MAX_TRACE_AMBIGUITY = 1e-6, 0.1
-MIN_ALIGNED_COSINE = 0.999  # of an axis that a shape's own second moments fix, and that of a copy of it
 NO_VALUES = np.empty(0)
 
 # What was chosen where the body leaves a choice: the object's own directions, or of the body's own ones the nearest.
@@ -210,7 +208,7 @@ def principal_frames(
         for i in left.tolist():
             free = undetermined[i] = fixed.free(i)
             candidates = complete_free_axes(fixed.frames(i), free, preferred_axes[i])
-            axes[i] = _nearest(candidates[None], preferred_axes[i : i + 1], float(fixed.tilt[i]))[0]
+            axes[i] = nearest_frames(candidates[None], preferred_axes[i : i + 1], float(fixed.tilt[i]))[0]
             chosen[i] = FREE[symmetry[i]]
     elif len(left):
         known = higher(left)
@@ -225,10 +223,10 @@ def principal_frames(
                 undetermined[bodies] = [free] * len(bodies)
             frames = np.broadcast_to(alike.frames, (len(bodies), *alike.frames.shape))
             if known.rotation is not None:
-                frames = _align(known.rotation[of_shape][:, None] @ frames, fixed, bodies)
+                frames = align_frames(known.rotation[of_shape][:, None] @ frames, fixed, bodies)
             preferred = preferred_axes[bodies]
             frames = complete_free_axes(frames, free, preferred[:, None])
-            axes[bodies] = _nearest(frames, preferred, alike.tilt)
+            axes[bodies] = nearest_frames(frames, preferred, alike.tilt)
     return PrincipalFrame(
         fixed.moments, axes, symmetry, np.array([found is None for found in chosen]), chosen, undetermined
     )
@@ -261,27 +259,6 @@ def _frames_of_shapes(fixed: SecondOrderFrames, left: NDArray[np.intp], known: O
         else found
         for shape, found in enumerate(results)
     ]
-
-
-def _align(frames: NDArray, fixed: SecondOrderFrames, bodies: NDArray[np.intp]) -> NDArray[np.float64]:
-    """(m, k, 3, 3) frames with those of their axes that the bodies' second moments fix along these."""
-    along = np.einsum("mai,mkai->mki", fixed.axes[bodies], frames)
-    near = fixed.axes[bodies][:, None] * np.sign(along)[:, :, None]
-    is_fixed = IS_FIXED[fixed.symmetry[bodies]]
-    # a frame whose axes were found among equal moments where the body's are not, or the other way round, stays
-    alike = ~is_fixed | (np.abs(along) > MIN_ALIGNED_COSINE).all(axis=1)
-    is_fixed = is_fixed & alike.all(axis=1, keepdims=True)
-    frames = np.where(is_fixed[:, None, None], near, frames)
-    for axis in range(3):
-        alone = np.flatnonzero(is_fixed[:, axis] & (is_fixed.sum(axis=1) == 1))
-        if len(alone):
-            first, second = (axis + 1) % 3, (axis + 2) % 3
-            pole = frames[alone, :, :, axis]
-            side = frames[alone, :, :, first]
-            side = side - pole * np.einsum("mka,mka->mk", pole, side)[..., None]
-            side /= np.linalg.norm(side, axis=-1, keepdims=True)
-            frames[alone, :, :, first], frames[alone, :, :, second] = side, np.cross(pole, side)
-    return frames
 
 
 def equivalent_frames(moments: Moments, noise: float = NOISE_LEVEL) -> EquivalentFrames:
@@ -343,7 +320,7 @@ def nearest_frame(equivalent: EquivalentFrames, preferred_axes: NDArray) -> NDAr
     1.0
     """
     frames = complete_free_axes(equivalent.frames, undetermined_axes(equivalent), preferred_axes)
-    return _nearest(frames[None], preferred_axes[None], equivalent.tilt)[0]
+    return nearest_frames(frames[None], preferred_axes[None], equivalent.tilt)[0]
 
 
 def undetermined_axes(equivalent: EquivalentFrames) -> tuple[int, ...]:
@@ -424,57 +401,3 @@ def pose_matrix(center: NDArray, axes: NDArray) -> NDArray[np.float64]:
     matrix = np.eye(4)
     matrix[:3, :3], matrix[:3, 3] = axes.T, -axes.T @ center
     return matrix + 0.0  # no negative zeros
-
-
-def complete_free_axes(frames: NDArray, free: tuple[int, ...], preferred_axes: NDArray) -> NDArray[np.float64]:
-    """The (..., 3, 3) frames with their free axes, if any, turned nearest to the preferred ones."""
-    if not free:
-        return frames
-    shape = np.broadcast_shapes(frames.shape, preferred_axes.shape)
-    preferred_axes = np.broadcast_to(preferred_axes, shape)
-    if len(free) == 3:
-        return preferred_axes.copy()
-    first, second = free
-    completed = np.array(np.broadcast_to(frames, shape))
-    fixed = completed[..., 3 - first - second]
-    # (first, second, fixed) is right-handed for both pairs: maximize first·p1 + (fixed x first)·p2 over the plane.
-    wish = _across(preferred_axes[..., first] + np.cross(preferred_axes[..., second], fixed), fixed)
-    # half a turn away any direction is as near: the one along a preferred axis is taken
-    opposite = np.linalg.norm(wish, axis=-1) < 1e-6
-    if opposite.any():
-        cosines = np.abs(np.einsum("...a,...ai->...i", fixed, preferred_axes))
-        nearest = np.take_along_axis(preferred_axes, cosines.argmin(axis=-1)[..., None, None], axis=-1)[..., 0]
-        wish = np.where(opposite[..., None], _across(nearest, fixed), wish)
-    completed[..., first] = wish / np.linalg.norm(wish, axis=-1, keepdims=True)
-    completed[..., second] = np.cross(fixed, completed[..., first])
-    return completed
-
-
-def _across(vectors: NDArray, axis: NDArray) -> NDArray[np.float64]:
-    """(..., 3) what of the vectors is perpendicular to unit vectors."""
-    return vectors - axis * np.einsum("...a,...a->...", axis, vectors)[..., None]
-
-
-def _nearest(candidates: NDArray, preferred_axes: NDArray, tilt: float) -> NDArray[np.float64]:
-    """(m, 3, 3) of (m, k, 3, 3) frames those with the smallest turn from the preferred ones, (m, 3, 3). Where several
-    are as near, the one whose axes, in order, point along rather than against their preferred axes, so that noise
-    cannot flip it.
-
-    tilt: the angle by which noise may have turned the candidates.
-    """
-    bodies = np.arange(len(candidates))
-    if candidates.shape[1] == 1:
-        return candidates[:, 0] + 0.0
-    local = preferred_axes.transpose(0, 2, 1)[:, None] @ candidates
-    equal = EQUAL_TRACE_ATOL + min(4.0 * tilt, MAX_TRACE_AMBIGUITY)
-    turns = local.trace(axis1=2, axis2=3)
-    near = turns > turns.max(axis=1, keepdims=True) - equal
-    size = np.abs(local)
-    row = (size > size.max(axis=2, keepdims=True) - equal).argmax(axis=2)[:, :, None]
-    is_along = np.take_along_axis(local, row, axis=2)[:, :, 0] > 0.0
-    rank = np.where(near, is_along @ np.array([4, 2, 1]), -1)
-    near = rank == rank.max(axis=1, keepdims=True)
-    for entry in np.moveaxis(local.reshape(*local.shape[:2], 9), 2, 0):  # what is left may still be several frames
-        entry = np.where(near, entry, -np.inf)
-        near = entry > entry.max(axis=1, keepdims=True) - equal
-    return candidates[bodies, near.argmax(axis=1)] + 0.0  # no negative zeros

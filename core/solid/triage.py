@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.edges import closed_side_faces, face_of_each
+from ..mesh.edges import closed_side_faces, face_of_each, sorted_side_faces
 from ..mesh.planarity import Planarity, PlanarityAccumulator
 from ..mesh.surface import Surface, indices_in_range
 from ..moments.moments import Moments
@@ -160,7 +160,7 @@ def prove_closed(surface: Surface) -> RepairedMesh | None:
 
     The triangles of a single component are left out: nothing asks for them.
     """
-    sides = closed_side_faces(surface)
+    sides = sorted_side_faces(surface) if surface.corner_edges is None else closed_side_faces(surface)
     if sides is None:
         return None
     component, component_count = connected_components(int(sides.max()) + 1, *sides)

@@ -25,6 +25,7 @@ from typing import Any
 from ...core.verdict.finding import MeasureError, finding
 from ..supervisor import listing, processes
 from ..supervisor.journal import Journal, is_journal
+from ..supervisor.lifeline import end_with_window
 from ..supervisor.pool import ChildError, Limits, Outcome, Pool, SetupError
 from ..supervisor.progress import Progress
 from ..write.documents import FORMATS, ROBOT_FORMATS, failed_document
@@ -44,6 +45,7 @@ def measure(options: Namespace, channel: int, opened: str | None) -> int:
 
     Raises SystemExit where the options are wrong, and KeyboardInterrupt.
     """
+    end_with_window()
     with interruption.stopped_by_signals():
         targets.check_places(options)
         paths = files_of(options)

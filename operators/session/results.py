@@ -32,7 +32,7 @@ from ..read.fingerprint import settings_hash
 from ..read.rig import skinned_objects
 from ..read.total_caveats import open_body_caveats, total_caveats
 from ..write import properties
-from . import faults, handlers, live, posed, reference, staleness, threshold, trust, walls
+from . import faults, handlers, live, posed, reference, staleness, threshold, trust, updates, walls
 from .cache import SessionCache
 
 
@@ -54,6 +54,7 @@ class Total:
 
 ASSEMBLY = Method(Verdict.ASSEMBLY)
 _failures: SessionCache[tuple[Finding, str]] = SessionCache()  # why, and the digest of the settings of then
+_worlds: SessionCache[tuple[tuple, properties.StoredProperties | None]] = SessionCache()  # and what they were made from
 _totals: SessionCache[tuple[tuple, Total]] = SessionCache()  # a scene's last one, after what was computed for it
 
 
@@ -139,7 +140,13 @@ def of_object(obj: Object, scene: Scene) -> properties.StoredProperties | None:
 
 def in_world(obj: Object, scene: Scene) -> properties.StoredProperties | None:
     """The same as `of_object`, in the world frame whatever the scene shows."""
-    return _of_object(obj, scene, False)
+    if live.is_live(obj) or posed.stands_for_meshes(obj) or "body_mass" not in obj:
+        return _of_object(obj, scene, False)
+    key = (updates.last_change(obj), properties.numbers(obj), _unit(scene))
+    known = _worlds.get(obj)
+    if known is None or known[0] != key:
+        known = _worlds[obj] = (key, _of_object(obj, scene, False))
+    return known[1]
 
 
 def _of_object(obj: Object, scene: Scene, in_own_frame: bool) -> properties.StoredProperties | None:
@@ -156,12 +163,26 @@ def _of_object(obj: Object, scene: Scene, in_own_frame: bool) -> properties.Stor
     return _in_frame(numbers, None if in_own_frame else _world_matrix(obj), _unit(scene))
 
 
+def _summed(bodies: Sequence[MassProperties]) -> MassProperties:
+    """Bodies as one, by the parallel-axis theorem, for all of them at once. MeasureError where they have no mass."""
+    masses = np.array([body.mass for body in bodies])
+    centers = np.array([body.center for body in bodies])
+    about = masses @ centers / masses.sum() if masses.sum() > 0.0 else centers[0]
+    arms = centers - about
+    inertia = np.array([body.inertia for body in bodies])
+    second = np.trace(inertia, axis1=1, axis2=2).sum() / 2.0 * np.eye(3) - inertia.sum(axis=0)
+    second += np.einsum("i,ij,ik->jk", masses, arms, arms)
+    inertia = np.trace(second) * np.eye(3) - second
+    whole = replace(bodies[0], mass=float(masses.sum()), center=about, inertia=inertia)
+    return combine([(whole.as_moments(), 1.0)])
+
+
 def _of_meshes(armature: Object, scene: Scene) -> properties.StoredProperties | None:
     """The sum of those meshes of an armature that have numbers, in the world."""
     parts = [part for mesh in posed.deformed_meshes(armature) if (part := _of_object(mesh, scene, False)) is not None]
     if not parts:
         return None
-    body = combine([(part.body.as_moments(), 1.0) for part in parts])
+    body = _summed([part.body for part in parts])
     volume = sum([part.volume for part in parts])
     return properties.StoredProperties(
         body.mass / volume if volume else 0.0, volume, sum([part.area for part in parts]), body, parts[0].error_bound
@@ -200,7 +221,7 @@ def _sum(context: Context) -> Total:
     body = None
     if stored:
         with suppress(MeasureError):  # together they have no mass
-            body = combine([(body_stored.body.as_moments(), 1.0) for body_stored in stored])
+            body = _summed([body_stored.body for body_stored in stored])
     return Total(
         len(stored),
         sum(body_stored.volume for body_stored in stored),

@@ -21,9 +21,7 @@ from ..settings.preferences import default_density
 from ..write import properties
 from . import handlers, live, posed, results, staleness, updates
 from .cache import SessionCache
-from .trust import Trust, trust, trust_of
-
-BY_OTHERS = ("MATERIALS", "VOLUME")  # densities that change without an update of the object
+from .trust import BY_OTHERS, Trust, trust, trust_of
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,6 +61,9 @@ class _Own:
 
 
 _shown: SessionCache[tuple[tuple, ShownBody | None]] = SessionCache()  # and after which change of which scene
+_last: SessionCache[tuple[tuple, ShownBody | None]] = (
+    SessionCache()
+)  # and what it was found for, and after which update
 _own: SessionCache[_Own] = SessionCache()
 
 
@@ -101,6 +102,14 @@ def _shown_now(obj: Object, scene: Scene) -> ShownBody | None:
         scene.unit_settings.scale_length,
         default_density(scene),
     )
+    place, last = (key, updates.last_change(obj)), _last.get(obj)
+    if last is None or last[0] != place:
+        last = _last[obj] = (place, _mapped(obj, scene, key))
+    return last[1]
+
+
+def _mapped(obj: Object, scene: Scene, key: tuple) -> ShownBody | None:
+    """What was found for `key`, where the object is now."""
     own = _own.get(obj)
     if own is None or own.key != key or not staleness.has_transform_of_results(obj):
         return _computed(obj, scene, key)

@@ -11,15 +11,18 @@ from bpy.types import Object, Scene
 
 from ...core.verdict.finding import Finding, Severity
 from ...core.verdict.method import Method, Verdict
+from ..settings.preferences import default_density
 from ..write import properties
 from ..write.messages import severity
-from . import live, posed, staleness
+from . import live, posed, staleness, updates
+from .cache import SessionCache
 
 REPAIRED = (Verdict.CAPPED, Verdict.REORIENTED)
 # Warnings that say how the surface was closed: those of a repaired body.
 REPAIRS = frozenset(
     {"vertices_welded", "duplicate_faces_ignored", "flipped_faces", "inverted_components", "holes_capped"}
 )
+BY_OTHERS = ("MATERIALS", "VOLUME")  # densities that change without an update of the object
 
 
 class Trust(StrEnum):
@@ -29,6 +32,9 @@ class Trust(StrEnum):
     REPAIRED = "repaired"
     DOUBTFUL = "doubtful"
     OUT_OF_DATE = "out of date"
+
+
+_known: SessionCache[tuple[tuple, Trust]] = SessionCache()  # and what it was found for
 
 
 def trust(obj: Object, scene: Scene) -> Trust:
@@ -48,6 +54,39 @@ def trust(obj: Object, scene: Scene) -> Trust:
     if posed.stands_for_meshes(obj):
         found = [trust(mesh, scene) for mesh in posed.deformed_meshes(obj)]
         return max(found, key=tuple(Trust).index, default=Trust.DOUBTFUL)
+    if live.is_live(obj) or obj.body_moments.density_from in BY_OTHERS:
+        return _trust(obj, scene)
+    key = stored_key(obj, scene)
+    known = _known.get(obj)
+    if known is None or known[0] != key:
+        known = _known[obj] = (key, _trust(obj, scene))
+    return known[1]
+
+
+def stored_key(obj: Object, scene: Scene) -> tuple:
+    """Return what changes with all that decides whether the stored numbers of an object hold, and where they are.
+
+    Parameters
+    ----------
+    obj : bpy.types.Object
+        An original object whose density comes from none of `BY_OTHERS`.
+    scene : bpy.types.Scene
+
+    Returns
+    -------
+    tuple
+    """
+    return (
+        updates.last_change(obj),
+        obj.get("body_fingerprint"),
+        obj.get("body_findings"),
+        scene.session_uid,
+        scene.unit_settings.scale_length,
+        default_density(scene),
+    )
+
+
+def _trust(obj: Object, scene: Scene) -> Trust:
     now = live.current_numbers(obj)
     if now is not None and now.measurement is not None:
         if live.lag(obj) == live.Lag.BEHIND or live.is_stale(obj, scene):

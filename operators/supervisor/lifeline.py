@@ -22,12 +22,34 @@ from contextlib import contextmanager, suppress
 from typing import Any
 
 MARK = b"\x1e"  # begins an answer; what Blender prints before it comes to us does not
+WINDOW = "BODY_MOMENTS_WATCHED"  # a variable of the environment: the descriptor that such a run watches
 _LATE = 5.0  # seconds after which a child ends itself whose supervisor should have ended it
 
 try:
     import fcntl
 except ImportError:  # Windows
     fcntl = None
+BY_SIGNAL = sys.platform.startswith("linux")  # elsewhere that signal is ignored, or there is none
+
+
+def end_with(watched: int) -> None:
+    """From now on this process ends when the other end of a pipe closes, on which nothing ever comes. Linux alone."""
+    if fcntl is None:
+        return
+    signal.signal(signal.SIGIO, signal.SIG_DFL)
+    fcntl.fcntl(watched, fcntl.F_SETOWN, os.getpid())
+    fcntl.fcntl(watched, fcntl.F_SETFL, fcntl.fcntl(watched, fcntl.F_GETFL) | os.O_ASYNC)
+    ready = select.poll()
+    ready.register(watched, 0)  # that the other end is closed already is reported in any case
+    if ready.poll(0):
+        os._exit(0)
+
+
+def end_with_window() -> None:
+    """End with the window that has started this process for a run over files, where that is so."""
+    watched = os.environ.pop(WINDOW, "")
+    if BY_SIGNAL and watched:
+        end_with(int(watched))
 
 
 class Lifeline:
@@ -42,14 +64,8 @@ class Lifeline:
         self._waiting: queue.SimpleQueue[bytes] | None = None
         with suppress(OSError), open("/proc/self/oom_score_adj", "w") as file:
             file.write("500")  # where memory runs out this goes first, not what watches over it
-        if fcntl is not None and sys.platform.startswith("linux") and watched is not None:
-            signal.signal(signal.SIGIO, signal.SIG_DFL)
-            fcntl.fcntl(watched, fcntl.F_SETOWN, os.getpid())
-            fcntl.fcntl(watched, fcntl.F_SETFL, fcntl.fcntl(watched, fcntl.F_GETFL) | os.O_ASYNC)
-            ready = select.poll()
-            ready.register(watched, 0)  # that the other end is closed already is reported in any case
-            if ready.poll(0):
-                os._exit(0)
+        if BY_SIGNAL and watched is not None:
+            end_with(watched)
         else:
             self._waiting = queue.SimpleQueue()
             ThreadPoolExecutor(1).submit(self._listen, self._waiting)

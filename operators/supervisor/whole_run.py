@@ -4,11 +4,13 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
 from collections.abc import Sequence
 from pathlib import Path
 
 from . import processes
+from .lifeline import BY_SIGNAL, WINDOW
 
 _STOP = 5.0  # seconds that a run may take to stop
 
@@ -24,9 +26,17 @@ class WholeRun:
             raise FileNotFoundError(0, "No module named 'bpy' is here")
         self._journal = output.with_name(output.name + ".journal")
         self._place, self._lines = 0, 0
-        self._process = subprocess.Popen(
-            command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
-        )
+        self._kept: int | None = None  # as long as it is open, the run goes on
+        nowhere = dict.fromkeys(("stdin", "stdout", "stderr"), subprocess.DEVNULL)
+        if not BY_SIGNAL:
+            self._process = subprocess.Popen(command, **nowhere)
+            return
+        watched, self._kept = os.pipe()
+        try:
+            environment = {**os.environ, WINDOW: str(watched)}
+            self._process = subprocess.Popen(command, env=environment, pass_fds=(watched,), **nowhere)
+        finally:
+            os.close(watched)
 
     @property
     def exit_code(self) -> int | None:
@@ -54,3 +64,6 @@ class WholeRun:
             except subprocess.TimeoutExpired:
                 self._process.kill()
                 self._process.wait()
+        if self._kept is not None:
+            os.close(self._kept)
+            self._kept = None

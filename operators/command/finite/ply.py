@@ -81,6 +81,8 @@ def _check_binary_ply(data: Data, start: int, elements: list, order: str) -> tup
             continue
         row = np.dtype([(one[0], order + one[1]) for one in properties])
         if name == "vertex":
+            if not properties:
+                raise ValueError("vertices without coordinates")
             rows = min(rows, (len(data) - start) // row.itemsize)
             table = np.frombuffer(data, row, rows, start)
             found = [bad_in_table(table[axis][:, None]) for axis in "xyz"]

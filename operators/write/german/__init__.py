@@ -10,12 +10,19 @@ from . import (
     meshes,
     objects,
     reports,
+    robots,
     scans,
     tooltips,
     tooltips_of_settings,
 )
 
-TEXTS = labels.TEXTS | labels_of_settings.TEXTS | tooltips.TEXTS | tooltips_of_settings.TEXTS
+TEXTS = labels.TEXTS | labels_of_settings.TEXTS | tooltips.TEXTS | tooltips_of_settings.TEXTS | robots.TEXTS
 MESSAGES = (
-    meshes.MESSAGES | objects.MESSAGES | densities.MESSAGES | scans.MESSAGES | editing.MESSAGES | reports.MESSAGES
+    meshes.MESSAGES
+    | objects.MESSAGES
+    | densities.MESSAGES
+    | scans.MESSAGES
+    | editing.MESSAGES
+    | reports.MESSAGES
+    | robots.MESSAGES
 )

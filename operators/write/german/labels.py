@@ -265,6 +265,7 @@ TEXTS = {
     "Material to take the density from": "Material, von dem die Dichte genommen wird",
     "Set Rigid Body Mass": "Starrkörpermasse setzen",
     "Add Rigid Bodies": "Starrkörper hinzufügen",
+    "Set Origins and Axes": "Ursprünge und Achsen setzen",
     "Store Inertia about Reference": "Trägheit um Bezug speichern",
     "Keep Units": "Einheiten behalten",
     "Set Units to Millimeters": "Einheiten auf Millimeter setzen",

@@ -281,6 +281,9 @@ TEXTS = {
         "Massenmittelpunkt; auch Achsen auf Hauptachsen verwenden"
     ),
     "Add an active rigid body to objects without one": "Objekten ohne Starrkörper einen aktiven hinzufügen",
+    "Move origins to the centers of mass and align the local axes with the principal axes, as the physics engine takes "
+    "them to be. Nothing visible moves": "Ursprünge in die Massenmittelpunkte setzen und die lokalen Achsen an den "
+    "Hauptachsen ausrichten, wie die Physik-Engine sie annimmt. Sichtbar bewegt sich nichts",
     "Compute whether the selected objects stand on the ground below them, how far the ground can be tilted, and in "
     "which poses they rest. Objects are measured where their results are out of date": (
         "Berechnen, ob die ausgewählten Objekte auf dem Boden unter ihnen stehen, wie weit er geneigt werden kann "

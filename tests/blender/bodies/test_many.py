@@ -176,6 +176,14 @@ def stored_on(obj):
     }
 
 
+def same_to_rounding(one, other):
+    """A change of axes is a product of matrices, which some versions of numpy round otherwise in a stack."""
+    if isinstance(one, str):
+        return one == other
+    one, other = np.atleast_1d(one), np.atleast_1d(other)
+    return np.abs(one - other).max() <= 1e-14 * max(np.abs(one).max(), np.abs(other).max())
+
+
 def test_what_a_selection_stores_is_what_each_stores():
     objects = shards(2)
     only(*objects)
@@ -197,6 +205,8 @@ def test_what_a_selection_stores_is_what_each_stores():
         for key in own:
             if key == "body_principal_axes":
                 assert np.abs(np.subtract(own[key], together[obj.name][key])).max() < 1e-12
+            elif key in {"body_inertia_diagonal", "body_inertia_products"}:
+                assert together[obj.name][key] == together[obj.name]["body_inertia"][3 * key.endswith("products") :][:3]
             elif key not in {"body_findings", "body_warnings"}:  # Measure notes that nobody has set the density
-                assert own[key] == together[obj.name][key], (obj.name, key)
+                assert same_to_rounding(own[key], together[obj.name][key]), (obj.name, key)
     assert descriptions == {key: objects[0].id_properties_ui(key).as_dict()["description"] for key in descriptions}

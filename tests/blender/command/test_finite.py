@@ -343,3 +343,9 @@ def test_what_blender_exports_is_measured_and_noise_is_left_to_blender(tmp_path,
             broken[at] = rng.integers(256)
         path.write_bytes(broken[: rng.integers(1, len(data))] if rng.integers(2) else broken)
         checked(path)  # raises nothing else
+
+
+def test_vertices_without_coordinates_are_left_to_blender(tmp_path):
+    path = tmp_path / "a.ply"
+    path.write_bytes(b"ply\nformat binary_little_endian 1.0\nelement vertex 4\nend_header\n" + bytes(48))
+    finite.check_numbers(str(path), ".ply")

@@ -66,7 +66,7 @@ def texts_of(properties):
 
 def registered():
     """Every text that Blender shows of what is registered."""
-    for category in ("object", "scene", "view3d", "wm", "material", "export_scene"):
+    for category in ("object", "scene", "view3d", "wm", "material", "export_scene", "import_scene"):
         for name in dir(getattr(bpy.ops, category)):
             if "body_moments" in name:
                 rna = getattr(getattr(bpy.ops, category), name).get_rna_type()

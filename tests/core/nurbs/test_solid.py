@@ -428,3 +428,14 @@ def test_caps_that_change_less_than_a_ten_thousandth_have_a_code_of_their_own(sh
     finding = only(found)
     assert (found.method, finding.code) == ("capped", f"{shape}_patch_holes_capped{ending}")
     assert finding.values["count"] == 1 and 0.0 < finding.values["share"] == found.health.cap_area_share
+
+
+def test_what_float32_has_moved_comes_near_its_bound():
+    """All control points moved outward: the volume grows by the skin times that, the area as it does on any ball."""
+    patches, stored = [sphere()], 1e-6
+    given = measure_patches(patches, stored=stored)
+    farthest = max(float(np.linalg.norm(patch.points, axis=2).max()) for patch in patches)
+    grown = measure_patches([patch.transform(np.diag([*[1.0 + stored / farthest] * 3, 1.0])) for patch in patches])
+    for moments, larger, least in ((given.volume, grown.volume, 0.2), (given.area, grown.area, 1.0 / 20.0)):
+        change = (larger.total - moments.total) / moments.input_error[0]
+        assert least <= change <= 1.0, change

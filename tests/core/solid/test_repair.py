@@ -19,6 +19,7 @@ from body_moments.core.solid.weld_open_parts import split_into_triangles
 from body_moments.core.verdict.health import Intersection
 from body_moments.core.verdict.method import Verdict
 
+from tests.close import close
 from tests.core.bodies import (
     SIDES,
     TOP,
@@ -128,7 +129,7 @@ def test_welding_takes_equal_positions_first_and_near_ones_only_along_what_is_st
     assert not body.report.welded and len(body.state.open_parts.vertices) == 8
     body = after(cracked(), "weld_near_positions")
     assert body.report.welded and body.topology_changed and len(np.unique(body.triangles)) == 8
-    assert body.max_displacement == pytest.approx(3**0.5 * 1e-8, rel=1e-6)
+    assert close(body.max_displacement, 3**0.5 * 1e-8, rel=1e-6)
     checked = check_surface(surface(CUBE))
     closed = split_into_triangles(checked.surface)
     assert STEPS[0](closed, 1.0) is closed and STEPS[1](closed, 1.0) is closed
@@ -181,7 +182,7 @@ def test_what_is_inside_out_is_turned_and_its_volume_is_positive(part, turned, a
     parts = oriented.closed_parts()
     a, b, c = (parts.points[parts.triangles[:, k]] for k in range(3))
     volume = np.linalg.det(np.stack([a, b, c], axis=1)).sum() / 6.0
-    assert oriented.volume.total == pytest.approx(volume, rel=1e-14) and volume > 0.0
+    assert close(oriented.volume.total, volume, rel=1e-14) and volume > 0.0
 
 
 PROVED = SelfIntersection(Intersection.EXCLUDED)
@@ -192,7 +193,7 @@ def test_the_verdict_follows_from_what_the_stages_hand_on():
     assert judge(checked, given, oriented, PROVED).method is Verdict.EXACT
     capped = replace(oriented, mesh=replace(body, caps=np.array([[1.0, 0.0, 0.5]])))
     result = judge(checked, given, capped, PROVED)
-    assert result.method is Verdict.CAPPED and result.health.cap_area_share == pytest.approx(0.5 / 6.0, rel=1e-14)
+    assert result.method is Verdict.CAPPED and close(result.health.cap_area_share, 0.5 / 6.0, rel=1e-14)
     turned = replace(oriented, turned=np.ones(1, bool))
     assert judge(checked, given, turned, PROVED).method is Verdict.REORIENTED
     unclosed = replace(oriented, mesh=replace(body, open=np.ones(1, bool)))

@@ -1,0 +1,89 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Of the frames in which bodies are the same: those along what second moments fix, and nearest to preferred axes."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .second_order import IS_FIXED, SecondOrderFrames
+
+# traces closer than the one are equal whatever the noise, than the other never
+EQUAL_TRACE_ATOL, MAX_TRACE_AMBIGUITY = 1e-6, 0.1
+MIN_ALIGNED_COSINE = 0.999  # of an axis that a shape's own second moments fix, and that of a copy of it
+
+
+def align_frames(frames: NDArray, fixed: SecondOrderFrames, bodies: NDArray[np.intp]) -> NDArray[np.float64]:
+    """(m, k, 3, 3) frames with those of their axes that the bodies' second moments fix along these."""
+    along = np.einsum("mai,mkai->mki", fixed.axes[bodies], frames)
+    near = fixed.axes[bodies][:, None] * np.sign(along)[:, :, None]
+    is_fixed = IS_FIXED[fixed.symmetry[bodies]]
+    # a frame whose axes were found among equal moments where the body's are not, or the other way round, stays
+    alike = ~is_fixed | (np.abs(along) > MIN_ALIGNED_COSINE).all(axis=1)
+    is_fixed = is_fixed & alike.all(axis=1, keepdims=True)
+    frames = np.where(is_fixed[:, None, None], near, frames)
+    for axis in range(3):
+        alone = np.flatnonzero(is_fixed[:, axis] & (is_fixed.sum(axis=1) == 1))
+        if len(alone):
+            first, second = (axis + 1) % 3, (axis + 2) % 3
+            pole = frames[alone, :, :, axis]
+            side = frames[alone, :, :, first]
+            side = side - pole * np.einsum("mka,mka->mk", pole, side)[..., None]
+            side /= np.linalg.norm(side, axis=-1, keepdims=True)
+            frames[alone, :, :, first], frames[alone, :, :, second] = side, np.cross(pole, side)
+    return frames
+
+
+def complete_free_axes(frames: NDArray, free: tuple[int, ...], preferred_axes: NDArray) -> NDArray[np.float64]:
+    """The (..., 3, 3) frames with their free axes, if any, turned nearest to the preferred ones."""
+    if not free:
+        return frames
+    shape = np.broadcast_shapes(frames.shape, preferred_axes.shape)
+    preferred_axes = np.broadcast_to(preferred_axes, shape)
+    if len(free) == 3:
+        return preferred_axes.copy()
+    first, second = free
+    completed = np.array(np.broadcast_to(frames, shape))
+    fixed = completed[..., 3 - first - second]
+    # (first, second, fixed) is right-handed for both pairs: maximize first·p1 + (fixed x first)·p2 over the plane.
+    wish = _across(preferred_axes[..., first] + np.cross(preferred_axes[..., second], fixed), fixed)
+    # half a turn away any direction is as near: the one along a preferred axis is taken
+    opposite = np.linalg.norm(wish, axis=-1) < 1e-6
+    if opposite.any():
+        cosines = np.abs(np.einsum("...a,...ai->...i", fixed, preferred_axes))
+        nearest = np.take_along_axis(preferred_axes, cosines.argmin(axis=-1)[..., None, None], axis=-1)[..., 0]
+        wish = np.where(opposite[..., None], _across(nearest, fixed), wish)
+    completed[..., first] = wish / np.linalg.norm(wish, axis=-1, keepdims=True)
+    completed[..., second] = np.cross(fixed, completed[..., first])
+    return completed
+
+
+def _across(vectors: NDArray, axis: NDArray) -> NDArray[np.float64]:
+    """(..., 3) what of the vectors is perpendicular to unit vectors."""
+    return vectors - axis * np.einsum("...a,...a->...", axis, vectors)[..., None]
+
+
+def nearest_frames(candidates: NDArray, preferred_axes: NDArray, tilt: float) -> NDArray[np.float64]:
+    """(m, 3, 3) of (m, k, 3, 3) frames those with the smallest turn from the preferred ones, (m, 3, 3). Where several
+    are as near, the one whose axes, in order, point along rather than against their preferred axes, so that noise
+    cannot flip it.
+
+    tilt: the angle by which noise may have turned the candidates.
+    """
+    bodies = np.arange(len(candidates))
+    if candidates.shape[1] == 1:
+        return candidates[:, 0] + 0.0
+    local = preferred_axes.transpose(0, 2, 1)[:, None] @ candidates
+    equal = EQUAL_TRACE_ATOL + min(4.0 * tilt, MAX_TRACE_AMBIGUITY)
+    turns = local.trace(axis1=2, axis2=3)
+    near = turns > turns.max(axis=1, keepdims=True) - equal
+    size = np.abs(local)
+    row = (size > size.max(axis=2, keepdims=True) - equal).argmax(axis=2)[:, :, None]
+    is_along = np.take_along_axis(local, row, axis=2)[:, :, 0] > 0.0
+    rank = np.where(near, is_along @ np.array([4, 2, 1]), -1)
+    near = rank == rank.max(axis=1, keepdims=True)
+    for entry in np.moveaxis(local.reshape(*local.shape[:2], 9), 2, 0):  # what is left may still be several frames
+        entry = np.where(near, entry, -np.inf)
+        near = entry > entry.max(axis=1, keepdims=True) - equal
+    return candidates[bodies, near.argmax(axis=1)] + 0.0  # no negative zeros

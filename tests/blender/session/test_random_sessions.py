@@ -1,0 +1,19 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A few random sessions; `python tests/soak sessions` runs more of them."""
+
+import pytest
+
+pytest.importorskip("bpy")
+from body_moments.operators.read import fingerprint
+
+from tests.soak import sessions
+
+pytestmark = pytest.mark.usefixtures("scene")
+
+
+@pytest.mark.parametrize("max_faces", [fingerprint.MAX_DIGESTED_FACES, 0])
+def test_random_sessions_lose_nothing_and_show_nothing_wrong(max_faces, monkeypatch):
+    monkeypatch.setattr(fingerprint, "MAX_DIGESTED_FACES", max_faces)
+    monkeypatch.setattr(sessions, "STEPS", 30)
+    sessions.run(12.0, 1)
