@@ -27,6 +27,7 @@ from ..numerics.vectors import cross, dot
 from .canonical_frame import MAX_ORDER, NOISE_LEVEL, EquivalentFrames, _lexicographic_maximum
 
 MAX_AXIAL_ORDER = 30
+MAX_TILT = 1e-2  # of an axis: about one that leans by more, the harmonics of a body are any
 TRIANGLES_PER_BLOCK = 1 << 13
 
 
@@ -146,9 +147,12 @@ def turn_by_harmonics(
     Returns
     -------
     EquivalentFrames
-        In which the body is the same, to the harmonics' order; what was given where none of them is more than noise.
+        In which the body is the same, to the harmonics' order; what was given where none of them is more than noise, or
+        the axis itself is not known well.
     """
     (axis,) = alike.revolution_axes
+    if alike.tilt > MAX_TILT:
+        return alike
     order = np.roll([0, 1, 2], 2 - axis)
     bases = [harmonics.in_frame(frame[:, order]) for frame in alike.frames]
     m, k = np.meshgrid(np.arange(harmonics.order + 1), [0, 1])

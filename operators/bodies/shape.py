@@ -63,8 +63,12 @@ class Shape:
 
     @cached_property
     def moments(self) -> Moments:
-        """About the center, to the order that a pose needs."""
-        return self.body.moments(MAX_ORDER, self._sheets)[1 if self._sheets else 0].about_center()
+        """About the center, to the order that a pose needs. ReadError where they exceed the range of numbers."""
+        with np.errstate(over="ignore", invalid="ignore"):
+            found = self.body.moments(MAX_ORDER, self._sheets)[1 if self._sheets else 0]
+        if not np.isfinite([found.raw, found.rounding_error]).all():
+            raise ReadError("object_too_large")
+        return found.about_center()
 
     def piece_moments(self) -> Moments:
         """As `moments`, of the polygons alone: what has to be compared with them."""

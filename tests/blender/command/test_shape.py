@@ -106,6 +106,18 @@ def test_an_open_surface_is_measured_but_has_no_pose():
     assert "shape_of_open_surface" in codes(entry)
 
 
+def test_a_pose_whose_moments_exceed_the_range_of_numbers_is_refused_and_the_mass_is_not():
+    add_box().scale = (1e35, 1e35, 1e35)
+    bpy.context.view_layer.update()
+    for words in (["--pose"], ["--pose", "--order", "4"]):
+        refused = document(*words)
+        assert refused["objects"] == [] and [error["reason"] for error in refused["errors"]] == [
+            sentence("object_too_large")
+        ]
+    (entry,) = document()["objects"]
+    assert close(entry["mass"], 6000.0 * float(np.float32(1e35)) ** 3, 1e-6)
+
+
 def test_similar_tells_copies_mirror_images_and_sizes(tmp_path):
     add(mesh_body(), "Part", location=(1, 2, 3), rotation=(0.3, 0.4, 0.5))
     add(mesh_body(), "Copy", location=(-5, 2, 8), rotation=(1.3, 2.4, -0.5))
