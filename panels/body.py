@@ -44,7 +44,7 @@ class BodyPanel:
         row.scale_y = 1.4
         rows.button(row, context, "object.body_moments_measure", "PHYSICS")
         followed = any(live.is_live(subject) for subject in posed.subjects([obj]))
-        row.operator("object.body_moments_live", text="", icon="REC", depress=followed)
+        row.operator("object.body_moments_live", icon="REC", depress=followed)
         row.operator("object.body_moments_select_faults", text="", icon="ZOOM_SELECTED")
         if shown is not None:
             remedies.unit_question(layout, context, shown)

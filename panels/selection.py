@@ -105,9 +105,9 @@ def _listed(layout: UILayout, context: Context) -> None:
         "body_moments_listed",
         rows=LINES,
     )
-    row = layout.column(align=True) if rows.is_narrow(context) else layout.row(align=True)
-    row.operator("object.body_moments_copy_csv", icon="COPYDOWN")
-    row.operator("object.body_moments_save_numbers", text="Save CSV or JSON...", icon="FILE_TICK")
+    column = layout.column(align=True)
+    column.operator("object.body_moments_copy_csv", icon="COPYDOWN")
+    column.operator("object.body_moments_save_numbers", text="Save CSV or JSON...", icon="FILE_TICK")
 
 
 def _total(layout: UILayout, context: Context, units: Units) -> None:
