@@ -17,7 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..inertia.axial_harmonics import AxialHarmonics, axis_last, turn_by_harmonics
+from ..inertia.axial_harmonics import MAX_TILT, AxialHarmonics, axis_last, turn_by_harmonics
 from ..inertia.canonical_frame import NOISE_LEVEL
 from ..inertia.principal_frame import equivalent_frames
 from ..moments.moments import Moments
@@ -121,7 +121,8 @@ def symmetry(
     central = moments.about_center()
     alike, mirrored = equivalent_frames(central, noise), equivalent_frames(invert_through_point(central), noise)
     order = moments.order
-    if axial is not None and len(alike.revolution_axes) == 1:
+    is_known = max(alike.tilt, mirrored.tilt) <= MAX_TILT
+    if axial is not None and is_known and len(alike.revolution_axes) == 1:
         harmonics = axial(axis_last(alike))
         order = harmonics.order
         alike, mirrored = (

@@ -187,6 +187,8 @@ class Tolerance:
             return self.of(name, numbers) if self.bound else RELATIVE * (size + self.reach())
         if name == "principal_moments":
             return self.of("inertia", numbers)
+        if name == "inertia_products":
+            return self.of("inertia", self.entry["inertia_diagonal"])
         if name in ("mass", "density"):
             return self.share() * size
         if name in ("display_volume", "display_mesh"):
@@ -224,7 +226,7 @@ class Tolerance:
         """RELATIVE beside the largest of an order, or extent × length^order: odd ones are zero for many bodies."""
         sizes = {}
         for kind, entries in moments.items():
-            if not isinstance(entries, dict):
+            if not isinstance(entries, dict) or kind in ("error", "input"):
                 continue
             table = {tuple(map(int, key.split(","))): value for key, value in entries.items() if value is not None}
             extent = abs(table.get((0, 0, 0), 0.0))
@@ -237,6 +239,8 @@ class Tolerance:
 
         def allowed(place: str, one: object) -> float:
             words = place.split(" › ")[1:]
+            if words[:1] in (["error"], ["input"]):
+                return self.of_bound(one)
             if len(words) != 2 or words[0] not in moments or "," not in words[1]:
                 return 0.0
             return share * sizes.get((words[0], sum(map(int, words[1].split(",")))), 0.0)

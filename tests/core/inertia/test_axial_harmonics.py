@@ -3,6 +3,7 @@
 """What turns prisms of seven sides and more: harmonics in exact arithmetic, frames of turned copies, groups."""
 
 import math
+from dataclasses import replace
 from fractions import Fraction
 
 import numpy as np
@@ -156,3 +157,13 @@ def test_sheets_have_harmonics_of_their_area():
     found = harmonics_of(sides, (0, 0, 0.85), np.eye(3), True)
     assert abs(found.values[0, 8]) > 1e-2 and np.abs(found.values[0, 1:8]).max() < 1e-15
     assert close(found.values[0, 0].real, 1.0, rel=1e-14)
+
+
+def test_an_axis_that_is_not_known_well_has_no_harmonics():
+    """About one that leans a little the prism is the same by none of its turns."""
+    part = shapes.prism(7)
+    alike = equivalent_frames(moments(part, 6))
+    harmonics = harmonics_of(part, moments(part, 1).center, axis_last(alike))
+    assert not turn_by_harmonics(alike, harmonics).revolution_axes
+    leaning = replace(alike, tilt=0.02)
+    assert turn_by_harmonics(leaning, harmonics) is leaning
