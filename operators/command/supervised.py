@@ -84,9 +84,9 @@ def files_of(options: Namespace) -> list[str]:
         fail(error)
     if options.range is not None:
         paths = paths[slice(*options.range)]
-    if options.fourier is not None and len(paths) != 1:
+    if options.fourier is not None and len(paths) > 1:
         fail(finding("usage_fourier_one_object"))
-    if options.format in ROBOT_FORMATS and len(paths) != 1:
+    if options.format in ROBOT_FORMATS and len(paths) > 1:
         fail(finding("robot_one_file", count=len(paths)))
     return paths
 
