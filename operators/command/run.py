@@ -83,7 +83,9 @@ class Run:
 
     def measure(self) -> None:
         """Measure every file that was named, or else the one that is open."""
-        for path in self.options.files or [None]:
+        options = self.options
+        is_open_file_meant = not options.files and options.manifest is None and options.range is None
+        for path in [None] if is_open_file_meant else options.files:
             self.documents.append(self.document(path))
 
     @property

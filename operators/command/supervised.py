@@ -84,9 +84,12 @@ def files_of(options: Namespace) -> list[str]:
         fail(error)
     if options.range is not None:
         paths = paths[slice(*options.range)]
-    if options.fourier is not None and len(paths) != 1:
+    is_open_file_meant = not options.files and options.manifest is None
+    if is_open_file_meant or len(paths) == 1:
+        return paths
+    if options.fourier is not None:
         fail(finding("usage_fourier_one_object"))
-    if options.format in ROBOT_FORMATS and len(paths) != 1:
+    if options.format in ROBOT_FORMATS:
         fail(finding("robot_one_file", count=len(paths)))
     return paths
 

@@ -202,6 +202,25 @@ def test_no_random_damage_of_options_files_is_our_fault(main, library, tmp_path)
     assert codes <= {0, 1, 2} and {0, 2} < codes | {1}
 
 
+@pytest.mark.parametrize("words", [("--format", "urdf"), ("--fourier", "out.npz", "--grid", "2", "--qmax", "1")])
+def test_what_takes_one_file_takes_the_open_one_and_neither_two_nor_none(words, main, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    files.add_box()
+    (tmp_path / "files").mkdir()
+    for name in ("a", "b"):
+        (tmp_path / "files" / (name + ".stl")).write_text("")
+    assert main("measure", *words)[0] == 0
+    for files_named in (("files",), ("files", "--range", "2:3")):
+        assert main("measure", *words, *files_named)[:2] == (2, "")
+
+
+def test_a_range_without_files_does_not_measure_what_is_open(main, tmp_path):
+    files.add_box()
+    (tmp_path / "a.stl").write_text("")
+    code, out, _ = main("measure", tmp_path / "a.stl", "--range", "1:2")
+    assert (code, json.loads(out)) == (0, [])
+
+
 def test_results_that_have_no_place_are_wrong_usage_before_anything_is_measured(main, tmp_path, monkeypatch):
     files.add_box()
     monkeypatch.setattr(command, "measure_object", lambda *_: pytest.fail("measured"))

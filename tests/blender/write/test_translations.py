@@ -26,6 +26,7 @@ ROOT = Path(__file__).resolve().parent.parent.parent.parent
 
 # Technical terms, and what Blender itself translates or nobody sees.
 UNTRANSLATED = {
+    "Presets",  # what Blender calls a menu of presets once one was removed
     *(
         "kg/m³",
         "g/cm³",
