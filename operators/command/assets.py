@@ -21,9 +21,9 @@ def store(measured: Iterable[tuple[str, bpy.types.Object | None, Measurement]]) 
     """Put numbers into the metadata of the assets among the objects, and return how many there are."""
     count = 0
     for _, obj, measurement in measured:
-        data = None if obj is None else obj.asset_data
-        if data is None or obj.library is not None:
+        if obj is None or obj.asset_data is None or obj.library is not None:
             continue
+        data = obj.asset_data
         properties = measurement.in_object_frame()
         data["body_mass"] = float(properties.mass)
         data["body_volume"] = float(measurement.volume)
