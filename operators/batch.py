@@ -38,14 +38,14 @@ def main(argv: list[str], *, channel: int | None = None, file_needed: bool = Fal
     """
     from ..core.verdict.finding import finding
     from .command import interruption, output
-    from .write.terminal import tell
+    from .write.terminal import print_message
 
     channel = output.claim_stdout() if channel is None else channel
     try:
         with interruption.interruptible():
             return _answer(argv, channel, file_needed)
     except KeyboardInterrupt:
-        tell(finding("interrupted"))
+        print_message(finding("interrupted"))
         return INTERRUPTED
     except Exception:
         traceback.print_exc()
@@ -112,13 +112,13 @@ def _similar(argv: list[str], channel: int, _file_needed: bool) -> int:
     """Compare what was measured, and print the nearest."""
     from ..core.verdict.finding import MeasureError
     from .command import output, similar
-    from .write.terminal import tell
+    from .write.terminal import print_message
 
     options = similar.parse(argv)
     try:
         text, failures = similar.answer(options)
     except MeasureError as error:
-        tell(error)
+        print_message(error)
         return WRONG_USAGE
     is_written = output.written([text], None, channel)
     return SOME_FAILED if failures or not is_written else ALL_MEASURED

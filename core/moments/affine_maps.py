@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The monomials in storage order, and what affine maps do to a functional F[p,q,r] = ∫ x^p y^q z^r d(of).
+"""What affine maps do to a functional F[p,q,r] = ∫ x^p y^q z^r d(of).
 
 Multiplying the integrand by the linear form l(x) = t + a·x sends F to (lF)[α] = t F[α] + Σ_i a_i F[α+e_i], one order
 shorter; the moments of the image are (l0^p l1^q l2^r F)[0,0,0]. Horner's scheme does that for any order and for many

@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What kind of body B-spline patches bound, what had to be decided to measure it, and its moments.
 
-The counterpart of `solid` for surfaces that are not made of polygons, with the same verdicts: patches that face against
-the rest of their part are turned, holes are capped, parts that are inside out and in no other's material are turned,
-and what cannot be closed is measured as a signed sum and called open. Parts are compared by samples of their patches:
-an overlap that is thinner than a hundredth of a part may be missed.
+The counterpart of `core.solid` for surfaces that are not made of polygons, with the same verdicts: patches that face
+against the rest of their part are turned, holes are capped, parts that are inside out and in no other's material are
+turned, and what cannot be closed is measured as a signed sum and called open. Parts are compared by samples of their
+patches: an overlap that is thinner than a hundredth of a part may be missed.
 """
 
 from __future__ import annotations

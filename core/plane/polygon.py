@@ -296,7 +296,7 @@ def _signed_area(points: NDArray, edges: NDArray) -> float:
 def _crossing_pairs(points: NDArray, edges: NDArray, touch: float) -> tuple[int, float, bool]:
     """Pairs of edges that cross by more than `touch`, and the length along which others run against each other: each
     edge is entered into the cells of a grid that its box meets, and compared with those that share a cell. The last
-    value tells whether that was given up."""
+    value is whether that was given up."""
     start, end = points[edges[:, 0]], points[edges[:, 1]]
     low, high = np.minimum(start, end), np.maximum(start, end)
     length = np.hypot(*(end - start).T)

@@ -34,7 +34,7 @@ from .workspace import Workspace, gather
 
 FACES_PER_CHUNK = 32  # faces that share one bound of their coordinates
 SLICES_PER_ROW = 16  # of a row, that einsum adds up: a divisor of FACES_PER_CHUNK
-# of a determinant, and of a doubled area, relative to the sizes of their terms: see `polyhedron`
+# of a determinant, and of a doubled area, relative to the sizes of their terms: see `third_order`
 DETERMINANT_ROUNDING = 9.0 * U
 # underflow loses less than its root of a length, and than `DETERMINANT_ROUNDING` times it of a doubled area
 MIN_SQUARED_LENGTH = 1e-145

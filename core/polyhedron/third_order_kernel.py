@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The inner loop of `polyhedron`: triangles and pairs of triangles, a block at a time, in scratch that is made once.
+"""The inner loop of `third_order`: triangles and pairs of triangles, a block at a time, in scratch that is made once.
 
 A face is a base a-c with a corner b on one side, and perhaps a corner d on the other: the triangles a, b, c and
 a, c, d. With their determinants v and w, u = v + w, q = a + c and Z = u q + 2 (v b + w d),

@@ -137,11 +137,11 @@ def _outside(stated: StatedInertial, hull: Hull) -> list[Finding]:
     directions = np.concatenate([np.linalg.eigh(second)[1].T, _sphere(DIRECTIONS)])
     variance = np.einsum("ki,ij,kj->k", directions, second, directions)
     # The center may be off by its own tolerance.
-    slack = SPREAD_RTOL * hull.spread_limit(stated.center, directions) + CENTER_RTOL * hull.size**2
+    tolerance = SPREAD_RTOL * hull.spread_limit(stated.center, directions) + CENTER_RTOL * hull.size**2
     limit = hull.spread_limit(stated.center, directions)
-    worst = int(np.argmax((variance - limit) / (limit + slack)))
-    if variance[worst] > limit[worst] + slack[worst]:
-        factor = float(variance[worst] / max(limit[worst], slack[worst]))
+    worst = int(np.argmax((variance - limit) / (limit + tolerance)))
+    if variance[worst] > limit[worst] + tolerance[worst]:
+        factor = float(variance[worst] / max(limit[worst], tolerance[worst]))
         return [finding("inertial_spread_outside", factor=factor, direction=directions[worst].tolist())]
     return []
 

@@ -77,7 +77,7 @@ class ComponentComparison:
         )
 
     def counts(self) -> dict[str, int]:
-        """The entries of `MeshReport` that it tells."""
+        """The entries of `MeshReport` that it gives."""
         return {
             "nested_components": int(self.nested.sum()),
             "cavities": int(self.cavities.sum()),

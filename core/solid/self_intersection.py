@@ -4,7 +4,7 @@
 
 A surface whose cones from some point all have the same sign, and whose sum surrounds that point once, is the radial
 image of a sphere: it cannot meet itself. So it is with every convex body, about its center of mass. The sums over the
-faces tell it of most bodies on the way; for the others it is a pass that ends with the first face that looks away.
+faces show it of most bodies on the way; for the others it is a pass that ends with the first face that looks away.
 
 What is not proved that way is looked at along lines. Each place on a line must be in a closed part once or not at all,
 where the part faces outward. The lengths for which that does not hold, times the lines' distances, are the volume that

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Measuring objects: the first kind of body that reads one, its body, and the measurement of that.
 
-`measure_object` is the one way from an object to its numbers; the button, the snapping operators and the command line
-all go through it.
+`measure_object` is the way of one object by itself. Of many, `many` measures together what can be, with the same
+numbers, and sends the others here.
 """
 
 from __future__ import annotations

@@ -16,7 +16,7 @@ from ..read.robots.descriptions import read_description
 from ..read.robots.paths import Roots
 from ..write.robots import audit_report
 from ..write.robots.repair import repaired_copy
-from ..write.terminal import tell, visible
+from ..write.terminal import print_message, visible
 from ..write.whole_file import whole_file
 from .parser import Parser
 
@@ -71,7 +71,7 @@ def answer(options: argparse.Namespace) -> tuple[str, int, int]:
             internal += reason.code == internal_error.CODE
             documents.append(audit_report.failed_document(str(path), reason))
         for reason in documents[-1]["errors"]:
-            tell(path, reason["message"])
+            print_message(path, reason["message"])
         faults += documents[-1]["status"] != "ok"
     return audit_report.FORMATS[options.format](documents), faults, internal
 
@@ -84,7 +84,7 @@ def _document(path: Path, options: argparse.Namespace, copies: set[str]) -> dict
         audit_report.link_entry(found.link, found.findings, found.repaired, found.density) for found in audit.links
     ]
     document = audit_report.document(str(path), description, links, repaired)
-    tell(path, visible(str(summary(document))))
+    print_message(path, visible(str(summary(document))))
     return document
 
 

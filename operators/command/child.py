@@ -58,11 +58,11 @@ def _measure(run: Run, path: str, line: Lifeline) -> None:
 
 
 class _Told(Progress):
-    """Progress that the supervisor is told of."""
+    """Progress that the supervisor is sent."""
 
     def __init__(self, file: str, line: Lifeline) -> None:
         super().__init__(file)
         self._line = line
 
-    def tell(self, samples: int) -> None:
+    def report(self, samples: int) -> None:
         self._line.answer({"note": str(finding("progress_samples", count=samples))})

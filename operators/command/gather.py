@@ -20,7 +20,7 @@ from ...core.verdict.finding import MeasureError, QueryError, finding
 from ..supervisor import journal, listing
 from ..write.documents import SCHEMA, to_csv, to_json_lines
 from ..write.html.report import to_html
-from ..write.terminal import tell, visible
+from ..write.terminal import print_message, visible
 from . import compare, output, results
 from .option_types import positive
 from .parser import Parser
@@ -96,7 +96,7 @@ def run(argv: list[str], channel: int, _file_needed: bool) -> int:
         # The pieces are made while they are written.
         written = output.written(pieces, options.output, channel, _guard(options))
     except MeasureError as error:
-        tell(error)
+        print_message(error)
         return 2
     return 1 if failed or not written else 0
 

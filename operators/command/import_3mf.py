@@ -34,7 +34,7 @@ def import_3mf(path: str) -> None:
 
 
 def _mesh(one: Placed) -> bpy.types.Mesh:
-    """As it is in the file; nothing is mended."""
+    """As it is in the file; nothing is repaired."""
     mesh = bpy.data.meshes.new(one.name)
     mesh.vertices.add(len(one.points))
     mesh.attributes["position"].data.foreach_set("vector", one.points.astype(np.float32).ravel())

@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 
 from ...core.verdict.finding import finding
-from ..write.terminal import tell
+from ..write.terminal import print_message
 
 PERIOD = 5.0  # seconds between reports of progress
 
@@ -86,8 +86,8 @@ class Progress:
         self._samples += samples
         if time.monotonic() >= self._due:
             self._due = time.monotonic() + PERIOD
-            self.tell(self._samples)
+            self.report(self._samples)
 
-    def tell(self, samples: int) -> None:
+    def report(self, samples: int) -> None:
         """Report that so many samples have been read."""
-        tell(self._file, finding("progress_samples", count=samples))
+        print_message(self._file, finding("progress_samples", count=samples))

@@ -17,7 +17,7 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 
 from ...core.verdict.finding import finding
-from ..write.terminal import tell
+from ..write.terminal import print_message
 from ..write.whole_file import whole_file
 
 _STDOUT = {"/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"}  # its descriptor may not be 1 any more
@@ -75,7 +75,7 @@ def written(parts: Iterable[str], path: Path | None, channel: int, check: Callab
     try:
         write(parts, path, channel, check)
     except OSError as error:
-        tell(finding("usage_result_not_written", error=error.strerror or str(error)))
+        print_message(finding("usage_result_not_written", error=error.strerror or str(error)))
         return False
     return True
 

@@ -24,7 +24,7 @@ from ..write.messages import sentence
 from ..write.robots.formats import robot_text
 from ..write.robots.from_records import robot_name, robot_of_document
 from ..write.robots.stl import write_meshes
-from ..write.terminal import tell
+from ..write.terminal import print_message
 
 MeasuredObject = tuple[str, bpy.types.Object | None, Measurement]
 
@@ -39,7 +39,7 @@ def complete(document: dict[str, Any], measured: Sequence[MeasuredObject], optio
     if options.meshes and not options.inertial_only:
         findings.append(_write_meshes(made, options))
     for one in findings:
-        tell(sentence(one))
+        print_message(sentence(one))
     return {**document, "robot": text}
 
 

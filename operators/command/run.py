@@ -38,7 +38,7 @@ from ..settings.options import MeasureOptions
 from ..write import record
 from ..write.documents import document
 from ..write.properties import store
-from ..write.terminal import tell
+from ..write.terminal import print_message
 from . import assets, density_options, fourier, robots
 from .combined import Combined, measure_combined
 from .files import BLEND, UNITLESS, file_suffix, newer_version, open_file
@@ -168,7 +168,7 @@ class Run:
             errors.append(self._internal_error(None, error))
         for one in errors:
             where = [text for text in (file, one["name"]) if text]
-            tell(*where, one["reason"])
+            print_message(*where, one["reason"])
         made = document(
             objects,
             record.total([one for _, _, one in measured], caveats),
@@ -393,5 +393,5 @@ def _save(place: Place | None, file: str | None) -> tuple[Finding, ...]:
         raise FileError("file_vanished")
     findings = place.save()
     for one in findings:
-        tell(file, one)
+        print_message(file, one)
     return findings

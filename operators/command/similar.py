@@ -10,7 +10,7 @@ from pathlib import Path
 from ...core.shape.library import Entry, classify, rank, read_library
 from ...core.verdict.finding import QueryError, finding
 from ..write.messages import SIMILARITY
-from ..write.terminal import tell, visible
+from ..write.terminal import print_message, visible
 from .parser import Parser
 
 _COLUMNS = "{:>12} {:>10}  {:<27} {}\n"
@@ -57,7 +57,7 @@ def answer(options: argparse.Namespace) -> tuple[str, int]:
         entries += readable
         failures += missing
     for failure in failures:
-        tell(failure)
+        print_message(failure)
     query = _entry_by_name(entries, options.to)
     lines = [_COLUMNS.format("distance", "size", "", "name")]
     others = [entry for entry in entries if entry is not query]

@@ -30,7 +30,7 @@ from ..supervisor.pool import ChildError, Limits, Outcome, Pool, SetupError
 from ..supervisor.progress import Progress
 from ..write.documents import FORMATS, ROBOT_FORMATS, failed_document
 from ..write.file_lock import Busy, beside, locked
-from ..write.terminal import PROGRAM, tell
+from ..write.terminal import PROGRAM, print_message
 from . import interruption, output, results, targets
 from .arguments import DEFAULT_TIMEOUT, as_record, fail, of_numbers
 
@@ -64,13 +64,13 @@ def measure(options: Namespace, channel: int, opened: str | None) -> int:
                 sys.stderr.write(error.text)
                 raise SystemExit(2) from error
             except ChildError as error:
-                tell(finding("children_failed", reason=error.reason))
+                print_message(finding("children_failed", reason=error.reason))
                 return 2
             except KeyboardInterrupt:
                 if places.journal_is_kept:
-                    tell(finding("interrupted_resumable", done=run.done, total=len(run.tasks)))
+                    print_message(finding("interrupted_resumable", done=run.done, total=len(run.tasks)))
                 else:
-                    tell(finding("interrupted"))
+                    print_message(finding("interrupted"))
                 return 3
 
 
@@ -222,7 +222,7 @@ class _Supervised:
                 self._tell(progress, outcome, document)
             for file, note in pool.notes:
                 progress.clear()
-                tell(file, note)
+                print_message(file, note)
             pool.notes.clear()
             progress.show()
         progress.finish()
@@ -249,13 +249,13 @@ class _Supervised:
         self._faults += faults
         if outcome.status != "answered":
             progress.clear()
-            tell(outcome.task, document["errors"][0]["reason"])
+            print_message(outcome.task, document["errors"][0]["reason"])
             return
         lines = outcome.said.splitlines(keepends=True)
-        told = "".join(line for line in lines if faults or line.startswith(PROGRAM + ": "))
-        if told:
+        shown = "".join(line for line in lines if faults or line.startswith(PROGRAM + ": "))
+        if shown:
             progress.clear()
-            sys.stderr.write(told)
+            sys.stderr.write(shown)
 
     def _write(self, journal: Journal, channel: int) -> bool:
         """Whether the result could be written."""

@@ -50,7 +50,7 @@ def remember(obj: Object, measured: Measured) -> None:
     reading, elements = measured.reading, measured.measurement.health.defective_elements
     if not isinstance(reading, Reading) or not _any_faults(elements):
         return
-    if len(reading.parts) != 1 or reading.is_singular:  # of several surfaces the elements are not told apart
+    if len(reading.parts) != 1 or reading.is_singular:  # of several surfaces it is not known which has the elements
         return
     (part,) = reading.parts
     _remember(obj, part.surface, np.linalg.inv(reading.matrix) @ part.matrices[0], elements)

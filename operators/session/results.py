@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Stored results made ready to be shown: in the wanted frame, and summed over a selection.
+"""Results are stored here, and made ready to be shown: in the wanted frame, and summed over a selection.
 
 A panel is drawn at every movement of the mouse, so both are cached: one object's by what is stored and where it stands,
 the totals until Blender reports any change.

@@ -130,10 +130,10 @@ def _memory_by_tool(pid: int) -> int | None:
     )
     words += [] if _WINDOWS else [str(pid)]
     try:
-        told = subprocess.run(words, capture_output=True, timeout=5, check=True, stdin=subprocess.DEVNULL).stdout
+        answer = subprocess.run(words, capture_output=True, timeout=5, check=True, stdin=subprocess.DEVNULL).stdout
     except (OSError, subprocess.SubprocessError):
         return None
-    digits = bytes(byte for byte in (told.rsplit(b'","', 1)[-1] if _WINDOWS else told) if 48 <= byte < 58)
+    digits = bytes(byte for byte in (answer.rsplit(b'","', 1)[-1] if _WINDOWS else answer) if 48 <= byte < 58)
     return 1024 * int(digits) if digits else None
 
 

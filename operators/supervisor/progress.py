@@ -10,7 +10,7 @@ import time
 from collections import Counter
 
 from ...core.verdict.finding import finding
-from ..write.terminal import tell, visible
+from ..write.terminal import print_message, visible
 
 PERIOD = 5.0  # seconds between lines
 _REDRAW = 0.1  # and between bars
@@ -42,7 +42,7 @@ class Progress:
         if self._is_terminal:
             self._draw()
         else:
-            tell(self._state())
+            print_message(self._state())
 
     def clear(self) -> None:
         """Remove the bar, for other lines."""
@@ -56,7 +56,9 @@ class Progress:
         if self._total > 1:
             counts = ", ".join("{} {}".format(number, status) for status, number in self.counts.most_common())
             seconds = time.monotonic() - self._began
-            tell(finding("progress_done", count=self._done - self._before, seconds=seconds, counts=counts or "-"))
+            print_message(
+                finding("progress_done", count=self._done - self._before, seconds=seconds, counts=counts or "-")
+            )
 
     def _state(self) -> object:
         seconds = max(time.monotonic() - self._began, 1e-3)

@@ -3,7 +3,7 @@
 """A report that a person reads, in the order that CAD dialogs use: verdict, mass, volume, center,
 principal axes, tensor.
 
-It is made from a document (`record.document`) alone, so that whatever JSON says can be said
+It is made from a document (`documents.document`) alone, so that whatever JSON says can be said
 in words, and from the results that are stored on objects by way of a document too. What a document
 lacks is left out.
 """

@@ -24,6 +24,6 @@ def visible(text: str) -> str:
     )
 
 
-def tell(*parts: object) -> None:
+def print_message(*parts: object) -> None:
     """Write one line to the standard error: the program's name and the parts, with colons between."""
     sys.stderr.write("{}\n".format(visible(": ".join(map(str, (PROGRAM, *parts))))))

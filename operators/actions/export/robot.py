@@ -254,7 +254,7 @@ def _file_handler(exporter: type[RobotExport], label: str) -> type[FileHandler]:
     return type(name, (FileHandler,), members)
 
 
-FILE_HANDLERS = tuple(_file_handler(exporter, label) for exporter, label in zip(EXPORTERS, LABELS))
+FILE_HANDLERS = tuple(_file_handler(exporter, label) for exporter, label in zip(EXPORTERS, LABELS, strict=True))
 
 
 class TOPBAR_MT_body_moments_export(Menu):
@@ -264,7 +264,7 @@ class TOPBAR_MT_body_moments_export(Menu):
     bl_label = "Mass Properties"
 
     def draw(self, _context: Context) -> None:
-        for exporter, label in zip(EXPORTERS, LABELS):
+        for exporter, label in zip(EXPORTERS, LABELS, strict=True):
             text = "{} ({})".format(label, exporter.filename_ext)
             self.layout.operator(exporter.bl_idname, text=text, translate=False)
         self.layout.separator()

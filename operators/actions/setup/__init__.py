@@ -1,3 +1,3 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is set before measuring: presets, imported scans."""
+"""What sets up a scene: presets, imported scans, assemblies, rigid bodies, the remedies beside warnings."""

@@ -13,7 +13,6 @@ from ..messages import sentence
 from . import mjcf, sdf, urdf, usd
 
 WRITERS: dict[str, ModuleType] = {"urdf": urdf, "sdf": sdf, "mjcf": mjcf, "usd": usd}
-SUFFIXES = {"urdf": ".urdf", "sdf": ".sdf", "mjcf": ".xml", "usd": ".usda"}
 
 
 def robot_text(
