@@ -252,7 +252,7 @@ def _method(is_open: bool, verdict: _PatchVerdict, misoriented: int) -> Verdict:
 
 
 def _health(topology: PatchTopology, verdict: _PatchVerdict, area: float) -> MeshReport:
-    return MeshReport(
+    report = MeshReport(
         closed=not (topology.unclosable.any() or verdict.caps.any()),
         boundary_edges=topology.open_sides,
         non_manifold_edges=topology.non_manifold_sides,
@@ -260,8 +260,8 @@ def _health(topology: PatchTopology, verdict: _PatchVerdict, area: float) -> Mes
         components=topology.number,
         inverted_components=int(verdict.flipped.sum()),
         cap_area_share=float(verdict.caps[verdict.solid, 2].sum() / area) if area > 0.0 else 0.0,
-        **({} if verdict.comparison is None else verdict.comparison.counts()),
     )
+    return report if verdict.comparison is None else verdict.comparison.add_to(report)
 
 
 def measure_sheet(

@@ -82,7 +82,7 @@ def _without_walls(mesh: RepairedMesh, sides: NDArray[np.integer]) -> tuple[Find
     walls, findings = np.unique(mesh.face[sides // 3]), []
     for item in mesh.findings:
         if len(walls) and item.code.startswith("duplicate_faces_counted"):
-            left = np.setdiff1d(item.elements, walls)
+            left = np.setdiff1d(np.asarray(item.elements), walls)
             item = replace(item, values={**item.values, "count": len(left)}, elements=left)
         if item.values.get("count") != 0:
             findings.append(item)
@@ -246,4 +246,5 @@ def _count_caps(
     hole = loops.has_area(tolerance) & ~is_open[of_loop]
     level = loops.out_of_plane <= tolerance
     columns = level, ~level, np.where(level, loops.planar_area, loops.cone_area)
-    return np.stack([np.bincount(of_loop, column * hole, minlength=len(is_open)) for column in columns], axis=1)
+    counts = [np.bincount(of_loop, column * hole, minlength=len(is_open)) for column in columns]
+    return np.stack(counts, axis=1).astype(np.float64, copy=False)

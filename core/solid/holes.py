@@ -186,7 +186,7 @@ def find_loops(
     origin[of_side[::-1]] = begin[::-1]  # about the loop's first vertex: a coordinate that all share stays exact
     a, b = begin - origin[of_side], end - origin[of_side]
     length = np.linalg.norm(b - a, axis=1)
-    perimeter = np.bincount(of_side, length)
+    perimeter = np.asarray(np.bincount(of_side, length), np.float64)
     middle = (a + b) * (0.5 * length)[:, None]
     divisor = np.where(perimeter > 0.0, perimeter, 1.0)
     center = np.stack([np.bincount(of_side, middle[:, k]) / divisor for k in range(3)], axis=1)
@@ -195,7 +195,7 @@ def find_loops(
     wedge = np.cross(a, b) / 2.0
     vector = np.stack([np.bincount(of_side, wedge[:, k]) for k in range(3)], axis=1)
     flat = np.linalg.norm(vector, axis=1)
-    cone = np.bincount(of_side, np.linalg.norm(wedge, axis=1))
+    cone = np.asarray(np.bincount(of_side, np.linalg.norm(wedge, axis=1)), np.float64)
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         normal = vector / flat[:, None]
         height = np.zeros(number)

@@ -223,9 +223,10 @@ def _health(
     edges = defects.boundary_edges, defects.non_manifold_edges, defects.inconsistent_edges
     if vertices is not None:
         edges = tuple(vertices[pairs] for pairs in edges)
+    if oriented.comparison is not None:
+        report = oriented.comparison.add_to(report)
     return replace(
         report,
-        **({} if oriented.comparison is None else oriented.comparison.counts()),
         inverted_components=inverted_count,
         degenerate_faces=len(planarity.degenerate_faces),
         non_planar_faces=planarity.non_planar_count,
@@ -239,8 +240,8 @@ def _health(
 
 def _of_input(item: Finding, vertices: NDArray[np.intp] | None) -> Finding:
     """The finding with edges in the input's vertices, where those of no face were left out before."""
-    edges = np.ndim(item.elements) == 2
-    return replace(item, elements=vertices[item.elements]) if edges and vertices is not None else item
+    elements = np.asarray(item.elements)
+    return replace(item, elements=vertices[elements]) if elements.ndim == 2 and vertices is not None else item
 
 
 def _float32_step(surface: Surface) -> float:

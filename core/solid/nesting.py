@@ -12,7 +12,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from ..mesh.boxes import overlapping_box_pairs
 from ..mesh.bvh import Bvh, SortedComponents, intersecting_pairs, sort_components
@@ -269,7 +269,7 @@ def _interior_samples(
     tree: Bvh,
     component: NDArray,
     k: NDArray,
-    number: ArrayLike,
+    number: int | NDArray[np.integer],
     tolerance: float,
 ) -> NDArray[np.float64]:
     """(n, 3) the k-th of so many points under the skins of components, about the tree's origin."""

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +14,7 @@ from ..mesh.bvh import SortedComponents, sort_components
 from ..mesh.surface import Surface
 from ..moments.moments import Moments, sum_moments
 from ..polyhedron import polyhedron_moments
+from ..verdict.health import MeshReport
 from ..verdict.tolerances import CLOSED_SHEET_VOLUME_RTOL, FLAT_CAP_VOLUME_RTOL
 from .nesting import ComponentRelations, cavity_host, classify_pairs, orient_nested_components
 from .parts import ClosedParts
@@ -63,7 +65,7 @@ class ComponentComparison:
         through = cavities[relations.mostly_in[:, 0]] & ~cavities[relations.mostly_in[:, 1]]
         breaking[relations.mostly_in[through, 0]] = True
         keys = [pairs @ [len(solid), 1] for pairs in (relations.intersecting, relations.mostly_in[through])]
-        intersecting[relations.intersecting[~np.isin(*keys)]] = True
+        intersecting[relations.intersecting[~np.isin(keys[0], keys[1])]] = True
         return cls(
             flipped,
             solid,
@@ -76,13 +78,14 @@ class ComponentComparison:
             relations.undecided_pairs,
         )
 
-    def counts(self) -> dict[str, int]:
-        """The entries of `MeshReport` that it gives."""
-        return {
-            "nested_components": int(self.nested.sum()),
-            "cavities": int(self.cavities.sum()),
-            "overlapping_components": int(self.intersecting.sum()),
-        }
+    def add_to(self, report: MeshReport) -> MeshReport:
+        """Return the report with the components counted that lie in others, or overlap."""
+        return replace(
+            report,
+            nested_components=int(self.nested.sum()),
+            cavities=int(self.cavities.sum()),
+            overlapping_components=int(self.intersecting.sum()),
+        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -169,7 +172,7 @@ def orient_components(
         volume = _integrate_oriented(checked.surface, given, mesh, flipped, surface, threads)
     total, has_open = volume.total, bool(mesh.open.any())
     if comparison is None:
-        threshold = _zero_volume_threshold(checked.size, given.area.total, mesh.caps.any(), checked.error)
+        threshold = _zero_volume_threshold(checked.size, given.area.total, bool(mesh.caps.any()), checked.error)
         is_solid = bool(abs(total) > max(threshold, volume.rounding_error[0]))
         solid = np.full(mesh.number, is_solid)
         # what is open has no inside
@@ -205,8 +208,8 @@ def compare_components(mesh: RepairedMesh, tolerance: float, error: float) -> Co
     )
 
 
-def _zero_volume_threshold(size: float, area: float, capped: bool, error: float) -> float:
-    """The volume that is none: what rounding leaves of a closed sheet, and what capping leaves of a flat one."""
+def _zero_volume_threshold(size: Any, area: Any, capped: bool, error: float) -> Any:
+    """(...) the volume that is none: what rounding leaves of a closed sheet, and what capping leaves of a flat one."""
     return (FLAT_CAP_VOLUME_RTOL * size + 4.0 * error) * area if capped else CLOSED_SHEET_VOLUME_RTOL * size * area
 
 

@@ -22,7 +22,7 @@ from .close_components import (
     turn_faces,
 )
 from .duplicate_faces import drop_duplicate_faces
-from .repaired_mesh import RepairedMesh
+from .repaired_mesh import UNKNOWN, RepairedMesh
 from .weld_open_parts import drop_collapsed_triangles, split_into_triangles, weld_equal_positions, weld_near_positions
 
 STEPS: tuple[Callable[[RepairedMesh, float], RepairedMesh], ...] = (
@@ -61,4 +61,4 @@ def repair_surface(surface: Surface, tolerance: float, weld_near: bool = True) -
     for step in STEPS:
         if len(mesh.triangles) and (weld_near or step is not weld_near_positions):
             mesh = step(mesh, tolerance)
-    return replace(mesh, state=None)
+    return replace(mesh, state=UNKNOWN)

@@ -16,6 +16,7 @@ from ..verdict.health import MeshReport
 
 NO_EDGES = np.empty((0, 2), np.intp)
 NO_INDICES = np.empty(0, np.intp)
+UNKNOWN: Any = None  # until a step finds it; the order of the steps sees to it that no one reads it before
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,27 +90,27 @@ class RepairState:
     ----------
     given : (t, 3) int
         The triangles over the input's vertices. Side 3t + i runs from corner i of triangle t to the next one.
-    edges : Edges, optional
+    edges : Edges
         Of the triangles with three different vertices, where they are known.
-    component_edges : Edges, optional
+    component_edges : Edges
         The same with vertices of its own for each component.
     open_parts : OpenParts, optional
         None where nothing is left to weld.
-    gaps : ZeroAreaLoops, optional
-    folded : FoldedLoops, optional
-    one_sided : (c,) bool, optional
+    gaps : ZeroAreaLoops
+    folded : FoldedLoops
+    one_sided : (c,) bool
         The components in which faces cannot agree, as on a Möbius strip.
     uncapped_sides : (k,) int
         Boundary sides that bound no gap, of components that may still be closed.
     """
 
     given: NDArray[np.intp]
-    edges: Edges | None = None
-    component_edges: Edges | None = None
+    edges: Edges = UNKNOWN
+    component_edges: Edges = UNKNOWN
     open_parts: OpenParts | None = None
-    gaps: ZeroAreaLoops | None = None
-    folded: FoldedLoops | None = None
-    one_sided: NDArray[np.bool_] | None = None
+    gaps: ZeroAreaLoops = UNKNOWN
+    folded: FoldedLoops = UNKNOWN
+    one_sided: NDArray[np.bool_] = UNKNOWN
     uncapped_sides: NDArray[np.intp] = field(default_factory=NO_INDICES.view)
 
 
@@ -143,8 +144,8 @@ class RepairedMesh:
         The boundary edges of capped holes, and the component of each.
     findings : tuple of Finding
         What was decided, but for welding and caps, whose effect depends on the volume.
-    state : RepairState, optional
-        None before the first step and after the last.
+    state : RepairState
+        Dropped after the last step.
     """
 
     points: NDArray[np.floating]
@@ -161,7 +162,7 @@ class RepairedMesh:
     capped_edges: NDArray[np.intp] = field(default_factory=NO_EDGES.view)
     capped_component: NDArray[np.intp] = field(default_factory=NO_INDICES.view)
     findings: tuple[Finding, ...] = ()
-    state: RepairState | None = None
+    state: RepairState = UNKNOWN
 
     def with_state(self, **changes: Any) -> RepairedMesh:
         """The same mesh, with more known for later steps."""
@@ -185,7 +186,7 @@ class RepairedMesh:
             face=self.face[rows],
             flipped=self.flipped[rows],
             component=self.component[rows],
-            state=replace(self.state, given=self.state.given[rows], edges=None),
+            state=replace(self.state, given=self.state.given[rows], edges=UNKNOWN),
         )
 
     def with_caps(self, caps: NDArray[np.integer], owner: NDArray[np.integer]) -> RepairedMesh:

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -135,17 +136,25 @@ def integrate_and_prove(checked: CheckedSurface, shell: bool, threads: int) -> G
         Whether the area's moments are wanted to order 3; else to order 0.
     threads : int
     """
-    surface, options = checked.surface, {"area_order": 3 if shell else 0, "threads": threads}
+    surface = checked.surface
     accumulator = PlanarityAccumulator(surface, checked.error)
+    integrate = partial(
+        polyhedron_moments,
+        surface,
+        area_order=3 if shell else 0,
+        threads=threads,
+        planarity=accumulator,
+        allow_open=True,
+    )
     if min(threads, (len(surface.triangles) + 2 * len(surface.quads)) // third_order.MIN_TRIANGLES_PER_THREAD) > 1:
         with ThreadPoolExecutor(1) as pool:
             waiting = pool.submit(prove_closed, surface)
-            volume, area = polyhedron_moments(surface, planarity=accumulator, **options, allow_open=True)
+            volume, area = integrate()
         proven = waiting.result()
     else:
-        volume, area = polyhedron_moments(surface, planarity=accumulator, **options, allow_open=True)
+        volume, area = integrate()
         proven = prove_closed(surface)
-    agree = accumulator.cones is not None and same_sign(*accumulator.cones)
+    agree = accumulator.cones is not None and bool(same_sign(*accumulator.cones))
     return GivenIntegrals(volume, area, accumulator.planarity(), agree, proven)
 
 

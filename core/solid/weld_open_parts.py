@@ -19,7 +19,7 @@ from ..numerics.graph import connected_components
 from ..verdict.health import MeshReport
 from .duplicate_faces import is_duplicated
 from .holes import side_ends
-from .repaired_mesh import OpenParts, RepairedMesh, RepairState, has_distinct_vertices
+from .repaired_mesh import UNKNOWN, OpenParts, RepairedMesh, RepairState, has_distinct_vertices
 
 
 def split_into_triangles(surface: Surface) -> RepairedMesh:
@@ -48,7 +48,7 @@ def split_into_triangles(surface: Surface) -> RepairedMesh:
         open=np.zeros(0, bool),
         caps=np.zeros((0, 3)),
         report=MeshReport(closed=False, components=0),
-        state=RepairState(triangles, edges, open_parts=open_parts),
+        state=RepairState(triangles, edges or UNKNOWN, open_parts=open_parts),
     )
 
 
@@ -67,7 +67,7 @@ def weld_equal_positions(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     still_open = edges is not None and bool(np.any(edges.count % 2))
     vertices = _unique_sorted(onto[parts.vertices], len(mesh.points))
     return mesh.with_state(
-        edges=edges if parts.are_all else None,
+        edges=edges if parts.are_all else UNKNOWN,
         open_parts=replace(parts, rows=rows, vertices=vertices) if still_open else None,
     )
 
@@ -85,7 +85,9 @@ def weld_near_positions(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     place = mesh.points[vertices].astype(np.float64)
     moved = float(np.linalg.norm(place - place[same], axis=1).max())
     mesh, _ = _weld(mesh, parts.rows, vertices, same)
-    return replace(mesh, max_displacement=moved, topology_changed=moved > 0.0).with_state(edges=None, open_parts=None)
+    return replace(mesh, max_displacement=moved, topology_changed=moved > 0.0).with_state(
+        edges=UNKNOWN, open_parts=None
+    )
 
 
 def drop_collapsed_triangles(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
