@@ -25,6 +25,7 @@ AGREES, DIFFERS = 5e-3, 1e-2  # of radius of gyration and inertia: the same; mor
 LENGTH_UNITS = (1e-3, 1e-2, 1e3, 1e2, 0.0254, 1.0 / 0.0254)
 INERTIA_UNITS = (1e-6, 1e-3, 1e-9, 1e-4, 1e-7, 1e6, 1e3, 1e9, 1e4, 1e7)
 DENSITIES = (10.0, 30_000.0)  # kg/m³ of what robots are made of: foam, and more than the heaviest metal
+USUAL_DENSITIES = (100.0, 12_000.0)  # of most of their parts: what a change that nothing else shows has to give
 AXES = np.array(list(permutations(range(3))))[1:]
 OF_GEOMETRY = ("audit_mesh_unit", "audit_shape_angles_in_degrees")  # what leaves the inertial as it is
 PRODUCT_NAMES = ("xy", "xz", "yz")
@@ -143,7 +144,7 @@ def _density(stated: StatedInertial, reference: Reference) -> Diagnosis | None:
     if DENSITIES[0] <= density <= DENSITIES[1]:
         return None
     for factor in (1e-3, 1e3):
-        if DENSITIES[0] <= density * factor <= DENSITIES[1]:
+        if USUAL_DENSITIES[0] <= density * factor <= USUAL_DENSITIES[1]:
             mass, inertia = float(_times(stated.mass, factor)), _times(stated.inertia, factor)
             repaired = stated.along_link(inertia, mass=mass)
             return Diagnosis(finding("audit_mass_and_inertia_unit", density=density, factor=factor), repaired)

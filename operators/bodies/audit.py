@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
-from math import pi, radians
+from math import inf, pi, radians
 
 import numpy as np
 from numpy.typing import NDArray
@@ -48,10 +48,33 @@ class Audit:
 
 @dataclass(frozen=True, eq=False)
 class _Piece:
-    """A shape that was measured: points of its hull, and moments of its volume where they are certain."""
+    """A shape that was measured, in its own coordinates: points of its hull, and moments of its volume where they are
+    certain. upright: the rotation that its file asks for, where another axis than z is up."""
 
     points: NDArray[np.float64]
     moments: Moments | None
+    upright: NDArray[np.float64] | None = None
+
+    def turned(self) -> _Piece:
+        """It with the axis up that its file says."""
+        if self.upright is None:
+            return self
+        moments = None if self.moments is None else self.moments.transform(_matrix(Pose(np.zeros(3), self.upright)))
+        return _Piece(self.points @ self.upright.T, moments)
+
+
+Pieces = dict[str, list[tuple[StatedShape, _Piece]]]
+
+
+@dataclass(frozen=True, eq=False)
+class _Judgment:
+    """What an inertial is beside some geometry. apart: how far from it filled evenly."""
+
+    findings: list[Finding]
+    repaired: StatedInertial | None = None
+    density: float | None = None
+    impossible: bool = False
+    apart: float = inf
 
 
 @dataclass
@@ -59,7 +82,7 @@ class Auditor:
     """Judges descriptions; a mesh is measured once, however many links name it."""
 
     roots: Roots
-    _meshes: dict[tuple, tuple[Surface, Moments | None, Finding | None]] = field(default_factory=dict)
+    _meshes: dict[tuple, _Piece | Finding] = field(default_factory=dict)
 
     def audit(self, description: Description) -> Audit:
         """Return what is wrong with each link of a description.
@@ -80,33 +103,22 @@ class Auditor:
             if link.moves and not findings:
                 findings.append(finding("inertial_missing"))
             return LinkAudit(link, tuple(findings))
+        if not link.shapes and not link.inertial.mass and not link.inertial.tensor.any():
+            return LinkAudit(link, (*findings, finding("inertial_of_frame")))
         pieces, unread = self._pieces(link.shapes)
         findings += unread
-        points = [piece.points for found in pieces.values() for _, piece in found]
-        hull = Hull(np.concatenate(points)) if points and not unread else None
-        excluded = impossible(link.inertial, hull)
-        findings += excluded
-        if any(one.code in ("inertial_not_finite", "inertial_mass_not_positive") for one in excluded):
-            return LinkAudit(link, tuple(findings))
-        references = [] if unread else [made for found in pieces.values() if (made := _reference(found)) is not None]
-        diagnosis = diagnose(link.inertial, references, [] if unread else _turned(pieces))
-        repaired = None
-        if diagnosis is not None:
-            findings.append(diagnosis.finding)
-            repaired = diagnosis.repaired
-        wrong = any(one.code != "inertial_triangle_slightly" for one in excluded)
-        by_geometry = diagnosis is not None and diagnosis.finding.code in OF_GEOMETRY
-        if wrong and repaired is None and references and not by_geometry:
-            repaired = references[0].uniform(link.inertial.mass)
-            findings.append(finding("audit_uniform_instead"))
-        density = link.inertial.mass / references[0].volume if references else None
-        return LinkAudit(link, tuple(findings), repaired, density)
+        found = _judge(link.inertial, pieces, bool(unread))
+        if any(piece.upright is not None for several in pieces.values() for _, piece in several):
+            turned = {role: [(one, piece.turned()) for one, piece in several] for role, several in pieces.items()}
+            other = _judge(link.inertial, turned, bool(unread))
+            if (other.impossible, 2.0 * other.apart) < (found.impossible, found.apart):
+                found = other
+                findings.append(finding("audit_up_axis"))
+        return LinkAudit(link, (*findings, *found.findings), found.repaired, found.density)
 
-    def _pieces(
-        self, shapes: Iterable[StatedShape]
-    ) -> tuple[dict[str, list[tuple[StatedShape, _Piece]]], list[Finding]]:
+    def _pieces(self, shapes: Iterable[StatedShape]) -> tuple[Pieces, list[Finding]]:
         """The shapes by their roles, and why others could not be measured."""
-        pieces: dict[str, list[tuple[StatedShape, _Piece]]] = {}
+        pieces: Pieces = {}
         unread: list[Finding] = []
         for stated in shapes:
             try:
@@ -124,34 +136,56 @@ class Auditor:
         if shape.kind != "mesh":
             return _primitive(shape)
         if stated.points is not None and stated.triangles is not None:
-            surface, moments = _measured(Surface.from_triangles(stated.points, stated.triangles))
-        else:
-            surface, moments = self._mesh(shape)
-        return _Piece(np.asarray(surface.points, np.float64), moments)
-
-    def _mesh(self, shape: Shape) -> tuple[Surface, Moments | None]:
+            return _measured(Surface.from_triangles(stated.points, stated.triangles))
         key = shape.file, shape.size
         if key not in self._meshes:
             try:
-                surface = read_mesh(self.roots.find(shape.file)).transform(np.diag(shape.size))
+                surface, upright = read_mesh(self.roots.find(shape.file))
             except FileError as error:
-                self._meshes[key] = Surface(np.zeros((0, 3))), None, error.finding
+                self._meshes[key] = error.finding
             else:
-                self._meshes[key] = *_measured(surface), None
-        surface, moments, reason = self._meshes[key]
-        if reason is not None:
-            raise FileError(reason)
-        return surface, moments
+                self._meshes[key] = _measured(surface.transform(np.diag(shape.size)), upright)
+        known = self._meshes[key]
+        if isinstance(known, Finding):
+            raise FileError(known)
+        return known
 
 
-def _measured(surface: Surface) -> tuple[Surface, Moments | None]:
-    """A surface and the moments of what it bounds, where that is certain."""
+def _judge(stated: StatedInertial, pieces: Pieces, incomplete: bool) -> _Judgment:
+    """An inertial beside its geometry. incomplete: whether some of that could not be read, and shows nothing."""
+    points = [
+        piece.points @ one.shape.pose.rotation.T + one.shape.pose.position
+        for several in pieces.values()
+        for one, piece in several
+    ]
+    findings = impossible(stated, Hull(np.concatenate(points)) if points and not incomplete else None)
+    if any(one.code in ("inertial_not_finite", "inertial_mass_not_positive") for one in findings):
+        return _Judgment(findings, impossible=True)
+    references = [] if incomplete else [made for several in pieces.values() if (made := _reference(several))]
+    diagnosis = diagnose(stated, references, [] if incomplete else _turned(pieces))
+    wrong = any(one.code != "inertial_triangle_slightly" for one in findings)
+    repaired, by_geometry = None, False
+    if diagnosis is not None:
+        findings.append(diagnosis.finding)
+        repaired, by_geometry = diagnosis.repaired, diagnosis.finding.code in OF_GEOMETRY
+    if not references:
+        return _Judgment(findings, repaired, impossible=wrong)
+    if wrong and repaired is None and not by_geometry:
+        repaired = references[0].uniform(stated.mass)
+        findings.append(finding("audit_uniform_instead"))
+    apart = min(reference.of(stated) for reference in references)
+    return _Judgment(findings, repaired, stated.mass / references[0].volume, wrong, apart)
+
+
+def _measured(surface: Surface, upright: NDArray | None = None) -> _Piece:
+    """A surface with the moments of what it bounds, where that is certain."""
+    points = np.asarray(surface.points, np.float64)
     try:
         solid = measure_solid(surface)
     except MeasureError:
-        return surface, None
+        return _Piece(points, None, upright)
     certain = Verdict(solid.method) in RELIABLE and solid.volume.raw[0] > 0.0
-    return surface, solid.volume if certain else None
+    return _Piece(points, solid.volume if certain else None, upright)
 
 
 def _reference(pieces: Sequence[tuple[StatedShape, _Piece]]) -> Reference | None:
@@ -169,7 +203,7 @@ def _reference(pieces: Sequence[tuple[StatedShape, _Piece]]) -> Reference | None
     return Reference(whole.mass, whole.center, whole.inertia / whole.mass, origins)
 
 
-def _turned(pieces: dict[str, list[tuple[StatedShape, _Piece]]]) -> list[tuple[Finding, Reference]]:
+def _turned(pieces: Pieces) -> list[tuple[Finding, Reference]]:
     """What the geometry would be, were the angles of its shapes stated in degrees."""
     result = []
     for found in pieces.values():

@@ -1771,6 +1771,7 @@ MESSAGES: dict[str, Message] = {
     # ------------------------------------------------------------------ Audit: what no body can have
     "inertial_missing": _warning("No inertial. Readers differ: some take 1 kg, some none. Add mass and inertia."),
     "inertial_not_finite": _error("Mass, center or inertia is not a number."),
+    "inertial_of_frame": _note("Zero mass, inertia and no geometry: a mere frame. Leave the inertial out."),
     "inertial_mass_not_positive": _error("The mass is {mass:.6g} kg."),
     "inertial_not_positive": _error("Impossible: the inertia has a principal moment of {moment:.6g} kg·m²."),
     "inertial_triangle": _error(
@@ -1788,6 +1789,10 @@ MESSAGES: dict[str, Message] = {
     "audit_uniform_instead": _warning("Repaired as an even filling of the geometry with the stated mass."),
     "audit_not_uniform": _note(
         "Not an even filling of the geometry: {factor:.4g} times its inertia, the center {distance:length} from its."
+    ),
+    "audit_up_axis": _warning(
+        "The mesh's file says that z is not up. Readers obey that or not; the inertial is right where they do. "
+        "Export the mesh with z up."
     ),
     "audit_density": _warning("The density is {density:.3g} kg/m³. Check mass and mesh."),
     "audit_mass_and_inertia_unit": _warning(

@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """COLLADA, which a third of published robots use and Blender 5 reads no more: the triangles that its scene shows.
 
-Read are geometries of triangles, polylists and polygons, placed by the scene's nodes, in meters. The up axis is left as
-it is where it is z; a file with y up is turned, as readers of robots do.
+Read are geometries of triangles, polylists and polygons, placed by the scene's nodes, in meters. Most readers of robots
+(RViz, MoveIt, hpp-fcl) ignore which axis the file says is up; some obey. So the file's own axes are kept, and the
+rotation that it asks for is returned beside them.
 """
 
 from __future__ import annotations
@@ -17,14 +18,16 @@ from .limits import MAX_DEPTH
 from .usda import fan
 from .xml import Node, parse
 
-Y_UP_TO_Z_UP = np.array([[1.0, 0, 0, 0], [0, 0, -1.0, 0], [0, 1.0, 0, 0], [0, 0, 0, 1.0]])
-X_UP_TO_Z_UP = np.array([[0, -1.0, 0, 0], [0, 0, -1.0, 0], [1.0, 0, 0, 0], [0, 0, 0, 1.0]])
-TURNS = {"Y_UP": Y_UP_TO_Z_UP, "X_UP": X_UP_TO_Z_UP}
+TURNS = {
+    "Y_UP": np.array([[1.0, 0, 0], [0, 0, -1.0], [0, 1.0, 0]]),
+    "X_UP": np.array([[0, -1.0, 0], [0, 0, -1.0], [1.0, 0, 0]]),
+}
 Arrays = tuple[NDArray[np.float64], NDArray[np.int64]]
 
 
-def read_dae(data: bytes) -> Arrays:
-    """Return points (meters, z up) and triangles. Raises ValueError, KeyError or FileError where there are none."""
+def read_dae(data: bytes) -> tuple[*Arrays, NDArray[np.float64] | None]:
+    """Return points (meters, the file's axes), triangles, and the rotation to z up, None where z is up. Raises
+    ValueError, KeyError or FileError where there are none."""
     root = parse(data)
     for node in root.walk():
         node.tag = node.tag.rpartition("}")[2]
@@ -33,8 +36,7 @@ def read_dae(data: bytes) -> Arrays:
     unit = asset.find("unit") if asset else None
     scale = float(unit.get("meter", "1")) if unit else 1.0
     up = asset.find("up_axis") if asset else None
-    turn = TURNS.get(up.text.strip() if up else "Y_UP", np.eye(4))
-    matrix = turn @ np.diag([scale, scale, scale, 1.0])
+    matrix = np.diag([scale, scale, scale, 1.0])
     points: list[NDArray] = []
     triangles: list[NDArray] = []
     for geometry, place in _instances(root, by_id):
@@ -43,7 +45,7 @@ def read_dae(data: bytes) -> Arrays:
             faces = faces[:, ::-1] if np.linalg.det(whole[:3, :3]) < 0.0 else faces
             triangles.append(faces + sum(map(len, points)))
             points.append(corners @ whole[:3, :3].T + whole[:3, 3])
-    return np.concatenate(points), np.concatenate(triangles)
+    return np.concatenate(points), np.concatenate(triangles), TURNS.get(up.text.strip() if up else "Y_UP")
 
 
 def _instances(root: Node, by_id: dict[str, Node]) -> Iterator[tuple[Node, NDArray]]:

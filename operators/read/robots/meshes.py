@@ -26,8 +26,9 @@ _COMPONENTS = {5120: "i1", 5121: "u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 51
 Arrays = tuple[NDArray[np.floating], NDArray[np.integer]]
 
 
-def read_mesh(path: Path) -> Surface:
-    """Return a file's triangles in its own coordinates and unit; of .dae in meters with z up.
+def read_mesh(path: Path) -> tuple[Surface, NDArray[np.float64] | None]:
+    """Return a file's triangles in its own coordinates and unit, of .dae in meters; and the rotation to z up, where it
+    says that another axis is up, which readers obey or not.
 
     Raises
     ------
@@ -45,14 +46,14 @@ def read_mesh(path: Path) -> Surface:
     if len(data) > MAX_MESH:
         raise FileError("mesh_too_large", name=path.name)
     try:
-        points, triangles = reader(data)
+        points, triangles, *upright = reader(data)
     except (ValueError, IndexError, KeyError, TypeError, struct.error, OverflowError, RecursionError) as error:
         raise FileError("mesh_damaged", name=path.name, error=type(error).__name__) from error
     if not len(triangles) or len(triangles) > MAX_TRIANGLES:
         raise FileError("mesh_too_large" if len(triangles) else "mesh_empty", name=path.name)
     if triangles.min() < 0 or triangles.max() >= len(points) or not np.isfinite(points).all():
         raise FileError("mesh_damaged", name=path.name, error="ValueError")
-    return Surface.from_triangles(points, triangles)
+    return Surface.from_triangles(points, triangles), upright[0] if upright else None
 
 
 def read_stl(data: bytes) -> Arrays:
@@ -164,14 +165,9 @@ def _accessor(document: dict, binary: bytes, index: int) -> NDArray:
     return rows.copy()
 
 
-def read_collada(data: bytes) -> Arrays:
-    """Triangles of a COLLADA file; see `dae`."""
-    return read_dae(data)
-
-
-READERS: dict[str, Callable[[bytes], Arrays]] = {
+READERS: dict[str, Callable[[bytes], tuple]] = {
     ".stl": read_stl,
     ".obj": read_obj,
     ".glb": read_glb,
-    ".dae": read_collada,
+    ".dae": read_dae,
 }

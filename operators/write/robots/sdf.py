@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""SDF 1.12. The inertial frame has the principal axes, as a quaternion, and the tensor is diagonal in it: so the test
+"""SDF 1.9. The inertial frame has the principal axes, as a quaternion, and the tensor is diagonal in it: so the test
 of Gazebo for possible inertias meets numbers that rounding has not set apart."""
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from ....core.robots.model import Inertial, Joint, Link, Pose, Robot, Shape
 from ....core.verdict.finding import Finding, finding
 from .text import add_text, document, is_identity, number, numbers, unique_names, xml_text
 
-VERSION = "1.12"
+VERSION = "1.9"  # the first with quaternions; later parsers convert it, earlier ones refuse later files
 _RESERVED = re.compile(r"__.*__|world", re.DOTALL)
 
 

@@ -44,7 +44,7 @@ def center(moments):
 
 def check(path, factor=1.0):
     """The tetrahedron, outward, scaled."""
-    moments = polyhedron_moments(read_mesh(path))[0]
+    moments = polyhedron_moments(read_mesh(path)[0])[0]
     assert close(moments.raw[0], TETRAHEDRON["volume"] * factor**3, 1e-6)
     assert close(center(moments), np.array(TETRAHEDRON["center_of_mass"]) * factor, 1e-6)
 
@@ -71,13 +71,16 @@ def dae(up="Z_UP", meter="1", body="triangles", place="<matrix>1 0 0 0 0 1 0 0 0
 
 
 @pytest.mark.parametrize("body", ["triangles", "polylist", "polygons"])
-def test_collada_is_in_meters_with_z_up(tmp_path, body):
+def test_collada_is_in_meters_along_its_own_axes(tmp_path, body):
     check(write(tmp_path / "a.dae", dae(body=body)))
     check(write(tmp_path / "b.dae", dae(meter="0.001")), 0.001)
     check(write(tmp_path / "c.dae", dae(place="<scale>2 2 2</scale>")), 2.0)
-    turned = dae(up="Y_UP", place="<rotate>1 0 0 -90</rotate>")  # z up put down, and up again
-    check(write(tmp_path / "d.dae", turned))
-    moved = polyhedron_moments(read_mesh(write(tmp_path / "e.dae", dae(place="<translate>1 2 3</translate>"))))[0]
+    for up, axis in (("Y_UP", (0, 1, 0)), ("X_UP", (1, 0, 0))):
+        check(write(tmp_path / "d.dae", dae(up=up)))
+        upright = read_mesh(tmp_path / "d.dae")[1]
+        assert (upright @ axis == (0, 0, 1)).all() and np.linalg.det(upright) == 1.0
+    assert read_mesh(tmp_path / "a.dae")[1] is None
+    moved = polyhedron_moments(read_mesh(write(tmp_path / "e.dae", dae(place="<translate>1 2 3</translate>")))[0])[0]
     assert close(center(moved), np.array(TETRAHEDRON["center_of_mass"]) + (1, 2, 3), 1e-12)
 
 
@@ -96,7 +99,7 @@ def test_meshes_that_blender_writes_are_read(tmp_path, scene):
 def test_obj_counts_from_the_end_too_and_cuts_polygons(tmp_path):
     text = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
     faces = "f 1 4 3 2\nf -4 -3 -2 -1\nf 1/1 2/2 6/3 5\nf 2//1 3 7 6\nf 3 4 8 \\\n7\nf 4 1 5 8\n"
-    surface = read_mesh(write(tmp_path / "a.obj", text + faces))
+    surface, _ = read_mesh(write(tmp_path / "a.obj", text + faces))
     assert len(surface.triangles) == 12 and close(polyhedron_moments(surface)[0].raw[0], 1.0, 1e-14)
 
 

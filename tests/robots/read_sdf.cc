@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: 2026 Body Moments contributors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What Gazebo's own parser, libsdformat, makes of the files that it is given, as lines for tests/robots/test_sdf_parser.py.
+#include <cstdio>
+
+#include <sdf/Joint.hh>
+#include <sdf/Link.hh>
+#include <sdf/Model.hh>
+#include <sdf/Root.hh>
+
+int main(int count, char **arguments)
+{
+  for (int index = 1; index < count; ++index)
+  {
+    sdf::Root root;
+    for (const auto &error : root.Load(arguments[index]))
+      std::printf("error\t%d\t%s\n", static_cast<int>(error.Code()), error.Message().c_str());
+    const auto *model = root.Model();
+    if (!model)
+      continue;
+    for (uint64_t number = 0; number < model->LinkCount(); ++number)
+    {
+      const auto *link = model->LinkByIndex(number);
+      const auto &inertial = link->Inertial();
+      const auto tensor = inertial.Moi();
+      const auto center = inertial.Pose().Pos();
+      std::printf("link\t%s\t%.17g\t%.17g\t%.17g\t%.17g", link->Name().c_str(), inertial.MassMatrix().Mass(), center.X(),
+          center.Y(), center.Z());
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+          std::printf("\t%.17g", tensor(i, j));
+      ignition::math::Pose3d pose;
+      for (const auto &error : link->SemanticPose().Resolve(pose, "__model__"))
+        std::printf("error\t%d\t%s\n", static_cast<int>(error.Code()), error.Message().c_str());
+      std::printf("\t%.17g\t%.17g\t%.17g\n", pose.Pos().X(), pose.Pos().Y(), pose.Pos().Z());
+    }
+    for (uint64_t number = 0; number < model->JointCount(); ++number)
+    {
+      const auto *joint = model->JointByIndex(number);
+      std::printf("joint\t%s\t%d\t%s\t%s\n", joint->Name().c_str(), static_cast<int>(joint->Type()),
+          joint->ParentLinkName().c_str(), joint->ChildLinkName().c_str());
+    }
+  }
+  return 0;
+}
