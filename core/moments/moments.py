@@ -118,7 +118,7 @@ class Moments:
         """The volume, area, length or mass itself."""
         return self.raw[..., 0] if self.raw.ndim > 1 else float(self.raw[0])
 
-    def at(self, which: int | slice | NDArray | None) -> Moments:
+    def at(self, which: int | slice | list[int] | NDArray | None) -> Moments:
         """Return one body of a stack, or a stack of some of them."""
         return replace(
             self,

@@ -15,7 +15,7 @@ from ...core.scans.limits import DEFAULT_LIMITS, Limits
 from ...core.verdict.finding import MeasureError, ReadError, finding
 from ..read import Reading
 from ..settings.grid import GridOptions
-from ..settings.options import MeasureOptions
+from ..settings.options import MeasureOptions, ResolvedOptions
 from .body import KNOWN_ORDER
 from .grid import density_body
 from .measurement import measurement_of
@@ -62,7 +62,7 @@ def measure_array(
             scan.samples, shape, matrix, grid, None, findings, *scale, progress, options.order or KNOWN_ORDER
         )
         reading = Reading(name, "ARRAY", np.eye(4), np.eye(3), np.zeros(3))
-        used = replace(options, kind="solid", density=None, thickness=0.0, overlap="signed", wall="thin")
+        used = ResolvedOptions.of(options, kind="solid", density=None, thickness=0.0, overlap="signed", wall="thin")
         body = replace(samples, density_from=finding("density_from_samples"), density_key=repr(grid.key))
         return measurement_of(reading, body, Request(used, 1.0))
     except MeasureError as error:

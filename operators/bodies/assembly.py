@@ -231,19 +231,15 @@ def findings_of(whole: MemberBody, scene: bpy.types.Scene) -> Iterator[Finding]:
             )
     for code, names in left_out.items():
         yield finding(code, count=len(names), names=names)
-    objects = [part for part in members if part.measurement is not None]
-    hidden = _with_code(objects, {"hidden_object_measured"})
+    objects = [(part.member, part.measurement) for part in members if part.measurement is not None]
+    hidden = [member.name for member, measured in objects if _has_code(measured.findings, "hidden_object_measured")]
     if hidden:
         yield finding("members_hidden", count=len(hidden), names=hidden)
-    unset = [
-        part.member.name for part in objects if unset_density(part.member.data, part.measurement, scene) is not None
-    ]
+    unset = [member.name for member, measured in objects if unset_density(member.data, measured, scene) is not None]
     if unset:
         yield finding("members_density_unset", count=len(unset), names=unset)
-    yield from open_body_caveats((part.member.name, part.measurement.method) for part in objects)
-    given = [
-        part.member.name for part in members[1:] if any(one.code == "assembly_mass_given" for one in part.findings)
-    ]
+    yield from open_body_caveats((member.name, measured.method) for member, measured in objects)
+    given = [part.member.name for part in members[1:] if _has_code(part.findings, "assembly_mass_given")]
     if given:
         yield finding("members_mass_given", count=len(given), names=given)
 
@@ -255,8 +251,8 @@ _LEFT_OUT = {
 }
 
 
-def _with_code(parts: Iterable[MemberBody], codes: set[str]) -> list[str]:
-    return [part.member.name for part in parts if any(one.code in codes for one in part.measurement.findings)]
+def _has_code(findings: Iterable[Finding], code: str) -> bool:
+    return any(each.code == code for each in findings)
 
 
 def _fingerprints(whole: MemberBody) -> dict[Object, str]:
@@ -331,6 +327,7 @@ def _is_sheared(member: Member) -> bool:
 def _instance_body(whole: MemberBody, results: Results, unit: float) -> MemberBody:
     """What an instance shows of its collection, where it shows it."""
     member = whole.member
+    assert member.matrix is not None
     matrix = to_si(member.matrix[None], unit)[0]
     matrix[:3, :3] /= unit  # the members are in SI units already
     scale = abs(np.linalg.det(matrix[:3, :3]))

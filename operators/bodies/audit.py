@@ -257,7 +257,7 @@ def _ball() -> NDArray[np.float64]:
     index = np.arange(2000) + 0.5
     height, turn = 1.0 - index / 1000.0, index * pi * (1.0 + 5.0**0.5)
     across = np.sqrt(1.0 - height * height)
-    return np.stack([across * np.cos(turn), across * np.sin(turn), height], axis=1)
+    return np.stack([across * np.cos(turn), across * np.sin(turn), height], axis=1).astype(np.float64, copy=False)
 
 
 def _moments(volume: float, second: NDArray) -> Moments:

@@ -108,7 +108,7 @@ class Body:
         """Return the moments of the volume, or the area, that axes are found by; of one surface in one place, mapped
         evenly, in its own coordinates: wherever it stands, its axes are the same."""
         volume, areas = self.moments(order, area)
-        return areas if area else volume
+        return volume if areas is None else areas
 
     def surfaces(self, sheets: bool) -> Iterator[Surface]:
         """Yield the surfaces where they stand, in float64: around what is solid, or the sheets as they are."""
@@ -168,7 +168,8 @@ class MeshBody(Body):
             )
             volumes.append(sum_of_images(volume, matrices))
             if area:
-                areas.extend(area_of_instances(surface, faces if same else measured(surface), matrices, measured))
+                of_faces = faces if same and faces is not None else measured(surface)
+                areas.extend(area_of_instances(surface, of_faces, matrices, measured))
         return sum_moments(volumes), sum_moments(areas) if area else None
 
     def moments_for_axes(self, order: int, area: bool) -> Moments | OwnMoments:
@@ -177,7 +178,8 @@ class MeshBody(Body):
             solid, matrices = self.solids[0]
             if are_similarities(matrices[:, :3, :3])[0]:
                 in_place = replace(self, solids=((solid, np.eye(4)[None]),), _known={})
-                own = with_known(in_place.moments(order, area)[1 if area else 0], solid.area if area else solid.volume)
+                volume, areas = in_place.moments(order, area)
+                own = with_known(volume, solid.volume) if areas is None else with_known(areas, solid.area)
                 return own_moments([own], np.zeros(1, np.intp), matrices[:, :3, :3])
         return super().moments_for_axes(order, area)
 

@@ -22,7 +22,7 @@ from ...core.verdict.method import Verdict
 from ..read import Reading, read_object, shows_flat_region
 from ..read.reading import to_si
 from ..settings.density import density_field
-from ..settings.options import MeasureOptions
+from ..settings.options import MeasureOptions, ResolvedOptions
 from .mesh import mesh_body
 from .request import with_object_settings
 
@@ -71,18 +71,18 @@ def object_transform(
     Raises MeasureError where there is no transform.
     """
     unit = options.unit_scale or shortest_decimal(depsgraph.scene.unit_settings.scale_length)
-    options = with_object_settings(options, obj, unit, depsgraph.scene)
+    resolved = with_object_settings(options, obj, unit, depsgraph.scene)
     reading = read_object(obj, depsgraph)
-    shell = options.kind == "shell"
+    shell = resolved.kind == "shell"
     try:
-        body = mesh_body(reading, unit, shell=shell, union=options.overlap == "union", threads=options.threads)
+        body = mesh_body(reading, unit, shell=shell, union=resolved.overlap == "union", threads=resolved.threads)
         if area or shell:
             if shell and not area:
-                _require_thin(options)
+                _require_thin(resolved)
             parts = [(part.surface, to_si(part.matrices, unit)) for part in reading.parts]
             of, total = Measure.AREA, body.area.total
         else:
-            if options.kind == "wire":
+            if resolved.kind == "wire":
                 raise ReadError("fourier_of_wire")
             if body.method.verdict == Verdict.OPEN:
                 raise ReadError("fourier_of_open_surface")
@@ -93,12 +93,12 @@ def object_transform(
             parts = [(surface, turn @ matrices) for surface, matrices in parts]
         if callable(q):
             q = q(_extent(parts))
-        transform = BodyTransform(parts, q, of, total, options.threads)
+        transform = BodyTransform(parts, q, of, total, resolved.threads)
         varies = not area and density_field(obj.body_moments) is not None
     except MeasureError as error:
         error.about(obj.name)
         raise
-    factor = options.thickness if shell and not area else 1.0
+    factor = resolved.thickness if shell and not area else 1.0
     findings = [*reading.findings, *body.findings]
     if reading.has_patches or (obj.type == "CURVE" and shell and shows_flat_region(obj)):
         findings.append(finding("fourier_of_display_mesh"))
@@ -107,7 +107,7 @@ def object_transform(
     return ObjectTransform(obj.name, transform, factor, tuple(findings))
 
 
-def _require_thin(options: MeasureOptions) -> None:
+def _require_thin(options: ResolvedOptions) -> None:
     if options.wall != "thin":
         raise ReadError("fourier_of_wall")
     if not options.thickness > 0.0:

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from contextlib import ExitStack
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import ClassVar
 
 import numpy as np
@@ -46,9 +46,9 @@ class GridBody(Body):
 
     any_order: ClassVar[bool] = True
 
-    samples: Blocks | NDArray | None = None
+    samples: Blocks | NDArray = field(kw_only=True)
     shape: Sequence[int] = ()
-    matrix: NDArray[np.float64] | None = None
+    matrix: NDArray[np.float64] = field(kw_only=True)
     options: GridOptions = GridOptions()
     background: float | None = None
     slope: float = 1.0

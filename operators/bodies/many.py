@@ -119,7 +119,7 @@ class _Collector:
         self.faces = 0
         self._by_mesh: dict[bpy.types.Mesh, Shape | None] = {}
         self._by_content: dict[tuple[bytes, ...], Shape] = {}
-        self._settings: dict[tuple[float, float], str] = {}
+        self._settings: dict[tuple[float | None, float | None], str] = {}
 
     @property
     def is_full(self) -> bool:
@@ -135,7 +135,7 @@ class _Collector:
     def _member(self, obj: bpy.types.Object) -> Member | None:
         weight = self._weight(obj)
         mesh = None if weight is None else plain_mesh(obj, self.depsgraph)
-        if mesh is None:
+        if weight is None or mesh is None:
             return None
         try:
             shape = self._by_mesh[mesh]
@@ -143,13 +143,16 @@ class _Collector:
             shape = self._by_mesh[mesh] = self._read(mesh)
         if shape is None:
             return None
+        density, mass, settings = weight
         matrix = obj.evaluated_get(self.depsgraph).matrix_world
         location, turn, _scale = matrix.decompose()
         member = Member(
             len(self.members),
             obj,
             shape,
-            *weight,
+            density,
+            mass,
+            settings,
             np.array(matrix),
             location.to_tuple(),
             (turn.w, turn.x, turn.y, turn.z),
@@ -172,18 +175,19 @@ class _Collector:
             if settings.density_from != "VALUE":
                 return None
             density = object_density(settings, self.scene)
-        key = density, mass
-        if key not in self._settings:
-            self._settings[key] = effective_hash("SOLID", density, mass, 0.0, "SIGNED", self.unit)
+        if (density, mass) not in self._settings:
+            self._settings[density, mass] = effective_hash("SOLID", density, mass, 0.0, "SIGNED", self.unit)
         nothing = float("nan")
-        return nothing if density is None else density, nothing if mass is None else mass, self._settings[key]
+        digest = self._settings[density, mass]
+        return nothing if density is None else density, nothing if mass is None else mass, digest
 
     def _read(self, mesh: bpy.types.Mesh) -> Shape | None:
         """The shape of a mesh; None where it has to be measured by itself."""
         if not len(mesh.polygons) or len(mesh.polygons) > MAX_FACES_HIGH_ORDER:
             return None
         surface = mesh_surface(mesh)
-        content = surface.points.tobytes(), surface.corner_vertices.tobytes(), surface.quads.tobytes()
+        corners = np.empty(0) if surface.corner_vertices is None else surface.corner_vertices
+        content = surface.points.tobytes(), corners.tobytes(), surface.quads.tobytes()
         if content in self._by_content:
             return self._by_content[content]
         if not np.isfinite(surface.box).all():

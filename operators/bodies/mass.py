@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,8 +26,8 @@ from ...core.solid.parts import ClosedParts
 from ...core.verdict.finding import Finding, ReadError, finding, truncate_findings
 from ...core.verdict.method import Verdict
 from ..read import Reading
-from ..read.reading import said_of, to_si
-from ..settings.density import material_density
+from ..read.reading import FaceAttributes, said_of, to_si
+from ..settings.density import DensityField, material_density
 from ..settings.digest import density_key
 from .body import KNOWN_ORDER, MAX_MASS_MOMENT, MeshBody
 from .instances import area_of_instances, findings_by_part
@@ -59,7 +60,7 @@ def weigh(reading: Reading, body: MeshBody, request: Request) -> MeshBody:
     """
     extent(body, request.options)  # refused before it is weighed
     order = request.options.order
-    if request.density.kind == "volume":
+    if _field(request).kind == "volume":
         if request.options.kind == "shell":
             raise ReadError("density_volume_of_shell")
         filled = filled_by_volume(body, request, KNOWN_ORDER)
@@ -79,11 +80,18 @@ def weigh(reading: Reading, body: MeshBody, request: Request) -> MeshBody:
 
 
 def _weigh(reading: Reading, body: MeshBody, request: Request, order: int) -> _Weighed:
-    if request.density.kind == "polynomial":
+    kind = _field(request).kind
+    if kind == "polynomial":
         return _by_polynomial(reading, body, request, order)
-    if request.density.kind == "attribute":
+    if kind == "attribute":
         return _by_attribute(reading, request, order)
     return _by_material(reading, body, request, order)
+
+
+def _field(request: Request) -> DensityField:
+    """The density of a body that is weighed: one that is not one number."""
+    assert request.density is not None
+    return request.density
 
 
 def _thickness(request: Request) -> float:
@@ -92,7 +100,7 @@ def _thickness(request: Request) -> float:
 
 
 def _by_polynomial(reading: Reading, body: MeshBody, request: Request, order: int) -> _Weighed:
-    density, shell = request.density, request.options.kind == "shell"
+    density, shell = _field(request), request.options.kind == "shell"
     parts, findings = polynomial_mass_result(
         reading, body, density, unit=request.unit, shell=shell, threads=request.options.threads, order=order
     )
@@ -103,27 +111,35 @@ def _by_polynomial(reading: Reading, body: MeshBody, request: Request, order: in
 
 
 def _by_attribute(reading: Reading, request: Request, order: int) -> _Weighed:
-    density = request.density
-    if any(part.attributes is None for part in reading.parts):
-        raise ReadError("density_needs_polygons")
+    attribute = _field(request).attribute or ""
+    attributes = _face_attributes(reading)
     if request.options.kind != "shell":
         raise ReadError("density_attribute_of_solid")
     parts = [
-        _sheet_moments(reading, i, _vertex_density(reading, i, density.attribute), request, order, by_vertex=True)
-        for i in range(len(reading.parts))
+        _sheet_moments(
+            reading, i, _vertex_density(reading, i, carried.vertex_values, attribute), request, order, by_vertex=True
+        )
+        for i, carried in enumerate(attributes)
     ]
-    source = finding("density_from_attribute", attribute=density.attribute)
+    source = finding("density_from_attribute", attribute=attribute)
     total = sum_moments([moments for part in parts for moments in part])
     return _Weighed(to_mass_moments(total, _thickness(request)), source)
 
 
+def _face_attributes(reading: Reading) -> list[FaceAttributes]:
+    """What the faces and vertices of each part carry. ReadError where one is not of polygons."""
+    attributes = [part.attributes for part in reading.parts if part.attributes is not None]
+    if len(attributes) < len(reading.parts):
+        raise ReadError("density_needs_polygons")
+    return attributes
+
+
 def _by_material(reading: Reading, body: MeshBody, request: Request, order: int) -> _Weighed:
     shell = request.options.kind == "shell"
-    if any(part.attributes is None for part in reading.parts):
-        raise ReadError("density_needs_polygons")
+    attributes = _face_attributes(reading)
     if body.method.verdict == Verdict.UNION:
         raise ReadError("materials_of_union")
-    face_densities = _FaceDensities(reading, request.options.density)
+    face_densities = _FaceDensities(reading, attributes, request.options.density or 0.0)
     parts: list[Moments] = []
     by_part: list[tuple[str, list[Finding]]] = []
     mixed = False
@@ -161,14 +177,14 @@ def _by_material(reading: Reading, body: MeshBody, request: Request, order: int)
 class _FaceDensities:
     """The densities of all faces of a reading. values: for each part (f,) of its mesh faces."""
 
-    def __init__(self, reading: Reading, default_density: float):
-        self.reading, self.default_density = reading, default_density
+    def __init__(self, reading: Reading, attributes: list[FaceAttributes], default_density: float):
+        self.default_density = default_density
         self.values: list[NDArray] = []
         self.slots: list[tuple[NDArray, tuple]] = []
-        met: dict[object, None] = {}
+        met: dict[Any, None] = {}
         self.faces_without_density = self.faces = 0
-        for part in reading.parts:
-            slots, faces = part.attributes.materials, part.attributes.face_slots
+        for part, carried in zip(reading.parts, attributes):
+            slots, faces = carried.materials, carried.face_slots
             known = [material_density(material) for material in slots]
             # -1 is the last
             table = np.array(
@@ -229,6 +245,7 @@ def _solid_moments(
     volume moments, to the order that is wanted. values, names: of its mesh faces."""
     components = solid.parts()
     moments, findings = [], []
+    has_foreign_material = False
     mixed = bool(part_densities(components, values).has_several_materials.any())
     # a mean by area is that of the areas as they are seen
     for matrix_group in _similarity_groups(matrices) if mixed else [matrices]:
@@ -238,7 +255,8 @@ def _solid_moments(
             sum_of_images(solid_mass_moments(components.points, components.triangles, density, volume), matrix_group)
         )
         findings += _mixed_parts_notes(components, part_density, names)
-    if part_density.has_foreign_cavity_material.any():
+        has_foreign_material = bool(part_density.has_foreign_cavity_material.any())
+    if has_foreign_material:
         findings.append(finding("cavity_material_ignored"))
     return moments, findings, mixed
 
@@ -267,11 +285,10 @@ def _mixed_parts_notes(parts: ClosedParts, part_density: PartDensities, names: N
     return [finding("mixed_material_component", first, materials=materials, density=density)]
 
 
-def _vertex_density(reading: Reading, i: int, name: str) -> NDArray[np.float64]:
+def _vertex_density(reading: Reading, i: int, values: NDArray[np.float64], name: str) -> NDArray[np.float64]:
     """(n,) checked values of a part's vertices; those that no face uses do not count."""
     part = reading.parts[i]
     used = np.unique(part.surface.all_triangles()[0])
-    values = part.attributes.vertex_values
     for wrong, code in (
         (~np.isfinite(values[used]), "attribute_non_finite"),
         (values[used] < 0.0, "attribute_negative"),

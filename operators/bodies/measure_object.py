@@ -66,10 +66,10 @@ def measure_body(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, options:
                 return Measured(measurement, point, body)
             for kind in KINDS:
                 reading = kind.read(request) if request.options.kind in kind.MEASURED_AS else None
-                if reading is not None:  # the last one of them reads or refuses
-                    break
-            body = with_given(kind.body(reading, request), reading, request)
-            return Measured(measurement_of(reading, body, request), reading, body)
+                if reading is not None:
+                    body = with_given(kind.body(reading, request), reading, request)
+                    return Measured(measurement_of(reading, body, request), reading, body)
+            raise AssertionError("the last kind reads or refuses")
     except MeasureError as error:
         error.about(obj.name)
         raise

@@ -21,7 +21,7 @@ from ..read import Reading
 from ..read.fingerprint import effective_hash, fingerprint, transform_key
 from ..read.volume import VolumeReading
 from ..settings.accepted import with_acceptance
-from ..settings.options import MeasureOptions
+from ..settings.options import ResolvedOptions
 from .body import KNOWN_ORDER, Body
 from .request import Request
 
@@ -58,7 +58,7 @@ def measurement_of(reading: Reading | VolumeReading, body: Body, request: Reques
     given = DENSITY_FROM_VALUE if options.mass is None else DENSITY_FROM_MASS
     volume_moments, area_moments = None if thin else solid, body.area
     if options.order is not None:
-        volume_moments, area_moments = _to_order(body, options) or (volume_moments, area_moments)
+        volume_moments, area_moments = _to_order(body, options, options.order) or (volume_moments, area_moments)
     rounding, moved = properties.rounding_error, properties.input_error
     return Measurement(
         name=reading.name,
@@ -91,7 +91,7 @@ def measurement_of(reading: Reading | VolumeReading, body: Body, request: Reques
     )
 
 
-def extent(body: Body, options: MeasureOptions) -> Moments:
+def extent(body: Body, options: ResolvedOptions) -> Moments:
     """Return what the density is of: the volume, of a shell that of its sheet or wall, of a wire its length.
 
     Raises
@@ -111,14 +111,14 @@ def extent(body: Body, options: MeasureOptions) -> Moments:
 
 
 def _weighed(
-    body: Body, measured: Moments, solid: Moments, thin: bool, options: MeasureOptions
+    body: Body, measured: Moments, solid: Moments, thin: bool, options: ResolvedOptions
 ) -> tuple[Moments, float, float]:
     """The moments that carry the mass, the mass in kg per unit of them, and the density."""
     if body.mass is not None:
         factor = 1.0 if options.mass is None else options.mass / body.mass.total
         moments, density = body.mass, body.mass.total * factor / measured.total
     else:
-        density = options.density if options.mass is None else options.mass / measured.total
+        density = options.density or 0.0 if options.mass is None else options.mass / measured.total
         moments, factor = (body.area, density * options.thickness) if thin else (body.length or solid, density)
     if not density > 0.0:
         raise ReadError("zero_density" if options.mass is None else "zero_mass")
@@ -141,9 +141,9 @@ def _frame_moments(body: Body, shell: bool) -> Moments | OwnMoments:
     return found
 
 
-def _to_order(body: Body, options: MeasureOptions) -> tuple[Moments | None, Moments] | None:
+def _to_order(body: Body, options: ResolvedOptions, order: int) -> tuple[Moments | None, Moments] | None:
     """The moments of volume and area to the order that was asked for; None where a body has them anyway."""
-    shell, order = options.kind == "shell", options.order
+    shell = options.kind == "shell"
     if order < KNOWN_ORDER and (shell or not options.surface):
         return None
     if not body.any_order:

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import ClassVar
 
 import numpy as np
@@ -64,7 +64,7 @@ class PatchBody(Body):
     any_order: ClassVar[bool] = True
     has_surface: ClassVar[bool] = True
 
-    reading: Reading | None = None
+    reading: Reading = field(kw_only=True)
     unit: float = 1.0
     pieces: tuple[tuple[Part, PatchIntegrals, NDArray[np.float64]], ...] = ()
     polygons: MeshBody | None = None
@@ -75,12 +75,12 @@ class PatchBody(Body):
         volumes = [sum_of_images(_moments_to_order(measure, order), matrices) for _, measure, matrices in self.pieces]
         areas = []
         for part, measure, matrices in self.pieces if area else ():
-            of_part = area_moments(part.splines.patches, order, measure.area.about)[0]
+            of_part = area_moments(_patches(part), order, measure.area.about)[0]
             areas.extend(_image_areas(part, of_part, matrices))
         if self.polygons is not None:
             volume, faces = self.polygons.moments(order, area)
             volumes.append(volume)
-            areas += [faces] if area else []
+            areas += [faces] if faces is not None else []
         return sum_moments(volumes), sum_moments(areas) if area else None
 
     def surfaces(self, sheets: bool) -> Iterator[Surface]:
@@ -102,11 +102,21 @@ class PatchSheetBody(Body):
         """Return that there is no volume, and the area's moments."""
         areas = []
         for part in self.parts:
-            of_part = area_moments(part.splines.patches, order)[0]
+            of_part = area_moments(_patches(part), order)[0]
             areas.extend(_image_areas(part, of_part, to_si(part.matrices, self.unit)))
         if self.polygons is not None:
-            areas.append(self.polygons.moments(order, True)[1])
+            faces = self.polygons.moments(order, True)[1]
+            areas += [faces] if faces is not None else []
         return Moments(np.zeros(monomial_count(order)), self.area.about, Measure.VOLUME), sum_moments(areas)
+
+
+def _patches(part: Part) -> tuple[Patch, ...]:
+    """The patches of a part that has some."""
+    return () if part.splines is None else part.splines.patches
+
+
+def _stored(part: Part) -> float:
+    return 0.0 if part.splines is None else part.splines.stored
 
 
 def read(request: Request) -> Reading:
@@ -150,7 +160,7 @@ def nurbs_body(
     if reading.all_singular:
         raise ReadError(singular_reason(reading))
     patch_parts, meshes = _split_parts(reading)
-    measures = [measure_patches(part.splines.patches, area_order=3, stored=part.splines.stored) for part in patch_parts]
+    measures = [measure_patches(_patches(part), area_order=3, stored=_stored(part)) for part in patch_parts]
     if union and (reading.instance_count > 1 or measures[0].health.components > 1):
         united = mesh_body(reading, unit, shell=False, union=True, threads=threads)
         return replace(united, findings=(finding("union_of_display_mesh"), *united.findings))
@@ -228,7 +238,7 @@ def _image_areas(part: Part, area: Moments, matrices: NDArray) -> Iterator[Momen
     even = are_similarities(matrices[:, :3, :3])
     if even.any():
         yield sum_of_images(area, matrices[even])
-    for patches, translations_of_image in _distinct_images(part.splines.patches, matrices[~even]):
+    for patches, translations_of_image in _distinct_images(_patches(part), matrices[~even]):
         yield sum_of_images(area_moments(patches, area.order)[0], translations_of_image)
 
 
@@ -240,23 +250,22 @@ def _sheet_body(reading: Reading, unit: float, wall: str, thickness: float, thre
     sheets, areas, healths, by_part = [], [], [], []
     for part in patch_parts:
         matrices = to_si(part.matrices, unit)
-        measure = measure_patches(part.splines.patches, area_order=3, stored=part.splines.stored)
+        measure = measure_patches(_patches(part), area_order=3, stored=_stored(part))
         grown_by = np.cbrt(np.linalg.det(matrices[:, :3, :3])) ** 2
         healths.append((measure.health, len(matrices), measure.area.total * float(grown_by.sum())))
         if wall == "thin":
             areas += _image_areas(part, measure.area, matrices)
             continue
         outward = [
-            patch.reverse_orientation() if sign < 0.0 else patch
-            for patch, sign in zip(part.splines.patches, measure.signs)
+            patch.reverse_orientation() if sign < 0.0 else patch for patch, sign in zip(_patches(part), measure.signs)
         ]
-        sharpest = sharpest_crease(part.splines.patches, measure.topology)
+        sharpest = sharpest_crease(_patches(part), measure.topology)
         if sharpest > MIN_CREASE_ANGLE:
             by_part.append((part.source_object_name, [finding("wall_creases", angle=float(np.degrees(sharpest)))]))
         inner, outer = (thickness * height for height in HEIGHTS[wall])
         for patches, translations_of_image in _distinct_images(outward, matrices):
             grown = unit * float(np.linalg.norm(part.matrices[:, :3, :3], 2, axis=(1, 2)).max())
-            sheet, area, fine = measure_sheet(patches, inner, outer, stored=part.splines.stored * grown)
+            sheet, area, fine = measure_sheet(patches, inner, outer, stored=_stored(part) * grown)
             sheets.append(sum_of_images(sheet, translations_of_image))
             areas.append(sum_of_images(area, translations_of_image))
             if not fine:

@@ -15,6 +15,7 @@ from itertools import product
 import numpy as np
 from numpy.typing import NDArray
 
+from ...core.density.polynomial import Polynomial
 from ...core.density.polynomial_mass import local_coordinates, polynomial_mass_of_images
 from ...core.density.positivity import find_negative_point
 from ...core.mesh.surface import Surface
@@ -50,7 +51,7 @@ def polynomial_mass_result(
 
     ReadError where the density is negative.
     """
-    polynomial, findings = density.polynomial, []
+    polynomial, findings = _polynomial(density), []
     pieces = list(
         _sheet_pieces(reading, density.in_world, unit)
         if shell
@@ -72,7 +73,8 @@ def polynomial_mass_result(
             threads=threads,
             allow_open=True,
         )
-        parts.append(polynomial_mass_of_images(area if shell else volume, polynomial, piece.matrices, piece.fields))
+        moments = area if shell and area is not None else volume
+        parts.append(polynomial_mass_of_images(moments, polynomial, piece.matrices, piece.fields))
     return parts, findings
 
 
@@ -115,9 +117,14 @@ def _sheet_pieces(reading: Reading, in_world: bool, unit: float) -> Iterator[_Pi
             yield _Piece(surface, image_matrices, image_matrices if in_world else to_local)
 
 
+def _polynomial(density: DensityField) -> Polynomial:
+    assert density.polynomial is not None
+    return density.polynomial
+
+
 def _negative_density_note(density: DensityField, pieces: list[_Piece], shell: bool) -> list[Finding]:
     """A finding where the density may be negative in the body; ReadError where it is."""
-    polynomial = density.polynomial
+    polynomial = _polynomial(density)
     corners = np.array(list(product((0.0, 1.0), repeat=3)))
     boxes = []
     for piece in pieces:

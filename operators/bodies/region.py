@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, field, fields, replace
 from typing import ClassVar
 
 import numpy as np
@@ -40,7 +40,7 @@ class RegionReading(Reading):
     """
 
     boundary: tuple[Curve, ...] = ()
-    normal: NDArray[np.float64] | None = None
+    normal: NDArray[np.float64] = field(kw_only=True)
     stored: float = 0.0
 
 
@@ -51,7 +51,7 @@ class RegionBody(Body):
     any_order: ClassVar[bool] = True
 
     boundary: tuple[Curve, ...] = ()
-    normal: NDArray[np.float64] | None = None
+    normal: NDArray[np.float64] = field(kw_only=True)
 
     def moments(self, order: int, area: bool) -> tuple[Moments, Moments]:
         """Return that there is no volume, and the area's moments."""

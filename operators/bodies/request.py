@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from contextlib import ExitStack
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import bpy
@@ -15,7 +15,7 @@ from ...core.verdict.finding import Finding
 from ..read import Reading, read_object
 from ..settings.accepted import accepted_codes
 from ..settings.density import DensityField, density_field, object_density
-from ..settings.options import AS_SET, MeasureOptions
+from ..settings.options import AS_SET, MeasureOptions, ResolvedOptions
 
 
 @dataclass(frozen=True, eq=False)
@@ -24,8 +24,8 @@ class Request:
 
     Attributes
     ----------
-    options : MeasureOptions
-        Without gaps: what was given, and the object's settings.
+    options : ResolvedOptions
+        What was given, and the object's settings.
     unit : float
         Metres per Blender unit.
     given : MeasureOptions
@@ -38,11 +38,11 @@ class Request:
         Why kinds that might have read the object did not.
     """
 
-    options: MeasureOptions
+    options: ResolvedOptions
     unit: float
     given: MeasureOptions = AS_SET
-    obj: bpy.types.Object | None = None
-    depsgraph: bpy.types.Depsgraph | None = None
+    obj: bpy.types.Object = None
+    depsgraph: bpy.types.Depsgraph = None
     opened: ExitStack = field(default_factory=ExitStack)
     findings: list[Finding] = field(default_factory=list)
 
@@ -50,7 +50,7 @@ class Request:
     def of(
         cls,
         obj: bpy.types.Object,
-        depsgraph: bpy.types.Depsgraph | None = None,
+        depsgraph: bpy.types.Depsgraph = None,
         given: MeasureOptions = AS_SET,
         *,
         unit: float | None = None,
@@ -109,7 +109,7 @@ def _scene(depsgraph: bpy.types.Depsgraph | None) -> bpy.types.Scene:
 
 def with_object_settings(
     options: MeasureOptions, obj: bpy.types.Object, unit: float, scene: bpy.types.Scene
-) -> MeasureOptions:
+) -> ResolvedOptions:
     """The options with every gap filled from the object's settings, and the density of one that has none from the
     scene's."""
     settings = obj.body_moments
@@ -121,7 +121,7 @@ def with_object_settings(
             if settings.mass_from == "DENSITY"
             else (None, shortest_decimal(settings.mass))
         )
-    return replace(
+    return ResolvedOptions.of(
         options,
         kind=kind,
         density=density,

@@ -211,7 +211,7 @@ class _Measuring:
         volume = sum(moments.total for _, moments, *_ in pieces) * (options.thickness if shell else 1.0)
         if not volume > 0.0:
             raise ReadError("no_thickness" if shell else "no_volume", subject=obj.name)
-        density = options.density if options.mass is None else options.mass / volume
+        density = options.density or 0.0 if options.mass is None else options.mass / volume
         if options.mass is None and request.density is not None:
             measurement = measure_body(obj, self.depsgraph).measurement
             density = measurement.mass_properties.mass / measurement.volume
@@ -262,6 +262,7 @@ class _Measuring:
             if shell:
                 yield from self._sheets(surface, triangles, bone[face], metric)
                 continue
+            assert solid is not None
             parts = solid.parts()
             is_cap = parts.face < 0
             bones = bones_of_caps(parts.triangles, is_cap, np.where(is_cap, 0, bone[parts.face]))

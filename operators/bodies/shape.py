@@ -65,7 +65,8 @@ class Shape:
     def moments(self) -> Moments:
         """About the center, to the order that a pose needs. ReadError where they exceed the range of numbers."""
         with np.errstate(over="ignore", invalid="ignore"):
-            found = self.body.moments(MAX_ORDER, self._sheets)[1 if self._sheets else 0]
+            volume, area = self.body.moments(MAX_ORDER, self._sheets)
+        found = area if self._sheets and area is not None else volume
         if not np.isfinite([found.raw, found.rounding_error]).all():
             raise ReadError("object_too_large")
         return found.about_center()
@@ -82,7 +83,7 @@ class Shape:
             threads=self.threads,
             allow_open=True,
         )
-        return (area if self._sheets else volume).about_center()
+        return (volume if area is None else area).about_center()
 
     @property
     def _sheets(self) -> bool:
@@ -138,7 +139,7 @@ class Shape:
             threads=self.threads,
             allow_open=True,
         )
-        result = signature(area if sheets else volume, radius)
+        result = signature(volume if area is None else area, radius)
         if (order > MAX_ORDER_BY_MOMENTS or result.error > MAX_DESCRIPTOR_ERROR) and not sheets:
             whole = join_surfaces(list(pieces()))
             triangles = whole.all_triangles()[0]

@@ -66,7 +66,10 @@ class Shape:
     @property
     def health(self) -> MeshReport:
         """What the mesh is like."""
-        return self.solids.health(self.row) if self.alone is None else self.alone.health
+        if self.solids is not None:
+            return self.solids.health(self.row)
+        assert self.alone is not None
+        return self.alone.health
 
     @property
     def defects(self) -> DefectiveElements | None:
@@ -81,6 +84,7 @@ class Shape:
     def sixth_order(self) -> Moments:
         """The volume's moments that axes are found by, of one that was measured by itself."""
         solid = self.alone
+        assert solid is not None
         with np.errstate(over="ignore", invalid="ignore"):
             found = polyhedron_moments(
                 solid.repaired_surface, MAX_ORDER, about=solid.volume.about, exact=True, allow_open=True
@@ -88,14 +92,15 @@ class Shape:
         return with_known(found[0], solid.volume)
 
 
-def measure_shapes(shapes: list[Shape]) -> tuple[Moments, Moments]:
+def measure_shapes(shapes: list[Shape]) -> tuple[Moments, Moments] | None:
     """Measure shapes in their own coordinates: volumes to third order and areas, stacked by row. One that cannot be
-    measured has no row."""
+    measured has no row; None where none can be."""
     small = [shape for shape in shapes if can_be_stacked(shape.surface)]
-    volumes, areas, count = [], [], 0
+    volumes: list[Moments] = []
+    areas: list[Moments] = []
     if small:
         solids = measure_stack([shape.surface for shape in small])
-        volumes, areas, count = [solids.volume], [solids.area], len(small)
+        volumes, areas = [solids.volume], [solids.area]
         for i in np.flatnonzero(solids.is_exact).tolist():
             small[i].row, small[i].solids, small[i].findings = i, solids, solids.findings(i)
     others = []
@@ -105,17 +110,17 @@ def measure_shapes(shapes: list[Shape]) -> tuple[Moments, Moments]:
                 solid = shape.alone = measure_solid(shape.surface)
             except MeasureError:  # the objects are refused one by one, with the reason
                 continue
-            shape.row, shape.method, shape.findings = count + len(others), Method(solid.method), solid.findings
+            shape.row, shape.method, shape.findings = len(small) + len(others), Method(solid.method), solid.findings
             others.append(solid)
     if others:
         volumes.append(stack_moments([solid.volume for solid in others]))
         areas.append(stack_moments([solid.area for solid in others]))
-    return _joined(volumes), _joined(areas)
+    return (_joined(volumes), _joined(areas)) if volumes else None
 
 
-def _joined(stacks: list[Moments]) -> Moments | None:
-    if len(stacks) < 2:
-        return stacks[0] if stacks else None
+def _joined(stacks: list[Moments]) -> Moments:
+    if len(stacks) == 1:
+        return stacks[0]
     names = "raw", "about", "rounding_error", "input_error"
     return replace(stacks[0], **{name: np.concatenate([getattr(stack, name) for stack in stacks]) for name in names})
 
@@ -277,9 +282,10 @@ class Stacked:
 def measure_members(members: list[Member], shapes: list[Shape], unit: float) -> MeasuredStack | None:
     """Measure objects together: those whose shapes can be measured and whose numbers are certain; None where there are
     none. unit: meters per Blender unit."""
-    own, own_area = measure_shapes(shapes)
-    if own is None:
+    measured = measure_shapes(shapes)
+    if measured is None:
         return None
+    own, own_area = measured
     which = np.array([member.shape.row for member in members])
     matrices = np.array([member.matrix for member in members], np.float64)
     usable = (which >= 0) & np.isfinite(matrices).all(axis=(1, 2))
@@ -316,7 +322,9 @@ def measure_members(members: list[Member], shapes: list[Shape], unit: float) -> 
         sixth = [own.at(0)] * len(shapes)
         together = [i for i, each in enumerate(shapes) if each.alone is None]
         if together:
-            found = shapes[together[0]].solids.to_order(needed[together], MAX_ORDER)
+            solids = shapes[together[0]].solids
+            assert solids is not None
+            found = solids.to_order(needed[together], MAX_ORDER)
             for row, i in enumerate(together):
                 sixth[i] = found.at(row)
         for i, each in enumerate(shapes):

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import ClassVar
 
 import numpy as np
@@ -55,6 +55,7 @@ class ThresholdGrid:
 
     def set_above(self, options: GridOptions, order: int, preview: bool = False) -> ThresholdBody:
         """Return the moments of the body where the values are at least the threshold."""
+        assert options.threshold is not None
         threshold = options.threshold
         if options.spline_order > TRILINEAR and not preview:
             return smooth_threshold_body(
@@ -77,7 +78,7 @@ class ThresholdGridBody(Body):
 
     any_order: ClassVar[bool] = True
 
-    grid: ThresholdGrid | None = None
+    grid: ThresholdGrid = field(kw_only=True)
     options: GridOptions = GridOptions()
 
     def moments(self, order: int, area: bool) -> tuple[Moments, Moments | None]:
@@ -134,7 +135,8 @@ def threshold_grid_body(
         raise ReadError("grid_empty")
     higher = None
     if mass is not None and order > KNOWN_ORDER:
-        higher = grid.set_above(options, order).mass * scale
+        weighed = grid.set_above(options, order).mass
+        higher = None if weighed is None else weighed * scale
     return ThresholdGridBody(
         above.volume,
         above.area,

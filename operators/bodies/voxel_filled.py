@@ -106,7 +106,7 @@ def voxel_filled_body(
 def _corners(solid: SolidIntegrals, matrix: NDArray) -> NDArray[np.float64]:
     """(n, 3, 3) the triangles of what was measured, in the grid's coordinates, outward."""
     surface = solid.repaired_surface.transform(matrix[:3, :3], matrix[:3, 3])
-    return surface.points[surface.all_triangles()[0]]
+    return surface.points[surface.all_triangles()[0]].astype(np.float64, copy=False)
 
 
 def _box_densities(reading: VolumeReading, options: GridOptions, low: NDArray, high: NDArray) -> NDArray[np.float64]:

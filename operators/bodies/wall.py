@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from ...core.mesh.boxes import boxes_overlap
 from ...core.mesh.surface import Surface
 from ...core.moments.images import sum_of_images
-from ...core.moments.moments import Moments, monomials, sum_moments
+from ...core.moments.moments import Measure, Moments, monomials, sum_moments
 from ...core.offset.walls import OffsetSolid, offset_solid, split_thickness
 from ...core.polyhedron import polyhedron_moments
 from ...core.solid.measure_solid import SolidIntegrals
@@ -55,7 +55,7 @@ class WallPiece:
 
     def per_thickness(self) -> Moments:
         """Of the wall by its thickness, where that goes to zero."""
-        first = Moments(self.offset.coefficients[:, 0], self.offset.about, "volume")
+        first = Moments(self.offset.coefficients[:, 0], self.offset.about, Measure.VOLUME)
         return sum_of_images(first, self.matrices) * (1.0 / self.scale)
 
     def self_intersects(self, side: str, thickness: float) -> bool:

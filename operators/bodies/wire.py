@@ -39,6 +39,7 @@ class WireBody(Body):
 
     def third_order(self) -> Moments:
         """Return the length's moments."""
+        assert self.length is not None
         return self.length
 
 

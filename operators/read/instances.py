@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 from ...core.mesh.surface import Surface
 from ...core.verdict.finding import MeasureError, ReadError
 from .mesh import face_slots, from_edit_mesh, mesh_surface, vertex_values
-from .reading import FaceAttributes, Part, SplineReading, float64_matrix
+from .reading import NO_VALUES, FaceAttributes, Part, SplineReading, float64_matrix
 from .splines import spline_reading
 from .visibility import GEOMETRY_TYPES, blends_keys, edit_modifiers, evaluated_geometry
 
@@ -242,7 +242,7 @@ class InstanceCollector:
         return mesh_surface(mesh, edges=self.edges), attributes
 
     def _read_attributes(self, mesh, owner) -> FaceAttributes:
-        vertices = None
+        vertices = NO_VALUES
         if self.attribute is not None and len(mesh.polygons):
             try:
                 vertices = vertex_values(mesh, self.attribute)

@@ -47,7 +47,7 @@ def mesh_surface(mesh, *, edges: bool = True) -> Surface:
     return Surface(points, corner_vertices=corners, corner_edges=named, **faces)
 
 
-def mesh_points(mesh, corners: NDArray[np.int32]) -> NDArray[np.float32] | None:
+def mesh_points(mesh, corners: NDArray[np.integer]) -> NDArray[np.float32] | None:
     """(n, 3) the vertices of a `bpy.types.Mesh` that has these vertices at its corners; None of any other."""
     if len(mesh.loops) != len(corners):
         return None

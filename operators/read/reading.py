@@ -18,18 +18,21 @@ from ...core.verdict.finding import Finding
 # float32 entries alone may have made it: such a matrix cannot be distinguished from one that flattens.
 SINGULAR_RTOL = 4.0 * float(np.finfo(np.float32).eps)
 
+NO_SLOTS = np.empty(0, np.intp)
+NO_VALUES = np.empty(0)
+
 
 @dataclass(frozen=True, eq=False)
 class FaceAttributes:
     """What the faces and vertices of a surface carry.
 
     materials: the original materials of its slots, None for empty ones. face_slots: (f,) the slot of each
-    mesh face, -1 where there are no slots. vertex_values: (n,) values of the attribute that was asked for.
+    mesh face, -1 where there are no slots. vertex_values: (n,) values of the attribute that was asked for, else none.
     """
 
     materials: tuple = ()
-    face_slots: NDArray[np.integer] | None = None
-    vertex_values: NDArray[np.float64] | None = None
+    face_slots: NDArray[np.integer] = field(default_factory=NO_SLOTS.view)
+    vertex_values: NDArray[np.float64] = field(default_factory=NO_VALUES.view)
 
 
 @dataclass(frozen=True, eq=False)

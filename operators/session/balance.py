@@ -95,13 +95,13 @@ def path(empty: Object) -> Path | None:
 
 def support(empty: Object, frame: int) -> Support | None:
     """Return the support polygon of a group at a frame, while the file is open."""
-    return _supports.get(empty, {}).get(frame)
+    return (_supports.get(empty) or {}).get(frame)
 
 
 def _path(empty: Object) -> Path | None:
     curves = _existing_curves(empty)
-    keys = [_keys(curves, "location", axis) for axis in range(3)]
-    if any(axis_keys is None for axis_keys in keys) or len({len(axis_keys) for axis_keys in keys}) != 1:
+    keys = [keys for axis in range(3) if (keys := _keys(curves, "location", axis)) is not None]
+    if len(keys) < 3 or len({len(axis_keys) for axis_keys in keys}) != 1:
         return None
     signal = _keys(curves, '["{:s}"]'.format(INSIDE), 0)
     inside = None if signal is None or len(signal) != len(keys[0]) else signal[:, 1] > 0.5

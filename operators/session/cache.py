@@ -71,6 +71,12 @@ class SessionCache(Generic[Value]):
         self._values.move_to_end(uid)
         return self._values[uid]
 
+    def __getitem__(self, data: ID) -> Value:
+        value = self.get(data)
+        if value is None:
+            raise KeyError(data)
+        return value
+
     def __setitem__(self, data: ID, value: Value) -> None:
         uid = data.session_uid
         self._values[uid] = value

@@ -47,7 +47,9 @@ def follow_density(obj: Object, scene: Scene) -> None:
     if mark is None or mark.version != VERSION or "body_density_from" in obj or not _can_store(obj):
         return
     numbers = properties.numbers(obj)
-    extent = None if numbers is None else properties.optional(obj, "body_length") or numbers[2][0]
+    if numbers is None:
+        return
+    extent = properties.optional(obj, "body_length") or numbers[2][0]
     if not extent or not numbers[0][0] > 0.0:
         return
     if any(found.code == "inertia_given" for found in properties.findings(obj)):

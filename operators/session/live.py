@@ -15,8 +15,9 @@ geometry when it is switched.
 from __future__ import annotations
 
 import time
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from enum import StrEnum
+from operator import itemgetter
 
 import bpy
 import numpy as np
@@ -83,7 +84,7 @@ class _Followed:
     """
 
     result: LiveResult | None = None
-    matrix: NDArray[np.float64] | None = None
+    matrix: NDArray[np.float64] = field(default_factory=lambda: np.eye(4))
     transform: str = ""
     number: int = 0
     tracked: TrackedSolid | None = None
@@ -153,12 +154,14 @@ def current_properties(obj: Object, scene: Scene) -> StoredProperties | None:
     )
     if followed.outlined is None and has_transform(obj, followed.transform):
         return shown
-    return _mapped(obj, followed, shown, shortest_decimal(scene.unit_settings.scale_length))
+    return _mapped(obj, followed, measured, shown, shortest_decimal(scene.unit_settings.scale_length))
 
 
-def _mapped(obj: Object, followed: _Followed, shown: StoredProperties, unit: float) -> StoredProperties:
+def _mapped(
+    obj: Object, followed: _Followed, measured: Measurement, shown: StoredProperties, unit: float
+) -> StoredProperties:
     """The same where the object is stretched, and with the volume and center that a light pass has found."""
-    measured, now = followed.result.measurement, float64_matrix(obj.matrix_world)
+    now = float64_matrix(obj.matrix_world)
     to_own = rotation_matrix(obj.matrix_world.to_quaternion()).T
     try:
         linear = now[:3, :3] @ np.linalg.inv(followed.matrix[:3, :3])
@@ -191,7 +194,7 @@ def _mapped(obj: Object, followed: _Followed, shown: StoredProperties, unit: flo
 
 def update(obj: Object, depsgraph: Depsgraph) -> LiveResult:
     """Measure an object with Live on as it is now, and keep the outcome to be shown."""
-    followed, start = _followed.get(obj), time.perf_counter()
+    followed, start = _followed[obj], time.perf_counter()
     measurement, refusal = None, None
     try:
         measurement, followed.outline = _measure(obj, followed, depsgraph)
@@ -200,11 +203,12 @@ def update(obj: Object, depsgraph: Depsgraph) -> LiveResult:
     except Exception as error:
         refusal = internal_error.finding_of(error)
         followed.tracked = None  # what is half followed is no start for the next edit
-    followed.result = LiveResult(measurement, refusal, time.perf_counter() - start, settings_hash(obj, depsgraph.scene))
+    result = LiveResult(measurement, refusal, time.perf_counter() - start, settings_hash(obj, depsgraph.scene))
+    followed.result = result
     followed.matrix, followed.transform = float64_matrix(obj.matrix_world), transform_key(obj)
     followed.outlined, followed.is_pending, followed.number = None, False, updates.count()
     handlers.count_change()
-    return followed.result
+    return result
 
 
 def start(obj: Object, depsgraph: Depsgraph) -> LiveResult:
@@ -229,12 +233,14 @@ def _measure(obj: Object, followed: _Followed, depsgraph: Depsgraph) -> tuple[Me
         measured = measure_body(obj, depsgraph, plain)
         return measured.measurement, Outline.of(measured)
     (part,) = reading.parts
+    splines = part.splines
+    assert splines is not None
     matrix = part.matrices[0].copy()
     matrix[:3] *= unit
-    patches = [patch.transform(matrix) for patch in part.splines.patches]
+    patches = [patch.transform(matrix) for patch in splines.patches]
     if np.linalg.det(matrix) < 0.0:
         patches = [patch.reverse_orientation() for patch in patches]
-    stored = part.splines.stored * float(np.linalg.norm(matrix[:3, :3], 2))
+    stored = splines.stored * float(np.linalg.norm(matrix[:3, :3], 2))
     if followed.tracked is None:
         followed.tracked = TrackedSolid(patches, stored)
     else:
@@ -245,7 +251,7 @@ def _measure(obj: Object, followed: _Followed, depsgraph: Depsgraph) -> tuple[Me
         measure.area,
         measure.health,
         Method(Verdict(measure.method), Source.NURBS),
-        (*part.splines.findings, *measure.findings),
+        (*splines.findings, *measure.findings),
         estimated=True,
     )
     return measurement_of(reading, measured_body, request), None
@@ -265,9 +271,9 @@ def _note_updates(events: handlers.Updates) -> None:
     if not len(_followed):
         return
     _last_event = time.monotonic()
-    changed = [uid for uid in events.reshaped if _followed.by_uid(uid) is not None]
-    for uid in changed:
-        _followed.by_uid(uid).is_pending = True
+    changed = {uid: followed for uid in events.reshaped if (followed := _followed.by_uid(uid)) is not None}
+    for followed in changed.values():
+        followed.is_pending = True
     moved = any(_followed.by_uid(uid) is not None for uid in events.moved)
     if changed and not bpy.app.is_job_running("RENDER"):
         _follow_at_once(events, set(changed))
@@ -280,8 +286,8 @@ def _follow_at_once(events: handlers.Updates, changed: set[int]) -> None:
     """One object, and as many others as the budget of a redraw allows: those first whose passes take least."""
     budget, is_first = _budget(), True
     objects = [obj for obj in events.depsgraph.view_layer.objects if obj.session_uid in changed]
-    for obj in sorted(objects, key=lambda obj: _followed.get(obj).pass_seconds):
-        followed, start = _followed.get(obj), time.perf_counter()
+    for obj in sorted(objects, key=lambda obj: _followed[obj].pass_seconds):
+        followed, start = _followed[obj], time.perf_counter()
         allowed = MAX_PASS * _budget() if is_first else budget
         if followed.outline is None or followed.pass_seconds > allowed:
             followed.outlined = None
@@ -309,8 +315,7 @@ def _tick() -> float | None:
     due = [obj for obj in layer.objects if obj in _followed and _is_due(obj, depsgraph.scene)]
     budget, idle = _budget(), time.monotonic() - _last_event >= IDLE and not _is_playing()
     waiting = False
-    for obj in sorted(due, key=lambda obj: _followed.get(obj).result.seconds):
-        seconds = _followed.get(obj).result.seconds
+    for seconds, obj in sorted(((_seconds(obj), obj) for obj in due), key=itemgetter(0)):
         if seconds <= budget or idle:
             update(obj, depsgraph)
             budget -= seconds
@@ -323,9 +328,15 @@ def _tick() -> float | None:
     return POLL if waiting else None
 
 
+def _seconds(obj: Object) -> float:
+    """What measuring an object has taken."""
+    result = _followed[obj].result
+    return 0.0 if result is None else result.seconds
+
+
 def _is_due(obj: Object, scene: Scene) -> bool:
     """Whether an object has to be measured again: more than its place has changed."""
-    followed = _followed.get(obj)
+    followed = _followed[obj]
     if not followed.is_pending:
         followed.is_pending = updates.last_edit(obj).number > followed.number or not has_transform(
             obj, followed.transform

@@ -70,6 +70,7 @@ class Degree:
 
 
 Display = tuple[tuple[Degree, ...], Finding | None]  # what a panel shows, and where that is nothing, why
+NOTHING: Display = ((), None)
 
 _computed: SessionCache[ComputedMoments] = SessionCache(MAX_CACHED_OBJECTS)
 _displays: SessionCache[tuple[tuple, Display]] = SessionCache(MAX_CACHED_OBJECTS)  # and what they show
@@ -104,7 +105,9 @@ def current_numbers(obj: Object, scene: Scene) -> Display:
     # A panel is drawn at every movement of the mouse.
     computed = computed_moments(obj)
     reference: Reference | None = None
-    if settings.moments_about == "REFERENCE" and computed is not None:
+    if computed is None:
+        return NOTHING
+    if settings.moments_about == "REFERENCE":
         try:
             reference = reference_of(obj, computed, scene)
         except MeasureError as error:

@@ -135,6 +135,7 @@ def _coordinates(data) -> NDArray[np.float64]:
 
 def _mixed(obj: Object, followed: _Followed, matrix: NDArray, unit: float) -> tuple[float, NDArray[np.float64]]:
     blocks = obj.data.shape_keys.key_blocks
+    assert followed.mixes is not None
     volumes, centers = followed.mixes.at([[blocks[name].value for name in followed.keys]])
     volume = float(volumes[0]) * abs(np.linalg.det(matrix[:3, :3])) * unit**3
     mass = followed.density * volume if followed.given_mass is None else followed.given_mass

@@ -40,7 +40,7 @@ class Outline:
     """
 
     surface: Surface
-    corners: NDArray[np.int32]
+    corners: NDArray[np.integer]
 
     @classmethod
     def of(cls, measured: Measured) -> Outline | None:

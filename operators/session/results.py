@@ -13,6 +13,7 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import chain, groupby
+from typing import Any
 
 import bpy
 import numpy as np
@@ -77,7 +78,7 @@ def store_many(
 ) -> Iterator[tuple[Object, Exception | None]]:
     """As `store` on many objects; with each of them why it cannot hold results, or None."""
     for stack, run in groupby(measured, key=lambda item: getattr(item[1], "stack", None)):
-        items = list(run)
+        items: list[tuple[Object, Any]] = list(run)
         if stack is None:
             for obj, alone in items:
                 try:

@@ -8,7 +8,8 @@ an edit is noted where Blender reports a new shape of a mesh and nothing new of 
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
+from typing import Any
 
 import bpy
 from bpy.types import Object, Scene
@@ -120,7 +121,7 @@ def _write_notes() -> None:
                 marks.write_edited(obj, [marks.of_results(obj)])
 
 
-SUBSCRIPTIONS = (
+SUBSCRIPTIONS: tuple[tuple[list[Any], Callable[..., None]], ...] = (
     (handlers.on_update, _note_updates),
     (handlers.on_undo, _watch_all),  # which makes Python's references to objects invalid
     (handlers.on_load, _watch_all),

@@ -67,7 +67,7 @@ _last: SessionCache[tuple[tuple, ShownBody | None]] = (
 _own: SessionCache[_Own] = SessionCache()
 
 
-def shown_body(obj: Object, scene: Scene | None = None) -> ShownBody | None:
+def shown_body(obj: Object, scene: Scene = None) -> ShownBody | None:
     """Return what is to be drawn of an object: its live numbers where Live is on, else the stored ones.
 
     Parameters

@@ -90,7 +90,7 @@ def forget(obj: Object) -> None:
     handlers.count_change()
 
 
-def support(obj: Object, scene: Scene | None = None) -> Support | None:
+def support(obj: Object, scene: Scene = None) -> Support | None:
     """Return how an object stands as it is now, in Blender's units and the world.
 
     Parameters

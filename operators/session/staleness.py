@@ -115,7 +115,7 @@ def replace_mark(obj: Object, before: str) -> None:
         The mark of the results that were replaced.
     """
     mark = marks.of_results(obj)
-    _set_edited(obj, mark, before in _edited.get(obj, ()))
+    _set_edited(obj, mark, before in _edited_marks(obj))
     if before in _shapes:
         _shapes[mark] = _shapes[before]
 
@@ -231,9 +231,13 @@ def symmetry_stale_reason(obj: Object) -> str | None:
     return "stale_scale" if mark.transform != scale_hash(obj) else None
 
 
+def _edited_marks(obj: Object) -> frozenset[str]:
+    return _edited.get(obj) or frozenset()
+
+
 def _has_new_geometry(obj: Object, mark: marks.Mark) -> bool:
     note_edits(obj)
-    return mark.geometry == marks.EDITED or ":".join(mark) in _edited.get(obj, ())
+    return mark.geometry == marks.EDITED or ":".join(mark) in _edited_marks(obj)
 
 
 # ---------------------------------------------------------------- What is noted
@@ -241,7 +245,7 @@ def _has_new_geometry(obj: Object, mark: marks.Mark) -> bool:
 
 def _set_edited(obj: Object, mark: str, is_edited: bool) -> None:
     """Note that the geometry of what carries this mark has changed, or that it has not."""
-    noted = _edited.get(obj, frozenset())
+    noted = _edited_marks(obj)
     if is_edited != (mark in noted) or obj not in _edited:
         handlers.count_change()
         _edited[obj] = noted | {mark} if is_edited else noted - {mark}

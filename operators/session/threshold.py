@@ -20,7 +20,7 @@ from ...core.verdict.finding import MeasureError
 from ..bodies.measure_object import Measured
 from ..bodies.measurement import measurement_of
 from ..bodies.request import Request
-from ..bodies.threshold import ThresholdGrid, threshold_grid_body
+from ..bodies.threshold import ThresholdGrid, ThresholdGridBody, threshold_grid_body
 from ..read.volume import VolumeReading
 from ..settings import hooks
 from ..settings.digest import grid_key
@@ -51,8 +51,9 @@ _pending: list[tuple[Object, Scene]] = []  # whose exact numbers are due
 
 def cache_grid(obj: Object, measured: Measured, unit: float) -> None:
     """Remember the grid that an object was measured with. unit: metres per Blender unit."""
-    mark = marks.Mark(*measured.measurement.fingerprint.split(":"))
-    _cache[obj] = _CachedGrid(measured.reading, measured.body.grid, {mark.geometry}, mark.transform, unit)
+    mark, reading, body = marks.Mark(*measured.measurement.fingerprint.split(":")), measured.reading, measured.body
+    assert isinstance(reading, VolumeReading) and isinstance(body, ThresholdGridBody)
+    _cache[obj] = _CachedGrid(reading, body.grid, {mark.geometry}, mark.transform, unit)
 
 
 def on_threshold(settings: PropertyGroup, context: Context) -> None:

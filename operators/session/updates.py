@@ -9,8 +9,8 @@ the update of a setting and that of undo.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from typing import NamedTuple
+from collections.abc import Callable, Iterable
+from typing import Any, NamedTuple
 
 import bpy
 from bpy.types import Context, Depsgraph, Object, PropertyGroup
@@ -208,7 +208,7 @@ def _forget_file() -> None:
         remembered.clear()
 
 
-SUBSCRIPTIONS = (
+SUBSCRIPTIONS: tuple[tuple[list[Any], Callable[..., None]], ...] = (
     (handlers.on_update, _note_updates),
     (handlers.on_undo, _note_undo),
     (handlers.on_load, _forget_file),

@@ -18,7 +18,7 @@ from ...core.verdict.finding import MeasureError
 from ..bodies.measure_object import Measured
 from ..bodies.measurement import measurement_of
 from ..bodies.request import Request
-from ..bodies.wall import Walls
+from ..bodies.wall import WallBody, Walls
 from ..read import Reading
 from ..settings import hooks
 from ..write import properties
@@ -45,8 +45,10 @@ _cache: SessionCache[_CachedWalls] = SessionCache(MAX_CACHED_OBJECTS)
 def cache_walls(obj: Object, measured: Measured, unit: float) -> None:
     """Remember the walls that an object was measured with. unit: metres per Blender unit."""
     mark = marks.Mark(*measured.measurement.fingerprint.split(":"))
-    reading = replace(measured.reading, parts=[])
-    _cache[obj] = _CachedWalls(reading, measured.body.walls.drop_arrays(), mark.geometry, mark.transform, unit)
+    reading, body = measured.reading, measured.body
+    assert isinstance(reading, Reading) and isinstance(body, WallBody) and body.walls is not None
+    reading = replace(reading, parts=[])
+    _cache[obj] = _CachedWalls(reading, body.walls.drop_arrays(), mark.geometry, mark.transform, unit)
 
 
 def max_thickness(obj: Object) -> float | None:
@@ -61,7 +63,11 @@ def max_thickness(obj: Object) -> float | None:
 def is_too_thick(obj: Object) -> bool:
     """Whether the thickness that is set is known to be too large."""
     limit, cached = max_thickness(obj), _cache.get(obj)
-    return limit is not None and not shortest_decimal(obj.body_moments.thickness) * cached.unit < limit
+    return (
+        cached is not None
+        and limit is not None
+        and not shortest_decimal(obj.body_moments.thickness) * cached.unit < limit
+    )
 
 
 def on_wall_setting(settings: PropertyGroup, context: Context) -> None:

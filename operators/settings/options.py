@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 
 @dataclass(frozen=True)
@@ -30,6 +31,21 @@ class MeasureOptions:
     surface: bool = False
     pose: bool = False
     compare: bool = True
+
+
+@dataclass(frozen=True)
+class ResolvedOptions(MeasureOptions):
+    """Options without gaps: what was given, and the object's settings. Of density and mass one at most."""
+
+    kind: str = "solid"
+    thickness: float = 0.0
+    overlap: str = "signed"
+    wall: str = "thin"
+
+    @classmethod
+    def of(cls, options: MeasureOptions, **settings: Any) -> ResolvedOptions:
+        """Return options with these in place of their own."""
+        return cls(**{**vars(options), **settings})
 
 
 AS_SET = MeasureOptions()  # every object as its own settings say

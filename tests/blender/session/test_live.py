@@ -20,6 +20,12 @@ from tests.close import close
 pytestmark = pytest.mark.usefixtures("scene")
 
 
+@pytest.fixture(autouse=True)
+def _enough_time(monkeypatch):
+    """A budget that a busy machine keeps."""
+    monkeypatch.setattr(live, "_budget", lambda: 1.0)
+
+
 def update():
     bpy.context.view_layer.update()
 
