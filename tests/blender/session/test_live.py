@@ -113,7 +113,7 @@ def test_what_deforms_has_volume_and_center_at_every_frame_and_all_when_it_stops
             assert_current(obj, inertia=False)
         monkeypatch.setattr(live, "_is_playing", lambda: True)
         live._followed.get(obj).result = live.LiveResult(
-            live.current_numbers(obj).measurement, None, 1.0, live.current_numbers(obj).settings
+            live.current_numbers(obj).measurement, None, 5.0, live.current_numbers(obj).settings
         )
         assert tick(patch) == live.POLL  # it waits for the end
     monkeypatch.setattr(live, "_is_playing", lambda: False)
