@@ -4,13 +4,16 @@
 
     python tests/benchmark_batch.py [BLENDER]
 
-Any Python does; the Blender is the one named, or the one on the PATH. Rounds are interleaved, so that what else the
-machine does weighs on all alike; of each the best counts. “without start” is the time between a file's first byte and
-the last file's record, as the command itself says it.
+Any Python of Linux or macOS does; the Blender is the one named, or the one on the PATH. The ways take turns, so that
+what else the machine does weighs on all alike. Two clocks: processor time of a command with all that it starts, and
+wall time. A file's time without start-up is (all files - one file) / (their number - 1), for every way alike; the
+figures are medians over the rounds, of ratios within a round where two ways are compared.
 """
 
-import re
+import os
+import resource
 import shutil
+import statistics
 import subprocess
 import sys
 import tempfile
@@ -18,7 +21,7 @@ import time
 from pathlib import Path
 
 SCRIPT = Path(__file__).resolve().parent.parent / "operators" / "batch.py"
-COUNT, SINGLES, ROUNDS = 400, 5, 3
+COUNT, ROUNDS = 400, 5
 MAKE = """
 import bpy, sys
 bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
@@ -27,55 +30,64 @@ for number in range({count}):
     bpy.context.active_object.scale.x = 1.0 + number / 100.0
     bpy.ops.wm.save_as_mainfile(filepath={folder!r} + "/{{:03d}}.blend".format(number), copy=True)
 """
+WAYS = {"one process": ["--no-supervisor"], "one child": ["--jobs", "1"], "two children": ["--jobs", "2"]}
+CLOCKS = ("processor", "wall")
 
 
 def timed(words: list) -> tuple[float, float]:
-    """The seconds of a command, and those between its first and its last file where it says them."""
-    begun = time.perf_counter()
+    """The seconds of a command, by the two clocks."""
+    before, begun = resource.getrusage(resource.RUSAGE_CHILDREN), time.perf_counter()
     ended = subprocess.run(list(map(str, words)), capture_output=True)
-    seconds = time.perf_counter() - begun
+    seconds, after = time.perf_counter() - begun, resource.getrusage(resource.RUSAGE_CHILDREN)
     assert ended.returncode == 0, ended.stderr[-2000:]
-    told = re.search(rb"files in ([\d.]+) s", ended.stderr)
-    return seconds, float(told[1]) if told else seconds
+    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime, seconds
+
+
+def one_round(start: list, folder: Path, first: Path, out: Path) -> dict[str, list[tuple[float, float]]]:
+    """Of each way its whole time for all files, and for one; of one Blender a file the one."""
+    found = {"one Blender a file": [timed([*start, first, "--no-supervisor", "--output", out / "one.json"])]}
+    for way, words in WAYS.items():
+        result = ["--force", "--format", "jsonl", "--output", out / (way + ".jsonl")]
+        found[way] = [timed([*start, files, *words, *result]) for files in (folder, first)]
+    return found
 
 
 def main() -> None:
     blender = sys.argv[1] if sys.argv[1:] else shutil.which("blender")
     start = [blender, "-b", "--factory-startup", "--python", SCRIPT, "--", "measure"]
     with tempfile.TemporaryDirectory() as name:
-        folder = Path(name) / "files"
+        folder, out = Path(name) / "files", Path(name) / "out"
         folder.mkdir()
+        out.mkdir()
         make = MAKE.format(count=COUNT, folder=str(folder))
         subprocess.run([blender, "-b", "--factory-startup", "--python-expr", make], check=True, capture_output=True)
-        files = sorted(folder.iterdir())
-        ways = {
-            "one process": ["--no-supervisor"],
-            "one child": ["--jobs", "1"],
-            "two children": ["--jobs", "2"],
-        }
-        best = {way: (float("inf"), float("inf")) for way in ("one file", *ways)}
-        for number in range(ROUNDS):
-            for file in files[number * SINGLES : (number + 1) * SINGLES]:
-                seconds = timed([*start, file, "--no-supervisor", "--output", Path(name) / "one.json"])
-                best["one file"] = min(best["one file"], seconds)
-            for way, words in ways.items():
-                out = Path(name) / "{} {}.jsonl".format(way, number)
-                seconds = timed([*start, folder, "--format", "jsonl", "--output", out, *words])
-                best[way] = tuple(map(min, best[way], seconds))
-    single = COUNT * best["one file"][0]
-    print("one Blender a file: {:.2f} s, {:.0f} s for {}".format(best["one file"][0], single, COUNT))
-    for way in ways:
-        whole, loop = best[way]
-        print("{:<13} {:6.2f} s ({:.0f} times faster); without start {:.2f} s".format(way, whole, single / whole, loop))
-    gain = best["one child"][1] / best["two children"][1]
-    print("the second child: {:.2f} times faster, start apart".format(gain))
-    starting = best["one file"][0] - best["one child"][1] / COUNT
-    loop = best["one process"][0] - starting
-    print(
-        "one child beside the loop in one process, start apart: {:+.0f} %".format(
-            100 * best["one child"][1] / loop - 100
-        )
-    )
+        first = min(folder.iterdir())
+        one_round(start, folder, first, out)  # what the disk has to read is in memory then
+        rounds = [one_round(start, folder, first, out) for _ in range(ROUNDS)]
+    load = os.getloadavg()
+    print("{} files, {} rounds, load {:.1f} at the end".format(COUNT, ROUNDS, load[0]))
+    print("{:<20} {:>22} {:>30} {:>26}".format("", "all, s", "a file without start-up, ms", "times one Blender a file"))
+    print("{:<20} {}".format("", "{:>11} {:>10} {:>18} {:>11} {:>15} {:>10}".format(*3 * CLOCKS)))
+
+    def middle(value) -> list[float]:
+        """The median over the rounds of what `value` makes of one, for each clock."""
+        return [statistics.median(value(one, clock) for one in rounds) for clock in (0, 1)]
+
+    def loop(one, way, clock):
+        return (one[way][0][clock] - one[way][1][clock]) / (COUNT - 1)
+
+    single = "one Blender a file"
+    print("{:<20} {:>11.0f} {:>10.0f}".format(single, *middle(lambda one, c: COUNT * one[single][0][c])))
+    for way in WAYS:
+        whole = middle(lambda one, c, way=way: one[way][0][c])
+        apart = middle(lambda one, c, way=way: 1000.0 * loop(one, way, c))
+        gain = middle(lambda one, c, way=way: COUNT * one[single][0][c] / one[way][0][c])
+        line = "{:<20} {:>11.2f} {:>10.2f} {:>18.2f} {:>11.2f} {:>15.0f} {:>10.0f}"
+        print(line.format(way, *whole, *apart, *gain))
+    second = middle(lambda one, c: loop(one, "one child", c) / loop(one, "two children", c))
+    cost = middle(lambda one, c: 100.0 * loop(one, "one child", c) / loop(one, "one process", c) - 100.0)
+    print("start-up apart: the second child {:.2f} times faster by the wall clock;".format(second[1]))
+    print("one child beside the plain loop {:+.0f} % of processor time, {:+.0f} % of wall time".format(*cost))
 
 
 if __name__ == "__main__":

@@ -9,6 +9,7 @@ REASONS = {
     "no Chromium": "the report is read as text all the same",
     "no GNU parallel": "an engine of others",
     "no libsdformat": "SDF is held against a restated schema all the same",
+    "no Slurm": "its tasks are run as it would run them",
     "no Node": "runs the job type of Flamenco with stubs",
     "could not import 'bornagain'": "a program of others, installed by hand, whose numbers ours are compared with",
     "comprehensions are calls of their own": "Python 3.11 counts more calls than the ones that are limited",

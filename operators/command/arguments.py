@@ -346,8 +346,8 @@ def _add_assets(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--asset-metadata",
         choices=("copy", "file"),
-        help="put mass, volume, center and more into the metadata of the objects that are assets, and save copies "
-        "beside the files, as NAME.body_moments.blend, or the files themselves",
+        help="put mass, volume, center and more into the metadata of the objects and collections that are assets, and "
+        "save copies beside the files, as NAME.body_moments.blend, or the files themselves",
     )
 
 

@@ -13,10 +13,11 @@ from typing import Any
 import bpy
 
 from ...core.verdict.finding import finding
+from ..supervisor.journal import state
 from ..supervisor.lifeline import Lifeline
 from .arguments import from_record
 from .checks import prepare
-from .inputs import files_read
+from .inputs import files_read, references
 from .interruption import Progress
 from .run import Run
 
@@ -40,6 +41,7 @@ def serve(line: Lifeline) -> None:
     for message in messages:
         with suppress(OSError):
             os.ftruncate(2, 0)  # what was said of the file before
+            os.lseek(2, 0, os.SEEK_SET)  # where it is not opened for appending, as on Windows
         with line.limited(setup["seconds"]):
             if "reads" in message:
                 line.answer({"reads": [os.fspath(path) for path in files_read([message["reads"]])]})
@@ -48,12 +50,11 @@ def serve(line: Lifeline) -> None:
 
 
 def _measure(run: Run, path: str, line: Lifeline) -> None:
-    before = run.internal_errors
+    faults, before = run.internal_errors, state(path)
     document = run.document(path)
-    head: dict[str, Any] = {"faults": run.internal_errors - before}
-    with suppress(OSError, ValueError):
-        status = os.stat(path)
-        head |= {"size": status.st_size, "mtime_ns": status.st_mtime_ns}
+    head: dict[str, Any] = {"faults": run.internal_errors - faults, "state": state(path) if run.has_saved else before}
+    names = map(os.fspath, references(path, run.has_opened))
+    head["reads"] = {name: state(name) for name in names}
     line.answer(head, json.dumps(document, allow_nan=False).encode() + b"\n")
 
 

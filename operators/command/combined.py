@@ -1,16 +1,20 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Several bodies as one in a document: the assemblies and the bones that a file has results or given masses of."""
+"""Several bodies as one in a document: the assemblies and the bones that a file has results or given masses of, and
+collections that are assets where metadata are asked for.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from typing import Any
 
 import bpy
 from bpy.types import Object, Scene
 
+from ...core.measurement import Measurement
 from ...core.verdict.finding import MeasureError
 from ...core.verdict.method import Verdict
 from ..bodies.assembly import Assembly, measure_assembly
@@ -32,6 +36,10 @@ class Combined:
     assemblies: list[Assembly] = field(default_factory=list)
     rigs: list[Rig] = field(default_factory=list)
     errors: list[dict[str, Any]] = field(default_factory=list)
+
+    def measurements(self) -> dict[Root, Measurement]:
+        """Those of the assemblies, by what they are of."""
+        return {assembly.root.member.data: assembly.measurement for assembly in self.assemblies}
 
     def records(self, frame: str) -> dict[str, Any]:
         """Return the entries of a document, none where there is nothing."""
@@ -57,7 +65,7 @@ class Combined:
             yield from _tried(rig.armature.name, lambda rig=rig: stored_rig.store(rig), internal)
 
 
-def measure_combined(options: MeasureOptions, internal: Internal) -> Combined:
+def measure_combined(options: MeasureOptions, internal: Internal, assets: bool = False) -> Combined:
     """Measure the assemblies and the characters of the open scene.
 
     Parameters
@@ -66,6 +74,8 @@ def measure_combined(options: MeasureOptions, internal: Internal) -> Combined:
         What overrides the members' settings.
     internal : callable
         Makes the entry about an error that nobody foresaw.
+    assets : bool
+        Also those that are assets, as far as they have a mass.
     """
     scene, found = bpy.context.scene, Combined()
     wanted = replace(options, order=None, surface=False)
@@ -76,8 +86,13 @@ def measure_combined(options: MeasureOptions, internal: Internal) -> Combined:
     def add_rig(armature: Object) -> None:
         found.rigs.append(measure_rig(bpy.context, armature))
 
-    for root in _assemblies(scene):
+    roots = dict.fromkeys(_assemblies(scene))
+    for root in roots:
         found.errors.extend(_tried(root.name, lambda root=root: add_assembly(root), internal))
+    for root in _assets(scene) if assets else ():
+        if root not in roots:
+            with suppress(MeasureError):  # of lamps, or of what is left out
+                add_assembly(root)
     for armature in _armatures(scene):
         found.errors.extend(_tried(armature.name, lambda armature=armature: add_rig(armature), internal))
     return found
@@ -94,10 +109,20 @@ def _tried(name: str, work: Callable[[], object], internal: Internal) -> Iterato
 
 def _assemblies(scene: Scene) -> Iterator[Root]:
     """The assemblies of a scene that have been measured, or have a given mass."""
-    empties = (obj for obj in scene.objects if obj.type == "EMPTY" and is_assembly(obj))
-    for root in (scene.collection, *scene.collection.children_recursive, *sorted(empties, key=lambda obj: obj.name)):
+    for root in _roots(scene):
         if root.get("body_method") == Verdict.ASSEMBLY or settings_of(root).mass_from == "MASS":
             yield root
+
+
+def _assets(scene: Scene) -> Iterator[Root]:
+    """The assemblies of a scene that are assets of its file."""
+    return (root for root in _roots(scene) if root.asset_data is not None and root.library is None)
+
+
+def _roots(scene: Scene) -> Iterator[Root]:
+    """All collections of a scene, and the empties that stand for their children."""
+    empties = (obj for obj in scene.objects if obj.type == "EMPTY" and is_assembly(obj))
+    yield from (scene.collection, *scene.collection.children_recursive, *sorted(empties, key=lambda obj: obj.name))
 
 
 def _armatures(scene: Scene) -> Iterator[Object]:

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""`compare`: the numbers of two results, object by object, against the bounds of both. Standard library only."""
+"""`compare`: the numbers of two results, body by body, against the bounds of both. Standard library only."""
 
 from __future__ import annotations
 
@@ -8,10 +8,12 @@ import math
 from collections.abc import Iterable, Iterator
 from typing import Any
 
-_SCALARS = ("mass", "volume", "area")
+_SCALARS = ("mass", "volume", "area", "density", "length", "linear_density", "thickness")
+_DOMAINS = ("volume", "surface", "length", "mass")  # of moments
 _LINE = "{:<5} {}: {:<18} {:>12.6g} {:>12.6g}  difference {:.2e}, allowed {:.2e}"
 
 Matrix = list[list[float]]
+Number = tuple[float | None, float, float]  # value, the size that a tolerance is relative to, bound
 
 
 def differences(
@@ -19,8 +21,9 @@ def differences(
 ) -> tuple[list[str], bool]:
     """The lines to print, and whether anything differs by more than it may.
 
-    A number may differ by the bounds of both, and by the tolerance times its size: the largest entry of a vector or a
-    tensor, for a center the radius of gyration. align: centers and tensors are compared in each body's own pose.
+    A number may differ by the bounds of both, and by the tolerance times its size: the largest entry of a vector, a
+    tensor or the moments of one degree, for a center the radius of gyration. align: centers and tensors are compared in
+    each body's own pose, and what is about a point that did not move with the body is not.
     """
     others = {document["file"]: document for document in second}
     lines, failed, compared = [], 0, 0
@@ -33,10 +36,10 @@ def differences(
         if document["status"] != other["status"]:
             lines.append("FAIL  {}: status {} and {}".format(document["file"], document["status"], other["status"]))
             failed += 1
-        names = {entry["name"]: entry for entry in other["objects"]}
-        for entry in document["objects"]:
-            label = "{}: {}".format(document["file"], entry["name"])
-            match = names.pop(entry["name"], None)
+        names = _bodies(other)
+        for name, entry in _bodies(document).items():
+            label = "{}: {}".format(document["file"], name)
+            match = names.pop(name, None)
             if match is None:
                 lines.append("only in the first: {}".format(label))
                 failed += 1
@@ -49,8 +52,16 @@ def differences(
         failed += len(names)
     lines += ["only in the second: {}".format(file) for file in others]
     failed += len(others)
-    lines.append("{} objects compared, {} differences beyond what is allowed".format(compared, failed))
+    lines.append("{} bodies compared, {} differences beyond what is allowed".format(compared, failed))
     return lines, bool(failed)
+
+
+def _bodies(document: dict[str, Any]) -> dict[str, dict[str, Any]]:
+    """The records of a document by their names: objects, assemblies, and bones with those of their armatures."""
+    found = {entry["name"]: entry for entry in document["objects"]}
+    found |= {"assembly {}".format(entry["name"]): entry for entry in document.get("assemblies", ())}
+    bones = document.get("bones", ())
+    return found | {"bone {} of {}".format(entry["name"], entry["armature"]): entry for entry in bones}
 
 
 def _numbers(
@@ -61,40 +72,72 @@ def _numbers(
         yield "FAIL  {}: no pose to align by".format(label), False
         return
     values, others = (_values(entry, align) for entry in (first, second))
-    for name, (value, size) in values.items():
-        other = others.get(name, (None, 0.0))[0]
+    for name in dict.fromkeys((*values, *others)):
+        (value, size, bound), (other, _, second_bound) = (of.get(name, (None, 0.0, 0.0)) for of in (values, others))
         if value is None or other is None:
             if value != other:
                 yield "FAIL  {}: {} is {} and {}".format(label, name, value, other), False
             continue
-        group = name.split("[")[0]
-        allowed = tolerance * size + _bound(first, group) + _bound(second, group)
+        allowed = tolerance * size + bound + second_bound
         difference = abs(value - other)
         if difference:
             passes = difference <= allowed
             yield _LINE.format("pass" if passes else "FAIL", label, name, value, other, difference, allowed), passes
 
 
-def _values(entry: dict[str, Any], align: bool) -> dict[str, tuple[float | None, float]]:
-    """Each number by its name, with the size that a tolerance is relative to."""
-    found: dict[str, tuple[float | None, float]] = {name: (entry[name], abs(entry[name] or 0.0)) for name in _SCALARS}
+def _values(entry: dict[str, Any], align: bool) -> dict[str, Number]:
+    """Each number by its name."""
+    found: dict[str, Number] = {
+        name: (entry[name], abs(entry[name] or 0.0), _bound(entry, name)) for name in _SCALARS if name in entry
+    }
+    if not align:
+        found |= _moments(entry.get("moments") or {})
     center, inertia = entry["center_of_mass"], entry["inertia"]
     if center is None or inertia is None:
         return found
     gyration = math.sqrt(sum(entry["principal_moments"]) / (2.0 * entry["mass"])) if entry["mass"] else 0.0
+    about = None if align else entry.get("inertia_about")
+    if about is not None:
+        found |= _tensor("inertia_about", about["inertia"], _bound_about(entry, math.dist(about["point"], center)))
     if align:
         rows = [row[:3] for row in entry["pose"]["matrix"][:3]]
         shift = [row[3] for row in entry["pose"]["matrix"][:3]]
         center = [sum(a * b for a, b in zip(row, center)) + s for row, s in zip(rows, shift)]
         inertia = _product(_product(rows, inertia), [list(column) for column in zip(*rows)])
-    found |= {"center_of_mass[{}]".format(axis): (value, gyration) for axis, value in zip("xyz", center)}
+    bound = _bound(entry, "center_of_mass")
+    found |= {"center_of_mass[{}]".format(axis): (value, gyration, bound) for axis, value in zip("xyz", center)}
+    bound = _bound(entry, "inertia")
+    found |= _tensor("inertia", inertia, bound)
     largest = max(abs(value) for row in inertia for value in row)
-    for i, row in enumerate(inertia):
-        for j in range(i, 3):
-            found["inertia[{}{}]".format("xyz"[i], "xyz"[j])] = (row[j], largest)
     for number, value in enumerate(entry["principal_moments"]):
-        found["principal_moments[{}]".format(number + 1)] = (value, largest)
+        found["principal_moments[{}]".format(number + 1)] = (value, largest, bound)
     return found
+
+
+def _tensor(name: str, rows: Matrix, bound: float) -> dict[str, Number]:
+    """The six numbers of a symmetric one."""
+    largest = max(abs(value) for row in rows for value in row)
+    pairs = [(i, j) for i in range(3) for j in range(i, 3)]
+    return {"{}[{}{}]".format(name, "xyz"[i], "xyz"[j]): (rows[i][j], largest, bound) for i, j in pairs}
+
+
+def _moments(moments: dict[str, Any]) -> dict[str, Number]:
+    """Those of every domain, by their powers."""
+    found: dict[str, Number] = {}
+    for domain in (name for name in _DOMAINS if name in moments):
+        values = moments[domain]
+        bounds = [moments.get(part, {}).get(domain, {}) for part in ("error", "input")]
+        largest: dict[int, float] = {}
+        for powers, value in values.items():
+            largest[_degree(powers)] = max(largest.get(_degree(powers), 0.0), abs(value or 0.0))
+        for powers, value in values.items():
+            bound = sum(one.get(powers) or 0.0 for one in bounds)
+            found["moments.{}[{}]".format(domain, powers)] = (value, largest[_degree(powers)], bound)
+    return found
+
+
+def _degree(powers: str) -> int:
+    return sum(map(int, powers.split(",")))
 
 
 def _product(first: Matrix, second: Matrix) -> Matrix:
@@ -102,11 +145,16 @@ def _product(first: Matrix, second: Matrix) -> Matrix:
 
 
 def _bound(entry: dict[str, Any], name: str) -> float:
-    """What a record says that rounding and its input may have changed in a number. Moments have their tensor's."""
+    """What a record says that rounding and its input may have changed in a number."""
     bounds = entry["error_bound"] or {}
-    if name == "mass":
-        volume = entry["volume"] or entry["area"]
-        share = _bound(entry, "volume" if entry["volume"] else "area") / abs(volume) if volume else 0.0
-        return share * abs(entry["mass"] or 0.0)
-    name = "inertia" if name == "principal_moments" else name
+    if name in ("mass", "density", "linear_density"):  # a given one of these has none, and does not differ
+        measure = "volume" if entry["volume"] else "area"
+        size = abs(entry[measure] or 0.0)
+        return _bound(entry, measure) / size * abs(entry[name] or 0.0) if size else 0.0
     return (bounds.get(name) or 0.0) + ((bounds.get("input") or {}).get(name) or 0.0)
+
+
+def _bound_about(entry: dict[str, Any], distance: float) -> float:
+    """That of a tensor about a point at this distance from the center, by the parallel axes."""
+    shift = distance * _bound(entry, "mass") + 2.0 * entry["mass"] * _bound(entry, "center_of_mass")
+    return _bound(entry, "inertia") + distance * shift

@@ -239,7 +239,7 @@ _DESCRIPTIONS = {
     "merge": "Joins results, of ranges of a list for example: one document a file, as JSON lines.",
     "to-csv": "Results as a table.",
     "summary": "What became of many files: counts by status and method, findings, the slowest, the widest bounds.",
-    "compare": "Every number of two results, whose files and objects have the same names: they pass where their bounds "
+    "compare": "Every number of two results, whose files and bodies have the same names: they pass where their bounds "
     "or the tolerance allow the difference.",
     "report": "Results as one HTML file that opens without a network: a table to sort and filter, and pictures.",
 }

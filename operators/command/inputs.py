@@ -30,33 +30,48 @@ def files_read(paths: Iterable[str]) -> Iterator[Path]:
     Opens what is named in Blender. What cannot be read refers to nothing.
     """
     paths = list(paths)
-    known: set[Path] = set()
     waiting = [Path(path) for path in paths] or _open_files()
     for path in paths:
         with suppress(MeasureError, RuntimeError):
             open_file(path)
             waiting += _open_files()
+    return (path for path in _reached(waiting, _NAMES) if path.is_file())
+
+
+def references(path: str, is_open: bool) -> Iterator[Path]:
+    """The files, there or not, that a file refers to and that may change what is measured of it. is_open: whether it is
+    the open scene.
+    """
+    first = Path(path)
+    waiting = [first, *(_open_files(packed=False) if is_open else ())]
+    with suppress(OSError, ValueError, RuntimeError):
+        first = first.resolve()
+    found = (one for one in _reached(waiting, _NAMES_THAT_COUNT) if one != first)
+    return (one for one in found if "." in one.name or one.exists())  # of the words of USD most name nothing
+
+
+def _reached(waiting: list[Path], readers: dict[str, Callable[[Path], Iterator[str]]]) -> Iterator[Path]:
+    """These files and those that they refer to, directly or by way of others, each once, there or not."""
+    known: set[Path] = set()
     while waiting:
-        try:
+        with suppress(OSError, ValueError, RuntimeError):  # too long, with a zero byte, links in a circle
             path = waiting.pop().resolve()
-            if path in known or not path.is_file():
+            if path in known:
                 continue
-        except (OSError, ValueError, RuntimeError):  # too long, with a zero byte, links in a circle
-            continue
-        known.add(path)
-        yield path
-        with suppress(OSError, ValueError, struct.error, RecursionError, MeasureError):
-            waiting += _named_in(path)
+            known.add(path)
+            yield path
+            with suppress(struct.error, RecursionError, MeasureError):
+                waiting += _named_in(path, readers)
 
 
-def _open_files() -> list[Path]:
-    """The files that the open scene refers to."""
-    paths = bpy.utils.blend_paths(absolute=True, packed=True)
+def _open_files(packed: bool = True) -> list[Path]:
+    """The files that the open scene refers to; packed: those too of which it has a copy in itself."""
+    paths = bpy.utils.blend_paths(absolute=True, packed=packed)
     return [file for path in paths for file in _tiles(Path(path))]
 
 
-def _named_in(path: Path) -> list[Path]:
-    names = _NAMES.get(path.suffix.lower())
+def _named_in(path: Path, readers: dict[str, Callable[[Path], Iterator[str]]]) -> list[Path]:
+    names = readers.get(path.suffix.lower()) if path.is_file() else None
     return [] if names is None else [file for name in names(path) for file in _tiles(path.parent / name)]
 
 
@@ -74,10 +89,13 @@ def _of_nrrd(path: Path) -> Iterator[str]:
 
 
 def _of_gltf(path: Path) -> Iterator[str]:
-    data = path.read_bytes()
-    if data.startswith(b"glTF"):  # a .glb: its first chunk is the text
-        (length,) = struct.unpack_from("<I", data, 12)
-        data = data[20 : 20 + length]
+    with open(path, "rb") as file:
+        data = file.read(20)
+        if data.startswith(b"glTF"):  # a .glb: its first chunk is the text
+            (length,) = struct.unpack_from("<I", data, 12)
+            data = file.read(length)
+        else:
+            data += file.read()
     document = json.loads(data)
     for group in ("buffers", "images"):
         listed = document.get(group) if isinstance(document, dict) else None
@@ -174,3 +192,4 @@ _NAMES: dict[str, Callable[[Path], Iterator[str]]] = {
     ".obj": _of_obj,
     **dict.fromkeys((".usd", ".usda", ".usdc"), _of_usd),
 }
+_NAMES_THAT_COUNT = {suffix: names for suffix, names in _NAMES.items() if suffix != ".obj"}  # colors alone

@@ -59,7 +59,8 @@ class Run:
     """One command line at work.
 
     threads: that a measurement may use. progress: what counts the samples read from a file. documents: one for each
-    file, in order. internal_errors: how many of their errors are our own.
+    file, in order. internal_errors: how many of their errors are our own. has_opened, has_saved: whether the last file
+    has become the open scene, and whether that was saved in its place.
     """
 
     options: Namespace
@@ -67,6 +68,8 @@ class Run:
     progress: Callable[[str], Callable[[int], None]] = Progress
     documents: list[dict[str, Any]] = field(default_factory=list)
     internal_errors: int = 0
+    has_opened: bool = False
+    has_saved: bool = False
 
     def __post_init__(self) -> None:
         self._status: str | None = None  # of the document under way, where it is not just that of its errors
@@ -96,6 +99,7 @@ class Run:
     def document(self, path: str | None) -> dict[str, Any]:
         """Measure one file, or what is open, and return its document."""
         file = path or bpy.data.filepath or _requested_file()
+        self.has_opened = self.has_saved = False
         with self._place(path) as place:
             found = self._measured(path, file, place)
         check_interruption()
@@ -150,7 +154,7 @@ class Run:
                 if self.options.object is None:  # else whoever named them knows what they count
                     caveats += total_caveats([obj for _, obj, _ in measured], bpy.context.view_layer)
                     caveats += other_scenes(bpy.context.scene)
-                    combined = measure_combined(wanted, self._internal_error)
+                    combined = measure_combined(wanted, self._internal_error, self.options.asset_metadata is not None)
                     errors += combined.errors
                 if self.options.fourier:
                     errors.extend(self._fourier(chosen, wanted, objects))
@@ -159,8 +163,14 @@ class Run:
             if self.options.write:
                 errors.extend(self._store(path, measured, wanted))
                 errors.extend(combined.store(self._internal_error))
-            if self._changes_assets(path, measured) or self.options.write:
+            is_changed = self.options.write
+            if self.options.asset_metadata and path is not None and file_suffix(path) == BLEND:
+                of_objects = {obj: one for _, obj, one in measured}
+                in_file, told = assets.write(of_objects | combined.measurements(), path, self.options.asset_metadata)
+                is_changed, caveats = is_changed or in_file, [*caveats, *told]
+            if is_changed:
                 caveats += _save(place, file)
+                self.has_saved = True
         except MeasureError as refusal:
             errors.append(failure(None, refusal.finding))
             self._status = _STATUSES.get(refusal.finding.code)
@@ -260,7 +270,9 @@ class Run:
     def _open(self, path: str | None, file: str | None) -> list[Finding]:
         """Open what is to be measured, and return what it refers to and is not there."""
         if path is not None:
-            return open_file(path)
+            unresolved = open_file(path)
+            self.has_opened = True
+            return unresolved
         if file and not bpy.data.filepath:
             raise FileError("file_not_opened")
         return []
@@ -318,17 +330,6 @@ class Run:
         reason = internal_error.finding_of(error)
         self.internal_errors += reason.code == internal_error.CODE
         return failure(name, reason)
-
-    def _changes_assets(
-        self, path: str | None, measured: list[tuple[str, bpy.types.Object | None, Measurement]]
-    ) -> bool:
-        """Put the numbers into the metadata of assets, where that is asked for; whether the file is to be saved."""
-        asked = self.options.asset_metadata
-        if asked is None or path is None or file_suffix(path) != BLEND or not assets.store(measured):
-            return False
-        if asked == "copy":
-            assets.save_copy(path)
-        return asked == "file"
 
     def _store(
         self,

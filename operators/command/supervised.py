@@ -22,9 +22,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from ...core.verdict.finding import MeasureError, finding
+from ...core.verdict.finding import Finding, MeasureError, finding
 from ..supervisor import listing, processes
-from ..supervisor.journal import Journal, is_journal
+from ..supervisor.journal import Journal, is_journal, state
 from ..supervisor.lifeline import end_with_window
 from ..supervisor.pool import ChildError, Limits, Outcome, Pool, SetupError
 from ..supervisor.progress import Progress
@@ -214,12 +214,13 @@ class _Supervised:
         progress = Progress(len(self.tasks), self.done)
         while not pool.is_done:
             for outcome in pool.step(_STEP):
-                status, document = self._document(outcome, blender)
-                key = {"path": outcome.task, **_state(outcome), **common}
-                journal.append(key, status, outcome.attempts, outcome.seconds, limits, json.dumps(document).encode())
+                status, reason, text = self._recorded(outcome, blender)
+                key = {"path": outcome.task, **outcome.head.get("state", state(outcome.task)), **common}
+                reads = outcome.head.get("reads")
+                journal.append(key, status, outcome.attempts, outcome.seconds, limits, text, reads)
                 self.done += 1
                 progress.add(status)
-                self._tell(progress, outcome, document)
+                self._tell(progress, outcome, reason)
             for file, note in pool.notes:
                 progress.clear()
                 print_message(file, note)
@@ -227,12 +228,11 @@ class _Supervised:
             progress.show()
         progress.finish()
 
-    def _document(self, outcome: Outcome, blender: str) -> tuple[str, dict[str, Any]]:
-        """What is recorded of a file: its document, also where there was no answer."""
+    def _recorded(self, outcome: Outcome, blender: str) -> tuple[str, Finding | None, bytes]:
+        """The status of a file, why there was no answer where there was none, and its document, also then."""
         if outcome.status == "answered":
             with suppress(ValueError, KeyError, TypeError):
-                document = json.loads(outcome.data)
-                return document["status"], document
+                return json.loads(outcome.data)["status"], None, outcome.data
             outcome.status, outcome.how = "crashed", "no answer"
         if outcome.status == "timeout":
             reason = finding("file_timed_out", seconds=self._limits.seconds)
@@ -240,16 +240,17 @@ class _Supervised:
             reason = finding("file_took_memory", megabytes=(self._limits.memory or 0) / 1e6)
         else:
             reason = finding("file_crashed", how=outcome.how, count=outcome.attempts)
-        frame = self._options.frame
-        return outcome.status, failed_document(outcome.task, str(reason), outcome.status, blender=blender, frame=frame)
+        values = {"blender": blender, "frame": self._options.frame}
+        document = failed_document(outcome.task, str(reason), outcome.status, **values)
+        return outcome.status, reason, json.dumps(document).encode()
 
-    def _tell(self, progress: Progress, outcome: Outcome, document: dict[str, Any]) -> None:
+    def _tell(self, progress: Progress, outcome: Outcome, reason: Finding | None) -> None:
         """Pass on what was said of a file; where a child failed at it, all that this child has printed."""
         faults = outcome.head.get("faults", 0)
         self._faults += faults
-        if outcome.status != "answered":
+        if reason is not None:
             progress.clear()
-            print_message(outcome.task, document["errors"][0]["reason"])
+            print_message(outcome.task, reason)
             return
         lines = outcome.said.splitlines(keepends=True)
         shown = "".join(line for line in lines if faults or line.startswith(PROGRAM + ": "))
@@ -278,21 +279,8 @@ class _Documents:
 
 def _is_recorded(journal: Journal, path: str, common: dict[str, Any], limits: dict[str, Any]) -> bool:
     entry = journal.entries.get(path)
-    return entry is not None and entry.serves({"path": path, **_stat(path), **common}, limits)
-
-
-def _state(outcome: Outcome) -> dict[str, int | None]:
-    """Size and time of the file as the child left it, which may have saved it."""
-    head = outcome.head
-    return {name: head[name] for name in ("size", "mtime_ns")} if "size" in head else _stat(outcome.task)
-
-
-def _stat(path: str) -> dict[str, int | None]:
-    try:
-        status = os.stat(path)
-    except (OSError, ValueError):
-        return {"size": None, "mtime_ns": None}
-    return {"size": status.st_size, "mtime_ns": status.st_mtime_ns}
+    same = entry is not None and entry.serves({"path": path, **state(path), **common}, limits)
+    return same and journal.is_current(path)
 
 
 def _digest(options: Namespace) -> str:

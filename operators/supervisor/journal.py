@@ -3,8 +3,8 @@
 """What a run has measured so far: JSON lines, appended as each file ends, from which it can go on after any end.
 
 A line has the file's key (path, size, time of its last change, digest of the options, versions of the add-on and of
-Blender), its status, the attempts and seconds it took, and its document. A line that is torn or damaged counts as none;
-of two with one path the later counts.
+Blender), its status, the attempts and seconds it took, sizes and times of the files that it refers to, and its
+document. A line that is torn or damaged counts as none; of two with one path the later counts.
 """
 
 from __future__ import annotations
@@ -24,13 +24,16 @@ _BEYOND = {"timeout": "seconds", "memory": "memory"}  # statuses that a higher l
 
 @dataclass(frozen=True)
 class Entry:
-    """One file's line without its document. offset, length: where the line is."""
+    """One file's line without its document. refers: whether the file refers to others. offset, length: where the line
+    is.
+    """
 
     key: dict[str, Any]
     status: str
     attempts: int
     seconds: float
     limits: dict[str, Any]
+    refers: bool
     offset: int
     length: int
 
@@ -62,9 +65,18 @@ class Journal:
         self._synced = time.monotonic()
 
     def append(
-        self, key: dict[str, Any], status: str, attempts: int, seconds: float, limits: dict[str, Any], document: bytes
+        self,
+        key: dict[str, Any],
+        status: str,
+        attempts: int,
+        seconds: float,
+        limits: dict[str, Any],
+        document: bytes,
+        reads: dict[str, Any] | None = None,
     ) -> None:
-        """A line of a file that has ended. document: as JSON on one line. Raises OSError."""
+        """A line of a file that has ended. document: as JSON on one line. reads: the files that it refers to, each with
+        its `state`. Raises OSError.
+        """
         head = {
             "schema": SCHEMA,
             "key": key,
@@ -72,6 +84,7 @@ class Journal:
             "attempts": attempts,
             "seconds": round(seconds, 6),
             "limits": limits,
+            "reads": reads or {},
         }
         line = json.dumps(head)[:-1].encode() + b', "document": ' + document.strip() + b"}\n"
         offset = self._file.seek(0, os.SEEK_END)
@@ -80,16 +93,24 @@ class Journal:
             self._torn = False
         self._file.write(line)
         self._file.flush()
-        self.entries[key["path"]] = Entry(key, status, attempts, seconds, limits, offset, len(line))
+        self.entries[key["path"]] = Entry(key, status, attempts, seconds, limits, bool(reads), offset, len(line))
         if time.monotonic() > self._synced + _SYNC:
             os.fsync(self._file.fileno())
             self._synced = time.monotonic()
 
     def document(self, path: str) -> dict[str, Any]:
         """The document of a file that is recorded. Raises OSError."""
+        return self._line(path)["document"]
+
+    def is_current(self, path: str) -> bool:
+        """Whether what a recorded file refers to is as it was. Raises OSError."""
+        reads = self._line(path)["reads"] if self.entries[path].refers else {}
+        return all(state(name) == before for name, before in reads.items())
+
+    def _line(self, path: str) -> dict[str, Any]:
         entry = self.entries[path]
         self._file.seek(entry.offset)
-        return json.loads(self._file.read(entry.length))["document"]
+        return json.loads(self._file.read(entry.length))
 
     def __enter__(self) -> Journal:
         return self
@@ -98,6 +119,15 @@ class Journal:
         """Wait for the disk, and let go of the file. Raises OSError."""
         os.fsync(self._file.fileno())
         self._file.close()
+
+
+def state(path: str) -> dict[str, int | None]:
+    """Size and time of the last change of a file, by which it is known again; None of what is not there."""
+    try:
+        status = os.stat(path)
+    except (OSError, ValueError):
+        return {"size": None, "mtime_ns": None}
+    return {"size": status.st_size, "mtime_ns": status.st_mtime_ns}
 
 
 def is_journal(path: Path) -> bool:
@@ -129,6 +159,7 @@ def _entry(line: bytes, offset: int) -> Entry | None:
             int(record["attempts"]),
             float(record["seconds"]),
             dict(record["limits"]),
+            bool(record.get("reads")),
             offset,
             len(line),
         )

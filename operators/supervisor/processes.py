@@ -9,9 +9,12 @@ import os
 import signal
 import subprocess
 import sys
+import time
 from collections.abc import Sequence
 from contextlib import suppress
 from pathlib import Path
+
+from . import windows
 
 _WINDOWS = os.name == "nt"
 _END = 5.0  # seconds that a killed process may take to be gone
@@ -76,9 +79,10 @@ def kill(processes: Sequence[subprocess.Popen[bytes]], *, gently: bool = False) 
     if gently and not _WINDOWS:
         for process in processes:
             _signal(process, signal.SIGTERM)
+        grace = time.monotonic() + _GRACE  # for all of them together
         for process in processes:
             with suppress(subprocess.TimeoutExpired):
-                process.wait(_GRACE)
+                process.wait(max(0.0, grace - time.monotonic()))
     for process in processes:
         if _WINDOWS:
             with suppress(OSError):
@@ -111,6 +115,8 @@ def memory_of(pid: int) -> int | None:
     """The bytes of memory that a process takes for itself, without the files that it has mapped; None where that is not
     known.
     """
+    if _WINDOWS:
+        return windows.memory_of(pid)
     try:
         with open("/proc/{}/status".format(pid), "rb") as file:
             status = file.read()
@@ -124,21 +130,19 @@ def memory_of(pid: int) -> int | None:
 
 
 def _memory_by_tool(pid: int) -> int | None:
-    """As the system's own tool says it: all that is resident."""
-    words = (
-        ["tasklist", "/fo", "csv", "/nh", "/fi", "PID eq {}".format(pid)] if _WINDOWS else ["ps", "-o", "rss=", "-p"]
-    )
-    words += [] if _WINDOWS else [str(pid)]
+    """All that is resident, as the tool says it that macOS and BSD have."""
+    words = ["ps", "-o", "rss=", "-p", str(pid)]
     try:
         answer = subprocess.run(words, capture_output=True, timeout=5, check=True, stdin=subprocess.DEVNULL).stdout
-    except (OSError, subprocess.SubprocessError):
+        return 1024 * int(answer)
+    except (OSError, ValueError, subprocess.SubprocessError):
         return None
-    digits = bytes(byte for byte in (answer.rsplit(b'","', 1)[-1] if _WINDOWS else answer) if 48 <= byte < 58)
-    return 1024 * int(digits) if digits else None
 
 
 def memory_of_machine() -> int | None:
     """Bytes of physical memory, None where that is not known."""
+    if _WINDOWS:
+        return windows.memory_of_machine()
     try:
         return os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
     except (AttributeError, ValueError, OSError):

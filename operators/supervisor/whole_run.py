@@ -5,8 +5,10 @@
 from __future__ import annotations
 
 import os
+import signal
 import subprocess
 from collections.abc import Sequence
+from contextlib import suppress
 from pathlib import Path
 
 from . import processes
@@ -29,7 +31,8 @@ class WholeRun:
         self._kept: int | None = None  # as long as it is open, the run goes on
         nowhere = dict.fromkeys(("stdin", "stdout", "stderr"), subprocess.DEVNULL)
         if not BY_SIGNAL:
-            self._process = subprocess.Popen(command, **nowhere)
+            flags = getattr(subprocess, "CREATE_NEW_PROCESS_GROUP", 0)  # on Windows it can be asked to end then
+            self._process = subprocess.Popen(command, creationflags=flags, **nowhere)
             return
         watched, self._kept = os.pipe()
         try:
@@ -58,7 +61,8 @@ class WholeRun:
     def stop(self) -> None:
         """End it, and its children with it. What it has measured stays in its journal."""
         if self._process.poll() is None:
-            self._process.terminate()
+            with suppress(OSError):
+                self._process.send_signal(getattr(signal, "CTRL_BREAK_EVENT", signal.SIGTERM))
             try:
                 self._process.wait(_STOP)
             except subprocess.TimeoutExpired:

@@ -1216,6 +1216,10 @@ MESSAGES: dict[str, Message] = {
     "hard_link_severed": _warning(
         "The file had {count} names (hard links); only “{file}” has the results, the others keep the earlier content."
     ),
+    "assets_not_measured": _warning(
+        "Assets without numbers in their metadata, because they are not rendered, or not in the scene as an object or "
+        "collection: {names}. --all measures what is not rendered."
+    ),
     "result_foreign_file": _error("{path} is not a result of body_moments and would be lost"),
     "file_is_folder": _error("A folder, not a file. Name the files in it."),
     "file_type": _error("Unsupported file type. Supported: {suffixes}."),

@@ -35,6 +35,7 @@ REFUSED = NETWORK | {
 REFUSED_NAMES = {"eval", "exec", "compile", "__import__", "bl_info"}
 # The supervisor alone starts processes, Blender with this add-on, so that no file can end the run over all of them.
 STARTS_PROCESSES = {"operators/supervisor/" + name for name in ("processes.py", "pool.py", "whole_run.py")}
+ASKS_WINDOWS = {"operators/supervisor/windows.py"}
 ALLOWED = (set(sys.stdlib_module_names) - REFUSED) | BLENDER | {"numpy"}
 
 
@@ -66,7 +67,11 @@ def test_only_what_blender_brings_is_imported():
             "{} imports {}".format(place, package)
             for file, node, place in nodes()
             for package in imported(node)
-            if (package not in ALLOWED and not (package == "subprocess" and file in STARTS_PROCESSES))
+            if (
+                package not in ALLOWED
+                and not (package == "subprocess" and file in STARTS_PROCESSES)
+                and not (package == "ctypes" and file in ASKS_WINDOWS)
+            )
             or (file.startswith("core/") and package in BLENDER)
         ]
     )

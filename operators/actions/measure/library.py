@@ -53,7 +53,7 @@ class OBJECT_OT_body_moments_measure_library(ModalSteps, Operator):
     source: EnumProperty(name="Measure", description="Folder or asset library to measure", items=_sources)
     asset_metadata: BoolProperty(
         name="Write Asset Metadata",
-        description="Write mass, volume and center into the metadata of the objects that are assets",
+        description="Write mass, volume and center into the metadata of the objects and collections that are assets",
         default=False,
     )
     overwrite: BoolProperty(

@@ -370,8 +370,8 @@ TEXTS = {
     ),
     "Folder with the files to measure": "Ordner mit den zu messenden Dateien",
     "Folder or asset library to measure": "Zu messender Ordner oder zu messende Asset-Bibliothek",
-    "Write mass, volume and center into the metadata of the objects that are assets": (
-        "Masse, Volumen und Mittelpunkt in die Metadaten der Objekte schreiben, die Assets sind"
+    "Write mass, volume and center into the metadata of the objects and collections that are assets": (
+        "Masse, Volumen und Mittelpunkt in die Metadaten der Objekte und Sammlungen schreiben, die Assets sind"
     ),
     "Save the metadata in the asset files themselves instead of in copies beside them": (
         "Die Metadaten in den Asset-Dateien selbst speichern statt in Kopien daneben"

@@ -7,6 +7,7 @@ import os
 import shutil
 import subprocess
 import sys
+import tempfile
 from pathlib import Path
 
 import numpy as np
@@ -14,7 +15,9 @@ import pytest
 
 pytest.importorskip("bpy")
 
+from tests.blender.command import slurm_controller
 from tests.blender.command.test_process import BLENDER, ROOT, SCRIPT, in_blender, process, script
+from tests.soak import commands
 
 ENGINES = ROOT / "docs" / "engines"
 OPENJD = shutil.which("openjd", path=os.pathsep.join([str(Path(sys.executable).parent), os.environ.get("PATH", "")]))
@@ -81,6 +84,61 @@ def test_the_tasks_of_a_slurm_array(job):
     assert b"0 files in" in ended.stderr
     parts = [job / "results" / "part-{}.jsonl".format(number) for number in range(3)]
     assert script("merge", *parts, "--output", job / "results" / "all.jsonl").returncode == 0
+    check(job)
+
+
+@pytest.fixture
+def slurm():
+    """The environment of a Slurm that takes jobs."""
+    missing = [name for name, path in slurm_controller.PROGRAMS.items() if path is None]
+    if missing:
+        pytest.skip("no Slurm: " + ", ".join(missing))
+    with tempfile.TemporaryDirectory(prefix="slurm_") as name:  # a socket's name must be short
+        try:
+            with slurm_controller.slurm(Path(name)) as environment:
+                yield environment
+        except slurm_controller.NotStarted as error:
+            pytest.skip("no Slurm: its controller does not start here: {}".format(error))
+
+
+@in_blender
+def test_an_array_under_a_controller_of_slurm(job, slurm):
+    """As the script's own head says it; the task at work on a file that takes long is requeued by the controller."""
+    listed = [json.loads(line) for line in (job / "list").read_text().splitlines()]
+    slow = job / "files" / "slow_2048x2048x2048_uint8.raw"
+    slow.touch()
+    os.truncate(slow, 1 << 33)
+    listed[0]["files"] += 1
+    with open(job / "list", "w") as file:
+        file.writelines(json.dumps(line) + "\n" for line in [*listed, {"path": str(slow)}])
+    log = job / "log-%a"
+    environment_of_job = slurm | environment(job)
+    submit = ("sbatch", "--parsable", "--requeue", "--array=0-2", "--output", log, "--open-mode=append")
+    number = slurm_controller.asked(environment_of_job, *submit, ENGINES / "body_moments.slurm.sh")
+    assert number.isdigit(), number
+    joins = ENGINES.joinpath("body_moments.slurm.sh").read_text().split("--wrap")[1].split("'")[1]
+    joins = joins.replace("python3", '"$PYTHON"')
+    words = ("sbatch", "--parsable", "--dependency=afterok:" + number, "--output", job / "log-merge", "--wrap", joins)
+    merge = slurm_controller.asked(environment_of_job, *words)
+    assert merge.isdigit(), merge
+
+    def state(task):
+        return slurm_controller.asked(slurm, "squeue", "-h", "-t", "all", "-j", task, "-o", "%T").split("\n")[0]
+
+    journal = job / "results" / "part-2.jsonl.journal"
+    assert commands.wait_until(lambda: journal.exists() and journal.read_bytes().count(b"\n") == 1, 120.0)
+    slow.unlink()  # the next time it is missing, which is a record
+    slurm_controller.asked(slurm, "scontrol", "requeue", number + "_2")
+    now = ("scontrol", "update", "JobId=" + number + "_2", "StartTime=now")  # not after Slurm's two minutes
+    commands.wait_until(lambda: state(number + "_2") == "PENDING", 60.0)
+    slurm_controller.asked(slurm, *now)
+    assert commands.wait_until(lambda: state(merge) in ("COMPLETED", "FAILED"), 300.0), state(merge)
+    told = (job / "log-2").read_text()
+    assert state(merge) == "COMPLETED", (told, (job / "log-merge").read_text())
+    assert "1 file in" in told, told  # what the first run had measured is not measured again
+    everything = [json.loads(line) for line in (job / "results" / "all.jsonl").read_text().splitlines()]
+    assert everything.pop()["status"] == "missing"
+    (job / "results" / "all.jsonl").write_text("".join(json.dumps(line) + "\n" for line in everything))
     check(job)
 
 

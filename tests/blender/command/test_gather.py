@@ -92,6 +92,59 @@ def test_results_that_differ_by_less_than_their_bounds_are_the_same(main, tmp_pa
     assert main("compare", first)[0] == 2
 
 
+def test_every_number_is_compared(main, tmp_path):
+    """Of objects, assemblies and bones: moments, tensors about a point, density. A change of any of them is found."""
+    files.add_box("Box", (1.0, 2.0, 3.0))
+    whole = document("--order", "2", "--surface-moments", "--about", "0.5,0,0", "--pose")
+    whole["assemblies"] = [{**whole["objects"][0], "name": "All"}]
+    whole["bones"] = [{**whole["objects"][0], "name": "Arm", "armature": "Rig"}]
+    first = result(tmp_path / "a", whole)
+    code, out, _ = main("compare", first, first)
+    assert code == 0 and out == "3 bodies compared, 0 differences beyond what is allowed\n"
+
+    def change(body, *path):
+        changed = json.loads(first.read_text())
+        place = changed[body][0]
+        for key in path[:-1]:
+            place = place[key]
+        place[path[-1]] *= 1.01
+        return main("compare", first, result(tmp_path / "b", changed))
+
+    for path, name in {
+        ("density",): "density",
+        ("moments", "volume", "1,0,0"): "moments.volume[1,0,0]",
+        ("moments", "mass", "0,0,2"): "moments.mass[0,0,2]",
+        ("moments", "surface", "0,1,0"): "moments.surface[0,1,0]",
+        ("inertia_about", "inertia", 0, 1): "inertia_about[xy]",
+        ("inertia", 2, 2): "inertia[zz]",
+        ("principal_moments", 1): "principal_moments[2]",
+    }.items():
+        code, out, _ = change("objects", *path)
+        assert code == 1 and out.count("FAIL") == 1 and "FAIL  : Box: " + name in out.replace("None", ""), out
+    for body, name in (("assemblies", "assembly All"), ("bones", "bone Arm of Rig")):
+        code, out, _ = change(body, "mass")
+        assert code == 1 and out.count("FAIL") == 1 and name + ": mass" in out
+    gone = json.loads(first.read_text())
+    del gone["objects"][0]["moments"]["mass"]
+    assert main("compare", first, result(tmp_path / "b", gone))[0] == 1
+    assert main("compare", result(tmp_path / "b", gone), first)[0] == 1
+
+
+def test_a_point_that_moved_by_as_much_as_a_center_is_uncertain(main, tmp_path):
+    """The bound of a tensor about a point holds what the center's bound makes of it: from both sides."""
+    files.add_box("Box", (1000.0, 0.0, 0.0))
+    first = document("--about", "world", "--density", "1")
+    entry = json.loads(json.dumps(first["objects"][0]))
+    about, bounds = entry["inertia_about"]["inertia"], entry["error_bound"]
+    bound = bounds["center_of_mass"] + bounds["input"]["center_of_mass"]
+    share = (bounds["volume"] + bounds["input"]["volume"]) / entry["volume"]
+    allowed = 2.0 * (2.0 * 6.0 * 1000.0 * bound + 6.0 * share * 1e6 + bounds["inertia"] + bounds["input"]["inertia"])
+    for factor, code in ((0.9, 0), (1.1, 1)):
+        about[1][1] = first["objects"][0]["inertia_about"]["inertia"][1][1] + factor * allowed
+        words = (result(tmp_path / "a", first), result(tmp_path / "b", {**first, "objects": [entry]}))
+        assert main("compare", *words)[0] == code
+
+
 def page(tmp_path):
     files.add_box(HOSTILE)
     found = [document("--thumbnails"), failed(HOSTILE + ".stl"), failed("b.stl", "timeout")]

@@ -290,3 +290,50 @@ def test_a_closed_pipe_of_the_supervisor_ends_its_child(tmp_path):
     assert child.wait(60) in (-signal.SIGIO, 0)
     child.stdin.close()
     child.stdout.close()
+
+
+def test_what_a_file_refers_to_is_looked_at_when_resuming(tmp_path):
+    """A library linked by way of another, the buffer of a glTF, the samples of a detached NRRD."""
+    files.empty_scene()
+    files.add_box("Box")
+    files.save(tmp_path / "inner.blend")
+    files.empty_scene()
+    with bpy.data.libraries.load(str(tmp_path / "inner.blend"), link=True) as (_, into):
+        into.meshes = ["Box"]
+    bpy.context.collection.objects.link(bpy.data.objects.new("Outer", bpy.data.meshes["Box"]))
+    files.save(tmp_path / "outer.blend")
+    files.empty_scene()
+    with bpy.data.libraries.load(str(tmp_path / "outer.blend"), link=True) as (_, into):
+        into.objects = ["Outer"]
+    bpy.context.collection.objects.link(bpy.data.objects["Outer"])
+    files.save(tmp_path / "main.blend")
+    files.empty_scene()
+    files.add_box("Box")
+    files.save(tmp_path / "part.gltf")
+    header = "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 2 2 2\nencoding: raw\ndata file: samples.bin\n"
+    (tmp_path / "scan.nhdr").write_text(header)
+    (tmp_path / "samples.bin").write_bytes(bytes([1] * 8))
+    (tmp_path / "broken.gltf").write_text((tmp_path / "part.gltf").read_text().replace("part.bin", "absent.bin"))
+    out = tmp_path / "out.jsonl"
+    named = [tmp_path / name for name in ("main.blend", "part.gltf", "scan.nhdr", "broken.gltf")]
+    words = ("measure", *named, "--jobs", "1", "--format", "jsonl", "--output", out)
+    assert script(*words).returncode == 1
+    assert [one["status"] for one in lines(out)] == ["ok", "ok", "ok", "error"]
+
+    def measured_again():
+        ended = script(*words, "--resume")
+        return ended.stderr.decode().rpartition(" file")[0].split()[-1], [one["status"] for one in lines(out)]
+
+    assert measured_again()[0] == "0"
+    files.empty_scene()
+    files.add_box("Box", size=(2.0, 2.0, 2.0))
+    files.save(tmp_path / "inner.blend")
+    (tmp_path / "samples.bin").write_bytes(bytes([3] * 8))
+    os.utime(tmp_path / "samples.bin", ns=(1, 1))
+    shutil.copy(tmp_path / "part.bin", tmp_path / "absent.bin")
+    assert measured_again() == ("3", ["ok"] * 4)
+    assert lines(out)[0]["objects"][0]["volume"] == pytest.approx(8.0) and lines(out)[2]["objects"][0]["mass"] == 24.0
+    (tmp_path / "part.bin").unlink()
+    (tmp_path / "inner.blend").unlink()
+    assert measured_again() == ("2", ["error", "error", "ok", "ok"])
+    assert measured_again()[0] == "0"

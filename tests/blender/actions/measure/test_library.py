@@ -83,6 +83,35 @@ def test_a_run_ends_with_the_process_that_started_it(tmp_path):
     assert commands.wait_until(lambda: not any(map(commands.is_running, born)), 20.0)
 
 
+def test_metadata_of_collections_and_a_word_about_assets_without(library, reported):
+    """A collection is its members' sum, in the frame of the scene; lamps alone have no mass."""
+    files.empty_scene()
+    collections = {name: bpy.data.collections.new(name) for name in ("Pair", "Lamps", "Hidden")}
+    for one in collections.values():
+        bpy.context.scene.collection.children.link(one)
+        one.asset_mark()
+    for place in (0.0, 4.0):
+        box = files.add_box("Box", center=(place, 0.0, 0.0))
+        bpy.context.scene.collection.objects.unlink(box)
+        collections["Pair"].objects.link(box)
+    collections["Lamps"].objects.link(bpy.data.objects.new("Lamp", bpy.data.lights.new("Lamp", "SUN")))
+    hidden = bpy.data.objects.new("Hidden", box.data.copy())
+    hidden.hide_render = True
+    collections["Hidden"].objects.link(hidden)
+    loose = bpy.data.objects.new("Loose", box.data)
+    loose.asset_mark()
+    files.save(library / "a.blend")
+    assert measure(library, asset_metadata=True) == {"FINISHED"}
+    document = json.loads((library / "body_moments.jsonl").read_text(encoding="utf-8").splitlines()[0])
+    assert document["status"] == "ok" and [one["name"] for one in document["assemblies"]] == ["Pair"]
+    (told,) = (one for one in document["total"]["findings"] if one["code"] == "assets_not_measured")
+    assert told["values"]["names"] == ["Hidden", "Loose"]
+    bpy.ops.wm.open_mainfile(filepath=str(library / "a.body_moments.blend"))
+    data = bpy.data.collections["Pair"].asset_data
+    assert close(data["body_mass"], 12000.0, 1e-6) and close(data["body_center_of_mass"][0], 2.0, 1e-6)
+    assert not any("body_mass" in bpy.data.collections[name].asset_data for name in ("Lamps", "Hidden"))
+
+
 def test_an_empty_folder_is_refused(tmp_path, reported):
     with pytest.raises(RuntimeError, match="No file that can be measured"):
         measure(tmp_path)
