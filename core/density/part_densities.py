@@ -20,12 +20,15 @@ from ..solid.parts import ClosedParts
 class PartDensities:
     """density: (number,) of each part. has_several_materials: (number,) whether its own faces differ;
     has_foreign_cavity_material: (number,) cavities with faces of other densities than what they are cut from.
-    first_face: (number,) a part's first mesh face, -1 for none."""
+    first_face: (number,) a part's first mesh face, -1 for none. range_by_area, most_by_area: (number,) how far its
+    faces' densities are apart, and the largest of them, times its area."""
 
     density: NDArray[np.float64]
     has_several_materials: NDArray[np.bool_]
     has_foreign_cavity_material: NDArray[np.bool_]
     first_face: NDArray[np.integer]
+    range_by_area: NDArray[np.float64]
+    most_by_area: NDArray[np.float64]
 
 
 def part_densities(parts: ClosedParts, faces: NDArray[np.float64], linear: NDArray | None = None) -> PartDensities:
@@ -47,6 +50,12 @@ def part_densities(parts: ClosedParts, faces: NDArray[np.float64], linear: NDArr
     of_mesh = np.where(there, np.where(differs, np.clip(mean, least, most), least), 0.0)
     cavity = parts.host_part != np.arange(parts.number)
     density = of_mesh[parts.host_part]
+    least, most = np.where(there, least, 0.0), np.where(there, most, 0.0)
     return PartDensities(
-        density, differs & ~cavity, cavity & there & (differs | (of_mesh != density)), np.where(there, first, -1)
+        density,
+        differs & ~cavity,
+        cavity & there & (differs | (of_mesh != density)),
+        np.where(there, first, -1),
+        (most - least) * total,
+        most * total,
     )

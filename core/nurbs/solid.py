@@ -183,7 +183,7 @@ def assess(
     if is_open and volume.total < 0.0:
         volume = replace(volume, raw=-volume.raw)
     volume, area = _with_input_errors(volume, area, slope, topology, stored, size)
-    misoriented = _misoriented_count(topology)
+    misoriented = len(_misoriented(topology))
     further = list(findings)
     if not all(settled for *_, settled, _ in turned_parts):
         further.append(finding("volume_error_estimate_large"))
@@ -197,7 +197,13 @@ def assess(
         _health(topology, verdict, area.total),
         _method(is_open, verdict, misoriented),
         (
-            *_orientation_findings(topology, misoriented, verdict.flipped),
+            *_orientation_findings(
+                topology,
+                misoriented,
+                verdict.flipped,
+                slight_patches=_are_slight([[patches[k]] for k in _misoriented(topology)], size, volume.total),
+                slight_parts=_are_slight([parts[k] for k in np.flatnonzero(verdict.flipped)], size, volume.total),
+            ),
             *_closing_findings(topology, verdict.solid, area.total, volume.total, size),
             *_component_findings(verdict.comparison, size),
             *further,
@@ -400,21 +406,32 @@ def _sagitta(grid: NDArray, each: int) -> float:
     return float(bend.max())
 
 
-def _misoriented_count(topology: PatchTopology) -> int:
-    """How many patches face against the rest of their part: the fewer of both kinds in each."""
+def _misoriented(topology: PatchTopology) -> NDArray[np.intp]:
+    """The patches that face against the rest of their part: the fewer of both kinds in each."""
     flipped = np.bincount(topology.component, topology.flipped, topology.number)
-    return int(np.minimum(flipped, np.bincount(topology.component, minlength=topology.number) - flipped).sum())
+    are_most = 2 * flipped > np.bincount(topology.component, minlength=topology.number)
+    return np.flatnonzero(topology.flipped != are_most[topology.component])
 
 
-def _orientation_findings(closure: PatchTopology, mixed: int, turn: NDArray[np.bool_]) -> list[Finding]:
+def _are_slight(groups: Sequence[Sequence[Patch]], size: float, volume: float) -> bool:
+    """Whether patches are too small to matter, however they are decided about: as `_is_slight` of meshes, with the box
+    around the control points of each group, whose faces have at most twice the square of its diagonal, as their area.
+    """
+    return 2.0 * sum(patches_size(patches) ** 2 for patches in groups) * size < NEGLIGIBLE * volume
+
+
+def _orientation_findings(
+    closure: PatchTopology, mixed: int, turn: NDArray[np.bool_], *, slight_patches: bool, slight_parts: bool
+) -> list[Finding]:
     """About patches, and whole parts, that were turned. mixed: patches that face against the rest of their part."""
     findings = []
     if mixed:
-        findings.append(finding("flipped_patches", count=mixed))
+        findings.append(finding("flipped_patches_slightly" if slight_patches else "flipped_patches", count=mixed))
         if closure.non_manifold_sides:
             findings.append(finding("ambiguous_patch_sides", count=int(closure.non_manifold_sides)))
     if turn.any():
-        findings.append(finding("inverted_patch_components", count=int(turn.sum()), total=int(closure.number)))
+        code = "inverted_patch_components_slightly" if slight_parts else "inverted_patch_components"
+        findings.append(finding(code, count=int(turn.sum()), total=int(closure.number)))
     return findings
 
 

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..mesh.bvh import sort_components
-from ..verdict.tolerances import CLOSED_SHEET_VOLUME_RTOL, WELDING_RTOL
+from ..verdict.tolerances import CLOSED_SHEET_VOLUME_RTOL, NEGLIGIBLE, WELDING_RTOL
 from .judgement import SolidIntegrals
 from .nesting import classify_pairs
 
@@ -31,11 +31,15 @@ class PlaceComparison:
         with another one; once for each place.
     undecided_pairs : int
         Pairs that would have been too much work.
+    nested_slightly, overlapping_slightly : bool
+        Whether these components, and the smaller ones of these pairs, are too small to matter, wherever they are.
     """
 
     nested: NDArray[np.intp]
     overlapping: NDArray[np.intp]
     undecided_pairs: int
+    nested_slightly: bool
+    overlapping_slightly: bool
 
 
 def compare_places(solids: Sequence[tuple[SolidIntegrals, NDArray[np.float64]]]) -> PlaceComparison:
@@ -88,6 +92,13 @@ def compare_places(solids: Sequence[tuple[SolidIntegrals, NDArray[np.float64]]])
     surrounds = np.bincount(pair.ravel(), np.sign(components.volume[outer]), minlength=len(key)) > 0.0
     nested = np.unique((key // places)[surrounds])
     nested = nested[components.volume[nested] > 0.0]
-    crossing = relations.intersecting
-    crossing = np.unique(crossing[place[crossing[:, 0]] != place[crossing[:, 1]]])
-    return PlaceComparison(owner[nested], owner[crossing], relations.undecided_pairs)
+    pairs = relations.intersecting
+    pairs = pairs[place[pairs[:, 0]] != place[pairs[:, 1]]]
+    negligible = NEGLIGIBLE * components.volume.sum() / size
+    return PlaceComparison(
+        owner[nested],
+        owner[np.unique(pairs)],
+        relations.undecided_pairs,
+        bool(components.area[nested].sum() < negligible),
+        bool(components.area[pairs].min(axis=1).sum() < negligible),
+    )

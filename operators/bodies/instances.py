@@ -64,14 +64,19 @@ def _identity(result: Finding) -> tuple[Finding, object]:
 def overlap_findings(reading: Reading, solids: Sequence[SolidIntegrals], comparison: PlaceComparison) -> list[Finding]:
     """What is reported of places that have something in common: faces as [face, source], each once."""
     findings = []
-    for code, components in (("components_nested", comparison.nested), ("components_overlap", comparison.overlapping)):
+    for code, components, slight in (
+        ("components_nested_slightly", comparison.nested, comparison.nested_slightly),
+        ("components_overlap_slightly", comparison.overlapping, comparison.overlapping_slightly),
+    ):
         if len(components):
             elements = []
             for which in np.unique(components[:, 0]):
                 parts, name = solids[which].parts(), reading.parts[which].source_object_name or reading.name
                 of_these = np.isin(parts.part, components[components[:, 0] == which, 1]) & (parts.face >= 0)
                 elements += [[face, name] for face in np.unique(parts.face[of_these]).tolist()]
-            findings.append(finding(code, elements, count=len(components)))
+            findings.append(
+                finding(code if slight else code.removesuffix("_slightly"), elements, count=len(components))
+            )
     if comparison.undecided_pairs:
         findings.append(finding("overlap_unchecked", count=comparison.undecided_pairs))
     return findings
@@ -87,14 +92,25 @@ def with_overlaps(health: MeshReport, comparison: PlaceComparison) -> MeshReport
 
 
 def instances_overlap(reading: Reading) -> bool:
-    """Whether the boxes around any two of the places where parts stand share more than a rim."""
+    """Whether the boxes around any two of the places where parts stand share more than a boundary."""
+    return boxes_overlap(*_boxes(reading))
+
+
+def instances_size(reading: Reading) -> float:
+    """The diagonal of the box around all places, in Blender units."""
+    centers, extents = _boxes(reading)
+    return float(np.linalg.norm((centers + extents).max(axis=0) - (centers - extents).min(axis=0)))
+
+
+def _boxes(reading: Reading) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """(k, 3) and (k, 3) the middles of the boxes around the places where parts stand, and half their sides."""
     centers, extents = [], []
     for part in reading.parts:
         low, high = part.surface.box
         linear = part.matrices[:, :3, :3]
         centers.append(linear @ ((low + high) / 2.0) + part.matrices[:, :3, 3])
         extents.append(np.abs(linear) @ ((high - low) / 2.0))
-    return boxes_overlap(np.concatenate(centers), np.concatenate(extents))
+    return np.concatenate(centers), np.concatenate(extents)
 
 
 def area_of_instances(

@@ -25,6 +25,7 @@ from ...core.solid.measure_solid import SolidIntegrals
 from ...core.solid.parts import ClosedParts
 from ...core.verdict.finding import Finding, ReadError, finding, truncate_findings
 from ...core.verdict.method import Verdict
+from ...core.verdict.tolerances import NEGLIGIBLE
 from ..read import Reading
 from ..read.reading import FaceAttributes, said_of, to_si
 from ..settings.density import DensityField, material_density
@@ -245,19 +246,21 @@ def _solid_moments(
     volume moments, to the order that is wanted. values, names: of its mesh faces."""
     components = solid.parts()
     moments, findings = [], []
-    has_foreign_material = False
+    has_foreign_material = is_slight = False
     mixed = bool(part_densities(components, values).has_several_materials.any())
     # a mean by area is that of the areas as they are seen
     for matrix_group in _similarity_groups(matrices) if mixed else [matrices]:
         part_density = part_densities(components, values, matrix_group[0, :3, :3])
         density = part_density.density[components.part]
-        moments.append(
-            sum_of_images(solid_mass_moments(components.points, components.triangles, density, volume), matrix_group)
-        )
-        findings += _mixed_parts_notes(components, part_density, names)
-        has_foreign_material = bool(part_density.has_foreign_cavity_material.any())
+        mass = solid_mass_moments(components.points, components.triangles, density, volume)
+        moments.append(sum_of_images(mass, matrix_group))
+        negligible = NEGLIGIBLE * float(mass.total) / float(np.linalg.norm(np.ptp(components.points, axis=0)))
+        findings += _mixed_parts_notes(components, part_density, names, negligible)
+        foreign = part_density.has_foreign_cavity_material
+        has_foreign_material = bool(foreign.any())
+        is_slight = bool(part_density.most_by_area[foreign].sum() < negligible)
     if has_foreign_material:
-        findings.append(finding("cavity_material_ignored"))
+        findings.append(finding("cavity_material_ignored_slightly" if is_slight else "cavity_material_ignored"))
     return moments, findings, mixed
 
 
@@ -271,12 +274,17 @@ def _similarity_groups(matrices: NDArray) -> Iterator[NDArray]:
         yield rest[members]
 
 
-def _mixed_parts_notes(parts: ClosedParts, part_density: PartDensities, names: NDArray) -> list[Finding]:
-    """A finding about components whose faces have several materials, about the first face of each."""
+def _mixed_parts_notes(
+    parts: ClosedParts, part_density: PartDensities, names: NDArray, negligible: float
+) -> list[Finding]:
+    """A finding about components whose faces have several materials, about the first face of each. negligible: density
+    times area that does not matter, wherever in the body it is."""
     which = np.flatnonzero(part_density.has_several_materials)
     if not len(which):
         return []
     first = np.sort(part_density.first_face[which])
+    if part_density.range_by_area[which].sum() < negligible:
+        return [finding("mixed_materials_slightly", first, count=len(which), total=parts.number)]
     if len(which) > 1:
         return [finding("mixed_material_components", first, count=len(which), total=parts.number)]
     component = int(which[0])

@@ -10,7 +10,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.mesh.surface import Surface, join_surfaces
+from ...core.mesh.surface import Surface, join_surfaces, normals
 from ...core.moments.affine_maps import are_similarities
 from ...core.moments.images import sum_of_images
 from ...core.moments.moments import Moments, sum_moments
@@ -20,6 +20,7 @@ from ...core.solid.places import compare_places
 from ...core.verdict.finding import Finding, ReadError, finding
 from ...core.verdict.health import MeshReport
 from ...core.verdict.method import Method, Verdict, least_trusted
+from ...core.verdict.tolerances import NEGLIGIBLE
 from ..read import Part, Reading, shows_flat_region
 from ..read.reading import to_si
 from ..read.union import union_surface
@@ -28,6 +29,7 @@ from .instances import (
     area_of_instances,
     findings_by_part,
     instances_overlap,
+    instances_size,
     merge_health,
     not_compared,
     overlap_findings,
@@ -128,7 +130,10 @@ def _sum_of_instances(reading: Reading, unit: float, shell: bool, threads: int) 
             findings.append(not_compared(reading))
     of_solids = [verdict for verdict in verdicts if verdict]
     if of_solids and len(of_solids) < len(verdicts):
-        findings.append(finding("flat_instance_sources", count=verdicts.count(None), total=len(verdicts)))
+        flat_area = sum([area for (_, _, area), verdict in zip(healths, verdicts) if verdict is None])
+        slight = flat_area * unit * instances_size(reading) < NEGLIGIBLE * float(sum_moments(volumes).total)
+        code = "flat_instance_sources_slightly" if slight else "flat_instance_sources"
+        findings.append(finding(code, count=verdicts.count(None), total=len(verdicts)))
     return MeshBody(
         sum_moments(volumes),
         sum_moments(areas),
@@ -148,8 +153,16 @@ def _part_findings(part: Part, solid: SolidIntegrals, shell: bool, flat: bool, d
     """What is reported of one surface. A sheet is measured as it is."""
     if shell:
         copies = solid.health.defective_elements.duplicate_faces
-        return [finding("duplicate_faces_of_shell", copies, count=len(copies))] if len(copies) else []
+        return [_copies_of_shell(part.surface, copies)] if len(copies) else []
     return [] if flat else _of_drawn(solid.findings, [part], drawn)
+
+
+def _copies_of_shell(surface: Surface, copies: NDArray[np.integer]) -> Finding:
+    triangles, faces = surface.all_triangles()
+    area = np.linalg.norm(normals(surface.points.astype(np.float64), triangles), axis=1)
+    slight = area[np.isin(faces, copies)].sum() < NEGLIGIBLE * area.sum()
+    code = "duplicate_faces_of_shell_slightly" if slight else "duplicate_faces_of_shell"
+    return finding(code, copies, count=len(copies))
 
 
 def _area(threads: int) -> Callable[[Surface], Moments]:

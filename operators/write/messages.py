@@ -296,6 +296,9 @@ MESSAGES: dict[str, Message] = {
         "{count} duplicate face counts as material. Delete it.",
         "{count} duplicate faces count as material. Delete them.",
     ),
+    "duplicate_faces_of_shell_slightly": _note(
+        "{count} duplicate face counts as material.", "{count} duplicate faces count as material."
+    ),
     # ------------------------------------------------------------------ Union
     "union_by_boolean": _note("Overlapping components were united by Blender's exact Boolean, accurate to 7 digits."),
     "union_failed": _error(
@@ -323,7 +326,7 @@ MESSAGES: dict[str, Message] = {
         "{count} instance is flattened by a zero scale and encloses nothing.",
         "{count} instances are flattened by a zero scale and enclose nothing.",
     ),
-    "instances_vanished": _warning(
+    "instances_vanished": _note(
         "Left out: {count} instance scaled to zero.", "Left out: {count} instances scaled to zero."
     ),
     "no_visible_instances": _error("All instances are scaled to zero. Set their scale."),
@@ -334,6 +337,10 @@ MESSAGES: dict[str, Message] = {
     "flat_instance_sources": _warning(
         "{count} of {total} surfaces is flat: its area counts, its volume does not.",
         "{count} of {total} surfaces are flat: their areas count, their volumes do not.",
+    ),
+    "flat_instance_sources_slightly": _note(
+        "{count} of {total} surfaces is flat and has no volume.",
+        "{count} of {total} surfaces are flat and have no volume.",
     ),
     "non_finite_instances": _error(
         "{count} of {total} instance transforms is not finite. Fix what makes NaN or infinity.",
@@ -481,6 +488,10 @@ MESSAGES: dict[str, Message] = {
         "{count} patch faces against the others and was measured as reversed. Use Segments > Switch Direction.",
         "{count} patches face against the others and were measured as reversed. Use Segments > Switch Direction.",
     ),
+    "flipped_patches_slightly": _note(
+        "{count} patch faces against the others and was measured as reversed.",
+        "{count} patches face against the others and were measured as reversed.",
+    ),
     "ambiguous_patch_sides": _warning(
         "{count} patch side meets more than one other, so the orientation is a guess. Make all patches face outward.",
         "{count} patch sides meet more than one other, so the orientation is a guess. Make all patches face outward.",
@@ -488,6 +499,7 @@ MESSAGES: dict[str, Message] = {
     "inverted_patch_components": _warning(
         "Inside-out components measured as reversed: {count} of {total}. Use Segments > Switch Direction."
     ),
+    "inverted_patch_components_slightly": _note("Inside-out components measured as reversed: {count} of {total}."),
     "open_patch_sides": _warning(
         "Open patch sides form no loops to cap, or the surface is one-sided. Volume, center of mass and inertia "
         "depend on "
@@ -653,10 +665,15 @@ MESSAGES: dict[str, Message] = {
         "{count} of {total} components have several materials and take their means by area. Use Mesh > Separate >"
         " By Material."
     ),
+    "mixed_materials_slightly": _note(
+        "{count} of {total} components has several materials and takes their mean by area.",
+        "{count} of {total} components have several materials and take their means by area.",
+    ),
     "overlapping_densities": _warning("Densities add up where components overlap. Cut a cavity for each insert."),
     "cavity_material_ignored": _warning(
         "Materials of cavity faces are ignored: a cavity removes the surrounding material."
     ),
+    "cavity_material_ignored_slightly": _note("Materials of the faces of small cavities are ignored."),
     "sheared_density_axes": _warning(
         "The object is sheared; its density follows the nearest right-angled axes. Use Object > Apply > Scale."
     ),

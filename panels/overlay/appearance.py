@@ -26,7 +26,8 @@ SUPPORT = np.array((0.35, 0.70, 0.95, 1.0), np.float32)  # sky blue
 TIPS = np.array((0.95, 0.35, 0.10, 1.0), np.float32)
 PATH = np.array((0.35, 0.70, 0.95, 1.0), np.float32)
 
-BEHIND = 0.4  # opacity of lines behind surfaces
+BEHIND = 0.5  # opacity of lines behind surfaces
+GLASS = 0.0  # opacity of the white quadrants of discs behind surfaces
 # pixels at a resolution scale of 1
 DISC = 8.0
 DOT = 2.5

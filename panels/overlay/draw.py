@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Drawing in the 3D Viewport: a few batches for all bodies, made again only when something has changed.
 
-Lines are drawn twice, faint through everything and then full where nothing is in front of them, so that one sees how
-deep they lie. Discs and digits are drawn over everything, the nearest last. What is drawn depends on the session's
-generation and the settings, where discs are on the view also: as long as these stay, a redraw makes no array.
+Lines and discs are drawn twice, so that one sees how deep they lie: through everything, lines faint and discs without
+their white quadrants, and then in full where nothing is in front of them. The nearest come last. What is drawn depends
+on the session's generation and the settings, where discs are on the view also: as long as these stay, a redraw makes no
+array.
 """
 
 from __future__ import annotations
@@ -44,7 +45,7 @@ class _Drawn:
     bodies: Bodies | None = None
     lines: tuple[Batch, ...] = ()  # faint, full
     fills: tuple[Batch, ...] = ()
-    discs: tuple[Batch, ...] = ()
+    discs: tuple[Batch, ...] = ()  # hidden, seen
 
 
 @dataclass(eq=False)
@@ -153,7 +154,9 @@ def _discs(bodies: Bodies, view: View, with_digits: bool) -> tuple[Batch, ...]:
     if not len(points):
         return ()
     shader = gpu.shader.from_builtin("FLAT_COLOR")
-    return (batch_for_shader(shader, "TRIS", {"pos": points, "color": colors}, indices=triangles),)
+    return tuple(
+        batch_for_shader(shader, "TRIS", {"pos": points, "color": tints}, indices=triangles) for tints in colors
+    )
 
 
 # ---------------------------------------------------------------- Drawing it
@@ -196,8 +199,8 @@ def _draw_batches(drawn: _Drawn, size: tuple[int, int]) -> None:
             if shader is uniform:
                 shader.uniform_float("color", (*look.DARK[:3], 0.6 * opacity))
             _draw_batch(batch, shader)
-    gpu.state.depth_test_set("NONE")
-    for batch in drawn.discs:
+    for batch, depth in zip(drawn.discs, ("NONE", "LESS_EQUAL")):
+        gpu.state.depth_test_set(depth)
         _draw_batch(batch, gpu.shader.from_builtin("FLAT_COLOR"))
 
 

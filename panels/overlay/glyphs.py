@@ -30,7 +30,8 @@ class Glyphs:
     ----------
     corners : (n, k, 2) array
         In pixels.
-    colors : (n, k, 4) array
+    colors : (2, n, k, 4) array
+        Where something is in front of them, and where nothing is.
     triangles : (n, l, 3) array
         Of a glyph's corners, painted in this order.
     """
@@ -40,7 +41,7 @@ class Glyphs:
     triangles: NDArray[np.int32]
 
 
-Shape = tuple[NDArray, NDArray, NDArray]  # corners, colors, triangles of one glyph
+Shape = tuple[NDArray, NDArray, NDArray]  # corners, (k, 2, 4) colors, triangles of one glyph
 
 # digits in units of half their height
 DIGITS = (
@@ -74,12 +75,14 @@ def _stroke(path: NDArray, width: float) -> Part:
     return quads.reshape(-1, 2), (first + np.array([[0, 1, 2], [0, 2, 3]], np.int32)).reshape(-1, 3)
 
 
-def _colored(*layers: tuple[Part, NDArray]) -> Shape:
-    starts = np.cumsum([0, *(len(corners) for (corners, _), _ in layers)])
+def _colored(*layers: tuple[Part, NDArray, float]) -> Shape:
+    """Parts with their color, and with how much of it is left where something is in front of them."""
+    starts = np.cumsum([0, *(len(corners) for (corners, _), _, _ in layers)])
+    colors = [np.stack([color * (1.0, 1.0, 1.0, hidden), color]) for _, color, hidden in layers]
     return (
-        np.concatenate([corners for (corners, _), _ in layers]),
-        np.concatenate([np.broadcast_to(color, (len(corners), 4)) for (corners, _), color in layers]),
-        np.concatenate([triangles + start for ((_, triangles), _), start in zip(layers, starts)]),
+        np.concatenate([corners for (corners, _), _, _ in layers]),
+        np.concatenate([np.broadcast_to(tint, (len(part[0]), 2, 4)) for (part, _, _), tint in zip(layers, colors)]),
+        np.concatenate([triangles + start for ((_, triangles), _, _), start in zip(layers, starts)]),
     )
 
 
@@ -101,29 +104,31 @@ def _disc(verdict: int) -> Shape:
     quarter = SEGMENTS // 4
     quadrants = [_fan(_arc(look.DISC, quarter * i, quarter * (i + 1))) for i in range(4)]
     return _colored(
-        *((_stroke(line, look.STROKE + 2.0 * look.OUTLINE), look.DARK) for line in lines),
-        *((_stroke(line, look.STROKE), color) for line in lines),
-        (_fan(_arc(look.DISC + look.OUTLINE)), look.DARK),
-        *zip(quadrants, (color, look.WHITE, color, look.WHITE)),
-        (_fan(_arc(look.DOT + 1.0, 0, DOT_SEGMENTS, DOT_SEGMENTS)), look.DARK),
-        (_fan(_arc(look.DOT, 0, DOT_SEGMENTS, DOT_SEGMENTS)), color),
+        *((_stroke(line, look.STROKE + 2.0 * look.OUTLINE), look.DARK, 1.0) for line in lines),
+        *((_stroke(line, look.STROKE), color, 1.0) for line in lines),
+        (_stroke(_arc(look.DISC), 2.0 * look.OUTLINE), look.DARK, 1.0),
+        *zip(quadrants, (color, look.WHITE, color, look.WHITE), (1.0, look.GLASS, 1.0, look.GLASS)),
+        (_fan(_arc(look.DOT + 1.0, 0, DOT_SEGMENTS, DOT_SEGMENTS)), look.DARK, 1.0),
+        (_fan(_arc(look.DOT, 0, DOT_SEGMENTS, DOT_SEGMENTS)), color, 1.0),
     )
 
 
 def _digit(points: Sequence[tuple[float, float]]) -> Shape:
     path = np.array(points) * look.DIGIT
     return _colored(
-        (_stroke(path, look.STROKE + 2.0 * look.OUTLINE), look.DARK), (_stroke(path, look.STROKE), look.WHITE)
+        (_stroke(path, look.STROKE + 2.0 * look.OUTLINE), look.DARK, 1.0),
+        (_stroke(path, look.STROKE), look.WHITE, 1.0),
     )
 
 
 def _stack(shapes: Sequence[Shape]) -> Glyphs:
     def filled(arrays: Sequence[NDArray]) -> NDArray:
         size = max(map(len, arrays))
-        return np.stack([np.pad(array, ((0, size - len(array)), (0, 0))) for array in arrays])
+        return np.stack([np.pad(array, ((0, size - len(array)), *[(0, 0)] * (array.ndim - 1))) for array in arrays])
 
     corners, colors, triangles = (filled(arrays) for arrays in zip(*shapes))
-    return Glyphs(corners.astype(np.float32), colors.astype(np.float32), triangles.astype(np.int32))
+    tints = np.moveaxis(colors, 2, 0)
+    return Glyphs(corners.astype(np.float32), tints.astype(np.float32), triangles.astype(np.int32))
 
 
 @lru_cache(maxsize=1)

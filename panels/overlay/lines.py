@@ -53,7 +53,9 @@ def disc_triangles(
 
     Returns
     -------
-    points, colors : (k, 3) and (k, 4) arrays
+    points : (k, 3) array
+    colors : (2, k, 4) array
+        Where something is in front of the points, and where nothing is.
     triangles : (l, 3) array
         The nearest bodies last.
     """
@@ -69,7 +71,7 @@ def disc_triangles(
     starts = np.cumsum([0, *(len(points) for points, _, _ in parts)], dtype=np.int32)
     points, colors, triangles = zip(*parts)
     numbered = [corners + start for corners, start in zip(triangles, starts)]
-    return np.concatenate(points), np.concatenate(colors), np.concatenate(numbered)
+    return np.concatenate(points), np.concatenate(colors, axis=1), np.concatenate(numbered)
 
 
 def _glyphs(
@@ -78,7 +80,7 @@ def _glyphs(
     """As `disc_triangles`, of some bodies, in this order."""
     count, centers, verdicts = len(group), bodies.centers[group], bodies.verdicts[group]
     discs = glyphs.discs()
-    points, colors = [view.place(centers, scale * discs.corners[verdicts])], [discs.colors[verdicts]]
+    points, colors = [view.place(centers, scale * discs.corners[verdicts])], [discs.colors[:, verdicts]]
     triangles = [discs.triangles[verdicts]]
     if with_digits:
         digits = glyphs.digits()
@@ -87,14 +89,15 @@ def _glyphs(
         away = _digit_offsets(view.pixels(centers), view.pixels(tips).reshape(-1, 3, 2), scale).astype(np.float32)
         offsets = (scale * digits.corners + away[:, :, None]).reshape(3 * count, digits.corners.shape[1], 2)
         points.append(view.place(tips, offsets).reshape(count, 3 * digits.corners.shape[1], 3))
-        colors.append(np.broadcast_to(digits.colors.reshape(1, -1, 4), (count, 3 * digits.colors.shape[1], 4)))
+        tints = digits.colors.reshape(2, 1, -1, 4)
+        colors.append(np.broadcast_to(tints, (2, count, *tints.shape[2:])))
         first = discs.corners.shape[1] + digits.corners.shape[1] * np.arange(3, dtype=np.int32)[:, None, None]
         named = (digits.triangles + first).reshape(1, -1, 3)
         triangles.append(np.broadcast_to(named, (count, *named.shape[1:])))
-    placed, tints = np.concatenate(points, axis=1), np.concatenate(colors, axis=1)
+    placed, tints = np.concatenate(points, axis=1), np.concatenate(colors, axis=2)
     start = placed.shape[1] * np.arange(count, dtype=np.int32)[:, None, None]
     corners = np.concatenate(triangles, axis=1) + start
-    return placed.reshape(-1, 3), tints.reshape(-1, 4), corners.reshape(-1, 3)
+    return placed.reshape(-1, 3), tints.reshape(2, -1, 4), corners.reshape(-1, 3)
 
 
 def _digit_offsets(centers: NDArray, tips: NDArray, scale: float) -> NDArray[np.float64]:

@@ -130,12 +130,17 @@ MESSAGES = {
         "{count} von {total} Komponenten haben mehrere Materialien und nehmen ihre Mittel nach Fläche. Masche > "
         "Trennen > Nach Material verwenden.",
     ),
+    "mixed_materials_slightly": (
+        "{count} von {total} Komponenten hat mehrere Materialien und nimmt ihr Mittel nach Fläche.",
+        "{count} von {total} Komponenten haben mehrere Materialien und nehmen ihre Mittel nach Fläche.",
+    ),
     "overlapping_densities": (
         "Dichten addieren sich, wo Komponenten sich überlappen. Für jeden Einsatz einen Hohlraum schneiden.",
     ),
     "cavity_material_ignored": (
         "Materialien an Flächen von Hohlräumen zählen nicht: ein Hohlraum nimmt das Material um ihn weg.",
     ),
+    "cavity_material_ignored_slightly": ("Materialien an Flächen kleiner Hohlräume zählen nicht.",),
     "sheared_density_axes": (
         "Das Objekt ist geschert; seine Dichte folgt den nächsten rechtwinkligen Achsen. Objekt > Anwenden > "
         "Skalierung verwenden.",

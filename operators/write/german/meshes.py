@@ -170,6 +170,10 @@ MESSAGES = {
         "{count} doppelte Fläche zählt als Material. Sie löschen.",
         "{count} doppelte Flächen zählen als Material. Sie löschen.",
     ),
+    "duplicate_faces_of_shell_slightly": (
+        "{count} doppelte Fläche zählt als Material.",
+        "{count} doppelte Flächen zählen als Material.",
+    ),
     "union_by_boolean": (
         "Überlappende Komponenten wurden mit Blenders exaktem Boolean vereinigt, auf 7 Stellen genau.",
     ),

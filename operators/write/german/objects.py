@@ -28,6 +28,10 @@ MESSAGES = {
         "{count} von {total} Oberflächen ist eben: ihre Fläche zählt, ihr Volumen nicht.",
         "{count} von {total} Oberflächen sind eben: ihre Flächen zählen, ihre Volumen nicht.",
     ),
+    "flat_instance_sources_slightly": (
+        "{count} von {total} Oberflächen ist eben und hat kein Volumen.",
+        "{count} von {total} Oberflächen sind eben und haben kein Volumen.",
+    ),
     "non_finite_instances": (
         "{count} von {total} Transformationen der Instanzen ist nicht endlich. Berichtigen, was NaN oder Unendlich "
         "erzeugt.",
@@ -190,6 +194,10 @@ MESSAGES = {
         "{count} Stücke liegen andersherum als die anderen und wurden umgedreht gemessen. Segmente > Richtung "
         "wechseln verwenden.",
     ),
+    "flipped_patches_slightly": (
+        "{count} Stück liegt andersherum als die anderen und wurde umgedreht gemessen.",
+        "{count} Stücke liegen andersherum als die anderen und wurden umgedreht gemessen.",
+    ),
     "ambiguous_patch_sides": (
         "{count} Seite eines Stücks trifft mehr als eine andere, die Orientierung ist also geraten. Alle Stücke "
         "nach außen wenden.",
@@ -199,6 +207,7 @@ MESSAGES = {
     "inverted_patch_components": (
         "Umgestülpte Komponenten umgedreht gemessen: {count} von {total}. Segmente > Richtung wechseln verwenden.",
     ),
+    "inverted_patch_components_slightly": ("Umgestülpte Komponenten umgedreht gemessen: {count} von {total}.",),
     "open_patch_sides": (
         "Offene Seiten von Stücken bilden keine Schleifen, die sich schließen ließen, oder die Oberfläche ist "
         "einseitig. Volumen, Massenmittelpunkt und Trägheit hängen vom Bezugspunkt ab. Die Oberfläche schließen "

@@ -83,7 +83,7 @@ def test_verdicts_differ_in_form_where_colors_are_not_seen(registered):
     forms = [np.round(shape, 3).tobytes() for shape in discs.corners]
     assert len(set(forms)) == len(appearance.VERDICTS)
     for verdict, color in enumerate(appearance.COLORS):
-        assert (discs.colors[verdict] == color).all(axis=1).any()
+        assert (discs.colors[:, verdict] == color).all(axis=2).any(axis=1).all()
 
 
 def test_the_body_is_drawn_where_it_is_in_the_world(scene):
@@ -139,7 +139,7 @@ def test_discs_are_made_where_they_are_seen_and_named_where_axes_are_long(view):
         for gyration in (1e-3, 1.0)
     )
     disc, digit = discs().corners.shape[1], digits().corners.shape[1]
-    assert len(short[0]) == len(short[1]) == 3 * disc
+    assert len(short[0]) == short[1].shape[1] == 3 * disc
     assert len(long[0]) == 3 * (disc + 3 * digit)
     for points, _, triangles in (short, long):
         assert triangles.dtype == np.int32 and points.dtype == np.float32  # as the GPU takes them

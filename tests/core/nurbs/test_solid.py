@@ -182,6 +182,21 @@ def test_patches_that_face_against_the_rest_are_turned_and_counted():
     assert abs(found.volume.total - 6.0) <= 1e-13
 
 
+@pytest.mark.parametrize(("side", "ending"), [(1e-3, "_slightly"), (0.1, "")])
+def test_what_is_too_small_to_matter_is_a_note(side, ending):
+    """Beside a box of 1 by 2 by 3, a small one that is inside out, or has a patch that faces against the others."""
+    small = box((side, side, side), (7.0, -3.0, 2.0))
+    inverted = [patch.reverse_orientation() for patch in small]
+    misoriented = [small[0], small[1].reverse_orientation(), *small[2:]]
+    for patches, finding in (
+        (inverted, Finding("inverted_patch_components" + ending, {"count": 1, "total": 2})),
+        (misoriented, Finding("flipped_patches" + ending, {"count": 1})),
+    ):
+        found = measure_patches([*box(), *patches])
+        assert only(found) == finding and found.method == "reoriented"
+        assert abs(found.volume.total / (6.0 + side**3) - 1.0) <= 1e-13
+
+
 def test_a_box_without_a_face_is_capped_exactly():
     found = measure_patches(box()[:5])
     assert found.method == "capped" and found.health.boundary_edges == 4
