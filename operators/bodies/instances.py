@@ -64,19 +64,16 @@ def _identity(result: Finding) -> tuple[Finding, object]:
 def overlap_findings(reading: Reading, solids: Sequence[SolidIntegrals], comparison: PlaceComparison) -> list[Finding]:
     """What is reported of places that have something in common: faces as [face, source], each once."""
     findings = []
-    for code, components, slight in (
-        ("components_nested_slightly", comparison.nested, comparison.nested_slightly),
-        ("components_overlap_slightly", comparison.overlapping, comparison.overlapping_slightly),
-    ):
+    nested = "components_nested_slightly" if comparison.nested_slightly else "components_nested"
+    overlap = "components_overlap_slightly" if comparison.overlapping_slightly else "components_overlap"
+    for code, components in ((nested, comparison.nested), (overlap, comparison.overlapping)):
         if len(components):
             elements = []
             for which in np.unique(components[:, 0]):
                 parts, name = solids[which].parts(), reading.parts[which].source_object_name or reading.name
                 of_these = np.isin(parts.part, components[components[:, 0] == which, 1]) & (parts.face >= 0)
                 elements += [[face, name] for face in np.unique(parts.face[of_these]).tolist()]
-            findings.append(
-                finding(code if slight else code.removesuffix("_slightly"), elements, count=len(components))
-            )
+            findings.append(finding(code, elements, count=len(components)))
     if comparison.undecided_pairs:
         findings.append(finding("overlap_unchecked", count=comparison.undecided_pairs))
     return findings
