@@ -91,3 +91,19 @@ def polar_rotation(matrices: NDArray) -> tuple[NDArray[np.float64], NDArray[np.b
     u, _, v = np.linalg.svd(columns)
     skew = np.abs(columns.transpose(0, 2, 1) @ columns) * (1.0 - np.eye(3))
     return u @ v, skew.max(axis=(1, 2)) > MAX_AXIS_COSINE
+
+
+def along_x(axis: NDArray) -> NDArray[np.float64]:
+    """Return a rotation whose first column is a unit vector.
+
+    Parameters
+    ----------
+    axis : (3,) array
+
+    Returns
+    -------
+    (3, 3) array
+    """
+    second = np.cross(axis, np.eye(3)[int(np.argmin(np.abs(axis)))])
+    second = second / np.linalg.norm(second)
+    return np.column_stack([axis, second, np.cross(axis, second)])

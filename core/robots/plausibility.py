@@ -19,6 +19,7 @@ from ..verdict.finding import Finding, finding
 from .stated import StatedInertial
 
 ROUNDING = 1e-3  # relatively: what numbers printed with few digits may break
+ZERO_RTOL = 1e-14  # of the largest moment: what finding the principal axes makes of zero
 CENTER_RTOL = 1e-3  # of the hull's size
 SPREAD_RTOL = 5e-3
 MAX_STEPS = 200  # towards the nearest point of a hull
@@ -119,8 +120,9 @@ def impossible(stated: StatedInertial, hull: Hull | None) -> list[Finding]:
     if not stated.mass > 0.0:
         return [finding("inertial_mass_not_positive", mass=float(stated.mass))]
     moments = np.linalg.eigvalsh(stated.inertia)
-    if not moments[0] > 0.0:
-        return [finding("inertial_not_positive", moment=float(moments[0]))]
+    if not moments[0] > ZERO_RTOL * moments[2]:
+        moment = 0.0 if abs(moments[0]) <= ZERO_RTOL * abs(moments[2]) else float(moments[0])
+        return [finding("inertial_not_positive", moment=moment)]
     excess = float(moments[2] / (moments[0] + moments[1]) - 1.0)
     if excess > ROUNDING:
         return [finding("inertial_triangle", moments=moments.tolist(), excess=excess)]

@@ -315,18 +315,18 @@ def _add_results(parser: argparse.ArgumentParser) -> None:
     add(
         "--inertial-only",
         action="store_true",
-        help="urdf, sdf, mjcf, usd: the links with their inertials alone, without geometry, places and joints",
+        help="urdf, sdf, mjcf, usd, gltf: the links with their inertials alone, without geometry, places and joints",
     )
     add(
         "--links",
         choices=("object", "collection", "bone"),
         default="object",
-        help="urdf, sdf, mjcf, usd: what is one rigid body (object)",
+        help="urdf, sdf, mjcf, usd, gltf: what is one rigid body (object)",
     )
     add(
         "--meshes",
         action="store_true",
-        help="urdf, sdf, mjcf: write the meshes that the file names, in a folder beside --output",
+        help="urdf, sdf, mjcf: write the meshes that the file names, in a folder beside --output; usd, gltf: into it",
     )
     add("--output", type=Path, metavar="PATH", help="(standard output)")
     add(

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""--format urdf, sdf, mjcf and usd: the records of a file as links, and their text as a part of its document.
+"""--format urdf, sdf, mjcf, usd and gltf: the records of a file as links, and their text as a part of its document.
 
 The process that measures makes the text, for that needs numpy; the one that gathers documents only passes it on.
 """
@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from argparse import Namespace
 from collections.abc import Sequence
+from functools import partial
 from typing import Any
 
 import bpy
@@ -21,7 +22,7 @@ from ..session.robot_links import SceneLinks, bone_links, collection_links
 from ..settings.options import MeasureOptions
 from ..write.documents import ROBOT_FORMATS
 from ..write.messages import sentence
-from ..write.robots.formats import robot_text
+from ..write.robots.formats import EMBEDDING, robot_text
 from ..write.robots.from_records import robot_name, robot_of_document
 from ..write.robots.stl import write_meshes
 from ..write.terminal import print_message
@@ -35,8 +36,15 @@ def complete(document: dict[str, Any], measured: Sequence[MeasuredObject], optio
     if options.format not in ROBOT_FORMATS:
         return document
     made = _by_object(document, measured) if options.links == "object" else _of_scene(document, measured, options)
-    text, findings = robot_text(made.robot, options.format, made.findings, inertial_only=options.inertial_only)
-    if options.meshes and not options.inertial_only:
+    with_meshes, embedded = options.meshes and not options.inertial_only, options.format in EMBEDDING
+    text, findings = robot_text(
+        made.robot,
+        options.format,
+        made.findings,
+        inertial_only=options.inertial_only,
+        surface_of=partial(made.surface, bpy.context) if with_meshes and embedded else None,
+    )
+    if with_meshes and not embedded:
         findings.append(_write_meshes(made, options))
     for one in findings:
         print_message(sentence(one))

@@ -17,7 +17,7 @@ from typing import Any
 
 SCHEMA = "body-moments/1"
 FRAMES = ("world", "object")
-ROBOT_FORMATS = ("urdf", "sdf", "mjcf", "usd")  # `operators/write/robots/formats.py` has what writes them
+ROBOT_FORMATS = ("urdf", "sdf", "mjcf", "usd", "gltf")  # `operators/write/robots/formats.py` has what writes them
 STATUSES = ("ok", "error", "crashed", "timeout", "memory", "unsupported_version", "missing")
 
 # The inertia tensor's six entries, in the order in which they are stored on an object.

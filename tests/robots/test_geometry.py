@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Files with geometry, read back with it: meshes in MuJoCo, a layer over Blender's own in USD, motions in glTF."""
 
+import base64
 import json
 from dataclasses import replace
 
@@ -14,11 +15,13 @@ from body_moments.core.numerics.rotations import rotation_matrix
 from body_moments.core.robots.model import Joint, Link, Pose, Robot, Shape
 from body_moments.core.robots.primitives import capsule_size, equal_inertia_shape
 from body_moments.operators.write.robots import gltf, mjcf, usd
+from body_moments.operators.write.robots.formats import robot_text
+from body_moments.operators.write.robots.marker import is_ours
 from body_moments.operators.write.robots.shapes import with_primitives
 from body_moments.operators.write.robots.stl import to_stl
-from pxr import Sdf, Usd, UsdPhysics
+from pxr import Sdf, Usd, UsdGeom, UsdPhysics
 
-from tests.robots.links import ball, bodies, inertial, rotation, shaped
+from tests.robots.links import ball, bodies, inertial, rotation, shaped, shapes
 
 VECTOR = {"type": "array", "items": {"type": "number"}, "minItems": 3, "maxItems": 3}
 MOTION = {
@@ -162,3 +165,160 @@ def test_a_ball_is_a_capsule_without_length():
     body = inertial(*ball(24))
     radius, length = capsule_size(body.mass, np.full(3, body.moments.mean()))
     assert length == 0.0 and abs(radius - 1.0) < 0.02
+
+
+NUMBER, INDEX = {"type": "number"}, {"type": "integer", "minimum": 0}
+AXES = {"type": "array", "items": {"enum": [0, 1, 2]}, "minItems": 1, "maxItems": 3, "uniqueItems": True}
+# As KHR_physics_rigid_bodies and KHR_implicit_shapes describe them.
+LIMIT = {
+    "type": "object",
+    "properties": {"linearAxes": AXES, "angularAxes": AXES, "min": NUMBER, "max": NUMBER},
+    "oneOf": [{"required": ["linearAxes"]}, {"required": ["angularAxes"]}],
+    "additionalProperties": False,
+}
+JOINTS = {
+    "type": "object",
+    "properties": {
+        "physicsJoints": {
+            "type": "array",
+            "items": {
+                "type": "object",
+                "properties": {"name": {"type": "string"}, "limits": {"type": "array", "items": LIMIT}},
+                "additionalProperties": False,
+            },
+        }
+    },
+    "required": ["physicsJoints"],
+}
+JOINT = {
+    "type": "object",
+    "properties": {"connectedNode": INDEX, "joint": INDEX, "enableCollision": {"type": "boolean"}},
+    "required": ["connectedNode", "joint"],
+    "additionalProperties": False,
+}
+ROUND = {
+    "type": "object",
+    "properties": {"height": NUMBER, "radiusTop": NUMBER, "radiusBottom": NUMBER},
+    "additionalProperties": False,
+}
+SHAPE = {
+    "type": "object",
+    "properties": {
+        "type": {"enum": ["sphere", "box", "capsule", "cylinder"]},
+        "sphere": {"type": "object", "properties": {"radius": NUMBER}, "additionalProperties": False},
+        "box": {"type": "object", "properties": {"size": VECTOR}, "additionalProperties": False},
+        "capsule": ROUND,
+        "cylinder": ROUND,
+    },
+    "required": ["type"],
+    "minProperties": 2,
+    "maxProperties": 2,
+}
+Y_UP = np.array([[1.0, 0, 0], [0, 0, 1.0], [0, -1.0, 0]])
+
+
+def placed(document):
+    """Each node's place in the scene: position and rotation."""
+    nodes, places = document["nodes"], {}
+    waiting = [(index, np.zeros(3), np.eye(3)) for index in document["scenes"][0]["nodes"]]
+    while waiting:
+        index, position, turn = waiting.pop()
+        x, y, z, w = nodes[index].get("rotation", (0, 0, 0, 1))
+        position = position + turn @ nodes[index].get("translation", (0, 0, 0))
+        turn = turn @ rotation_matrix([w, x, y, z])
+        places[index] = position, turn
+        waiting += [(child, position, turn) for child in nodes[index].get("children", ())]
+    assert len(places) == len(nodes)
+    return places
+
+
+def test_a_robot_in_gltf_is_what_the_schemas_allow_and_stands_where_it_did():
+    chain = bodies(24, chain=True)
+    dressed = Link("dressed", chain.links[0].inertial, Pose(), shapes(chain.links[1].pose))
+    robot = Robot("arm", (*chain.links, dressed), chain.joints)
+    text, findings = robot_text(robot, "gltf")
+    assert [found.code for found in findings] == ["robot_ellipsoid_as_box"] and is_ours(text.encode())
+    document = json.loads(text)
+    of_root = document["extensions"]
+    jsonschema.validate(of_root[gltf.KHR], JOINTS)
+    for shape in of_root["KHR_implicit_shapes"]["shapes"]:
+        jsonschema.validate(shape, SHAPE)
+    places = placed(document)
+    by_name = {node["name"]: index for index, node in enumerate(document["nodes"])}
+    for link in robot.links:
+        node, (position, turn) = document["nodes"][by_name[link.name]], places[by_name[link.name]]
+        jsonschema.validate(node["extensions"][gltf.OMI], SCHEMAS[gltf.OMI])
+        values = node["extensions"][gltf.KHR]["motion"]
+        jsonschema.validate({"motion": values}, SCHEMAS[gltf.KHR])
+        assert np.abs(turn - Y_UP @ link.pose.rotation @ Y_UP.T).max() < 1e-14
+        x, y, z, w = values["inertiaOrientation"]
+        axes = rotation_matrix([w, x, y, z])
+        true = Y_UP @ link.inertial.inertia @ Y_UP.T
+        assert near((axes * values["inertiaDiagonal"]) @ axes.T, true) and values["mass"] == link.inertial.mass
+        assert near(position + turn @ values["centerOfMass"], Y_UP @ link.inertial.place(link.pose).center, 1e-13)
+    for joint in robot.joints:
+        check_joint(document, places, by_name, joint)
+
+
+def check_joint(document, places, by_name, joint):
+    """Both frames are one, in the bodies that it joins; freedom is about the axes that the robot has."""
+    own = document["nodes"][by_name[joint.name]]["extensions"][gltf.KHR]["joint"]
+    jsonschema.validate(own, JOINT)
+    assert by_name[joint.name] in document["nodes"][by_name[joint.parent]]["children"]
+    assert own["connectedNode"] in document["nodes"][by_name[joint.child]]["children"]
+    (here, turn), (there, other) = places[by_name[joint.name]], places[own["connectedNode"]]
+    assert np.abs(here - there).max() < 1e-12 and np.abs(turn - other).max() < 1e-12
+    limits = document["extensions"][gltf.KHR]["physicsJoints"][own["joint"]]["limits"]
+    held = {(kind, axis) for limit in limits for kind in limit if kind[-4:] == "Axes" for axis in limit[kind]
+            if limit["min"] == limit["max"] == 0.0}  # fmt: skip
+    assert len(held) == 6 - len(joint.free)
+    child = places[by_name[joint.child]][1]
+    for free in joint.free:
+        kind = "linearAxes" if free.kind == "translate" else "angularAxes"
+        along = turn.T @ child @ (Y_UP @ free.axis)
+        axis = int(np.argmax(np.abs(along)))
+        assert abs(abs(along[axis]) - 1.0) < 1e-12 and (kind, axis) not in held
+        told = [limit for limit in limits if limit.get(kind) == [axis]]
+        assert len(told) == free.is_limited
+        for limit in told:
+            ends = (limit.get("min", -np.inf), limit.get("max", np.inf))
+            assert (ends if along[axis] > 0 else (-ends[1], -ends[0])) == (free.lower, free.upper)
+
+
+def test_meshes_stand_in_what_can_hold_them():
+    rng = np.random.default_rng(3)
+    points, triangles = shaped(rng, "sheared")
+    pose = Pose(rng.normal(size=3), rotation(rng))
+    link = Link("solid", inertial(points, triangles), pose, (Shape("mesh", file="meshes/solid.stl"),))
+    robot = Robot("meshes", (link,))
+    surface = Surface.from_triangles(points, triangles)
+    true = points @ pose.rotation.T + pose.position
+    document = json.loads(robot_text(robot, "gltf", surface_of=lambda _: surface)[0])
+    data = base64.b64decode(document["buffers"][0]["uri"].partition(",")[2])
+    views = document["bufferViews"]
+    parts = [data[view["byteOffset"] : view["byteOffset"] + view["byteLength"]] for view in views]
+    found, faces = np.frombuffer(parts[0], "<f4").reshape(-1, 3), np.frombuffer(parts[1], "<u4").reshape(-1, 3)
+    (index,) = [index for index, node in enumerate(document["nodes"]) if "mesh" in node]
+    position, turn = placed(document)[index]
+    shown = (found @ turn.T + position) @ Y_UP
+    assert near(shown[faces], true[triangles], 1e-6)
+    assert near(document["accessors"][0]["min"], found.min(axis=0), 0.0)
+    assert len(views) == 2 and document["accessors"][1]["count"] == triangles.size
+    layer = Sdf.Layer.CreateAnonymous(".usda")
+    assert layer.ImportFromString(robot_text(robot, "usd", surface_of=lambda _: surface)[0])
+    stage = Usd.Stage.Open(layer)
+    (mesh,) = [UsdGeom.Mesh(prim) for prim in stage.Traverse() if prim.IsA(UsdGeom.Mesh)]
+    assert mesh.GetPrim().HasAPI(UsdPhysics.MeshCollisionAPI)
+    matrix = np.array(UsdGeom.XformCache().GetLocalToWorldTransform(mesh.GetPrim())).T
+    shown = np.array(mesh.GetPointsAttr().Get(), float) @ matrix[:3, :3].T + matrix[:3, 3]
+    faces = np.array(mesh.GetFaceVertexIndicesAttr().Get()).reshape(-1, 3)
+    assert near(shown[faces], true[triangles], 1e-6)
+    for name in ("usd", "gltf"):
+        assert "Mesh" not in robot_text(robot, name)[0] and '"mesh"' not in robot_text(robot, name)[0]
+
+
+def test_inertials_alone_in_gltf():
+    text, _ = robot_text(bodies(3, chain=True), "gltf", inertial_only=True)
+    document = json.loads(text)
+    assert "extensions" not in document and len(document["nodes"]) == 3
+    assert all({*node} == {"name", "extensions"} for node in document["nodes"])

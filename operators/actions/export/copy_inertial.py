@@ -19,6 +19,7 @@ FORMATS = (
     ("sdf", "SDF", "Diagonal tensor in a rotated inertial frame"),
     ("mjcf", "MJCF", "Principal moments and a quaternion"),
     ("usd", "USD", "PhysicsMassAPI and NewtonMassAPI"),
+    ("gltf", "glTF", "KHR_physics_rigid_bodies and OMI_physics_body, with y up"),
 )
 
 

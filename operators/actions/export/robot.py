@@ -7,6 +7,7 @@ The exporters of collections keep their path and options in the .blend; Blender 
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 
 import bpy
@@ -21,7 +22,7 @@ from ...session.robot_links import SceneLinks, meters_per_unit
 from ...write import reports
 from ...write.messages import sentence
 from ...write.robots import gltf, usd
-from ...write.robots.formats import robot_text
+from ...write.robots.formats import EMBEDDING, robot_text
 from ...write.robots.shapes import with_primitives
 from ...write.robots.stl import write_meshes
 from ...write.whole_file import whole_file
@@ -93,12 +94,18 @@ class RobotExport(ExportHelper):
     def _export(self, context: Context, objects: list[Object], path: Path) -> list[Finding]:
         made = self._links(context, objects, path.stem)
         robot = made.robot if self.geometry == "MESH" else with_primitives(made.robot, self.geometry.lower())
-        text, findings = robot_text(robot, self.FORMAT, made.findings, inertial_only=self.inertial_only)
+        surface_of = partial(made.surface, context) if self.geometry == "MESH" and self.write_meshes else None
+        text, findings = robot_text(
+            robot, self.FORMAT, made.findings, inertial_only=self.inertial_only, surface_of=surface_of
+        )
         with whole_file(path) as file:
-            file.write(text.encode("utf-8"))
-        if self.geometry == "MESH" and self.write_meshes and not self.inertial_only:
-            findings.append(write_meshes(robot, lambda label: made.surface(context, label), path.parent))
+            file.write(self._encode(text, path))
+        if surface_of is not None and not self.inertial_only and self.FORMAT not in EMBEDDING:
+            findings.append(write_meshes(robot, surface_of, path.parent))
         return [finding("robot_exported", count=len(robot.links), file=path.name), *findings]
+
+    def _encode(self, text: str, _path: Path) -> bytes:
+        return text.encode("utf-8")
 
     def draw(self, _context: Context) -> None:
         layout = self.layout
@@ -148,14 +155,21 @@ class EXPORT_SCENE_OT_body_moments_mjcf(RobotExport, Operator):
 
 
 class GeometryExport(RobotExport):
-    """Of those that leave the geometry to Blender's own exporter, which knows objects."""
+    """Of those that leave the geometry of objects to Blender's own exporter; all else is a file of our own."""
 
-    def _links(self, context: Context, objects: list[Object], name: str) -> SceneLinks:
-        made = scenes.object_links(context, name, objects)
+    def _export(self, context: Context, objects: list[Object], path: Path) -> list[Finding]:
+        if self.links != "OBJECT" or self.geometry != "MESH" or self.inertial_only:
+            return super()._export(context, objects, path)
+        made = self._links(context, objects, path.stem)
         sheared = sheared_objects([obj for held in made.members.values() for obj in held])
         if sheared:
             made.findings.append(finding("robot_sheared", count=len(sheared), links=sheared))
-        return made
+        findings = self._export_over(context, made, path)
+        return [finding("robot_exported", count=len(made.robot.links), file=path.name), *findings]
+
+    def _export_over(self, context: Context, made: SceneLinks, path: Path) -> list[Finding]:
+        """Write the geometry as Blender does, with the masses; return what is to be said about them."""
+        raise NotImplementedError
 
     def _run_exporter(self, exporter: str, path: Path, options: dict) -> None:
         """Run Blender's own exporter on the same objects."""
@@ -167,6 +181,13 @@ class GeometryExport(RobotExport):
         if "FINISHED" not in result or not path.is_file():
             raise FileError("robot_geometry_not_written", error=exporter)
 
+    def _draw_options(self, layout: UILayout) -> None:
+        layout.prop(self, "links")
+        layout.prop(self, "inertial_only")
+        column = layout.column()
+        column.enabled = not self.inertial_only
+        column.prop(self, "geometry")
+
 
 class EXPORT_SCENE_OT_body_moments_usd(GeometryExport, Operator):
     """Export the geometry as Blender does, and a layer of text that gives it the exact mass, center and inertia"""
@@ -177,10 +198,7 @@ class EXPORT_SCENE_OT_body_moments_usd(GeometryExport, Operator):
     filename_ext = ".usda"
     filter_glob: StringProperty(default="*.usda", options={"HIDDEN"})
 
-    def _export(self, context: Context, objects: list[Object], path: Path) -> list[Finding]:
-        if self.inertial_only or self.geometry != "MESH":
-            return super()._export(context, objects, path)
-        made = self._links(context, objects, path.stem)
+    def _export_over(self, context: Context, made: SceneLinks, path: Path) -> list[Finding]:
         robot, findings = made.robot, made.findings
         paths = {label: usd_path(held[0], usd.identifier) for label, held in made.members.items()}
         alike = [label for label, prim in paths.items() if list(paths.values()).count(prim) > 1]
@@ -197,13 +215,7 @@ class EXPORT_SCENE_OT_body_moments_usd(GeometryExport, Operator):
         text = usd.write_over(robot, paths, "./" + geometry.name, meters_per_unit(context), remarks)
         with whole_file(path) as file:
             file.write(text.encode("utf-8"))
-        return [finding("robot_exported", count=len(robot.links), file=path.name), *findings]
-
-    def _draw_options(self, layout: UILayout) -> None:
-        layout.prop(self, "inertial_only")
-        column = layout.column()
-        column.enabled = not self.inertial_only
-        column.prop(self, "geometry")
+        return findings
 
 
 class EXPORT_SCENE_OT_body_moments_gltf(GeometryExport, Operator):
@@ -215,20 +227,19 @@ class EXPORT_SCENE_OT_body_moments_gltf(GeometryExport, Operator):
     filename_ext = ".glb"
     filter_glob: StringProperty(default="*.glb", options={"HIDDEN"})
 
-    def _export(self, context: Context, objects: list[Object], path: Path) -> list[Finding]:
-        made = self._links(context, objects, path.stem)
-        robot, findings = made.robot, made.findings
+    def _export_over(self, context: Context, made: SceneLinks, path: Path) -> list[Finding]:
+        findings = made.findings
         options = {"use_selection": self.use_selection, "export_format": "GLB", "export_yup": True}
         self._run_exporter("export_scene.gltf", path, options)
         data = path.read_bytes()
         document = gltf.read_json(data)
-        findings += gltf.add_rigid_bodies(document, robot, meters_per_unit(context))
+        findings += gltf.add_rigid_bodies(document, made.robot, meters_per_unit(context))
         with whole_file(path) as file:
             file.write(gltf.replace_json(data, document))
-        return [finding("robot_exported", count=len(robot.links), file=path.name), *findings]
+        return findings
 
-    def _draw_options(self, layout: UILayout) -> None:
-        pass
+    def _encode(self, text: str, path: Path) -> bytes:
+        return gltf.to_glb(text) if path.suffix.lower() == ".glb" else text.encode("utf-8")
 
 
 EXPORTERS = (

@@ -244,6 +244,9 @@ TEXTS = {
     "Diagonal tensor in a rotated inertial frame": "Diagonaler Tensor in einem gedrehten Trägheitssystem",
     "As Rigid Body": "Als Starrkörper",
     "PhysicsMassAPI and NewtonMassAPI": "PhysicsMassAPI und NewtonMassAPI",
+    "KHR_physics_rigid_bodies and OMI_physics_body, with y up": (
+        "KHR_physics_rigid_bodies und OMI_physics_body, mit y oben"
+    ),
     "Copy Inertial": "Inertial kopieren",
     "What reads the text": "Was den Text liest",
     "Format": "Format",

@@ -121,6 +121,13 @@ def replace_json(data: bytes, document: dict[str, Any]) -> bytes:
     return struct.pack("<III", _GLB, 2, 12 + len(body)) + body
 
 
+def to_glb(text: str) -> bytes:
+    """Return a document as a binary file."""
+    body = text.encode()
+    body += b" " * (-len(body) % 4)
+    return struct.pack("<III", _GLB, 2, 20 + len(body)) + struct.pack("<II", len(body), _JSON) + body
+
+
 def _chunks(data: bytes) -> Iterator[tuple[int, bytes]]:
     start = 12
     while start < len(data):

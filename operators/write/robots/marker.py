@@ -7,7 +7,9 @@ from __future__ import annotations
 import re
 
 MARKER = "Body Moments: {}"  # the first line of what we write, by which an older result is known
-_HEAD = re.compile(rb"(<\?xml [^>]*>\s*<!-- |#usda 1.0\s*\(\s*\"\"\")Body Moments: \w+\s")
+_HEAD = re.compile(
+    rb"(<\?xml [^>]*>\s*<!-- |#usda 1.0\s*\(\s*\"\"\"|\{\s*\"asset\": \{\s*\"generator\": \")Body Moments: \w+\s"
+)
 
 
 def is_ours(head: bytes) -> bool:

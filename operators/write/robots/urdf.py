@@ -7,19 +7,19 @@ tensor, -∫xy dm."""
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import pi, sqrt
+from math import pi
 from xml.etree.ElementTree import Element, SubElement
 
 import numpy as np
 
 from ....core.robots.model import FreeAxis, Inertial, Pose, Robot, Shape
 from ....core.verdict.finding import Finding, finding
+from .shapes import box_of_ellipsoid, ellipsoids_as_boxes
 from .text import document, is_identity, number, numbers, roll_pitch_yaw, unique_names, xml_text
 
 BASE = "base_link"
 # A limited joint must state these, and nothing here knows them: N·m or N, and rad/s or m/s, which bind nothing.
 EFFORT, VELOCITY = 1e6, 1e3
-BOX_OF_ELLIPSOID = 2.0 * sqrt(3.0 / 5.0)  # sides over semi-axes at equal mass and inertia
 
 
 def check(robot: Robot) -> list[Finding]:
@@ -27,9 +27,7 @@ def check(robot: Robot) -> list[Finding]:
     findings = []
     if len(robot.roots) > 1:
         findings.append(finding("robot_base_added", count=len(robot.roots), name=BASE))
-    ellipsoids = [link.name for link in robot.links if any(shape.kind == "ellipsoid" for shape in link.shapes)]
-    if ellipsoids:
-        findings.append(finding("robot_ellipsoid_as_box", count=len(ellipsoids), links=ellipsoids))
+    findings += ellipsoids_as_boxes(robot)
     limited = [joint.name for joint in robot.joints if any(free.is_limited for free in joint.free)]
     if limited:
         findings.append(finding("urdf_effort_unknown", count=len(limited), joints=limited))
@@ -121,10 +119,8 @@ def _add_shapes(parent: Element, shapes: Sequence[Shape]) -> None:
 
 def _pieces(shape: Shape) -> list[Shape]:
     """A shape as URDF has them: a capsule is a cylinder and two spheres, an ellipsoid the box of its inertia."""
-    if shape.kind == "ellipsoid":
-        return [Shape("box", tuple(BOX_OF_ELLIPSOID * axis for axis in shape.size), shape.pose)]
     if shape.kind != "capsule":
-        return [shape]
+        return [box_of_ellipsoid(shape)]
     radius, length = shape.size
     ends = [shape.pose @ Pose(np.array([0.0, 0.0, side * length / 2.0])) for side in (-1.0, 1.0)]
     return [Shape("cylinder", shape.size, shape.pose), *(Shape("sphere", (radius,), end) for end in ends)]

@@ -10,13 +10,14 @@ carries the mass of all of them, because the mass of a parent overrides that of 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from math import degrees, inf
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ....core.numerics.rotations import quaternion
+from ....core.mesh.surface import Surface
+from ....core.numerics.rotations import along_x, quaternion
 from ....core.robots.model import Inertial, Joint, Pose, Robot, Shape
 from ....core.verdict.finding import Finding, finding
 from .marker import MARKER
@@ -37,8 +38,26 @@ def check(robot: Robot) -> list[Finding]:
     return [finding("usd_inertia_too_small", count=len(small), links=small)] if small else []
 
 
-def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = False) -> str:
-    """Return a robot as a layer of its own, in meters, with a prim for each link; parameters as of `urdf.write`."""
+def write(
+    robot: Robot,
+    remarks: Sequence[str] = (),
+    *,
+    inertial_only: bool = False,
+    surface_of: Callable[[str], Surface | None] | None = None,
+) -> str:
+    """Return a robot as a layer of its own, in meters, with a prim for each link.
+
+    Parameters
+    ----------
+    robot, remarks, inertial_only
+        As of `urdf.write`.
+    surface_of : callable, optional
+        Returns a link's surface by its name, along its axes in meters. Its meshes are then a part of the layer.
+
+    Returns
+    -------
+    str
+    """
     names = unique_names([link.name for link in robot.links], identifier)
     joints = unique_names([joint.name for joint in robot.joints], identifier, names.values())
     lines = header(robot.name, remarks, 1.0, ROOT)
@@ -52,7 +71,10 @@ def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = Fa
         if not inertial_only:
             lines += _indented(_transform(link.pose), 2)
             for count, shape in enumerate(link.shapes, start=1):
-                lines += _indented(_shape(shape, "shape_{}".format(count)), 2)
+                if shape.kind != "mesh":
+                    lines += _indented(_shape(shape, "shape_{}".format(count)), 2)
+                elif surface_of is not None and (surface := surface_of(link.name)) is not None:
+                    lines += _indented(_mesh(surface, shape.pose, "shape_{}".format(count)), 2)
         lines += _indented(["}"])
     for joint in () if inertial_only else robot.joints:
         lines += _indented(_joint(robot, joint, joints[joint.name], names))
@@ -224,9 +246,7 @@ def _transform(pose: Pose, scale: Sequence[float] | None = None) -> list[str]:
 
 
 def _shape(shape: Shape, name: str) -> list[str]:
-    """A primitive to collide as. A mesh is none: USD has no reference to a file of another format."""
-    if shape.kind == "mesh":
-        return []
+    """A primitive to collide as."""
     kinds = {"box": "Cube", "ellipsoid": "Sphere", "sphere": "Sphere", "capsule": "Capsule", "cylinder": "Cylinder"}
     lines = [*_prim("def " + kinds[shape.kind], name, ("PhysicsCollisionAPI",)), "{"]
     scale = None
@@ -242,6 +262,23 @@ def _shape(shape: Shape, name: str) -> list[str]:
     return [*lines, *_indented([*attributes, *_transform(shape.pose, scale)]), "}"]
 
 
+def _mesh(surface: Surface, pose: Pose, name: str) -> list[str]:
+    """A mesh that collides as its convex hull. USD knows no files of other formats, so it stands in the layer."""
+    triangles = surface.all_triangles()[0]
+    used, corners = np.unique(triangles, return_inverse=True)
+    points = surface.points[used].astype(np.float32)
+    attributes = [
+        "point3f[] points = [{}]".format(", ".join(map(singles, points))),
+        "int[] faceVertexCounts = [{}]".format(", ".join(["3"] * len(triangles))),
+        "int[] faceVertexIndices = [{}]".format(", ".join(map(str, corners.ravel().tolist()))),
+        'uniform token subdivisionScheme = "none"',
+        'uniform token physics:approximation = "convexHull"',
+        *_transform(pose),
+    ]
+    head = _prim("def Mesh", name, ("PhysicsCollisionAPI", "PhysicsMeshCollisionAPI"))
+    return [*head, "{", *_indented(attributes), "}"]
+
+
 def _joint(robot: Robot, joint: Joint, name: str, names: dict[str, str]) -> list[str]:
     """A joint whose frame is the child's. One of several degrees of freedom is a general one with limits."""
     child, parent = robot.link(joint.child), robot.link(joint.parent)
@@ -252,7 +289,7 @@ def _joint(robot: Robot, joint: Joint, name: str, names: dict[str, str]) -> list
     elif len(joint.free) == 1:
         free = joint.free[0]
         kind = "PhysicsRevoluteJoint" if free.kind == "rotate" else "PhysicsPrismaticJoint"
-        apis, turn = (), _along_x(free.axis)
+        apis, turn = (), along_x(free.axis)
         limits = [_in_degrees(free.kind, limit) for limit in (free.lower, free.upper)]
         more = ['uniform token physics:axis = "X"']
         more += ["float physics:{}Limit = {}".format(end, single(v)) for end, v in zip(("lower", "upper"), limits)]
@@ -292,11 +329,3 @@ def _limits(joint: Joint) -> tuple[tuple[str, ...], list[str]]:
         for end, value in (("low", low), ("high", high)):
             lines.append("float limit:{}:physics:{} = {}".format(name, end, single(value)))
     return tuple(apis), lines
-
-
-def _along_x(axis: NDArray) -> NDArray[np.float64]:
-    """A rotation whose first column is a unit vector."""
-    other = np.eye(3)[int(np.argmin(np.abs(axis)))]
-    second = np.cross(axis, other)
-    second = second / np.linalg.norm(second)
-    return np.column_stack([axis, second, np.cross(axis, second)])

@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""--format urdf, sdf, mjcf and usd: the scene's objects as links, with the numbers of their records."""
+"""--format urdf, sdf, mjcf, usd and gltf: the scene's objects as links, with the numbers of their records."""
 
+import json
 import re
 from xml.etree import ElementTree
 
@@ -23,6 +24,8 @@ from tests.core import characters
 
 pytestmark = pytest.mark.usefixtures("scene")
 UNITS = (1.0, 0.001)
+KHR = "KHR_physics_rigid_bodies"
+Y_UP = np.array([[1.0, 0, 0], [0, 0, 1.0], [0, -1.0, 0]])
 
 
 def arm(unit=1.0):
@@ -110,6 +113,15 @@ def test_the_other_formats_hold_the_same_bodies(unit):
         mass = float(re.search(r"physics:mass = (.*)", prim)[1])
         check(record, record["mass"], record["center_of_mass"], [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
         assert close(mass, record["mass"], 1e-7)
+    gltf = json.loads(text("measure", "--format", "gltf"))
+    bodies = {node["name"]: node for node in gltf["nodes"] if "motion" in node.get("extensions", {}).get(KHR, ())}
+    assert bodies.keys() == records.keys() and "meshes" not in gltf
+    for name, node in bodies.items():
+        motion = node["extensions"][KHR]["motion"]
+        x, y, z, w = motion["inertiaOrientation"]
+        turn = Y_UP.T @ rotation_matrix([w, x, y, z])
+        tensor = (turn * motion["inertiaDiagonal"]) @ turn.T
+        check(records[name], motion["mass"], Y_UP.T @ motion["centerOfMass"], tensor)
 
 
 def check(record, mass, center, tensor):
@@ -130,7 +142,7 @@ def test_without_a_parent_that_is_measured_the_next_one_above_is_taken():
 
 def test_inertials_alone_name_no_mesh():
     arm()
-    for name in ("urdf", "sdf", "mjcf", "usd"):
+    for name in ("urdf", "sdf", "mjcf", "usd", "gltf"):
         found = text("measure", "--format", name, "--inertial-only")
         assert "mesh" not in found and "joint" not in found.lower() and "Fore" in found
 
@@ -142,6 +154,12 @@ def test_meshes_are_written_beside_the_file_along_the_axes_of_their_links(tmp_pa
     record = {entry["name"]: entry for entry in document("--frame", "object")["objects"]}["Fore arm"]
     named = [mesh.get("filename") for mesh in ElementTree.parse(path).getroot().iter("mesh")]
     assert {tmp_path / name for name in named} == {*(tmp_path / "meshes").iterdir()}
+    for name in ("usd", "gltf"):  # which hold them
+        path = tmp_path / name / ("robot." + name)
+        path.parent.mkdir()
+        text("measure", "--format", name, "--meshes", "--output", str(path))
+        assert [*path.parent.iterdir()] == [path]
+        assert len(re.findall(r'def Mesh|"primitives"', path.read_text(encoding="utf-8"))) == 3
     again = document(str(tmp_path / "meshes" / "fore_arm.stl"), "--unit-scale", "1")["objects"][0]
     assert close(again["volume"], record["volume"], 1e-6)
     assert np.abs(np.subtract(again["center_of_mass"], record["center_of_mass"])).max() < 1e-6 * 0.005
@@ -150,7 +168,7 @@ def test_meshes_are_written_beside_the_file_along_the_axes_of_their_links(tmp_pa
 
 def test_an_older_robot_of_ours_is_replaced_and_another_is_not(tmp_path):
     arm()
-    for name in ("urdf", "sdf", "mjcf", "usd"):
+    for name in ("urdf", "sdf", "mjcf", "usd", "gltf"):
         path = tmp_path / ("robot." + name)
         for _ in range(2):
             text("measure", "--format", name, "--output", str(path))

@@ -150,19 +150,30 @@ def test_the_rest_of_a_glb_stays_to_the_bit():
     assert gltf.read_json(changed) == {"nodes": [{"name": "ü"}], "extensionsUsed": ["A"]} and len(changed) % 4 == 0
 
 
-def test_a_collection_remembers_its_exporter_and_runs_it_again(tmp_path):
+@pytest.mark.parametrize(
+    "name, end", [("urdf", "urdf"), ("sdf", "sdf"), ("mjcf", "xml"), ("usd", "usda"), ("gltf", "glb")]
+)
+def test_a_collection_remembers_its_exporter_and_runs_it_again(tmp_path, name, end):
+    """In another session: path and options are in the file."""
     upper, fore, tool = pair()
     collection = bpy.data.collections.new("Robot")
     bpy.context.scene.collection.children.link(collection)
     collection.objects.link(tool)
     layer = bpy.context.view_layer.layer_collection.children["Robot"]
     bpy.context.view_layer.active_layer_collection = layer
-    assert bpy.ops.collection.exporter_add(name="IO_FH_body_moments_urdf") == {"FINISHED"}
+    assert bpy.ops.collection.exporter_add(name="IO_FH_body_moments_" + name) == {"FINISHED"}
+    path = tmp_path / ("tool." + end)
     options = collection.exporters[0].export_properties
-    options.filepath, options.inertial_only = str(tmp_path / "tool.urdf"), True
+    options.filepath, options.inertial_only = str(path), True
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "scene.blend"))
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "scene.blend"))
     assert bpy.ops.collection.export_all() == {"FINISHED"}
-    root = ElementTree.parse(tmp_path / "tool.urdf").getroot()
-    assert [link.get("name") for link in root.iter("link")] == ["Tool"] and root.find("link/visual") is None
+    data = path.read_bytes()
+    assert b"Tool" in data and b"Upper" not in data and b"shape" not in data and b"visual" not in data
+    bpy.data.collections["Robot"].exporters[0].export_properties.inertial_only = False
+    bpy.context.view_layer.active_layer_collection = bpy.context.view_layer.layer_collection.children["Robot"]
+    assert bpy.ops.collection.export_all() == {"FINISHED"}
+    assert path.read_bytes() != data and b"Upper" not in path.read_bytes()
 
 
 def test_nothing_to_export_and_nowhere_to_write_are_refused(tmp_path):
@@ -209,3 +220,19 @@ def test_bones_are_links_in_their_rest_frames_with_their_limits(tmp_path):
     export("mjcf", tmp_path / "rig.xml", links="BONE", use_selection=True, write_meshes=False)
     first = ElementTree.parse(tmp_path / "rig.xml").getroot().find("worldbody/body")
     assert first.find("freejoint") is not None and len(first.findall("body")) == len(names) - 1
+    export("gltf", tmp_path / "rig.glb", links="BONE")
+    document = gltf.read_json((tmp_path / "rig.glb").read_bytes())
+    nodes = {node["name"]: node for node in document["nodes"]}
+    (limit,) = [
+        limit
+        for joint in document["extensions"]["KHR_physics_rigid_bodies"]["physicsJoints"]
+        if joint["name"].startswith(names[1])
+        for limit in joint["limits"]
+        if limit["min"] < limit["max"]
+    ]
+    assert limit["angularAxes"] == [0] and close(limit["max"], 1.0, 1e-6)
+    assert all("motion" in nodes[name]["extensions"]["KHR_physics_rigid_bodies"] for name in names)
+    assert len(document["meshes"]) == len(names) and "buffers" in document
+    export("usd", tmp_path / "rig.usda", links="BONE")
+    text = (tmp_path / "rig.usda").read_text(encoding="utf-8")
+    assert text.count("def Mesh ") == text.count('"PhysicsRigidBodyAPI"') == len(names) and "physics:body1" in text
