@@ -9,10 +9,14 @@ import signal
 import subprocess
 import sys
 import time
+from contextlib import suppress
 from pathlib import Path
 
 import numpy as np
 import pytest
+
+with suppress(ImportError):  # Windows
+    import pty
 
 pytest.importorskip("bpy")
 import bpy
@@ -21,7 +25,7 @@ from body_moments.core.polyhedron import MAX_ORDER
 from body_moments.core.scans import SUFFIXES as SCANS
 from body_moments.operators.command import files as readers
 from body_moments.operators.command import option_types
-from body_moments.operators.supervisor import listing
+from body_moments.operators.supervisor import listing, processes
 from body_moments.operators.supervisor.journal import Journal
 
 from tests.blender import batch_files as files
@@ -189,14 +193,60 @@ def test_a_signal_ends_a_run_at_once_and_it_can_be_resumed(tmp_path, number):
     running = commands.start(*words)
     assert commands.wait_until(lambda: journal.exists() and journal.read_bytes().count(b"\n") == 4, 120)
     born = commands.children(running.pid)
+    sent = time.monotonic()
     running.send_signal(number)
     _, said = running.communicate(timeout=20)
+    assert time.monotonic() - sent < 10.0  # within a second on a machine at rest, where the file would take minutes
     assert running.returncode == 3 and b"interrupted after 4 of 5" in said and not out.exists()
     assert not any(map(commands.is_running, born))
     assert sorted(path.name for path in tmp_path.iterdir()) == ["out.jsonl.journal", "scans"]
     slow.unlink()
     ended = script("measure", *words, "--resume")
     assert ended.returncode == 0 and b"0 files in" in ended.stderr and len(lines(out)) == 4
+
+
+@signals
+def test_children_that_do_not_listen_end_together():
+    """One period of grace for all of them: with one each these would take 8 s."""
+    stubborn = ["sh", "-c", "trap '' TERM; echo; while :; do sleep 1; done"]
+    children = [subprocess.Popen(stubborn, stdout=subprocess.PIPE, start_new_session=True) for _ in range(20)]
+    for child in children:
+        child.stdout.readline()
+        child.stdout.close()
+    begun = time.monotonic()
+    processes.kill(children, gently=True)
+    assert time.monotonic() - begun < 4.0
+    assert [child.returncode for child in children] == [-signal.SIGKILL] * 20
+
+
+@on_linux
+def test_a_terminal_shows_a_bar_and_its_interrupt_key_ends_the_run(tmp_path):
+    """The key reaches the supervisor alone, not its children, and the bar is gone before the last line."""
+    for one in range(3):
+        np.save(tmp_path / "{}.npy".format(one), np.full((3, 4, 5), one + 1, "u2"))
+    slow = tmp_path / "z_2048x2048x2048_uint8.raw"
+    slow.touch()
+    os.truncate(slow, 1 << 33)
+    words = [sys.executable, SCRIPT, "measure", str(tmp_path), "--jobs", "1", "--output", str(tmp_path / "out")]
+    pid, terminal = pty.fork()
+    if pid == 0:
+        os.execv(sys.executable, words)
+    shown = b""
+    with open(terminal, "rb+", buffering=0) as screen:
+        while b"3 of 4" not in shown:
+            shown += screen.read(1 << 16)
+        born = commands.children(pid)
+        screen.write(b"\x03")
+        with suppress(OSError):  # how the end of a terminal is read
+            while data := screen.read(1 << 16):
+                shown += data
+    _, status = os.waitpid(pid, 0)
+    assert os.waitstatus_to_exitcode(status) == 3
+    assert b"\r\x1b[K[##################......] 3 of 4 files" in shown
+    assert (
+        shown.rstrip().endswith(b"--resume goes on.") or b"interrupted after 3 of 4" in shown.rpartition(b"\x1b[K")[2]
+    )
+    assert born and not any(map(commands.is_running, born))
 
 
 def test_two_runs_do_not_write_the_same_result(scans, tmp_path):
