@@ -9,9 +9,13 @@ its tree are kept with its settings.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from contextlib import contextmanager
 
 import bpy
+import numpy as np
 from bpy.types import Context, Object
+from mathutils import Vector
+from numpy.typing import NDArray
 
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict import internal_error
@@ -19,13 +23,14 @@ from ...core.verdict.finding import Finding, Severity
 from ..bodies.assembly import Assembly, MemberBody, assembly_measurement, members_key, structure_hash
 from ..bodies.measure_object import Measured
 from ..bodies.stack import Stacked
-from ..read.assembly import MemberKind, Root, members_of, settings_of
+from ..read.assembly import Member, MemberKind, Root, is_assembly, members_of, settings_of
 from ..read.fingerprint import VERSION, digest, matrix_hash
 from ..write import properties
 from ..write.messages import of_severity
 from . import handlers, marks, reference, results, staleness
 from .cache import SessionCache
 
+SAME_RTOL = 1e-5  # of mass, and of the radius of gyration: what other coordinates of the same body may change
 _reasons: SessionCache[tuple[int, str | None]] = SessionCache()  # of assemblies, and the generation that is true of
 
 
@@ -115,6 +120,53 @@ def _stale_reason(root: Root) -> str | None:
         return "stale_member"
     moved = isinstance(root, bpy.types.Object) and matrix_hash(root) != mark.transform
     return "stale_transform" if moved else None
+
+
+@contextmanager
+def kept_up_to_date(context: Context) -> Iterator[None]:
+    """Keep assemblies up to date while members get other frames, and their results are stored anew.
+
+    What has another mass or center afterwards, or is out of date itself, is left as it is: so is its assembly.
+    """
+    scene = context.scene
+    roots = [scene.collection, *scene.collection.children_recursive, *scene.objects]
+    stored = [root for root in roots if "body_fingerprint" in root and is_assembly(root)]
+    depsgraph = context.evaluated_depsgraph_get()
+    before = {root: _member_bodies(members_of(root, depsgraph)) for root in stored if not stale_reason(root)}
+    yield
+    depsgraph = context.evaluated_depsgraph_get()
+    for root, bodies in before.items():
+        member, mark = members_of(root, depsgraph), marks.parse(marks.of_results(root))
+        now = _member_bodies(member)
+        same = mark is not None and structure_hash(member) == mark.settings and bodies.keys() == now.keys()
+        if not same or any(staleness.stale_reason(obj, scene) for obj in now):
+            continue
+        if all(_is_same(bodies[obj], now[obj]) for obj in now):
+            key = members_key(member, {obj: marks.of_results(obj) for obj in now})
+            root["body_fingerprint"] = ":".join(mark._replace(geometry=digest(key.encode())))
+    handlers.count_change()
+
+
+def _member_bodies(root: Member) -> dict[Object, tuple[float, NDArray[np.float64], float]]:
+    """Of each member the stored mass, where its center is in the world, and its radius of gyration."""
+    bodies = {}
+    for member in root.walk():
+        if member.kind == MemberKind.OBJECT and member.is_measured and "body_mass" in member.data:
+            obj = member.data
+            location, rotation, _scale = obj.matrix_world.decompose()
+            unit = bpy.context.scene.unit_settings.scale_length
+            center = np.array(rotation @ Vector(obj["body_center_of_mass"]) + location * unit, np.float64)
+            mass = float(obj["body_mass"])
+            bodies[obj] = mass, center, float(np.sqrt(sum(obj["body_inertia_diagonal"]) / 2.0 / mass))
+    return bodies
+
+
+def _is_same(before: tuple[float, NDArray, float], now: tuple[float, NDArray, float]) -> bool:
+    return (
+        abs(now[0] - before[0]) <= SAME_RTOL * before[0]
+        and float(np.linalg.norm(now[1] - before[1])) <= SAME_RTOL * max(before[2], float(np.abs(now[1]).max()))
+        and abs(now[2] - before[2]) <= SAME_RTOL * before[2]
+    )
 
 
 def _write_rows(assembly: Assembly) -> None:

@@ -128,8 +128,9 @@ def table(header: Sequence[str], rows: Iterable[dict[str, Any]]) -> Iterator[str
 def _rows(documents: Iterable[dict[str, Any]]) -> Iterator[dict[str, Any]]:
     for file_document in documents:
         place = {"file": file_document["file"], "frame": file_document["frame"]}
-        for entry in file_document["objects"]:
-            yield {**place, **_columns(entry)}
+        for name in ("objects", "assemblies", "bones"):
+            for entry in file_document.get(name, ()):
+                yield {**place, **_columns(entry)}
         for column, entries in (("left_out", file_document["left_out"]), ("error", file_document["errors"])):
             for entry in entries:
                 yield {**place, "name": entry["name"], column: entry["reason"]}
@@ -143,7 +144,7 @@ _COLUMNS = (
     *(f"principal_axis_{number}_{axis}" for number in (1, 2, 3) for axis in "xyz"),
     "symmetry",
 )  # fmt: skip
-_OPTIONAL_COLUMNS = ("density_from", "thickness", "length", "linear_density", "principal_axes_unique")
+_OPTIONAL_COLUMNS = ("armature", "density_from", "thickness", "length", "linear_density", "principal_axes_unique")
 _LAST_COLUMNS = ("warnings", "error")  # notes and findings stand before them
 
 

@@ -27,7 +27,7 @@ from ...bodies.stack import Stacked
 from ...read.quiet import paused
 from ...scene import reframe
 from ...scene.transforms import require_storable_data, world
-from ...session import results, staleness
+from ...session import assembly, results, staleness
 from ...settings.options import MeasureOptions
 from ...write import properties, reports
 from ...write.translations import localized
@@ -149,17 +149,18 @@ class OBJECT_OT_body_moments_rigid_bodies(Operator):
 
         _, failures = selection.apply_to_all(list(by_obj), measure)
         context.view_layer.update()
-        with paused():  # Blender reports a rigid body as a change of the shape
-            failures += self._place(context, measured)
-            new, refused = self._add(context, measured)
-            failures += refused
-            blender = _calculated_masses(context, measured)
-            for obj in new:
-                obj.rigid_body.mesh_source = "FINAL"  # the mesh that was weighed; Calculate Mass goes by the default
-            for obj, one in measured.items():
-                obj.rigid_body.mass = one.target.mass
-            context.view_layer.update()
-        _store(context, measured)
+        with assembly.kept_up_to_date(context):
+            with paused():  # Blender reports a rigid body as a change of the shape
+                failures += self._place(context, measured)
+                new, refused = self._add(context, measured)
+                failures += refused
+                blender = _calculated_masses(context, measured)
+                for obj in new:
+                    obj.rigid_body.mesh_source = "FINAL"  # the mesh that was weighed; Calculate Mass takes the default
+                for obj, one in measured.items():
+                    obj.rigid_body.mass = one.target.mass
+                context.view_layer.update()
+            _store(context, measured)
         return self._report(context, measured, blender, len(bodies), failures)
 
     def _place(self, context: Context, measured: dict[Object, Measured]) -> list[Finding]:

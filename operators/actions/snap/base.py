@@ -30,7 +30,7 @@ from ...bodies.measure_object import Measured, measure_body
 from ...bodies.stack import Stacked
 from ...read.quiet import paused
 from ...scene import reframe
-from ...session import results, staleness
+from ...session import assembly, results, staleness
 from ...settings.options import MeasureOptions
 from ...write import properties, reports
 from .. import selection
@@ -184,12 +184,13 @@ def reframe_objects(
         return plans, selection.apply_to_all(chosen, plan)[1]
 
     plans, failures = plans_of(objects)
-    with paused(), progress(len(plans)) as step:
-        changed, refused = reframe.reframe(context, plans, step)
-        failures += [reports.failure(obj.name_full, refusal) for obj, refusal in refused]
-        if not move_only:  # without its scale Blender cuts what is not flat into other triangles: another body
-            reframe.reframe(context, plans_of([plan_done.obj for plan_done in changed])[0])
-    remeasure(context, [plan.obj for plan in changed])
+    with assembly.kept_up_to_date(context):
+        with paused(), progress(len(plans)) as step:
+            changed, refused = reframe.reframe(context, plans, step)
+            failures += [reports.failure(obj.name_full, refusal) for obj, refusal in refused]
+            if not move_only:  # without its scale Blender cuts what is not flat into other triangles: another body
+                reframe.reframe(context, plans_of([plan_done.obj for plan_done in changed])[0])
+        remeasure(context, [plan.obj for plan in changed])
     if not move_only:
         staleness.mark_axes_changed(plan.obj for plan in changed)
     return changed, failures

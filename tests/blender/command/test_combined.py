@@ -2,8 +2,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Assemblies and bones on the command line: in the document where a file has them, and stored with --write."""
 
+import csv
+import io
+
 import bpy
 import pytest
+from body_moments.operators.write import documents
 
 from tests.blender import batch_files as files
 from tests.blender.actions.rig.test_rig import character
@@ -41,6 +45,11 @@ def test_assemblies_and_bones_that_were_measured_are_in_the_document(tmp_path):
     assert len(found["bones"]) == 7 and {bone["armature"] for bone in found["bones"]} == {"Rig"}
     bones = {bone["name"]: bone for bone in found["bones"]}
     assert close(bones["head"]["mass"], 8000.0, 1e-6) and bones["head"]["kind"] == "bone"
+    rows = [*csv.DictReader(io.StringIO("".join(documents.to_csv([found]))))]
+    assert [(row["name"], float(row["mass"])) for row in rows if row["kind"] == "assembly"] == [("Robot", 100.0)]
+    of_bones = {row["name"]: row for row in rows if row["kind"] == "bone"}
+    assert of_bones.keys() == bones.keys() and {row["armature"] for row in of_bones.values()} == {"Rig"}
+    assert float(of_bones["head"]["inertia_xx"]) == bones["head"]["inertia"][0][0]
 
 
 def test_results_are_stored_on_collections_and_pose_bones(tmp_path):

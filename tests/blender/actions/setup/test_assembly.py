@@ -10,6 +10,7 @@ import pytest
 from body_moments.operators.session import assembly as session
 from body_moments.operators.session import results, staleness
 from body_moments.operators.write import properties
+from mathutils import Matrix
 
 from tests.blender.bodies.test_assembly import box, boxes_inertia, collection, empty
 from tests.blender.objects import only, place
@@ -105,6 +106,35 @@ def test_an_assembly_is_out_of_date_when_a_member_is(change, reason):
     assert session.stale_reason(root) == reason
     bpy.ops.object.body_moments_measure_assembly()
     assert session.stale_reason(root) is None
+
+
+@pytest.mark.parametrize(
+    "operator, options, kept",
+    [
+        ("rigid_bodies", {}, True),
+        ("rigid_bodies", {"frame": "ORIGIN"}, True),
+        ("rigid_bodies", {"use_density": True, "density": 5.0}, False),
+        ("origin_to_center", {}, True),
+        ("axes_to_principal", {}, True),
+    ],
+)
+def test_members_that_only_get_other_frames_leave_their_assembly_up_to_date(operator, options, kept):
+    root = assembly_of_boxes()
+    for obj in root.all_objects:
+        obj.data.transform(Matrix.Translation((0.5, 0.25, 1.0)))
+        obj.rotation_euler = (0.3, 0.2, 0.1)
+    bpy.context.view_layer.update()
+    bpy.ops.object.body_moments_measure_assembly()
+    before = [obj.matrix_world.copy() for obj in root.all_objects]
+    for obj in root.all_objects:
+        obj.select_set(True)
+    assert getattr(bpy.ops.object, "body_moments_" + operator)(**options) == {"FINISHED"}
+    assert all(obj.matrix_world != was for obj, was in zip(root.all_objects, before))
+    assert session.stale_reason(root) == (None if kept else "stale_member")
+    assert session.stale_reason(bpy.data.collections["Arm"]) == (None if kept else "stale_member")
+    bpy.data.objects["b1"].location.x += 1.0
+    bpy.context.view_layer.update()
+    assert session.stale_reason(root) == "stale_member"
 
 
 def test_an_empty_with_children_carries_their_total_and_moves_to_its_center():
