@@ -31,6 +31,7 @@ The packages, each with its own public names in its `__init__` (imports run from
     nurbs        B-spline curves and patches (Soldea, Elber and Rivlin, sections 2, 3), Blender's knots
     offset       walls of real thickness
     statics      support polygons, resting poses; derivatives by every vertex, the least change that moves the center
+    cad          B-spline surfaces of IGES and .obj files, with Blender's knots
     measurement  `Measurement`, all results of one measured object
 
 Importing this package loads neither numpy nor any of these: each name is imported when it is first used.

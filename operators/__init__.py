@@ -33,6 +33,7 @@ PARTS = (
         for name in (
             "presets",
             "import_scan",
+            "import_surfaces",
             "remedies",
             "node_group",
             "assembly",

@@ -110,14 +110,19 @@ class SplineSpace:
 
     @cached_property
     def bezier_extraction(self) -> NDArray[np.float64]:
-        """(s, order, order) what each acting control point weighs in each Bézier control point of a span.
+        """(s, order, order) what each acting control point weighs in each Bézier control point of a span."""
+        return self.bezier_weights(self.spans, self.intervals)
 
-        That is the recursion of Cox and de Boor with a parameter for each of its steps, the span's beginning or its
+    def bezier_weights(self, spans: NDArray[np.integer], intervals: NDArray) -> NDArray[np.float64]:
+        """(s, order, order) what each acting control point weighs in each Bézier control point of an interval (s, 2)
+        within each span (s,).
+
+        That is the recursion of Cox and de Boor with a parameter for each of its steps, the interval's beginning or its
         end: Bézier's b-th point takes b ends.
         """
         knots = np.asarray(self.knots)
-        near = knots[self.spans[:, None] + np.arange(2 - self.order, self.order)]
-        low, high = self.intervals[:, :1], self.intervals[:, 1:]
+        near = knots[np.asarray(spans)[:, None] + np.arange(2 - self.order, self.order)]
+        low, high = intervals[:, :1], intervals[:, 1:]
         b = np.arange(self.order)
         values = np.ones((len(near), self.order, 1))
         for order in range(2, self.order + 1):

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Bodies that B-spline curves and patches bound (Soldea, Elber and Rivlin, sections 2 and 3)."""
 
+from .bezier_form import bezier_patches
 from .blender_knots import blender_space
 from .curve import Curve
 from .curve_moments import length_moments
@@ -14,6 +15,7 @@ __all__ = [
     "Curve",
     "Patch",
     "TrackedSolid",
+    "bezier_patches",
     "blender_space",
     "length_moments",
     "measure_patches",

@@ -14,13 +14,15 @@ from ..verdict.finding import FileError, QueryError
 @dataclass(frozen=True)
 class Limits:
     """samples: of one scan. unpacked_bytes: of compressed samples, all of which are in memory. entries: of an archive.
-    header_bytes: of a header. allow_outside: whether a header may name a file of samples outside of its own folder.
+    header_bytes: of a header. text_bytes: of a file of surfaces, which is text. allow_outside: whether a header may
+    name a file of samples outside of its own folder.
     """
 
     samples: int = 1 << 33
     unpacked_bytes: int = 1 << 32
     entries: int = 1000
     header_bytes: int = 1 << 20
+    text_bytes: int = 1 << 28
     allow_outside: bool = False
 
     @classmethod

@@ -31,8 +31,8 @@ _PATHS = ("output", "fourier", "q", "manifest")
 _TRIPLES = ("spacing", "origin", "about")
 
 _EPILOG = """\
-FILE is .blend, .stl, .obj, .ply, .glb, .gltf, .usd, .usda, .usdc, .usdz, .fbx or .3mf, or an array or
-scan of densities: .npy, .npz, .nrrd, .nhdr, .nii, .nii.gz, or .raw if called NAME_XxYxZ_TYPE.raw;
+FILE is .blend, .stl, .obj, .ply, .glb, .gltf, .usd, .usda, .usdc, .usdz, .fbx, .3mf, .igs or .iges, or an
+array or scan of densities: .npy, .npz, .nrrd, .nhdr, .nii, .nii.gz, or .raw if called NAME_XxYxZ_TYPE.raw;
 or a folder, whose files of these kinds are measured, those in its folders too. Without one, the file
 that Blender has open is measured. All numbers are SI: kilograms and meters.
 Files are measured by child processes, so that none of them can end the others: what crashes, hangs

@@ -27,6 +27,8 @@ from ...core.scans import formats as scans
 from ...core.verdict.finding import FileError, Finding, finding
 from .finite import check_numbers
 from .import_3mf import import_3mf
+from .import_surfaces import import_iges, import_obj
+from .opened import Opened
 from .references import unresolved_references
 
 BLEND = ".blend"
@@ -40,10 +42,11 @@ USD = (".usd", ".usda", ".usdc", ".usdz")
 # missing without a word. Bone shapes are objects of the importer's own making.
 _IMPORTERS: dict[str, Callable[[str], object]] = {
     ".stl": lambda path: bpy.ops.wm.stl_import(filepath=path),
-    ".obj": lambda path: bpy.ops.wm.obj_import(filepath=path),
+    ".obj": import_obj,
     ".ply": lambda path: bpy.ops.wm.ply_import(filepath=path),
     ".fbx": lambda path: bpy.ops.wm.fbx_import(filepath=path),
     ".3mf": import_3mf,
+    **dict.fromkeys((".igs", ".iges"), import_iges),
     **dict.fromkeys(
         (".glb", ".gltf"),
         lambda path: bpy.ops.import_scene.gltf(filepath=path, disable_bone_shape=True),
@@ -60,31 +63,30 @@ def file_suffix(path: str) -> str:
     return scans.scan_suffix(path) or Path(path.lower()).suffix
 
 
-def open_file(path: str) -> list[Finding]:
-    """Make a file the open scene, and return what it refers to and is not there. Raises FileError."""
+def open_file(path: str) -> Opened:
+    """Make a file the open scene, and return what was found on the way. Raises FileError."""
     kind = file_suffix(path)
     _check(path, kind)
     check_numbers(path, kind)
     absolute = os.path.abspath(path)
     if kind == BLEND:  # which replaces all that was open
         _open_blend(absolute)
-        return []
+        return Opened()
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
     try:
         if kind in (".glb", ".gltf"):
             # An add-on that comes with Blender, and may be switched off.
             addon_utils.enable("io_scene_gltf2")
         missing = unresolved_references(partial(_IMPORTERS[kind], absolute)) if kind in USD else []
-        if kind not in USD:
-            _IMPORTERS[kind](absolute)
+        found = _IMPORTERS[kind](absolute) if kind not in USD else None
     except AttributeError as error:
         raise FileError("importer_missing", suffix=kind) from error
     except RuntimeError as error:
         raise FileError("import_failed", error=reason(error)) from error
-    unresolved = [finding("missing_references", names=missing)] if missing else []
+    unresolved = (finding("missing_references", names=missing),) if missing else ()
     if not bpy.context.scene.objects:
         raise FileError(unresolved[0] if unresolved else finding("file_without_objects", suffix=kind))
-    return unresolved
+    return found if isinstance(found, Opened) else Opened(unresolved)
 
 
 def _open_blend(path: str) -> None:

@@ -41,15 +41,16 @@ from ..write.properties import store
 from ..write.terminal import print_message
 from . import assets, density_options, fourier, robots
 from .combined import Combined, measure_combined
-from .files import BLEND, UNITLESS, file_suffix, newer_version, open_file
+from .file_options import OF_ARRAYS, is_unitless, unit_findings, unused_array_options
+from .files import BLEND, file_suffix, newer_version, open_file
 from .interruption import Progress, check_interruption
 from .objects import failure, objects_to_measure, other_scenes, why_nothing
+from .opened import Opened
 from .references import blocked_scripts, missing_links
 from .saving import Place, reserved
 from .scripts import scripts_of_open_file
 from .thumbnails import thumbnail_of
 
-_OF_ARRAYS = ("spacing", "origin", "spline_order", "density_scale")
 _STATUSES = {"file_missing": "missing", "file_version_unsupported": "unsupported_version"}
 _BLEND_WORD = re.compile(r"\.blend\d*$", re.IGNORECASE)
 
@@ -124,15 +125,16 @@ class Run:
                 objects, measured, errors = self._measure_array_file(path)
                 wanted = self._measure_options
             else:
-                unresolved = self._open(path, file)
+                opened = self._open(path, file)
                 # Not by way of the scene, whose unit scale is a float32 with limits.
-                unit = (self.options.unit_scale or 1.0) if _unitless(path) else None
+                unit = (self.options.unit_scale or 1.0) if is_unitless(path) else None
                 wanted = replace(self._measure_options, unit_scale=unit)
                 chosen, left_out, errors = objects_to_measure(self.options.object, self.options.all)
-                errors += [failure(None, reason) for reason in (*unresolved, *missing_links())]
+                errors += [failure(None, reason) for reason in (*opened.errors, *missing_links())]
                 of_file = (
-                    *_unit_findings(path, self.options.unit_scale),
-                    *_unused_array_options(self.options),
+                    *opened.notes,
+                    *unit_findings(path, self.options.unit_scale),
+                    *unused_array_options(self.options),
                     *blocked_scripts(),
                     *newer_version(),
                 )
@@ -141,7 +143,8 @@ class Run:
                     user = operands.get(obj)
                     cut = [] if user is None else [finding("solid_operand_measured", object=user.name)]
                     try:
-                        one, entry = self._measure_record(label, obj, wanted, (*of_file, *cut), errors)
+                        about = (*opened.by_object.get(obj.name, ()), *of_file, *cut)
+                        one, entry = self._measure_record(label, obj, wanted, about, errors)
                     except MeasureError as refusal:
                         errors.append(failure(label, refusal.finding))
                     except Exception as error:
@@ -248,7 +251,7 @@ class Run:
         if name not in names:
             return [], [], errors
         taken = {
-            measurement: getattr(self.options, measurement) for measurement in (*_OF_ARRAYS, "unit_scale", "limits")
+            measurement: getattr(self.options, measurement) for measurement in (*OF_ARRAYS, "unit_scale", "limits")
         }
         array = ArrayOptions(**{measurement: value for measurement, value in taken.items() if value is not None})
         try:
@@ -267,15 +270,15 @@ class Run:
         )
         return [entry], [(name, None, measurement)], errors
 
-    def _open(self, path: str | None, file: str | None) -> list[Finding]:
-        """Open what is to be measured, and return what it refers to and is not there."""
+    def _open(self, path: str | None, file: str | None) -> Opened:
+        """Open what is to be measured, and return what was found on the way."""
         if path is not None:
             unresolved = open_file(path)
             self.has_opened = True
             return unresolved
         if file and not bpy.data.filepath:
             raise FileError("file_not_opened")
-        return []
+        return Opened()
 
     def _fourier(
         self,
@@ -366,26 +369,6 @@ def _requested_file() -> str | None:
         if _BLEND_WORD.search(word) and not word.startswith("-"):
             return word
     return None
-
-
-def _unitless(path: str | None) -> bool:
-    return path is not None and file_suffix(path) in UNITLESS
-
-
-def _unit_findings(path: str | None, scale: float | None) -> Iterator[Finding]:
-    """The decision about the file's unit, where there was one."""
-    unitless = _unitless(path)
-    if unitless and scale is None:
-        yield finding("unit_assumed")
-    elif not unitless and scale is not None:
-        yield finding("unit_scale_option_unused")
-
-
-def _unused_array_options(options: Namespace) -> Iterator[Finding]:
-    """What was asked of arrays only, of a file that is none."""
-    given = [name for name in _OF_ARRAYS if getattr(options, name) is not None]
-    if given:
-        yield finding("array_options_unused", options=["--" + name.replace("_", "-") for name in given])
 
 
 def _save(place: Place | None, file: str | None) -> tuple[Finding, ...]:

@@ -20,6 +20,7 @@ from ...core.verdict.finding import QueryError
 SCHEMA = "body-moments-manifest/1"
 SUFFIXES = (
     *(".blend", ".stl", ".obj", ".ply", ".fbx", ".glb", ".gltf", ".usd", ".usda", ".usdc", ".usdz", ".3mf"),
+    *(".igs", ".iges"),
     *(".npy", ".npz", ".nrrd", ".nhdr", ".nii", ".nii.gz"),
 )
 COPY_SUFFIX = ".body_moments.blend"  # what our own copies of .blend files end with

@@ -1263,6 +1263,76 @@ MESSAGES: dict[str, Message] = {
         "The 3MF file needs an extension that changes its shape and is not read: {name}. Export it as plain meshes."
     ),
     "threemf_instances": _error("The 3MF file places more than {limit} meshes. Join some of them."),
+    "iges_unrecognized": _error("Not an IGES file in fixed ASCII form: a line has no section in column 73."),
+    "iges_not_ascii": _error("The IGES file is binary or compressed. Save it in fixed ASCII form."),
+    "iges_damaged": _error("The IGES file is damaged: {cause}. Export it again."),
+    "iges_global_section": _note("its global section is not complete or not possible"),
+    "iges_directory": _note("its directory entry {number} is not two lines of whole numbers"),
+    "iges_unit": _error("The IGES file has the unknown unit “{unit}”. Export it in millimeters or meters."),
+    "obj_call": _error("The file runs another one by “call”, which is not followed. Insert the other file."),
+    "surface_file_type": _error("Unsupported file type. Supported files of surfaces: {suffixes}."),
+    "file_without_surfaces": _error("The file has no B-spline surfaces. Export surfaces, or import a mesh."),
+    "no_surface_kept": _error("No surface of the file can be kept: {causes}"),
+    "too_many_surfaces": _error("The file places more than {limit} surfaces. Export fewer at a time."),
+    "surface_trimmed": _warning(
+        "Not imported, because it is trimmed: {kind} {names}. Untrim it, or export a mesh.",
+        "Not imported, because they are trimmed: {count} of the kind {kind}: {names}. Untrim them, or export a mesh.",
+    ),
+    "surface_type_unsupported": _warning(
+        "Not imported, because Blender's surfaces cannot be it: {kind} {names}. Convert it to a B-spline surface, or "
+        "export a mesh.",
+        "Not imported, because Blender's surfaces cannot be them: {count} of the kind {kind}: {names}. Convert them to "
+        "B-spline surfaces, or export a mesh.",
+    ),
+    "surface_of_unsupported": _warning(
+        "Not imported, because Blender's surfaces cannot be “{base}”: {kind} {names}. Convert it to a B-spline "
+        "surface, or export a mesh.",
+        "Not imported, because Blender's surfaces cannot be “{base}”: {count} of the kind {kind}: {names}. Convert "
+        "them to B-spline surfaces, or export a mesh.",
+    ),
+    "surface_order": _warning(
+        "Not imported, because its order is {order}, and {limit} is the highest: {kind} {names}. Lower its degree, or "
+        "export a mesh.",
+        "Not imported, because their order is {order}, and {limit} is the highest: {count} of the kind {kind}: "
+        "{names}. Lower their degree, or export a mesh.",
+    ),
+    "surface_too_large": _warning(
+        "Not imported, because it needs {points} control points, and {limit} is the limit: {kind} {names}. Split it.",
+        "Not imported, because they need {points} control points each, and {limit} is the limit: {count} of the kind "
+        "{kind}: {names}. Split them.",
+    ),
+    "surface_points": _warning(
+        "Not imported: {kind} {names}. {cause}", "Not imported: {count} of the kind {kind}: {names}. {cause}"
+    ),
+    "surface_damaged": _warning(
+        "Not imported, because its numbers are missing or not possible: {kind} {names}. Export it again.",
+        "Not imported, because their numbers are missing or not possible: {count} of the kind {kind}: {names}. Export "
+        "them again.",
+    ),
+    "surface_recursive": _warning(
+        "Not imported, because it refers to itself, or too deeply: {kind} {names}. Export it again.",
+        "Not imported, because they refer to themselves, or too deeply: {count} of the kind {kind}: {names}. Export "
+        "them again.",
+    ),
+    "surface_flattened": _warning(
+        "Not imported, because its transformation flattens it: {kind} {names}. Export it again.",
+        "Not imported, because their transformations flatten them: {count} of the kind {kind}: {names}. Export them "
+        "again.",
+    ),
+    "surfaces_hidden": _note("{count} hidden surface was left out.", "{count} hidden surfaces were left out."),
+    "curves_left_out": _note(
+        "{count} curve or point, which bounds nothing, was left out.",
+        "{count} curves and points, which bound nothing, were left out.",
+    ),
+    "surfaces_imported": _note(
+        "Imported {count} patch of order {order} from {file}.",
+        "Imported {count} patches of order {order} at most from {file}.",
+    ),
+    "surfaces_rounded": _note(
+        "Blender stores control points as 32-bit numbers: points of the surfaces moved by up to {distance:length}."
+    ),
+    "not_imported": _warning("Not imported: {cause}"),
+    "no_surface_file": _error("No file is chosen. Choose IGES or .obj files."),
     "stl_size": _error("The STL file is cut short or damaged: its size does not match its number of triangles."),
     "stl_cut_short": _error("The STL file is cut short: “endsolid” is missing."),
     "file_exists": _error("The file “{file}” exists. Turn on Overwrite."),

@@ -16,7 +16,7 @@ CORE = (
     ("polyhedron", "shape", "scans", "robots"),
     ("solid", "plane", "fourier", "rigs"),
     ("density", "nurbs", "offset"),
-    ("statics",),
+    ("statics", "cad"),
     ("measurement",),
 )
 OPERATORS = (

@@ -12,6 +12,7 @@ from . import (
     reports,
     robots,
     scans,
+    surfaces,
     tooltips,
     tooltips_of_settings,
 )
@@ -25,4 +26,5 @@ MESSAGES = (
     | editing.MESSAGES
     | reports.MESSAGES
     | robots.MESSAGES
+    | surfaces.MESSAGES
 )

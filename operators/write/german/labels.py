@@ -201,6 +201,8 @@ TEXTS = {
     "Frequencies": "Frequenzen",
     "Max Frequency": "Höchste Frequenz",
     "Import Scan": "Scan importieren",
+    "Import Surfaces": "Flächen importieren",
+    "Unit of .obj": "Einheit von .obj",
     "Set Spacing": "Abstand setzen",
     "Use the spacing below instead of the file's": "Den Abstand unten statt dem der Datei verwenden",
     "Spacing": "Abstand der Abtastwerte",

@@ -162,6 +162,12 @@ TEXTS = {
     "Write the Fourier transform of the active object to a file": (
         "Die Fourier-Transformation des aktiven Objekts in eine Datei schreiben"
     ),
+    "Import the B-spline surfaces of IGES files, and of .obj files with surf, as they are": (
+        "Die B-Spline-Flächen von IGES-Dateien, und von .obj-Dateien mit surf, importieren, wie sie sind"
+    ),
+    "Meters per unit of .obj files, which state no unit. IGES files state theirs": (
+        "Meter je Einheit von .obj-Dateien, die keine Einheit angeben. IGES-Dateien geben ihre an"
+    ),
     "Import a scan or array of densities as a Volume object. A .vdb file is written beside it": (
         "Einen Scan oder ein Feld von Dichten als Volumenobjekt importieren. Eine .vdb-Datei wird daneben geschrieben"
     ),

@@ -1,0 +1,241 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The surfaces of an IGES file: rational B-spline surfaces (type 128), alone, in trimmed surfaces (144) whose curves
+trim nothing, and in subfigures (308, 408); with their transformations (124) and the unit of the global section.
+
+Initial Graphics Exchange Specification 5.3. Other surfaces and solids are refused by name; curves, points and
+annotation bound nothing and are left out.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..nurbs.patch import Patch
+from ..verdict.finding import FileError, finding
+from .iges_text import Entry, IgesText, integers, numbers
+from .surfaces import MAX_SURFACES, Refusals, SurfaceBody, SurfaceFile, SurfaceRefusedError, blender_patches
+from .trims import Piece, trims_nothing
+
+MATRIX, SURFACE, TRIMMED, DEFINITION, INSTANCE = 124, 128, 144, 308, 408
+MAX_DEPTH = 50  # of subfigures, transformations and curves in each other
+# Surfaces and solids that Blender's surfaces are not, by the names of the specification. What is missing here is no
+# surface: curves, points, annotation, structure.
+REFUSED = {
+    **{108: "Plane", 114: "Parametric Spline Surface", 118: "Ruled Surface", 120: "Surface of Revolution"},
+    **{122: "Tabulated Cylinder", 140: "Offset Surface", 143: "Bounded Surface", 150: "Block", 152: "Wedge"},
+    **{154: "Cylinder", 156: "Cone Frustum", 158: "Sphere", 160: "Torus", 162: "Solid of Revolution"},
+    **{164: "Solid of Linear Extrusion", 168: "Ellipsoid", 180: "Boolean Tree", 184: "Solid Assembly"},
+    **{186: "Manifold Solid B-Rep", 190: "Plane Surface", 192: "Cylindrical Surface", 194: "Conical Surface"},
+    **{196: "Spherical Surface", 198: "Toroidal Surface", 412: "Rectangular Array", 414: "Circular Array"},
+    **{416: "External Reference", 430: "Solid Instance", 510: "Face", 514: "Shell"},
+}
+NAMES = {SURFACE: "Rational B-Spline Surface", TRIMMED: "Trimmed Surface", INSTANCE: "Subfigure Instance", **REFUSED}
+# Where the parameters of those that stand on others have the pointers to these: the first, and behind the last.
+REFERENCES = {TRIMMED: (0, 1), 140: (4, 5), 143: (1, 2), 430: (0, 1), 510: (0, 1)}
+CURVES = {100, 102, 104, 106, 110, 112, 116, 126, 130}  # and points: they bound nothing
+PARAMETER_CURVE, GEOMETRY = 142, (0, 6)
+
+
+def read_iges(path: Path) -> SurfaceFile:
+    """The surfaces as one body, called like the file. FileError where there is none that can be kept."""
+    return _Reader(path).read()
+
+
+class _Reader:
+    def __init__(self, path: Path) -> None:
+        self._text = IgesText(path)
+        self._entries = self._text.entries
+        self._refusals = Refusals()
+        self._matrices: dict[int, NDArray[np.float64] | None] = {0: np.eye(4)}
+        self._name, self._placed = path.stem, 0
+
+    def read(self) -> SurfaceFile:
+        used = set(self._references())
+        patches: list[Patch] = []
+        hidden = others = 0
+        for entry in self._entries.values():
+            if entry.type not in NAMES:
+                others += entry.type in CURVES and not entry.dependent
+            elif entry.number in used or entry.use not in GEOMETRY or entry.type in REFUSED and entry.dependent:
+                continue
+            elif entry.hidden:
+                hidden += 1
+            else:
+                patches += self._place(entry, np.eye(4), ())
+        notes = [finding(code, count=n) for code, n in (("surfaces_hidden", hidden), ("curves_left_out", others)) if n]
+        return self._refusals.file([SurfaceBody(self._name, tuple(patches))], self._text.unit, notes)
+
+    def _references(self) -> Iterator[int]:
+        """The entities that others stand on, and so are none by themselves."""
+        for entry in self._entries.values():
+            if entry.type not in REFERENCES and entry.type != DEFINITION:
+                continue
+            try:
+                fields = self._text.fields(entry)
+                if entry.type == DEFINITION:
+                    yield from self._members(fields)
+                else:
+                    first, end = REFERENCES[entry.type]
+                    yield from integers(fields[first:end], end - first)
+            except ValueError:
+                continue  # refused where it is placed
+
+    @staticmethod
+    def _members(fields: list[str]) -> list[int]:
+        """Of a subfigure: its depth, its name, and how many they are stand before them."""
+        (count,) = integers(fields[2:3], 1)
+        return integers(fields[3:], count)
+
+    def _place(self, entry: Entry, above: NDArray, path: tuple[int, ...]) -> list[Patch]:
+        """The patches of an entity where it stands. above: (4, 4) by the subfigures that it is in, path."""
+        kind, name = NAMES[entry.type], entry.label or "D{}".format(entry.number)
+        if entry.type in REFUSED:
+            self._refusals.add("surface_type_unsupported", "{} ({})".format(kind, entry.type), name)
+            return []
+        self._placed += 1
+        if self._placed > MAX_SURFACES:
+            raise FileError("too_many_surfaces", limit=MAX_SURFACES)
+
+        def make() -> list[Patch]:
+            if entry.type == INSTANCE:
+                return self._instance(entry, above, path)
+            return self._trimmed(entry, above) if entry.type == TRIMMED else self._surface(entry, above)
+
+        return self._refusals.keep("{} ({})".format(kind, entry.type), name, make)
+
+    def _instance(self, entry: Entry, above: NDArray, path: tuple[int, ...]) -> list[Patch]:
+        fields = self._text.fields(entry)
+        (pointer,) = integers(fields, 1)
+        x, y, z, scale = numbers((fields[1:5] + [""] * 4)[:4])
+        definition = self._entry(pointer, DEFINITION)
+        if pointer in path or len(path) >= MAX_DEPTH:
+            raise SurfaceRefusedError("surface_recursive")
+        local = np.diag([*[scale or 1.0] * 3, 1.0])
+        local[:3, 3] = x, y, z
+        matrix = above @ self._matrix(entry) @ local @ self._matrix(definition)
+        patches = []
+        for member in self._members(self._text.fields(definition)):
+            one = self._entries.get(member)
+            if one is None:
+                raise ValueError("no such entity")
+            if one.type in NAMES and not one.hidden:
+                patches += self._place(one, matrix, (*path, pointer))
+        return patches
+
+    def _entry(self, pointer: int, *types: int) -> Entry:
+        entry = self._entries.get(pointer)
+        if entry is None or entry.type not in types:
+            raise ValueError("no such entity")
+        return entry
+
+    def _matrix(self, entry: Entry) -> NDArray[np.float64]:
+        """(4, 4) of an entity, and of the transformations that its own refers to."""
+        chain, pointer = [], entry.matrix
+        while pointer not in self._matrices and len(chain) <= MAX_DEPTH:
+            chain.append(self._entry(pointer, MATRIX))
+            pointer = chain[-1].matrix
+        known = self._matrices.get(pointer)
+        if known is None:
+            raise SurfaceRefusedError("surface_recursive")
+        for one in reversed(chain):
+            rows = numbers(self._text.fields(one)[:12])
+            if len(rows) < 12:
+                raise ValueError("too few parameters")
+            matrix = np.eye(4)
+            matrix[:3] = rows.reshape(3, 4)
+            known = known @ matrix
+            self._matrices[one.number] = known
+        if not abs(np.linalg.det(known[:3, :3])) > 0.0:
+            raise SurfaceRefusedError("surface_flattened")
+        return known
+
+    def _surface(self, entry: Entry, above: NDArray) -> list[Patch]:
+        spline = _Spline(self._text.fields(entry))
+        return blender_patches(
+            spline.knots, spline.orders, spline.points, spline.weights, spline.domain, above @ self._matrix(entry)
+        )
+
+    def _trimmed(self, entry: Entry, above: NDArray) -> list[Patch]:
+        fields = self._text.fields(entry)
+        pointer, has_outer, holes = integers(fields, 3)
+        base = self._entries.get(pointer)
+        if base is None:
+            raise ValueError("no such entity")
+        if base.type != SURFACE:
+            raise SurfaceRefusedError("surface_of_unsupported", base=NAMES.get(base.type, str(base.type)))
+        spline = _Spline(self._text.fields(base))
+        if holes or has_outer and not self._trims_nothing(fields, pointer, spline):
+            raise SurfaceRefusedError("surface_trimmed")
+        return self._surface(base, above @ self._matrix(entry))
+
+    def _trims_nothing(self, fields: list[str], surface: int, spline: _Spline) -> bool:
+        """Whether the outer boundary is that of the surface's own domain."""
+        (outer,) = integers(fields[3:4], 1)
+        _, base, curve, _, _ = integers(self._text.fields(self._entry(outer, PARAMETER_CURVE)), 5)
+        if base != surface or not curve:
+            return False
+        pieces = self._pieces(curve, ())
+        return pieces is not None and trims_nothing(pieces, spline.domain)
+
+    def _pieces(self, pointer: int, path: tuple[int, ...]) -> list[Piece] | None:
+        """The curve as lines and splines in order; None where it is something else."""
+        entry = self._entries.get(pointer)
+        if entry is None or entry.matrix or pointer in path or len(path) >= MAX_DEPTH:
+            return None
+        fields = self._text.fields(entry)
+        if entry.type == 102:
+            (count,) = integers(fields, 1)
+            parts = [self._pieces(member, (*path, pointer)) for member in integers(fields[1:], count)]
+            return None if None in parts else [piece for part in parts for piece in part]
+        if entry.type == 110:
+            ends = numbers(fields[:6]).reshape(2, 3)
+            return [Piece(ends[:, :2], straight=True)]
+        if entry.type == 126:
+            return _spline_piece(fields)
+        return None
+
+
+def _spline_piece(fields: list[str]) -> list[Piece] | None:
+    """A B-spline curve in parameters; None where only a part of it is meant."""
+    last, degree = integers(fields, 2)
+    count, knot_count = last + 1, last + degree + 2
+    end = 6 + knot_count + 4 * count + 2
+    if degree < 1 or count <= degree or len(fields) < end:
+        raise ValueError("too few parameters")
+    values = numbers(fields[6:end])
+    knots, part = values[:knot_count], values[-2:]
+    if (values[knot_count : knot_count + count] <= 0.0).any():
+        return None
+    if knots[0] != knots[degree] or knots[-1] != knots[count] or part[0] != knots[0] or part[1] != knots[-1]:
+        return None
+    points = values[knot_count + count : -2].reshape(count, 3)
+    return [Piece(points[:, :2], straight=degree == 1)]
+
+
+class _Spline:
+    """The parameters of a rational B-spline surface; s, the first direction, is the file's first."""
+
+    def __init__(self, fields: list[str]) -> None:
+        last_s, last_t, degree_s, degree_t = integers(fields, 4)
+        counts, degrees = (last_s + 1, last_t + 1), (degree_s, degree_t)
+        if min(degrees) < 1 or any(count <= degree for count, degree in zip(counts, degrees)):
+            raise ValueError("too few control points")
+        knot_counts = [count + degree + 1 for count, degree in zip(counts, degrees)]
+        total = counts[0] * counts[1]
+        if len(fields) < 9 + sum(knot_counts) + 4 * total + 4:
+            raise ValueError("too few parameters")
+        values = numbers(fields[9 : 9 + sum(knot_counts) + 4 * total + 4])
+        s_knots, t_knots, weights, points, part = np.split(
+            values, np.cumsum([knot_counts[0], knot_counts[1], total, 3 * total])
+        )
+        self.knots = (s_knots.tolist(), t_knots.tolist())
+        self.orders = (degree_s + 1, degree_t + 1)
+        # The first direction runs fastest.
+        self.weights = weights.reshape(counts[::-1]).T
+        self.points = points.reshape(*counts[::-1], 3).swapaxes(0, 1)
+        self.domain = ((float(part[0]), float(part[1])), (float(part[2]), float(part[3])))

@@ -1,0 +1,203 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""IGES files in fixed ASCII form as numbers: the global section, the directory, the parameters of entities.
+
+Initial Graphics Exchange Specification 5.3, sections 2.2.1 to 2.2.4. Nothing is believed of what a file says about its
+own lengths: pointers and counts are compared with what is there.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..verdict.finding import FileError, finding
+
+LINE = 80  # columns
+SECTION = 72  # where the letter of a line's section is
+PARAMETERS = 64  # columns that parameters may take
+UNITS = {
+    **{1: 0.0254, 2: 1e-3, 4: 0.3048, 5: 1609.344, 6: 1.0, 7: 1e3},
+    **{8: 2.54e-5, 9: 1e-6, 10: 1e-2, 11: 2.54e-8},
+}
+UNIT_NAMES = {
+    **{"IN": 0.0254, "INCH": 0.0254, "MM": 1e-3, "FT": 0.3048, "MI": 1609.344, "M": 1.0, "KM": 1e3},
+    **{"MIL": 2.54e-5, "UM": 1e-6, "CM": 1e-2, "UIN": 2.54e-8},
+}
+UNIT_BY_NAME = 3
+_NUMBERS = re.compile(r"[0-9+\-.eEdD \n]*")
+_STRING = re.compile(r"\s*(\d{1,9})H")
+
+
+@dataclass(frozen=True)
+class Entry:
+    """What the directory says of an entity.
+
+    number: of its first line, by which others point to it. parameters: (first line, lines). matrix: pointer to a
+    transformation, or 0. hidden, dependent: by its status. use: 0 geometry, 1 annotation, 2 definition, 5 a curve in
+    parameters, 6 construction.
+    """
+
+    number: int
+    type: int
+    form: int
+    parameters: tuple[int, int]
+    matrix: int
+    hidden: bool
+    dependent: bool
+    use: int
+    label: str
+
+
+class IgesText:
+    """An IGES file. unit: meters. entries: by number. FileError where it is none, or damaged."""
+
+    def __init__(self, path: Path) -> None:
+        lines = _lines(path.read_bytes().decode("latin-1"))
+        sections: dict[str, list[str]] = {letter: [] for letter in "SGDPT"}
+        for line in lines:
+            letter = line[SECTION : SECTION + 1]
+            if letter in ("B", "C") and not sections["S"]:
+                raise FileError("iges_not_ascii")
+            if letter not in sections:
+                raise FileError("iges_unrecognized")
+            sections[letter].append(line)
+        if not (sections["G"] and sections["D"] and sections["P"]):
+            raise FileError("iges_unrecognized")
+        self._lines = sections["P"]
+        self._delimiter, self._end, fields = _global_fields("".join(line[:SECTION] for line in sections["G"]))
+        self.unit = _unit(fields)
+        self.entries = _directory(sections["D"])
+
+    def fields(self, entry: Entry) -> list[str]:
+        """The parameters of an entity, behind its type, texts without their length. ValueError where they end too
+        early, or are another entity's."""
+        first, count = entry.parameters
+        if not (first > 0 and count > 0 and first + count - 1 <= len(self._lines)):
+            raise ValueError("parameters beyond the section")
+        text = "".join(line[:PARAMETERS] for line in self._lines[first - 1 : first - 1 + count])
+        fields = _split(text, self._delimiter, self._end)
+        if not fields or _integer(fields[0]) != entry.type:
+            raise ValueError("parameters of another entity")
+        return fields[1:]
+
+
+def _lines(text: str) -> list[str]:
+    """Lines of 80 columns, with or without line breaks between them."""
+    lines = text.splitlines() if re.search(r"[\r\n]", text[: LINE + 2]) else _cut(text)
+    return [line for line in lines if line.strip("\0 \x1a")]
+
+
+def _cut(text: str) -> list[str]:
+    return [text[start : start + LINE] for start in range(0, len(text), LINE)]
+
+
+def _damaged(code: str, **values: object) -> FileError:
+    return FileError("iges_damaged", cause=finding(code, **values).as_record())
+
+
+def _global_fields(text: str) -> tuple[str, str, list[str]]:
+    """What parts parameters, what ends them, and the parameters from the third on."""
+    delimiter, rest = (text[2:3], text[3:]) if text.startswith("1H") else (",", text)
+    if not rest.startswith(delimiter):
+        raise _damaged("iges_global_section")
+    rest = rest[1:]
+    end, rest = (rest[2:3], rest[3:]) if rest.startswith("1H") else (";", rest)
+    if not rest.startswith((delimiter, end)) or delimiter == end:
+        raise _damaged("iges_global_section")
+    try:
+        return delimiter, end, _split(rest[1:], delimiter, end)
+    except ValueError:
+        raise _damaged("iges_global_section") from None
+
+
+def _unit(fields: list[str]) -> float:
+    """Meters for a unit of the model."""
+    fields = fields + [""] * 13
+    try:
+        scale = float(numbers(fields[10:11])[0]) or 1.0
+        flag = _integer(fields[11]) or 1
+    except ValueError:
+        raise _damaged("iges_global_section") from None
+    unit = UNIT_NAMES.get(fields[12].strip().upper()) if flag == UNIT_BY_NAME else UNITS.get(flag)
+    if unit is None:
+        raise FileError("iges_unit", unit=fields[12].strip() or str(flag))
+    if not 0.0 < scale < math.inf or not 0.0 < unit / scale < math.inf:
+        raise _damaged("iges_global_section")
+    return unit / scale
+
+
+def _directory(lines: list[str]) -> dict[int, Entry]:
+    entries = {}
+    for number in range(1, len(lines) + 1, 2):
+        try:
+            words = [lines[number - 1 + row][start : start + 8] for row in (0, 1) for start in range(0, SECTION, 8)]
+            status = "{:0>8}".format(words[8].strip())
+            entries[number] = Entry(
+                number,
+                _integer(words[0]),
+                _integer(words[13]),
+                (_integer(words[1]), _integer(words[12])),
+                _integer(words[6]),
+                status[:2] == "01",
+                status[2:4] in ("01", "03"),
+                _integer(status[4:6]),
+                words[16].strip(),
+            )
+        except (ValueError, IndexError):
+            raise _damaged("iges_directory", number=number) from None
+    return entries
+
+
+def _split(text: str, delimiter: str, end: str) -> list[str]:
+    """The fields of a record. ValueError where it has no end."""
+    if "H" not in text:
+        record, found, _ = text.partition(end)
+        if not found:
+            raise ValueError("no end")
+        return record.split(delimiter)
+    fields, at = [], 0
+    stop = re.compile("[{}]".format(re.escape(delimiter + end)))
+    while True:
+        start = _STRING.match(text, at)
+        if start:
+            begin, at = start.end(), start.end() + int(start[1])
+        ending = stop.search(text, at)
+        if ending is None:
+            raise ValueError("no end")
+        fields.append(text[begin:at] if start else text[at : ending.start()])
+        if ending[0] == end:
+            return fields
+        at = ending.end()
+
+
+def _integer(word: str) -> int:
+    """Of a field, 0 where it is blank. ValueError where it is no whole number."""
+    word = word.strip()
+    if len(word) > 18 or not re.fullmatch(r"[+-]?[0-9]*", word):
+        raise ValueError("not a whole number")
+    return int(word or 0)
+
+
+def integers(fields: list[str], count: int) -> list[int]:
+    """The first fields. ValueError where they are fewer, or not whole numbers."""
+    if len(fields) < count:
+        raise ValueError("too few parameters")
+    return [_integer(word) for word in fields[:count]]
+
+
+def numbers(fields: list[str]) -> NDArray[np.float64]:
+    """Real numbers, 0 where a field is blank, with Fortran's exponents. ValueError where one is none."""
+    text = "\n".join(fields)
+    if not _NUMBERS.fullmatch(text):
+        raise ValueError("not a number")
+    words = [word.strip() or "0" for word in text.replace("D", "E").replace("d", "e").split("\n")]
+    values = np.array(words, dtype=np.float64)
+    if not np.isfinite(values).all():
+        raise ValueError("not finite")
+    return values

@@ -1,0 +1,173 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Free-form surfaces of Wavefront .obj files: ``surf`` of B-splines and Bézier patches, rational or not.
+
+Advanced Visualizer, Appendix B1, Object Files (.obj), version 3.0. A body for each ``o``. Like Blender's own importer,
+Y up becomes Z up. Faces, lines and curves are that importer's.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..nurbs.patch import Patch
+from ..verdict.finding import FileError
+from .surfaces import MAX_SURFACES, Refusals, SurfaceBody, SurfaceFile, SurfaceRefusedError, blender_patches
+
+KIND = "surf"
+TRIMS = {"trim", "hole"}
+UPRIGHT = np.array([[1.0, 0.0, 0.0, 0.0], [0.0, 0.0, -1.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 0.0, 1.0]])
+_WORD = re.compile(rb"(?:^|[\r\n])[ \t]*surf[ \t\\]")
+_NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eEdD][+-]?\d+)?")
+_WANTED = {"v", "cstype", "deg", "surf", "parm", "end", "o", "call", "curv", "curv2", "bmat", *TRIMS}
+
+
+def has_surfaces(path: str | Path) -> bool:
+    """Whether an .obj file has a ``surf``. OSError where it cannot be opened."""
+    with open(path, "rb") as file:
+        rest = b"\n"
+        while block := file.read(1 << 20):
+            if _WORD.search(rest + block):
+                return True
+            rest = block[-1024:]
+    return False
+
+
+def read_obj(path: Path) -> SurfaceFile:
+    """The surfaces, in no unit. FileError where there is none that can be kept."""
+    return _Reader(path).read()
+
+
+@dataclass
+class _Element:
+    """A ``surf`` as it stands in the file, and the state in which it does."""
+
+    name: str
+    type: str
+    rational: bool
+    degrees: list[str]
+    words: list[str]
+    vertices: int  # before it: what negative numbers count from
+    body: str
+    knots: dict[str, list[str]] = field(default_factory=dict)
+    trimmed: bool = False
+
+
+class _Reader:
+    def __init__(self, path: Path) -> None:
+        self._path, self._refusals = path, Refusals()
+        self._vertices: list[list[str]] = []
+        self._elements: list[_Element] = []
+
+    def read(self) -> SurfaceFile:
+        self._parse()
+        points, weights = self._points()
+        bodies: dict[str, list[Patch]] = {}
+        for element in self._elements:
+            made = self._refusals.keep(KIND, element.name, lambda: _patches(element, points, weights))  # noqa: B023
+            bodies.setdefault(element.body, []).extend(made)
+        return self._refusals.file([SurfaceBody(name, tuple(patches)) for name, patches in bodies.items()])
+
+    def _parse(self) -> None:
+        kind, rational, degrees, body = "", False, [], self._path.stem
+        current: _Element | None = None
+        for word, rest in self._statements():
+            if word == "v":
+                self._vertices.append(rest)
+            elif word == "o":
+                body = " ".join(rest) or body
+            elif word == "cstype":
+                rational, kind = "rat" in rest[:1], (rest or [""])[-1]
+            elif word == "deg":
+                degrees = rest
+            elif word == "surf":
+                if len(self._elements) >= MAX_SURFACES:
+                    raise FileError("too_many_surfaces", limit=MAX_SURFACES)
+                name = "{} {}".format(KIND, len(self._elements) + 1)
+                current = _Element(name, kind, rational, degrees, rest, len(self._vertices), body)
+                self._elements.append(current)
+            elif word in ("end", "curv", "curv2"):
+                current = None
+            elif word == "call":
+                raise FileError("obj_call")
+            elif current is not None and word == "parm":
+                current.knots.setdefault("".join(rest[:1]), []).extend(rest[1:])
+            elif current is not None and word in TRIMS:
+                current.trimmed = True
+
+    def _statements(self) -> Iterator[tuple[str, list[str]]]:
+        """Those that matter here, continued lines as one."""
+        with open(self._path, encoding="utf-8", errors="replace") as file:
+            before = ""
+            for line in file:
+                line = before + line.rstrip("\r\n")
+                if line.endswith("\\"):
+                    before = line[:-1] + " "
+                    continue
+                before = ""
+                word, *_ = line.split(None, 1) or [""]
+                if word in _WANTED:
+                    yield word, line.partition("#")[0].split()[1:]
+
+    def _points(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """(n, 3) and (n,) the vertices and their weights, NaN where they are no numbers."""
+        table = np.full((len(self._vertices), 4), 1.0)
+        for row, words in zip(table, self._vertices):
+            count = 4 if len(words) in (4, 5) else 3  # with six and more, colors follow
+            try:
+                row[:count] = [_number(word) for word in words[:count]]
+            except ValueError:
+                row[:] = np.nan
+        return table[:, :3], table[:, 3]
+
+
+def _number(word: str) -> float:
+    if not _NUMBER.fullmatch(word):
+        raise ValueError("not a number")
+    return float(word.replace("D", "E").replace("d", "e"))
+
+
+def _patches(element: _Element, points: NDArray, weights: NDArray) -> list[Patch]:
+    """Of one surface. ValueError, IndexError and SurfaceRefusedError where it cannot be kept."""
+    if element.trimmed:
+        raise SurfaceRefusedError("surface_trimmed")
+    if element.type not in ("bspline", "bezier"):
+        raise SurfaceRefusedError("surface_of_unsupported", base=element.type or "cstype")
+    degrees = [int(word) for word in element.degrees]
+    if len(degrees) != 2 or min(degrees) < 1:
+        raise ValueError("degrees")
+    part = [_number(word) for word in element.words[:4]]
+    used = _indices(element.words[4:], element.vertices)
+    knots = [[_number(word) for word in element.knots.get(name, [])] for name in "uv"]
+    if element.type == "bezier":
+        knots = [
+            [row[0]] + [knot for knot in row for _ in range(degree)] + [row[-1]] for row, degree in zip(knots, degrees)
+        ]
+    orders = (degrees[0] + 1, degrees[1] + 1)
+    counts = [len(row) - order for row, order in zip(knots, orders)]
+    if min(counts) < 1 or counts[0] * counts[1] != len(used) or len(part) < 4:
+        raise ValueError("count of control points")
+    shape = counts[1], counts[0]  # the first direction runs fastest
+    return blender_patches(
+        (knots[0], knots[1]),
+        orders,
+        points[used].reshape(*shape, 3).swapaxes(0, 1),
+        weights[used].reshape(shape).T if element.rational else None,
+        ((part[0], part[1]), (part[2], part[3])),
+        UPRIGHT,
+    )
+
+
+def _indices(words: list[str], count: int) -> NDArray[np.int64]:
+    """The vertices that are meant, from 0."""
+    numbers = np.array([int(word.partition("/")[0]) for word in words], np.int64)
+    numbers = np.where(numbers < 0, numbers + count, numbers - 1)
+    if (numbers < 0).any() or (numbers >= count).any():
+        raise ValueError("no such vertex")
+    return numbers

@@ -1,0 +1,163 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a file of surfaces has: bodies of patches, and what could not be kept, by name."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..numerics.bspline import SplineSpace
+from ..nurbs.bezier_form import bezier_patches
+from ..nurbs.patch import Patch
+from ..verdict.finding import MAX_STORED_ELEMENTS, FileError, Finding, MeasureError, finding, truncate_findings
+
+MAX_ORDER = 6  # of the surfaces that are kept
+MAX_POINTS = 1 << 18  # control points of one patch in Bézier form
+MAX_SURFACES = 20_000  # that a file places
+MAX_REASONS = 8  # that one refusal lists
+MAX_COORDINATE = 3e38  # below what float32 holds
+
+
+@dataclass(frozen=True, eq=False)
+class SurfaceBody:
+    """Surfaces that a file has as one thing.
+
+    Attributes
+    ----------
+    name : str
+    patches : tuple of Patch
+        With Blender's flags *Bézier* and *Endpoint*, in the file's unit.
+
+    Examples
+    --------
+    >>> from body_moments.core.cad import SurfaceBody
+    >>> SurfaceBody("Hull", ()).name
+    'Hull'
+    """
+
+    name: str
+    patches: tuple[Patch, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class SurfaceFile:
+    """The surfaces of a file.
+
+    Attributes
+    ----------
+    bodies : tuple of SurfaceBody
+    unit : float or None
+        Meters; None where the file does not state it.
+    refused : tuple of Finding
+        What of the file could not be kept, and why.
+    notes : tuple of Finding
+        What else was decided.
+
+    Examples
+    --------
+    >>> from body_moments.core.cad import SurfaceFile
+    >>> SurfaceFile((), 0.001).refused
+    ()
+    """
+
+    bodies: tuple[SurfaceBody, ...]
+    unit: float | None = None
+    refused: tuple[Finding, ...] = ()
+    notes: tuple[Finding, ...] = ()
+
+
+class SurfaceRefusedError(Exception):
+    """A surface that cannot be kept: the code of why, and the values of its sentence beside kind and name."""
+
+    def __init__(self, code: str, **values: object) -> None:
+        super().__init__(code)
+        self.code, self.values = code, values
+
+
+@dataclass
+class Refusals:
+    """What could not be kept, gathered by reason and kind."""
+
+    names: dict[tuple, list[str]] = field(default_factory=dict)
+
+    def keep(self, kind: str, name: str, make: Callable[[], list[Patch]]) -> list[Patch]:
+        """The patches of a surface, none where it is refused. kind, name: what it is called in the file."""
+        try:
+            return make()
+        except SurfaceRefusedError as error:
+            self.add(error.code, kind, name, **error.values)
+        except MeasureError as error:  # of its control points
+            self.add("surface_points", kind, name, cause=error.finding.code)
+        except (ValueError, OverflowError, IndexError):
+            self.add("surface_damaged", kind, name)
+        return []
+
+    def add(self, code: str, kind: str, name: str, **values: object) -> None:
+        """Note one surface, or what is none, as refused."""
+        self.names.setdefault((code, kind, tuple(values.items())), []).append(name)
+
+    def findings(self) -> tuple[Finding, ...]:
+        """One for each reason and kind."""
+        found = []
+        for (code, kind, values), names in self.names.items():
+            known = dict(values)
+            if "cause" in known:
+                known["cause"] = finding(known["cause"]).as_record()
+            found.append(finding(code, kind=kind, count=len(names), names=names[: MAX_STORED_ELEMENTS + 1], **known))
+        return tuple(found)
+
+    def file(
+        self, bodies: Sequence[SurfaceBody], unit: float | None = None, notes: Sequence[Finding] = ()
+    ) -> SurfaceFile:
+        """What was read. FileError where that is nothing."""
+        refused, kept = self.findings(), tuple(body for body in bodies if body.patches)
+        if not kept and refused:
+            causes = [reason.as_record() for reason in truncate_findings(refused, MAX_REASONS)]
+            raise FileError("no_surface_kept", causes=causes)
+        if not kept:
+            raise FileError("file_without_surfaces")
+        return SurfaceFile(kept, unit, refused, tuple(notes))
+
+
+def blender_patches(
+    knots: tuple[Sequence[float], Sequence[float]],
+    orders: tuple[int, int],
+    points: ArrayLike,
+    weights: ArrayLike | None,
+    domain: tuple[tuple[float, float] | None, tuple[float, float] | None],
+    matrix: NDArray | None = None,
+) -> list[Patch]:
+    """The patches that Blender can hold for a surface with any knots; ValueError where there is no such surface.
+
+    points: (count_s, count_t, 3), weights: (count_s, count_t) or None, domain: the part of each direction that is
+    meant, matrix: (4, 4) from the points to the file's coordinates.
+    """
+    if max(orders) > MAX_ORDER:
+        raise SurfaceRefusedError("surface_order", order=max(orders), limit=MAX_ORDER)
+    points = np.asarray(points, np.float64)
+    if matrix is not None:
+        points = points @ matrix[:3, :3].T + matrix[:3, 3]
+    if not (np.abs(points) < MAX_COORDINATE).all():
+        raise SurfaceRefusedError("surface_points", cause="non_finite_control_points")
+    spaces = tuple(
+        SplineSpace(tuple(np.asarray(row, np.float64).tolist()), order, count)
+        for row, order, count in zip(knots, orders, points.shape)
+    )
+    if any(space.function_count != space.count for space in spaces):
+        raise ValueError("knots not for the control points")
+    sizes = [len(space.spans) * (space.order - 1) + 1 for space in spaces]
+    if sizes[0] * sizes[1] > MAX_POINTS:
+        raise SurfaceRefusedError("surface_too_large", points=sizes[0] * sizes[1], limit=MAX_POINTS)
+    patches = bezier_patches(Patch(spaces, points, weights), domain)
+    if any(patch.weights is not None and _too_uneven(patch.weights) for patch in patches):
+        raise SurfaceRefusedError("surface_points", cause="non_positive_weights")
+    return patches
+
+
+def _too_uneven(weights: NDArray) -> bool:
+    """Whether float32 would not hold them as positive numbers, the largest being 1."""
+    return bool(weights.min() < 1e-30 * weights.max())

@@ -1,0 +1,60 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Whether a closed curve in the parameters of a surface is just the boundary of its domain, and so trims nothing."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+TRIM_RTOL = 1e-7  # of the domain, as float32 rounds: how far from its sides the curve may run
+
+
+@dataclass(frozen=True, eq=False)
+class Piece:
+    """A piece of a curve by its control points (n, 2). straight: they are the corners of a polygonal line."""
+
+    points: NDArray[np.float64]
+    straight: bool
+
+
+def trims_nothing(pieces: Sequence[Piece], domain: tuple[tuple[float, float], tuple[float, float]]) -> bool:
+    """Whether the pieces run once around the domain, in either sense, from end to end and always on its sides."""
+    low, high = np.array(domain).T
+    if not (high > low).all():
+        return False
+    steps: list[float] = []
+    last = None
+    for piece in pieces:
+        points = (piece.points - low) / (high - low)
+        if last is not None and np.abs(points[0] - last).max() > TRIM_RTOL:
+            return False
+        last = points[-1]
+        sides = _sides(points)
+        if not piece.straight and not sides.all(axis=0).any():
+            return False  # a curve around a corner cuts it off
+        for start, end, here, there in zip(points[:-1], points[1:], sides[:-1], sides[1:]):
+            shared = here & there
+            if not shared.any():
+                return False
+            steps.append(_step(start, end, int(shared.argmax())))
+    if last is None or np.abs((pieces[0].points[0] - low) / (high - low) - last).max() > TRIM_RTOL:
+        return False
+    traveled = sum(steps)
+    one_way = all(step * np.sign(traveled) >= -TRIM_RTOL for step in steps)
+    return one_way and abs(abs(traveled) - 4.0) <= 8.0 * TRIM_RTOL * max(len(steps), 1)
+
+
+def _sides(points: NDArray) -> NDArray[np.bool_]:
+    """(n, 4) which sides of the unit square each point is on: below, right, above, left."""
+    x, y = points.T
+    return np.abs(np.stack([y, x - 1.0, y - 1.0, x], axis=1)) <= TRIM_RTOL
+
+
+def _step(start: NDArray, end: NDArray, side: int) -> float:
+    """How far it is along a side, counterclockwise."""
+    x, y = end - start
+    return float((x, y, -x, -y)[side])

@@ -1,0 +1,114 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""B-spline patches with any knots as patches with Blender's.
+
+Blender's splines have no knots of their own. Where every knot is inserted until it is repeated as often as the degree
+says, a patch is Bézier patches side by side, and how far apart their knots are changes its parameters but not its
+points. So Blender's flags *Bézier* and *Endpoint* describe the same surface.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..numerics.bspline import SplineSpace
+from .blender_knots import blender_space
+from .patch import Patch
+
+SAME_KNOT_RTOL = 1e-12  # of the domain: what the ends of a part of it may be off from a knot
+
+
+def bezier_patches(patch: Patch, domain: tuple[tuple[float, float] | None, tuple[float, float] | None]) -> list[Patch]:
+    """Return the patches with Blender's flags *Bézier* and *Endpoint* that are the same surface.
+
+    Parameters
+    ----------
+    patch : Patch
+        Of any knots, of order 2 at least.
+    domain : pair of (low, high) or None
+        The part of s and of t that is meant; None for all of it.
+
+    Returns
+    -------
+    list of Patch
+        One, or several where the patch may jump: where a knot is repeated as often as the order says.
+
+    Raises
+    ------
+    ValueError
+        If the part is not in the domain, or an order is 1.
+
+    Notes
+    -----
+    Boehm's knot insertion, as blossoms: each new control point is the same affine combination of old ones whether it is
+    inserted one knot at a time or at once.
+
+    Examples
+    --------
+    >>> from body_moments.core.numerics import SplineSpace, clamped_space
+    >>> from body_moments.core.nurbs import Patch, bezier_patches
+    >>> points = np.array([[[0.0, 0.0, 0.0], [0.0, 1.0, 0.0]], [[1.0, 0.0, 0.0], [1.0, 1.0, 0.0]]])
+    >>> (part,) = bezier_patches(Patch((clamped_space(2), clamped_space(2)), points), ((0.25, 1.0), None))
+    >>> part.points[0, 0].tolist()
+    [0.25, 0.0, 0.0]
+    """
+    pieces = [list(_pieces(space, part)) for space, part in zip(patch.spaces, domain)]
+    homogeneous = patch.points if patch.weights is None else patch.points * patch.weights[..., None]
+    if patch.weights is not None:
+        homogeneous = np.concatenate([homogeneous, patch.weights[..., None]], axis=2)
+    found = []
+    for s_matrix in pieces[0]:
+        for t_matrix in pieces[1]:
+            spaces = tuple(
+                _bezier_space(len(matrix), space.order) for matrix, space in zip((s_matrix, t_matrix), patch.spaces)
+            )
+            net = np.einsum("bj,ajd->abd", t_matrix, np.einsum("ai,ijd->ajd", s_matrix, homogeneous))
+            weights = None if patch.weights is None else net[..., 3]
+            found.append(Patch(spaces, net if weights is None else net[..., :3] / weights[..., None], weights))
+    return found
+
+
+def _bezier_space(count: int, order: int) -> SplineSpace:
+    space = blender_space(count, order, cyclic=False, bezier=True, endpoint=True)
+    if space is None:
+        raise ValueError("order below 2")
+    return space
+
+
+def _pieces(space: SplineSpace, part: tuple[float, float] | None) -> Iterator[NDArray[np.float64]]:
+    """(n, count) what the old control points weigh in the new ones, for each piece without a jump in it."""
+    low, high = space.domain if part is None else _snapped(space, part)
+    edges = np.clip(space.intervals, low, high)
+    inside = edges[:, 0] < edges[:, 1]
+    if not inside.any() or space.order < 2:
+        raise ValueError("empty domain")
+    spans, edges = space.spans[inside], edges[inside]
+    weights = space.bezier_weights(spans, edges)
+    controls = space.controls_of_spans(spans)
+    knots = np.asarray(space.knots)
+    rows: list[NDArray[np.float64]] = []
+    for edge, block, columns in zip(edges, weights, controls):
+        dense = np.zeros((space.order, space.count))
+        np.add.at(dense.T, columns, block.T)
+        if rows and np.count_nonzero(knots == edge[0]) >= space.order:
+            yield np.concatenate(rows)
+            rows = []
+        rows.append(dense[1:] if rows else dense)
+    yield np.concatenate(rows)
+
+
+def _snapped(space: SplineSpace, part: tuple[float, float]) -> tuple[float, float]:
+    """The ends of a part of the domain, at the knots that they mean."""
+    low, high = space.domain
+    knots = np.concatenate([space.intervals[:, 0], [high]])
+    tolerance = SAME_KNOT_RTOL * (high - low)
+    ends = []
+    for end in part:
+        nearest = float(knots[np.abs(knots - end).argmin()])
+        ends.append(nearest if abs(nearest - end) <= tolerance else float(end))
+    if not low <= ends[0] < ends[1] <= high:
+        raise ValueError("part beyond the domain")
+    return ends[0], ends[1]

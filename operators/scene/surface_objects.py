@@ -1,0 +1,176 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Patches with Blender's knots as surface objects.
+
+Only Blender's operators make a grid of control points out of nothing, and only in Edit Mode. So a scene of its own,
+which is removed again, has a grid of each size made once; the patches of an object are joined there, and get their
+points last. Nothing of the user's scene is selected, changed or evaluated.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+
+import bpy
+import numpy as np
+from bpy.types import Curve, Object, Scene
+from numpy.typing import NDArray
+
+from ...core.cad.surfaces import SurfaceBody
+from ...core.nurbs.patch import Patch
+
+FAR = 16.0  # sizes from the origin at which float32 would lose more than a digit
+LEAST = 3  # points along v with which Blender lofts
+
+
+def surface_object(name: str, patches: Sequence[Patch], factor: float = 1.0) -> tuple[Object, float]:
+    """Make a surface object, in no collection yet.
+
+    Parameters
+    ----------
+    name : str
+    patches : sequence of Patch
+        With the flags *Bézier* and *Endpoint*; s becomes v and t becomes u, so that Blender's faces look where the
+        patches do.
+    factor : float
+        Blender units for a unit of the patches.
+
+    Returns
+    -------
+    obj : Object
+        With its origin at that of the patches, or among them where they are far from it.
+    moved : float
+        By how much float32 moves a point of the surfaces at most, in Blender units.
+    """
+    data, moved, origin = surface_data(name, patches, factor)
+    obj = bpy.data.objects.new(name, data)
+    obj.location = origin
+    return obj, moved
+
+
+def surface_data(name: str, patches: Sequence[Patch], factor: float) -> tuple[Curve, float, NDArray[np.float32]]:
+    """The data of `surface_object`, by how much its points moved, and where its origin is to stand."""
+    low = factor * np.min([patch.points.min(axis=(0, 1)) for patch in patches], axis=0)
+    high = factor * np.max([patch.points.max(axis=(0, 1)) for patch in patches], axis=0)
+    size, distance = float((high - low).max()), float(np.abs([low, high]).max())
+    origin = np.zeros(3, np.float32)
+    if distance > FAR * size > 0.0:
+        origin = ((low + high) / 2.0).astype(np.float32)
+    rows = [_stored(patch, factor, origin.astype(np.float64)) for patch in patches]
+    data = _grids(name, [patch.points.shape[:2] for patch in patches])
+    for spline, patch, (row, _) in zip(data.splines, patches, rows):
+        _fill(spline, patch, row)
+    return data, max(moved for _, moved in rows), origin
+
+
+def _stored(patch: Patch, factor: float, origin: NDArray) -> tuple[NDArray[np.float32], float]:
+    """(n, 4) control points and weights as Blender has them, and by how much the surface moves at most."""
+    points = factor * patch.points - origin
+    row = np.ones((*points.shape[:2], 4), np.float32)
+    row[..., :3] = points
+    moved = float(np.linalg.norm(row[..., :3] - points, axis=2).max())
+    if patch.weights is not None:
+        weights = patch.weights / patch.weights.max()
+        row[..., 3] = weights
+        # The point is a mean of control points; its weights change by at most twice this share.
+        share = float(np.abs(row[..., 3] / weights - 1.0).max())
+        spread = points - points[0, 0]
+        moved += 4.0 * share * float(np.linalg.norm(spread, axis=2).max())
+    return row.reshape(-1, 4), moved
+
+
+def _fill(spline, patch: Patch, row: NDArray[np.float32]) -> None:
+    spline.points.foreach_set("co", row.ravel())
+    spline.order_v, spline.order_u = (space.order for space in patch.spaces)
+    spline.use_cyclic_u = spline.use_cyclic_v = False
+    spline.use_bezier_u = spline.use_bezier_v = True
+    spline.use_endpoint_u = spline.use_endpoint_v = True
+    spline.use_smooth = True
+
+
+def _grids(name: str, shapes: Sequence[tuple[int, int]]) -> Curve:
+    """Surface data with a spline of (count_v, count_u) points for each shape, in order."""
+    with _workshop() as scene:
+        models = {shape: _grid(scene, shape) for shape in dict.fromkeys(shapes)}
+        objects = [bpy.data.objects.new(name, models[shape]) for shape in shapes]
+        for obj in objects:
+            scene.collection.objects.link(obj)
+        first = objects[0]
+        first.data = models[shapes[0]].copy()
+        if len(objects) > 1:
+            with _active(scene, first, objects):
+                bpy.ops.object.join()
+        data = first.data
+        bpy.data.objects.remove(first)
+        for model in models.values():
+            bpy.data.curves.remove(model)
+    data.name = name
+    data.dimensions = "3D"
+    return data
+
+
+@contextmanager
+def _workshop() -> Iterator[Scene]:
+    scene = bpy.data.scenes.new("Body Moments Import")
+    try:
+        yield scene
+    finally:
+        for obj in list(scene.collection.objects):
+            bpy.data.objects.remove(obj)
+        bpy.data.scenes.remove(scene)
+
+
+@contextmanager
+def _active(scene: Scene, obj: Object, selected: Sequence[Object]) -> Iterator[None]:
+    layer = scene.view_layers[0]
+    layer.objects.active = obj
+    for one in selected:
+        one.select_set(True, view_layer=layer)
+    names = ("object", "active_object", "edit_object")
+    lists = ("selected_objects", "selected_editable_objects")
+    with bpy.context.temp_override(
+        scene=scene, view_layer=layer, **dict.fromkeys(names, obj), **dict.fromkeys(lists, list(selected))
+    ):
+        yield
+
+
+def _grid(scene: Scene, shape: tuple[int, int]) -> Curve:
+    """Surface data with one spline of (count_v, count_u) points."""
+    rows, columns = max(shape[0], LEAST), shape[1]
+    data = bpy.data.curves.new("Body Moments Import", "SURFACE")
+    for column in range(columns):
+        spline = data.splines.new("NURBS")
+        spline.points.add(rows - 1)
+        line = np.zeros((rows, 4), np.float32)
+        line[:, 0], line[:, 1], line[:, 3] = column, np.arange(rows), 1.0
+        spline.points.foreach_set("co", line.ravel())
+        spline.points.foreach_set("select", np.ones(rows, np.bool_))
+    obj = bpy.data.objects.new("Body Moments Import", data)
+    scene.collection.objects.link(obj)
+    with _active(scene, obj, [obj]):
+        bpy.ops.object.mode_set(mode="EDIT")
+        bpy.ops.curve.make_segment()
+        if rows > shape[0]:
+            last = np.zeros((rows, columns), np.bool_)
+            last[shape[0] :] = True
+            data.splines[0].points.foreach_set("select", last.ravel())
+            bpy.ops.curve.delete(type="VERT")
+        bpy.ops.object.mode_set(mode="OBJECT")
+    bpy.data.objects.remove(obj)
+    (spline,) = data.splines
+    if (spline.point_count_v, spline.point_count_u) != shape:
+        raise RuntimeError("Blender lofted {} x {} points".format(spline.point_count_v, spline.point_count_u))
+    return data
+
+
+def import_bodies(
+    bodies: Sequence[SurfaceBody], collection: bpy.types.Collection, factor: float
+) -> list[tuple[Object, float]]:
+    """Make an object of each body in a collection; see `surface_object`."""
+    made = []
+    for body in bodies:
+        obj, moved = surface_object(body.name, body.patches, factor)
+        collection.objects.link(obj)
+        made.append((obj, moved))
+    return made

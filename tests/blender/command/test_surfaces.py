@@ -1,0 +1,80 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""IGES files, and .obj files with surfaces, on the command line."""
+
+import numpy as np
+import pytest
+
+pytest.importorskip("bpy")
+
+from tests.blender.batch_files import document, measured
+from tests.close import close
+from tests.core.exact_splines import sphere, torus
+from tests.core.iges_files import IgesFile, obj_text, unrolled
+
+pytestmark = pytest.mark.usefixtures("scene")
+BALL = 4.0 / 3.0 * np.pi
+DONUT = 2.0 * np.pi**2 * 0.75 * 0.25**2
+
+
+@pytest.mark.parametrize("end", [".igs", ".iges", ".IGS"])
+def test_an_iges_body_in_its_own_unit(tmp_path, end):
+    file = IgesFile(2)
+    file.surface(unrolled(sphere()))
+    entry = measured(file.write(tmp_path / ("ball" + end)), "--density", "1")
+    assert (entry["name"], entry["method"]) == ("ball", "NURBS exact")
+    assert close(entry["volume"], BALL * 1e-9, 4e-7)
+    codes = {found["code"]: found["values"] for found in entry["findings"]}
+    assert 0.0 < codes["surfaces_rounded"]["distance"] < 1e-9 and "unit_assumed" not in codes
+    assert entry["error_bound"]["input"]["volume"] > abs(entry["volume"] - BALL * 1e-9)
+
+
+def test_microinches_and_kilometers(tmp_path):
+    for unit, meters in ((11, 2.54e-8), (7, 1e3)):
+        file = IgesFile(unit)
+        file.surface(unrolled(torus()))
+        entry = measured(file.write(tmp_path / "ring.igs"), "--density", "1")
+        assert close(entry["volume"], DONUT * meters**3, 4e-7)
+
+
+def test_what_is_refused_is_an_error_and_the_rest_is_measured(tmp_path):
+    file = IgesFile()
+    file.surface(unrolled(sphere()))
+    file.add(120, [1, 3, 0.0, 1.0], label="VASE")
+    found = document(file.write(tmp_path / "a.igs"), "--density", "1")
+    assert [entry["name"] for entry in found["objects"]] == ["a"]
+    (error,) = found["errors"]
+    assert "VASE" in error["reason"] and "Surface of Revolution (120)" in error["reason"]
+
+
+def test_an_iges_file_of_curves_and_one_that_is_none(tmp_path):
+    file = IgesFile()
+    file.add(110, [0.0] * 6)
+    for path in (file.write(tmp_path / "a.igs"), tmp_path / "b.igs"):
+        path.exists() or path.write_text("hello")
+        found = document(path)
+        assert not found["objects"] and found["status"] == "error" and len(found["errors"]) == 1
+
+
+def test_surfaces_of_an_obj_file_with_a_unit(tmp_path):
+    path = tmp_path / "ring.obj"
+    path.write_text(obj_text([unrolled(torus())], name="Ring"))
+    entry = measured(path, "--density", "1", "--unit-scale", "0.001")
+    assert (entry["name"], entry["method"]) == ("Ring", "NURBS exact")
+    assert close(entry["volume"], DONUT * 1e-9, 4e-7)
+
+
+CUBE = "o Cube\n" + "".join("v {} {} {}\n".format(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1))
+FACES = "f -8 -7 -5 -6\nf -4 -2 -1 -3\nf -8 -4 -3 -7\nf -6 -5 -1 -2\nf -8 -6 -2 -4\nf -7 -3 -1 -5\n"
+
+
+def test_faces_and_surfaces_of_one_file(tmp_path):
+    path = tmp_path / "both.obj"
+    path.write_text(obj_text([unrolled(torus())], name="Ring") + CUBE + FACES)
+    found = document(path, "--density", "1")
+    volumes = {entry["name"]: entry["volume"] for entry in found["objects"]}
+    assert set(volumes) == {"Ring", "Cube"}
+    assert close(volumes["Ring"], DONUT, 4e-7) and close(volumes["Cube"], 1.0, 1e-7)
+    path.write_text(obj_text([unrolled(torus())]).replace("end\n", "trim 0 1 1\nend\n") + CUBE + FACES)
+    found = document(path, "--density", "1")
+    assert [entry["name"] for entry in found["objects"]] == ["Cube"] and "trimmed" in found["errors"][0]["reason"]

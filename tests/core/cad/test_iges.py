@@ -1,0 +1,346 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""IGES files of bodies with closed forms: units, transformations, subfigures, trims that trim nothing; what is refused,
+by name; files that are damaged on purpose."""
+
+import random
+
+import numpy as np
+import pytest
+from body_moments.core.cad import read_surfaces
+from body_moments.core.cad.iges_text import UNIT_NAMES, UNITS
+from body_moments.core.numerics.bspline import SplineSpace, clamped_space
+from body_moments.core.nurbs.patch import Patch
+from body_moments.core.nurbs.solid import measure_patches
+from body_moments.core.scans.limits import Limits
+from body_moments.core.verdict.finding import FileError
+from body_moments.tests.close import close
+from body_moments.tests.core.exact_splines import flux_moment, sphere, torus
+from body_moments.tests.core.iges_files import IgesFile, surface_fields, unrolled
+
+BALL = 4.0 / 3.0 * np.pi
+DONUT = 2.0 * np.pi**2 * 0.75 * 0.25**2
+TURN = np.array([[0.0, -1.0, 0.0, 5.0], [0.0, 0.0, -1.0, -3.0], [1.0, 0.0, 0.0, 2.0], [0.0, 0.0, 0.0, 1.0]])
+
+
+def volume(file, number=0):
+    return measure_patches(file.bodies[number].patches).volume
+
+
+def refused(file):
+    return {found.code: found.values["names"] for found in file.refused}
+
+
+def refusal(path, **limits):
+    with pytest.raises(FileError) as caught:
+        read_surfaces(path, Limits(**limits))
+    assert caught.value.reason.endswith(".")
+    return caught.value.finding
+
+
+def bicubic_body():
+    """A closed polynomial body: a bicubic sheet over a square, its mirror image, and flat walls are not needed, for
+    both have the same boundary."""
+    s, t = clamped_space(4, (0.25, 0.5)), clamped_space(3, (0.75,))
+    rng = np.random.default_rng(8)
+    points = np.zeros((s.count, t.count, 3))
+    points[..., 0], points[..., 1] = np.linspace(0, 2, s.count)[:, None], np.linspace(0, 1, t.count)
+    points[1:-1, 1:-1, 2] = rng.uniform(0.5, 1.0, (s.count - 2, t.count - 2))
+    below = points * (1.0, 1.0, -0.5)
+    return Patch((s, t), points), Patch((s, t), below).reverse_orientation()
+
+
+@pytest.mark.parametrize("patch, truth", [(sphere(), BALL), (torus(), DONUT)])
+def test_round_bodies_have_their_volumes(tmp_path, patch, truth):
+    file = IgesFile()
+    file.surface(unrolled(patch))
+    read = read_surfaces(file.write(tmp_path / "body.igs"))
+    assert read.unit == 1.0 and read.refused == () and read.bodies[0].name == "body"
+    assert close(volume(read).total, truth, 1e-14)
+    assert all(space.order <= 6 for patch in read.bodies[0].patches for space in patch.spaces)
+
+
+def test_a_polynomial_body_to_the_last_digit(tmp_path):
+    patches = bicubic_body()
+    file = IgesFile()
+    for patch in patches:
+        file.surface(patch)
+    found = volume(read_surfaces(file.write(tmp_path / "a.iges")))
+    for index, exponents in enumerate([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), (2, 0, 0)]):
+        truth = float(sum(flux_moment(patch, exponents) for patch in patches))
+        moved = found.about_point(np.zeros(3))
+        assert abs(moved.raw[index] - truth) <= 1e-14 * abs(float(flux_moment(patches[0], (0, 0, 0))))
+
+
+@pytest.mark.parametrize(
+    "flag, name", [*((flag, "") for flag in UNITS), *((3, name) for name in UNIT_NAMES), (None, "")]
+)
+def test_units_and_the_model_scale(tmp_path, flag, name):
+    file = IgesFile(flag, name, scale=0.125)  # a unit of the model is eight of these
+    file.surface(unrolled(sphere()))
+    read = read_surfaces(file.write(tmp_path / "a.igs"))
+    assert read.unit == 8.0 * (UNIT_NAMES[name] if flag == 3 else UNITS[flag or 1])
+
+
+def test_transformations_of_transformations_mirrors_and_shears(tmp_path):
+    shear = np.array([[1.0, 0.5, 0.0, 1.0], [0.0, 2.0, 0.0, 0.0], [0.0, 0.0, -3.0, 0.0], [0, 0, 0, 1.0]])
+    file = IgesFile()
+    outer = file.transformation(TURN)
+    inner = file.transformation(shear, matrix=outer)
+    file.surface(unrolled(sphere()), matrix=inner)
+    found = volume(read_surfaces(file.write(tmp_path / "a.igs")))
+    assert close(found.total, 6.0 * BALL, 1e-14)
+    assert np.abs(found.center - (TURN @ shear)[:3, 3]).max() <= 1e-14
+
+
+def test_subfigures_place_surfaces_many_times(tmp_path):
+    file = IgesFile()
+    ball = file.surface(unrolled(sphere()), status="00010000")
+    small = file.add(308, [0, "5HSmall", 1, ball], status="00000200")
+    pair = [file.add(408, [small, float(x), 0.0, 0.0, 0.5], status="00010000") for x in (-4, 4)]
+    both = file.add(308, [1, "3HTwo", 2, *pair], status="00000200")
+    file.add(408, [both, 0.0, 0.0, 10.0], matrix=file.transformation(TURN))
+    file.add(408, [both, 0.0, 0.0, -10.0])
+    read = read_surfaces(file.write(tmp_path / "a.igs"))
+    assert len(read.bodies[0].patches) == 4
+    found = volume(read)
+    assert close(found.total, 4.0 * BALL / 8.0, 1e-13)
+    truth = (TURN @ (0, 0, 10, 1) + (0, 0, -10, 1))[:3] / 2
+    assert np.abs(found.center - truth).max() <= 1e-13
+
+
+def trimmed(file, curves, patch=None, outer=1, holes=()):
+    patch = patch or unrolled(sphere())
+    base = file.surface(patch, status="00010000")
+    pieces = [file.add(kind, fields, status="00010500") for kind, fields in curves]
+    curve = pieces[0] if len(pieces) == 1 else file.add(102, [len(pieces), *pieces], status="00010500")
+    boundary = file.add(142, [0, base, curve, 0, 1], status="00010000")
+    return file.add(144, [base, outer, len(holes), boundary if outer else 0, *holes], label="TRIM")
+
+
+def line(a, b):
+    return 110, [float(a[0]), float(a[1]), 0.0, float(b[0]), float(b[1]), 0.0]
+
+
+def polyline(*corners, degree=1):
+    knots = (
+        [0.0] * degree + [float(i) for i in range(len(corners) - degree + 1)] + [float(len(corners) - degree)] * degree
+    )
+    points = [value for x, y in corners for value in (float(x), float(y), 0.0)]
+    return 126, [
+        len(corners) - 1,
+        degree,
+        1,
+        0,
+        1,
+        0,
+        *knots,
+        *[1.0] * len(corners),
+        *points,
+        knots[0],
+        knots[-1],
+        0,
+        0,
+        1,
+    ]
+
+
+SPACE_S, SPACE_T = unrolled(sphere()).spaces
+S0, S1 = SPACE_S.domain
+T0, T1 = SPACE_T.domain
+A, B, C, D = (S0, T0), (S1, T0), (S1, T1), (S0, T1)
+MIDDLE = ((S0 + S1) / 2, T0)
+
+
+@pytest.mark.parametrize(
+    "curves",
+    [
+        [line(A, B), line(B, C), line(C, D), line(D, A)],
+        [line(D, C), line(C, B), line(B, A), line(A, D)],
+        [polyline(A, B, C, D, A)],
+        [polyline(MIDDLE, B, C, D, A, MIDDLE)],
+        [polyline(A, MIDDLE, B, degree=2), line(B, C), polyline(C, D, degree=1), line(D, A)],
+    ],
+)
+def test_boundaries_that_trim_nothing(tmp_path, curves):
+    file = IgesFile()
+    trimmed(file, curves)
+    read = read_surfaces(file.write(tmp_path / "a.igs"))
+    assert read.refused == () and close(volume(read).total, BALL, 1e-14)
+
+
+def test_a_trimmed_surface_without_boundaries(tmp_path):
+    file = IgesFile()
+    trimmed(file, [line(A, B)], outer=0)
+    assert close(volume(read_surfaces(file.write(tmp_path / "a.igs"))).total, BALL, 1e-14)
+
+
+INNER = ((S0 + S1) / 2, (T0 + T1) / 2)
+NEAR = (S1 - 1e-5 * (S1 - S0), T0)
+
+
+@pytest.mark.parametrize(
+    "curves",
+    [
+        [line(A, B), line(B, C), line(C, A)],
+        [line(A, B), line(B, C), line(C, D)],  # open
+        [polyline(A, B, INNER, D, A)],
+        [polyline(A, B, C, D, A, degree=2)],
+        [polyline(A, NEAR, (NEAR[0], T1), D, A)],
+        [polyline(A, B, A, B, C, D, A)],  # there and back
+        [polyline(A, B, C, D, A, B, C, D, A)],  # twice around
+        [line(A, B), line(C, B), line(C, D), line(D, A)],
+        [(100, [0.0, *INNER, *A, *A])],
+    ],
+)
+def test_boundaries_that_trim_are_refused_by_name(tmp_path, curves):
+    file = IgesFile()
+    trimmed(file, curves)
+    cause = refusal(file.write(tmp_path / "a.igs")).values["causes"][0]
+    assert (cause["code"], cause["values"]["names"]) == ("surface_trimmed", ["TRIM"])
+    file.surface(unrolled(torus()).transform(np.diag([1, 1, 1, 1]) + np.eye(4, k=3) * 9))
+    read = read_surfaces(file.write(tmp_path / "a.igs"))
+    assert refused(read) == {"surface_trimmed": ["TRIM"]} and close(volume(read).total, DONUT, 1e-14)
+
+
+def test_a_hole_is_refused(tmp_path):
+    file = IgesFile()
+    trimmed(file, [line(A, B), line(B, C), line(C, D), line(D, A)], holes=(1,))
+    assert refusal(file.write(tmp_path / "a.igs")).values["causes"][0]["code"] == "surface_trimmed"
+
+
+def test_a_part_of_the_domain_and_knots_that_are_not_clamped(tmp_path):
+    s = SplineSpace((-1.0, 0.0, 0.5, 1.5, 2.0, 4.0, 5.0), 3, 4)
+    t = clamped_space(6, (0.5,), 0.0, 2.0)
+    patch = Patch((s, t), np.random.default_rng(2).uniform(-1, 1, (4, 7, 3)))
+    file = IgesFile()
+    file.surface(patch, ((0.75, 2.0), (0.25, 2.0)))
+    (found,) = read_surfaces(file.write(tmp_path / "a.igs")).bodies[0].patches
+    corners = found.evaluate_grid(found.spaces[0].domain, found.spaces[1].domain)
+    assert np.abs(corners - patch.evaluate_grid([0.75, 2.0], [0.25, 2.0])).max() <= 1e-15
+
+
+def test_other_surfaces_are_refused_and_curves_left_out(tmp_path):
+    file = IgesFile()
+    file.surface(unrolled(sphere()))
+    file.surface(unrolled(torus()), status="01000000")
+    file.add(120, [1, 3, 0.0, 6.28], label="VASE")
+    file.add(186, [1, 1, 0])
+    file.add(514, [1, 1, 1], status="00010000")
+    file.add(110, [0.0] * 6)
+    file.add(314, [0.0, 0.0, 0.0], status="00000200")
+    seventh = clamped_space(7)
+    file.surface(Patch((seventh, clamped_space(2)), np.random.default_rng(1).uniform(size=(7, 2, 3))), label="HIGH")
+    bad = surface_fields(Patch((clamped_space(2), clamped_space(2)), np.zeros((2, 2, 3))))
+    file.add(128, bad[:-20], label="SHORT")
+    weights = bad.copy()
+    weights[9 + 8] = -1.0
+    file.add(128, weights, label="MINUS")
+    read = read_surfaces(file.write(tmp_path / "a.igs"))
+    assert close(volume(read).total, BALL, 1e-14)
+    assert {note.code: note.values["count"] for note in read.notes} == {"surfaces_hidden": 1, "curves_left_out": 1}
+    names = [(found.code, found.values["kind"], found.values["names"][0]) for found in read.refused]
+    assert names == [
+        ("surface_type_unsupported", "Surface of Revolution (120)", "VASE"),
+        ("surface_type_unsupported", "Manifold Solid B-Rep (186)", "D7"),
+        ("surface_order", "Rational B-Spline Surface (128)", "HIGH"),
+        ("surface_damaged", "Rational B-Spline Surface (128)", "SHORT"),
+        ("surface_points", "Rational B-Spline Surface (128)", "MINUS"),
+    ]
+    assert all(str(found).endswith(".") for found in read.refused)
+
+
+def test_pointers_in_circles_end(tmp_path):
+    file = IgesFile()
+    file.add(124, [1.0, 0, 0, 0, 0, 1.0, 0, 0, 0, 0, 1.0, 0], matrix=3)
+    file.add(124, [1.0, 0, 0, 0, 0, 1.0, 0, 0, 0, 0, 1.0, 0], matrix=1)
+    file.surface(unrolled(sphere()), matrix=1)
+    file.add(308, [0, "1HA", 1, 9], status="00000200")
+    file.add(408, [7, 0.0, 0.0, 0.0], status="00010000")
+    file.add(408, [7, 0.0, 0.0, 0.0])
+    file.add(102, [1, 13])
+    causes = refusal(file.write(tmp_path / "a.igs")).values["causes"]
+    assert {cause["code"] for cause in causes} == {"surface_recursive"}
+
+
+def test_subfigures_that_multiply_end(tmp_path):
+    file = IgesFile()
+    below = file.surface(unrolled(sphere()), status="00010000")
+    for _ in range(40):
+        parts = below, file.add(308, [0, "1HA", 1, below], status="00000200")
+        copies = [file.add(408, [parts[1], 0.0, 0.0, 0.0], status="00010000") for _ in range(2)]
+        group = file.add(308, [0, "1HB", 2, *copies], status="00000200")
+        below = file.add(408, [group, 0.0, 0.0, 0.0], status="00010000")
+    file.add(408, [group, 0.0, 0.0, 0.0])
+    assert refusal(file.write(tmp_path / "a.igs")).code in ("too_many_surfaces", "no_surface_kept")
+
+
+def test_flattened_far_and_empty(tmp_path):
+    file = IgesFile()
+    file.surface(unrolled(sphere()), matrix=file.transformation(np.diag([1.0, 1.0, 0.0, 1.0])))
+    assert refusal(file.write(tmp_path / "a.igs")).values["causes"][0]["code"] == "surface_flattened"
+    file = IgesFile()
+    file.surface(unrolled(sphere()).transform(np.diag([1e39, 1, 1, 1])))
+    assert refusal(file.write(tmp_path / "a.igs")).values["causes"][0]["code"] == "surface_points"
+    file = IgesFile()
+    file.add(110, [0.0] * 6)
+    assert refusal(file.write(tmp_path / "a.igs")).code == "file_without_surfaces"
+
+
+def test_other_delimiters_line_ends_and_none(tmp_path):
+    file = IgesFile(2)
+    file.delimiter, file.end = "/", "#"
+    file.surface(unrolled(sphere()))
+    text = file.text()
+    for number, written in enumerate(
+        (text, text.replace("\n", "\r\n"), text.replace("\n", ""), text.replace("e-", "D-"))
+    ):
+        path = tmp_path / "a{}.igs".format(number)
+        path.write_bytes(written.encode("latin-1"))
+        assert close(volume(read_surfaces(path)).total, BALL, 1e-14)
+
+
+@pytest.mark.parametrize(
+    "text, code",
+    [
+        ("", "iges_unrecognized"),
+        ("solid\n", "iges_unrecognized"),
+        ("{:<72}B{:>7}\n".format("", 1), "iges_not_ascii"),
+        ("{:<72}C{:>7}\n".format("", 1), "iges_not_ascii"),
+        ("\0" * 1000, "iges_unrecognized"),
+    ],
+)
+def test_what_is_no_iges_file(tmp_path, text, code):
+    path = tmp_path / "a.igs"
+    path.write_text(text)
+    assert refusal(path).code == code
+
+
+def test_an_unknown_unit_and_a_limit(tmp_path):
+    file = IgesFile(3, "CUBIT")
+    file.surface(unrolled(sphere()))
+    assert refusal(file.write(tmp_path / "a.igs")).values["unit"] == "CUBIT"
+    assert refusal(tmp_path / "a.igs", text_bytes=1000).code == "file_exceeds_limit"
+
+
+def test_damaged_files_are_refused_or_read_and_nothing_else(tmp_path):
+    file = IgesFile()
+    ball = file.surface(unrolled(sphere()), matrix=file.transformation(TURN), status="00010000")
+    file.add(408, [file.add(308, [0, "1HA", 1, ball], status="00000200"), 1.0, 2.0, 3.0])
+    trimmed(file, [polyline(A, B, C, D, A)])
+    text = file.text()
+    path, generator = tmp_path / "a.igs", random.Random(7)
+    for _ in range(600):
+        damaged = list(text)
+        for _ in range(generator.choice((1, 1, 3, 30))):
+            at = generator.randrange(len(damaged))
+            damaged[at] = generator.choice("0123456789.,;-+ EDH\n\0SGPT\xe4")
+        if generator.random() < 0.2:
+            del damaged[generator.randrange(len(damaged)) :]
+        path.write_text("".join(damaged), encoding="latin-1")
+        try:
+            read = read_surfaces(path)
+        except FileError as error:
+            assert error.reason
+        else:
+            assert all(np.isfinite(patch.points).all() for body in read.bodies for patch in body.patches)

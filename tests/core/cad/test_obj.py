@@ -1,0 +1,147 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Free-form surfaces of .obj files: B-splines and Bézier patches, and what is refused."""
+
+import random
+
+import numpy as np
+import pytest
+from body_moments.core.cad import read_surfaces
+from body_moments.core.cad.obj import has_surfaces
+from body_moments.core.numerics.bspline import SplineSpace, clamped_space
+from body_moments.core.nurbs.bezier_form import bezier_patches
+from body_moments.core.nurbs.patch import Patch
+from body_moments.core.nurbs.solid import measure_patches
+from body_moments.core.verdict.finding import FileError
+from body_moments.tests.close import close
+from body_moments.tests.core.exact_splines import sphere, torus
+from body_moments.tests.core.iges_files import obj_text, unrolled
+
+BALL = 4.0 / 3.0 * np.pi
+DONUT = 2.0 * np.pi**2 * 0.75 * 0.25**2
+
+
+def read(tmp_path, text):
+    path = tmp_path / "a.obj"
+    path.write_text(text)
+    return read_surfaces(path)
+
+
+def cause(tmp_path, text):
+    with pytest.raises(FileError) as caught:
+        read(tmp_path, text)
+    assert caught.value.reason.endswith(".")
+    causes = caught.value.finding.values.get("causes")
+    return causes[0]["code"] if causes else caught.value.finding.code
+
+
+def volume(body):
+    return measure_patches(body.patches).volume
+
+
+@pytest.mark.parametrize("kind", ["bspline", "bezier"])
+def test_round_bodies_are_objects_of_their_own_and_upright(tmp_path, kind):
+    lifted = np.eye(4)
+    lifted[2, 3] = 3.0
+    first, second = unrolled(sphere()).transform(lifted), unrolled(torus())
+    if kind == "bezier":
+        first, second = (bezier_patches(patch, (None, None))[0] for patch in (first, second))
+    found = read(tmp_path, obj_text([first], kind, "Ball") + obj_text([], kind) + "\n")
+    assert [body.name for body in found.bodies] == ["Ball"] and found.unit is None
+    assert close(volume(found.bodies[0]).total, BALL, 1e-14)
+    assert np.abs(volume(found.bodies[0]).center - (0, 0, 3)).max() <= 1e-14
+    path = tmp_path / "b.obj"
+    path.write_text(obj_text([second], kind))
+    (body,) = read_surfaces(path).bodies
+    assert body.name == "b" and close(volume(body).total, DONUT, 1e-14)
+
+
+def test_negative_numbers_textures_comments_and_faces_between(tmp_path):
+    patch = unrolled(sphere())
+    text = obj_text([patch])
+    count = patch.weights.size
+    lines = text.replace(" \\\n", " ").splitlines()
+    at = next(number for number, line in enumerate(lines) if line.startswith("surf"))
+    words = lines[at].split()
+    words[5:] = ["{}/1/2".format(number - count - 1) for number in range(1, count + 1)]
+    lines[at] = "  " + "\t".join(words) + "  # the ball"
+    lines.insert(at, "f 1 2 3\nvn 0 0 1\nvp 0 0\nstech cparma 1 1")
+    assert close(volume(read(tmp_path, "\n".join(lines)).bodies[0]).total, BALL, 1e-14)
+
+
+def test_without_rat_the_weights_mean_nothing(tmp_path):
+    patch = unrolled(sphere())
+    found = read(tmp_path, obj_text([patch]).replace("rat ", ""))
+    plain = measure_patches(bezier_patches(Patch(patch.spaces, patch.points), (None, None))).volume
+    assert close(volume(found.bodies[0]).total, plain.total, 1e-14)
+
+
+def test_a_part_of_the_domain(tmp_path):
+    s, t = clamped_space(4, (0.5,)), SplineSpace((0.0, 1.0, 2.0, 3.0, 5.0, 6.0), 3, 3)
+    patch = Patch((s, t), np.random.default_rng(3).uniform(-1, 1, (5, 3, 3)))
+    text = obj_text([patch]).replace("surf 0.0 1.0 2.0 3.0", "surf 0.25 0.75 2.5 3.0")
+    (found,) = read(tmp_path, text).bodies[0].patches
+    corners = patch.evaluate_grid([0.25, 0.75], [2.5, 3.0])
+    assert np.abs(found.evaluate_grid(found.spaces[0].domain, found.spaces[1].domain) - corners).max() <= 1e-15
+
+
+BALL_TEXT = obj_text([unrolled(sphere())])
+
+
+@pytest.mark.parametrize(
+    "old, new, code",
+    [
+        ("end\n", "trim 0 1 1\nend\n", "surface_trimmed"),
+        ("end\n", "hole 0 1 1\nend\n", "surface_trimmed"),
+        ("rat bspline", "rat cardinal", "surface_of_unsupported"),
+        ("rat bspline", "bmatrix", "surface_of_unsupported"),
+        ("deg 2 2", "deg 2", "surface_damaged"),
+        ("deg 2 2", "deg 2 3", "surface_damaged"),
+        ("deg 2 2", "deg 0 2", "surface_damaged"),
+        ("parm u", "parm w", "surface_damaged"),
+        ("parm u 0.0", "parm u 2.0", "surface_damaged"),
+        ("\n2 \\\n", "\n200 \\\n", "surface_damaged"),
+        ("\n2 \\\n", "\n0 \\\n", "surface_damaged"),
+        ("\n2 \\\n", "\nx \\\n", "surface_damaged"),
+        ("v 9 9 9", "call other.obj", "obj_call"),
+        ("\nsurf ", "\nsurface ", "file_without_surfaces"),
+    ],
+)
+def test_what_is_refused(tmp_path, old, new, code):
+    assert old in BALL_TEXT
+    assert cause(tmp_path, BALL_TEXT.replace(old, new, 1)) == code
+
+
+def test_a_seventh_order_and_weights_that_are_not_positive(tmp_path):
+    seventh = Patch((clamped_space(7), clamped_space(2)), np.random.default_rng(1).uniform(size=(7, 2, 3)))
+    assert cause(tmp_path, obj_text([seventh])) == "surface_order"
+    bad = [line.rsplit(" ", 1)[0] + " -1" if line.startswith("v ") else line for line in BALL_TEXT.splitlines()]
+    assert cause(tmp_path, "\n".join(bad)) == "surface_points"
+    assert cause(tmp_path, BALL_TEXT.replace("v 1.0", "v inf")) == "surface_points"
+
+
+@pytest.mark.parametrize(
+    "text, found", [("surf 0 1\n", True), ("a\r\n\tsurf\\\n", True), ("surface 1\nxsurf 1", False)]
+)
+def test_a_word_is_looked_for_in_any_large_file(tmp_path, text, found):
+    path = tmp_path / "a.obj"
+    for before in ("", "v 0 0 0\n" * 200_000):
+        path.write_text(before + text)
+        assert has_surfaces(path) == found
+
+
+def test_damaged_files_are_refused_or_read_and_nothing_else(tmp_path):
+    path, generator = tmp_path / "a.obj", random.Random(9)
+    for _ in range(400):
+        damaged = list(BALL_TEXT)
+        for _ in range(generator.choice((1, 1, 3, 30))):
+            damaged[generator.randrange(len(damaged))] = generator.choice("0123456789.-+ evpsurf\n\0\\/#\xe4")
+        if generator.random() < 0.2:
+            del damaged[generator.randrange(len(damaged)) :]
+        path.write_text("".join(damaged))
+        try:
+            found = read_surfaces(path)
+        except FileError as error:
+            assert error.reason
+        else:
+            assert all(np.isfinite(patch.points).all() for body in found.bodies for patch in body.patches)
