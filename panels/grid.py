@@ -22,6 +22,8 @@ def settings_rows(layout: UILayout, context: Context, obj: Object) -> bool:
         column.prop(settings, "threshold")
         column.row().prop(settings, "threshold_fill", expand=True)
     column.prop(settings, "spline_order")
+    if settings.sample_positions:
+        column.label(text="Samples at their own positions", icon="SNAP_INCREMENT")
     if settings.grid_as == "THRESHOLD" and settings.threshold_fill == "MATERIAL":
         return False
     column.row().prop(settings, "mass_from", expand=True)

@@ -13,11 +13,12 @@ from numpy.typing import ArrayLike, NDArray
 from ..numerics.bspline import SplineSpace
 from ..nurbs.bezier_form import bezier_patches
 from ..nurbs.patch import Patch
-from ..verdict.finding import MAX_STORED_ELEMENTS, FileError, Finding, MeasureError, finding, truncate_findings
+from ..verdict.finding import FileError, Finding, MeasureError, finding, truncate_findings
 
 MAX_ORDER = 6  # of the surfaces that are kept
 MAX_POINTS = 1 << 18  # control points of one patch in Bézier form
 MAX_SURFACES = 20_000  # that a file places
+MAX_NAMES = 1000  # that a refusal lists
 MAX_REASONS = 8  # that one refusal lists
 MAX_COORDINATE = 3e38  # below what float32 holds
 
@@ -91,7 +92,7 @@ class Refusals:
         except SurfaceRefusedError as error:
             self.add(error.code, kind, name, **error.values)
         except MeasureError as error:  # of its control points
-            self.add("surface_points", kind, name, cause=error.finding.code)
+            self.add("surface_points", kind, name, cause=error.finding)
         except (ValueError, OverflowError, IndexError):
             self.add("surface_damaged", kind, name)
         return []
@@ -106,8 +107,8 @@ class Refusals:
         for (code, kind, values), names in self.names.items():
             known = dict(values)
             if "cause" in known:
-                known["cause"] = finding(known["cause"]).as_record()
-            found.append(finding(code, kind=kind, count=len(names), names=names[: MAX_STORED_ELEMENTS + 1], **known))
+                known["cause"] = known["cause"].as_record()
+            found.append(finding(code, kind=kind, count=len(names), names=names[:MAX_NAMES], **known))
         return tuple(found)
 
     def file(
@@ -142,19 +143,19 @@ def blender_patches(
     if matrix is not None:
         points = points @ matrix[:3, :3].T + matrix[:3, 3]
     if not (np.abs(points) < MAX_COORDINATE).all():
-        raise SurfaceRefusedError("surface_points", cause="non_finite_control_points")
+        raise SurfaceRefusedError("surface_points", cause=finding("non_finite_control_points"))
     spaces = tuple(
         SplineSpace(tuple(np.asarray(row, np.float64).tolist()), order, count)
         for row, order, count in zip(knots, orders, points.shape)
     )
     if any(space.function_count != space.count for space in spaces):
-        raise ValueError("knots not for the control points")
+        raise ValueError("knots of other points")
     sizes = [len(space.spans) * (space.order - 1) + 1 for space in spaces]
     if sizes[0] * sizes[1] > MAX_POINTS:
         raise SurfaceRefusedError("surface_too_large", points=sizes[0] * sizes[1], limit=MAX_POINTS)
     patches = bezier_patches(Patch(spaces, points, weights), domain)
     if any(patch.weights is not None and _too_uneven(patch.weights) for patch in patches):
-        raise SurfaceRefusedError("surface_points", cause="non_positive_weights")
+        raise SurfaceRefusedError("surface_points", cause=finding("non_positive_weights"))
     return patches
 
 

@@ -102,10 +102,11 @@ def grid_moments(
     spline_order: int = 1,
     order: int = 3,
     value: Callable[[NDArray], NDArray] | None = None,
+    positions: Sequence[ArrayLike | None] = (None, None, None),
 ) -> Moments:
-    """Return the mass moments of a uniform grid whose samples are densities.
+    """Return the mass moments of a grid whose samples are densities.
 
-    The samples are the coefficients of a uniform spline with full supports.
+    The samples are the coefficients of a spline with full supports, uniform along each axis without positions.
 
     Parameters
     ----------
@@ -121,6 +122,8 @@ def grid_moments(
         Of the moments.
     value : callable, optional
         Converts a block's numbers to densities.
+    positions : sequence of three array_like or None
+        Ascending: where the samples of an axis stand, in place of 0, 1, 2, …, before the matrix is applied.
 
     Returns
     -------
@@ -142,7 +145,12 @@ def grid_moments(
     matrix = np.asarray(matrix, np.float64)
     if not np.isfinite(matrix).all() or not np.linalg.det(matrix[:3, :3]):
         raise MeasureError("grid_transform_singular")
-    axes = [SplineAxis.uniform(count, spline_order) for count in shape]
+    axes = [
+        SplineAxis.uniform(count, spline_order) if row is None else SplineAxis.at_positions(row, spline_order)
+        for count, row in zip(shape, positions)
+    ]
+    if [axis.count for axis in axes] != list(shape):
+        raise ValueError("positions for other samples")
     inside = density_moments(samples, axes, order, value)
     return replace(replace(inside, measure=Measure.VOLUME).transform(matrix), measure=Measure.MASS)
 

@@ -72,6 +72,21 @@ class SplineAxis:
         """`count` functions, the i-th centered at origin + i spacing: samples as coefficients, full supports."""
         return cls(origin + spacing * (np.arange(count + order, dtype=np.float64) - order / 2.0), order)
 
+    @classmethod
+    def at_positions(cls, positions: ArrayLike, order: int = 1) -> SplineAxis:
+        """One function for each sample, in the middle of whose knots it stands: samples as coefficients, full supports.
+
+        With an even order the knots are the positions, with an odd one the middles between them; beyond the ends they
+        go on with the last distance. Even positions give `uniform`. ValueError where positions do not ascend, or there
+        are fewer than two.
+        """
+        x = np.asarray(positions, np.float64)
+        if x.ndim != 1 or len(x) < 2 or not np.isfinite(x).all() or not (np.diff(x) > 0.0).all():
+            raise ValueError("positions must ascend")
+        steps = np.arange(1, (order + 1) // 2 + 1)
+        x = np.concatenate([x[0] - (x[1] - x[0]) * steps[::-1], x, x[-1] + (x[-1] - x[-2]) * steps])
+        return cls(x if order % 2 == 0 else x[:-1] + np.diff(x) / 2.0, order)
+
     def clip(self) -> SplineAxis:
         """The same functions cut off where they stop to sum to one: the domain [t_{k-1}, t_n]."""
         return SplineAxis(self.knots, self.order, (float(self.knots[self.order - 1]), float(self.knots[self.count])))

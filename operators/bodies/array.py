@@ -4,15 +4,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from ...core.measurement import Measurement
 from ...core.scans.formats import read_scan, sample_matrix
 from ...core.scans.limits import DEFAULT_LIMITS, Limits
-from ...core.verdict.finding import MeasureError, ReadError, finding
+from ...core.scans.positions import place_samples, read_all_positions
+from ...core.verdict.finding import Finding, MeasureError, ReadError, finding
 from ..read import Reading
 from ..settings.grid import GridOptions
 from ..settings.options import MeasureOptions, ResolvedOptions
@@ -25,7 +26,8 @@ from .request import Request
 @dataclass(frozen=True)
 class ArrayOptions:
     """spacing, origin: (x, y, z) in place of the file's own; unit_scale: metres per unit where the file has none;
-    density_scale: kg/m³ where a sample is 1; limits: of what the file may ask for."""
+    density_scale: kg/m³ where a sample is 1; limits: of what the file may ask for; positions: files of the
+    samples' positions by axis, in units of unit_scale."""
 
     spacing: Sequence[float] | None = None
     origin: Sequence[float] | None = None
@@ -33,6 +35,7 @@ class ArrayOptions:
     density_scale: float = 1.0
     unit_scale: float | None = None
     limits: Limits = DEFAULT_LIMITS
+    positions: Mapping[str, str] = field(default_factory=dict)
 
 
 def measure_array(
@@ -49,6 +52,10 @@ def measure_array(
     try:
         scan = read_scan(path, array.limits)
         matrix, findings = sample_matrix(scan, array.spacing, array.origin, array.unit_scale)
+        positions = read_all_positions(array.positions, scan.samples.shape)
+        matrix, positions = place_samples(matrix, positions, array.unit_scale or 1.0)
+        if array.positions:
+            findings = _with_positions(findings, array.positions)
         grid = GridOptions(
             value_density=array.density_scale, spline_order=array.spline_order, negative="array_negative"
         )
@@ -59,7 +66,7 @@ def measure_array(
             findings += (finding("given_density_ignored"),)
         scale = scan.slope, scan.intercept
         samples = density_body(
-            scan.samples, shape, matrix, grid, None, findings, *scale, progress, options.order or KNOWN_ORDER
+            scan.samples, shape, matrix, grid, None, findings, *scale, progress, options.order or KNOWN_ORDER, positions
         )
         reading = Reading(name, "ARRAY", np.eye(4), np.eye(3), np.zeros(3))
         used = ResolvedOptions.of(options, kind="solid", density=None, thickness=0.0, overlap="signed", wall="thin")
@@ -71,3 +78,9 @@ def measure_array(
     except OSError as error:
         reason = (error.strerror or str(error)).rstrip(".")
         raise ReadError("file_unreadable", subject=name, error=reason) from error
+
+
+def _with_positions(findings: Iterable[Finding], files: Mapping[str, str]) -> tuple[Finding, ...]:
+    """What was decided of the places of samples, where files say them: of all three, no spacing is missing."""
+    kept = [one for one in findings if len(files) < 3 or one.code != "scan_without_spacing"]
+    return (*kept, finding("samples_positioned", axes=sorted(files)))

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass, field, replace
 from typing import ClassVar
@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from ...core.density.spline_grid import Blocks, grid_moments
 from ...core.moments.moments import Measure, Moments
+from ...core.scans.positions import AXES, EVEN, Positions
 from ...core.verdict.finding import Finding, ReadError, finding
 from ...core.verdict.health import MeshReport
 from ...core.verdict.method import Method, Source, Verdict
@@ -42,6 +43,8 @@ class GridBody(Body):
     options : GridOptions
     background : float, optional
         A value that counts as empty.
+    positions : three of (n,) array or None
+        Where samples stand along an axis, in place of 0, 1, 2, …
     """
 
     any_order: ClassVar[bool] = True
@@ -53,11 +56,12 @@ class GridBody(Body):
     background: float | None = None
     slope: float = 1.0
     intercept: float = 0.0
+    positions: Positions = EVEN
 
     def moments(self, order: int, area: bool) -> tuple[Moments, Moments | None]:
         """Return the moments of the voxels that are not empty; a grid has no area."""
         weigh = _Weights(self.options, self.background, self.slope, self.intercept)
-        volume = _occupied(self.samples, self.shape, self.matrix, weigh, order)
+        volume = _occupied(self.samples, self.shape, self.matrix, weigh, order, self.positions)
         return volume, Moments(np.zeros_like(volume.raw), volume.about, Measure.AREA) if area else None
 
 
@@ -77,8 +81,10 @@ class _Weights:
         return (self.densities(block) != 0.0).astype(np.float64)
 
 
-def _occupied(samples: Blocks | NDArray, shape: Sequence[int], matrix: NDArray, weigh: _Weights, order: int) -> Moments:
-    moments = grid_moments(samples, shape, matrix, order=order, value=weigh.occupied)
+def _occupied(
+    samples: Blocks | NDArray, shape: Sequence[int], matrix: NDArray, weigh: _Weights, order: int, positions: Positions
+) -> Moments:
+    moments = grid_moments(samples, shape, matrix, order=order, value=weigh.occupied, positions=positions)
     return replace(moments, measure=Measure.VOLUME)
 
 
@@ -117,19 +123,45 @@ def grid_body(
     """The body of one grid. unit: metres per Blender unit. order: to which the mass is wanted. MeasureError where there
     is none."""
     if options.threshold is not None:
+        options.needs_even_samples(reading.grid)
         return threshold_grid_body(threshold_grid(reading, unit), options, order=order)
     if options.solid:
         return _solid(reading, unit, threads)
     if reading.level_set:
         raise ReadError("grid_is_level_set", grid=reading.grid)
     scaled = np.diag([unit, unit, unit, 1.0])
+    positions = options.positions(reading.grid, reading.low, reading.shape)
     first = np.eye(4)
-    first[:3, 3] = reading.low
+    first[:3, 3] = [low if row is None else 0.0 for low, row in zip(reading.low, positions)]
+    shape = [count if row is None else len(row) for count, row in zip(reading.shape, positions)]
     matrix = scaled @ reading.matrix @ reading.to_object @ first
     density = finding(
         "grid_density", grid=reading.grid, samples=list(reading.shape), cause=options.meaning().as_record()
     )
-    return density_body(reading.blocks, reading.shape, matrix, options, reading.background, (density,), order=order)
+    axes = [axis for axis, row in zip(AXES, positions) if row is not None]
+    findings = (density, finding("samples_positioned", axes=axes)) if axes else (density,)
+    return density_body(
+        _whole_axes(reading, positions),
+        shape,
+        matrix,
+        options,
+        reading.background,
+        findings,
+        order=order,
+        positions=positions,
+    )
+
+
+def _whole_axes(reading: VolumeReading, positions: Positions) -> Blocks:
+    """The blocks of a grid whose box begins at 0 along the axes with positions: how thick the first and the last sample
+    of the box are depends on those beside it."""
+    offset = [0 if row is None else int(low) for low, row in zip(reading.low, positions)]
+
+    def blocks() -> Iterator[tuple[tuple[int, int, int], NDArray]]:
+        for (i, j, k), block in reading.blocks():
+            yield (i + offset[0], j + offset[1], k + offset[2]), block
+
+    return blocks if any(offset) else reading.blocks
 
 
 def density_body(
@@ -143,11 +175,12 @@ def density_body(
     intercept: float = 0.0,
     progress: Callable[[int], None] = lambda samples: None,
     order: int = KNOWN_ORDER,
+    positions: Positions = EVEN,
 ) -> GridBody:
     """The body of samples at matrix @ (i, j, k, 1), in metres, that stand for slope · sample + intercept.
 
     background: a value that counts as empty. progress: called with how many samples are about to be read. order: to
-    which the mass is wanted.
+    which the mass is wanted. positions: where samples stand along an axis, in place of 0, 1, 2, …
     """
     if min(shape) < 1:
         raise ReadError("grid_empty")
@@ -157,15 +190,15 @@ def density_body(
         progress(block.size)
         return weigh.densities(block)
 
-    mass = grid_moments(samples, shape, matrix, options.spline_order, value=densities)
+    mass = grid_moments(samples, shape, matrix, options.spline_order, value=densities, positions=positions)
     higher = None
     if order > KNOWN_ORDER:
-        higher = grid_moments(samples, shape, matrix, options.spline_order, order, densities)
+        higher = grid_moments(samples, shape, matrix, options.spline_order, order, densities, positions)
     if not np.abs(mass.raw).max() < MAX_MASS_MOMENT:
         raise ReadError("mass_overflow")
     if not mass.total > 0.0:
         raise ReadError("grid_empty")
-    volume = _occupied(samples, shape, matrix, weigh, 3)
+    volume = _occupied(samples, shape, matrix, weigh, 3, positions)
     findings += (*options.empty_background_note(background), finding("grid_without_surface"))
     return GridBody(
         volume,
@@ -182,6 +215,7 @@ def density_body(
         background=background,
         slope=slope,
         intercept=intercept,
+        positions=positions,
     )
 
 

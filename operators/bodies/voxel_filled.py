@@ -59,6 +59,7 @@ def voxel_filled_body(
     name: of the object, which MeasureErrors are about that are not about the grid alone.
     """
     whose = {"grid": reading.grid, "object": reading.name}
+    options.needs_even_samples(reading.grid)
     if body.method.verdict == Verdict.OPEN:
         raise ReadError("open_surface_of_grid", subject=name)
     if reading.level_set:

@@ -75,6 +75,9 @@ def parse(argv: list[str], file_needed: bool = False) -> argparse.Namespace:
     if options.resume and options.output is None:
         fail(finding("usage_resume_output"))
     _check_fourier(options)
+    axes = [axis for axis, _ in options.positions or ()]
+    if len(set(axes)) < len(axes):
+        fail(finding("usage_positions_twice", axes=axes))
     options.forced = []
     return options
 
@@ -229,6 +232,14 @@ def _add_of_files(parser: argparse.ArgumentParser) -> None:
         type=types.triple,
         metavar="X,Y,Z",
         help="arrays: where the first sample stands (the header's, or 0)",
+    )
+    add(
+        "--positions",
+        type=types.positions,
+        action="append",
+        metavar="AXIS=FILE.npy",
+        help="arrays: where the samples stand along x, y or z, ascending, where they are not equally far apart; "
+        "repeatable (in place of the spacing and the origin of that axis)",
     )
     add(
         "--spline-order",

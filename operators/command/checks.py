@@ -24,7 +24,8 @@ def check(options: Namespace) -> None:
         targets.check_places(options)
         prepare(options)
         # Also the file that is open, whether or not it is measured, and that of the wave vectors.
-        read = [path for path in (*options.files, bpy.data.filepath, options.q) if path]
+        positions = (path for _, path in options.positions or ())
+        read = [path for path in (*options.files, bpy.data.filepath, options.q, *positions) if path]
         replaced = targets.files_to_replace(options, read)
         # Opening what is measured takes its time, and only here does it matter what that reads.
         targets.check_dependencies(replaced, inputs.files_read(options.files) if replaced else ())

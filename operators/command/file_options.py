@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from ...core.verdict.finding import Finding, finding
 from .files import UNITLESS, file_suffix
 
-OF_ARRAYS = ("spacing", "origin", "spline_order", "density_scale")
+OF_ARRAYS = ("spacing", "origin", "spline_order", "density_scale", "positions")
 
 
 def is_unitless(path: str | None) -> bool:

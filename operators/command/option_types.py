@@ -57,6 +57,14 @@ def spacing(text: str) -> tuple[float, ...]:
     return values
 
 
+def positions(text: str) -> tuple[str, str]:
+    """AXIS=FILE, the positions of samples along x, y or z."""
+    axis, equals, path = text.partition("=")
+    if axis not in ("x", "y", "z") or not equals or not path:
+        raise _refuse("usage_positions", text=text)
+    return axis, path
+
+
 def spline_order(text: str) -> int:
     """The order of a spline of samples."""
     if text not in {str(order) for order in range(1, MAX_SPLINE_ORDER + 1)}:

@@ -253,6 +253,7 @@ class Run:
         taken = {
             measurement: getattr(self.options, measurement) for measurement in (*OF_ARRAYS, "unit_scale", "limits")
         }
+        taken["positions"] = dict(self.options.positions or ())
         array = ArrayOptions(**{measurement: value for measurement, value in taken.items() if value is not None})
         try:
             measurement = measure_array(path, name, array, self._measure_options, self.progress(path))

@@ -4,7 +4,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import json
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,6 +13,7 @@ from numpy.typing import NDArray
 
 from ...core.density.transfer_function import parse_table
 from ...core.numerics.float32 import shortest_decimal
+from ...core.scans.positions import AXES, EVEN, Positions
 from ...core.verdict.finding import Finding, ReadError, finding
 
 
@@ -22,7 +24,7 @@ class GridOptions:
     grid: its name, "" for the likeliest. solid: a level set as the solid it bounds. threshold: the body where values
     are at least that, None for all of the grid; filled: with the grid's own density, not with one material.
     value_density: kg/m³ where a value is 1; table: a transfer table instead, "" for none. spline_order: 1 voxels, 2
-    trilinear, 4 cubic.
+    trilinear, 4 cubic. sample_positions: where samples stand that do not stand evenly, as `positions_text` writes it.
     negative: the code of the refusal of negative densities, by where they come from.
     """
 
@@ -33,6 +35,7 @@ class GridOptions:
     value_density: float = 1.0
     table: str = ""
     spline_order: int = 1
+    sample_positions: str = ""
     negative: str = "values_negative"
 
     @classmethod
@@ -47,6 +50,7 @@ class GridOptions:
             shortest_decimal(settings.value_density if density is None else density),
             table,
             settings.spline_order,
+            settings.sample_positions,
         )
 
     @property
@@ -55,7 +59,28 @@ class GridOptions:
         if self.threshold is not None and not self.filled:
             return self.grid, "threshold", self.threshold, self.spline_order
         values = (self.grid, "solid") if self.solid else (self.grid, self.table or self.value_density)
+        if self.sample_positions:
+            values = (*values, self.sample_positions)
         return (*values, self.spline_order) if self.threshold is None else (*values, self.spline_order, self.threshold)
+
+    def positions(self, grid: str, low: NDArray, shape: Sequence[int]) -> Positions:
+        """Where all samples of the scan stand along each axis, in voxels. ReadError where that is not known of those
+        in the box from `low` on. grid: its name."""
+        if not self.sample_positions:
+            return EVEN
+        rows: list[NDArray[np.float64] | None] = []
+        for axis, begin, count in zip(AXES, low, shape):
+            known = json.loads(self.sample_positions).get(axis)
+            if known is not None and not 0 <= begin <= begin + count <= len(known):
+                raise ReadError("positions_of_other_samples", grid=grid, axis=axis, count=len(known))
+            rows.append(None if known is None else np.array(known, np.float64))
+        x, y, z = rows
+        return x, y, z
+
+    def needs_even_samples(self, grid: str) -> None:
+        """ReadError where samples do not stand evenly. grid: its name."""
+        if self.sample_positions:
+            raise ReadError("positions_only_as_density", grid=grid)
 
     def to_densities(self, background: float | None) -> Callable[[NDArray], NDArray]:
         """What makes densities in kg/m³ of values, and raises ReadError where it cannot. The background, if any, is
@@ -87,3 +112,10 @@ class GridOptions:
         if self.table:
             return finding("values_by_table_spline" if spline else "values_by_table", **spline)
         return finding("values_scaled_spline" if spline else "values_scaled", density=self.value_density, **spline)
+
+
+def positions_text(positions: Positions) -> str:
+    """Positions as an object keeps them: in voxels, so that the first and the last sample are where Blender draws
+    them."""
+    known = {axis: (row * ((len(row) - 1) / row[-1])).tolist() for axis, row in zip(AXES, positions) if row is not None}
+    return json.dumps(known, separators=(",", ":")) if known else ""

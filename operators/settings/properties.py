@@ -306,6 +306,12 @@ class BodyMomentsObjectSettings(GivenPartProperties, PropertyGroup):
         max=6,
         update=changed,
     )
+    sample_positions: StringProperty(
+        name="Sample Positions",
+        description="Where the samples of an imported scan stand along x, y and z, in voxels, if not evenly",
+        options={"HIDDEN"},
+        update=changed,
+    )
     accepted: StringProperty(
         name="Accepted Findings",
         description="Codes of the warnings that were accepted for this object and are notes",

@@ -919,6 +919,35 @@ MESSAGES: dict[str, Message] = {
     ),
     "scan_placement_overridden": _note("Given values replace those of the header: {fields}."),
     "scan_without_spacing": _warning("The file has no spacing: 1 unit was assumed. Use Set Spacing, or --spacing."),
+    "samples_positioned": _note("The samples stand at the given positions along {axes}."),
+    "positions_missing": _error("The file of positions along {axis}, “{file}”, does not exist."),
+    "positions_not_a_row": _error(
+        "The positions along {axis} in “{file}” are not one row of numbers, but {dimensions} dimensions of type "
+        "{type}. Save an array of one dimension."
+    ),
+    "positions_count": _error(
+        "“{file}” has {count} positions along {axis}, and the scan {samples} samples. Save one for each sample."
+    ),
+    "positions_of_one_sample": _error(
+        "The scan has one sample along {axis}; a position does not tell how thick it is. Leave “{file}” out."
+    ),
+    "positions_non_finite": _error(
+        "Position {place} along {axis} in “{file}” is not finite; the first is position 0. Correct it."
+    ),
+    "positions_not_ascending": _error(
+        "Position {place} along {axis} in “{file}” is not greater than the one before; the first is position 0. Sort "
+        "the positions, and the samples with them."
+    ),
+    "positions_of_other_samples": _error(
+        "The grid “{grid}” has samples beyond its {count} positions along {axis}. Import the scan again."
+    ),
+    "positions_only_as_density": _error(
+        "The samples of the grid “{grid}” do not stand evenly, and can be measured as a density only. Set Measure As "
+        "to Density, or import the scan without positions."
+    ),
+    "scan_drawn_evenly": _note(
+        "Blender draws samples evenly. They are measured where they stand; the ends along {axes} are in their places."
+    ),
     "scan_without_unit": _warning("The file has no unit: 1 unit was taken as 1 m. Use Set Spacing, or --unit-scale."),
     "scan_ct_numbers": _note("Negative values are taken as CT numbers, by the transfer table."),
     "given_density_ignored": _warning("The samples are densities; the given density was not used."),
@@ -1409,6 +1438,8 @@ MESSAGES: dict[str, Message] = {
     "usage_value": _error("argument --{option}: {cause}"),
     "usage_not_positive": _error("{text!r} is not a positive number"),
     "usage_not_triple": _error("{text!r} is not three numbers X,Y,Z"),
+    "usage_positions": _error("“{text}” is not x=FILE.npy, y=FILE.npy or z=FILE.npy"),
+    "usage_positions_twice": _error("--positions names an axis twice: {axes}"),
     "usage_not_positive_triple": _error("{text!r} is not three positive numbers X,Y,Z"),
     "usage_spline_order": _error("{text!r} is not an order from 1 to {limit}"),
     "usage_order": _error("{text!r} is not an order from 0 to {limit}"),

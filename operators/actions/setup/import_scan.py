@@ -15,7 +15,7 @@ from types import ModuleType
 
 import bpy
 import numpy as np
-from bpy.props import BoolProperty, EnumProperty, FloatVectorProperty, IntVectorProperty, StringProperty
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, FloatVectorProperty, IntVectorProperty, StringProperty
 from bpy.types import Context, Menu, Object, Operator
 from bpy_extras.io_utils import ImportHelper
 from numpy.typing import NDArray
@@ -23,9 +23,11 @@ from numpy.typing import NDArray
 from ....core.numerics.float32 import shortest_decimal
 from ....core.scans.formats import SUFFIXES, read_scan, sample_matrix, scan_suffix
 from ....core.scans.numpy_files import TYPES, read_raw
+from ....core.scans.positions import Positions, place_samples, read_all_positions
 from ....core.scans.scan import Scan
 from ....core.verdict.finding import FileError, Finding, MeasureError, finding
 from ...read.vdb import openvdb
+from ...settings.grid import positions_text
 from ...settings.limits import scan_limits
 from ...write import reports
 
@@ -50,6 +52,28 @@ class OBJECT_OT_body_moments_import_scan(Operator, ImportHelper):
         name="Spacing",
         description="Distance between samples along x, y and z in meters",
         default=(0.001, 0.001, 0.001),
+        min=1e-9,
+        precision=6,
+    )
+    x_positions: StringProperty(
+        name="X Positions",
+        description="A .npy file with the position of each sample along x, ascending. Empty if they are even",
+        subtype="FILE_PATH",
+    )
+    y_positions: StringProperty(
+        name="Y Positions",
+        description="A .npy file with the position of each sample along y, ascending. Empty if they are even",
+        subtype="FILE_PATH",
+    )
+    z_positions: StringProperty(
+        name="Z Positions",
+        description="A .npy file with the position of each sample along z, ascending. Empty if they are even",
+        subtype="FILE_PATH",
+    )
+    position_unit: FloatProperty(
+        name="Unit of Positions",
+        description="Meters per unit of the files of positions",
+        default=1.0,
         min=1e-9,
         precision=6,
     )
@@ -109,6 +133,12 @@ class OBJECT_OT_body_moments_import_scan(Operator, ImportHelper):
         matrix, decided = sample_matrix(
             scan, tuple(map(shortest_decimal, self.spacing)) if self.use_spacing else None, None, None
         )
+        files = self._position_files()
+        positions = _read_positions(files, scan)
+        matrix, positions = place_samples(matrix, positions, shortest_decimal(self.position_unit))
+        for axis, row in enumerate(positions):
+            if row is not None:  # Blender's voxels are even: the first and the last are where they belong
+                matrix[:3, axis] *= row[-1] / (len(row) - 1)
         if target.exists() and not self.overwrite:
             raise FileError("file_exists", file=target.name)
         matrix[:3] /= shortest_decimal(context.scene.unit_settings.scale_length)
@@ -117,11 +147,18 @@ class OBJECT_OT_body_moments_import_scan(Operator, ImportHelper):
         except (OSError, RuntimeError) as error:  # OpenVDB's own errors are RuntimeErrors
             raise FileError("volume_not_written", error=getattr(error, "strerror", None) or str(error)) from error
         obj = _object(context, target)
+        obj.body_moments.sample_positions = positions_text(positions)
         findings = [finding("scan_imported", samples=list(scan.samples.shape), file=target.name), *decided]
+        if files:
+            findings.append(finding("scan_drawn_evenly", axes=sorted(files)))
         if low < 0.0:
             obj.body_moments.values_from = "TABLE"
             findings.append(finding("scan_ct_numbers"))
         return findings
+
+    def _position_files(self) -> dict[str, str]:
+        files = {"x": self.x_positions, "y": self.y_positions, "z": self.z_positions}
+        return {axis: bpy.path.abspath(path) for axis, path in files.items() if path}
 
     def _scan(self, path: Path) -> Scan:
         limits = replace(scan_limits(), allow_outside=self.allow_outside)
@@ -131,6 +168,13 @@ class OBJECT_OT_body_moments_import_scan(Operator, ImportHelper):
             return read_scan(path, limits)
         except OSError as error:
             raise FileError("file_unreadable", error=error.strerror or str(error)) from error
+
+
+def _read_positions(files: dict[str, str], scan: Scan) -> Positions:
+    try:
+        return read_all_positions(files, scan.samples.shape)
+    except OSError as error:
+        raise FileError("file_unreadable", error=error.strerror or str(error)) from error
 
 
 def _write(module: ModuleType, target: Path, scan: Scan, matrix: NDArray) -> float:

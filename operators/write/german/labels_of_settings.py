@@ -228,6 +228,7 @@ TEXTS = {
     "Bill of Masses...": "Massenliste...",
     "For all scenes": "Für alle Szenen",
     "NURBS Surfaces (.igs/.iges, .obj with surf)": "NURBS-Flächen (.igs/.iges, .obj mit surf)",
+    "Samples at their own positions": "Abtastwerte an eigenen Stellen",
     "Scan of Densities (.nii/.nrrd/.npy)": "Scan von Dichten (.nii/.nrrd/.npy)",
     "Copy {:s}\n\nUnit: {:s}": "{:s} kopieren\n\nEinheit: {:s}",
     "Density in kg/m³": "Dichte in kg/m³",

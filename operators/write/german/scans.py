@@ -36,6 +36,36 @@ MESSAGES = {
     "nifti_offset": ("Der NIfTI-Kopf gibt einen unmöglichen Datenversatz an, {offset:g}.",),
     "nifti_spacing": ("Der NIfTI-Kopf gibt einen unmöglichen Abstand an, {x:g} x {y:g} x {z:g}.",),
     "nifti_rotation": ("Der NIfTI-Kopf gibt eine ungültige Drehung an.",),
+    "samples_positioned": ("Die Abtastwerte stehen entlang {axes} an den angegebenen Stellen.",),
+    "positions_missing": ("Die Datei der Stellen entlang {axis}, „{file}“, gibt es nicht.",),
+    "positions_not_a_row": (
+        "Die Stellen entlang {axis} in „{file}“ sind keine Reihe von Zahlen, sondern {dimensions} Dimensionen vom Typ "
+        "{type}. Ein Feld mit einer Dimension speichern.",
+    ),
+    "positions_count": (
+        "„{file}“ hat {count} Stellen entlang {axis}, und der Scan {samples} Abtastwerte. Für jeden eine speichern.",
+    ),
+    "positions_of_one_sample": (
+        "Der Scan hat entlang {axis} einen Abtastwert; eine Stelle sagt nicht, wie dick er ist. „{file}“ weglassen.",
+    ),
+    "positions_non_finite": (
+        "Stelle {place} entlang {axis} in „{file}“ ist nicht endlich; die erste ist Stelle 0. Sie berichtigen.",
+    ),
+    "positions_not_ascending": (
+        "Stelle {place} entlang {axis} in „{file}“ ist nicht größer als die davor; die erste ist Stelle 0. Die Stellen "
+        "ordnen, und die Abtastwerte mit ihnen.",
+    ),
+    "positions_of_other_samples": (
+        "Das Gitter „{grid}“ hat Abtastwerte jenseits seiner {count} Stellen entlang {axis}. Den Scan neu importieren.",
+    ),
+    "positions_only_as_density": (
+        "Die Abtastwerte des Gitters „{grid}“ stehen nicht gleichmäßig und können nur als Dichte gemessen werden. "
+        "Messen als auf Dichte stellen, oder den Scan ohne Stellen importieren.",
+    ),
+    "scan_drawn_evenly": (
+        "Blender zeichnet Abtastwerte gleichmäßig. Sie werden gemessen, wo sie stehen; die Enden entlang {axes} sind "
+        "an ihrem Platz.",
+    ),
     "nrrd_unrecognized": ("Keine NRRD-Datei (NRRD0001 bis NRRD0005).",),
     "nrrd_field_missing": ("Dem NRRD-Kopf fehlt das Feld „{field}“.",),
     "nrrd_field_not_numbers": ("Das NRRD-Feld „{field}“ ist keine Liste von Zahlen: {text:.60s}.",),

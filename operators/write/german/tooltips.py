@@ -162,6 +162,19 @@ TEXTS = {
     "Write the Fourier transform of the active object to a file": (
         "Die Fourier-Transformation des aktiven Objekts in eine Datei schreiben"
     ),
+    "A .npy file with the position of each sample along x, ascending. Empty if they are even": (
+        "Eine .npy-Datei mit der Stelle jedes Abtastwerts entlang x, aufsteigend. Leer, wenn sie gleichmäßig sind"
+    ),
+    "A .npy file with the position of each sample along y, ascending. Empty if they are even": (
+        "Eine .npy-Datei mit der Stelle jedes Abtastwerts entlang y, aufsteigend. Leer, wenn sie gleichmäßig sind"
+    ),
+    "A .npy file with the position of each sample along z, ascending. Empty if they are even": (
+        "Eine .npy-Datei mit der Stelle jedes Abtastwerts entlang z, aufsteigend. Leer, wenn sie gleichmäßig sind"
+    ),
+    "Meters per unit of the files of positions": "Meter je Einheit der Dateien mit Stellen",
+    "Where the samples of an imported scan stand along x, y and z, in voxels, if not evenly": (
+        "Wo die Abtastwerte eines importierten Scans entlang x, y und z stehen, in Voxeln, wenn nicht gleichmäßig"
+    ),
     "Import the B-spline surfaces of IGES files, and of .obj files with surf, as they are": (
         "Die B-Spline-Flächen von IGES-Dateien, und von .obj-Dateien mit surf, importieren, wie sie sind"
     ),

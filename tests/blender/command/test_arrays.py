@@ -171,3 +171,63 @@ def test_that_an_array_has_no_pose_is_said(tmp_path):
     code, document = run(tmp_path, tmp_path / "b.npy", "--pose")
     assert code == 0 and document["objects"][0]["pose"] is None
     assert "shape_of_grid" in codes(document["objects"][0])
+
+
+def test_uneven_slices_are_measured_where_they_stand(tmp_path):
+    samples = np.random.default_rng(3).integers(1, 9, (4, 2, 6)).astype("f4")
+    z = np.array([10.0, 10.5, 12.0, 12.25, 15.0, 16.0])
+    np.save(tmp_path / "scan.npy", samples)
+    np.save(tmp_path / "z.npy", z)
+    words = (tmp_path / "scan.npy", "--spacing", "2,3,9", "--origin", "5,6,7", "--positions", f"z={tmp_path / 'z.npy'}")
+    code, document = run(tmp_path, *words, "--order", "4")
+    assert code == 0 and document["errors"] == []
+    (entry,) = document["objects"]
+    edges = np.concatenate([[9.75], (z[1:] + z[:-1]) / 2, [16.5]])
+    thick, middle = np.diff(edges), (edges[1:] + edges[:-1]) / 2
+    weights = samples.sum(axis=(0, 1)) * thick * 6.0
+    assert close(entry["mass"], weights.sum(), 1e-13)
+    assert close(entry["center_of_mass"][2], (weights @ middle) / weights.sum(), 1e-13)
+    assert close(entry["volume"], 8 * 6.0 * thick.sum(), 1e-13)
+    fourth = samples.sum(axis=(0, 1)) * 6.0 @ (np.diff(edges**5) / 5)
+    assert close(entry["moments"]["mass"]["0,0,4"], fourth, 1e-12)
+    assert 0.0 < entry["moments"]["error"]["mass"]["0,0,4"] < 1e-10 * fourth
+    assert "samples_positioned" in codes(entry)
+    millimeters = run(tmp_path, *words, "--unit-scale", "0.001", "--spline-order", "2")[1]["objects"][0]
+    hats = np.diff(np.concatenate([[9.5], z, [17.0]]))
+    weights = samples.sum(axis=(0, 1)) * 6.0 * (hats[1:] + hats[:-1]) / 2
+    assert close(millimeters["mass"], weights.sum() * 1e-9, 1e-13)
+
+
+def test_all_axes_with_positions_need_no_spacing(tmp_path):
+    np.save(tmp_path / "box.npy", box())
+    words = []
+    for axis, count in zip("xyz", (4, 2, 6)):
+        np.save(tmp_path / f"{axis}.npy", np.arange(count) * 0.5)
+        words += ["--positions", f"{axis}={tmp_path / axis}.npy"]
+    (entry,) = run(tmp_path, tmp_path / "box.npy", *words)[1]["objects"]
+    assert close(entry["mass"], 6.0, 1e-13) and "scan_without_spacing" not in codes(entry)
+
+
+@pytest.mark.parametrize(
+    "row, words",
+    [
+        ([0, 1, 2, 3, 4], "has 5 positions along z, and the scan 6"),
+        ([0, 1, 2, 2, 4, 5], "is not greater"),
+        ([0, 1, 2, np.nan, 4, 5], "is not finite"),
+        (None, "does not exist"),
+    ],
+)
+def test_wrong_positions_are_an_error_of_the_file(tmp_path, row, words):
+    np.save(tmp_path / "box.npy", box())
+    if row is not None:
+        np.save(tmp_path / "z.npy", np.array(row, float))
+    code, document = run(tmp_path, tmp_path / "box.npy", "--positions", f"z={tmp_path / 'z.npy'}")
+    assert code == 1 and not document["objects"] and words in document["errors"][0]["reason"]
+
+
+@pytest.mark.parametrize("words", [["z.npy"], ["w=z.npy"], ["z="], ["z=a.npy", "--positions", "z=b.npy"]])
+def test_wrong_positions_are_wrong_usage(tmp_path, words, capsys):
+    np.save(tmp_path / "box.npy", box())
+    code = batch.main(["measure", str(tmp_path / "box.npy"), "--positions", *words], channel=2, file_needed=True)
+    said = capsys.readouterr().err
+    assert code == 2 and ("positions" in said or "is not x=FILE.npy" in said)

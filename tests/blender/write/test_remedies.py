@@ -65,7 +65,7 @@ NOUNS = (
         "NaN",
         "Python",
     ),
-    *("NumPy", "OUT", "STL", "NRRD0001", "NRRD0005"),
+    *("ASCII", "IGES", "NumPy", "OUT", "STL", "NRRD0001", "NRRD0005"),
     *("URDF", "SDF", "MJCF", "MuJoCo", "USD", "PhysicsMassAPI", "XML"),
 )
 

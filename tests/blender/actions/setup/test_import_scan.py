@@ -5,12 +5,14 @@
 import bpy
 import numpy as np
 import pytest
+from body_moments.core.density import grid_moments
 from body_moments.core.scans.formats import read_scan, sample_matrix
 from body_moments.operators.bodies.array import ArrayOptions, measure_array
 from body_moments.operators.bodies.measure_object import measure_object
 from body_moments.operators.read.volume import volume_reading
 from body_moments.operators.settings.options import MeasureOptions
 
+from tests.blender.findings import refused, said
 from tests.close import close
 from tests.core.scan_files import nifti, nrrd, written
 
@@ -151,3 +153,61 @@ def test_a_header_may_name_samples_outside_its_folder_only_where_that_is_allowed
     with pytest.raises(RuntimeError, match="turn on Allow Outside"):
         bpy.ops.object.body_moments_import_scan(filepath=str(path))
     assert bpy.ops.object.body_moments_import_scan(filepath=str(path), allow_outside=True) == {"FINISHED"}
+
+
+def uneven(tmp_path, **options):
+    samples = np.random.default_rng(3).integers(1, 9, (3, 2, 6)).astype("f4")
+    samples[:, :, 0] = 0.0  # so that the grid's box begins at the second slice
+    z = np.array([10.0, 10.5, 12.0, 12.25, 15.0, 16.0])
+    np.save(tmp_path / "scan.npy", samples)
+    np.save(tmp_path / "z.npy", z)
+    obj = imported(tmp_path / "scan.npy", z_positions=str(tmp_path / "z.npy"), **options)
+    bpy.context.view_layer.update()
+    return obj, samples, z
+
+
+@pytest.mark.parametrize("spline_order", [1, 2, 4])
+def test_uneven_slices_are_measured_where_they_stand(tmp_path, reported, spline_order):
+    obj, samples, z = uneven(tmp_path, position_unit=0.001)
+    assert "scan_drawn_evenly" in reported.codes
+    obj.body_moments.spline_order = spline_order
+    truth = grid_moments(samples, samples.shape, np.eye(4), spline_order, positions=(None, None, z * 0.001))
+    found = measure(obj)
+    assert close(found.mass_properties.mass, truth.total, 1e-12)
+    assert np.abs(found.mass_properties.center - truth.center).max() <= 1e-9
+    assert "samples_positioned" in said(found)
+    obj.scale = (1, 1, 2)
+    bpy.context.view_layer.update()
+    assert close(measure(obj).mass_properties.mass, 2.0 * truth.total, 1e-12)
+
+
+def test_uneven_slices_survive_a_file_and_are_no_threshold_and_no_filling(tmp_path):
+    obj, *_ = uneven(tmp_path)
+    mass = measure(obj).mass_properties.mass
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "a.blend"))
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "a.blend"))
+    obj = bpy.data.objects["scan"]
+    assert measure(obj).mass_properties.mass == mass
+    obj.body_moments.grid_as = "THRESHOLD"
+    with refused("positions_only_as_density", "scan"):
+        measure(obj)
+    bpy.ops.mesh.primitive_cube_add()
+    cube = bpy.context.object
+    cube.body_moments.density_from, cube.body_moments.density_volume = "VOLUME", obj
+    with refused("density_volume_unreadable", "Cube"):
+        measure(cube)
+    obj.body_moments.grid_as = "DENSITY"
+    obj.body_moments.sample_positions = '{"z":[0,1,2]}'
+    with refused("positions_of_other_samples", "scan"):
+        measure(obj)
+
+
+def test_wrong_positions_import_nothing(tmp_path, reported):
+    np.save(tmp_path / "scan.npy", np.ones((2, 2, 3), "f4"))
+    np.save(tmp_path / "z.npy", np.array([0.0, 2.0, 1.0]))
+    with pytest.raises(RuntimeError):
+        bpy.ops.object.body_moments_import_scan(
+            filepath=str(tmp_path / "scan.npy"), z_positions=str(tmp_path / "z.npy")
+        )
+    assert "positions_not_ascending" in reported.codes
+    assert not (tmp_path / "scan.vdb").exists() and not bpy.data.volumes

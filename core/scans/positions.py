@@ -1,0 +1,113 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Where samples stand that are not equally far apart: a file of positions for an axis of a scan."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..verdict.finding import FileError
+from .numpy_files import map_array
+
+AXES = "xyz"
+Positions = tuple[NDArray[np.float64] | None, NDArray[np.float64] | None, NDArray[np.float64] | None]
+EVEN: Positions = (None, None, None)
+
+
+def read_positions(path: str | Path, axis: str, count: int) -> NDArray[np.float64]:
+    """Read the positions of the samples along an axis.
+
+    Parameters
+    ----------
+    path : str or Path
+        A .npy file of one dimension.
+    axis : str
+        x, y or z, for what is said of a wrong file.
+    count : int
+        How many samples the scan has there.
+
+    Returns
+    -------
+    (count,) array
+        Ascending.
+
+    Raises
+    ------
+    FileError
+        If the file holds anything else.
+    OSError
+        If it cannot be opened.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> from body_moments.core.scans import read_positions
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = Path(folder) / "z.npy"
+    ...     np.save(path, [0.0, 1.0, 2.5])
+    ...     read_positions(path, "z", 3).tolist()
+    [0.0, 1.0, 2.5]
+    """
+    path = Path(path)
+    whose = {"file": path.name, "axis": axis}
+    if not path.is_file():
+        raise FileError("positions_missing", **whose)
+    array = map_array(path)
+    if array.ndim != 1 or array.dtype.kind not in "iuf":
+        raise FileError("positions_not_a_row", **whose, type=str(array.dtype), dimensions=array.ndim)
+    if len(array) != count:
+        raise FileError("positions_count", **whose, count=len(array), samples=count)
+    if count < 2:
+        raise FileError("positions_of_one_sample", **whose)
+    row = np.array(array, np.float64)
+    if not np.isfinite(row).all():
+        raise FileError("positions_non_finite", **whose, place=int(np.argmin(np.isfinite(row))))
+    ascending = np.diff(row) > 0.0
+    if not ascending.all():
+        raise FileError("positions_not_ascending", **whose, place=int(np.argmin(ascending)) + 1)
+    return row
+
+
+def read_all_positions(files: Mapping[str, str | Path], shape: Sequence[int]) -> Positions:
+    """The positions along each axis that has a file. FileError and OSError as for `read_positions`."""
+    x, y, z = (read_positions(files[axis], axis, count) if axis in files else None for axis, count in zip(AXES, shape))
+    return x, y, z
+
+
+def place_samples(matrix: NDArray, positions: Positions, unit: float) -> tuple[NDArray[np.float64], Positions]:
+    """Put samples at positions along their axes' own directions.
+
+    Parameters
+    ----------
+    matrix : (4, 4) array
+        Where the samples would stand without: (i, j, k) at matrix @ (i, j, k, 1).
+    positions : three of (n,) array or None
+        Coordinates along the directions of the axes, in place of the spacing and of the origin.
+    unit : float
+        Of the positions, in units of the matrix.
+
+    Returns
+    -------
+    matrix : (4, 4) array
+    positions : three of (n,) array or None
+        About the first of them, so that none of their digits is lost: sample k stands at matrix @ (…, positions[k], 1).
+    """
+    matrix = matrix.copy()
+    if not any(row is not None for row in positions):
+        return matrix, positions
+    directions = matrix[:3, :3] / np.linalg.norm(matrix[:3, :3], axis=0)
+    origin = np.linalg.solve(directions, matrix[:3, 3])
+    relative = []
+    for axis, row in enumerate(positions):
+        if row is not None:
+            matrix[:3, axis] = directions[:, axis] * unit
+            origin[axis] = row[0] * unit
+        relative.append(None if row is None else row - row[0])
+    matrix[:3, 3] = directions @ origin
+    x, y, z = relative
+    return matrix, (x, y, z)
