@@ -6,10 +6,14 @@ import numpy as np
 import pytest
 from body_moments.core.mesh import boxes
 from body_moments.core.numerics.arrays import batches, following_pairs
+from hypothesis import given
+
+from tests.core.strategies import holds, seeds
 
 
 @pytest.mark.parametrize("piece", [1, 1 << 17])
-@pytest.mark.parametrize("seed", range(40))
+@holds(60)
+@given(seed=seeds)
 def test_boxes_meet_where_comparing_all_says_so(seed, piece, monkeypatch):
     monkeypatch.setattr(boxes, "PIECE", piece)
     rng = np.random.default_rng(seed)

@@ -18,9 +18,11 @@ from body_moments.core.mesh.welding import first_at_equal_position, first_at_nea
 from body_moments.core.numerics.arrays import first_occurrence
 from body_moments.core.numerics.graph import connected_components
 from body_moments.core.solid.measure_solid import measure_solid
+from hypothesis import given
 
 from tests.core.bodies import CORNERS, SIDES, box, joined, mesh, moebius, ring, soup, sphere, welded
 from tests.core.polyhedron.test_third_order import grid_torus
+from tests.core.strategies import holds, seeds
 
 
 def union_find(count, a, b):
@@ -37,7 +39,8 @@ def union_find(count, a, b):
     return np.array([root(i) for i in range(count)])
 
 
-@pytest.mark.parametrize("seed", range(40))
+@holds(60)
+@given(seed=seeds)
 def test_components_are_those_of_union_find_in_the_order_of_their_first_nodes(seed):
     rng = np.random.default_rng(seed)
     count = int(rng.integers(1, 200))
@@ -64,7 +67,8 @@ def clique(nodes):
     return nodes[one], nodes[other]
 
 
-@pytest.mark.parametrize("seed", range(12))
+@holds(12)
+@given(seed=seeds)
 def test_stars_paths_and_cliques_however_numbered_have_the_components_of_union_find(seed):
     rng = np.random.default_rng(seed)
     nodes = [rng.permutation(3000)[:1500], np.arange(3000)][seed % 2]  # the hub in the middle, or after all its leaves
@@ -181,7 +185,8 @@ def test_without_corners_or_with_foreign_ones_nothing_is_proven():
     assert closed_side_faces(fewer) is None
 
 
-@pytest.mark.parametrize("seed", range(10))
+@holds(10)
+@given(seed=seeds)
 def test_orientation_turns_the_faces_that_were_flipped(seed):
     rng = np.random.default_rng(seed)
     triangles = sphere(3)[1]

@@ -16,9 +16,11 @@ from body_moments.core.nurbs.patch_topology import find_topology
 from body_moments.core.nurbs.planar_region import planar_region
 from body_moments.core.nurbs.solid import measure_patches, measure_sheet
 from body_moments.core.verdict.finding import Finding
+from hypothesis import given
 
 from tests.core.exact_splines import sphere, torus, tube
 from tests.core.findings import codes, only, refused
+from tests.core.strategies import holds, seeds
 
 BALL = 4.0 * np.pi / 3.0
 
@@ -231,7 +233,8 @@ TOUCHING = {
 }
 
 
-@pytest.mark.parametrize("seed", range(6))
+@holds(6)
+@given(seed=seeds)
 @pytest.mark.parametrize("name", TOUCHING)
 def test_bodies_that_touch_are_measured_whatever_the_order_of_their_patches(name, seed):
     """More than two sides meet there; joined as they came, they made bodies that were flat or open."""

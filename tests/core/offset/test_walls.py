@@ -13,9 +13,11 @@ from body_moments.core.offset.directions import offset_directions
 from body_moments.core.offset.walls import offset_solid, split_thickness
 from body_moments.core.polyhedron import polyhedron_moments
 from body_moments.core.verdict.finding import MeasureError
+from hypothesis import given
 
 from tests.core import bodies, exact
 from tests.core.findings import refused
+from tests.core.strategies import holds, seeds
 
 SIDES = ("inward", "outward", "centered")
 SHEAR = np.array([[1.0, 0.4, -0.2], [0.1, 0.7, 0.3], [0.0, -0.25, 1.5]])
@@ -198,7 +200,8 @@ def test_a_box_folds_over_at_half_its_least_side(sizes, limit):
             found.moments(thickness, 0.0)
 
 
-@pytest.mark.parametrize("seed", range(6))
+@holds(6)
+@given(seed=seeds)
 def test_up_to_the_limit_no_prism_has_a_negative_jacobian_and_beyond_it_one_has(seed):
     rng = np.random.default_rng(seed)
     part = bodies.sphere(1)

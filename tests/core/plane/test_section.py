@@ -9,11 +9,13 @@ import numpy as np
 import pytest
 from body_moments.core.plane.polygon import OutlineDefects, find_defects, orient_loops
 from body_moments.core.plane.section import Plane, fit_plane, measure_section
+from hypothesis import given
 
 from tests.close import close
 from tests.core import bodies, rational
 from tests.core.findings import refused
 from tests.core.plane.test_polygon import rectangle, shape
+from tests.core.strategies import holds, seeds
 
 LEVEL = Plane(np.zeros(3), np.eye(3), 0.0, "X")
 
@@ -184,7 +186,8 @@ def test_wide_bounds_do_not_make_every_axis_of_an_angle_a_principal_one(error):
 SQUARE = (lifted(np.array(rectangle(0, 0, 1, 1), float)), np.array([[0, 1, 2], [0, 2, 3]]))
 
 
-@pytest.mark.parametrize("seed", range(4))
+@holds(4)
+@given(seed=seeds)
 def test_a_section_in_any_plane_has_the_properties_that_it_has_flat(seed):
     rotation, offset = bodies.rotation(seed), np.array([5.0, -3.0, 8.0])
     flat, loops = shape(i_beam())

@@ -15,10 +15,13 @@ from body_moments.core.polyhedron import any_order as recursion
 from body_moments.core.polyhedron import any_order_kernel as levels
 from body_moments.core.polyhedron import integration
 from body_moments.core.polyhedron import third_order as polyhedron
+from hypothesis import given
+from hypothesis import strategies as st
 
 from tests.core import exact
 from tests.core.findings import refused
-from tests.core.polyhedron.test_third_order import PLACES, SHAPES, SIZES, grid_torus
+from tests.core.polyhedron.test_third_order import grid_torus
+from tests.core.strategies import holds, random_meshes, seeds
 
 polyhedron_moments = partial(integration.polyhedron_moments, allow_open=True)  # of faces as they are
 
@@ -89,20 +92,10 @@ def test_a_body_10000_diameters_away_is_right_about_its_own_centre():
     assert_within(area, exact.area_moments(points, triangles, volume.about, order=20))
 
 
-@pytest.mark.parametrize("order", [4, 11])
-@pytest.mark.parametrize("seed", range(4))
-@pytest.mark.parametrize("place", PLACES)
-@pytest.mark.parametrize("shape", SHAPES)
-def test_the_bounds_hold_for_random_meshes(path, shape, place, seed, order):
-    rng = np.random.default_rng([seed, len(shape), len(place), order])
-    size = {**SIZES, "extreme": 1e-12}[list(SIZES)[seed]]
-    turn = np.linalg.qr(rng.standard_normal((3, 3)))[0] if seed % 2 else np.eye(3)
-    count = int(rng.integers(4, 14))
-    points = (rng.standard_normal((count, 3)) * SHAPES[shape]) @ turn + PLACES[place] * rng.standard_normal(3)
-    points *= size
-    if seed == 3:
-        points = points.astype(np.float32)
-    triangles = rng.integers(0, count, (int(rng.integers(1, 60)), 3))
+@holds(120)
+@given(mesh=random_meshes(60, 1e-12), order=st.integers(4, 11))
+def test_the_bounds_hold_for_random_meshes(path, mesh, order):
+    points, triangles = mesh
     volume, area = polyhedron_moments(Surface(points, triangles), order, area_order=order)
     assert_within(volume, exact.volume_moments(points, triangles, volume.about, order))
     assert_within(area, exact.area_moments(points, triangles, area.about, order=order))
@@ -121,7 +114,8 @@ def test_the_bounds_are_not_vacuous(order):
     assert (area.rounding_error[even] <= 1e-11 * area.raw[even]).all()
 
 
-@pytest.mark.parametrize("seed", range(8))
+@holds(8)
+@given(seed=seeds)
 def test_the_input_bound_covers_every_float32_half_ulp(path, seed):
     rng = np.random.default_rng(seed)
     points, quads = grid_torus(7, 5, noise=0.03, seed=seed)
@@ -142,7 +136,8 @@ def test_the_input_bound_covers_every_float32_half_ulp(path, seed):
     assert not polyhedron_moments(Surface(points.astype(float), surface.triangles), 8)[0].input_error.any()
 
 
-@pytest.mark.parametrize("seed", range(4))
+@holds(4)
+@given(seed=seeds)
 def test_quads_are_cut_where_blender_cuts_them(path, seed):
     rng = np.random.default_rng(seed)
     points, quads = grid_torus(8, 6, noise=0.1, seed=seed)

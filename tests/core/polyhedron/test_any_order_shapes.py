@@ -15,9 +15,11 @@ import pytest
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.moments.moments import monomials
 from body_moments.core.polyhedron import polyhedron_moments
+from hypothesis import given
 
 from tests.close import close
 from tests.core import exact
+from tests.core.strategies import holds, seeds
 
 ORDER = 12
 TABLE = [tuple(row) for row in monomials(ORDER).tolist()]
@@ -178,7 +180,8 @@ def test_a_box_off_the_origin_is_its_closed_form_to_order_12():
     assert close(area[4, 0, 2], sides, rel=1e-14)
 
 
-@pytest.mark.parametrize("seed", range(3))
+@holds(3)
+@given(seed=seeds)
 def test_a_corner_tetrahedron_is_dirichlets_integral(seed):
     a, b, c = np.random.default_rng(seed).integers(1, 9, 3).tolist()
     points = np.array([(0, 0, 0), (a, 0, 0), (0, b, 0), (0, 0, c)], float)

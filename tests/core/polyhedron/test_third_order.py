@@ -12,9 +12,12 @@ from body_moments.core.mesh.surface import Surface, flipped_quads, join_surfaces
 from body_moments.core.polyhedron import integration
 from body_moments.core.polyhedron import third_order as polyhedron
 from body_moments.core.polyhedron import third_order_kernel as blocks
+from hypothesis import given
+from hypothesis import strategies as st
 
 from tests.close import close
 from tests.core import exact
+from tests.core.strategies import holds, random_meshes, seeds
 
 polyhedron_moments = partial(integration.polyhedron_moments, allow_open=True)  # of faces as they are
 
@@ -159,28 +162,14 @@ def test_cavity_subtracts(path):
     assert close(second[1, 1] + second[2, 2], 496 / 3, rel=1e-15)
 
 
-SHAPES = {"round": (1.0, 1.0, 1.0), "flat": (1.0, 1.0, 1e-9), "needle": (1.0, 1e-7, 1e-7), "sheet": (1e3, 1.0, 1e-6)}
-PLACES = {"centred": 0.0, "near": 1.0, "far": 1e4, "very far": 1e8}
-SIZES = {"unit": 1.0, "tiny": 1e-9, "huge": 1e12, "extreme": 1e-60}
+@holds(200)
+@given(mesh=random_meshes(40, 1e-60))
+def test_the_bound_holds_for_random_meshes(path, mesh):
+    assert_bounds_hold(Surface(*mesh))
 
 
-@pytest.mark.parametrize("seed", range(8))
-@pytest.mark.parametrize("place", PLACES)
-@pytest.mark.parametrize("shape", SHAPES)
-def test_the_bound_holds_for_random_meshes(path, shape, place, seed):
-    rng = np.random.default_rng([seed, len(shape), len(place)])
-    size = list(SIZES.values())[seed % 4]
-    count = int(rng.integers(4, 14))
-    turn = np.linalg.qr(rng.standard_normal((3, 3)))[0] if seed % 2 else np.eye(3)
-    points = (rng.standard_normal((count, 3)) * SHAPES[shape]) @ turn + PLACES[place] * rng.standard_normal(3)
-    points *= size
-    if seed % 3 == 0 and size > 1e-20:
-        points = points.astype(np.float32)
-    triangles = rng.integers(0, count, (int(rng.integers(1, 40)), 3))
-    assert_bounds_hold(Surface(points, triangles))
-
-
-@pytest.mark.parametrize("seed", range(6))
+@holds(8)
+@given(seed=seeds)
 def test_the_bound_holds_for_slivers(path, seed):
     rng = np.random.default_rng(seed)
     points, quads = grid_torus(6, 5, noise=1e-3, seed=seed)
@@ -190,7 +179,8 @@ def test_the_bound_holds_for_slivers(path, seed):
     assert_bounds_hold(Surface(points, triangles))
 
 
-@pytest.mark.parametrize("seed", range(12))
+@holds(10)
+@given(seed=seeds)
 def test_exact_third_moments_are_right_to_their_rounding_bound(monkeypatch, seed):
     monkeypatch.setattr(polyhedron, "MAX_SMALL_TRIANGLES", 0)
     monkeypatch.setattr(polyhedron, "MAX_TRIANGLES_EXACT_THIRD", 0)
@@ -212,7 +202,8 @@ def test_the_bound_is_not_vacuous_for_a_clean_body():
     assert moments.rounding_error[4:10].max() < 1e-12 * np.trace(moments.second())
 
 
-@pytest.mark.parametrize("seed", range(20))
+@holds(20)
+@given(seed=seeds)
 def test_the_input_bound_covers_every_float32_half_ulp(path, seed):
     rng = np.random.default_rng(seed)
     points, quads = grid_torus(7, 5, noise=0.03, seed=seed)
@@ -370,7 +361,8 @@ def test_every_array_type_gives_the_same_moments(path, point_type, index_type):
     assert (np.abs(other.about_point(plain.about).raw - plain.raw) <= 2.0 * plain.rounding_error).all()
 
 
-@pytest.mark.parametrize("count", [1, 7, 8, 9, 15, 16, 17, 31, 32, 33, 47, 48, 49])
+@holds(12)
+@given(count=st.integers(1, 49) | st.sampled_from([7, 8, 9, 15, 16, 17, 31, 32, 33]))
 def test_sums_do_not_depend_on_where_blocks_end(path, count):
     points, quads = grid_torus(noise=0.05)
     for kept in (points, points.astype(np.float32)):
@@ -453,8 +445,8 @@ def test_errors_in_threads_reach_the_caller(monkeypatch):
         polyhedron_moments(Surface(points, quads=quads), threads=2)[0]
 
 
-@pytest.mark.parametrize("scale", [1.0, 1e-12, 1e-3, 1e9, 1e12])
-@pytest.mark.parametrize("seed", range(5))
+@holds(20)
+@given(seed=seeds, scale=st.sampled_from([1.0, 1e-12, 1e-3, 1e9, 1e12]))
 def test_quads_are_cut_as_blender_cuts_them(path, seed, scale):
     rng = np.random.default_rng(seed)
     points, quads = grid_torus(8, 6, noise=0.12, seed=seed)

@@ -3,11 +3,12 @@
 """Rims as loops: how they are joined, and what is known of their caps."""
 
 import numpy as np
-import pytest
 from body_moments.core.solid.holes import find_loops, join_sides
+from hypothesis import given
 
 from tests.close import close
 from tests.core.bodies import rotation
+from tests.core.strategies import holds, seeds
 
 
 def loops_of(points, sides, directed=True):
@@ -21,7 +22,8 @@ def polygon(points):
     return loops_of(points, [(i, (i + 1) % n) for i in range(n)])
 
 
-@pytest.mark.parametrize("seed", range(5))
+@holds(5)
+@given(seed=seeds)
 def test_a_flat_loop_that_is_not_convex_has_its_true_area_and_no_height(seed):
     comb = np.array(
         [

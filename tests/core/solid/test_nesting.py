@@ -11,9 +11,11 @@ from body_moments.core.mesh.surface import Surface
 from body_moments.core.solid import nesting
 from body_moments.core.solid.measure_solid import measure_solid
 from body_moments.core.solid.nesting import classify_pairs, orient_nested_components
+from hypothesis import given
 
 from tests.close import close
 from tests.core.bodies import box, inverted, joined, moved, rotation, sphere, torus
+from tests.core.strategies import holds, seeds
 
 TOUCH = 1e-6
 OUTER, INNER = box((-2, -2, -2), (2, 2, 2)), box((-1, -1, -1), (1, 1, 1))
@@ -53,7 +55,8 @@ def test_shells_are_measured_one_by_one_in_whatever_order_their_triangles_come()
         )
 
 
-@pytest.mark.parametrize("seed", range(10))
+@holds(10)
+@given(seed=seeds)
 def test_overlapping_boxes_are_those_that_comparing_all_finds(seed):
     rng = np.random.default_rng(seed)
     low = rng.integers(0, 10, size=(60, 3)).astype(float)
@@ -130,7 +133,8 @@ def test_known_pairs(name, parts, inside, crossing, spin):
     assert relation(*parts) == (inside, crossing, 0)
 
 
-@pytest.mark.parametrize("seed", range(20))
+@holds(20)
+@given(seed=seeds)
 def test_random_spheres_are_related_as_their_centres_and_radii_say(seed):
     rng = np.random.default_rng(seed)
     centre, radius = rng.uniform(-2, 2, size=(12, 3)), rng.uniform(0.2, 2.0, size=12)

@@ -7,10 +7,12 @@ import itertools
 import numpy as np
 import pytest
 from body_moments.core.solid.measure_solid import measure_solid
+from hypothesis import given
 
 from tests.close import close
 from tests.core.bodies import CORNERS, SIDES, box, inverted, joined, mesh, moved, rotation, surface, welded, without
 from tests.core.findings import codes, only
+from tests.core.strategies import holds, seeds
 
 ROW = [box((k, 0, 0), (k + 1, 1, 1)) for k in range(3)]
 BLOCK = [box((i, j, k), (i + 1, j + 1, k + 1)) for i in range(2) for j in range(2) for k in range(2)]
@@ -48,7 +50,8 @@ def test_cubes_in_a_row_are_turned_one_by_one(turned, cut):
             assert set(found) - set(np.flatnonzero(walls)) == (set() if all(turned) else set(whole[~walls[whole]]))
 
 
-@pytest.mark.parametrize("seed", range(8))
+@holds(8)
+@given(seed=seeds)
 def test_a_block_of_cubes_whichever_are_inside_out(seed):
     turned = np.random.default_rng(seed).random(8) < 0.4
     corners = [corner for corner in itertools.product(range(2), repeat=3)]
