@@ -9,8 +9,10 @@ with `os._exit`, because bpy 4.5 can crash while the interpreter shuts down.
 """
 
 import importlib.util
+import json
 import os
 import sys
+import tempfile
 import traceback
 from pathlib import Path
 
@@ -37,9 +39,42 @@ def measure_a_cube() -> None:
     bpy.data.objects.remove(cube)
 
 
+def note_commands() -> dict:
+    """What is registered for `blender -c NAME` from now on, by its name: the module itself cannot be started so."""
+    import bpy
+
+    noted, register = {}, bpy.utils.register_cli_command
+
+    def register_and_note(name: str, execute):
+        noted[name] = execute
+        return register(name, execute)
+
+    bpy.utils.register_cli_command = register_and_note
+    return noted
+
+
+def measure_files(command) -> None:
+    """As Blender calls the command, with a file that its children can measure and one that they cannot."""
+    import bpy
+
+    with tempfile.TemporaryDirectory() as folder:
+        good, out = Path(folder, "cube.blend"), Path(folder, "out.json")
+        bpy.ops.mesh.primitive_cube_add(size=2.0)
+        bpy.ops.wm.save_as_mainfile(filepath=str(good), copy=True)
+        bpy.data.objects.remove(bpy.context.active_object)
+        bad = Path(folder, "bad.blend")
+        bad.write_bytes(b"BLENDER garbage")
+        assert command(["measure", str(good), str(bad), "--jobs", "1", "--output", str(out)]) == 1
+        measured, refused = json.loads(out.read_text(encoding="utf-8"))
+        assert measured["status"] == "ok" and abs(measured["objects"][0]["volume"] / 8.0 - 1.0) < 1e-12
+        assert refused["status"] == "error" and measured["blender"] == ".".join(map(str, bpy.app.version))
+        assert command(["measure", "--kind", "gas", str(good)]) == 2
+
+
 def use(archive: str) -> None:
     import bpy
 
+    commands = note_commands()
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
     outcome = bpy.ops.extensions.package_install_files(filepath=archive, repo="user_default", enable_on_install=True)
     assert outcome == {"FINISHED"}
@@ -47,6 +82,7 @@ def use(archive: str) -> None:
     assert MODULE in sys.modules
     assert "body_moments" not in sys.modules, "the repository's own files were imported"
     measure_a_cube()
+    measure_files(commands["body_moments"])
 
     bpy.ops.preferences.addon_disable(module=MODULE)
     assert not enabled()
