@@ -6,7 +6,7 @@
 
 The other half (harness.py) puts `N.request`, Python source that sets `result`, into the folder
 MAILBOX. A timer runs it between two events of the window, in the context of its first 3D View, and
-answers with `N.reply`, JSON.
+answers with `N.reply`, JSON. While a file browser takes the window, that is the area.
 """
 
 import json
@@ -22,7 +22,8 @@ PERIOD = 0.01  # seconds
 
 def answer(source: str) -> dict:
     window = bpy.context.window_manager.windows[0]
-    area = next(area for area in window.screen.areas if area.type == "VIEW_3D")
+    # a file browser may take the whole window
+    area = next((area for area in window.screen.areas if area.type == "VIEW_3D"), window.screen.areas[0])
     regions = {region.type: region for region in area.regions}
     names = {"bpy": bpy, "window": window, "area": area, "regions": regions, "result": None}
     try:
