@@ -192,6 +192,8 @@ def point_measurement(reading: Reading, request: Request) -> tuple[Measurement, 
 
 def properties_of(mass: Moments, preferred_axes: NDArray) -> MassProperties:
     """Return mass properties of moments in kg, whose body may be a point: then no axes are fixed."""
+    if not mass.total > 0.0:  # a bone of flat faces alone: refused there
+        return MassProperties.from_moments(mass, preferred_axes=preferred_axes)
     central = mass.truncate(2).about_center()
     if np.abs(central.raw[4:]).max() > 4.0 * central.rounding_error[4:].max():
         return MassProperties.from_moments(mass, preferred_axes=preferred_axes)

@@ -176,7 +176,7 @@ class GeometryExport(RobotExport):
         module, name = exporter.split(".")
         try:
             result = getattr(getattr(bpy.ops, module), name)(filepath=str(path), collection=self.collection, **options)
-        except RuntimeError as error:
+        except (AttributeError, RuntimeError) as error:  # a Blender may be built without it
             raise FileError("robot_geometry_not_written", error=" ".join(str(error).split())) from error
         if "FINISHED" not in result or not path.is_file():
             raise FileError("robot_geometry_not_written", error=exporter)
