@@ -190,8 +190,13 @@ class _Reader:
         fields = self._text.fields(entry)
         if entry.type == 102:
             (count,) = integers(fields, 1)
-            parts = [self._pieces(member, (*path, pointer)) for member in integers(fields[1:], count)]
-            return None if None in parts else [piece for part in parts for piece in part]
+            pieces = []
+            for member in integers(fields[1:], count):
+                part = self._pieces(member, (*path, pointer))
+                if part is None:
+                    return None
+                pieces += part
+            return pieces
         if entry.type == 110:
             ends = numbers(fields[:6]).reshape(2, 3)
             return [Piece(ends[:, :2], straight=True)]

@@ -165,8 +165,8 @@ def _split(text: str, delimiter: str, end: str) -> list[str]:
     stop = re.compile("[{}]".format(re.escape(delimiter + end)))
     while True:
         start = _STRING.match(text, at)
-        if start:
-            begin, at = start.end(), start.end() + int(start[1])
+        begin = start.end() if start else at
+        at = begin + int(start[1]) if start else at
         ending = stop.search(text, at)
         if ending is None:
             raise ValueError("no end")

@@ -128,7 +128,7 @@ def blender_patches(
     knots: tuple[Sequence[float], Sequence[float]],
     orders: tuple[int, int],
     points: ArrayLike,
-    weights: ArrayLike | None,
+    weights: NDArray[np.float64] | None,
     domain: tuple[tuple[float, float] | None, tuple[float, float] | None],
     matrix: NDArray | None = None,
 ) -> list[Patch]:
@@ -144,10 +144,11 @@ def blender_patches(
         points = points @ matrix[:3, :3].T + matrix[:3, 3]
     if not (np.abs(points) < MAX_COORDINATE).all():
         raise SurfaceRefusedError("surface_points", cause=finding("non_finite_control_points"))
-    spaces = tuple(
+    s_space, t_space = (
         SplineSpace(tuple(np.asarray(row, np.float64).tolist()), order, count)
         for row, order, count in zip(knots, orders, points.shape)
     )
+    spaces = s_space, t_space
     if any(space.function_count != space.count for space in spaces):
         raise ValueError("knots of other points")
     sizes = [len(space.spans) * (space.order - 1) + 1 for space in spaces]

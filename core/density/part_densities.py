@@ -41,7 +41,7 @@ def part_densities(parts: ClosedParts, faces: NDArray[np.float64], linear: NDArr
     np.minimum.at(first, part, face)
     np.minimum.at(least, part, faces[face])
     np.maximum.at(most, part, faces[face])
-    total = np.bincount(part, area, minlength=parts.number)
+    total = np.asarray(np.bincount(part, area, minlength=parts.number), np.float64)
     sums = np.bincount(part, area * faces[face], minlength=parts.number)
     with np.errstate(invalid="ignore"):
         mean = np.divide(sums, total, out=(least + most) / 2.0, where=total > 0.0)

@@ -62,9 +62,8 @@ def bezier_patches(patch: Patch, domain: tuple[tuple[float, float] | None, tuple
     found = []
     for s_matrix in pieces[0]:
         for t_matrix in pieces[1]:
-            spaces = tuple(
-                _bezier_space(len(matrix), space.order) for matrix, space in zip((s_matrix, t_matrix), patch.spaces)
-            )
+            s_space, t_space = patch.spaces
+            spaces = _bezier_space(len(s_matrix), s_space.order), _bezier_space(len(t_matrix), t_space.order)
             net = np.einsum("bj,ajd->abd", t_matrix, np.einsum("ai,ijd->ajd", s_matrix, homogeneous))
             weights = None if patch.weights is None else net[..., 3]
             found.append(Patch(spaces, net if weights is None else net[..., :3] / weights[..., None], weights))

@@ -191,6 +191,7 @@ def assess(
         patch.reverse_orientation() if sign < 0.0 else patch for part, *_, sign in turned_parts for patch in part
     )
     counted = np.where(verdict.flipped, -1.0, 1.0) * verdict.counted
+    turned = np.flatnonzero(verdict.flipped).tolist()
     return PatchIntegrals(
         volume,
         area,
@@ -202,7 +203,9 @@ def assess(
                 misoriented,
                 verdict.flipped,
                 slight_patches=_are_slight([[patches[k]] for k in _misoriented(topology)], size, volume.total),
-                slight_parts=_are_slight([parts[k] for k in np.flatnonzero(verdict.flipped)], size, volume.total),
+                slight_parts=_are_slight(
+                    [parts[k] for k in np.flatnonzero(verdict.flipped).tolist()], size, volume.total
+                ),
             ),
             *_closing_findings(topology, verdict.solid, area.total, volume.total, size),
             *_component_findings(verdict.comparison, size),

@@ -138,8 +138,9 @@ def kept_up_to_date(context: Context) -> Iterator[None]:
     for root, bodies in before.items():
         member, mark = members_of(root, depsgraph), marks.parse(marks.of_results(root))
         now = _member_bodies(member)
-        same = mark is not None and structure_hash(member) == mark.settings and bodies.keys() == now.keys()
-        if not same or any(staleness.stale_reason(obj, scene) for obj in now):
+        if mark is None or structure_hash(member) != mark.settings or bodies.keys() != now.keys():
+            continue
+        if any(staleness.stale_reason(obj, scene) for obj in now):
             continue
         if all(_is_same(bodies[obj], now[obj]) for obj in now):
             key = members_key(member, {obj: marks.of_results(obj) for obj in now})
