@@ -203,9 +203,7 @@ def assess(
                 misoriented,
                 verdict.flipped,
                 slight_patches=_are_slight([[patches[k]] for k in _misoriented(topology)], size, volume.total),
-                slight_parts=_are_slight(
-                    [parts[k] for k in np.flatnonzero(verdict.flipped).tolist()], size, volume.total
-                ),
+                slight_parts=_are_slight([parts[k] for k in turned], size, volume.total),
             ),
             *_closing_findings(topology, verdict.solid, area.total, volume.total, size),
             *_component_findings(verdict.comparison, size),
