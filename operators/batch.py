@@ -78,10 +78,11 @@ def _measure(argv: list[str], channel: int, file_needed: bool) -> int:
 
     from .command import checks, output, results
     from .command.run import Run
+    from .supervisor import processes
     from .write.documents import FORMATS
 
     checks.check(options)
-    run = Run(options)
+    run = Run(options, memory=processes.memory_share())
     run.measure()
     check = results.guard("output", options.output in options.forced)
     is_written = output.written(FORMATS[options.format](run.documents), options.output, channel, check)

@@ -16,7 +16,7 @@ or no axis serves, it is cut in eight. What they differ by, summed up, is the es
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -32,6 +32,7 @@ TOLERANCE = 1e-11  # of the volume: what the rules may differ by in all cells to
 AREA_TOLERANCE = 1e-9  # of a cell's face: the same in one cell
 MAX_DEPTH = 24  # how often a cell is cut in eight: what is left then is smaller than rounding
 MAX_PARTS, MIN_PARTS = 64, 1 << 13  # parts of a cut cell on average, and of all: what is left then is in the bounds
+MAX_CUT_CELLS = 1 << 21  # that are kept until they are measured
 CELLS_PER_BATCH = 1 << 9  # cut cells whose points are in memory at a time
 CELLS_PER_SLAB = 1 << 21  # cells of the grid that are looked at at a time
 
@@ -69,6 +70,7 @@ def threshold_body(
     background: float | None = None,
     with_density: bool = False,
     preview: bool = False,
+    value: Callable[[NDArray], NDArray] | None = None,
 ) -> ThresholdBody:
     """Return the moments of the set where the trilinear interpolant of samples is at least a threshold.
 
@@ -88,6 +90,8 @@ def threshold_body(
         Also the moments of mass, of the density itself inside.
     preview : bool
         By the first rule alone, which nothing checks: for a slider. The bounds hold no estimate then.
+    value : callable, optional
+        Converts a block of samples to densities.
 
     Returns
     -------
@@ -126,8 +130,8 @@ def threshold_body(
     cofactors = np.linalg.det(linear) * np.linalg.inv(linear)  # take the normals of pieces of surface along
     about = (shape - 1) // 2 - margin
     sums = _Sums(order, with_density, preview, cofactors @ cofactors.T)
-    clipped, cut = False, []
-    for first, values in _slabs(samples, background):
+    clipped, count, cut = False, 0, []
+    for first, values in _slabs(samples, background, value):
         if not np.isfinite(values).all():
             raise MeasureError("density_non_finite")
         inside = values >= threshold
@@ -137,13 +141,14 @@ def threshold_body(
         sums.add_whole_cells(values, corners == 8, origin)
         places = np.nonzero((corners > 0) & (corners < 8))
         cut.append(Cells.of_grid(values - threshold, places, origin))
-    cells = Cells.join(cut)
-    count = len(cells.size)
-    sums.add_cut_cells(cells, threshold)
+        count += len(places[0])
+        if sum(len(cells.size) for cells in cut) > MAX_CUT_CELLS or first + len(values) == shape[0]:
+            sums.add_cut_cells(Cells.join(cut), threshold)
+            cut = []
     about = about.astype(np.float64)
-    volume = Moments(sums.volume, about, Measure.VOLUME, sums.volume_error).transform(matrix)
-    area = Moments(sums.area, about, Measure.MASS, sums.area_error).transform(matrix)  # its scale is in the sums
-    mass = Moments(sums.mass, about, Measure.VOLUME, sums.mass_error).transform(matrix) if with_density else None
+    volume = Moments(sums.volume, about, Measure.VOLUME, sums.error("volume")).transform(matrix)
+    area = Moments(sums.area, about, Measure.MASS, sums.error("area")).transform(matrix)  # its scale is in the sums
+    mass = Moments(sums.mass, about, Measure.VOLUME, sums.error("mass")).transform(matrix) if with_density else None
     return ThresholdBody(
         volume,
         replace(area, measure=Measure.AREA),
@@ -153,7 +158,9 @@ def threshold_body(
     )
 
 
-def _slabs(samples: NDArray, background: float | None) -> Iterator[tuple[int, NDArray[np.float64]]]:
+def _slabs(
+    samples: NDArray, background: float | None, value: Callable[[NDArray], NDArray] | None
+) -> Iterator[tuple[int, NDArray[np.float64]]]:
     """Planes of samples as float64, each slab with the first plane of the next, and where it begins; with a layer of
     the background on every side, if there is one."""
     margin = 0 if background is None else 1
@@ -163,6 +170,7 @@ def _slabs(samples: NDArray, background: float | None) -> Iterator[tuple[int, ND
         last = min(first + step + 1, planes)
         with np.errstate(invalid="ignore"):  # of NaN that signal
             slab = np.asarray(samples[max(first - margin, 0) : last - margin], np.float64)
+            slab = slab if value is None else value(slab)
         if background is not None:
             beside = int(first == 0), int(last == planes)
             slab = np.pad(slab, (beside, (1, 1), (1, 1)), constant_values=background)
@@ -196,21 +204,10 @@ class _Sums:
         self.volume_estimate, self.area_estimate, self.mass_estimate = np.zeros((3, len(self.powers)))
         self.terms = 0
 
-    @property
-    def volume_error(self) -> NDArray[np.float64]:
-        return self.volume_estimate + self._units * self.volume_size
-
-    @property
-    def area_error(self) -> NDArray[np.float64]:
-        return self.area_estimate + self._units * self.area_size
-
-    @property
-    def mass_error(self) -> NDArray[np.float64]:
-        return self.mass_estimate + self._units * self.mass_size
-
-    @property
-    def _units(self) -> float:
-        return (60 + 8 * self.order + np.log2(self.terms + 1.0)) * U
+    def error(self, measure: str) -> NDArray[np.float64]:
+        """Of "volume", "area" or "mass"."""
+        units = (60 + 8 * self.order + np.log2(self.terms + 1.0)) * U
+        return getattr(self, measure + "_estimate") + units * getattr(self, measure + "_size")
 
     def add_whole_cells(self, values: NDArray, whole: NDArray[np.bool_], origin: NDArray) -> None:
         """Add cells of the grid that lie inside altogether."""

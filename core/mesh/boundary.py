@@ -2,20 +2,26 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Whether faces close, piece by piece: no edges are sorted, nor kept.
 
-Every place has a hash, and every side of a face one of its two ends, with a sign for its direction. Sides that run
-along each other in opposite directions cancel. So the sum over all sides, modulo 2^64, is zero where every edge is used
-as often one way as the other, and otherwise by a chance of 2^-64 only.
+Every place has a keyed 64-bit hash of its coordinates, and every side of a face one of its two ends, whose sign is that
+of its direction. Sides that run along each other in opposite directions cancel. So the sum over all sides, modulo 2^64,
+is zero where every edge is used as often one way as the other, and otherwise by a chance below 2^-50, whatever the
+faces: the keys are drawn anew by each process, so that no file can be made to pass for closed. (A sum of normals is
+zero for many surfaces that are open.)
 """
 
 from __future__ import annotations
 
+import os
+
 import numpy as np
 from numpy.typing import NDArray
 
-from ..numerics.arrays import hash_uint64
 from .surface import Surface
 
-FACES_PER_BLOCK = 1 << 16
+FACES_PER_BLOCK = 1 << 14  # whose hashes stay in the cache
+HALF = np.uint64(32)
+# Odd factors: one for each coordinate, two for sides; and what the first coordinate begins with.
+KEYS = np.frombuffer(os.urandom(48), np.uint64) | np.uint64(1)
 
 
 class BoundarySum:
@@ -42,20 +48,50 @@ class BoundarySum:
         """Whether all sides that were added cancel: the faces close, wherever they were split."""
         return not self._total[0]
 
-    def add(self, piece: Surface) -> None:
-        """Add the faces of a piece. Points at the same place are one."""
-        keys = np.zeros(len(piece.points), np.uint64)
-        for k in range(3):
-            column = piece.points[:, k].astype(np.float64) + 0.0  # -0.0 + 0.0 = 0.0
-            keys = hash_uint64(keys + column.view(np.uint64))
+    def add(self, piece: Surface | NDArray[np.floating]) -> None:
+        """Add the faces of a piece, or (m, 3, 3) corners of triangles. Points at the same place are one."""
+        if not isinstance(piece, Surface):
+            for start in range(0, len(piece), FACES_PER_BLOCK):
+                block = piece[start : start + FACES_PER_BLOCK]
+                self._add_faces(_hash_places(block.reshape(-1, 3)).reshape(-1, 3))
+            return
+        hashes = np.concatenate(
+            [NO_PLACES, *map(_hash_places, np.array_split(piece.points, len(piece.points) // FACES_PER_BLOCK + 1))]
+        )
         for faces in (piece.triangles, piece.quads):
             for start in range(0, len(faces), FACES_PER_BLOCK):
-                corners = keys[faces[start : start + FACES_PER_BLOCK]]
-                self._total += _sum_of_sides(corners, np.roll(corners, -1, axis=1))
+                self._add_faces(hashes[faces[start : start + FACES_PER_BLOCK]])
+
+    def _add_faces(self, corners: NDArray[np.uint64]) -> None:
+        """Add faces by the (m, k) hashes of their corners."""
+        columns = [*np.ascontiguousarray(corners.T)]
+        for start, stop in zip(columns, [*columns[1:], columns[0]]):
+            self._total += _sum_of_sides(start, stop)
+
+
+NO_PLACES = np.zeros(0, np.uint64)
+
+
+def _hash_places(points: NDArray[np.floating]) -> NDArray[np.uint64]:
+    """(n,) hashes of (n, 3) coordinates, by their values as float64."""
+    values = np.add(points.T, 0.0, dtype=np.float64)  # -0.0 + 0.0 = 0.0
+    words = np.ascontiguousarray(values).view(np.uint64)
+    hashes = words[0] ^ KEYS[5]
+    shifted = np.empty_like(hashes)
+    for axis in range(3):
+        if axis:
+            hashes += words[axis]
+        hashes *= KEYS[axis]
+        np.right_shift(hashes, HALF, shifted)
+        hashes ^= shifted
+    return hashes
 
 
 def _sum_of_sides(start: NDArray[np.uint64], stop: NDArray[np.uint64]) -> NDArray[np.uint64]:
-    """The sum over sides, each a hash of its ends, negative where it runs to the lower one."""
-    sides = hash_uint64(hash_uint64(np.minimum(start, stop)) + np.maximum(start, stop))
-    forward = np.add.reduce(sides[start < stop], dtype=np.uint64)
-    return forward - np.add.reduce(sides[start > stop], dtype=np.uint64, keepdims=True)
+    """(1,) the sum over sides, each a hash of both its ends times their difference."""
+    sides = start ^ stop
+    sides *= KEYS[3]
+    sides ^= sides >> HALF
+    sides *= KEYS[4]
+    sides *= start - stop
+    return np.add.reduce(sides, keepdims=True)

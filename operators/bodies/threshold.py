@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from typing import ClassVar
 
@@ -37,12 +38,15 @@ class ThresholdGrid:
         The value (i, j, k) stands at matrix @ (i, j, k, 1), in metres.
     background : float, optional
         What is beyond the grid; None where nothing is known of it.
+    value : callable, optional
+        Converts a block of them, where they stand for others.
     """
 
     name: str
     values: NDArray
     matrix: NDArray[np.float64]
     background: float | None
+    value: Callable[[NDArray], NDArray[np.float64]] | None = None
 
     def coarse(self) -> ThresholdGrid:
         """Every second, third, … value of each axis, so that few enough are left to follow a slider."""
@@ -58,12 +62,18 @@ class ThresholdGrid:
         assert options.threshold is not None
         threshold = options.threshold
         if options.spline_order > TRILINEAR and not preview:
+            values = self.values if self.value is None else self.value(self.values)
             return smooth_threshold_body(
-                self.values, threshold, options.spline_order, order, self.matrix, self.background, options.filled
+                values, threshold, options.spline_order, order, self.matrix, self.background, options.filled
             )
         return threshold_body(
-            self.values, threshold, order, self.matrix, self.background, options.filled, preview=preview
+            self.values, threshold, order, self.matrix, self.background, options.filled, preview, self.value
         )
+
+    def largest(self) -> float:
+        """Return the largest value, NaN where there is none."""
+        slabs = self.values if self.value is None else map(self.value, self.values)
+        return max((float(np.nanmax(slab)) for slab in slabs if slab.size), default=float("nan"))
 
 
 @dataclass(frozen=True, eq=False)
@@ -128,8 +138,7 @@ def threshold_grid_body(
         scale = options.value_density
     above = grid.set_above(options, KNOWN_ORDER, preview)
     if not above.volume.total > 0.0:
-        largest = float(np.nanmax(grid.values)) if grid.values.size else float("nan")
-        raise ReadError("threshold_not_reached", grid=grid.name, threshold=options.threshold, largest=largest)
+        raise ReadError("threshold_not_reached", grid=grid.name, threshold=options.threshold, largest=grid.largest())
     mass = None if above.mass is None else above.mass * scale
     if mass is not None and not 0.0 < mass.total < MAX_MASS_MOMENT:
         raise ReadError("grid_empty")

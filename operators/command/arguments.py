@@ -185,12 +185,7 @@ def _add_settings(parser: argparse.ArgumentParser) -> None:
         choices=("thin", "inward", "outward", "centered"),
         help="of a shell: without or with real thickness, to which side of the surface (each object's setting)",
     )
-    add(
-        "--thickness",
-        type=types.positive,
-        metavar="T",
-        help="of a shell, in meters (each object's setting)",
-    )
+    add("--thickness", type=types.positive, metavar="T", help="of a shell, in meters (each object's setting)")
     group = parser.add_mutually_exclusive_group()
     group.add_argument("--density", type=types.positive, metavar="D", help="kg/m³ (each object's setting, or 1000)")
     group.add_argument("--mass", type=types.positive, metavar="M", help="kg, for each object")
@@ -247,11 +242,20 @@ def _add_of_files(parser: argparse.ArgumentParser) -> None:
         metavar="K",
         help="arrays: the samples are the coefficients of a spline of this order: 1 voxels, 2 trilinear, 4 cubic (1)",
     )
+    add("--density-scale", type=types.positive, metavar="S", help="arrays: kg/m³ where a sample is 1 (1)")
     add(
-        "--density-scale",
-        type=types.positive,
-        metavar="S",
-        help="arrays: kg/m³ where a sample is 1 (1)",
+        "--threshold",
+        type=types.number,
+        metavar="T",
+        help="arrays, scans and Volume objects: the body in which values are at least T, filled with --density or "
+        "--material, or with the values' own density (all of the grid)",
+    )
+    add(
+        "--stream",
+        choices=("auto", "always", "never"),
+        default="auto",
+        help=".stl and .ply: in blocks, without importing or repairing them; auto: where an import may take more "
+        "memory than one file may (auto)",
     )
     add(
         "--allow-outside",

@@ -12,7 +12,7 @@ from typing import Any
 
 import bpy
 
-from ...core.verdict.finding import finding
+from ...core.verdict.finding import Finding
 from ..supervisor.journal import state
 from ..supervisor.lifeline import Lifeline
 from .arguments import from_record
@@ -36,7 +36,7 @@ def serve(line: Lifeline) -> None:
     except SystemExit:
         line.answer({"usage": said.getvalue()})
         return
-    run = Run(options, setup["threads"], lambda file: _Told(file, line))
+    run = Run(options, setup["threads"], setup["memory"], lambda file, code: _Told(file, code, line))
     line.answer({"ready": {"blender": ".".join(map(str, bpy.app.version))}})
     for message in messages:
         with suppress(OSError):
@@ -61,9 +61,9 @@ def _measure(run: Run, path: str, line: Lifeline) -> None:
 class _Told(Progress):
     """Progress that the supervisor is sent."""
 
-    def __init__(self, file: str, line: Lifeline) -> None:
-        super().__init__(file)
+    def __init__(self, file: str, code: str, line: Lifeline) -> None:
+        super().__init__(file, code)
         self._line = line
 
-    def report(self, samples: int) -> None:
-        self._line.answer({"note": str(finding("progress_samples", count=samples))})
+    def report(self, note: Finding) -> None:
+        self._line.answer({"note": str(note)})

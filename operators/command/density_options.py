@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""--material, --polynomial and --density-from: what the panel has under *Density From*, for every object.
+"""--material, --polynomial, --density-from and --threshold: what the panel has, for every object.
 
 They are put into the objects' settings, in memory. Only --write saves them, with the results that they have led to.
 """
@@ -31,8 +31,11 @@ def density_of(options: Namespace) -> float | None:
 
 
 def apply(obj: bpy.types.Object, options: Namespace) -> None:
-    """Set where the object's density comes from, where that was given. Raises MeasureError."""
+    """Set where the object's density comes from and the threshold of its grid, where these were given. Raises
+    MeasureError."""
     settings = obj.body_moments
+    if options.threshold is not None and obj.type == "VOLUME":
+        settings.grid_as, settings.threshold = "THRESHOLD", options.threshold
     if options.polynomial is not None:
         settings.mass_from, settings.density_from = "DENSITY", "POLYNOMIAL"
         settings.density_polynomial = options.polynomial

@@ -7,6 +7,7 @@ from __future__ import annotations
 from argparse import Namespace
 from collections.abc import Iterator
 
+from ...core.measurement import Measurement
 from ...core.verdict.finding import Finding, finding
 from .files import UNITLESS, file_suffix
 
@@ -31,3 +32,11 @@ def unused_array_options(options: Namespace) -> Iterator[Finding]:
     given = [name for name in OF_ARRAYS if getattr(options, name) is not None]
     if given:
         yield finding("array_options_unused", options=["--" + name.replace("_", "-") for name in given])
+
+
+def unused_options(options: Namespace, measurement: Measurement) -> Iterator[Finding]:
+    """What was asked of other kinds of bodies only."""
+    if options.thickness is not None and measurement.kind != "shell":
+        yield finding("thickness_option_unused")
+    if options.threshold is not None and measurement.type not in ("ARRAY", "VOLUME"):
+        yield finding("threshold_option_unused")

@@ -36,6 +36,7 @@ _OLDEST = (2, 50)  # what older ones have saved can be damaged by reading it
 _KNOWN_FORMAT = 1  # of .blend files
 _TRACEBACK = "Traceback (most recent call last)"
 UNITLESS = (".stl", ".obj", ".ply")
+STREAMED = (".stl", ".ply")  # what can be measured without being imported
 USD = (".usd", ".usda", ".usdc", ".usdz")
 
 # Invisible prims are imported hidden, and a hidden object is reported; left out, it would be
@@ -66,7 +67,7 @@ def file_suffix(path: str) -> str:
 def open_file(path: str) -> Opened:
     """Make a file the open scene, and return what was found on the way. Raises FileError."""
     kind = file_suffix(path)
-    _check(path, kind)
+    check_file(path)
     check_numbers(path, kind)
     absolute = os.path.abspath(path)
     if kind == BLEND:  # which replaces all that was open
@@ -127,7 +128,9 @@ def newer_version() -> Iterator[Finding]:
         yield finding("file_newer_version", version="{}.{}".format(*version), blender=bpy.app.version_string)
 
 
-def _check(path: str, kind: str) -> None:
+def check_file(path: str) -> None:
+    """Raise FileError where a file is none that can be opened, or is seen to be cut short."""
+    kind = file_suffix(path)
     if os.path.isdir(path):
         raise FileError("file_is_folder")
     if kind != BLEND and kind not in _IMPORTERS:

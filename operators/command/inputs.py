@@ -19,7 +19,7 @@ import bpy
 from ...core.scans.limits import Limits
 from ...core.scans.nrrd import data_file, read_header
 from ...core.verdict.finding import MeasureError
-from .files import open_file
+from .files import STREAMED, file_suffix, open_file
 from .finite import unquote
 
 _CRATE = b"PXR-USDC"  # how a binary USD layer begins
@@ -32,6 +32,8 @@ def files_read(paths: Iterable[str]) -> Iterator[Path]:
     paths = list(paths)
     waiting = [Path(path) for path in paths] or _open_files()
     for path in paths:
+        if file_suffix(path) in STREAMED:
+            continue  # which refers to nothing, and may be larger than memory
         with suppress(MeasureError, RuntimeError):
             open_file(path)
             waiting += _open_files()

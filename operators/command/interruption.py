@@ -9,7 +9,7 @@ import time
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 
-from ...core.verdict.finding import finding
+from ...core.verdict.finding import Finding, finding
 from ..write.terminal import print_message
 
 PERIOD = 5.0  # seconds between reports of progress
@@ -77,17 +77,18 @@ def _interrupt(_number: int, _frame: object) -> None:
 
 
 class Progress:
-    """Counts the samples that are read from a file and reports their number every `PERIOD` seconds."""
+    """Counts what is read from a file, samples or faces, and reports their number every `PERIOD` seconds by the message
+    of that code."""
 
-    def __init__(self, file: str) -> None:
-        self._file, self._samples, self._due = file, 0, time.monotonic() + PERIOD
+    def __init__(self, file: str, code: str = "progress_samples") -> None:
+        self._file, self._code, self._count, self._due = file, code, 0, time.monotonic() + PERIOD
 
-    def __call__(self, samples: int) -> None:
-        self._samples += samples
+    def __call__(self, count: int) -> None:
+        self._count += count
         if time.monotonic() >= self._due:
             self._due = time.monotonic() + PERIOD
-            self.report(self._samples)
+            self.report(finding(self._code, count=self._count))
 
-    def report(self, samples: int) -> None:
-        """Report that so many samples have been read."""
-        print_message(self._file, finding("progress_samples", count=samples))
+    def report(self, note: Finding) -> None:
+        """Report how much has been read."""
+        print_message(self._file, note)

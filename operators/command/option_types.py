@@ -31,6 +31,17 @@ def positive(text: str) -> float:
     return value
 
 
+def number(text: str) -> float:
+    """A finite number."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not math.isfinite(value):
+        raise _refuse("usage_not_number", text=text)
+    return value
+
+
 def count(text: str) -> int:
     """A positive whole number."""
     if not (text.isdecimal() and text.isascii() and int(text[:9]) > 0 and len(text) <= 9):

@@ -22,11 +22,9 @@ from typing import Any
 import bpy
 
 from ...core.measurement import Measurement
-from ...core.scans import formats as scans
 from ...core.verdict import internal_error
 from ...core.verdict.finding import FileError, Finding, MeasureError, finding
 from ...core.verdict.method import Source
-from ..bodies.array import ArrayOptions, measure_array
 from ..bodies.measure_object import THREADS, measure_object
 from ..bodies.shape import NoShapeError, shape_of
 from ..read.quiet import paused
@@ -40,8 +38,9 @@ from ..write.documents import document
 from ..write.properties import store
 from ..write.terminal import print_message
 from . import assets, density_options, fourier, robots
+from .bare_files import BareFile, is_bare
 from .combined import Combined, measure_combined
-from .file_options import OF_ARRAYS, is_unitless, unit_findings, unused_array_options
+from .file_options import is_unitless, unit_findings, unused_array_options, unused_options
 from .files import BLEND, file_suffix, newer_version, open_file
 from .interruption import Progress, check_interruption
 from .objects import failure, objects_to_measure, other_scenes, why_nothing
@@ -59,14 +58,16 @@ _BLEND_WORD = re.compile(r"\.blend\d*$", re.IGNORECASE)
 class Run:
     """One command line at work.
 
-    threads: that a measurement may use. progress: what counts the samples read from a file. documents: one for each
-    file, in order. internal_errors: how many of their errors are our own. has_opened, has_saved: whether the last file
-    has become the open scene, and whether that was saved in its place.
+    threads: that a measurement may use. memory: bytes that one file may take, None for any. progress: what counts the
+    samples or faces read from a file. documents: one for each file, in order. internal_errors: how many of their errors
+    are our own. has_opened, has_saved: whether the last file has become the open scene, and whether that was saved in
+    its place.
     """
 
     options: Namespace
     threads: int = THREADS
-    progress: Callable[[str], Callable[[int], None]] = Progress
+    memory: int | None = None
+    progress: Callable[[str, str], Callable[[int], None]] = Progress
     documents: list[dict[str, Any]] = field(default_factory=list)
     internal_errors: int = 0
     has_opened: bool = False
@@ -121,9 +122,13 @@ class Run:
         objects, errors, caveats, left_out, combined = [], [], [], [], Combined()
         self._status = None
         try:
-            if path is not None and scans.scan_suffix(path):
-                objects, measured, errors = self._measure_array_file(path)
+            if path is not None and is_bare(path, self.options, self.memory):
+                bare = BareFile(path, self.options)
+                bare.measure(self._measure_options, self.progress)
+                objects, measured, errors = bare.objects, bare.measured, bare.errors
+                self._status = _STATUSES.get(bare.refusal.finding.code) if bare.refusal else None
                 wanted = self._measure_options
+                caveats += open_body_caveats((label, one.method) for label, _, one in measured)
             else:
                 opened = self._open(path, file)
                 # Not by way of the scene, whose unit scale is a float32 with limits.
@@ -218,7 +223,7 @@ class Run:
         surface = measurement.area_moments if self.options.surface_moments and order is not None else None
         findings = (
             *(*measurement.findings, *of_shape, *findings),
-            *(*self._default_density(obj, measurement), *self._unused_options(measurement)),
+            *(*self._default_density(obj, measurement), *unused_options(self.options, measurement)),
         )
         named = replace(measurement, name=label, findings=findings)
         if self.options.thumbnails:
@@ -234,42 +239,6 @@ class Run:
             yield finding("density_defaulted")
         elif unset is not None:
             yield finding("linear_density_defaulted")
-
-    def _unused_options(self, measurement: Measurement) -> Iterator[Finding]:
-        if self.options.thickness is not None and measurement.kind != "shell":
-            yield finding("thickness_option_unused")
-
-    def _measure_array_file(self, path: str) -> tuple[list, list, list]:
-        """The records, measurements and errors of a scan or an array, which is one body, called like
-        its file.
-        """
-        name = os.path.basename(path)[: -len(scans.scan_suffix(path))]
-        names = [name] if self.options.object is None else self.options.object
-        errors = [failure(measurement, finding("object_not_in_file")) for measurement in names if measurement != name]
-        if self.options.fourier:
-            errors.append(failure(None, finding("fourier_of_array")))
-        if name not in names:
-            return [], [], errors
-        taken = {
-            measurement: getattr(self.options, measurement) for measurement in (*OF_ARRAYS, "unit_scale", "limits")
-        }
-        taken["positions"] = dict(self.options.positions or ())
-        array = ArrayOptions(**{measurement: value for measurement, value in taken.items() if value is not None})
-        try:
-            measurement = measure_array(path, name, array, self._measure_options, self.progress(path))
-        except MeasureError as refusal:
-            self._status = _STATUSES.get(refusal.finding.code)
-            return [], [], [*errors, failure(None, refusal.finding)]
-        requested = [more for more in ("pose", "signature") if getattr(self.options, more)]
-        surface = measurement.area_moments if self.options.surface_moments else None
-        shapeless = [finding("shape_of_grid")] if requested else []
-        measurement = replace(
-            measurement, findings=(*measurement.findings, *self._unused_options(measurement), *shapeless)
-        )
-        entry = record.record(
-            measurement, self.options.frame, self.options.order, surface, dict.fromkeys(requested), self.options.about
-        )
-        return [entry], [(name, None, measurement)], errors
 
     def _open(self, path: str | None, file: str | None) -> Opened:
         """Open what is to be measured, and return what was found on the way."""

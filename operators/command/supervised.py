@@ -35,7 +35,6 @@ from . import interruption, output, results, targets
 from .arguments import DEFAULT_TIMEOUT, as_record, fail, of_numbers
 
 _ROOT = (__package__ or "").removesuffix(".operators.command")
-_MEMORY_SHARE = 0.8  # of the machine's, for all children together
 _STEP = 0.2  # seconds
 _OLD = ".old"
 
@@ -163,13 +162,13 @@ class _Supervised:
         cores = processes.cores()
         self._count = max(1, min(options.jobs or cores, len(self.tasks)))
         self._limits = Limits(options.timeout or DEFAULT_TIMEOUT, self._memory())
-        self._setup = {"options": as_record(options), "threads": max(1, cores // self._count)}
+        threads = max(1, cores // self._count)
+        self._setup = {"options": as_record(options), "threads": threads, "memory": self._limits.memory}
 
     def _memory(self) -> int | None:
         if self._options.memory_mb is not None:
             return int(self._options.memory_mb * 1e6)
-        machine = processes.memory_of_machine()
-        return None if machine is None else int(_MEMORY_SHARE * machine / self._count)
+        return processes.memory_share(self._count)
 
     def dependencies(self) -> Iterator[str]:
         """The files that are read with those that are named, as far as children find out."""

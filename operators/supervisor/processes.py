@@ -17,6 +17,7 @@ from pathlib import Path
 from . import windows
 
 _WINDOWS = os.name == "nt"
+_MEMORY_SHARE = 0.8  # of the machine's, for all processes that measure
 _END = 5.0  # seconds that a killed process may take to be gone
 _GRACE = 0.4  # seconds to clean up in, for a child that is asked to end
 # Blender without a window, of factory settings, that runs no script of a file and reaches no network.
@@ -147,6 +148,12 @@ def memory_of_machine() -> int | None:
         return os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
     except (AttributeError, ValueError, OSError):
         return None
+
+
+def memory_share(count: int = 1) -> int | None:
+    """Bytes that each of so many processes may take, None where the machine's memory is not known."""
+    machine = memory_of_machine()
+    return None if machine is None else int(_MEMORY_SHARE * machine / count)
 
 
 def cores() -> int:

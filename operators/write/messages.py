@@ -786,6 +786,9 @@ MESSAGES: dict[str, Message] = {
     "threshold_not_reached": _error(
         "No value of the grid “{grid}” reaches the threshold {threshold}; the largest is {largest}. Lower Threshold."
     ),
+    "threshold_positions": _error(
+        "A threshold needs samples at equal distances. Leave out --positions, or resample the scan."
+    ),
     "threshold_needs_factor": _error(
         "Within a threshold, values become densities by a factor alone. Set Values to Factor, or Filled With to "
         "Material."
@@ -860,6 +863,10 @@ MESSAGES: dict[str, Message] = {
     "damage_packed_start": _error("its compressed part, or what follows it, does not begin as gzip does"),
     "damage_packed": _error("its compressed part cannot be decompressed ({error})"),
     "damage_packed_end": _error("its compressed part is cut short"),
+    "damage_facets": _error("after {count} triangles its text is not that of an STL file"),
+    "damage_ply_header": _error("its header is not that of a PLY file"),
+    "damage_ply_rows": _error("it ends, or has something else than numbers, before its {count} rows of “{name}” do"),
+    "damage_ply_index": _error("a face has a vertex that is not among its {vertices}"),
     "nrrd_skip_from_end": _error("“byte skip: -1” is for raw samples; compressed ones are counted from their start."),
     "no_3d_array": _error("No array in the file has 3 dimensions."),
     "arrays_left_out": _warning("The array “{array}” was measured; left out: {arrays}."),
@@ -980,6 +987,7 @@ MESSAGES: dict[str, Message] = {
         "Zhang and Chen's rule is undefined without skewness along axes 1 and 2. Turn it off."
     ),
     "shape_of_grid": _warning("A grid of densities has no shape for a pose or signature."),
+    "shape_of_stream": _warning("A mesh that is read in blocks has no pose or signature. Use --stream never."),
     "shape_of_wire_or_wall": _error(
         "Pose and signature are not available for wires and walls. Set Wall to Thin, or convert to a mesh."
     ),
@@ -1364,6 +1372,22 @@ MESSAGES: dict[str, Message] = {
     "no_surface_file": _error("No file is chosen. Choose IGES or .obj files."),
     "stl_size": _error("The STL file is cut short or damaged: its size does not match its number of triangles."),
     "stl_cut_short": _error("The STL file is cut short: “endsolid” is missing."),
+    "ply_concave_polygons": _error(
+        "{count} polygon of the PLY file is concave. Triangulate it, or import it with --stream never.",
+        "{count} polygons of the PLY file are concave. Triangulate them, or import them with --stream never.",
+    ),
+    "file_without_faces": _error("The file has no faces."),
+    "mesh_streamed": _warning(
+        "{count} face was read in blocks, without repair: self-intersection, nested and inside-out components were not "
+        "looked for. Use --stream never where memory allows it.",
+        "{count} faces were read in blocks, without repair: self-intersection, nested and inside-out components were "
+        "not looked for. Use --stream never where memory allows it.",
+    ),
+    "streamed_open": _warning(
+        "The surface is not closed, or its faces disagree: the volume depends on the reference point. Repair the mesh, "
+        "or use --stream never."
+    ),
+    "streamed_inside_out": _warning("The surface is inside out as a whole and was measured as reversed."),
     "file_exists": _error("The file “{file}” exists. Turn on Overwrite."),
     "volume_not_written": _error("The volume cannot be written: {error}"),
     "openvdb_missing": _error("This Python has no openvdb module. Use Blender."),
@@ -1373,6 +1397,8 @@ MESSAGES: dict[str, Message] = {
     "missing_links": _error("Linked data is missing: {names}. Restore the linked files, or make the data local."),
     "moments_unavailable": _error("No moments of this order: {cause}"),
     "thickness_option_unused": _warning("--thickness applies to shells only and was not used. Use --kind shell."),
+    "threshold_option_unused": _warning("--threshold applies to arrays, scans and Volume objects and was not used."),
+    "stream_options": _error("A mesh that is read in blocks cannot be measured with {options}. Use --stream never."),
     "unit_assumed": _warning("The file has no unit: 1 unit was taken as 1 m. Use --unit-scale."),
     "unit_scale_option_unused": _warning("The file has its own unit; --unit-scale was not used."),
     "array_options_unused": _warning("Options for arrays and scans were not used: {options}."),
@@ -1407,6 +1433,7 @@ MESSAGES: dict[str, Message] = {
         "Blender was allowed to run the scripts of the file, which may have changed it: {names}. Start Blender with "
         "-Y, or name the file after “measure”."
     ),
+    "progress_faces": _note("{count:.3g} faces read. Ctrl+C ends it"),
     "progress_samples": _note("{count:.3g} samples read. Ctrl+C ends it"),
     "internal_error": _error("Internal error: {type}: {error} ({where}). Please report it."),
     # similar
@@ -1437,6 +1464,7 @@ MESSAGES: dict[str, Message] = {
     "usage_overwrites_dependency": _error("argument --{option}: {path} is read with a measured file. Use another name"),
     "usage_value": _error("argument --{option}: {cause}"),
     "usage_not_positive": _error("{text!r} is not a positive number"),
+    "usage_not_number": _error("{text!r} is not a finite number"),
     "usage_not_triple": _error("{text!r} is not three numbers X,Y,Z"),
     "usage_positions": _error("“{text}” is not x=FILE.npy, y=FILE.npy or z=FILE.npy"),
     "usage_positions_twice": _error("--positions names an axis twice: {axes}"),

@@ -14,7 +14,7 @@ CORE = (
     ("moments",),
     ("mesh", "inertia", "papers"),
     ("polyhedron", "shape", "scans", "robots"),
-    ("solid", "plane", "fourier", "rigs"),
+    ("solid", "plane", "fourier", "rigs", "streams"),
     ("density", "nurbs", "offset"),
     ("statics", "cad"),
     ("measurement",),

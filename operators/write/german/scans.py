@@ -18,6 +18,41 @@ MESSAGES = {
     "damage_packed_start": ("ihr komprimierter Teil oder was darauf folgt beginnt nicht wie gzip",),
     "damage_packed": ("ihr komprimierter Teil lässt sich nicht entpacken ({error})",),
     "damage_packed_end": ("ihr komprimierter Teil ist abgeschnitten",),
+    "damage_facets": ("nach {count} Dreiecken ist ihr Text nicht der einer STL-Datei",),
+    "damage_ply_header": ("ihr Kopf ist nicht der einer PLY-Datei",),
+    "damage_ply_rows": ("sie endet oder hat anderes als Zahlen vor dem Ende ihrer {count} Zeilen von „{name}“",),
+    "damage_ply_index": ("eine Fläche hat einen Scheitelpunkt, der nicht unter ihren {vertices} ist",),
+    "threshold_positions": (
+        "Ein Schwellwert braucht Abtastwerte in gleichen Abständen. --positions weglassen oder die Aufnahme neu abtasten.",
+    ),
+    "stl_size": ("Die STL-Datei ist abgeschnitten oder beschädigt: ihre Größe passt nicht zur Zahl ihrer Dreiecke.",),
+    "stl_cut_short": ("Die STL-Datei ist abgeschnitten: „endsolid“ fehlt.",),
+    "non_finite_coordinates": (
+        "{count} Zahl in der Datei ist nicht endlich (NaN oder unendlich), bei {place}. Die Datei reparieren oder neu "
+        "exportieren.",
+        "{count} Zahlen in der Datei sind nicht endlich (NaN oder unendlich), die erste bei {place}. Die Datei "
+        "reparieren oder neu exportieren.",
+    ),
+    "at_vertex": ("Scheitelpunkt {vertex}",),
+    "at_triangle": ("Dreieck {triangle}",),
+    "file_type": ("Nicht unterstützter Dateityp. Unterstützt: {suffixes}.",),
+    "file_without_objects": ("Kein Objekt in der Datei. Prüfen, ob es eine {suffix}-Datei ist.",),
+    "file_without_faces": ("Die Datei hat keine Flächen.",),
+    "ply_concave_polygons": (
+        "{count} Vieleck der PLY-Datei ist konkav. Es triangulieren oder mit --stream never importieren.",
+        "{count} Vielecke der PLY-Datei sind konkav. Sie triangulieren oder mit --stream never importieren.",
+    ),
+    "mesh_streamed": (
+        "{count} Fläche wurde blockweise gelesen, ohne Reparatur: nach Selbstdurchdringung, verschachtelten und "
+        "umgestülpten Komponenten wurde nicht gesucht. --stream never verwenden, wo der Speicher reicht.",
+        "{count} Flächen wurden blockweise gelesen, ohne Reparatur: nach Selbstdurchdringung, verschachtelten und "
+        "umgestülpten Komponenten wurde nicht gesucht. --stream never verwenden, wo der Speicher reicht.",
+    ),
+    "streamed_open": (
+        "Die Oberfläche ist nicht geschlossen, oder ihre Flächen widersprechen sich: das Volumen hängt vom Bezugspunkt "
+        "ab. Das Netz reparieren oder --stream never verwenden.",
+    ),
+    "streamed_inside_out": ("Die Oberfläche ist als Ganzes umgestülpt und wurde umgedreht gemessen.",),
     "nrrd_skip_from_end": ("„byte skip: -1“ ist für rohe Abtastwerte; komprimierte werden von ihrem Anfang gezählt.",),
     "no_3d_array": ("Kein Feld in der Datei hat 3 Dimensionen.",),
     "arrays_left_out": ("Das Feld „{array}“ wurde gemessen; weggelassen: {arrays}.",),

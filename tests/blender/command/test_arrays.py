@@ -7,6 +7,8 @@ import json
 
 import numpy as np
 import pytest
+from body_moments.core.density.smooth_threshold import smooth_threshold_body
+from body_moments.core.density.threshold import threshold_body
 from body_moments.operators import batch
 
 from tests.blender.batch_files import codes, in_process, sentence
@@ -231,3 +233,68 @@ def test_wrong_positions_are_wrong_usage(tmp_path, words, capsys):
     code = batch.main(["measure", str(tmp_path / "box.npy"), "--positions", *words], channel=2, file_needed=True)
     said = capsys.readouterr().err
     assert code == 2 and ("positions" in said or "is not x=FILE.npy" in said)
+
+
+def ball(n=12, dtype="f4"):
+    """Values whose trilinear body at 0 is a ball of radius 0.7 n/2 voxels, about."""
+    x, y, z = np.ogrid[:n, :n, :n]
+    middle = (n - 1) / 2
+    return ((0.35 * n) ** 2 - (x - middle) ** 2 - (y - middle) ** 2 - 1.3 * (z - middle) ** 2).astype(dtype)
+
+
+@pytest.mark.parametrize("order", ["C", "F"])
+@pytest.mark.parametrize("spline", ["1", "4"])
+def test_a_threshold_takes_an_array_for_the_body_where_it_is_reached(tmp_path, order, spline):
+    values = ball() + np.linspace(0, 3, 12, dtype="f4")[:, None, None]
+    np.save(tmp_path / "b.npy", np.asarray(values, order=order))
+    words = [tmp_path / "b.npy", "--threshold", "0.5", "--spacing", "0.1,0.2,0.3", "--origin", "-1,2,5"]
+    words += ["--spline-order", spline, "--order", "4"]
+    matrix = np.diag([0.1, 0.2, 0.3, 1.0])
+    matrix[:3, 3] = -1.0, 2.0, 5.0
+    if spline == "1":
+        truth = threshold_body(values, 0.5, 4, matrix, with_density=True)
+    else:
+        truth = smooth_threshold_body(values, 0.5, 4, 4, matrix, with_density=True)
+    code, document = run(tmp_path, *words, "--density", "7")
+    (entry,) = document["objects"]
+    assert code == 0 and "threshold_measured" in codes(entry) and entry["method"] == "grid exact"
+    assert close([entry["volume"], entry["area"]], [truth.volume.total, truth.area.total], rel=1e-9)
+    assert close(entry["mass"], 7.0 * truth.volume.total, rel=1e-9)
+    assert close(entry["center_of_mass"], truth.volume.center, rel=1e-9)
+    raw = truth.volume.about_point(np.zeros(3))
+    assert close(entry["moments"]["volume"]["2,1,1"], raw[2, 1, 1], rel=1e-8)
+    assert entry["error_bound"]["estimated"] is True
+    code, document = run(tmp_path, *words, "--density-scale", "2")
+    (entry,) = document["objects"]
+    assert close(entry["mass"], 2.0 * truth.mass.total, rel=1e-9)
+    assert close(entry["center_of_mass"], truth.mass.center, rel=1e-9)
+    assert "density_defaulted" not in codes(entry)
+
+
+def test_a_threshold_is_of_the_values_that_the_header_gives_samples(tmp_path):
+    stored = (ball() * 10).astype("i2")
+    path = written(tmp_path / "a.nii", nifti(stored, spacing=(2, 2, 2), slope=-0.5))
+    truth = threshold_body(-0.5 * stored, -3.0)
+    _, document = run(tmp_path, path, "--threshold", "-3", "--density", "1")
+    (entry,) = document["objects"]
+    assert close(entry["volume"], truth.volume.total * 8e-9, rel=1e-6)
+    assert truth.clipped and "threshold_clipped" in codes(entry)
+    code, document = run(tmp_path, path, "--threshold", "1e6", "--density", "1")
+    assert code == 1 and not document["objects"]
+    assert batch.main(in_process("measure", path, "--threshold", "nan"), channel=2, file_needed=True) == 2
+
+
+def test_a_threshold_is_for_volume_objects_too_and_said_to_be_unused_by_others(tmp_path):
+    import bpy
+
+    from tests.blender.grids import vdb_grid, volume_object
+
+    volume_object(tmp_path / "a.vdb", vdb_grid(ball()))
+    bpy.ops.mesh.primitive_cube_add()
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "a.blend"))
+    _, document = run(tmp_path, tmp_path / "a.blend", "--threshold", "0.5")
+    entries = {entry["type"]: entry for entry in document["objects"]}
+    truth = threshold_body(ball(), 0.5, background=0.0)
+    assert close(entries["VOLUME"]["volume"], truth.volume.total, rel=1e-5)
+    assert "threshold_option_unused" in codes(entries["MESH"])
+    assert "threshold_option_unused" not in codes(entries["VOLUME"])

@@ -1,0 +1,140 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The moments of a mesh that is read in blocks, and whether it closes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..mesh.boundary import BoundarySum
+from ..mesh.surface import Surface
+from ..moments.moments import Moments
+from ..polyhedron.integration import polyhedron_moments
+from ..polyhedron.third_order import box_center
+from ..verdict.finding import FileError
+from .mesh_file import MeshFile
+
+MIN_REACH = 1e-300  # of a body that is a point
+MAX_REACH_RATIO = 2.0  # how much farther a body may reach than the faces that were looked at first
+
+
+@dataclass(frozen=True, eq=False)
+class StreamIntegrals:
+    """What a mesh comes to that was read in blocks.
+
+    Attributes
+    ----------
+    volume, area : Moments
+        As the faces are, about the center of the bounding box: where they do not close, the volume depends on it.
+    closed : bool
+        Whether every edge is used as often one way as the other, by their hashes (`BoundarySum`).
+    face_count : int
+        Triangles and quads that were measured.
+    """
+
+    volume: Moments
+    area: Moments
+    closed: bool
+    face_count: int
+
+
+def measure_stream(
+    mesh: MeshFile,
+    order: int = 3,
+    area_order: int = 0,
+    threads: int = 1,
+    progress: Callable[[int], None] | None = None,
+) -> StreamIntegrals:
+    """Measure a mesh that is larger than memory.
+
+    Parameters
+    ----------
+    mesh : MeshFile
+    order, area_order : int
+        Of the moments of the volume and of the area.
+    threads : int
+    progress : callable, optional
+        Called with how many faces have been read since the last time.
+
+    Returns
+    -------
+    StreamIntegrals
+
+    Raises
+    ------
+    FileError
+        If the file is damaged, or coordinates are not finite.
+    MeasureError
+        If a moment is beyond the range of numbers.
+
+    Notes
+    -----
+    Moments are taken about the center of a box of a thousand faces all over the file, of a .ply of all its vertices.
+    A mesh that reaches much farther is read twice.
+
+    Examples
+    --------
+    >>> import struct, tempfile
+    >>> from pathlib import Path
+    >>> from body_moments.core.streams import StreamIntegrals, measure_stream, open_mesh_file
+    >>> points = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
+    >>> facets = [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
+    >>> data = [struct.pack("<12f2x", 0, 0, 0, *(x for k in facet for x in points[k])) for facet in facets]
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = Path(folder) / "tetrahedron.stl"
+    ...     _ = path.write_bytes(struct.pack("<80xI", 4) + b"".join(data))
+    ...     found = measure_stream(open_mesh_file(path))
+    >>> isinstance(found, StreamIntegrals), found.closed, round(found.volume.total * 6, 12)
+    (True, True, 1.0)
+    """
+    for find_box in (mesh.sampled_box, mesh.box):
+        stream = _Stream(mesh, *find_box(), progress)
+        try:
+            volume, area = polyhedron_moments(
+                stream.pieces(),
+                order,
+                area_order=area_order,
+                about=stream.center,
+                reach=stream.reach,
+                allow_open=True,
+                threads=threads,
+            )
+        except _FarPiece:
+            continue
+        break
+    if not stream.face_count:
+        raise FileError("file_without_faces")
+    return StreamIntegrals(volume, area, stream.boundary.is_zero, stream.face_count)
+
+
+class _FarPiece(Exception):
+    """A piece is much farther from the center than was thought."""
+
+
+class _Stream:
+    """The faces of a file on their way to the integral. progress: called with the faces of each piece."""
+
+    def __init__(self, mesh: MeshFile, low: NDArray, high: NDArray, progress: Callable[[int], None] | None) -> None:
+        self.center = box_center(low, high, np.dtype(np.float32))
+        self.reach = max(float(np.maximum(high - self.center, self.center - low).max()), MIN_REACH)
+        self.boundary, self.face_count = BoundarySum(), 0
+        self._mesh, self._progress = mesh, progress
+
+    def pieces(self) -> Iterator[Surface]:
+        """Yield the pieces. Raises FileError where a coordinate is not finite."""
+        for piece in self._mesh.pieces():
+            faces = len(piece.triangles) + len(piece.quads)
+            if self._progress is not None:
+                self._progress(faces)
+            low, high = piece.box
+            if not (np.isfinite(low).all() and np.isfinite(high).all()):
+                self._mesh.box()  # raises, with the number of all such coordinates
+            if np.maximum(high - self.center, self.center - low).max() > MAX_REACH_RATIO * self.reach:
+                raise _FarPiece
+            self.boundary.add(piece.points.reshape(-1, 3, 3) if self._mesh.is_loose else piece)
+            self.face_count += faces
+            yield piece

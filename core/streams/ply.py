@@ -1,0 +1,132 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Faces in .ply files, in blocks; the table of vertices is in memory."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..mesh.surface import Surface, normals
+from ..verdict.finding import FileError, finding
+from .boxes import BoxOfBlocks
+from .ply_header import MAX_HEADER, Element, Header, parse_header
+from .ply_rows import RowReader, RowsError
+
+INDICES = "vertex_indices", "vertex_index"
+MAX_SPREAD = 4  # vertices between the first and the last of a block for each of its corners; else they are copied
+CONCAVE_RTOL = 1e-6  # of a polygon's normal: less against it is rounding
+
+
+class PlyFile:
+    """The faces of a .ply file."""
+
+    is_loose = False
+
+    def __init__(self, path: Path) -> None:
+        self._path = path
+        with open(path, "rb") as file:
+            start = file.read(MAX_HEADER)
+        try:
+            header = parse_header(start) if start.startswith(b"ply") else None
+            if header is None:
+                raise self._damaged("damage_ply_header")
+            self._header = header
+            for element in header.elements:
+                if element.rows * _least_bytes(element, header.order) > path.stat().st_size:
+                    raise self._damaged("damage_ply_rows", name=element.name, count=element.rows)
+            self._faces, self._column = _faces_of(header)
+            self.face_count = self._faces.rows
+            self._points = self._read_points()
+        except (ValueError, KeyError, IndexError) as error:
+            raise self._damaged("damage_ply_header") from error
+
+    def box(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Return the least and the largest coordinates. Raises FileError where some are not finite."""
+        box = BoxOfBlocks("vertex")
+        box.add(self._points)
+        return box.box()
+
+    sampled_box = box
+
+    def pieces(self) -> Iterator[Surface]:
+        """Yield the faces: triangles and quads, and polygons of more sides as fans."""
+        for columns in self._blocks(self._faces):
+            corners = columns[self._column]
+            if corners.ndim != 2 or corners.shape[1] < 3 or not len(corners):
+                continue
+            with np.errstate(invalid="ignore"):  # of a text's NaN
+                corners = np.ascontiguousarray(corners, np.int32 if corners.dtype == np.int32 else np.int64)
+            first, last = int(corners.min()), int(corners.max()) + 1
+            if not 0 <= first < last <= len(self._points):
+                raise self._damaged("damage_ply_index", vertices=len(self._points))
+            yield self._piece(corners, first, last)
+
+    def _piece(self, corners: NDArray[np.integer], first: int, last: int) -> Surface:
+        if last - first <= MAX_SPREAD * corners.size:
+            points, faces = self._points[first:last], corners - first
+        else:
+            points, faces = self._points[corners.ravel()], np.arange(corners.size).reshape(corners.shape)
+        if faces.shape[1] == 3:
+            return Surface(points, faces)
+        if faces.shape[1] == 4:
+            return Surface(points, quads=faces)
+        fans = np.stack([faces[:, [0, k, k + 1]] for k in range(1, faces.shape[1] - 1)])
+        vectors = normals(points, fans.reshape(-1, 3)).reshape(*fans.shape[:2], 3)
+        whole = vectors.sum(axis=0)
+        along = np.einsum("kmi,mi->km", vectors, whole)
+        concave = int((along < -CONCAVE_RTOL * np.einsum("mi,mi->m", whole, whole)).any(axis=0).sum())
+        if concave:
+            raise FileError("ply_concave_polygons", count=concave)
+        return Surface(points, fans.reshape(-1, 3))
+
+    def _read_points(self) -> NDArray[np.floating]:
+        """(n, 3) float32 where the file has them as such or as text, else float64."""
+        vertices = next(element for element in self._header.elements if element.name == "vertex")
+        columns = [vertices.index(axis) for axis in "xyz"]
+        kinds = {vertices.properties[column].type for column in columns}
+        exact = self._header.order and kinds != {"f4"}
+        points = np.empty((vertices.rows, 3), np.float64 if exact else np.float32)
+        done = 0
+        with np.errstate(over="ignore", invalid="ignore"):  # refused with the infinite ones
+            for block in self._blocks(vertices):
+                for axis, column in enumerate(columns):
+                    points[done : done + len(block[column]), axis] = block[column]
+                done += len(block[columns[0]])
+        return points
+
+    def _blocks(self, wanted: Element) -> Iterator[list[NDArray]]:
+        """The columns of an element, in blocks."""
+        with open(self._path, "rb") as file:
+            file.seek(self._header.start)
+            reader = RowReader(file, self._header.order)
+            for element in self._header.elements:
+                try:
+                    for block in reader.rows(element):
+                        if element is wanted:
+                            yield block.columns
+                except RowsError as error:
+                    raise self._damaged("damage_ply_rows", name=element.name, count=element.rows) from error
+                if element is wanted:
+                    return
+
+    def _damaged(self, code: str, **values: object) -> FileError:
+        return FileError("file_damaged", file=self._path.name, cause=finding(code, **values).as_record())
+
+
+def _faces_of(header: Header) -> tuple[Element, int]:
+    """The element of faces, and which of its properties lists their vertices. Raises ValueError."""
+    for element in header.elements:
+        for number, one in enumerate(element.properties):
+            if element.name == "face" and one.name in INDICES and one.counter:
+                return element, number
+    raise FileError("file_without_objects", suffix=".ply")
+
+
+def _least_bytes(element: Element, order: str) -> int:
+    """What a row takes in a file at least."""
+    kinds = [one.counter or one.type for one in element.properties]
+    return sum(int(kind[1:]) for kind in kinds) if order else 2 * len(kinds) - 1

@@ -1,0 +1,81 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the header of a .ply file says: its elements, and the properties of each."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from typing import NamedTuple
+
+MAX_HEADER = 1 << 20  # bytes
+END = re.compile(rb"^end_header[ \t]*\r?\n", re.MULTILINE)
+ORDERS = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
+TYPES = {
+    **dict.fromkeys(("char", "int8"), "i1"),
+    **dict.fromkeys(("uchar", "uint8"), "u1"),
+    **dict.fromkeys(("short", "int16"), "i2"),
+    **dict.fromkeys(("ushort", "uint16"), "u2"),
+    **dict.fromkeys(("int", "int32"), "i4"),
+    **dict.fromkeys(("uint", "uint32"), "u4"),
+    **dict.fromkeys(("float", "float32"), "f4"),
+    **dict.fromkeys(("double", "float64"), "f8"),
+}
+
+
+class Property(NamedTuple):
+    """One number of a row, or a list of them. type: as numpy writes it. counter: of a list the type of its length."""
+
+    name: str
+    type: str
+    counter: str = ""
+
+
+@dataclass(frozen=True)
+class Element:
+    """A table: its name, the number of its rows, and what each row has."""
+
+    name: str
+    rows: int
+    properties: tuple[Property, ...]
+
+    @property
+    def is_ragged(self) -> bool:
+        """Whether rows hold lists."""
+        return any(one.counter for one in self.properties)
+
+    def index(self, name: str) -> int:
+        """Return where a property stands. Raises ValueError."""
+        return [one.name for one in self.properties].index(name)
+
+
+@dataclass(frozen=True)
+class Header:
+    """order: "" for text, else "<" or ">". start: where the first element begins."""
+
+    order: str
+    elements: tuple[Element, ...]
+    start: int
+
+
+def parse_header(data: bytes) -> Header | None:
+    """Return the header at the start of a file, None where there is none that is complete. Raises ValueError, KeyError
+    or IndexError where it makes no sense."""
+    end = END.search(data[:MAX_HEADER])
+    if end is None:
+        return None
+    order = ""
+    elements: list[tuple[str, int, list[Property]]] = []
+    for line in data[: end.start()].decode("latin-1").splitlines():
+        words = line.split()
+        if words[:1] == ["format"]:
+            order = ORDERS[words[1]]
+        elif words[:1] == ["element"]:
+            elements.append((words[1], int(words[2]), []))
+        elif words[:2] == ["property", "list"]:
+            elements[-1][2].append(Property(words[4], TYPES[words[3]], TYPES[words[2]]))
+        elif words[:1] == ["property"]:
+            elements[-1][2].append(Property(words[2], TYPES[words[1]]))
+    if any(rows < 0 for _, rows, _ in elements):
+        raise ValueError("negative number of rows")
+    return Header(order, tuple(Element(name, rows, tuple(kinds)) for name, rows, kinds in elements), end.end())

@@ -1,0 +1,156 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The rows of a .ply file's elements, in blocks: text, or binary of either byte order."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Iterator, Sequence
+from typing import BinaryIO, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .ply_header import Element, Property
+
+BYTES_PER_BLOCK = 1 << 22
+FEW_ROWS = 64  # of one length: fewer in a row are read one at a time
+SINGLE_ROWS = 1 << 14  # that are read one at a time before more of one length are looked for
+NUMBERS = np.dtype(np.float64)  # what a text is read as
+
+
+class RowsError(Exception):
+    """The file ends before its rows do, or one of its numbers is none."""
+
+
+class Block(NamedTuple):
+    """Rows of one length. columns: of each property, (n,) numbers, or (n, k) lists."""
+
+    columns: list[NDArray]
+
+
+class RowReader:
+    """Reads element after element. order: "" for text, "<" or ">"."""
+
+    def __init__(self, file: BinaryIO, order: str) -> None:
+        self._file, self._order = file, order
+        self._buffer: NDArray = np.zeros(0, np.uint8 if order else NUMBERS)
+        self._text = b""
+
+    def rows(self, element: Element) -> Iterator[Block]:
+        """Yield the rows of the next element, all of which must be taken."""
+        left = element.rows
+        while left:
+            lengths = self._lengths(element.properties)
+            row = self._row_type(element.properties, lengths)
+            table = self._table(row, left)
+            same = np.ones(len(table), bool)
+            for number, length in lengths.items():
+                same &= table["n{}".format(number)] == length
+            count = len(table) if same.all() else int(np.argmin(same))
+            if count < min(FEW_ROWS, left):
+                for block, taken in self._single_rows(element, min(left, SINGLE_ROWS)):
+                    left -= taken
+                    yield block
+                continue
+            self._buffer = self._buffer[count * row.itemsize // self._buffer.itemsize :]
+            left -= count
+            yield Block([table["p{}".format(number)][:count] for number in range(len(element.properties))])
+
+    def _lengths(self, properties: Sequence[Property]) -> dict[int, int]:
+        """How long the lists of the next row are."""
+        at, lengths = 0, {}
+        for number, one in enumerate(properties):
+            if one.counter:
+                lengths[number] = self._integer(at, one.counter)
+                at += self._size(one.counter)
+            at += self._size(one.type) * lengths.get(number, 1)
+            self._fill(at)
+        return lengths
+
+    def _row_type(self, properties: Sequence[Property], lengths: dict[int, int]) -> np.dtype:
+        fields: list[tuple] = []
+        for number, one in enumerate(properties):
+            if number in lengths:
+                fields.append(("n{}".format(number), self._type(one.counter)))
+                fields.append(("p{}".format(number), self._type(one.type), (lengths[number],)))
+            else:
+                fields.append(("p{}".format(number), self._type(one.type)))
+        return np.dtype(fields)
+
+    def _table(self, row: np.dtype, left: int) -> NDArray:
+        """As many rows as are in the buffer, and the next ones of the file in it."""
+        if not row.itemsize:
+            return np.zeros(left, row)
+        unit = self._buffer.itemsize
+        self._fill(row.itemsize // unit)
+        self._read_ahead(min(left * row.itemsize, BYTES_PER_BLOCK) // unit)
+        count = min(left, len(self._buffer) * unit // row.itemsize)
+        return np.frombuffer(self._buffer, row, count)
+
+    def _single_rows(self, element: Element, rows: int) -> Iterator[tuple[Block, int]]:
+        """Rows of any lengths, joined to blocks of one length each, and how many rows each block has."""
+        by_lengths: dict[tuple[int, ...], list[bytes]] = {}
+        types: dict[tuple[int, ...], np.dtype] = {}
+        for _ in range(rows):
+            lengths = self._lengths(element.properties)
+            key = tuple(lengths.values())
+            if key not in types:
+                types[key] = self._row_type(element.properties, lengths)
+            size = types[key].itemsize // self._buffer.itemsize
+            self._fill(size)
+            by_lengths.setdefault(key, []).append(self._buffer[:size].tobytes())
+            self._buffer = self._buffer[size:]
+        for key, found in by_lengths.items():
+            table = np.frombuffer(b"".join(found), types[key])
+            yield Block([table["p{}".format(number)] for number in range(len(element.properties))]), len(found)
+
+    def _size(self, kind: str) -> int:
+        """Of a number, in what the buffer holds."""
+        return int(kind[1:]) if self._order else 1
+
+    def _type(self, kind: str) -> np.dtype:
+        return np.dtype(self._order + kind) if self._order else NUMBERS
+
+    def _integer(self, at: int, kind: str) -> int:
+        """The length of a list."""
+        end = at + self._size(kind)
+        self._fill(end)
+        value = self._buffer[at:end].view(self._type(kind))[0]
+        if not 0 <= value < 1 << 31 or value != int(value):
+            raise RowsError
+        return int(value)
+
+    def _fill(self, count: int) -> None:
+        """Have so many bytes or numbers in the buffer. Raises RowsError."""
+        if len(self._buffer) < count:
+            self._read_ahead(count)
+            if len(self._buffer) < count:
+                raise RowsError
+
+    def _read_ahead(self, count: int) -> None:
+        """Have so many bytes or numbers in the buffer, if the file has them."""
+        while len(self._buffer) < count:
+            more = np.frombuffer(self._file.read(BYTES_PER_BLOCK), np.uint8) if self._order else self._numbers()
+            if not len(more):
+                return
+            self._buffer = np.concatenate([self._buffer, more]) if len(self._buffer) else more
+
+    def _numbers(self) -> NDArray[np.float64]:
+        """The next numbers of a text; none at its end."""
+        while True:
+            chunk = self._file.read(BYTES_PER_BLOCK)
+            text, self._text = self._text + chunk, b""
+            if chunk:
+                end = max(text.rfind(space) for space in (b" ", b"\n", b"\t", b"\r")) + 1
+                text, self._text = text[:end], text[end:]
+            if text.strip():
+                break
+            if not chunk:
+                return np.zeros(0)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            try:
+                return np.fromstring(text.decode("ascii"), NUMBERS, sep=" ")
+            except (ValueError, DeprecationWarning) as error:
+                raise RowsError from error

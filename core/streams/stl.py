@@ -1,0 +1,128 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Triangles in .stl files, in blocks: binary or text, as float32, as Blender takes them.
+
+A file of exactly the size that its number of triangles asks for is binary, any other text.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from itertools import islice
+from pathlib import Path
+from typing import BinaryIO
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..mesh.surface import Surface
+from ..verdict.finding import FileError, finding
+from .boxes import BoxOfBlocks
+
+HEAD, RECORD = 84, 50  # bytes before the triangles, and of each
+CORNERS = np.dtype({"names": ["at"], "formats": ["(3,3)<f4"], "offsets": [12], "itemsize": RECORD})
+TRIANGLES_PER_BLOCK, TRIANGLES_IN_CACHE = 1 << 17, 1 << 13
+SAMPLES = 1000  # triangles that show where the body is
+TEXT_PER_BLOCK = 1 << 22  # bytes
+TEXT_PER_TRIANGLE = 250  # bytes, about
+SOLID_LINE = re.compile(rb"^[ \t]*(?:end)?solid\b[^\n]*$", re.IGNORECASE | re.MULTILINE)
+FACET_END = re.compile(rb"\bendfacet\b", re.IGNORECASE)
+# facet normal x y z outer loop vertex x y z vertex x y z vertex x y z endloop endfacet
+FACET_WORDS = 21
+KEYWORDS = {0: b"facet", 1: b"normal", 5: b"outer", 6: b"loop"} | {
+    **{7: b"vertex", 11: b"vertex", 15: b"vertex", 19: b"endloop", 20: b"endfacet"}
+}
+NUMBERS = (8, 9, 10, 12, 13, 14, 16, 17, 18)
+
+
+class StlFile:
+    """The triangles of an .stl file."""
+
+    is_loose = True
+
+    def __init__(self, path: Path) -> None:
+        self._path = path
+        with open(path, "rb") as file:
+            head = file.read(HEAD)
+        size = path.stat().st_size
+        count = int.from_bytes(head[80:84], "little")
+        self._binary = len(head) == HEAD and size == HEAD + RECORD * count
+        if not self._binary and not head.lstrip().lower().startswith(b"solid"):
+            raise FileError("stl_size")
+        self.face_count = count if self._binary else size // TEXT_PER_TRIANGLE + 1
+
+    def sampled_box(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Return a box of some of the triangles; of a text that of its first ones."""
+        box = BoxOfBlocks("triangle")
+        with open(self._path, "rb") as file:
+            if self._binary:
+                samples = []
+                for number in range(0, self.face_count, max(1, self.face_count // SAMPLES)):
+                    file.seek(HEAD + RECORD * number)
+                    samples.append(file.read(RECORD))
+                box.add(np.frombuffer(b"".join(samples), CORNERS)["at"].astype(np.float32))
+            else:
+                for corners in islice(self._text_corners(file), 1):
+                    box.add(corners)
+        return box.box() if box.is_finite else self.box()
+
+    def box(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Return the least and the largest coordinates. Raises FileError where some are not finite."""
+        box = BoxOfBlocks("triangle")
+        for piece in self.pieces():
+            box.add(piece.points.reshape(-1, 3, 3))
+        return box.box()
+
+    def pieces(self) -> Iterator[Surface]:
+        """Yield the triangles, three points each."""
+        rows = np.arange(3 * TRIANGLES_PER_BLOCK, dtype=np.int32).reshape(-1, 3)
+        with open(self._path, "rb") as file:
+            for corners in _binary_corners(file) if self._binary else self._text_corners(file):
+                yield Surface(corners.reshape(-1, 3), rows[: len(corners)])
+
+    def _text_corners(self, file: BinaryIO) -> Iterator[NDArray[np.float32]]:
+        waiting, done = b"", 0
+        while chunk := file.read(TEXT_PER_BLOCK):
+            waiting += chunk
+            ends = [match.end() for match in FACET_END.finditer(waiting)]
+            if not ends:
+                continue
+            corners = self._parse(waiting[: ends[-1]], done)
+            waiting, done = waiting[ends[-1] :], done + len(corners)
+            for start in range(0, len(corners), TRIANGLES_PER_BLOCK):
+                yield corners[start : start + TRIANGLES_PER_BLOCK]
+        if SOLID_LINE.sub(b"", waiting).strip() or not re.search(rb"endsolid", waiting, re.IGNORECASE):
+            raise FileError("stl_cut_short")
+
+    def _parse(self, text: bytes, done: int) -> NDArray[np.float32]:
+        words = SOLID_LINE.sub(b"", text).split()
+        lower = [word.lower() for word in words] if any(word.isupper() for word in words[:2]) else words
+        sound = len(words) % FACET_WORDS == 0 and all(
+            set(lower[place::FACET_WORDS]) == {word} for place, word in KEYWORDS.items()
+        )
+        if not sound or b"_" in b"".join(words[8:11]):
+            raise self._damaged(done)
+        try:
+            columns = [np.array([*map(float, words[place::FACET_WORDS])]) for place in NUMBERS]
+        except ValueError as error:
+            raise self._damaged(done) from error
+        with np.errstate(over="ignore"):  # refused with the infinite ones
+            return np.stack(columns, axis=1).astype(np.float32).reshape(-1, 3, 3)
+
+    def _damaged(self, done: int) -> FileError:
+        cause = finding("damage_facets", count=done)
+        return FileError("file_damaged", file=self._path.name, cause=cause.as_record())
+
+
+def _binary_corners(file: BinaryIO) -> Iterator[NDArray[np.float32]]:
+    file.seek(HEAD)
+    records, count = np.empty(TRIANGLES_IN_CACHE, CORNERS), 1
+    while count:
+        corners, done = np.empty((TRIANGLES_PER_BLOCK, 3, 3), np.float32), 0
+        while count and done < TRIANGLES_PER_BLOCK:
+            count = file.readinto(memoryview(records).cast("B")) // RECORD  # type: ignore[attr-defined]
+            corners[done : done + count] = records["at"][:count]
+            done += count
+        if done:
+            yield corners[:done]

@@ -1,0 +1,220 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Meshes that are read in blocks have the moments that they have in memory, and whether they close is known."""
+
+import numpy as np
+import pytest
+from body_moments.core.mesh.surface import Surface
+from body_moments.core.polyhedron import polyhedron_moments
+from body_moments.core.streams import measure_stream, open_mesh_file, ply_rows
+from body_moments.core.streams import ply as ply_module
+from body_moments.core.streams import stl as stl_module
+
+from tests.close import close
+from tests.core.bodies import box, inverted, joined, ring, rotation, soup, sphere, torus, with_flipped, without
+from tests.core.findings import refused
+from tests.core.mesh_files import ply, stl, stl_text
+
+
+@pytest.fixture
+def small_blocks(monkeypatch):
+    """So that a small file is many blocks."""
+    monkeypatch.setattr(stl_module, "TRIANGLES_PER_BLOCK", 15)
+    monkeypatch.setattr(stl_module, "TRIANGLES_IN_CACHE", 5)
+    monkeypatch.setattr(stl_module, "TEXT_PER_BLOCK", 700)
+    monkeypatch.setattr(stl_module, "SAMPLES", 3)
+    monkeypatch.setattr(ply_rows, "BYTES_PER_BLOCK", 301)
+    monkeypatch.setattr(ply_rows, "SINGLE_ROWS", 5)
+
+
+def moved(part, scale=0.3, offset=(5.0, -2.0, 9.0)):
+    """Turned, scaled and moved, as float32."""
+    points = part[0] @ rotation(4).T * scale + offset
+    return points.astype(np.float32), part[1]
+
+
+def quads_and_triangles(part):
+    """Every other pair of triangles that share an edge as a quad: faces of two lengths, in turn."""
+    points, quads = part
+    faces = []
+    for number, quad in enumerate(quads.tolist()):
+        faces += [quad] if number % 3 else [quad[:3], [quad[0], *quad[2:]]]
+    return points, faces
+
+
+def measured(tmp_path, name, data, *args, **options):
+    (tmp_path / name).write_bytes(data)
+    return measure_stream(open_mesh_file(tmp_path / name), *args, **options)
+
+
+def in_memory(part, order, about):
+    return polyhedron_moments(Surface(*part), order, area_order=order, about=about, exact=True, allow_open=True)
+
+
+def same(found, truth):
+    for one, other in zip((found.volume, found.area), truth):
+        bound = one.rounding_error + other.rounding_error
+        assert (np.abs(one.raw - other.raw) <= bound).all()
+        assert (bound <= 1e-9 * np.abs(other.raw).max()).all()  # a bound that says something
+        assert (one.input_error >= 0.0).all()
+
+
+FORMS = {
+    "binary.stl": stl,
+    "text.stl": stl_text,
+    "little.ply": lambda part: ply(*part),
+    "big.ply": lambda part: ply(*part, order=">"),
+    "text.ply": lambda part: ply(*part, order=""),
+    "double.ply": lambda part: ply(*part, kind="f8", extra=True),
+    "extra.ply": lambda part: ply(*part, order=">", extra=True),
+    "extra text.ply": lambda part: ply(*part, order="", extra=True),
+}
+
+
+@pytest.mark.parametrize("order", [3, 9])
+@pytest.mark.parametrize("name", FORMS)
+def test_moments_are_those_in_memory(tmp_path, small_blocks, name, order):
+    part = moved(joined(torus(9, 7), sphere(1)))
+    found = measured(tmp_path, name, FORMS[name](part), order, order)
+    assert found.closed and found.face_count == len(part[1])
+    same(found, in_memory(part, order, found.volume.about))
+
+
+@pytest.mark.parametrize("name", FORMS)
+def test_large_blocks_are_the_same(tmp_path, name):
+    part = moved(torus(9, 7))
+    found = measured(tmp_path, name, FORMS[name](part), 4, 4, threads=2)
+    assert found.closed
+    same(found, in_memory(part, 4, found.volume.about))
+
+
+@pytest.mark.parametrize("name", FORMS)
+@pytest.mark.parametrize(
+    "part, closed",
+    [
+        (inverted(torus(9, 7)), True),
+        (without(torus(9, 7), 7), False),
+        (with_flipped(torus(9, 7), 7), False),
+        (without(box(), 0, 1, 2, 3), False),  # a tube, whose normals add up to nothing
+    ],
+)
+def test_what_is_open_is_seen(tmp_path, small_blocks, name, part, closed):
+    part = moved(part)
+    found = measured(tmp_path, name, FORMS[name](part), 3)
+    assert found.closed == closed
+    if closed:
+        assert close(found.volume.total, -in_memory(moved(torus(9, 7)), 3, (0, 0, 0))[0].total, rel=1e-6)
+
+
+def test_minus_zero_is_zero(tmp_path):
+    points, triangles = soup(box((-1, 0, 0), (0, 1, 1)))
+    points[::2] = np.where(points[::2] == 0.0, -0.0, points[::2])
+    assert measured(tmp_path, "a.stl", stl((points, triangles))).closed
+    points[0] += 1e-7
+    assert not measured(tmp_path, "a.stl", stl((points, triangles))).closed
+
+
+@pytest.mark.parametrize("order", ["<", ">", ""])
+@pytest.mark.parametrize("extra", [False, True])
+def test_faces_of_any_number_of_sides(tmp_path, small_blocks, order, extra):
+    points, faces = quads_and_triangles(ring(30, 16))
+    points = points.astype(np.float32)
+    found = measured(tmp_path, "a.ply", ply(points, faces, order, extra=extra), 4, 4)
+    quads = [face for face in faces if len(face) == 4]
+    truth = polyhedron_moments(
+        Surface(points, np.array([face for face in faces if len(face) == 3]), np.array(quads)),
+        4,
+        area_order=4,
+        about=found.volume.about,
+    )
+    assert found.closed and found.face_count == len(faces)
+    same(found, truth)
+    prism = np.array([[x, y, z] for z in (0, 1) for x, y in ((0, 0), (2, 0), (3, 1), (2, 2), (0, 2))], float)
+    sides = [[k, (k + 1) % 5, 5 + (k + 1) % 5, 5 + k] for k in range(5)]
+    found = measured(tmp_path, "b.ply", ply(prism, [[4, 3, 2, 1, 0], [5, 6, 7, 8, 9], *sides, [1, 2]], order))
+    assert found.closed and close([found.volume.total, found.area.total], [5.0, 16.0 + 2.0**1.5 - 0.0], rel=1e-12)
+
+
+def test_a_block_without_order_in_its_vertices_is_copied(tmp_path, small_blocks, monkeypatch):
+    points, triangles = moved(sphere(3))
+    shuffled = np.random.default_rng(0).permutation(len(points))
+    place = np.argsort(shuffled)
+    truth = in_memory((points, triangles), 3, (5, -2, 9))[0]
+    for spread in (4, 0, 1 << 20):
+        monkeypatch.setattr(ply_module, "MAX_SPREAD", spread)
+        found = measured(tmp_path, "a.ply", ply(points[shuffled], place[triangles]))
+        assert found.closed and close(found.volume.total, truth.total, rel=1e-12)
+
+
+def test_what_reaches_far_beyond_the_first_faces_is_read_again(tmp_path, small_blocks):
+    near, far = sphere(2), box((1e9, 0, 0), (1e9 + 1e6, 1e6, 1e6))
+    points, triangles = joined(near, far)
+    for data in (stl((points, triangles)), stl_text((points.astype(np.float32), triangles))):
+        found = measured(tmp_path, "a.stl", data, 20)
+        assert found.closed and found.volume.about[0] > 1e8
+
+
+@pytest.mark.parametrize("order", ["<", ">", ""])
+def test_a_ply_that_is_cut_short_or_damaged_is_refused(tmp_path, small_blocks, order):
+    part = moved(sphere(1))
+    whole = ply(*part, order, extra=True)
+    body = len(whole) - len(ply(*part, order, extra=True).partition(b"end_header\n")[2])
+    for end in range(body, len(whole) - (1 if order else 3), 41):
+        with refused("file_damaged"):
+            measured(tmp_path, "a.ply", whole[:end])
+    for end in (0, 3, 30, body - 5):
+        with refused("file_damaged"):
+            measured(tmp_path, "a.ply", whole[:end])
+    for wrong in (-1, len(part[0])):
+        faces = part[1].copy()
+        faces[5, 1] = wrong
+        with refused("file_damaged"):
+            measured(tmp_path, "a.ply", ply(part[0], faces, order))
+    with refused("file_without_objects"):
+        measured(tmp_path, "a.ply", b"ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nend_header\n")
+
+
+@pytest.mark.parametrize("cut", [1, 10, 49, 50, 500])
+def test_an_stl_that_is_cut_short_is_refused(tmp_path, small_blocks, cut):
+    part = moved(sphere(1))
+    with refused("stl_size"):
+        measured(tmp_path, "a.stl", stl(part)[:-cut])
+    text = stl_text(part)
+    with refused("stl_cut_short", "file_damaged"):
+        measured(tmp_path, "a.stl", text[: -cut - 15])
+    assert measured(tmp_path, "a.stl", text + text.replace(b"part", b"another one")).face_count == 2 * len(part[1])
+    assert measured(tmp_path, "a.stl", text.upper().replace(b"\n", b"\r\n")).closed
+
+
+@pytest.mark.parametrize("old, new", [(b"vertex", b"vertx"), (b"outer", b"inner"), (b" endloop", b"vertex 1 2 3")])
+def test_a_text_that_is_no_stl_is_refused(tmp_path, small_blocks, old, new):
+    text = stl_text(moved(sphere(1)))
+    at = text.rindex(old)
+    with refused("file_damaged", "stl_cut_short"):
+        measured(tmp_path, "a.stl", text[:at] + new + text[at + len(old) :])
+
+
+@pytest.mark.parametrize("name", FORMS)
+@pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf])
+def test_numbers_that_are_not_finite_are_refused_with_their_count_and_place(tmp_path, small_blocks, name, bad):
+    points, triangles = soup(moved(sphere(1)))
+    points[3 * 20] = bad
+    points[3 * 25, 1] = bad
+    with refused("non_finite_coordinates", count=4) as _:
+        measured(tmp_path, name, FORMS[name]((points, triangles)))
+
+
+def test_a_concave_polygon_is_refused(tmp_path):
+    arrow = np.array([[0, 0, 0], [2, 1, 0], [0, 2, 0], [0.5, 1.5, 0], [0.5, 0.5, 0]], float)
+    with refused("ply_concave_polygons", count=1):
+        measured(tmp_path, "a.ply", ply(arrow, [[4, 0, 1, 2, 3], [0, 1, 2]]))
+
+
+def test_progress_counts_faces(tmp_path, small_blocks, monkeypatch):
+    monkeypatch.setattr(stl_module, "SAMPLES", 1000)  # else the file is read again
+    seen = []
+    part = moved(sphere(2))
+    for name, make in FORMS.items():
+        seen.clear()
+        measured(tmp_path, name, make(part), progress=seen.append)
+        assert sum(seen) == len(part[1]) and len(seen) > 5
