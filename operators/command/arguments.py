@@ -305,16 +305,8 @@ def _add_results(parser: argparse.ArgumentParser) -> None:
         help="or on a grid of N³ of them: (j - h) Q / h along each axis, with h = N // 2 and j from 0 to N - 1",
     )
     add("--qmax", type=types.positive, metavar="Q", help="the largest along each axis of the grid, in rad/m")
-    add(
-        "--pose",
-        action="store_true",
-        help="add the pose that is the body's own, and its symmetry",
-    )
-    add(
-        "--signature",
-        action="store_true",
-        help="add the numbers by which `similar` finds the shape again",
-    )
+    add("--pose", action="store_true", help="add the pose that is the body's own, and its symmetry")
+    add("--signature", action="store_true", help="add the numbers by which `similar` finds the shape again")
     add(
         "--thumbnails",
         action="store_true",

@@ -23,7 +23,7 @@ MESSAGES = {
     "damage_ply_rows": ("sie endet oder hat anderes als Zahlen vor dem Ende ihrer {count} Zeilen von „{name}“",),
     "damage_ply_index": ("eine Fläche hat einen Scheitelpunkt, der nicht unter ihren {vertices} ist",),
     "threshold_positions": (
-        "Ein Schwellwert braucht Abtastwerte in gleichen Abständen. --positions weglassen oder die Aufnahme neu abtasten.",
+        "Ein Schwellwert braucht Abtastwerte in gleichen Abständen. --positions weglassen oder den Scan neu abtasten.",
     ),
     "stl_size": ("Die STL-Datei ist abgeschnitten oder beschädigt: ihre Größe passt nicht zur Zahl ihrer Dreiecke.",),
     "stl_cut_short": ("Die STL-Datei ist abgeschnitten: „endsolid“ fehlt.",),
