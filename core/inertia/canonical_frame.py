@@ -55,18 +55,32 @@ class SecondMomentAxes:
     noise: float = NOISE_LEVEL
 
 
+@dataclass(frozen=True)
+class FrameRule:
+    """What fixes frames beside second moments. extreme: the degree of the moments that are extreme along their third
+    axis; 0 where second moments fix an axis. axis, harmonic: the axis about which the harmonic of this degree, m and k
+    is real; None where none is clear. sign: the harmonic's."""
+
+    extreme: int
+    axis: int
+    harmonic: tuple[int, int, int] | None
+    sign: float
+
+
 @dataclass(frozen=True, eq=False)
 class EquivalentFrames:
     """frames: (k, 3, 3) rotations whose columns are the axes, all of them alike to the body. values, noise: (n,) the
     normalized central moments of third to the highest order in each of them, and what of them is noise.
     revolution_axes: the directions that no moment fixes: none (), those around one axis of the frames (that axis,), or
-    all (0, 1, 2). tilt: an estimate of the angle by which noise may have turned them."""
+    all (0, 1, 2). tilt: an estimate of the angle by which noise may have turned them. rule: what fixes them; None where
+    second moments alone do, or where they are the poles of a circle of extreme directions."""
 
     frames: NDArray[np.float64]
     values: NDArray[np.float64]
     noise: NDArray[np.float64]
     revolution_axes: tuple[int, ...]
     tilt: float
+    rule: FrameRule | None = None
 
 
 def canonical_frames(moments: Moments, spread: SecondMomentAxes, starts: NDArray) -> EquivalentFrames:
@@ -79,45 +93,55 @@ def canonical_frames(moments: Moments, spread: SecondMomentAxes, starts: NDArray
     central = replace(
         central, raw=central.raw / total, rounding_error=central.rounding_error / total, measure=Measure.MASS
     )
-    frames, round_about, tilt = _candidates(central, spread, starts)
+    frames, *about_them = _candidates(central, spread, starts)
     values, noise = _normalized_moments(central, spread, frames)
-    return EquivalentFrames(*_lexicographic_maximum(frames, values, noise), round_about, tilt)
+    return EquivalentFrames(*_lexicographic_maximum(frames, values, noise), *about_them)
 
 
-def _candidates(central: Moments, spread: SecondMomentAxes, starts: NDArray) -> tuple[NDArray, tuple[int, ...], float]:
-    """The frames, and `revolution_axes` and `tilt` of them."""
+def _candidates(
+    central: Moments, spread: SecondMomentAxes, starts: NDArray
+) -> tuple[NDArray, tuple[int, ...], float, FrameRule | None]:
+    """The frames, and `revolution_axes`, `tilt` and `rule` of them."""
     if not spread.undetermined_axes:
-        return starts, (), spread.tilt
+        return starts, (), spread.tilt, None
     if len(spread.undetermined_axes) == 2:
         axis = 3 - sum(spread.undetermined_axes)
         starts = starts[np.unique(starts[:, :, axis] @ spread.axes[:, axis] > 0.0, return_index=True)[1]]
-        frames, is_fixed, turn = _fix_rotation_about_axis(central, spread, starts, axis)
-        return frames, () if is_fixed else (axis,), spread.tilt + turn
+        frames, harmonic, turn = _fix_rotation_about_axis(central, spread, starts, axis)
+        rule = FrameRule(0, axis, harmonic, _sign(harmonic, -1.0))
+        return frames, () if harmonic else (axis,), spread.tilt + turn, rule
     for clear in (CLEAR_HARMONIC, 0.0):
         for degree in range(3, central.order + 1):
-            directions, sign, tilt = _extreme_directions(central, spread, degree, clear)
+            directions, sign, tilt, are_isolated = _extreme_directions(central, spread, degree, clear)
             if not len(directions):
                 continue
             bases = np.array([_frame_from_axis(direction) for direction in directions])
-            frames, is_fixed, turn = _fix_rotation_about_axis(central, spread, bases, 2, sign if degree == 4 else -1.0)
-            return frames, () if is_fixed else (2,), tilt + turn
-    return spread.axes[None], (0, 1, 2), 0.0
+            fourfold = sign if degree == 4 else -1.0
+            frames, harmonic, turn = _fix_rotation_about_axis(central, spread, bases, 2, fourfold)
+            rule = FrameRule(degree, 2, harmonic, _sign(harmonic, fourfold)) if are_isolated else None
+            return frames, () if harmonic else (2,), tilt + turn, rule
+    return spread.axes[None], (0, 1, 2), 0.0, FrameRule(0, 2, None, 1.0)
+
+
+def _sign(harmonic: tuple[int, int, int] | None, fourfold: float) -> float:
+    """The sign that a harmonic gets."""
+    return fourfold if harmonic and harmonic[1] == 4 else 1.0
 
 
 def _fix_rotation_about_axis(
     central: Moments, spread: SecondMomentAxes, bases: NDArray, axis: int, fourfold: float = -1.0
-) -> tuple[NDArray, bool, float]:
-    """The bases turned about that axis of theirs as the first clear harmonic asks, whether there is one, and the angle
-    by which noise may have turned it.
+) -> tuple[NDArray, tuple[int, int, int] | None, float]:
+    """The bases turned about that axis of theirs as the first clear harmonic asks, its degree, m and k if there is one,
+    and the angle by which noise may have turned it.
 
     fourfold: the sign that a harmonic with m = 4 gets; others get a positive one. E[cos 4φ] is negative for a square
     whose sides lie along the axes.
     """
     harmonic = _clear_harmonic(central, spread, bases, axis)
     if harmonic is None:
-        return bases, False, 0.0
-    m, c, least = harmonic
-    c = fourfold * c if m == 4 else c
+        return bases, None, 0.0
+    degree, m, k, c, least = harmonic
+    c = _sign((degree, m, k), fourfold) * c
     angles = (np.angle(c)[:, None] + 2.0 * np.pi * np.arange(m)) / m
     cos, sin = np.cos(angles)[..., None], np.sin(angles)[..., None]
     first, second = (axis + 1) % 3, (axis + 2) % 3
@@ -127,14 +151,14 @@ def _fix_rotation_about_axis(
     # Of several directions, those about which it is the same.
     noise, largest = spread.noise / NOISE_LEVEL * least, np.abs(c).max()
     alike = np.abs(c) > largest - min(2.0 * noise, MAX_EQUAL_SHARE * largest)
-    return frames[alike].reshape(-1, 3, 3), True, noise / (m * largest)
+    return frames[alike].reshape(-1, 3, 3), (degree, m, k), noise / (m * largest)
 
 
 def _clear_harmonic(
     central: Moments, spread: SecondMomentAxes, bases: NDArray, axis: int
-) -> tuple[int, NDArray[np.complex128], float] | None:
+) -> tuple[int, int, int, NDArray[np.complex128], float] | None:
     """The first harmonic about that axis of the bases that is above noise, those above CLEAR_HARMONIC before weaker
-    ones: its m, (n,) its value in each basis, and what of it is noise."""
+    ones: its degree, m and k, (n,) its value in each basis, and what of it is noise."""
     first, second = (axis + 1) % 3, (axis + 2) % 3
     order, size, weaker = [first, second, axis], _extents(spread), None
     for degree in range(3, central.order + 1):
@@ -149,9 +173,9 @@ def _clear_harmonic(
                 least = weight * noise[monomial_index(*powers) - monomial_index(degree, 0, 0)]
                 largest = np.abs(c).max()
                 if largest > max(least, CLEAR_HARMONIC):
-                    return m, c, least
+                    return degree, m, k, c, least
                 if weaker is None and largest > least:
-                    weaker = m, c, least
+                    weaker = degree, m, k, c, least
     return weaker
 
 
@@ -166,32 +190,32 @@ def _harmonic(tensor: NDArray, degree: int, m: int, k: int) -> NDArray[np.comple
 
 def _extreme_directions(
     central: Moments, spread: SecondMomentAxes, degree: int, clear: float
-) -> tuple[NDArray, float, float]:
+) -> tuple[NDArray, float, float, bool]:
     """(k, 3) the directions u of the largest E[(u·x)^degree], or of the least if they are fewer, 1 or -1 for which it
-    is, and the angle by which noise may have turned them; of a circle of them its poles. None (0, 3) where the moment
-    is the same in all directions."""
+    is, the angle by which noise may have turned them, and whether they are isolated; of a circle of them its poles.
+    None (0, 3) where the moment is the same in all directions."""
     tensor = central.raw[tensor_index(degree)] / spread.size.max() ** degree
     noise = 2.0 * _normalization(central, spread, degree)[1].max()
     least = max(2.0 * _normalization(central, replace(spread, noise=NOISE_LEVEL), degree)[1].max(), clear)
     span = np.ptp(_contract(tensor, degree, _sphere_directions()))
     if span <= least / 2.0:
-        return np.empty((0, 3)), 1.0, 0.0
+        return np.empty((0, 3)), 1.0, 0.0, False
     extremes = []
     for sign in (1.0, -1.0) if degree % 2 == 0 else (1.0,):
         within = min(noise, MAX_EQUAL_SHARE * span)
         points = _maximize_on_sphere(sign * tensor, degree, span, within)
         height = _contract(sign * tensor, degree, points)
         if height.max() - _contract(sign * tensor, degree, _sphere_directions()).min() <= least:
-            return np.empty((0, 3)), sign, 0.0
+            return np.empty((0, 3)), sign, 0.0, False
         top = points[height > height.max() - within]
         extremes.append((distinct_arrays(top, 1e-2), sign))
     directions, sign = min(extremes, key=lambda pair: len(pair[0]))
     tilt = noise / span
     if len(directions) <= MAX_ISOLATED_DIRECTIONS:
-        return directions, sign, tilt
+        return directions, sign, tilt, True
     values, vectors = np.linalg.eigh(directions.T @ directions / len(directions))
     pole = vectors[:, 0] if values[1] - values[0] > values[2] - values[1] else vectors[:, 2]
-    return (np.array([pole, -pole]) if values[2] - values[0] > 0.1 else np.empty((0, 3))), sign, tilt
+    return (np.array([pole, -pole]) if values[2] - values[0] > 0.1 else np.empty((0, 3))), sign, tilt, False
 
 
 def _maximize_on_sphere(tensor: NDArray, degree: int, span: float, within: float) -> NDArray[np.float64]:

@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from .second_order import IS_FIXED, SecondOrderFrames
 
@@ -64,22 +64,22 @@ def _across(vectors: NDArray, axis: NDArray) -> NDArray[np.float64]:
     return vectors - axis * np.einsum("...a,...a->...", axis, vectors)[..., None]
 
 
-def nearest_frames(candidates: NDArray, preferred_axes: NDArray, tilt: float) -> NDArray[np.float64]:
+def nearest_frames(candidates: NDArray, preferred_axes: NDArray, tilt: ArrayLike) -> NDArray[np.float64]:
     """(m, 3, 3) of (m, k, 3, 3) frames those with the smallest turn from the preferred ones, (m, 3, 3). Where several
     are as near, the one whose axes, in order, point along rather than against their preferred axes, so that noise
     cannot flip it.
 
-    tilt: the angle by which noise may have turned the candidates.
+    tilt: the angle by which noise may have turned the candidates, for all or for each.
     """
     bodies = np.arange(len(candidates))
     if candidates.shape[1] == 1:
         return candidates[:, 0] + 0.0
     local = preferred_axes.transpose(0, 2, 1)[:, None] @ candidates
-    equal = EQUAL_TRACE_ATOL + min(4.0 * tilt, MAX_TRACE_AMBIGUITY)
+    equal = EQUAL_TRACE_ATOL + np.minimum(4.0 * np.asarray(tilt).reshape(-1, 1), MAX_TRACE_AMBIGUITY)
     turns = local.trace(axis1=2, axis2=3)
     near = turns > turns.max(axis=1, keepdims=True) - equal
     size = np.abs(local)
-    row = (size > size.max(axis=2, keepdims=True) - equal).argmax(axis=2)[:, :, None]
+    row = (size > size.max(axis=2, keepdims=True) - equal[..., None, None]).argmax(axis=2)[:, :, None]
     is_along = np.take_along_axis(local, row, axis=2)[:, :, 0] > 0.0
     rank = np.where(near, is_along @ np.array([4, 2, 1]), -1)
     near = rank == rank.max(axis=1, keepdims=True)

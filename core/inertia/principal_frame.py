@@ -30,6 +30,7 @@ from .canonical_frame import NOISE_LEVEL, EquivalentFrames, canonical_frames
 from .canonical_stack import settle_half_turns, settle_revolution
 from .frame_choice import align_frames, complete_free_axes, nearest_frames
 from .second_order import HALF_TURN_SIGNS, SYMMETRIES, SecondOrderFrames, second_order_frames
+from .shared_search import shared_frames
 
 NO_VALUES = np.empty(0)
 
@@ -212,21 +213,24 @@ def principal_frames(
             chosen[i] = FREE[symmetry[i]]
     elif len(left):
         known = higher(left)
-        for shape, alike in enumerate(_frames_of_shapes(fixed, left, known)):
-            of_shape = np.flatnonzero(known.shape == shape)
-            bodies = left[of_shape]
-            if alike.revolution_axes or len(alike.frames) > 1:
-                choice = FREE if alike.revolution_axes else FREE_BY_SHAPE
+        alike = _frames_of_shapes(fixed, left, known)
+        together: dict[tuple[int, tuple[int, ...]], list[int]] = {}
+        for i, shape in enumerate(known.shape.tolist()):
+            together.setdefault((len(alike[shape].frames), alike[shape].revolution_axes), []).append(i)
+        for (ways, revolution_axes), members in together.items():
+            bodies, free = left[members], undetermined_axes(revolution_axes)
+            if revolution_axes or ways > 1:
+                choice = FREE if revolution_axes else FREE_BY_SHAPE
                 chosen[bodies] = [choice[name] for name in symmetry[bodies]]
-            free = undetermined_axes(alike)
             if free:
                 undetermined[bodies] = [free] * len(bodies)
-            frames = np.broadcast_to(alike.frames, (len(bodies), *alike.frames.shape))
+            shapes = [alike[shape] for shape in known.shape[members].tolist()]
+            frames = np.array([shape.frames for shape in shapes])
             if known.rotation is not None:
-                frames = align_frames(known.rotation[of_shape][:, None] @ frames, fixed, bodies)
+                frames = align_frames(known.rotation[members][:, None] @ frames, fixed, bodies)
             preferred = preferred_axes[bodies]
             frames = complete_free_axes(frames, free, preferred[:, None])
-            axes[bodies] = nearest_frames(frames, preferred, alike.tilt)
+            axes[bodies] = nearest_frames(frames, preferred, [shape.tilt for shape in shapes])
     return PrincipalFrame(
         fixed.moments, axes, symmetry, np.array([found is None for found in chosen]), chosen, undetermined
     )
@@ -253,12 +257,11 @@ def _frames_of_shapes(fixed: SecondOrderFrames, left: NDArray[np.intp], known: O
     if len(about_axis):
         is_round, allowed = settle_revolution(known.moments.at(about_axis), fixed, which[about_axis])
         settle(about_axis[is_round], allowed[is_round])
-    return [
-        canonical_frames(known.moments.at(shape), fixed.spread(which[shape]), fixed.frames(which[shape]))
-        if found is None
-        else found
-        for shape, found in enumerate(results)
-    ]
+    others = np.array([shape for shape, found in enumerate(results) if found is None], np.intp)
+    if len(others):
+        for shape, found in zip(others.tolist(), shared_frames(known.moments.at(others), fixed, which[others])):
+            results[shape] = found
+    return results
 
 
 def equivalent_frames(moments: Moments, noise: float = NOISE_LEVEL) -> EquivalentFrames:
@@ -319,17 +322,16 @@ def nearest_frame(equivalent: EquivalentFrames, preferred_axes: NDArray) -> NDAr
     >>> round(float(np.linalg.det(frame)), 9)
     1.0
     """
-    frames = complete_free_axes(equivalent.frames, undetermined_axes(equivalent), preferred_axes)
+    free = undetermined_axes(equivalent.revolution_axes)
+    frames = complete_free_axes(equivalent.frames, free, preferred_axes)
     return nearest_frames(frames[None], preferred_axes[None], equivalent.tilt)[0]
 
 
-def undetermined_axes(equivalent: EquivalentFrames) -> tuple[int, ...]:
+def undetermined_axes(revolution_axes: tuple[int, ...]) -> tuple[int, ...]:
     """The axes whose directions no moment fixes."""
-    return (
-        (tuple(i for i in range(3) if i not in equivalent.revolution_axes) or (0, 1, 2))
-        if equivalent.revolution_axes
-        else ()
-    )
+    if not revolution_axes:
+        return ()
+    return tuple(i for i in range(3) if i not in revolution_axes) or (0, 1, 2)
 
 
 def zhang_chen_frame(moments: Moments, refine: Callable[[], Moments] | None = None) -> PrincipalFrame:

@@ -98,7 +98,7 @@ def match(source: Moments, target: Moments, residual: Residual, size: float) -> 
 def _candidate_rotations(first: NDArray, target: EquivalentFrames) -> NDArray[np.float64]:
     """(k, 3, 3) the rotations from a frame of the source to those of the target and their half turns."""
     frames = (target.frames[:, None] * HALF_TURNS[:, None, :]).reshape(-1, 3, 3)
-    frames = np.array([complete_free_axes(frame, undetermined_axes(target), first) for frame in frames])
+    frames = np.array([complete_free_axes(frame, undetermined_axes(target.revolution_axes), first) for frame in frames])
     return distinct_arrays(frames @ first.T, 1e-9)
 
 

@@ -1,0 +1,215 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The search of `canonical_frame` for the axes of bodies with equal second moments, made once for equal bodies.
+
+Which frames a body has is decided for its normalized moments rounded to a tenth of what counts as noise, in coordinates
+in which each extent is one. So bodies that are copies of each other but for the rounding of their coordinates are
+mostly one problem, which is solved once and remembered; and what comes out depends on the body alone, not on what was
+measured before it. The frames are then refined for the body's own moments: directions of extreme moments by Newton's
+steps, turns about them by the phase of the harmonic that has fixed them. After that they are the body's, to rounding.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..moments.affine_maps import rotate_moments
+from ..moments.moments import Measure, Moments
+from ..moments.monomials import monomial_count, monomials
+from ..moments.symmetric_tensors import tensor_index
+from .canonical_frame import (
+    FLAT_EXTENT_RTOL,
+    MAX_ORDER,
+    NOISE_GROWTH,
+    EquivalentFrames,
+    FrameRule,
+    SecondMomentAxes,
+    canonical_frames,
+)
+from .second_order import EQUAL_AXES, HALF_TURN_SIGNS, SYMMETRIES, SecondOrderFrames
+
+GRID = 2.0**-20  # of normalized moments, times NOISE_GROWTH: a tenth of NOISE_LEVEL
+LEAST_BOUND = 2.0**-30  # bounds below this are that, others are rounded up to three binary digits: copies have the same
+MAX_KNOWN = 1024  # problems that are remembered
+MAX_CORRECTION = 1e-4  # frames that a refinement turns by more are looked for by themselves
+REFINEMENTS = 2  # each squares what is left: the grid's 1e-6 at first
+NO_VALUES = np.empty(0)
+THIRD = monomial_count(2)  # where the moments of third order begin
+POWERS = monomials(MAX_ORDER)
+DEGREE = POWERS.sum(axis=1)
+STEP = GRID * np.array(NOISE_GROWTH)[DEGREE[THIRD:]]
+BELOW_THIRD = np.where((POWERS[:THIRD] % 2 == 0).all(axis=1), 1.0, 0.0)  # of a body whose extents are one
+FIXED_AXIS = {"prolate": 0, "oblate": 2}
+
+
+def shared_frames(moments: Moments, fixed: SecondOrderFrames, bodies: NDArray[np.intp]) -> list[EquivalentFrames]:
+    """Find what `canonical_frames` finds, for bodies with two or three equal second moments.
+
+    Parameters
+    ----------
+    moments : Moments
+        Of n bodies, to order MAX_ORDER.
+    fixed : SecondOrderFrames
+    bodies : (n,) int
+        Which of those they are.
+
+    Returns
+    -------
+    list of EquivalentFrames
+        Without values.
+    """
+    found: list[EquivalentFrames | None] = [None] * len(bodies)
+    for name in EQUAL_AXES:
+        rows = np.flatnonzero(fixed.symmetry[bodies] == SYMMETRIES.index(name))
+        if len(rows) and name != "asymmetric":
+            for row, frames in zip(rows.tolist(), _frames_alike(moments.at(rows), fixed, bodies[rows], name)):
+                found[row] = frames
+    return [
+        canonical_frames(moments.at(i), fixed.spread(int(body)), fixed.frames(int(body))) if frames is None else frames
+        for i, (body, frames) in enumerate(zip(bodies, found))
+    ]
+
+
+def _frames_alike(
+    moments: Moments, fixed: SecondOrderFrames, bodies: NDArray[np.intp], name: str
+) -> list[EquivalentFrames | None]:
+    """Of bodies of one symmetry; None for those that have to be looked at by themselves."""
+    axis = FIXED_AXIS.get(name)
+    basis = _bases(fixed.axes[bodies, :, axis], axis) if axis is not None else np.tile(np.eye(3), (len(bodies), 1, 1))
+    raw, bound, extent = _whitened(moments, fixed, bodies, basis, name)
+    usable = np.isfinite(raw).all(axis=1) & np.isfinite(bound).all(axis=1)
+    usable &= extent.min(axis=1) > FLAT_EXTENT_RTOL * extent.max(axis=1)
+    step = _rounded_up(fixed.step[bodies] / extent.min(axis=1))
+    tilt = _rounded_up(fixed.tilt[bodies]) * (fixed.tilt[bodies] > 0.0)
+    cells = np.where(usable[:, None], np.rint(raw[:, THIRD:] / STEP), 0.0).astype(np.int32)
+    ways = 3 if axis is None else _ways(fixed, bodies, axis)
+    keys = zip(np.broadcast_to(ways, len(bodies)).tolist(), cells, bound, step.tolist(), tilt.tolist())
+    together: dict[tuple, list[int]] = {}
+    for row, (way, own_cells, own_bound, own_step, own_tilt) in enumerate(keys):
+        if usable[row]:
+            key = name, fixed.noise, way, own_cells.tobytes(), own_bound.tobytes(), own_step, own_tilt
+            together.setdefault(key, []).append(row)
+    results: list[EquivalentFrames | None] = [None] * len(bodies)
+    for key, rows in together.items():
+        alike = _search(*key)
+        if alike.rule is None:
+            continue
+        frames, is_near = _refined(alike.frames, alike.rule, raw[rows])
+        frames = basis[rows][:, None] @ frames
+        for row, own, near in zip(rows, frames, is_near.tolist()):
+            if near:
+                results[row] = replace(alike, frames=own)
+    return results
+
+
+@lru_cache(maxsize=MAX_KNOWN)
+def _search(
+    name: str, noise: float, ways: int, cells: bytes, bound: bytes, step: float, tilt: float
+) -> EquivalentFrames:
+    """The frames of a body with these rounded moments, without values. ways: whether its fixed axis may point ahead, 1,
+    back, 2, or both, 3."""
+    raw = np.concatenate([BELOW_THIRD, STEP * np.frombuffer(cells, np.int32)])
+    central = Moments(raw, np.zeros(3), Measure.MASS, np.frombuffer(bound)[DEGREE])
+    starts = np.eye(3)[None]
+    if name in FIXED_AXIS:  # half a turn about the axis after it
+        turned = np.full(3, -1.0)
+        turned[(FIXED_AXIS[name] + 1) % 3] = 1.0
+        starts = np.array([np.eye(3), np.diag(turned)])[[bool(ways & 1), bool(ways & 2)]]
+    spread = SecondMomentAxes(np.eye(3), np.ones(3), EQUAL_AXES[name], step, tilt, noise)
+    return replace(canonical_frames(central, spread, starts), values=NO_VALUES, noise=NO_VALUES)
+
+
+def _bases(fixed: NDArray, axis: int) -> NDArray[np.float64]:
+    """(n, 3, 3) right-handed frames one of whose axes these are."""
+    helper = np.eye(3)[np.round(np.abs(fixed), 3).argmin(axis=1)]  # the same for axes that differ by rounding
+    first = helper - fixed * (fixed * helper).sum(axis=1, keepdims=True)
+    first /= np.linalg.norm(first, axis=1, keepdims=True)
+    basis = np.empty((len(fixed), 3, 3))
+    basis[:, :, axis], basis[:, :, (axis + 1) % 3] = fixed, first
+    basis[:, :, (axis + 2) % 3] = np.cross(fixed, first)
+    return basis
+
+
+def _ways(fixed: SecondOrderFrames, bodies: NDArray[np.intp], axis: int) -> NDArray[np.intp]:
+    """(n,) which ways the fixed axis of bodies may point, as `_search` takes them."""
+    allowed, ahead = fixed.allowed[bodies], HALF_TURN_SIGNS[:, axis] > 0.0
+    return allowed[:, ahead].any(axis=1) + 2 * allowed[:, ~ahead].any(axis=1)
+
+
+def _whitened(
+    moments: Moments, fixed: SecondOrderFrames, bodies: NDArray[np.intp], basis: NDArray, name: str
+) -> tuple[NDArray, NDArray, NDArray]:
+    """(n, K) the central moments by the total along (n, 3, 3) axes, in units of the extents there; (n, degrees) bounds
+    of them for each degree; (n, 3) the extents."""
+    central = moments.about_center()
+    free = list(EQUAL_AXES[name])
+    extent = fixed.size[bodies].copy()
+    extent[:, free] = np.sqrt((extent[:, free] ** 2).mean(axis=1, keepdims=True))
+    total = central.raw[:, :1]
+    raw, error = central.raw / total, central.rounding_error / total
+    if len(free) == 2:
+        turned = basis.transpose(0, 2, 1)
+        raw, error = rotate_moments(raw, MAX_ORDER, turned), rotate_moments(error, MAX_ORDER, np.abs(turned))
+    with np.errstate(all="ignore"):
+        unit = np.multiply.reduce(extent[:, None] ** POWERS, axis=2)
+        raw, error = raw / unit, error / unit
+    starts = [monomial_count(degree - 1) for degree in range(1, MAX_ORDER + 1)]
+    bound = np.maximum.reduceat(error, [0, *starts], axis=1)
+    return raw, _rounded_up(bound), extent
+
+
+def _rounded_up(values: NDArray) -> NDArray[np.float64]:
+    """Positive numbers to three binary digits, no smaller than they were."""
+    mantissa, exponent = np.frexp(np.maximum(values, LEAST_BOUND))
+    return np.ldexp(np.ceil(8.0 * mantissa) / 8.0, exponent)
+
+
+def _refined(
+    frames: NDArray[np.float64], rule: FrameRule, raw: NDArray[np.float64]
+) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
+    """(n, k, 3, 3) the frames (k, 3, 3) as the moments (n, K) of n bodies ask by the rule, and (n,) whether they have
+    hardly turned."""
+    start, frames = frames, np.tile(frames, (len(raw), 1, 1, 1))
+    third, first, second = rule.axis, (rule.axis + 1) % 3, (rule.axis + 2) % 3
+    if rule.extreme:
+        pole = _extreme(frames[..., third], rule.extreme, raw)
+        side = frames[..., first]
+        side = side - pole * (pole * side).sum(axis=-1, keepdims=True)
+        side /= np.linalg.norm(side, axis=-1, keepdims=True)
+        frames[..., first], frames[..., second], frames[..., third] = side, np.cross(pole, side), pole
+    if rule.harmonic:
+        degree, m, k = rule.harmonic
+        turning, j = frames[..., first] + 1j * frames[..., second], (degree - m - k) // 2
+        c = _contracted(raw, [turning] * (m + j) + [turning.conj()] * j + [frames[..., third]] * k)
+        angle = (np.angle(rule.sign * c) / m)[..., None]
+        cos, sin = np.cos(angle), np.sin(angle)
+        a, b = frames[..., first].copy(), frames[..., second].copy()
+        frames[..., first], frames[..., second] = cos * a + sin * b, cos * b - sin * a
+    return frames, np.abs(frames - start).max(axis=(1, 2, 3)) < MAX_CORRECTION
+
+
+def _extreme(points: NDArray, degree: int, raw: NDArray) -> NDArray[np.float64]:
+    """(n, k, 3) the directions near to these in which the moments of a degree are extreme, by Newton's steps."""
+    for _ in range(REFINEMENTS):
+        twice = _contracted(raw, [points] * (degree - 2), degree)
+        once = np.einsum("nkij,nkj->nki", twice, points)
+        height = (once * points).sum(axis=-1)[..., None]
+        square = points[..., :, None] * points[..., None, :]
+        flat = np.eye(3) - square
+        curved = (degree - 1) * flat @ twice @ flat - height[..., None] * np.eye(3)
+        points = points + np.linalg.solve(curved, (height * points - once)[..., None])[..., 0]
+        points /= np.linalg.norm(points, axis=-1, keepdims=True)
+    return points
+
+
+def _contracted(raw: NDArray, forms: list[NDArray], degree: int | None = None) -> NDArray:
+    """(n, k, ...) the moments of a degree, by default as many as there are forms, of n bodies as tensors, with the
+    forms (n, k, 3) put into them."""
+    out = np.einsum("n...i,nki->nk...", raw[:, tensor_index(degree or len(forms))], forms[0])
+    for form in forms[1:]:
+        out = np.einsum("nk...i,nki->nk...", out, form)
+    return out
