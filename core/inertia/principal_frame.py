@@ -29,7 +29,7 @@ from ..verdict.finding import MeasureError, finding
 from .canonical_frame import NOISE_LEVEL, EquivalentFrames, canonical_frames
 from .canonical_stack import settle_half_turns, settle_revolution
 from .frame_choice import align_frames, complete_free_axes, nearest_frames
-from .second_order import HALF_TURN_SIGNS, SYMMETRIES, SecondOrderFrames, second_order_frames
+from .second_order import EQUAL_AXES, HALF_TURN_SIGNS, SYMMETRIES, SecondOrderFrames, second_order_frames
 from .shared_search import shared_frames
 
 NO_VALUES = np.empty(0)
@@ -206,11 +206,15 @@ def principal_frames(
     axes = fixed.axes * HALF_TURN_SIGNS[fixed.allowed.argmax(axis=1)][:, None]
     left = np.flatnonzero((fixed.symmetry > 0) | (fixed.allowed.sum(axis=1) != 1))
     if higher is None:
-        for i in left.tolist():
-            free = undetermined[i] = fixed.free(i)
-            candidates = complete_free_axes(fixed.frames(i), free, preferred_axes[i])
-            axes[i] = nearest_frames(candidates[None], preferred_axes[i : i + 1], float(fixed.tilt[i]))[0]
-            chosen[i] = FREE[symmetry[i]]
+        kinds, kind = np.unique(np.column_stack([fixed.symmetry, fixed.allowed])[left], axis=0, return_inverse=True)
+        for number, (name, *allowed) in enumerate(kinds.tolist()):
+            bodies = left[kind.ravel() == number]
+            free, name = EQUAL_AXES[SYMMETRIES[name]], SYMMETRIES[name]
+            undetermined[bodies], chosen[bodies] = [free] * len(bodies), FREE[name]
+            frames = fixed.axes[bodies, None] * HALF_TURN_SIGNS[np.array(allowed, bool), None]
+            preferred = preferred_axes[bodies]
+            frames = complete_free_axes(frames, free, preferred[:, None])
+            axes[bodies] = nearest_frames(frames, preferred, fixed.tilt[bodies])
     elif len(left):
         known = higher(left)
         alike = _frames_of_shapes(fixed, left, known)

@@ -200,7 +200,7 @@ class _Collector:
     def measure(self) -> dict[int, Stacked]:
         """What could be measured together, by number: where that fails, nothing, so that each is measured by itself."""
         try:
-            stack = measure_members(self.members, self.shapes, self.unit) if self.members else None
+            stack = measure_members(self.members, self.shapes, self.unit, self.options.axes) if self.members else None
         except Exception as error:
             internal_error.finding_of(error)
             stack = None

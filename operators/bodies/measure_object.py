@@ -14,8 +14,10 @@ from dataclasses import dataclass
 
 import bpy
 
+from ...core.inertia.mass_properties import MassProperties
 from ...core.measurement import Measurement
 from ...core.verdict.finding import Finding, MeasureError
+from ...core.verdict.method import Method
 from ..read import Reading
 from ..read.volume import VolumeReading
 from ..settings.options import AS_SET, MeasureOptions
@@ -40,6 +42,16 @@ class Measured:
     def findings(self) -> tuple[Finding, ...]:
         """The measurement's findings."""
         return self.measurement.findings
+
+    @property
+    def mass_properties(self) -> MassProperties:
+        """The measurement's mass properties."""
+        return self.measurement.mass_properties
+
+    @property
+    def method(self) -> Method:
+        """The measurement's method."""
+        return self.measurement.method
 
 
 def measure_object(

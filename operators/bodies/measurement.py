@@ -45,7 +45,7 @@ def measurement_of(reading: Reading | VolumeReading, body: Body, request: Reques
     moments, factor, density = _weighed(body, measured, solid, thin, options)
     rotation = np.asarray(reading.rotation, np.float64)
     higher = _higher(body, shell)
-    uses_high_order = options.pose or body.face_count <= MAX_FACES_HIGH_ORDER
+    uses_high_order = options.axes and (options.pose or body.face_count <= MAX_FACES_HIGH_ORDER)
     properties = MassProperties.from_moments(
         moments,
         factor,

@@ -269,6 +269,16 @@ class Stacked:
         self.stack.findings[self.index] += (found,)
 
     @property
+    def mass_properties(self) -> MassProperties:
+        """The measurement's mass properties."""
+        return self.stack.mass_properties.at(self.index)
+
+    @property
+    def method(self) -> Method:
+        """The measurement's method."""
+        return self.stack.members[self.index].shape.method
+
+    @property
     def has_density(self) -> bool:
         """Whether the object has a density, not a mass."""
         return not self.stack.from_mass[self.index]
@@ -279,9 +289,9 @@ class Stacked:
         return self.stack.members[self.index].shape.digest
 
 
-def measure_members(members: list[Member], shapes: list[Shape], unit: float) -> MeasuredStack | None:
+def measure_members(members: list[Member], shapes: list[Shape], unit: float, axes: bool = True) -> MeasuredStack | None:
     """Measure objects together: those whose shapes can be measured and whose numbers are certain; None where there are
-    none. unit: meters per Blender unit."""
+    none. unit: meters per Blender unit. axes: as in `MeasureOptions`."""
     measured = measure_shapes(shapes)
     if measured is None:
         return None
@@ -332,7 +342,7 @@ def measure_members(members: list[Member], shapes: list[Shape], unit: float) -> 
                 sixth[i] = each.sixth_order()
         return own_moments(sixth, shape.ravel(), matrices[left, :3, :3])
 
-    properties = MassProperties.of_stack(volume, density, rotation, fixed, higher)
+    properties = MassProperties.of_stack(volume, density, rotation, fixed, higher if axes else None)
     geometry = np.ascontiguousarray(np.concatenate([volume.raw, area.raw], axis=1))
     return MeasuredStack(
         members,

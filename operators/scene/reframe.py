@@ -11,14 +11,14 @@ surfaces in the world are compared with those of before, and only where they are
 is kept. Otherwise all is put back. Other users of the data keep it as it is; the objects that are
 changed get a copy of their own, shared among them.
 
-Objects that have nothing to do with each other are changed side by side. One that is refused so is tried again alone,
+Meshes that one object alone shows as they are need no trial: see `reframe_meshes`. Other
+objects that have nothing to do with each other are changed side by side. One that is refused so is tried again alone,
 in case another's change was the reason.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, field
 
 import bpy
 import numpy as np
@@ -31,8 +31,10 @@ from ...core.verdict.finding import EditRefusedError, Finding, finding
 from ..settings.density import density_anchor
 from .changes import SceneChange, dependents, independent_rounds, run_change, run_together
 from .dependents import SAME_SHAPE_RTOL, DependentsGuard, referring, same_shape, shape, transform_shape
+from .reframe_meshes import Plan, data_change, location_tolerance, reframe_own_meshes, shows_own_mesh
 from .transforms import (
     FLOAT32,
+    MAX_SHEAR,
     Matrix4,
     TransformChannels,
     ancestors,
@@ -60,21 +62,6 @@ FRAME_INDEPENDENT_MODIFIERS = {
     "VERTEX_WEIGHT_PROXIMITY",
     "WEIGHTED_NORMAL",
 }
-
-
-@dataclass
-class Plan:
-    """What one object is to become.
-
-    target: (4, 4) the wanted matrix_world. size: of the body, in Blender units. move_only: the axes
-        are kept to the bit.
-    """
-
-    obj: Object
-    target: Matrix4
-    size: float
-    move_only: bool
-    findings: list[Finding] = field(default_factory=list)
 
 
 def check(obj: Object) -> None:
@@ -109,7 +96,10 @@ def reframe(
     objects = {plan.obj for plan in plans}
     users, touched = (referring(objects), dependents(objects)) if plans else ({}, {})
     refused: dict[Object, Finding] = {}
-    done = 0
+    own = [plan for plan in plans if shows_own_mesh(plan.obj, users)]
+    carried_out = set(reframe_own_meshes(context, own)) if len(own) > 1 else set()
+    done = len(carried_out)
+    progress(done)
 
     def attempt(group: list[Plan], again: list[list[Plan]] | None = None) -> SceneChange:
         nonlocal done
@@ -125,7 +115,7 @@ def reframe(
 
     for beside in independent_rounds(
         (group, {plan.obj.data for plan in group}.union(*(touched[plan.obj] for plan in group)))
-        for group in _groups(plans)
+        for group in _groups(plan for plan in plans if plan.obj not in carried_out)
     ):
         again: list[list[Plan]] = []
         run_change(context, run_together(attempt(group, again if len(beside) > 1 else None) for group in beside))
@@ -177,7 +167,7 @@ def _reframe_group(group: list[Plan], users: dict[Object, set[Object]]) -> Scene
     succeeded = False
     try:
         yield from run_together(set_world_matrix(plan) for plan in group)
-        change = _data_change(group[0], was[group[0].obj])
+        change = data_change(was[group[0].obj], world(group[0].obj), group[0].move_only)
         trial = data.copy()
         transform_data(trial, change)
         for obj in objects:
@@ -268,7 +258,7 @@ def set_world_matrix(plan: Plan) -> SceneChange:
     if np.abs(now[:3, 3] - plan.target[:3, 3]).max() > location_tolerance(obj, plan.size):
         raise EditRefusedError("location_constrained")
     scale = np.abs(plan.target[:3, :3]).max()
-    if np.abs(now[:3, :3] - plan.target[:3, :3]).max() > 2e-6 * scale:
+    if np.abs(now[:3, :3] - plan.target[:3, :3]).max() > MAX_SHEAR * scale:
         raise EditRefusedError("rotation_constrained")
 
 
@@ -282,24 +272,6 @@ def _parent_matrix(obj: Object) -> Matrix4:
     if abs(np.linalg.det(local[:3, :3])) == 0.0:
         raise EditRefusedError("scale_zero_axis")
     return solve(local.T, world(obj).T).T
-
-
-def _data_change(plan: Plan, was: Matrix4) -> Matrix4:
-    now = world(plan.obj)
-    change = solve(now, was)
-    if plan.move_only:
-        change[:3, :3] = np.eye(3)
-        change[:3, 3] = np.linalg.solve(was[:3, :3], was[:3, 3] - now[:3, 3])
-    change[3] = (0.0, 0.0, 0.0, 1.0)
-    return change
-
-
-def location_tolerance(obj: Object, size: float) -> float:
-    """How near to a point an origin can be known to be: some float32 steps of every location on
-    the way to the world.
-    """
-    reach = max(np.abs(world(ancestor)[:3, 3]).max() for ancestor in ancestors(obj))
-    return 4e-7 * size + 4.0 * FLOAT32 * reach
 
 
 # Data

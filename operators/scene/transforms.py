@@ -24,6 +24,7 @@ from ...core.numerics.rotations import quaternion, rotation_matrix
 from ...core.verdict.finding import EditRefusedError
 
 FLOAT32 = float(np.finfo(np.float32).eps)
+MAX_SHEAR = 2e-6  # of a float32 matrix that is a rotation times a scale
 
 Matrix3 = NDArray[np.float64]
 Matrix4 = NDArray[np.float64]
@@ -52,12 +53,13 @@ def solve(matrix: Matrix4, right_side: Matrix4) -> Matrix4:
     return np.asarray(np.linalg.solve(matrix, right_side), np.float64)
 
 
-def _turn(axis: int, angle: float) -> Matrix3:
-    matrix = np.eye(3)
+def _turn(axis: int, angle: NDArray) -> NDArray[np.float64]:
+    matrix = np.zeros((*np.shape(angle), 3, 3))
     j, k = (axis + 1) % 3, (axis + 2) % 3
-    matrix[j, j] = matrix[k, k] = cos(angle)
-    matrix[k, j] = sin(angle)
-    matrix[j, k] = -matrix[k, j]
+    matrix[..., axis, axis] = 1.0
+    matrix[..., j, j] = matrix[..., k, k] = np.cos(angle)
+    matrix[..., k, j] = np.sin(angle)
+    matrix[..., j, k] = -matrix[..., k, j]
     return matrix
 
 
@@ -72,24 +74,23 @@ def euler_matrix(angles: NDArray, mode: str) -> Matrix3:
     return _turn(k, angles[k]) @ _turn(j, angles[j]) @ _turn(i, angles[i])
 
 
-def euler_angles(rotation: Matrix3, mode: str, near: NDArray) -> NDArray[np.float64]:
-    """(3,) angles by axis x, y, z that rebuild `rotation`, those of all equal ones that are
-    nearest to `near`.
+def euler_angles(rotation: NDArray, mode: str, near: NDArray) -> NDArray[np.float64]:
+    """(..., 3) angles by axis x, y, z that rebuild rotations (..., 3, 3), those of all equal ones that are nearest to
+    `near`, (..., 3).
     """
     i, j, k, s = _order(mode)
-    locked = np.hypot(rotation[k, j], rotation[k, k]) < 1e-7
-    first = near[i] if locked else atan2(s * rotation[k, j], rotation[k, k])
-    best = None
+    locked = np.hypot(rotation[..., k, j], rotation[..., k, k]) < 1e-7
+    first = np.where(locked, near[..., i], np.arctan2(s * rotation[..., k, j], rotation[..., k, k]))
+    both = []
     for a in (first, first + pi):
-        rest = rotation @ _turn(i, a).T
-        angles = np.empty(3)
-        angles[i] = a
-        angles[j] = atan2(-s * rest[k, i], rest[k, k])
-        angles[k] = atan2(-s * rest[i, j], rest[j, j])
-        angles -= 2.0 * pi * np.round((angles - near) / (2.0 * pi))
-        if best is None or np.abs(angles - near).sum() < np.abs(best - near).sum() - 1e-9:
-            best = angles
-    return best
+        rest = rotation @ _turn(i, a).swapaxes(-1, -2)
+        angles = np.empty(near.shape)
+        angles[..., i] = a
+        angles[..., j] = np.arctan2(-s * rest[..., k, i], rest[..., k, k])
+        angles[..., k] = np.arctan2(-s * rest[..., i, j], rest[..., j, j])
+        both.append(angles - 2.0 * pi * np.round((angles - near) / (2.0 * pi)))
+    ahead, behind = (np.abs(angles - near).sum(axis=-1, keepdims=True) for angles in both)
+    return np.where(behind < ahead - 1e-9, both[1], both[0])
 
 
 def _rotation(obj: Object) -> Matrix3:
@@ -127,22 +128,30 @@ def set_location(obj: Object, location: NDArray, tolerance: float) -> None:
     _assign(obj, "location", channel_location, obj.lock_location, tolerance)
 
 
+def rotation_and_scale(linear: NDArray, scale: NDArray) -> tuple[NDArray[np.float64], NDArray, NDArray[np.bool_]]:
+    """Rotations (..., 3, 3) and scales (..., 3) that make up linear maps, with the signs of the present scales as far
+    as their hand allows, and (...,) which of the maps are that: not sheared, and with no zero scale."""
+    length = np.linalg.norm(linear, axis=-2)
+    sign = np.where(scale < 0.0, -1.0, 1.0)
+    sign[..., 0] *= np.where(np.prod(sign, axis=-1) * np.linalg.det(linear) < 0.0, -1.0, 1.0)
+    is_scaled = length.min(axis=-1) > 0.0
+    with np.errstate(divide="ignore", invalid="ignore"):
+        unscaled = np.where(is_scaled[..., None, None], linear / (length * sign)[..., None, :], np.eye(3))
+    u, _, vt = np.linalg.svd(unscaled)
+    off = np.abs(unscaled.swapaxes(-1, -2) @ unscaled - np.eye(3)).max(axis=(-2, -1))
+    return u @ vt, length * sign, is_scaled & (off <= MAX_SHEAR)
+
+
 def set_rotation_and_scale(obj: Object, linear: Matrix3) -> None:
     """Make the 3×3 part of the basis `linear`, a rotation times a scale; EditRefusedError where it is sheared."""
-    length = np.linalg.norm(linear, axis=0)
     delta_scale = np.array(obj.delta_scale, np.float64)
-    if length.min() <= 0.0 or np.abs(delta_scale).min() == 0.0:
+    if np.linalg.norm(linear, axis=0).min() <= 0.0 or np.abs(delta_scale).min() == 0.0:
         raise EditRefusedError("parent_or_delta_scale_zero")
-    sign = np.sign(np.array(obj.scale, np.float64) * delta_scale)
-    sign[sign == 0.0] = 1.0
-    if np.prod(sign) * np.linalg.det(linear) < 0.0:
-        sign[0] = -sign[0]
-    unscaled = linear / (length * sign)
-    if np.abs(unscaled.T @ unscaled - np.eye(3)).max() > 2e-6:
+    turn, scale, is_even = rotation_and_scale(linear, np.array(obj.scale, np.float64) * delta_scale)
+    if not is_even:
         raise EditRefusedError("parent_shears")
-    u, _, vt = np.linalg.svd(unscaled)
-    _assign(obj, "scale", length * sign / delta_scale, obj.lock_scale)
-    rotation = _delta_rotation(obj).T @ (u @ vt)
+    _assign(obj, "scale", scale / delta_scale, obj.lock_scale)
+    rotation = _delta_rotation(obj).T @ turn
     mode = obj.rotation_mode
     if mode in {"QUATERNION", "AXIS_ANGLE"}:
         q = quaternion(rotation)

@@ -16,7 +16,8 @@ class MeasureOptions:
     "union"; wall: of a shell, "thin", "inward", "outward" or "centered"; unit_scale: meters per Blender unit, else the
     scene's. order: of the moments that the measurement is to hold; None for what mass properties need. surface: those
     of the area too. pose: the principal frame follows the body's shape to sixth order however many faces it has.
-    compare: whether what needs no display mesh is compared with it.
+    compare: whether what needs no display mesh is compared with it. axes: whether moments above third order choose the
+    principal axes where these leave a choice; without, they are any of those that are left.
     """
 
     kind: str | None = None
@@ -31,6 +32,7 @@ class MeasureOptions:
     surface: bool = False
     pose: bool = False
     compare: bool = True
+    axes: bool = True
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,7 @@ between two measured frames.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -44,7 +44,8 @@ STRICT_PROPERTY = BoolProperty(
     ),
     default=False,
 )
-POSE = MeasureOptions(pose=True)
+POSE, CENTER = MeasureOptions(pose=True), MeasureOptions(axes=False)
+NOTHING: Mapping[Object, Measured | Stacked] = {}
 MAX_DIRECTION_NOISE = 1e-3  # what float32 coordinates may turn directions by that moments of higher order fix
 DIAGONAL_RTOL = 4e-7  # of the trace: what float32 coordinates leave of products of inertia
 
@@ -112,13 +113,13 @@ def snap_target(context: Context, obj: Object, strict: bool = False) -> SnapTarg
 
 def target_of(context: Context, obj: Object, measured: Measured | Stacked, strict: bool) -> SnapTarget:
     """What `snap_target` says of an object that was measured."""
-    measurement = measured.measurement
-    if measurement.method.verdict == Verdict.OPEN:
+    if measured.method.verdict == Verdict.OPEN:
         raise EditRefusedError("open_object")
     unit = shortest_decimal(context.scene.unit_settings.scale_length)
-    body = measurement.mass_properties
+    body = measured.mass_properties
     principal = body.principal
     if strict:
+        measurement = measured.measurement
         body_of = None if isinstance(measured, Stacked) or measurement.kind == "shell" else measured.body
         refine = None if body_of is None or body_of.mass is not None else body_of.third_order
         principal = zhang_chen_frame(measurement.mass_moments[0], refine)
@@ -135,16 +136,21 @@ def target_of(context: Context, obj: Object, measured: Measured | Stacked, stric
     )
 
 
-def remeasure(context: Context, objects: list[Object]) -> None:
+def remeasure(
+    context: Context, objects: Sequence[Object], known: Mapping[Object, Measured | Stacked] = NOTHING
+) -> None:
     """Measure and store again the objects that carry results: an operator that moved them keeps
-    them up to date.
+    them up to date. known: what those of them that have not moved since then were measured as.
     """
     stored = [obj for obj in objects if properties.is_stored(obj)]
     if not stored:
         return
-    context.view_layer.update()
-    measured, fresh, shapes = [], [], {}
-    for together in measure_many(stored, context.evaluated_depsgraph_get(), POSE):
+    measured, fresh, shapes = [(obj, known[obj]) for obj in stored if obj in known], [], {}
+    shapes.update((obj, outcome.shape_digest) for obj, outcome in measured if isinstance(outcome, Stacked))
+    unknown = [obj for obj in stored if obj not in known]
+    if unknown:
+        context.view_layer.update()
+    for together in measure_many(unknown, context.evaluated_depsgraph_get(), POSE):
         for obj, outcome in together:
             if isinstance(outcome, Exception):  # what is stored stays, and the panel shows that it is out of date
                 internal_error.finding_of(outcome)
@@ -169,28 +175,35 @@ def reframe_objects(
 ) -> tuple[list[reframe.Plan], list[Finding]]:
     """Do for objects what `reframe_selected` does; what was changed, and why others were not."""
 
-    def plans_of(chosen: Sequence[Object]) -> tuple[list[reframe.Plan], list[Finding]]:
+    def plans_of(
+        chosen: Sequence[Object], right: dict[Object, Measured | Stacked] | None = None
+    ) -> tuple[list[reframe.Plan], list[Finding]]:
+        """right: gets the measurements of those that have to be stored and are right as they are."""
         plans: list[reframe.Plan] = []
-        target_in_turn = targets_in_turn(context, chosen, strict)
+        measured = measured_in_turn(chosen, context.evaluated_depsgraph_get(), CENTER if move_only else POSE)
 
         def plan(obj: Object) -> bool:
             reframe.check(obj)
-            body = target_in_turn(obj)
+            outcome = measured(obj)
+            body = target_of(context, obj, outcome, strict)
             target = target_matrix(obj, body)
             if target is not None:
                 plans.append(reframe.Plan(obj, target, body.size, move_only=move_only))
+            elif right is not None and properties.is_stored(obj):
+                right[obj] = outcome
             return True
 
         return plans, selection.apply_to_all(chosen, plan)[1]
 
     plans, failures = plans_of(objects)
+    known: dict[Object, Measured | Stacked] = {}
     with assembly.kept_up_to_date(context):
         with paused(), progress(len(plans)) as step:
             changed, refused = reframe.reframe(context, plans, step)
             failures += [reports.failure(obj.name_full, refusal) for obj, refusal in refused]
             if not move_only:  # without its scale Blender cuts what is not flat into other triangles: another body
-                reframe.reframe(context, plans_of([plan_done.obj for plan_done in changed])[0])
-        remeasure(context, [plan.obj for plan in changed])
+                reframe.reframe(context, plans_of([plan_done.obj for plan_done in changed], known)[0])
+        remeasure(context, [plan.obj for plan in changed], known)
     if not move_only:
         staleness.mark_axes_changed(plan.obj for plan in changed)
     return changed, failures

@@ -1,0 +1,203 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Many meshes that get another origin and other axes at once: of objects that show their mesh as it is, without
+modifiers, and to which nothing refers.
+
+Where their points come to lie is known, so that no trial is needed. Objects that share a mesh and want the same change
+of it go on sharing; for other changes, and where others use the mesh, too, it is copied. What is not as it should be after the objects were
+moved is put back and left to `reframe`, which looks at each by itself.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+from bpy.types import Context, Mesh, Object
+from mathutils import Matrix
+from numpy.typing import NDArray
+
+from ...core.verdict.finding import Finding, finding
+from .dependents import SAME_SHAPE_RTOL
+from .transforms import (
+    FLOAT32,
+    MAX_SHEAR,
+    Matrix4,
+    TransformChannels,
+    ancestors,
+    euler_angles,
+    rotation_and_scale,
+    world,
+)
+
+UNCHANGED = (0.0, 0.0, 0.0), (0.0, 0.0, 0.0), (1.0, 1.0, 1.0)
+
+
+@dataclass
+class Plan:
+    """What one object is to become.
+
+    target: (4, 4) the wanted matrix_world. size: of the body, in Blender units. move_only: the axes
+        are kept to the bit.
+    """
+
+    obj: Object
+    target: Matrix4
+    size: float
+    move_only: bool
+    findings: list[Finding] = field(default_factory=list)
+
+
+def location_tolerance(obj: Object, size: float) -> float:
+    """How near to a point an origin can be known to be: some float32 steps of every location on
+    the way to the world.
+    """
+    reach = max(np.abs(world(ancestor)[:3, 3]).max() for ancestor in ancestors(obj))
+    return 4e-7 * size + 4.0 * FLOAT32 * reach
+
+
+def data_change(was: NDArray, now: NDArray, move_only: bool) -> NDArray[np.float64]:
+    """(..., 4, 4) what points have to be multiplied with so that they stay where they are while their objects' matrices
+    go from `was` to `now`."""
+    change = np.linalg.solve(now, was)
+    if move_only:
+        change[..., :3, :3] = np.eye(3)
+        off = was[..., :3, 3:] - now[..., :3, 3:]
+        change[..., :3, 3:] = np.linalg.solve(was[..., :3, :3], off)
+    change[..., 3, :] = (0.0, 0.0, 0.0, 1.0)
+    return change
+
+
+def shows_own_mesh(obj: Object, users: dict[Object, set[Object]]) -> bool:
+    """Whether what is seen of an object is its mesh as it is, nothing else has to do with the object, and where it
+    stands is its location, rotation and scale alone, free to change."""
+    data = obj.data
+    return (
+        obj.type == "MESH"
+        and not users.get(obj)
+        and not obj.modifiers
+        and not obj.constraints
+        and obj.parent is None
+        and obj.animation_data is None
+        and obj.mode == "OBJECT"
+        and obj.instance_type == "NONE"
+        and obj.rotation_mode not in {"QUATERNION", "AXIS_ANGLE"}
+        and data.shape_keys is None
+        and data.animation_data is None
+        and (tuple(obj.delta_location), tuple(obj.delta_rotation_euler), tuple(obj.delta_scale)) == UNCHANGED
+        and not (any(obj.lock_location) or any(obj.lock_rotation) or any(obj.lock_scale))
+    )
+
+
+def reframe_own_meshes(context: Context, plans: Sequence[Plan]) -> list[Object]:
+    """Carry out plans for objects of which `shows_own_mesh` holds; those that are done. The others are as they were."""
+    done: list[Object] = []
+    for move_only in (True, False):
+        some = [plan for plan in plans if plan.move_only == move_only]
+        if some:
+            done += _reframe_alike(context, some, move_only)
+    return done
+
+
+def _reframe_alike(context: Context, plans: Sequence[Plan], move_only: bool) -> list[Object]:
+    objects = [plan.obj for plan in plans]
+    targets, was = np.array([plan.target for plan in plans]), _worlds(objects)
+    channels = [TransformChannels(obj) for obj in objects]
+    fits = np.ones(len(plans), bool)
+    for obj, location in zip(objects, targets[:, :3, 3].tolist()):
+        obj.location = location
+    if not move_only:
+        fits = _set_rotations_and_scales(objects, targets[:, :3, :3])
+    context.view_layer.update()
+    now = _worlds(objects)
+    change = data_change(was, now, move_only)
+    size = np.array([plan.size for plan in plans])
+    off = np.abs(now - targets)
+    fits &= off[:, :3, 3].max(axis=1) <= 4e-7 * size + 4.0 * FLOAT32 * np.abs(now[:, :3, 3]).max(axis=1)
+    fits &= off[:, :3, :3].max(axis=(1, 2)) <= MAX_SHEAR * np.abs(targets[:, :3, :3]).max(axis=(1, 2))
+    # what rounding may move points by that come to lie far from their origin
+    boxes = np.array([obj.bound_box for obj in objects]) @ change[:, :3, :3].swapaxes(1, 2) + change[:, None, :3, 3]
+    largest = np.abs(now[:, :3, :3]).sum(axis=2).max(axis=1)
+    fits &= FLOAT32 * np.abs(boxes).max(axis=(1, 2)) * largest <= SAME_SHAPE_RTOL * size
+    for i in np.flatnonzero(~fits).tolist():
+        channels[i].restore()
+    chosen = np.flatnonzero(fits)
+    owners = _give_meshes([plans[i] for i in chosen.tolist()], change[chosen], np.abs(boxes[chosen]).max(axis=(1, 2)))
+    _transform_meshes([objects[chosen[i]].data for i in owners], change[chosen[owners]])
+    context.view_layer.update()
+    return [objects[i] for i in chosen.tolist()]
+
+
+def _give_meshes(plans: Sequence[Plan], changes: NDArray, reach: NDArray) -> list[int]:
+    """Copy meshes for objects that share them and want different changes, (n, 4, 4), of points as far out as `reach`
+    says; for each mesh that then has to be changed, the first of the plans that want it."""
+    sharing: dict[Mesh, list[int]] = {}
+    for i, plan in enumerate(plans):
+        sharing.setdefault(plan.obj.data, []).append(i)
+    owners: list[int] = []
+    for mesh, members in sharing.items():
+        is_all = mesh.users - mesh.use_fake_user == len(members)
+        groups = _alike(changes[members], reach[members], [SAME_SHAPE_RTOL * plans[i].size for i in members])
+        for number, group in enumerate(groups):
+            owners.append(members[group[0]])
+            if number or not is_all:
+                copy = mesh.copy()
+                for plan in [plans[members[i]] for i in group]:
+                    plan.obj.data = copy
+                    plan.findings.append(finding("data_copied"))
+    return owners
+
+
+def _alike(changes: NDArray, reach: NDArray, within: Sequence[float]) -> list[list[int]]:
+    """Which of the changes move no point farther apart than is allowed."""
+    groups: list[list[int]] = []
+    left = np.arange(len(changes))
+    while len(left):
+        off = np.abs(changes[left] - changes[left[0]])
+        far = off[:, :3, :3].sum(axis=(1, 2)) * reach[left[0]] + off[:, :3, 3].max(axis=1)
+        near = far <= within[left[0]]
+        near[0] = True
+        groups.append(left[near].tolist())
+        left = left[~near]
+    return groups
+
+
+def _worlds(objects: Sequence[Object]) -> NDArray[np.float64]:
+    return np.array([obj.matrix_world for obj in objects], np.float64).reshape(-1, 4, 4)
+
+
+def _set_rotations_and_scales(objects: Sequence[Object], linear: NDArray) -> NDArray[np.bool_]:
+    """Set what makes objects' matrices these, (n, 3, 3); of which of them that is possible."""
+    turns, scales, fits = rotation_and_scale(linear, np.array([obj.scale for obj in objects], np.float64))
+    modes = np.array([obj.rotation_mode for obj in objects])
+    near = np.array([obj.rotation_euler for obj in objects], np.float64)
+    angles = near.copy()
+    for mode in np.unique(modes).tolist():
+        rows = np.flatnonzero(modes == mode)
+        angles[rows] = euler_angles(turns[rows], mode, near[rows])
+    for obj, own, scale in zip(objects, angles.tolist(), scales.tolist()):
+        obj.rotation_euler, obj.scale = own, scale
+    return fits
+
+
+def _transform_meshes(meshes: Sequence[Mesh], changes: NDArray) -> None:
+    """p → change · p for the points of each, in float64."""
+    flips = np.linalg.det(changes[:, :3, :3]) < 0.0
+    counts = [len(mesh.vertices) for mesh in meshes]
+    ends = np.cumsum([0, *counts]).tolist()
+    points = np.empty((ends[-1], 3), np.float32)
+    for mesh, start, end in zip(meshes, ends, ends[1:]):
+        mesh.attributes["position"].data.foreach_get("vector", points[start:end].reshape(-1))
+    owner = np.repeat(np.arange(len(meshes)), counts)
+    moved = changes[owner, :3, 3]
+    for axis in range(3):
+        moved += changes[owner, :3, axis] * points[:, axis, None].astype(np.float64)
+    points = moved.astype(np.float32)
+    for mesh, start, end, change, is_flipped in zip(meshes, ends, ends[1:], changes, flips.tolist()):
+        if mesh.has_custom_normals:
+            mesh.transform(Matrix(change))  # turns them, too
+        mesh.attributes["position"].data.foreach_set("vector", points[start:end].reshape(-1))
+        if is_flipped:
+            mesh.flip_normals()
+        mesh.update()
