@@ -32,7 +32,7 @@ from .canonical_frame import (
 )
 from .second_order import EQUAL_AXES, HALF_TURN_SIGNS, SYMMETRIES, SecondOrderFrames
 
-GRID = 2.0**-20  # of normalized moments, times NOISE_GROWTH: a tenth of NOISE_LEVEL
+GRID = 1e-6  # of normalized moments, times NOISE_GROWTH: a tenth of NOISE_LEVEL
 LEAST_BOUND = 2.0**-30  # bounds below this are that, others are rounded up to three binary digits: copies have the same
 MAX_KNOWN = 1024  # problems that are remembered
 MAX_CORRECTION = 1e-4  # frames that a refinement turns by more are looked for by themselves

@@ -4,8 +4,8 @@
 modifiers, and to which nothing refers.
 
 Where their points come to lie is known, so that no trial is needed. Objects that share a mesh and want the same change
-of it go on sharing; for other changes, and where others use the mesh, too, it is copied. What is not as it should be after the objects were
-moved is put back and left to `reframe`, which looks at each by itself.
+of it go on sharing; for other changes, and where others use the mesh, too, it is copied. What is not as it should be
+after the objects were moved is put back and left to `reframe`, which looks at each by itself.
 """
 
 from __future__ import annotations
@@ -170,11 +170,12 @@ def _worlds(objects: Sequence[Object]) -> NDArray[np.float64]:
 def _set_rotations_and_scales(objects: Sequence[Object], linear: NDArray) -> NDArray[np.bool_]:
     """Set what makes objects' matrices these, (n, 3, 3); of which of them that is possible."""
     turns, scales, fits = rotation_and_scale(linear, np.array([obj.scale for obj in objects], np.float64))
-    modes = np.array([obj.rotation_mode for obj in objects])
+    rows_by_mode: dict[str, list[int]] = {}
+    for row, obj in enumerate(objects):
+        rows_by_mode.setdefault(obj.rotation_mode, []).append(row)
     near = np.array([obj.rotation_euler for obj in objects], np.float64)
     angles = near.copy()
-    for mode in np.unique(modes).tolist():
-        rows = np.flatnonzero(modes == mode)
+    for mode, rows in rows_by_mode.items():
         angles[rows] = euler_angles(turns[rows], mode, near[rows])
     for obj, own, scale in zip(objects, angles.tolist(), scales.tolist()):
         obj.rotation_euler, obj.scale = own, scale
