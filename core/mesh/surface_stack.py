@@ -202,9 +202,10 @@ class SurfaceStack:
         used[self.triangles] = True
         return np.logical_and.reduceat(used, self.first_point)
 
-    def component_counts(self) -> NDArray[np.intp]:
+    def closed_components(self) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
         """(n,) of each surface that its own edges prove closed and oriented, as `closed_side_faces` says, how many
-        components it has; 0 of others."""
+        components it has, 0 of others; and (f,) the component of each face, numbered in the order of their first faces,
+        which means nothing in those others."""
         sizes, corners = self.face_sizes, self.corner_vertices
         first_face = self.first_face
         fits = np.add.reduceat(sizes, first_face) == self.corner_counts
@@ -229,7 +230,7 @@ class SurfaceStack:
         linked = above & below
         component, _ = connected_components(len(sizes), *sides.reshape(2, count)[:, linked])
         last = np.maximum.reduceat(component, first_face)  # they are numbered in the order of their first faces
-        return np.where(closed, np.diff(last, prepend=-1), 0)
+        return np.where(closed, np.diff(last, prepend=-1), 0), component
 
 
 def _faces(surface: Surface, name: str) -> NDArray[np.integer]:

@@ -26,7 +26,13 @@ from ...core.moments.moments import Moments, image, stack_moments
 from ...core.numerics.rotations import rotation_matrix
 from ...core.polyhedron import area_of_images, polyhedron_moments
 from ...core.solid.measure_solid import SolidIntegrals, measure_solid
-from ...core.solid.solid_stack import SolidStack, can_be_stacked, measure_stack
+from ...core.solid.solid_stack import (
+    SolidStack,
+    can_be_stacked,
+    is_small,
+    measure_stack,
+    small_moments_to_order,
+)
 from ...core.verdict.finding import Finding, MeasureError
 from ...core.verdict.health import DefectiveElements, MeshReport
 from ...core.verdict.method import Method, Verdict
@@ -337,9 +343,14 @@ def measure_members(members: list[Member], shapes: list[Shape], unit: float, axe
             found = solids.to_order(needed[together], MAX_ORDER)
             for row, i in enumerate(together):
                 sixth[i] = found.at(row)
-        for i, each in enumerate(shapes):
-            if each.alone is not None:
-                sixth[i] = each.sixth_order()
+        alone = [i for i, each in enumerate(shapes) if each.alone is not None]
+        small = [i for i in alone if is_small(shapes[i].alone.repaired_surface)]
+        if small:
+            found = small_moments_to_order([shapes[i].alone for i in small], MAX_ORDER)
+            for row, i in enumerate(small):
+                sixth[i] = found.at(row)
+        for i in set(alone).difference(small):
+            sixth[i] = shapes[i].sixth_order()
         return own_moments(sixth, shape.ravel(), matrices[left, :3, :3])
 
     properties = MassProperties.of_stack(volume, density, rotation, fixed, higher if axes else None)
