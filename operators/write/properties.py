@@ -205,9 +205,9 @@ def _replace(obj: Owner, values: dict) -> None:
     before = {key: obj[key] for key in DESCRIPTIONS if key in obj}
     before = {key: value.to_list() if hasattr(value, "to_list") else value for key, value in before.items()}
     try:
-        _write(obj, values)
+        _write(obj, values, before)
     except BaseException:
-        _write(obj, before)
+        _write(obj, before, {})
         raise
 
 
@@ -237,15 +237,17 @@ def store_scaled(obj: Owner, density: float, mass: float, findings: Sequence[Fin
     retrigger_drivers(obj)
 
 
-def _write(obj: Owner, values: dict) -> None:
-    """Makes these, by their keys, the only results of the object."""
+def _write(obj: Owner, values: dict, before: dict) -> None:
+    """Makes these, by their keys, the only results of the object. before: those that are there, whose descriptions stay
+    where the kind of value does."""
     for key in DESCRIPTIONS:
         if key not in values and key in obj:
             del obj[key]
     for key, value in values.items():
-        obj[key] = value
-        if not isinstance(value, str):
-            obj.id_properties_ui(key).update(description=_description(key, type(obj)), precision=6)
+        if type(before.get(key)) is type(value):
+            obj[key] = value
+        else:
+            _set(obj, key, value)
 
 
 def _set(obj: Owner, key: str, value: object) -> None:
