@@ -24,9 +24,8 @@ import bpy
 from ...core.measurement import Measurement
 from ...core.verdict import internal_error
 from ...core.verdict.finding import FileError, Finding, MeasureError, finding
-from ...core.verdict.method import Source
-from ..bodies.measure_object import THREADS, measure_object
-from ..bodies.shape import NoShapeError, shape_of
+from ..bodies.measure_object import THREADS, Measured
+from ..bodies.stack import Stacked
 from ..read.quiet import paused
 from ..read.total_caveats import boolean_operands, open_body_caveats, total_caveats
 from ..session.staleness import mark_up_to_date
@@ -43,6 +42,7 @@ from .combined import Combined, measure_combined
 from .file_options import is_unitless, unit_findings, unused_array_options, unused_options
 from .files import BLEND, file_suffix, newer_version, open_file
 from .interruption import Progress, check_interruption
+from .measuring import measure_shape, measured_together
 from .objects import failure, objects_to_measure, other_scenes, why_nothing
 from .opened import Opened
 from .references import blocked_scripts, missing_links
@@ -144,12 +144,13 @@ class Run:
                     *newer_version(),
                 )
                 operands = boolean_operands(bpy.context.scene) if self.options.object is None else {}
+                in_turn = measured_together([obj for _, obj in chosen], self.options, wanted)
                 for label, obj in chosen:
                     user = operands.get(obj)
                     cut = [] if user is None else [finding("solid_operand_measured", object=user.name)]
                     try:
                         about = (*opened.by_object.get(obj.name, ()), *of_file, *cut)
-                        one, entry = self._measure_record(label, obj, wanted, about, errors)
+                        one, entry = self._measure_record(label, obj, wanted, in_turn, about, errors)
                     except MeasureError as refusal:
                         errors.append(failure(label, refusal.finding))
                     except Exception as error:
@@ -204,20 +205,25 @@ class Run:
         label: str,
         obj: bpy.types.Object,
         measure_options: MeasureOptions,
+        in_turn: Callable[[bpy.types.Object], Measured | Stacked] | None,
         findings: tuple[Finding, ...],
         errors: list[dict[str, Any]],
     ) -> tuple[Measurement, dict[str, Any]]:
         """An object's measurement and its record. What has no moments of the order that was asked for may have a mass:
-        then the record goes without them, and an error is added that says so. findings: about its file.
+        then the record goes without them, and an error is added that says so. in_turn: measures the objects
+        together; None where each has to be measured by itself. findings: about its file.
         """
         order = self.options.order
         density_options.apply(obj, self.options)
         try:
-            measurement, more, of_shape = self._measure(obj, measure_options)
+            measurement, more, of_shape = (
+                (in_turn(obj).measurement, {}, ()) if in_turn else measure_shape(obj, self.options, measure_options)
+            )
         except MeasureError as refusal:
             if order is None:
                 raise
-            measurement, more, of_shape = self._measure(obj, replace(measure_options, order=None, surface=False))
+            lower = replace(measure_options, order=None, surface=False)
+            measurement, more, of_shape = measure_shape(obj, self.options, lower)
             errors.append(failure(label, finding("moments_unavailable", cause=refusal.finding.as_record())))
             order = None
         surface = measurement.area_moments if self.options.surface_moments and order is not None else None
@@ -273,31 +279,6 @@ class Run:
             yield failure(label, finding("fourier_not_written", error=error.strerror or str(error)))
         except Exception as error:
             yield self._internal_error(label, error)
-
-    def _measure(
-        self, obj: bpy.types.Object, measure_options: MeasureOptions
-    ) -> tuple[Measurement, dict[str, Any], tuple[Finding, ...]]:
-        """The object's measurement, its pose and signature where they are asked for, and findings about these. Pose and
-        signature are None for what has no shape of its own, which is measured all the same.
-        """
-        depsgraph = bpy.context.evaluated_depsgraph_get()
-        requested = [name for name in ("pose", "signature") if getattr(self.options, name)]
-        if not requested:
-            return measure_object(obj, depsgraph, measure_options), {}, ()
-        try:
-            shape = shape_of(obj, depsgraph, measure_options)
-        except NoShapeError as refusal:
-            return refusal.measurement, dict.fromkeys(requested), (refusal.finding,)
-        more: dict[str, Any] = {"pose": shape.pose()} if self.options.pose else {}
-        findings: tuple[Finding, ...] = ()
-        if self.options.signature and shape.has_surface:
-            more["signature"] = shape.signature().as_record()
-            if shape.measurement.method.source == Source.NURBS:
-                findings = (finding("signature_of_display_mesh"),)
-        elif self.options.signature:
-            more["signature"] = None
-            findings = (finding("signature_needs_polygons"),)
-        return shape.measurement, more, findings
 
     def _internal_error(self, name: str | None, error: Exception) -> dict[str, Any]:
         reason = internal_error.finding_of(error)
