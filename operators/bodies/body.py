@@ -209,6 +209,16 @@ def with_known(moments: Moments, known: Moments) -> Moments:
     )
 
 
+def with_input_error(moments: Moments, known: Moments) -> Moments:
+    """Return moments with the bounds of what storing may have moved of those that are known to a lower order, about the
+    same point, where the areas of the faces made them smaller."""
+    if not np.array_equal(moments.about, known.about):
+        return moments
+    error = moments.input_error.copy()
+    error[: len(known.raw)] = np.minimum(error[: len(known.raw)], known.input_error)
+    return replace(moments, input_error=error)
+
+
 def own_moments(shapes: Sequence[Moments], which: NDArray[np.intp], linear: NDArray) -> OwnMoments:
     """Return the moments of bodies that are images of shapes in their own coordinates.
 

@@ -53,7 +53,7 @@ def measurement_of(reading: Reading | VolumeReading, body: Body, request: Reques
         refine=None if shell or body.mass is not None else body.third_order,
         higher=higher if uses_high_order else None,
     )
-    left_open = not uses_high_order and higher is not None and not properties.principal.is_unique
+    left_open = options.axes and not uses_high_order and higher is not None and not properties.principal.is_unique
     frame = (finding("axes_from_third_order"),) if left_open else ()
     given = DENSITY_FROM_VALUE if options.mass is None else DENSITY_FROM_MASS
     volume_moments, area_moments = None if thin else solid, body.area

@@ -34,7 +34,7 @@ from ...core.shape.zernike import MAX_DESCRIPTOR_ERROR, MAX_ORDER_BY_MOMENTS, ze
 from ...core.verdict.finding import ReadError
 from ...core.verdict.method import Source, Verdict
 from ..settings.options import MeasureOptions
-from .body import Body
+from .body import Body, with_input_error
 from .measure_object import THREADS, measure_body
 
 # of the size: between them single precision mistakes the distances of thin triangles
@@ -69,7 +69,8 @@ class Shape:
         found = area if self._sheets and area is not None else volume
         if not np.isfinite([found.raw, found.rounding_error]).all():
             raise ReadError("object_too_large")
-        return found.about_center()
+        known = self.body.area if self._sheets else self.body.volume
+        return with_input_error(found, known).about_center()
 
     def piece_moments(self) -> Moments:
         """As `moments`, of the polygons alone: what has to be compared with them."""
@@ -172,7 +173,7 @@ class NoShapeError(ReadError):
 
 def surface_shape_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> Shape:
     """As `shape_of`, of bodies with polygons only, in threads."""
-    shape = shape_of(obj, depsgraph, MeasureOptions(threads=THREADS))
+    shape = shape_of(obj, depsgraph, MeasureOptions(threads=THREADS, axes=False))
     if not shape.has_surface:
         raise NoShapeError("signature_needs_polygons", shape.measurement)
     return shape

@@ -46,8 +46,9 @@ def name(path: Path) -> str:
 def nodes() -> Iterator[tuple[str, ast.AST, str]]:
     """Each node of each shipped file: the file's name, the node, where it stands."""
     for path, tree in TREES.items():
+        file = name(path)
         for node in ast.walk(tree):
-            yield name(path), node, "{}:{}".format(name(path), getattr(node, "lineno", 1))
+            yield file, node, "{}:{}".format(file, getattr(node, "lineno", 1))
 
 
 def assert_none(places: list[str]) -> None:
