@@ -137,6 +137,21 @@ def _audit(argv: list[str], channel: int, _file_needed: bool) -> int:
     return SOME_FAILED if faults or not is_written else ALL_MEASURED
 
 
+def _simplex(argv: list[str], channel: int, _file_needed: bool) -> int:
+    """Measure simplices in n dimensions."""
+    from ..core.verdict.finding import MeasureError
+    from .command import output, simplex
+    from .write.terminal import print_message
+
+    options = simplex.parse(argv)
+    try:
+        text = simplex.answer(options)
+    except (MeasureError, OSError) as error:
+        print_message(options.file, simplex.reason_of(error) if isinstance(error, OSError) else error)
+        return SOME_FAILED
+    return ALL_MEASURED if output.written([text], None, channel) else SOME_FAILED
+
+
 def _gather(argv: list[str], channel: int, file_needed: bool) -> int:
     """Prepare and gather the results of many files."""
     from .command import gather
@@ -146,7 +161,7 @@ def _gather(argv: list[str], channel: int, file_needed: bool) -> int:
 
 _GATHER = ("manifest", "merge", "to-csv", "summary", "compare", "report")
 _COMMANDS: dict[str, Callable[[list[str], int, bool], int]] = {
-    **{"similar": _similar, "audit": _audit, "child": _serve},
+    **{"similar": _similar, "audit": _audit, "simplex": _simplex, "child": _serve},
     **dict.fromkeys(_GATHER, _gather),
 }
 

@@ -5,6 +5,7 @@
 from .integration import MAX_ORDER, polyhedron_moments
 from .n_dimensions import SimplexMoments, enclosed_moments, facet_moments
 from .sheared_areas import area_of_images
+from .simplices import facets_of
 
 __all__ = [
     "MAX_ORDER",
@@ -12,5 +13,6 @@ __all__ = [
     "area_of_images",
     "enclosed_moments",
     "facet_moments",
+    "facets_of",
     "polyhedron_moments",
 ]

@@ -38,6 +38,7 @@ that Blender has open is measured. All numbers are SI: kilograms and meters.
 Files are measured by child processes, so that none of them can end the others: what crashes, hangs
 or takes too much memory has a record that says so.
 In the place of `measure`: `similar LIBRARY --to NAME` compares bodies measured with --signature;
+`simplex FILE.npz` has moments in n dimensions;
 `manifest`, `merge`, `to-csv`, `summary`, `compare` and `report` prepare and gather many results.
 BODY_MOMENTS_LIMITS in the environment changes what an array or scan may ask for, such as
 samples=2e10,unpacked_bytes=1e10,entries=5000,header_bytes=1e7.

@@ -1436,6 +1436,13 @@ MESSAGES: dict[str, Message] = {
     "progress_faces": _note("{count:.3g} faces read. Ctrl+C ends it"),
     "progress_samples": _note("{count:.3g} samples read. Ctrl+C ends it"),
     "internal_error": _error("Internal error: {type}: {error} ({where}). Please report it."),
+    # simplex
+    "simplex_arrays": _error("The file is no .npz archive with the arrays “points” and “simplices”."),
+    "simplex_points": _error("“points” must be rows of 1 to {limit} finite coordinates."),
+    "simplex_rows": _error("“simplices” must be rows of {dimension} or one more numbers of points, counted from 0."),
+    "simplex_signs": _error("“signs” must be 1 or -1 for each of the simplices."),
+    "simplex_point": _error("--about has {count} coordinates, and the points {dimension}."),
+    "simplex_too_many": _error("More than {limit} moments of order {order} in {dimension} dimensions. Choose fewer."),
     # similar
     "library_line_too_long": _error(
         "{file}: line {line} has more than {limit} bytes. Write the library with --format jsonl."

@@ -1,0 +1,74 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Simplices in n dimensions: the facets around full ones, and whether facets close."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+
+def facets_of(points: ArrayLike, simplices: ArrayLike) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
+    """Return the facets around full simplices, each turned so that what it encloses is positive.
+
+    Parameters
+    ----------
+    points : (m, n) array_like
+    simplices : (k, n + 1) array_like of int
+
+    Returns
+    -------
+    facets : ((n + 1) k, n) int array
+    signs : ((n + 1) k,) array
+        1 or -1, for `enclosed_moments`.
+
+    Examples
+    --------
+    >>> from body_moments.core.polyhedron import enclosed_moments, facets_of
+    >>> points = [[0, 0], [1, 0], [0, 1]]
+    >>> facets, signs = facets_of(points, [[0, 2, 1]])
+    >>> round(enclosed_moments(points, facets, 0, signs=signs)[0, 0], 12)
+    0.5
+    """
+    points, simplices = np.asarray(points, np.float64), np.asarray(simplices)
+    corners = points[simplices]
+    turned = np.sign(np.linalg.det(corners[:, 1:] - corners[:, :1]))
+    count = simplices.shape[1]
+    facets = [np.delete(simplices, k, axis=1) for k in range(count)]
+    signs = [turned * (-1.0) ** k for k in range(count)]
+    return np.concatenate(facets), np.concatenate(signs)
+
+
+def closes(points: ArrayLike, simplices: ArrayLike, signs: ArrayLike | None = None) -> bool:
+    """Return whether every ridge is used as often one way as the other. Points at the same place are one.
+
+    Parameters
+    ----------
+    points : (m, n) array_like
+    simplices : (k, n) array_like of int
+    signs : (k,) array_like, optional
+        As for `enclosed_moments`.
+
+    Examples
+    --------
+    >>> from body_moments.core.polyhedron.simplices import closes
+    >>> triangle = [[0, 0], [2, 0], [0, 2]]
+    >>> closes(triangle, [[0, 1], [1, 2], [2, 0]]), closes(triangle, [[0, 1], [1, 2]])
+    (True, False)
+    """
+    points, simplices = np.asarray(points, np.float64), np.asarray(simplices)
+    _, place = np.unique(points + 0.0, axis=0, return_inverse=True)
+    corners = place.reshape(-1)[simplices]
+    signs = np.ones(len(corners)) if signs is None else np.asarray(signs, np.float64)
+    order = np.argsort(corners, axis=1, kind="stable")
+    parity = signs.copy()
+    for first in range(order.shape[1]):
+        for second in range(first + 1, order.shape[1]):
+            parity[order[:, first] > order[:, second]] *= -1.0
+    corners = np.take_along_axis(corners, order, axis=1)
+    solid = (np.diff(corners, axis=1) > 0).all(axis=1)  # the others have no extent
+    corners, parity = corners[solid], parity[solid]
+    ridges = np.concatenate([np.delete(corners, k, axis=1) for k in range(corners.shape[1])])
+    uses = np.concatenate([parity * (-1.0) ** k for k in range(corners.shape[1])])
+    _, which = np.unique(ridges, axis=0, return_inverse=True)
+    return not np.bincount(which.reshape(-1), uses).any()

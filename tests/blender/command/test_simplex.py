@@ -1,0 +1,85 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""`simplex`: moments in n dimensions, against fractions."""
+
+import itertools
+import json
+import math
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from body_moments.core.polyhedron import facets_of
+from body_moments.operators import batch
+
+from tests.blender.command.test_process import script
+
+
+def answered(path, *words):
+    ended = script("simplex", path, *words)
+    return ended.returncode, json.loads(ended.stdout) if ended.stdout else ended.stderr.decode()
+
+
+def corner(dimension, exponents) -> Fraction:
+    """∫ x^α over the simplex of the origin and the unit vectors."""
+    product = math.prod(math.factorial(power) for power in exponents)
+    return Fraction(product, math.factorial(sum(exponents) + dimension))
+
+
+@pytest.mark.parametrize("dimension, order", [(1, 4), (2, 30), (3, 6), (4, 5), (7, 2)])
+@pytest.mark.parametrize("full", [True, False])
+def test_moments_of_a_corner_in_n_dimensions_are_fractions(tmp_path, capfd, dimension, order, full):
+    points = np.eye(dimension + 1, dimension)
+    simplices = np.arange(dimension + 1)[None, ::-1]
+    arrays = {"points": points, "simplices": simplices}
+    if not full:
+        facets, signs = facets_of(points, simplices)
+        arrays = {"points": points, "simplices": facets, "signs": signs}
+    np.savez(tmp_path / "a.npz", **arrays)
+    assert batch.main(["simplex", str(tmp_path / "a.npz"), "--order", str(order)], channel=1) == 0
+    record = json.loads(capfd.readouterr().out)
+    assert record["dimension"] == dimension and record["closed"] is True
+    powers = [row for row in itertools.product(range(order + 1), repeat=dimension) if sum(row) <= order]
+    assert len(record["moments"]) == len(powers)
+    for row in powers:
+        key, truth = ",".join(map(str, row)), corner(dimension, row)
+        assert abs(Fraction(record["moments"][key]) - truth) <= Fraction(record["error"][key])
+        assert record["error"][key] < 1e-10 * float(truth)
+
+
+def test_about_boundary_and_what_is_open(tmp_path):
+    square = np.array([[1, 1], [3, 1], [3, 3], [1, 3]], float)
+    np.savez(tmp_path / "a.npz", points=square, simplices=[[0, 1], [1, 2], [2, 3], [3, 0]])
+    code, record = answered(tmp_path / "a.npz", "--about", "2,2", "--boundary")
+    assert code == 0 and record["about"] == [2, 2] and record["closed"]
+    assert record["moments"]["0,0"] == pytest.approx(4.0, rel=1e-14)
+    assert record["moments"]["2,0"] == pytest.approx(4.0 / 3.0, rel=1e-14)
+    assert record["boundary"]["moments"]["0,0"] == pytest.approx(8.0, rel=1e-14)
+    np.savez(tmp_path / "a.npz", points=square, simplices=[[0, 1], [1, 2], [2, 3]])
+    assert answered(tmp_path / "a.npz")[1]["closed"] is False
+
+
+def test_wrong_files_and_options_are_said(tmp_path, capfd):
+    points = np.eye(3, 2)
+    for arrays in (
+        {"points": points},
+        {"points": points, "simplices": [[0, 1, 3]]},
+        {"points": points, "simplices": [[0.0, 1.0]]},
+        {"points": points, "simplices": [[0]]},
+        {"points": points * np.nan, "simplices": [[0, 1, 2]]},
+        {"points": np.eye(14, 13), "simplices": [range(14)]},
+        {"points": points, "simplices": [[0, 1], [1, 2]], "signs": [1, 2]},
+        {"points": np.array([object()]), "simplices": [[0]]},
+    ):
+        np.savez(tmp_path / "a.npz", **arrays)
+        assert batch.main(["simplex", str(tmp_path / "a.npz")], channel=1) == 1
+        said = capfd.readouterr()
+        assert not said.out and "a.npz" in said.err
+    (tmp_path / "a.npz").write_bytes(b"nonsense")
+    assert batch.main(["simplex", str(tmp_path / "a.npz")], channel=1) == 1
+    assert batch.main(["simplex", str(tmp_path / "missing.npz")], channel=1) == 1
+    np.savez(tmp_path / "a.npz", points=np.eye(9, 8), simplices=[range(9)])
+    assert batch.main(["simplex", str(tmp_path / "a.npz"), "--order", "30"], channel=1) == 1
+    assert batch.main(["simplex", str(tmp_path / "a.npz"), "--about", "1,2"], channel=1) == 1
+    for words in (["--order", "31"], ["--about", "1,x"], []):
+        assert batch.main(["simplex", *([str(tmp_path / "a.npz")] if words else []), *words], channel=1) == 2
