@@ -3,10 +3,9 @@
 """Meshes in files that are larger than memory, measured in blocks."""
 
 from .measure_stream import StreamIntegrals, measure_stream
-from .mesh_file import MeshFile, open_mesh_file
+from .mesh_file import open_mesh_file
 
 __all__ = [
-    "MeshFile",
     "StreamIntegrals",
     "measure_stream",
     "open_mesh_file",

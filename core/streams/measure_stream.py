@@ -34,6 +34,14 @@ class StreamIntegrals:
         Whether every edge is used as often one way as the other, by their hashes (`BoundarySum`).
     face_count : int
         Triangles and quads that were measured.
+
+    Examples
+    --------
+    >>> from body_moments.core.moments import Moments
+    >>> from body_moments.core.streams import StreamIntegrals
+    >>> nothing = Moments(np.zeros(1), np.zeros(3))
+    >>> StreamIntegrals(nothing, nothing, True, 0).closed
+    True
     """
 
     volume: Moments

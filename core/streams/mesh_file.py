@@ -28,19 +28,6 @@ class MeshFile(Protocol):
         How many faces the file promises; of a text an estimate.
     is_loose : bool
         Whether no two faces share a point: triangle i has the points 3i to 3i + 2.
-
-    Examples
-    --------
-    >>> import struct, tempfile
-    >>> from pathlib import Path
-    >>> from body_moments.core.streams import MeshFile, open_mesh_file
-    >>> with tempfile.TemporaryDirectory() as folder:
-    ...     path = Path(folder) / "one.stl"
-    ...     head, facet = struct.pack("<80xI", 1), struct.pack("<12f2x", 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0)
-    ...     _ = path.write_bytes(head + facet)
-    ...     mesh: MeshFile = open_mesh_file(path)
-    ...     mesh.face_count, mesh.box()[1].tolist()
-    (1, [1.0, 1.0, 0.0])
     """
 
     face_count: int
@@ -77,6 +64,19 @@ def open_mesh_file(path: str | Path) -> MeshFile:
         If the file is damaged, cut short, or of another kind.
     OSError
         If it cannot be read.
+
+    Examples
+    --------
+    >>> import struct, tempfile
+    >>> from pathlib import Path
+    >>> from body_moments.core.streams import open_mesh_file
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = Path(folder) / "one.stl"
+    ...     head, facet = struct.pack("<80xI", 1), struct.pack("<12f2x", 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0)
+    ...     _ = path.write_bytes(head + facet)
+    ...     mesh = open_mesh_file(path)
+    ...     mesh.face_count, mesh.box()[1].tolist()
+    (1, [1.0, 1.0, 0.0])
     """
     path = Path(path)
     kinds = {".stl": StlFile, ".ply": PlyFile}

@@ -12,7 +12,8 @@ import numpy as np
 
 from ...core.measurement import Measurement
 from ...core.moments.moments import Moments
-from ...core.streams import MeshFile, StreamIntegrals, measure_stream, open_mesh_file
+from ...core.streams import StreamIntegrals, measure_stream, open_mesh_file
+from ...core.streams.mesh_file import MeshFile
 from ...core.verdict.finding import Finding, MeasureError, ReadError, finding
 from ...core.verdict.health import MeshReport
 from ...core.verdict.method import Method, Verdict
