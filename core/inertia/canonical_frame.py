@@ -93,9 +93,9 @@ def canonical_frames(moments: Moments, spread: SecondMomentAxes, starts: NDArray
     central = replace(
         central, raw=central.raw / total, rounding_error=central.rounding_error / total, measure=Measure.MASS
     )
-    frames, *about_them = _candidates(central, spread, starts)
+    frames, revolution_axes, tilt, rule = _candidates(central, spread, starts)
     values, noise = _normalized_moments(central, spread, frames)
-    return EquivalentFrames(*_lexicographic_maximum(frames, values, noise), *about_them)
+    return EquivalentFrames(*_lexicographic_maximum(frames, values, noise), revolution_axes, tilt, rule)
 
 
 def _candidates(

@@ -29,7 +29,7 @@ ODD_KIND = np.array([[[0, 3], [2, 1]], [[1, 2], [3, 0]]])
 HALF_TURN_PARITY = np.array([[1.0, 1.0, -1.0, -1.0], [1.0, -1.0, 1.0, -1.0], [1.0, -1.0, -1.0, 1.0]])
 
 
-def settle_half_turns(moments: Moments, fixed: SecondOrderFrames, bodies: NDArray[np.intp]) -> NDArray[np.bool_]:
+def choose_half_turns(moments: Moments, fixed: SecondOrderFrames, bodies: NDArray[np.intp]) -> NDArray[np.bool_]:
     """Choose, for bodies without axes of equal moments, the half turns of their axes that `canonical_frames` chooses.
 
     Parameters
@@ -46,10 +46,10 @@ def settle_half_turns(moments: Moments, fixed: SecondOrderFrames, bodies: NDArra
         Of `second_order.HALF_TURN_SIGNS`.
     """
     values, least, _ = _along_axes(moments, fixed, bodies)
-    return _settle(values, least, fixed.allowed[bodies])
+    return _choose(values, least, fixed.allowed[bodies])
 
 
-def settle_revolution(
+def choose_about_axis(
     moments: Moments, fixed: SecondOrderFrames, bodies: NDArray[np.intp]
 ) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
     """Choose, for bodies with two axes of equal moments, the half turns that `canonical_frames` chooses where no moment
@@ -58,7 +58,7 @@ def settle_revolution(
     Parameters
     ----------
     moments, fixed, bodies
-        As for `settle_half_turns`.
+        As for `choose_half_turns`.
 
     Returns
     -------
@@ -87,10 +87,10 @@ def settle_revolution(
             later = np.cumsum(allowed[np.ix_(rows, np.flatnonzero(way))], axis=1) > 1
             kept = allowed[np.ix_(rows, np.flatnonzero(way))] & ~later
             allowed[np.ix_(rows, np.flatnonzero(way))] = kept
-    return is_round, _settle(values, least, allowed)
+    return is_round, _choose(values, least, allowed)
 
 
-def _settle(values: NDArray, least: NDArray, allowed: NDArray[np.bool_]) -> NDArray[np.bool_]:
+def _choose(values: NDArray, least: NDArray, allowed: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """(n, 4) of the half turns that are allowed those with the largest normalized moments, (n, columns), column after
     column; what differs by no more than `least` is equal."""
     kind = ODD_KIND[tuple(monomials(_order_of(values))[THIRD:].T % 2)]

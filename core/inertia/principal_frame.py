@@ -19,6 +19,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,7 +28,7 @@ from ..moments.moments import Moments
 from ..numerics.arrays import PerBody
 from ..verdict.finding import MeasureError, finding
 from .canonical_frame import NOISE_LEVEL, EquivalentFrames, canonical_frames
-from .canonical_stack import settle_half_turns, settle_revolution
+from .canonical_stack import choose_about_axis, choose_half_turns
 from .frame_choice import align_frames, complete_free_axes, nearest_frames
 from .second_order import EQUAL_AXES, HALF_TURN_SIGNS, SYMMETRIES, SecondOrderFrames, second_order_frames
 from .shared_search import shared_frames
@@ -245,9 +246,9 @@ def _frames_of_shapes(fixed: SecondOrderFrames, left: NDArray[np.intp], known: O
     which = left
     if known.rotation is not None:
         fixed, which = second_order_frames(known.moments), np.arange(len(known.moments.raw))
-    results: list[EquivalentFrames | None] = [None] * len(which)
+    results: list[Any] = [None] * len(which)  # each is found below
 
-    def settle(shapes: NDArray[np.intp], allowed: NDArray[np.bool_]) -> None:
+    def keep(shapes: NDArray[np.intp], allowed: NDArray[np.bool_]) -> None:
         for shape, signs in zip(shapes.tolist(), allowed):
             body = int(which[shape])
             frames, free = fixed.axes[body] * HALF_TURN_SIGNS[signs, None], fixed.free(body)
@@ -256,11 +257,11 @@ def _frames_of_shapes(fixed: SecondOrderFrames, left: NDArray[np.intp], known: O
 
     by_signs = np.flatnonzero(fixed.symmetry[which] == 0)
     if len(by_signs):
-        settle(by_signs, settle_half_turns(known.moments.at(by_signs), fixed, which[by_signs]))
+        keep(by_signs, choose_half_turns(known.moments.at(by_signs), fixed, which[by_signs]))
     about_axis = np.flatnonzero((fixed.symmetry[which] == 1) | (fixed.symmetry[which] == 2))
     if len(about_axis):
-        is_round, allowed = settle_revolution(known.moments.at(about_axis), fixed, which[about_axis])
-        settle(about_axis[is_round], allowed[is_round])
+        is_round, allowed = choose_about_axis(known.moments.at(about_axis), fixed, which[about_axis])
+        keep(about_axis[is_round], allowed[is_round])
     others = np.array([shape for shape, found in enumerate(results) if found is None], np.intp)
     if len(others):
         for shape, found in zip(others.tolist(), shared_frames(known.moments.at(others), fixed, which[others])):

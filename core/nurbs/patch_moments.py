@@ -90,7 +90,7 @@ def volume_moments(
     """
     about = patches_center(patches) if about is None else np.asarray(about, np.float64)
     degree, flux = _degrees(order), partial(flux_sums, order=order)
-    values, estimate, size, settled = np.zeros(len(degree)), 0.0, 0.0, True
+    values, estimate, size, converged = np.zeros(len(degree)), 0.0, 0.0, True
     reach, orders, rational = 0.0, 0, []
     for part in cells_of(patches, about):
         reach, orders = max(reach, part.reach), max(orders, sum(part.orders))
@@ -104,10 +104,10 @@ def volume_moments(
     unit = reach ** (degree + 1.0)
     if rational:
         integral = integrate_adaptively(rational, flux, unit, tolerance, order)
-        values, estimate, settled = values + integral.values, integral.estimate, integral.converged
+        values, estimate, converged = values + integral.values, integral.estimate, integral.converged
         size += integral.size
     error = (estimate + (ROUNDING * U * size) * (orders + degree)) * unit / (degree + 3.0)
-    return Moments(values / (degree + 3.0), about, Measure.VOLUME, error), settled
+    return Moments(values / (degree + 3.0), about, Measure.VOLUME, error), converged
 
 
 def flux_sums(cells: BezierCells, rule: Rule, order: int, area: bool = False) -> NDArray[np.float64]:
@@ -311,7 +311,7 @@ def integrate_adaptively(
     values, estimate, lost, most = np.zeros(k), 0.0, 0.0, np.maximum(unit, MIN_DIVISOR)[:, None]
     points, enough = (RULES, MAX_POINTS) if tolerance < AREA_RTOL else (COARSE_RULES, MAX_POINTS // 2)
     work = [(part, None, 0) for part in cells]
-    whole, count, spent, settled, depth = 0.0, sum(map(len, cells)), 0, True, 0
+    whole, count, spent, converged, depth = 0.0, sum(map(len, cells)), 0, True, 0
     at_stake = thickness * sum(float(_undersampled_areas(part, MAX_WEIGHT_RATIOS[0]).sum()) for part in cells)
     while work:
         waiting, compared = [], []
@@ -334,7 +334,7 @@ def integrate_adaptively(
             differ += kinks
             good = differ + steep <= tolerance * np.maximum(fine[k], whole / count)
             if last or good.all():
-                settled &= not last or bool(good.all())
+                converged &= not last or bool(good.all())
                 lost += (
                     thickness * float(_undersampled_areas(part[~good], MAX_WEIGHT_RATIOS[0]).sum())
                     if last and at_stake
@@ -356,7 +356,7 @@ def integrate_adaptively(
                 waiting.append((part[cut].split(), None, 0))
         depth += any(coarse is None for _, coarse, _ in waiting)
         work = waiting
-    return Integral(values, estimate + min(lost, at_stake), whole, settled)
+    return Integral(values, estimate + min(lost, at_stake), whole, converged)
 
 
 def _undersampled_areas(cells: BezierCells, steep: float) -> NDArray[np.float64]:

@@ -124,8 +124,8 @@ def measure_patches(
         raise MeasureError("no_extent")
     about = patches_center(patches)
     topology = find_topology(patches, max(WELDING_RTOL * size, 4.0 * stored))
-    area, settled = area_moments(patches, area_order, about)
-    findings = () if settled else (finding("area_error_estimate_large"),)
+    area, converged = area_moments(patches, area_order, about)
+    findings = () if converged else (finding("area_error_estimate_large"),)
     parts = oriented_parts(patches, topology)
     measured = [volume_moments(part, order, about) for part in parts]
     return assess(patches, topology, parts, measured, area, area_slope(patches), stored, findings)
@@ -173,8 +173,8 @@ def assess(
     size = patches_size(patches)
     verdict = _judge_parts(parts, topology, measured, area.total, size, stored)
     turned_parts = [
-        (part, moments, settled, -1.0 if flip else 1.0)
-        for part, (moments, settled), flip, keep in zip(parts, measured, verdict.flipped, verdict.counted)
+        (part, moments, converged, -1.0 if flip else 1.0)
+        for part, (moments, converged), flip, keep in zip(parts, measured, verdict.flipped, verdict.counted)
         if keep
     ]
     volumes = [moments * sign for _, moments, _, sign in turned_parts]
@@ -185,7 +185,7 @@ def assess(
     volume, area = _with_input_errors(volume, area, slope, topology, stored, size)
     misoriented = len(_misoriented(topology))
     further = list(findings)
-    if not all(settled for *_, settled, _ in turned_parts):
+    if not all(converged for *_, converged, _ in turned_parts):
         further.append(finding("volume_error_estimate_large"))
     outward = tuple(
         patch.reverse_orientation() if sign < 0.0 else patch for part, *_, sign in turned_parts for patch in part
@@ -309,12 +309,12 @@ def measure_sheet(
     """
     about = patches_center(patches)
     area, fine = area_moments(patches, 3, about)
-    sheet, settled = sheet_moments(patches, inner, outer, 3, about)
+    sheet, converged = sheet_moments(patches, inner, outer, 3, about)
     size = patches_size(patches)
     reach = size + max(abs(inner), abs(outer)) + 4.0 * stored
     area = replace(area, input_error=_input_error(area, stored, 0.0, area_slope(patches) + area.total / reach, reach))
     sheet = replace(sheet, input_error=_input_error(sheet, stored, 0.0, 2.0 * sheet.total / reach, reach))
-    return sheet, area, fine and settled
+    return sheet, area, fine and converged
 
 
 def patches_size(patches: Sequence[Patch]) -> float:

@@ -113,10 +113,10 @@ def measure_stream(
             )
         except _FarPiece:
             continue
-        break
-    if not stream.face_count:
-        raise FileError("file_without_faces")
-    return StreamIntegrals(volume, area, stream.boundary.is_zero, stream.face_count)
+        if not stream.face_count:
+            raise FileError("file_without_faces")
+        return StreamIntegrals(volume, area, stream.boundary.is_zero, stream.face_count)
+    raise AssertionError("the box of all points has no piece far from it")
 
 
 class _FarPiece(Exception):

@@ -66,15 +66,16 @@ class PlyFile:
             yield self._piece(corners, first, last)
 
     def _piece(self, corners: NDArray[np.integer], first: int, last: int) -> Surface:
+        sides = corners.shape[1]
         if last - first <= MAX_SPREAD * corners.size:
             points, faces = self._points[first:last], corners - first
         else:
-            points, faces = self._points[corners.ravel()], np.arange(corners.size).reshape(corners.shape)
-        if faces.shape[1] == 3:
+            points, faces = self._points[corners.ravel()], np.arange(corners.size).reshape(-1, sides)
+        if sides == 3:
             return Surface(points, faces)
-        if faces.shape[1] == 4:
+        if sides == 4:
             return Surface(points, quads=faces)
-        fans = np.stack([faces[:, [0, k, k + 1]] for k in range(1, faces.shape[1] - 1)])
+        fans = np.stack([faces[:, [0, k, k + 1]] for k in range(1, sides - 1)])
         vectors = normals(points, fans.reshape(-1, 3)).reshape(*fans.shape[:2], 3)
         whole = vectors.sum(axis=0)
         along = np.einsum("kmi,mi->km", vectors, whole)

@@ -343,13 +343,13 @@ def measure_members(members: list[Member], shapes: list[Shape], unit: float, axe
             found = solids.to_order(needed[together], MAX_ORDER)
             for row, i in enumerate(together):
                 sixth[i] = found.at(row)
-        alone = [i for i, each in enumerate(shapes) if each.alone is not None]
-        small = [i for i in alone if is_small(shapes[i].alone.repaired_surface)]
+        alone = {i: each.alone for i, each in enumerate(shapes) if each.alone is not None}
+        small = [i for i, solid in alone.items() if is_small(solid.repaired_surface)]
         if small:
-            found = small_moments_to_order([shapes[i].alone for i in small], MAX_ORDER)
+            found = small_moments_to_order([alone[i] for i in small], MAX_ORDER)
             for row, i in enumerate(small):
                 sixth[i] = found.at(row)
-        for i in set(alone).difference(small):
+        for i in alone.keys() - small:
             sixth[i] = shapes[i].sixth_order()
         return own_moments(sixth, shape.ravel(), matrices[left, :3, :3])
 

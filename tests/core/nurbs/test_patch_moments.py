@@ -45,8 +45,8 @@ def z_flux_difference(patch, exponents):
 def test_polynomial_patches_are_exact_at_every_order(orders):
     rng = np.random.default_rng(sum(orders))
     patch = random_patch(rng, tuple(clamped_space(order) for order in orders))
-    moments, settled = volume_moments([patch], 3, ORIGIN)
-    assert settled
+    moments, converged = volume_moments([patch], 3, ORIGIN)
+    assert converged
     exponents = [(0, 0, 0), (1, 0, 0), (0, 0, 2), (1, 1, 1)] if max(orders) < 6 else [(0, 0, 0), (0, 1, 0), (1, 1, 0)]
     for row in exponents:
         exact = float(z_flux_difference(patch, row))
@@ -87,17 +87,17 @@ def test_one_gauss_point_fewer_would_not_do():
 def test_the_unit_sphere_and_a_torus_are_exact(shift):
     move = np.eye(4)
     move[:3, 3] = shift * np.array([1.0, -2.0, 0.5])
-    moments, settled = volume_moments([sphere().transform(move)], 4)
+    moments, converged = volume_moments([sphere().transform(move)], 4)
     noise = 1e-14 if shift == 0.0 else 1e-11  # control points far away are rounded themselves
-    assert settled
+    assert converged
     assert abs(moments.total / (4.0 * np.pi / 3.0) - 1.0) <= noise
     for row in np.eye(3, dtype=int):
         assert abs(moments[tuple(2 * row)] / (4.0 * np.pi / 15.0) - 1.0) <= noise
         assert abs(moments[tuple(4 * row)] / (4.0 * np.pi / 35.0) - 1.0) <= noise
     R, r = 0.75, 0.25
     volume = 2.0 * np.pi**2 * R * r**2
-    moments, settled = volume_moments([torus(R, r).transform(move)], 2)
-    assert settled
+    moments, converged = volume_moments([torus(R, r).transform(move)], 2)
+    assert converged
     assert abs(moments.total / volume - 1.0) <= noise
     assert abs(moments[0, 0, 2] / (volume * r**2 / 4.0) - 1.0) <= 10.0 * noise
     assert abs(moments[2, 0, 0] / (volume * (4.0 * R**2 + 3.0 * r**2) / 8.0) - 1.0) <= noise
@@ -165,9 +165,9 @@ def test_the_estimate_is_never_below_the_true_error_of_random_rational_patches(s
     patches = [random_rational(rng, 1.0) for _ in range(100)]
     found = [volume_moments([patch], 2, ORIGIN) for patch in patches]
     monkeypatch.setattr(patch_moments, "RULES", tuple(2 * points for points in patch_moments.RULES))
-    for patch, (moments, settled) in zip(patches, found):
+    for patch, (moments, converged) in zip(patches, found):
         exact, _ = volume_moments([patch], 2, ORIGIN)
-        assert settled
+        assert converged
         assert (np.abs(moments.raw - exact.raw) <= moments.rounding_error).all()
         assert moments.rounding_error[0] <= 1e-12  # so it tells something
 
@@ -177,12 +177,12 @@ def test_the_estimate_holds_where_points_were_not_enough(monkeypatch):
     patches = [random_rational(rng, 2.0) for _ in range(40)]
     exact = [volume_moments([patch], 2, ORIGIN)[0] for patch in patches]
     monkeypatch.setattr(patch_moments, "MAX_POINTS", 3000)
-    unsettled = 0
+    unconverged = 0
     for patch, one in zip(patches, exact):
-        moments, settled = volume_moments([patch], 2, ORIGIN)
-        unsettled += not settled
+        moments, converged = volume_moments([patch], 2, ORIGIN)
+        unconverged += not converged
         assert (np.abs(moments.raw - one.raw) <= moments.rounding_error + one.rounding_error).all()
-    assert unsettled >= 20
+    assert unconverged >= 20
 
 
 @pytest.mark.parametrize("tolerance", [1e-3, 1e-6, 4e-15])
@@ -190,8 +190,8 @@ def test_the_estimate_holds_against_a_fixed_fine_rule(tolerance):
     rng = np.random.default_rng(8)
     for _ in range(8):
         patch = random_rational(rng, 1.0)
-        moments, settled = volume_moments([patch], 2, ORIGIN, tolerance=tolerance)
-        assert settled
+        moments, converged = volume_moments([patch], 2, ORIGIN, tolerance=tolerance)
+        assert converged
         assert (np.abs(moments.raw - truth(patch, 2)) <= moments.rounding_error + 1e-14).all()
 
 
@@ -207,14 +207,14 @@ def test_the_estimate_holds_where_a_weight_draws_all_but_a_rim_to_a_point(weight
     area = area_moments(rim)[0].total
     weights[heavy] = weight
     octant = Patch((clamped_space(3),) * 2, points, weights)
-    for (found, settled), limit in ((volume_moments([octant], 0, ORIGIN), volume), (area_moments([octant]), area)):
+    for (found, converged), limit in ((volume_moments([octant], 0, ORIGIN), volume), (area_moments([octant]), area)):
         assert abs(found.total - limit) <= found.rounding_error[0] + 100.0 / weight * limit
-        assert not settled
+        assert not converged
 
 
 def test_areas_of_spheres_and_tori_come_with_an_estimate_that_holds():
-    moments, settled = area_moments([sphere()], 2)
-    assert settled and abs(moments.total - 4.0 * np.pi) <= moments.rounding_error[0] <= 1e-9
+    moments, converged = area_moments([sphere()], 2)
+    assert converged and abs(moments.total - 4.0 * np.pi) <= moments.rounding_error[0] <= 1e-9
     assert abs(moments[2, 0, 0] - 4.0 * np.pi / 3.0) <= moments.rounding_error[4]
     moments, _ = area_moments([torus()], 0)
     assert abs(moments.total - 4.0 * np.pi**2 * 0.75 * 0.25) <= moments.rounding_error[0] <= 1e-9
@@ -233,8 +233,8 @@ def test_the_area_of_a_patch_that_folds_back_has_an_estimate_that_holds():
 
 def test_sheets_have_real_thickness():
     for low, high in ((-0.05, 0.05), (0.0, 0.1), (-0.3, -0.1)):
-        moments, settled = sheet_moments([sphere()], low, high)
-        assert settled
+        moments, converged = sheet_moments([sphere()], low, high)
+        assert converged
         assert abs(moments.total / (4.0 * np.pi / 3.0 * ((1 + high) ** 3 - (1 + low) ** 3)) - 1.0) <= 1e-13
         second = 4.0 * np.pi / 15.0 * ((1 + high) ** 5 - (1 + low) ** 5)
         assert abs(moments[0, 0, 2] / second - 1.0) <= 1e-13
@@ -249,8 +249,8 @@ def test_the_estimate_of_a_sheet_tells_what_heavy_weights_hide(monkeypatch):
     weights = np.ones((3, 3))
     weights[1, 1] = 1e12
     square = Patch((clamped_space(3),) * 2, [[(i, j, 0) for j in range(3)] for i in range(3)], weights)
-    found, settled = sheet_moments([square], 0.0, 1e-3)
-    assert not settled and abs(found.total - 4e-3) <= found.rounding_error[0] <= 0.1
+    found, converged = sheet_moments([square], 0.0, 1e-3)
+    assert not converged and abs(found.total - 4e-3) <= found.rounding_error[0] <= 0.1
 
 
 def test_a_sheet_thicker_than_its_radius_is_refused():
@@ -290,9 +290,9 @@ def test_a_patch_far_from_the_point_is_as_exact_as_its_bound_says(weighted, far)
     weights = 10.0 ** rng.uniform(-0.5, 0.5, shape) if weighted else None
     spaces = clamped_space(4, (0.25, 0.5)), clamped_space(3, (0.125, 0.75))
     here, _ = volume_moments(closed_by_cones(Patch(spaces, points, weights)), 2, ORIGIN)
-    there, settled = volume_moments(closed_by_cones(Patch(spaces, points + far, weights), far), 2, ORIGIN)
+    there, converged = volume_moments(closed_by_cones(Patch(spaces, points + far, weights), far), 2, ORIGIN)
     expected = here.about_point(np.full(3, -far))
-    assert settled
+    assert converged
     assert (np.abs(there.raw - expected.raw) <= there.rounding_error + expected.rounding_error).all()
 
 
