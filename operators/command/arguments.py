@@ -154,7 +154,7 @@ def _parser() -> argparse.ArgumentParser:
         allow_abbrev=False,
     )
     add = parser.add_argument
-    add("command", choices=("measure",), metavar="measure")
+    add("command", type=types.command, metavar="measure")
     add("files", nargs="*", metavar="FILE")
     _add_settings(parser)
     _add_of_files(parser)

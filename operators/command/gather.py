@@ -124,7 +124,9 @@ def _parse(argv: list[str]) -> argparse.Namespace:
         prog="body_moments",
         usage="body_moments {} [options] {} [{} ...]".format(command, names, names),
         description=_DESCRIPTIONS[command],
-        epilog="exit code: 0 done, 1 the result cannot be written, 2 wrong usage or no results",
+        epilog="exit code: 0 done, 1 {}the result cannot be written, 2 wrong usage or no results".format(
+            "numbers differ by more than they may, or " if command == "compare" else ""
+        ),
         allow_abbrev=False,
     )
     parser.add_argument("command", choices=(command,), metavar=command)

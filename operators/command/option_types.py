@@ -20,6 +20,13 @@ def _refuse(code: str, **values: object) -> argparse.ArgumentTypeError:
     return argparse.ArgumentTypeError(str(finding(code, **values)))
 
 
+def command(text: str) -> str:
+    """The one command that these options belong to."""
+    if text != "measure":
+        raise _refuse("usage_command", name=text)
+    return text
+
+
 def positive(text: str) -> float:
     """A positive number."""
     try:

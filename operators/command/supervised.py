@@ -51,7 +51,8 @@ def measure(options: Namespace, channel: int, opened: str | None) -> int:
         command = processes.child_command(_blender(options))
         if command is None:
             fail(finding("usage_no_blender"))
-        replaced = targets.files_to_replace(options, [path for path in (*paths, opened, options.q) if path])
+        read = [path for path in (*paths, opened, options.q, *_positions(options)) if path]
+        replaced = targets.files_to_replace(options, read)
         with ExitStack() as ends:
             places = _Places(options, ends)
             run = _Supervised(options, paths, command, places)
@@ -282,9 +283,15 @@ def _is_recorded(journal: Journal, path: str, common: dict[str, Any], limits: di
     return same and journal.is_current(path)
 
 
+def _positions(options: Namespace) -> list[str]:
+    """The files of positions of samples."""
+    return [path for _, path in options.positions or ()]
+
+
 def _digest(options: Namespace) -> str:
     """Of whatever changes the numbers besides the file."""
-    text = json.dumps([of_numbers(options), os.environ.get("BODY_MOMENTS_LIMITS", "")], sort_keys=True)
+    positions = [state(path) for path in _positions(options)]
+    text = json.dumps([of_numbers(options), positions, os.environ.get("BODY_MOMENTS_LIMITS", "")], sort_keys=True)
     return hashlib.sha256(text.encode()).hexdigest()[:16]
 
 

@@ -1410,7 +1410,8 @@ MESSAGES: dict[str, Message] = {
         "interrupted after {done} of {total} files; the result was not written. Run the same with --resume to go on"
     ),
     "file_crashed": _error(
-        "Blender crashed on the file ({how}), {count} times. Open it in Blender, save it again, or leave it out.",
+        "Blender crashed on the file ({how}), {count} times. Save it again with the program that made it, or leave it "
+        "out.",
     ),
     "file_timed_out": _error(
         "The file took longer than {seconds:g} s. Use a longer --timeout, or open it in Blender to see why."
@@ -1493,6 +1494,9 @@ MESSAGES: dict[str, Message] = {
     "density_volume_unknown": _error("There is no Volume object “{name}” in the scene. Name one that is."),
     "usage_range": _error("{text!r} is not A:B, two whole numbers with A no larger than B"),
     "usage_needs_supervisor": _error("argument --{option}: applies to FILEs that are measured by other processes"),
+    "usage_command": _error(
+        "“{name}” is no command: measure, similar, audit, manifest, merge, to-csv, summary, compare and report are"
+    ),
     "usage_resume_output": _error("argument --resume: needs the --output of the run to go on with"),
     "usage_no_blender": _error("No module named 'bpy' is here. Use --blender PATH, or install it"),
     "usage_busy": _error("argument --output: another run is writing {path}. Wait for its end, or use another name"),

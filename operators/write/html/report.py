@@ -39,7 +39,7 @@ th button{font:inherit;font-weight:600;border:0;background:none;color:inherit;pa
 th[aria-sort=ascending] button::after{content:" \\25b2"}
 th[aria-sort=descending] button::after{content:" \\25bc"}
 td.number{text-align:right;font-variant-numeric:tabular-nums;white-space:nowrap}
-td{min-width:4rem}
+td{min-width:4rem}td:nth-child(2){min-width:9rem}
 td img,td svg{width:96px;height:96px;display:block}
 .crashed,.timeout,.memory,.error,.missing,.unsupported_version{color:#c33;font-weight:600}
 .warning{color:#a60}

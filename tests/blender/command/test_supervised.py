@@ -316,6 +316,21 @@ def test_results_are_written_into_many_files_and_those_are_known_when_resuming(t
     assert b"0 files in" in ended.stderr and (tmp_path / "a.blend").read_bytes() == stored
 
 
+def test_positions_of_samples_are_read_and_looked_at_when_resuming(tmp_path):
+    np.save(tmp_path / "scan.npy", np.full((2, 2, 2), 3, "u2"))
+    along, out = tmp_path / "x.npy", tmp_path / "out.json"
+    np.save(along, np.array([0.0, 1.0]))
+    words = ("measure", tmp_path / "scan.npy", tmp_path / "scan.npy", "--positions", "x={}".format(along))
+    ended = script(*words, "--output", along, "--force")
+    assert ended.returncode == 2 and b"x.npy" in ended.stderr and np.load(along).tolist() == [0.0, 1.0]
+    assert script(*words, "--output", out).returncode == 0
+    before = json.loads(out.read_text())[0]["objects"][0]["mass"]
+    np.save(along, np.array([0.0, 2.0]))
+    os.utime(along, ns=(1, 1))
+    assert script(*words, "--output", out, "--resume").returncode == 0
+    assert json.loads(out.read_text())[0]["objects"][0]["mass"] == pytest.approx(2.0 * before)
+
+
 def test_the_scan_through_children_is_the_one_without(scans):
     names = sorted(scans.iterdir())[:3]
     one, other = (script("measure", *names, *words) for words in ((), ("--no-supervisor",)))
