@@ -245,7 +245,7 @@ def _has_new_geometry(obj: Object, mark: marks.Mark) -> bool:
 
 def _set_edited(obj: Object, mark: str, is_edited: bool) -> None:
     """Note that the geometry of what carries this mark has changed, or that it has not."""
-    noted = _edited_marks(obj)
+    noted = _edited.get(obj) or frozenset()
     if is_edited != (mark in noted) or obj not in _edited:
         handlers.count_change()
         _edited[obj] = noted | {mark} if is_edited else noted - {mark}
