@@ -10,7 +10,7 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.moments.moments import FLOAT32_HALF_ULP, Measure, Moments, monomial_count, monomials
+from ...core.moments.moments import FLOAT32_HALF_ULP, Measure, Moments, U, monomial_count, monomials
 from ...core.nurbs.curve import Curve
 from ...core.nurbs.curve_moments import length_moments
 from ...core.verdict.finding import ReadError
@@ -23,6 +23,7 @@ from .request import Request
 MEASURED_AS = frozenset({"wire"})
 
 DEGREE = monomials(3).sum(axis=1)
+CLOSED_RTOL = 1e-9  # of the wire's reach: its ends are one point
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,7 +62,7 @@ def body(reading: Reading, request: Request) -> Body:
     return WireBody(
         nothing,
         Moments(nothing.raw, length.about, Measure.AREA),
-        MeshReport(closed=all(np.allclose(*curve.samples(1)[[0, -1]]) for curve in curves), components=len(curves)),
+        MeshReport(closed=all(_is_closed(curve, reach) for curve in curves), components=len(curves)),
         Method(Verdict.WIRE),
         (),
         length=replace(length, input_error=moved),
@@ -84,3 +85,9 @@ def curves_in_world(curves: list[Curve], matrix: NDArray[np.float64], unit: floa
     scaled[:3] *= unit
     stored = 2.0 * FLOAT32_HALF_ULP * largest * float(np.linalg.norm(scaled[:3, :3], 2))
     return [curve.transform(scaled) for curve in curves], stored
+
+
+def _is_closed(curve: Curve, reach: float) -> bool:
+    """Whether a curve ends where it starts, to its size and to the rounding of where it is."""
+    first, last = curve.samples(1)[[0, -1]]
+    return bool(np.abs(last - first).max() <= CLOSED_RTOL * reach + 32.0 * U * np.abs(first).max())

@@ -27,7 +27,7 @@ def import_3mf(path: str) -> None:
         obj = bpy.data.objects.new(one.name, meshes[one.key])
         bpy.context.scene.collection.objects.link(obj)
         obj.matrix_basis = Matrix(one.matrix)
-        if not np.allclose(obj.matrix_basis, one.matrix, rtol=0.0, atol=_SHEAR * np.abs(one.matrix).max()):
+        if np.abs(np.array(obj.matrix_basis) - one.matrix).max() > _SHEAR * np.abs(one.matrix).max():
             obj.matrix_basis = Matrix()  # an object's own channels hold no shear
             obj.data = _mesh(replace(one, points=one.points @ one.matrix[:3, :3].T + one.matrix[:3, 3]))
     bpy.context.view_layer.update()

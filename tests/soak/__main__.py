@@ -53,4 +53,6 @@ def main() -> int:
 if __name__ == "__main__":
     sys.path.insert(0, str(ROOT))
     importlib.import_module("tests.conftest")  # the add-on under its name, and user files of Blender out of the way
+    importlib.import_module("bpy")  # bmesh is there from then on
+    sys.modules["body_moments"].register()
     sys.exit(main())

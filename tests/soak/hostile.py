@@ -25,7 +25,7 @@ def run(budget_seconds: float, seed: int, fuzzed: int = 900) -> str:
         paths = [*cases, *hostile_files.write_cut(folder / "cut")]
         paths += hostile_files.write_damaged(folder / "fuzzed", fuzzed, seed)
         while True:
-            found = _measured(paths, folder)
+            found = measured(paths, folder)
             total += commands.check_documents(found, paths)
             for document in found:
                 expected = cases.get(Path(document["file"]), hostile_files.STATUSES - {"missing"})
@@ -41,7 +41,7 @@ def run(budget_seconds: float, seed: int, fuzzed: int = 900) -> str:
     return text + "".join("\n  " + killer for killer in killers[:50])
 
 
-def _measured(paths: list[Path], folder: Path) -> list[dict]:
+def measured(paths: list[Path], folder: Path) -> list[dict]:
     result = folder / "result.jsonl"
     listed = folder / "list"
     listed.write_text(

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import random
 import time
+from collections import Counter
 
 import bmesh
 import bpy
@@ -34,6 +35,7 @@ class Session:
         bpy.ops.wm.read_factory_settings(use_empty=True)
         self.draw = random.Random(seed)
         self.calls: list[str] = []
+        self.counted: Counter[str] = Counter()
         self.failures: list[str] = []
         for name in ("A", "B"):
             self.add(name)
@@ -59,6 +61,7 @@ class Session:
         for number in range(STEPS):
             step = self.draw.choice(PERSON + OURS + OURS)
             self.calls.append(step.__name__)
+            self.counted["of ours" if step in OURS else "undo and redo" if step in HISTORY else "of a person"] += 1
             kept = self.unkeyed() if step in OURS else {}
             try:
                 step(self)
@@ -312,14 +315,14 @@ def run(budget_seconds: float, seed: int) -> str:
     Returns
     -------
     str
-        How many sessions and steps there were.
+        How many sessions and calls there were.
 
     Raises
     ------
     AssertionError
         With the seed of the session and its steps.
     """
-    end, sessions = time.monotonic() + budget_seconds, 0
+    end, sessions, counted = time.monotonic() + budget_seconds, 0, Counter()
     called, idle = handlers._call, live.IDLE
     live.IDLE = 0.0
     try:
@@ -339,6 +342,10 @@ def run(budget_seconds: float, seed: int) -> str:
             except Exception as error:
                 raise AssertionError("seed {:d}, {}".format(seed + sessions, error)) from error
             sessions += 1
+            counted += session.counted
     finally:
         handlers._call, live.IDLE = called, idle
-    return "{:d} sessions of {:d} steps, meshes to {:d} faces compared".format(sessions, STEPS, MAX_DIGESTED_FACES)
+    calls = ", ".join("{:d} {}".format(count, whose) for whose, count in counted.most_common())
+    return "{:d} sessions of {:d} calls ({}), meshes to {:d} faces compared".format(
+        sessions, STEPS, calls, MAX_DIGESTED_FACES
+    )

@@ -55,6 +55,16 @@ def test_a_circle_is_a_wire_of_its_length():
     assert measured(obj).mass_properties.mass == pytest.approx(3.0)
 
 
+@pytest.mark.parametrize("size", [1e-9, 1.0, 1e9])
+@pytest.mark.parametrize("away", [0.0, 1e4])
+@pytest.mark.parametrize("cyclic", [True, False])
+def test_a_wire_is_closed_where_its_ends_meet_whatever_its_size_and_place(cyclic, away, size):
+    obj = poly([(0, 0, 0), (1, 0, 0), (1, 1, 0)], cyclic)
+    obj.body_moments.kind = "WIRE"
+    obj.scale, obj.location.x = (size, size, size), away * size
+    assert measured(obj).health.closed == cyclic
+
+
 def test_an_ellipse_is_not_a_scaled_length():
     obj = circle()
     obj.body_moments.kind, obj.scale = "WIRE", (2.0, 1.0, 1.0)

@@ -4,6 +4,8 @@
 
 import os
 import struct
+import zipfile
+from pathlib import Path
 
 import pytest
 
@@ -154,6 +156,22 @@ def test_a_binary_stl_whose_header_says_solid_is_binary(tmp_path):
     assert measured(path)["volume"] == pytest.approx(1.0)
     path.write_bytes(path.read_bytes()[:-1])
     assert reason(path) == sentence("stl_cut_short")  # it says that it is text
+
+
+@needs_usd
+def test_what_a_usdz_stores_is_compared_with_its_checksums(tmp_path):
+    data = Path(files.box_file(tmp_path / "whole.usdz")).read_bytes()
+    (stored,) = zipfile.ZipFile(tmp_path / "whole.usdz").infolist()
+    begin = data.index(b"PXR-USDC")
+    for place in range(begin, begin + stored.file_size, stored.file_size // 20):
+        flipped = data[:place] + bytes([data[place] ^ 16]) + data[place + 1 :]
+        (tmp_path / "flipped.usdz").write_bytes(flipped)
+        assert "Bad CRC-32" in reason(tmp_path / "flipped.usdz")
+    directory = data.index(b"PK\1\2")
+    larger = struct.pack("<II", stored.file_size + 99, stored.file_size + 99)
+    (tmp_path / "larger.usdz").write_bytes(data[: directory + 20] + larger + data[directory + 28 :])
+    assert "overlap" in reason(tmp_path / "larger.usdz").lower()
+    assert close(measured(tmp_path / "whole.usdz")["volume"], 6.0, rel=1e-6)
 
 
 def test_what_is_no_file_is_an_error(tmp_path):

@@ -1,0 +1,262 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Mutants of the product: how many of a sample from each package the tests find.
+
+First each test file runs once, and the lines that its tests run are noted (kept in .envs/soak/lines while neither the
+product nor the file changes). Then mutants are drawn, round after round one of each package. Each is written into a
+copy of the project, and the tests that run its line pass there, the quickest first, until one fails.
+
+A mutant counts as found when a test fails, does not end, or dies. Those that no test could find are in
+tests/soak/equivalent_mutants.py, with reasons, and are not drawn.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import random
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+from collections import Counter, defaultdict
+from collections.abc import Iterable
+from pathlib import Path
+
+from tests.soak import equivalent_mutants, mutants
+
+ROOT = Path(__file__).resolve().parent.parent.parent
+PROCESS = Path(__file__).resolve().parent / "mutation_process"
+KEPT = ROOT / ".envs" / "soak" / "lines"
+GROUPS = ("core", "blender")
+LEFT_OUT = ("test_random_sessions.py",)  # what takes as long as it is given
+LEAST = 0.95  # of each package's mutants
+LEAST_DRAWN = 20  # below this, a share says nothing
+MAX_SECONDS = 45.0  # of the tests of one mutant
+
+
+def run(budget_seconds: float, seed: int) -> str:
+    """Draw mutants until the budget is spent.
+
+    Parameters
+    ----------
+    budget_seconds : float
+        For the mutants; noting lines comes before, and takes as long as all tests.
+    seed : int
+
+    Returns
+    -------
+    str
+        A table of the packages, and the mutants that no test found.
+
+    Raises
+    ------
+    AssertionError
+        With the same, where less than `LEAST` of a package were found.
+    """
+    with Project() as project:
+        project.note_lines()
+        project.load_tests()
+        end, draws = time.monotonic() + budget_seconds, drawn(ROOT, seed)
+        while time.monotonic() < end and (mutant := next(draws, None)):
+            project.try_mutant(mutant)
+        text = report(project.results)
+        assert not too_few(project.results), text
+    return text
+
+
+def package_of(path: str) -> str:
+    parts = path.split("/")
+    return "panels" if parts[0] == "panels" else "/".join(parts[: 1 if len(parts) == 2 else 2])
+
+
+def all_mutants(root: Path) -> dict[str, list[mutants.Mutant]]:
+    """By package, without those that are known to change nothing."""
+    found = defaultdict(list)
+    for part in ("core", "operators", "panels"):
+        for path in sorted((root / part).rglob("*.py")):
+            name = path.relative_to(root).as_posix()
+            found[package_of(name)] += [
+                mutant for mutant in mutants.mutants(root, name) if not equivalent_mutants.reason(mutant)
+            ]
+    return dict(found)
+
+
+def drawn(root: Path, seed: int):
+    """Mutants in rounds, one of each package in a round, no two of one line."""
+    draw = random.Random(seed)
+    decks = all_mutants(root)
+    for deck in decks.values():
+        draw.shuffle(deck)
+    lines = set()
+    while any(decks.values()):
+        for deck in decks.values():
+            while deck:
+                mutant = deck.pop()
+                if (mutant.path, mutant.line) not in lines:
+                    lines.add((mutant.path, mutant.line))
+                    yield mutant
+                    break
+
+
+def report(results: list[tuple[mutants.Mutant, dict]]) -> str:
+    counts = defaultdict(Counter)
+    for mutant, answer in results:
+        counts[package_of(mutant.path)][answer["outcome"]] += 1
+    rows = ["{:24} {:>6} {:>6} {:>6}".format("package", "drawn", "found", "share")]
+    for package in sorted(counts):
+        count = counts[package]
+        found = count.total() - count["passed"] - count["no test"]
+        rows.append("{:24} {:6d} {:6d} {:5.0f}%".format(package, count.total(), found, 100.0 * found / count.total()))
+    total = Counter(answer["outcome"] for _, answer in results)
+    rows.append("{} mutants: {}".format(total.total(), ", ".join("{} {}".format(*one) for one in total.most_common())))
+    rows += [
+        "{}  {}".format(answer["outcome"], mutant)
+        for mutant, answer in results
+        if answer["outcome"] in ("passed", "no test")
+    ]
+    return "\n".join(rows)
+
+
+def too_few(results: list[tuple[mutants.Mutant, dict]]) -> list[str]:
+    """Packages of which enough mutants were drawn and not enough were found."""
+    drawn_of, missed = Counter(), Counter()
+    for mutant, answer in results:
+        drawn_of[package_of(mutant.path)] += 1
+        missed[package_of(mutant.path)] += answer["outcome"] in ("passed", "no test")
+    return [
+        package
+        for package, count in drawn_of.items()
+        if count >= LEAST_DRAWN and missed[package] > (1.0 - LEAST) * count
+    ]
+
+
+class Project:
+    """A copy of the project, and a process in which tests run on it."""
+
+    def __init__(self, kept: Path = KEPT):
+        self.kept = kept
+        self.results: list[tuple[mutants.Mutant, dict]] = []
+
+    def __enter__(self) -> Project:
+        self.folder = Path(tempfile.mkdtemp(prefix="body_moments_mutation_"))
+        self.root = self.folder / "project"
+        shutil.copytree(ROOT, self.root, ignore=shutil.ignore_patterns(".envs", ".git", "__pycache__", "dist", "demo"))
+        self.server = self._start("server.py")
+        self.warm = None
+        return self
+
+    def _start(self, name: str, *words: str) -> subprocess.Popen:
+        return subprocess.Popen(
+            [sys.executable, "-P", "-W", "ignore", PROCESS / name, self.root, *words],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            env={**os.environ, "PYTHONPYCACHEPREFIX": str(self.folder / "pycache")},
+            text=True,
+        )
+
+    def __exit__(self, *_error) -> None:
+        for process in (self.server, self.warm):
+            if process is not None:
+                process.stdin.close()
+                process.wait()
+                process.stdout.close()
+        shutil.rmtree(self.folder, ignore_errors=True)
+
+    def load_tests(self, files: Iterable[str] = ()) -> None:
+        """Start the process that knows all tests, or those of some files."""
+        self.warm = self._start("warm.py", *(files or ("tests/" + group for group in GROUPS)))
+        assert json.loads(self.warm.stdout.readline())["count"], "no tests"
+
+    def ask(self, tests: list, seconds: float, lines: Path | None = None) -> dict:
+        return _answer(self.server, {"tests": tests, "seconds": seconds, "lines": lines and str(lines)})
+
+    def note_lines(self) -> None:
+        """Run every test file that has changed, and know for each line of the product which tests run it."""
+        self.kept.mkdir(parents=True, exist_ok=True)
+        self.tests_of, self.seconds = defaultdict(set), {}
+        digest = _digest(path for part in ("core", "operators", "panels") for path in (self.root / part).rglob("*.py"))
+        for group in GROUPS:
+            for path in sorted((self.root / "tests" / group).rglob("test_*.py")):
+                if path.name not in LEFT_OUT:
+                    self._note_file(path.relative_to(self.root).as_posix(), digest)
+
+    def _note_file(self, file: str, digest: str) -> None:
+        kept = self.kept / (file.replace("/", ".") + ".json")
+        stamp = digest + _digest([self.root / file])
+        notes = json.loads(kept.read_text(encoding="utf-8")) if kept.is_file() else {}
+        if notes.get("stamp") != stamp:
+            found = self.folder / "lines.json"
+            found.unlink(missing_ok=True)
+            answer = self.ask([[file, None]], 3600.0, found)
+            tests = json.loads(found.read_text(encoding="utf-8")) if found.is_file() else {}
+            notes = {"stamp": stamp, "outcome": answer["outcome"], "tests": tests}
+            kept.write_text(json.dumps(notes), encoding="utf-8")
+        for name, note in notes["tests"].items():
+            if note["ok"]:
+                self.seconds[name] = note["seconds"]
+                for path, lines in note["lines"].items():
+                    for line in lines:
+                        self.tests_of[path, line].add(name)
+
+    def try_mutant(self, mutant: mutants.Mutant) -> dict:
+        """What comes of the tests that run its line; where the line runs while it is imported, its module."""
+        path = self.root / mutant.path
+        text, status = path.read_text(encoding="utf-8"), path.stat()
+        answer = {"outcome": "no test", "test": "", "seconds": 0.0}
+        tests = self.tests_for(mutant)
+        seconds = 30.0 + 10.0 * sum(self.seconds[name] for name in tests)
+        changed = mutant.text(text)
+        job = {"path": mutant.path, "before": text, "text": changed, "tests": tests, "seconds": seconds}
+        job["lines"] = list(range(mutant.line, mutant.line + mutant.before.count("\n") + 1))
+        try:
+            path.write_text(changed, encoding="utf-8")
+            later = status.st_mtime_ns + (10 + len(self.results)) * 10**9  # no bytecode of another mutant fits
+            os.utime(path, ns=(later, later))
+            if tests and not mutant.is_imported:
+                answer = _answer(self.warm, job)
+            if tests and (mutant.is_imported or answer["outcome"] == "cold"):
+                answer = self.ask(_by_file(tests), seconds)
+        finally:
+            path.write_text(text, encoding="utf-8")
+            os.utime(path, ns=(status.st_atime_ns, status.st_mtime_ns))
+        self.results.append((mutant, answer))
+        return answer
+
+    def tests_for(self, mutant: mutants.Mutant) -> list[str]:
+        """The tests that may find it: those of its own folder first, the quickest first."""
+        near = "/{}/".format(package_of(mutant.path).rpartition("/")[2])
+        if mutant.is_imported:
+            names = set().union(*(tests for (path, _), tests in self.tests_of.items() if path == mutant.path))
+        else:
+            names = self.tests_of.get((mutant.path, mutant.line), set())
+        chosen, total = [], 0.0
+        for name in sorted(names, key=lambda name: (near not in name, self.seconds[name], name)):
+            total += self.seconds[name]
+            if total > MAX_SECONDS and chosen:
+                break
+            chosen.append(name)
+        return chosen
+
+
+def _answer(process: subprocess.Popen, job: dict) -> dict:
+    process.stdin.write(json.dumps(job) + "\n")
+    process.stdin.flush()
+    return json.loads(process.stdout.readline())
+
+
+def _by_file(names: list[str]) -> list:
+    files = defaultdict(list)
+    for name in names:
+        file, _, test = name.partition("::")
+        files[file].append(test)
+    return [[file, tests] for file, tests in files.items()]
+
+
+def _digest(paths) -> str:
+    total = hashlib.sha256()
+    for path in sorted(paths):
+        total.update(path.read_bytes())
+    return total.hexdigest()
