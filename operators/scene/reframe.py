@@ -96,7 +96,9 @@ def reframe(
     objects = {plan.obj for plan in plans}
     users, touched = (referring(objects), dependents(objects)) if plans else ({}, {})
     refused: dict[Object, Finding] = {}
-    own = [plan for plan in plans if shows_own_mesh(plan.obj, users)]
+    # objects that share a mesh are changed in one way, so that they go on sharing it
+    others = {plan.obj.data for plan in plans if not shows_own_mesh(plan.obj, users)}
+    own = [plan for plan in plans if plan.obj.data not in others]
     carried_out = set(reframe_own_meshes(context, own)) if len(own) > 1 else set()
     done = len(carried_out)
     progress(done)

@@ -123,7 +123,8 @@ def _reframe_alike(context: Context, plans: Sequence[Plan], move_only: bool) -> 
     for i in np.flatnonzero(~fits).tolist():
         channels[i].restore()
     chosen = np.flatnonzero(fits)
-    owners = _give_meshes([plans[i] for i in chosen.tolist()], change[chosen], np.abs(boxes[chosen]).max(axis=(1, 2)))
+    wanted = data_change(was, targets, move_only)  # without what rounding makes of places far away
+    owners = _give_meshes([plans[i] for i in chosen.tolist()], wanted[chosen], np.abs(boxes[chosen]).max(axis=(1, 2)))
     _transform_meshes([objects[chosen[i]].data for i in owners], change[chosen[owners]])
     context.view_layer.update()
     return [objects[i] for i in chosen.tolist()]
