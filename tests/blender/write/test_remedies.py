@@ -53,6 +53,7 @@ NOUNS = (
         "Boolean",
         "CT",
         "MB",
+        "PLY",
         "Zhang",
         "Chen",
         "FILE",
