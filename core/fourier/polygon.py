@@ -10,7 +10,7 @@ the phases m in their middles and half the phase t along them
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from math import factorial
 
 import numpy as np
@@ -21,7 +21,7 @@ from ..numerics.compensated import phase_factors
 from .spectrum import Spectrum
 from .transform import ROUNDING_FACTOR, ZERO_WAVE_NUMBER
 from .triangle_kernel import PAIRS_PER_BLOCK
-from .wave_vectors import wave_vectors
+from .wave_vectors import FrequencyGrid, wave_vectors
 
 SERIES_TERMS = 10  # of sinc(t) - 1 for t up to 1
 
@@ -55,45 +55,118 @@ def polygon_transform(loops: Sequence[ArrayLike], q: ArrayLike) -> Spectrum:
     >>> np.round(polygon_transform([square], [[0.0, 0.0], [np.pi, 0.0]]).values, 6).tolist()
     [(1+0j), -0.63662j]
     """
-    q = wave_vectors(q, 2)
     corners = [np.asarray(loop, np.float64) for loop in loops]
     if not corners or any(loop.ndim != 2 or loop.shape[1] != 2 or len(loop) < 3 for loop in corners):
         raise ValueError("not loops (n, 2)")
     points = np.concatenate(corners)
-    if not np.isfinite(points).all():
-        raise ValueError("coordinates must be finite")
-    center = points.min(axis=0) / 2.0 + points.max(axis=0) / 2.0
-    reach = np.sqrt(((points - center) ** 2).sum(axis=1)).max()
-    scale = float(np.ldexp(1.0, int(np.ceil(np.log2(reach))))) if reach > 0.0 else 1.0
-    start = np.concatenate([(loop - center) / scale for loop in corners])
-    end = np.concatenate([(np.roll(loop, -1, axis=0) - center) / scale for loop in corners])
-    edge = end - start
-    values = _edge_sum((start + end).T / 2.0, edge.T / 2.0, np.stack([edge[:, 1], -edge[:, 0]]), q * scale)
-    near = np.sqrt((q**2).sum(axis=1)) * scale <= ZERO_WAVE_NUMBER
-    if near.any():
-        cross = start[:, 0] * edge[:, 1] - start[:, 1] * edge[:, 0]
-        first = (cross[:, None] * (start + end)).sum(axis=0) / 6.0
-        values[near] = cross.sum() / 2.0 - 1j * (q[near] @ first * scale)
-    values *= scale**2
-    perimeter = np.sqrt((edge**2).sum(axis=1)).sum()
-    error = U * ROUNDING_FACTOR * perimeter * scale**2 + 8.0 * U * np.abs(values)
-    return Spectrum(q, values * phase_factors(q, center), error)
+    starts = np.cumsum([0, *map(len, corners)])
+    following = np.arange(1, len(points) + 1)
+    following[starts[1:] - 1] = starts[:-1]
+    transform = RegionTransform(points, np.stack([np.arange(len(points)), following], axis=1), q)
+    for _ in transform.steps():
+        pass
+    return transform.result()
+
+
+class RegionTransform:
+    """The transform of a plane region under way: `steps` does the work, `result` returns the spectrum.
+
+    Parameters
+    ----------
+    points : (n, 2) array
+    edges : (m, 2) integer array
+        Closed; the inside lies to the left of each.
+    q : (M, 2) array_like, or FrequencyGrid
+        Wave vectors, rad per unit of length; the grid one of two dimensions.
+    rounded, stored : float
+        How far rounding, and storing the points as float32, may have moved each coordinate.
+
+    Raises
+    ------
+    MeasureError
+        If the wave vectors are not finite (M, 2).
+    ValueError
+        If coordinates are not finite.
+    """
+
+    def __init__(
+        self,
+        points: NDArray,
+        edges: NDArray,
+        q: ArrayLike | FrequencyGrid,
+        rounded: float = 0.0,
+        stored: float = 0.0,
+    ):
+        self.q = q if isinstance(q, FrequencyGrid) else wave_vectors(q, 2)
+        used = points[edges.ravel()] if len(edges) else np.zeros((1, 2))
+        if not np.isfinite(used).all():
+            raise ValueError("coordinates must be finite")
+        self.center = used.min(axis=0) / 2.0 + used.max(axis=0) / 2.0
+        reach = np.sqrt(((used - self.center) ** 2).sum(axis=1)).max()
+        self.scale = scale = float(np.ldexp(1.0, int(np.ceil(np.log2(reach))))) if reach > 0.0 else 1.0
+        self.start, self.end = ((points[edges[:, i]] - self.center) / scale for i in (0, 1))
+        self.perimeter = float(np.hypot(*(self.end - self.start).T).sum()) * scale
+        # an edge that moves sweeps over its length times the way, and a little at its ends
+        self.moved, self.input_error = (
+            np.sqrt(2.0) * step * (self.perimeter + 3.0 * step * len(edges)) for step in (rounded, stored)
+        )
+        self.vectors = half_of_grid(q) if isinstance(q, FrequencyGrid) else self.q
+        self.values = np.empty(len(self.vectors), np.complex128)
+
+    def steps(self) -> Iterator[float]:
+        """Do the work; yield after each part of it the fraction done, from 0 to 1."""
+        edge = self.end - self.start
+        middle, half, normal = (self.start + self.end).T / 2.0, edge.T / 2.0, np.stack([edge[:, 1], -edge[:, 0]])
+        size = max(1, PAIRS_PER_BLOCK // max(1, len(edge)))
+        for begin in range(0, len(self.vectors), size):
+            part = slice(begin, begin + size)
+            self.values[part] = _edge_sum(middle, half, normal, self.vectors[part] * self.scale)
+            yield min(1.0, (begin + size) / len(self.vectors))
+
+    def result(self) -> Spectrum:
+        """Return the spectrum, when all steps are done."""
+        scale, values, q = self.scale, self.values, self.vectors
+        near = np.sqrt((q**2).sum(axis=1)) * scale <= ZERO_WAVE_NUMBER
+        if near.any():
+            edge = self.end - self.start
+            cross = self.start[:, 0] * edge[:, 1] - self.start[:, 1] * edge[:, 0]
+            first = (cross[:, None] * (self.start + self.end)).sum(axis=0) / 6.0
+            values[near] = cross.sum() / 2.0 - 1j * (q[near] @ first * scale)
+        values = values * scale**2 * phase_factors(q, self.center)
+        if isinstance(self.q, FrequencyGrid):
+            q, values = self.q.vectors(), expand_half(self.q, values)
+        error = U * ROUNDING_FACTOR * self.perimeter * scale + self.moved + 8.0 * U * np.abs(values)
+        return Spectrum(q, values, error, float(self.input_error))
+
+
+def half_of_grid(grid: FrequencyGrid) -> NDArray[np.float64]:
+    """((h+1)(2h+1), 2) the wave vectors of a grid from 0 on along x, and from -h to h along y: what the others are
+    conjugate to."""
+    x, y = np.arange(grid.half + 1) * grid.step, (np.arange(2 * grid.half + 1) - grid.half) * grid.step
+    return np.stack(np.meshgrid(x, y, indexing="ij"), axis=-1).reshape(-1, 2)
+
+
+def expand_half(grid: FrequencyGrid, values: NDArray[np.complex128]) -> NDArray[np.complex128]:
+    """(count²,) the values everywhere from those of `half_of_grid`."""
+    n, h = grid.count, grid.half
+    values = values.reshape(h + 1, 2 * h + 1)
+    full = np.empty((n, n), np.complex128)
+    full[h:] = values[: n - h, :n]
+    full[:h] = values[:0:-1, ::-1][:, :n].conj()
+    return full.reshape(-1)
 
 
 def _edge_sum(middle: NDArray, half: NDArray, normal: NDArray, q: NDArray) -> NDArray[np.complex128]:
     """(M,) the sum over edges, by columns (2, k)."""
-    values, size = np.empty(len(q), np.complex128), max(1, PAIRS_PER_BLOCK // middle.shape[1])
-    for begin in range(0, len(q), size):
-        block = q[begin : begin + size].T
-        m, t, across = (
-            sum((np.multiply.outer(a, b) for a, b in zip(block, vectors)), np.zeros(()))
-            for vectors in (middle / 2.0, half, normal)
-        )
-        v = -2.0 * np.sin(m) * (np.sin(m) + 1j * np.cos(m))  # exp(-i q·x) - 1
-        less = _sinc_minus_one(t)
-        square = np.maximum((block**2).sum(axis=0), ZERO_WAVE_NUMBER**2)
-        values[begin : begin + size] = 1j * (across * (v + (1.0 + v) * less)).sum(axis=1) / square
-    return values
+    block = q.T
+    m, t, across = (
+        sum((np.multiply.outer(a, b) for a, b in zip(block, vectors)), np.zeros(()))
+        for vectors in (middle / 2.0, half, normal)
+    )
+    v = -2.0 * np.sin(m) * (np.sin(m) + 1j * np.cos(m))  # exp(-i q·x) - 1
+    less = _sinc_minus_one(t)
+    square = np.maximum((block**2).sum(axis=0), ZERO_WAVE_NUMBER**2)
+    return 1j * (across * (v + (1.0 + v) * less)).sum(axis=1) / square
 
 
 def _sinc_minus_one(t: NDArray) -> NDArray[np.float64]:

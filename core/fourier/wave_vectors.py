@@ -34,6 +34,8 @@ class FrequencyGrid:
     largest : float
         The largest |q| along each axis, rad per unit of length. With h = count // 2 the j-th frequency of an axis is
         (j - h) / h · largest: 0 is always one of them, and an even count leaves out +largest.
+    dimension : int
+        3, or 2 for flat shapes.
 
     Raises
     ------
@@ -50,6 +52,7 @@ class FrequencyGrid:
 
     count: int
     largest: float
+    dimension: int = 3
 
     def __post_init__(self) -> None:
         if self.count < 2:
@@ -72,9 +75,9 @@ class FrequencyGrid:
         return (np.arange(self.count, dtype=np.float64) - self.half) * self.step
 
     def vectors(self) -> NDArray[np.float64]:
-        """Return every wave vector, (count³, 3), the last axis fastest."""
-        axis = self.axis()
-        return np.stack(np.meshgrid(axis, axis, axis, indexing="ij"), axis=-1).reshape(-1, 3)
+        """Return every wave vector, (count³, 3) or (count², 2), the last axis fastest."""
+        axes = np.meshgrid(*[self.axis()] * self.dimension, indexing="ij")
+        return np.stack(axes, axis=-1).reshape(-1, self.dimension)
 
     def expand(self, values: NDArray[np.complex128]) -> NDArray[np.complex128]:
         """Return the (count³,) values everywhere from those of `GridWaves`, which are at half of the places."""

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Raw moments about a point, their sums, affine images and error bounds; the monomials that index them."""
 
+from .complex_moments import complex_moments
 from .images import sum_of_images
 from .moments import Measure, Moments, sum_moments
 from .monomials import monomial_count, monomial_index, monomials
@@ -10,6 +11,7 @@ from .normalized import normalize
 __all__ = [
     "Measure",
     "Moments",
+    "complex_moments",
     "monomial_count",
     "monomial_index",
     "monomials",

@@ -3,6 +3,7 @@
 """Area moments of polygons with holes, and the section properties that engineers know."""
 
 from .polygon import area_moments, directed_edges, find_defects, orient_loops
+from .region_moments import region_moments
 from .section import Plane, Section, fit_plane, measure_section
 
 __all__ = [
@@ -14,4 +15,5 @@ __all__ = [
     "fit_plane",
     "measure_section",
     "orient_loops",
+    "region_moments",
 ]

@@ -247,6 +247,11 @@ def region(
     return boundary_edges(triangles, len(points)), int(np.count_nonzero(flipped))
 
 
+def projection_rounding(plane: Plane, points: NDArray, flat: NDArray) -> float:
+    """How far rounding may have moved a coordinate of (n, 3) points that were projected to (n, 2) flat ones."""
+    return 16.0 * U * float(np.abs(points).max(initial=0.0) + np.abs(plane.origin).max() + np.abs(flat).max())
+
+
 def measure_section(plane: Plane, points: NDArray, edges: NDArray, error: float = 0.0, shared: float = 0.0) -> Section:
     """Measure the region to the left of directed edges.
 
@@ -283,7 +288,7 @@ def measure_section(plane: Plane, points: NDArray, edges: NDArray, error: float 
     flat = plane.project(points)
     used = flat[edges.ravel()] if len(edges) else np.zeros((1, 2))
     about = used.min(axis=0) / 2.0 + used.max(axis=0) / 2.0
-    rounded = 16.0 * U * float(np.abs(points).max(initial=0.0) + np.abs(plane.origin).max() + np.abs(used).max())
+    rounded = projection_rounding(plane, points, used)
     first = area_moments(flat, edges, 1, about)
     moved = _displacement_bounds(flat, edges, about, rounded)[:3] + first.rounding_error
     if not first.raw[0] > moved[0]:

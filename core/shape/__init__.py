@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What a shape is apart from where it stands: symmetry, signature, registration, libraries of shapes."""
 
+from .flat_signature import flat_signature
 from .library import classify, rank, read_library
 from .registration import match
 from .signature import Signature, signature, similarity
@@ -10,6 +11,7 @@ from .symmetry import symmetry
 __all__ = [
     "Signature",
     "classify",
+    "flat_signature",
     "match",
     "rank",
     "read_library",

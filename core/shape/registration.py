@@ -85,10 +85,10 @@ def match(source: Moments, target: Moments, residual: Residual, size: float) -> 
     (True, False)
     """
     first = equivalent_frames(source).frames[0]
-    rotation, distances = _best_rotation(_candidate_rotations(first, equivalent_frames(target)), residual, size)
+    rotation, distances = best_rotation(_candidate_rotations(first, equivalent_frames(target)), residual, size)
     largest, mirrored = float(distances.max()), False
     if largest > MAX_FIT_RTOL * size:
-        reflected = _best_rotation(
+        reflected = best_rotation(
             -_candidate_rotations(first, equivalent_frames(invert_through_point(target))), residual, size
         )[1].max()
         mirrored = bool(reflected < MIRROR_SHARE * largest)
@@ -102,7 +102,8 @@ def _candidate_rotations(first: NDArray, target: EquivalentFrames) -> NDArray[np
     return distinct_arrays(frames @ first.T, 1e-9)
 
 
-def _best_rotation(candidates: NDArray, residual: Residual, size: float) -> tuple[NDArray, NDArray]:
+def best_rotation(candidates: NDArray, residual: Residual, size: float) -> tuple[NDArray, NDArray]:
+    """Of (k, 3, 3) maps the one with the least residual, and its distances; of equal ones the smallest turn."""
     least = np.array([residual(way, FIRST_SAMPLES).max() for way in candidates])
     worst, distances = np.full(len(candidates), np.inf), {}
     for i in np.argsort(least, kind="stable"):

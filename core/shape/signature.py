@@ -27,6 +27,7 @@ from numpy.typing import NDArray
 from ..moments.moments import Measure, Moments, monomials
 from ..moments.solid_harmonics import couple, harmonic_moments
 from ..verdict.finding import FileError
+from . import flat_couplings
 from .zernike import (
     MAX_ORDER_BY_MOMENTS,
     Multiplets,
@@ -63,6 +64,8 @@ class Signature:
         See the module; `fourier` is empty where the moments are of a surface.
     error : float
         An estimate of the rounding of the descriptors.
+    dimension : int
+        3, or 2 of a flat shape (`flat_signature`): no body is like one.
 
     Examples
     --------
@@ -79,10 +82,12 @@ class Signature:
     fourier: NDArray[np.float64]
     chirality: NDArray[np.float64]
     error: float = 0.0
+    dimension: int = 3
 
     def as_record(self) -> dict:
         """Return the arrays and the size by name, for JSON."""
         return {
+            **({} if self.dimension == 3 else {"dimension": self.dimension}),
             "size": self.size,
             "invariants": self.invariants,
             "zernike": self.zernike,
@@ -99,15 +104,16 @@ class Signature:
                 for name in ("invariants", "zernike", "fourier", "chirality")
             ]
             invariants, zernike, fourier, chirality = arrays
-            result = cls(float(record["size"]), invariants, zernike, fourier, chirality)
+            dimension = record.get("dimension", 3)
+            result = cls(float(record["size"]), invariants, zernike, fourier, chirality, dimension=dimension)
+            lengths = _lengths(dimension)
         except (KeyError, TypeError, ValueError, OverflowError) as error:
             raise FileError("signature_unrecognized") from error
         if not (
             (np.abs(np.concatenate(arrays)) < MAX_DESCRIPTOR).all()  # not where one is NaN
             and 1.0 / MAX_SIZE < result.size < MAX_SIZE
             and len(result.zernike)
-            and len(result.invariants) == 2 + len(_pairs()) + len(_even_triples())
-            and len(result.chirality) == len(_chiral_triples())
+            and (len(result.invariants), len(result.chirality)) == lengths
         ):
             raise FileError("signature_incomplete")
         return result
@@ -144,6 +150,12 @@ class Likeness:
             for value in (log(self.scale), self.chirality_difference)
         )
         return hypot(self.shape, 0.0 if any_size else size, 0.0 if any_hand else hand)
+
+
+def _lengths(dimension: int) -> tuple[int, int]:
+    """How many invariants and how many chiralities a signature has. KeyError for what is no dimension."""
+    bodies = 2 + len(_pairs()) + len(_even_triples()), len(_chiral_triples())
+    return {2: flat_couplings.counts(), 3: bodies}[dimension]
 
 
 def signature(moments: Moments, radius: float, zernike: Multiplets | None = None) -> Signature:
@@ -220,6 +232,8 @@ def similarity(a: Signature, b: Signature) -> Likeness:
     >>> round(likeness.shape, 6), round(likeness.scale, 6)
     (0.0, 3.0)
     """
+    if a.dimension != b.dimension:
+        return Likeness(1.0, b.size / a.size, 0.0, None)
     n = min(len(a.zernike), len(b.zernike))
     shape = sqrt(
         (

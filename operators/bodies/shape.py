@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 from itertools import chain
 from math import frexp
 from typing import Any
@@ -20,16 +20,16 @@ from mathutils.bvhtree import BVHTree
 from numpy.typing import NDArray
 
 from ...core.inertia.axial_harmonics import axial_harmonics, axis_last, turn_by_harmonics
-from ...core.inertia.canonical_frame import MAX_ORDER
+from ...core.inertia.canonical_frame import MAX_ORDER, NOISE_LEVEL
 from ...core.inertia.principal_frame import equivalent_frames, nearest_frame, pose_matrix
 from ...core.measurement import Measurement
 from ...core.mesh.point_triangle import triangle_distances
 from ...core.mesh.surface import Surface, join_surfaces
 from ...core.moments.moments import Moments
 from ...core.polyhedron import polyhedron_moments
-from ...core.shape.registration import RigidMatch, match
+from ...core.shape.registration import Residual, RigidMatch, match
 from ...core.shape.signature import Signature, signature
-from ...core.shape.symmetry import symmetry
+from ...core.shape.symmetry import Symmetry, confirm, symmetry
 from ...core.shape.zernike import MAX_DESCRIPTOR_ERROR, MAX_ORDER_BY_MOMENTS, zernike_quadrature
 from ...core.verdict.finding import ReadError
 from ...core.verdict.method import Source, Verdict
@@ -50,6 +50,26 @@ class Shape:
     measurement: Measurement
     body: Body
     threads: int = 1
+
+    @property
+    def name(self) -> str:
+        """Of the object."""
+        return self.measurement.name
+
+    @property
+    def rotation(self) -> NDArray[np.float64]:
+        """(3, 3) the object frame's axes."""
+        return self.measurement.rotation
+
+    @property
+    def fingerprint(self) -> str:
+        """Of what was measured."""
+        return self.measurement.fingerprint
+
+    @property
+    def is_display_mesh(self) -> bool:
+        """Whether the pieces are the display mesh of something smooth."""
+        return is_display_mesh(self.measurement)
 
     @property
     def center(self) -> NDArray[np.float64]:
@@ -146,6 +166,18 @@ class Shape:
             triangles = whole.all_triangles()[0]
             result = signature(volume, radius, zernike_quadrature(whole.points / radius, triangles, order))
         return replace(result, size=scale * result.size)
+
+    def match(self, target: Shape, residual: Residual) -> RigidMatch:
+        """How this shape lies on another one. residual: as for `match`."""
+        return match(self.moments, target.moments, residual, target.size)
+
+    def find_symmetries(self, skin: SurfaceDistance, tolerance: float) -> tuple[Symmetry, Symmetry]:
+        """What the surface confirms, and what the moments allow. tolerance: by the size."""
+        moments = self.piece_moments()
+        # Moments are looked at as loosely as the surface.
+        allowed = symmetry(moments, max(NOISE_LEVEL, tolerance))
+        near = tolerance * self.size
+        return confirm(allowed, moments.about, skin.points, partial(skin.distance, within=near), near), allowed
 
     def points_about_center(self) -> NDArray[np.float64]:
         """(n, 3) the corners of all faces."""
@@ -266,4 +298,4 @@ def register_surfaces(
         back = source_skin.distance((target_points - target.center) @ way / scale + source.center)
         return np.concatenate([there, scale * back])
 
-    return match(source.moments, target.moments, residual, target.size)
+    return source.match(target, residual)

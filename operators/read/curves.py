@@ -54,6 +54,23 @@ def read_curves(obj, depsgraph) -> tuple[list[Curve], list[Finding]]:
     return usable, findings
 
 
+def text_curves(obj, depsgraph) -> list[Curve]:
+    """The outlines of a text object in its own coordinates, as its font has them.
+
+    Raises ReadError where it has none.
+    """
+    try:
+        curves = [
+            _curve(spline.type, spline.use_cyclic_u, 4, False, False, _control_points(spline), None)
+            for spline in obj.to_curve(depsgraph).splines
+        ]
+    finally:
+        obj.to_curve_clear()
+    if not curves or None in curves:
+        raise ReadError("no_curve", subject=obj.name)
+    return curves
+
+
 def is_round(obj) -> bool:
     """Whether the polygons that Blender draws for a curve or text object stand for something that is not straight."""
     curve = obj.data

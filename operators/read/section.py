@@ -19,7 +19,9 @@ from numpy.typing import NDArray
 
 from ...core.mesh.surface import Surface
 from ...core.numerics.rotations import polar_rotation
+from ...core.nurbs.curve import Curve
 from ...core.verdict.finding import Finding, ReadError, finding
+from .curves import read_curves, text_curves
 from .mesh import from_edit_mesh, mesh_surface
 from .objects import locate, read_object
 from .reading import Reading
@@ -53,16 +55,19 @@ class SectionReading:
     findings: list[Finding] = field(default_factory=list)
 
 
-def read_section(obj, depsgraph) -> SectionReading:
+def read_section(obj, depsgraph, *, selected: bool = True, resolution: int | None = None) -> SectionReading:
     """Read one object: in Edit Mode of a mesh its selected faces as they are now, else what the viewport shows of it.
 
+    selected: whether only the selected faces in Edit Mode. resolution: of curves and text, in the place of their own.
     Raises ReadError.
     """
     obj = obj.original
-    if obj.type == "MESH" and obj.data.is_editmode:
+    if obj.type not in SECTION_TYPES:
+        raise ReadError("flat_of_type", subject=obj.name)
+    if selected and obj.type == "MESH" and obj.data.is_editmode:
         return _selected_faces(obj, depsgraph)
-    if obj.type in {"CURVE", "FONT"} and not any(modifier.show_viewport for modifier in obj.modifiers):
-        return _outlines(obj, depsgraph)
+    if obj.type in {"CURVE", "FONT"} and not _has_modifiers(obj):
+        return _outlines(obj, depsgraph, resolution)
     reading = read_object(obj, depsgraph, edges=False)
     findings = list(reading.findings)
     if obj.type in {"CURVE", "FONT"}:
@@ -80,6 +85,23 @@ def read_section(obj, depsgraph) -> SectionReading:
         reading.location,
         findings=findings,
     )
+
+
+def read_outline_curves(obj, depsgraph) -> tuple[list[Curve], NDArray[np.float64]]:
+    """The outlines of a flat curve or text as curves in its own coordinates, and its `matrix_world`.
+
+    Raises ReadError where modifiers, shape keys or a curve that the text follows change them.
+    """
+    obj = obj.original
+    if _has_modifiers(obj) or (obj.type == "FONT" and obj.data.follow_curve is not None):
+        raise ReadError("no_curve", subject=obj.name)
+    place = locate(obj, depsgraph)
+    curves = text_curves(obj, depsgraph) if obj.type == "FONT" else read_curves(obj, depsgraph)[0]
+    return curves, place.matrix
+
+
+def _has_modifiers(obj) -> bool:
+    return any(modifier.show_viewport for modifier in obj.modifiers)
 
 
 def _axes(reading: Reading) -> NDArray[np.float64]:
@@ -118,11 +140,11 @@ def _selected_faces(obj, depsgraph) -> SectionReading:
     )
 
 
-def _outlines(obj, depsgraph) -> SectionReading:
+def _outlines(obj, depsgraph, resolution: int | None) -> SectionReading:
     _require_flat_outlines(obj)
     if obj.mode == "EDIT":
         obj.update_from_editmode()
-    local, loops, open_splines = _spline_outlines(obj)
+    local, loops, open_splines = _spline_outlines(obj, resolution)
     if not loops:
         code = "section_no_outline_text" if obj.type == "FONT" else "section_no_outline_curve"
         raise ReadError(code, subject=obj.name)
@@ -187,10 +209,13 @@ def _require_flat_outlines(obj) -> None:
         raise ReadError("section_offset", subject=obj.name)
 
 
-def _spline_outlines(obj) -> tuple[NDArray[np.float32], list[NDArray[np.intp]], int]:
+def _spline_outlines(obj, resolution: int | None) -> tuple[NDArray[np.float32], list[NDArray[np.intp]], int]:
     """(n, 3) the points of the object's splines, those of each closed one, and how many are open."""
     data = obj.data.copy()
     data.fill_mode = "NONE"
+    if resolution is not None:
+        for curved in (data, *data.splines):
+            curved.resolution_u = resolution
     copy = bpy.data.objects.new("Body Moments Reading", data)
     try:
         mesh = copy.to_mesh()

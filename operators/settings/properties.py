@@ -380,6 +380,7 @@ class BodyMomentsSceneSettings(SceneDefaults, PropertyGroup):
             ("VOLUME", "Volume", "Volume. For shells, area times thickness"),
             ("SURFACE", "Surface", "Area of the faces"),
             ("MASS", "Mass", "Volume, or for shells the area, times the density wherever it comes from"),
+            ("FLAT", "Area", "Area of a flat shape in its own plane, ∫ x^p y^q dA"),
         ),
         default="VOLUME",
     )
@@ -394,6 +395,11 @@ class BodyMomentsSceneSettings(SceneDefaults, PropertyGroup):
                 "NORMALIZED",
                 "Center, Normalized",
                 "Central moments of the shape scaled to a volume or area of 1, independent of size",
+            ),
+            (
+                "INVARIANT",
+                "Invariants",
+                "Numbers of a flat shape that do not depend on its place, rotation and size: Hu's, then Flusser's",
             ),
             ("REFERENCE", "Reference", "Point and axes that Inertia about Reference refers to"),
         ),

@@ -172,6 +172,9 @@ MESSAGES: dict[str, Message] = {
     "mass_moments_unknown": _error(
         "Moments of the mass are not available to order {order} for this object. Set Order to 3, or Domain to Volume."
     ),
+    "moments_of_flat": _error("A flat shape has no volume. Set Domain to Area."),
+    "invariants_of_flat": _error("Invariants are those of flat shapes. Set Domain to Area."),
+    "invariants_order": _error("Invariants need order {order}. Set Order, and compute the moments."),
     "normalization_undefined": _error(
         "The moments cannot be normalized: the volume or area is zero. Set About to Center."
     ),
@@ -1000,6 +1003,13 @@ MESSAGES: dict[str, Message] = {
     ),
     "signature_needs_polygons": _error("The signature needs polygons. Use Object > Convert > Mesh."),
     "mirror_image": _error("A mirror image of the active object, which no rotation can match."),
+    "flat_mirror_image": _error(
+        "A mirror image of the active object, seen from the front. Turn it over, or mirror it."
+    ),
+    "flat_and_body": _error(
+        "A flat shape and a body cannot match. Select objects of one kind, or set Kind of both to Shell."
+    ),
+    "flat_of_type": _error("Only meshes, 2D curves and texts can be flat shapes. Convert the object to a mesh."),
     # ------------------------------------------------------------------ Fourier transform
     "fourier_of_wire": _error(
         "The Fourier transform of a wire is not available. Set Kind to Solid or Shell, or Domain to Surface."

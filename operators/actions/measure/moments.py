@@ -9,12 +9,14 @@ from dataclasses import replace
 from bpy.types import Context, Object, Operator
 
 from ....core.moments.moments import Measure
-from ....core.verdict.finding import MeasureError, finding
+from ....core.plane.region_moments import plane_positions
+from ....core.verdict.finding import Finding, MeasureError, finding
+from ...bodies.flat import area_findings, clearer_refusal, flat_region
 from ...bodies.measure_object import THREADS, measure_object
 from ...read import measurable
 from ...read.fingerprint import matrix_hash, settings_hash
 from ...session import updates
-from ...session.moments import ComputedMoments, as_csv, cache_moments, computed_moments, reference_of
+from ...session.moments import ComputedMoments, FlatMoments, as_csv, cache_moments, computed_moments, reference_of
 from ...settings.options import MeasureOptions
 from ...write import reports
 from .. import selection
@@ -35,8 +37,8 @@ class OBJECT_OT_body_moments_compute_moments(Operator):
     bl_idname = "object.body_moments_compute_moments"
     bl_label = "Compute Moments"
     bl_description = (
-        "Compute all moments of the active object's volume, surface and mass up to the chosen order. A million "
-        "triangles take about 1 second at order 4 and 20 seconds at order 20"
+        "Compute all moments of the active object's volume, surface and mass, or of the area of what is flat, up to "
+        "the chosen order. A million triangles take about 1 second at order 4 and 20 seconds at order 20"
     )
     bl_options = {"REGISTER"}
 
@@ -47,27 +49,62 @@ class OBJECT_OT_body_moments_compute_moments(Operator):
     def execute(self, context: Context) -> set[str]:
         obj, scene = context.object, context.scene
         order: int = scene.body_moments.moments_order
-        options = MeasureOptions(order=order, surface=True, threads=THREADS)
-        depsgraph = context.evaluated_depsgraph_get()
+        key = (matrix_hash(obj), settings_hash(obj, scene), updates.last_change_of_geometry(obj))
         try:
-            measurement = measure_object(obj, depsgraph, options)
+            computed, findings = _compute(context, obj, order, key)
         except MeasureError as error:
             selection.report(self, reports.failure(obj.name, error))
             return {"CANCELLED"}
-        if measurement.length is not None:
+        if computed is None:
             reports.report(self, finding("wire_without_moments", object=obj.name))
             return {"CANCELLED"}
-        area = measurement.area_moments.truncate(order)
-        volume = (measurement.volume_moments or replace(area * measurement.thickness, measure=Measure.VOLUME)).truncate(
-            order
-        )
-        mass = measurement.moments_of_mass(order)
-        key = (matrix_hash(obj), settings_hash(obj, scene), updates.last_change_of_geometry(obj))
-        computed = ComputedMoments(obj.name, volume, area, mass, measurement.rotation, measurement.location, key)
         cache_moments(obj, computed)
-        done = finding("moments_computed", count=len(volume.raw), object=obj.name)
-        reports.report(self, done, *reports.first(measurement.findings))
+        count = len(plane_positions(order)) if computed.volume is None else len(computed.volume.raw)
+        done = finding("moments_computed", count=count, object=obj.name)
+        reports.report(self, done, *reports.first(findings))
         return {"FINISHED"}
+
+
+def _compute(
+    context: Context, obj: Object, order: int, key: tuple[str, str, int]
+) -> tuple[ComputedMoments | None, tuple[Finding, ...]]:
+    """The moments of a body, of a flat shape, or of both; None of a wire that bounds nothing. MeasureError where the
+    object is neither."""
+    depsgraph = context.evaluated_depsgraph_get()
+    region, flat, not_flat = None, None, None
+    try:
+        region = flat_region(obj, depsgraph)
+        flat = FlatMoments(region.moments(order), region.plane)
+    except MeasureError as error:
+        not_flat = error
+    try:
+        measurement = measure_object(obj, depsgraph, MeasureOptions(order=order, surface=True, threads=THREADS))
+    except MeasureError as refusal:
+        if not_flat is not None:
+            raise clearer_refusal(refusal, not_flat) from None
+        measurement = None
+    if measurement is None or measurement.length is not None:
+        if region is None or flat is None:
+            return None, ()
+        computed = ComputedMoments(obj.name, None, None, None, region.rotation, region.location, key, flat)
+        return computed, (*region.findings, *area_findings(region, flat.moments.total))
+    area = measurement.area_moments.truncate(order)
+    volume = (measurement.volume_moments or replace(area * measurement.thickness, measure=Measure.VOLUME)).truncate(
+        order
+    )
+    mass = measurement.moments_of_mass(order)
+    computed = ComputedMoments(
+        obj.name,
+        volume,
+        area,
+        mass,
+        measurement.rotation,
+        measurement.location,
+        key,
+        flat,
+        not_flat and not_flat.finding,
+    )
+    return computed, measurement.findings
 
 
 class OBJECT_OT_body_moments_copy_moments(Operator):
@@ -95,7 +132,7 @@ class OBJECT_OT_body_moments_copy_moments(Operator):
         except MeasureError as error:
             selection.report(self, reports.failure(computed.name, error))
             return {"CANCELLED"}
-        copy_text(self, context, text, finding("moments_copied", count=len(computed.volume.raw)))
+        copy_text(self, context, text, finding("moments_copied", count=max(0, text.count("\n") - 2)))
         return {"FINISHED"}
 
 

@@ -9,12 +9,11 @@ import numpy as np
 from bpy.types import Context, Depsgraph, Object, Operator
 
 from ....core.numerics.float32 import shortest_decimal
-from ....core.plane.polygon import find_defects, orient_loops
-from ....core.plane.section import Section, fit_plane, measure_section, region
-from ....core.verdict.finding import Finding, MeasureError, ReadError, Severity, finding
-from ....core.verdict.tolerances import NEGLIGIBLE
+from ....core.plane.section import Section, measure_section
+from ....core.verdict.finding import Finding, MeasureError, Severity, finding
+from ...bodies.flat import area_findings, flat_region
 from ...read.fingerprint import fingerprint, matrix_hash, settings_hash
-from ...read.section import SECTION_TYPES, SectionReading, read_section
+from ...read.section import SECTION_TYPES
 from ...session import outcome, staleness
 from ...write import properties, reports
 from ...write import section as record
@@ -22,57 +21,19 @@ from ...write.messages import of_severity
 from ..modal import redraw
 from .copy import copy_text
 
-FILL_AREA_RTOL = 1e-4  # Blender's fill and the outlines differ by more than this share: the fill is wrong
-
 
 def section_of(obj: Object, depsgraph: Depsgraph) -> tuple[Section, str, tuple[Finding, ...]]:
     """The section of one object in SI units and world axes, what of it was measured, and what was decided.
 
     Raises MeasureError where there is none.
     """
-    reading = read_section(obj, depsgraph)
-    unit = shortest_decimal(depsgraph.scene.unit_settings.scale_length)
+    found = flat_region(obj, depsgraph, exact=False)
     try:
-        section, findings = _measure_reading(reading, unit)
+        section = measure_section(found.plane, found.spatial, found.edges, found.stored, found.shared)
     except MeasureError as error:
         error.about(obj.name)
         raise
-    return section, reading.description, (*reading.findings, *findings)
-
-
-def _measure_reading(reading: SectionReading, unit: float) -> tuple[Section, list[Finding]]:
-    points, error, findings = reading.points * unit, reading.error * unit, []
-    plane = fit_plane(points, reading.triangles, reading.rotation, reading.location * unit, error, reading.facing)
-    flat = plane.project(points)
-    if reading.loops is not None:
-        edges = orient_loops(flat, reading.loops)
-    else:
-        edges, flipped = region(plane, points, reading.triangles, reading.faces, error)
-        if flipped:
-            findings.append(finding("section_faces_reversed", count=flipped))
-    defects = find_defects(flat, edges, error)
-    if reading.loops is not None and defects.crossings:
-        raise ReadError("outlines_cross_at", count=defects.crossings)
-    if reading.loops is not None and defects.overlapping:
-        raise ReadError("outlines_cross")
-    if defects.negative:
-        raise ReadError("section_face_crosses_itself")
-    section = measure_section(plane, points, edges, error, defects.shared_length)
-    if defects.crossings or defects.overlapping:
-        findings.append(finding("section_faces_overlap"))
-    if defects.too_many_pairs:
-        findings.append(finding("section_overlap_unchecked"))
-    if plane.out_of_plane > 4.0 * error:
-        share = float(plane.out_of_plane / np.sqrt(section.area))
-        findings.append(
-            finding("section_projected_slightly" if share < NEGLIGIBLE else "section_projected", share=share)
-        )
-    if (
-        reading.drawn_area is not None
-        and abs(reading.drawn_area * unit**2 - section.area) > FILL_AREA_RTOL * section.area
-    ):
-        findings.append(finding("section_fill_wrong", share=float(reading.drawn_area * unit**2 / section.area)))
-    return section, findings
+    return section, found.description, (*found.findings, *area_findings(found, section.area))
 
 
 def stale_reason(obj: Object, scene: bpy.types.Scene, stored: record.StoredSection) -> str | None:

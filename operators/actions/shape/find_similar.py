@@ -21,7 +21,8 @@ from ....core.shape.library import UNDECIDED_HANDEDNESS, Entry, Similarity, clas
 from ....core.shape.registration import MAX_FIT_RTOL, RigidMatch
 from ....core.shape.signature import Likeness, Signature, similarity
 from ....core.verdict.finding import FileError, Finding, MeasureError, finding
-from ...bodies.shape import SurfaceDistance, register_surfaces, surface_shape_of
+from ...bodies.flat_shape import FlatShape, comparable_shape_of, distance_from
+from ...bodies.shape import register_surfaces
 from ...read import measurable_objects
 from ...session import outcome
 from ...write import reports
@@ -76,7 +77,7 @@ class _SearchMixin:
         reported."""
         self.wanted: Signature | None = None
         try:
-            self.shape = surface_shape_of(context.object, context.evaluated_depsgraph_get())
+            self.shape = comparable_shape_of(context.object, context.evaluated_depsgraph_get())
             yield 0.0
             self.wanted = self.shape.signature(DESCRIPTOR_ORDER)
         except MeasureError as error:
@@ -158,17 +159,17 @@ class OBJECT_OT_body_moments_find_similar(ModalSteps, _SearchMixin, Operator):
 
         def compare(obj: Object) -> Iterator[float]:
             nonlocal skin
-            shape = surface_shape_of(obj, context.evaluated_depsgraph_get())
+            shape = comparable_shape_of(obj, context.evaluated_depsgraph_get(), isinstance(active_shape, FlatShape))
             yield 0.3
             entry = Entry(obj.name_full, "", shape.signature(DESCRIPTOR_ORDER))
             likeness = similarity(wanted, entry.signature)
             if classify(likeness) in UNDECIDED_HANDEDNESS:
                 yield 0.6
                 if skin is None:
-                    skin = SurfaceDistance(active_shape)
+                    skin = distance_from(active_shape)
                     for _ in skin.build():
                         yield 0.6
-                skin_compared = SurfaceDistance(shape)
+                skin_compared = distance_from(shape)
                 yield from (0.6 + 0.3 * share for share in skin_compared.build())
                 self._mirror_images[entry] = _is_mirror_image(
                     register_surfaces(shape, active_shape, skin_compared, skin, 1.0 / likeness.scale), active_shape.size

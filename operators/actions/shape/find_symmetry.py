@@ -6,7 +6,6 @@ surfaces. What was found is kept with each object, in its own axes, for the pane
 from __future__ import annotations
 
 from collections.abc import Iterator
-from functools import partial
 
 import bpy
 import numpy as np
@@ -22,11 +21,10 @@ from bpy.props import (
 )
 from bpy.types import Context, Event, Object, Operator, PropertyGroup
 
-from ....core.inertia.canonical_frame import NOISE_LEVEL
-from ....core.measurement import Measurement
-from ....core.shape.symmetry import Symmetry, confirm, symmetry
+from ....core.shape.symmetry import Symmetry
 from ....core.verdict.finding import Finding, finding
-from ...bodies.shape import Shape, SurfaceDistance, is_display_mesh, surface_shape_of
+from ...bodies.flat_shape import FlatShape, comparable_shape_of, distance_from
+from ...bodies.shape import Shape
 from ...read.fingerprint import scale_hash
 from ...scene.transforms import require_storable_data
 from ...session import staleness
@@ -76,8 +74,8 @@ class OBJECT_OT_body_moments_find_symmetry(ModalSteps, Operator):
     bl_idname = "object.body_moments_find_symmetry"
     bl_label = "Find Symmetry"
     bl_description = (
-        "Find the rotation axes and mirror planes through the center of mass of the selected objects that moments to "
-        "order 6 allow and the surface confirms"
+        "Find the rotation axes and mirror planes through the center of mass of the selected objects that moments "
+        "allow and the surface, or of flat shapes the outline, confirms"
     )
     bl_options = {"REGISTER", "UNDO"}
     PROGRESS = finding("progress_symmetry")
@@ -108,35 +106,35 @@ class OBJECT_OT_body_moments_find_symmetry(ModalSteps, Operator):
 
     def _begin(self, context: Context) -> None:
         self._objects = selection.selected_measurable(context)
-        self._results: list[tuple[Object, Measurement, Symmetry, Symmetry]] = []
+        self._results: list[tuple[Object, Shape | FlatShape, Symmetry, Symmetry]] = []
         self._failures: list[Finding] = []
 
         def find(obj: Object) -> Iterator[float]:
             require_storable_data(obj, "library_override_symmetry")
-            shape = surface_shape_of(obj, context.evaluated_depsgraph_get())
+            shape = comparable_shape_of(obj, context.evaluated_depsgraph_get())
             yield 0.3
-            skin = SurfaceDistance(shape)
+            skin = distance_from(shape)
             yield from (0.4 + 0.5 * share for share in skin.build())
-            self._results.append((obj, shape.measurement, *_find_symmetries(shape, skin, self.tolerance)))
+            self._results.append((obj, shape, *shape.find_symmetries(skin, self.tolerance)))
 
         self._steps = selection.iterate_objects(self._objects, find, self._failures)
 
     def _finish(self, context: Context) -> set[str]:
         """Nothing is kept before all are looked at, so that a canceled search leaves nothing behind."""
-        for obj, measurement, found_symmetry, allowed in self._results:
-            _store_symmetry(obj, measurement, found_symmetry, allowed, self.tolerance)
+        for obj, shape, found_symmetry, allowed in self._results:
+            _store_symmetry(obj, shape, found_symmetry, allowed, self.tolerance)
         # Blender reports what was written as a change of the object.
         staleness.mark_fingerprints(
             context, [(obj, obj.body_moments_symmetry.fingerprint) for obj, *_ in self._results]
         )
         symmetries = [
             finding(
-                "symmetry_found_of_display_mesh" if is_display_mesh(measurement) else "symmetry_found",
+                "symmetry_found_of_display_mesh" if shape.is_display_mesh else "symmetry_found",
                 object=obj.name,
                 group=found_symmetry.group,
                 description=[clause.as_record() for clause in describe(found_symmetry)],
             )
-            for obj, measurement, found_symmetry, _ in self._results
+            for obj, shape, found_symmetry, _ in self._results
         ]
         redraw(context)
         if self._failures or not symmetries:
@@ -147,25 +145,16 @@ class OBJECT_OT_body_moments_find_symmetry(ModalSteps, Operator):
         return {"FINISHED"}
 
 
-def _find_symmetries(shape: Shape, skin: SurfaceDistance, tolerance: float) -> tuple[Symmetry, Symmetry]:
-    """What the surface confirms, and what the moments allow."""
-    moments = shape.piece_moments()
-    # Moments are looked at as loosely as the surface.
-    allowed = symmetry(moments, max(NOISE_LEVEL, tolerance))
-    near = tolerance * shape.size
-    return confirm(allowed, moments.about, skin.points, partial(skin.distance, within=near), near), allowed
-
-
 def _store_symmetry(
-    obj: Object, measurement: Measurement, confirmed: Symmetry, allowed: Symmetry, tolerance: float
+    obj: Object, shape: Shape | FlatShape, confirmed: Symmetry, allowed: Symmetry, tolerance: float
 ) -> None:
     stored = obj.body_moments_symmetry
     stored.group, stored.compatible, stored.tolerance = confirmed.group, allowed.group, tolerance
-    stored.of_display_mesh = is_display_mesh(measurement)
-    mark = Mark(*measurement.fingerprint.split(":"))
+    stored.of_display_mesh = shape.is_display_mesh
+    mark = Mark(*shape.fingerprint.split(":"))
     stored.fingerprint = ":".join(mark._replace(transform=scale_hash(obj)))
     stored.elements.clear()
-    turn = measurement.rotation.T
+    turn = shape.rotation.T
     for kind, order, direction in _elements(confirmed)[:MAX_STORED_ELEMENTS]:
         element = stored.elements.add()
         element.kind, element.order, element.direction = kind, order, turn @ _canonical_direction(turn, direction)

@@ -12,7 +12,8 @@ from bpy.types import Context, Event, Object, Operator
 from ....core.numerics.float32 import shortest_decimal
 from ....core.shape.registration import MAX_FIT_RTOL, RigidMatch
 from ....core.verdict.finding import EditRefusedError, Finding, MeasureError, finding
-from ...bodies.shape import Shape, SurfaceDistance, register_surfaces, surface_shape_of
+from ...bodies.flat_shape import FlatShape, comparable_shape_of, distance_from
+from ...bodies.shape import Shape, register_surfaces
 from ...scene import reframe
 from ...scene.transforms import world
 from ...write import reports
@@ -63,20 +64,22 @@ class OBJECT_OT_body_moments_match_pose(ModalSteps, Operator):
     def _compare(self, context: Context) -> Generator[float, None, None]:
         active = context.object
         try:
-            target = surface_shape_of(active, context.evaluated_depsgraph_get())
+            target = comparable_shape_of(active, context.evaluated_depsgraph_get())
         except MeasureError as error:
             reports.report(self, reports.refusal(error.about(active.name)))
             return
         yield 0.0
-        self._size, skin = target.size, SurfaceDistance(target)
+        self._size, skin = target.size, distance_from(target)
         for _ in skin.build():
             yield 0.0
 
         def find(obj: Object) -> Iterator[float]:
             _require_movable(context, obj)
-            shape = surface_shape_of(obj, context.evaluated_depsgraph_get())
+            shape = comparable_shape_of(obj, context.evaluated_depsgraph_get(), isinstance(target, FlatShape))
+            if type(shape) is not type(target):
+                raise EditRefusedError("flat_and_body")
             yield 0.3
-            source_skin = SurfaceDistance(shape)
+            source_skin = distance_from(shape)
             yield from (0.4 + 0.5 * share for share in source_skin.build())
             self._plans.append(
                 _plan_move(context, obj, shape, target, register_surfaces(shape, target, source_skin, skin))
@@ -115,11 +118,11 @@ def _require_movable(context: Context, obj: Object) -> None:
 
 
 def _plan_move(
-    context: Context, obj: Object, shape: Shape, target: Shape, match: RigidMatch
+    context: Context, obj: Object, shape: Shape | FlatShape, target: Shape | FlatShape, match: RigidMatch
 ) -> tuple[reframe.Plan, RigidMatch]:
     """Where the object lies on the target, and how well."""
     if match.is_mirror_image:
-        raise EditRefusedError("mirror_image")
+        raise EditRefusedError("flat_mirror_image" if isinstance(shape, FlatShape) else "mirror_image")
     unit = shortest_decimal(context.scene.unit_settings.scale_length)
     matrix = world(obj)
     matrix[:3, :3] = match.rotation @ matrix[:3, :3]

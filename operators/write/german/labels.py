@@ -53,6 +53,7 @@ TEXTS = {
     "Frame Origin": "Ursprung des Bezugssystems",
     "Center": "Mittelpunkt",
     "Center, Normalized": "Mittelpunkt, normiert",
+    "Invariants": "Invarianten",
     "Mass Properties": "Masseeigenschaften",
     "All Measured Objects": "Alle gemessenen Objekte",
     "Drop Line": "Lotlinie",

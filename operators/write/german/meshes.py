@@ -39,6 +39,9 @@ MESSAGES = {
         "Für dieses Objekt sind Momente der Masse nicht bis zur Ordnung {order} verfügbar. Ordnung auf 3 setzen oder "
         "Bereich auf Volumen.",
     ),
+    "moments_of_flat": ("Eine ebene Form hat kein Volumen. Bereich auf Fläche setzen.",),
+    "invariants_of_flat": ("Invarianten sind die ebener Formen. Bereich auf Fläche setzen.",),
+    "invariants_order": ("Invarianten brauchen Ordnung {order}. Ordnung setzen und die Momente berechnen.",),
     "normalization_undefined": (
         "Die Momente lassen sich nicht normieren: Volumen oder Fläche ist null. Bezogen auf: Mittelpunkt wählen.",
     ),

@@ -193,6 +193,12 @@ MESSAGES = {
     "shape_far_from_origin": ("Zu weit vom Weltursprung für eine genaue Form. Das Objekt näher bewegen.",),
     "signature_needs_polygons": ("Die Signatur braucht Polygone. Objekt > Konvertieren > Netz verwenden.",),
     "mirror_image": ("Ein Spiegelbild des aktiven Objekts, das keine Drehung zur Deckung bringt.",),
+    "flat_mirror_image": ("Ein Spiegelbild des aktiven Objekts, von vorn gesehen. Es umdrehen oder spiegeln.",),
+    "flat_and_body": (
+        "Eine ebene Form und ein Körper passen nicht aufeinander. Objekte einer Art auswählen oder Art bei beiden auf "
+        "Schale setzen.",
+    ),
+    "flat_of_type": ("Nur Meshes, 2D-Kurven und Texte können ebene Formen sein. Das Objekt in ein Mesh umwandeln.",),
     "fourier_of_wire": (
         "Die Fourier-Transformation eines Drahts gibt es nicht. Art auf Massiv oder Schale oder Bereich auf "
         "Oberfläche setzen.",

@@ -84,10 +84,11 @@ TEXTS = {
     "Remove the stored results of the active armature and its bones. Settings are kept": (
         "Die gespeicherten Ergebnisse der aktiven Armatur und ihrer Knochen entfernen. Einstellungen bleiben"
     ),
-    "Compute all moments of the active object's volume, surface and mass up to the chosen order. A million triangles "
-    "take about 1 second at order 4 and 20 seconds at order 20": (
-        "Alle Momente von Volumen, Oberfläche und Masse des aktiven Objekts bis zur gewählten Ordnung berechnen. Eine "
-        "Million Dreiecke brauchen bei Ordnung 4 etwa 1 Sekunde, bei Ordnung 20 etwa 20"
+    "Compute all moments of the active object's volume, surface and mass, or of the area of what is flat, up to the "
+    "chosen order. A million triangles take about 1 second at order 4 and 20 seconds at order 20": (
+        "Alle Momente von Volumen, Oberfläche und Masse des aktiven Objekts oder der Fläche von Ebenem bis zur "
+        "gewählten Ordnung berechnen. Eine Million Dreiecke brauchen bei Ordnung 4 etwa 1 Sekunde, bei Ordnung 20 "
+        "etwa 20"
     ),
     "Copy all computed moments and their error bounds to the clipboard as CSV": (
         "Alle berechneten Momente und ihre Fehlerschranken als CSV in die Zwischenablage kopieren"
@@ -136,10 +137,10 @@ TEXTS = {
     "Select the copies of the active object, and deselect everything else": (
         "Die Kopien des aktiven Objekts auswählen und alles andere abwählen"
     ),
-    "Find the rotation axes and mirror planes through the center of mass of the selected objects that moments to "
-    "order 6 allow and the surface confirms": (
+    "Find the rotation axes and mirror planes through the center of mass of the selected objects that moments allow "
+    "and the surface, or of flat shapes the outline, confirms": (
         "Die Drehachsen und Spiegelebenen durch den Massenmittelpunkt der ausgewählten Objekte finden, die Momente "
-        "bis zur Ordnung 6 erlauben und die Oberfläche bestätigt"
+        "erlauben und die Oberfläche, bei ebenen Formen der Umriss, bestätigt"
     ),
     "Largest allowed distance of the surface from its images, relative to the radius of gyration": (
         "Größter erlaubter Abstand der Oberfläche von ihren Bildern, im Verhältnis zum Trägheitsradius"

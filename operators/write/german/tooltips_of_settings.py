@@ -146,6 +146,12 @@ TEXTS = {
     "Center of the volume or surface: central moments": (
         "Mittelpunkt des Volumens oder der Oberfläche: zentrale Momente"
     ),
+    "Area of a flat shape in its own plane, ∫ x^p y^q dA": (
+        "Fläche einer ebenen Form in ihrer eigenen Ebene, ∫ x^p y^q dA"
+    ),
+    "Numbers of a flat shape that do not depend on its place, rotation and size: Hu's, then Flusser's": (
+        "Zahlen einer ebenen Form, die nicht von Ort, Drehung und Größe abhängen: die von Hu, dann die von Flusser"
+    ),
     "Central moments of the shape scaled to a volume or area of 1, independent of size": (
         "Zentrale Momente der auf Volumen oder Fläche 1 skalierten Form, unabhängig von der Größe"
     ),

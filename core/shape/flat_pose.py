@@ -1,0 +1,180 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Laying one flat shape onto another in their planes, and the rotations and mirror lines that a flat shape has.
+
+Turned by θ about the centroid, a shape's Zernike moments A_nm get the factor exp(-imθ). So by how much two shapes
+overlap is, as far as these moments see, a trigonometric polynomial of θ, Re Σ conj(B_nm) A_nm exp(-imθ), whose maxima
+are the rotations that may lay one onto the other; the outlines decide. With conj(A_nm) it is the mirror image that is
+turned. Front lies on front: no shape is turned over.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .disc_zernike import disc_degrees
+from .registration import MAX_FIT_RTOL, MIRROR_SHARE, Residual, RigidMatch, best_rotation
+from .symmetry import FIRST_SAMPLES, MAX_AXIS_ORDER, Distance, Symmetry
+
+ANGLES = 720  # at which overlaps are sampled
+MAX_CANDIDATES = 24  # rotations, the largest overlaps first, that are compared by outlines
+NEWTON_STEPS = 8
+ROUND_ANGLES = 1.0, 0.1, 0.01  # a shape that all these turns leave is round
+MIRROR = np.diag([1.0, -1.0, 1.0])  # in the line y = 0, seen from the front
+
+Holds = Callable[[NDArray], bool]  # whether a (3, 3) map, in the plane's axes, takes the shape to itself
+
+
+def match_flat(
+    source: NDArray, target: NDArray, axes: tuple[NDArray, NDArray], residual: Residual, size: float
+) -> RigidMatch:
+    """Find the rotation that lays one flat shape onto another, about their centroids and front on front.
+
+    Parameters
+    ----------
+    source, target : (k,) complex arrays
+        `disc_zernike` of both to one order, in discs of one radius.
+    axes : ((3, 3) array, (3, 3) array)
+        Of the planes of source and target: x, y and the normal as columns.
+    residual : callable
+        As for `match`.
+    size : float
+        Of the target.
+
+    Returns
+    -------
+    RigidMatch
+
+    Examples
+    --------
+    >>> from body_moments.core.plane import directed_edges, region_moments
+    >>> from body_moments.core.shape.disc_zernike import disc_zernike
+    >>> from body_moments.core.shape.flat_pose import match_flat
+    >>> points, turn = np.array([[0.0, 0.0], [3.0, 0.0], [0.0, 1.0]]), np.array([[0.0, -1.0], [1.0, 0.0]])
+    >>> moments = [region_moments(shape, directed_edges([range(3)]), 8) for shape in (points, points @ turn.T)]
+    >>> source, target = (disc_zernike(shape, 3.0) for shape in moments)
+    >>> corners = np.pad(points - moments[0].about[:2], ((0, 0), (0, 1)))
+    >>> true = np.pad(turn, ((0, 1), (0, 1))) + np.diag([0.0, 0.0, 1.0])
+    >>> fit = match_flat(
+    ...     source, target, (np.eye(3), np.eye(3)), lambda way, n: np.abs(corners @ (way - true).T).max(1), 3.0
+    ... )
+    >>> np.round(fit.rotation, 9).tolist() == true.tolist(), fit.is_mirror_image
+    (True, False)
+    """
+    start, end = axes
+    rotations = np.array([end @ turn @ start.T for turn in turns_about_normal(_best_angles(source, target))])
+    rotation, distances = best_rotation(rotations, residual, size)
+    largest, mirrored = float(distances.max()), False
+    if largest > MAX_FIT_RTOL * size:
+        turned = turns_about_normal(_best_angles(source.conj(), target))
+        reflected = best_rotation(np.array([end @ turn @ MIRROR @ start.T for turn in turned]), residual, size)[1]
+        mirrored = bool(reflected.max() < MIRROR_SHARE * largest)
+    return RigidMatch(rotation, largest, float(distances.mean()), mirrored)
+
+
+def flat_symmetry(zernike: NDArray, order: int, points: NDArray, axes: NDArray, holds: Holds) -> Symmetry:
+    """Find the rotations about its centroid and the mirror lines of a flat shape.
+
+    Parameters
+    ----------
+    zernike : (k,) complex array
+        `disc_zernike` about the centroid.
+    order : int
+        Of these.
+    points : (n, 2) array
+        Of the outlines, about the centroid.
+    axes : (3, 3) array
+        Of the plane: x, y and the normal as columns.
+    holds : callable
+        Whether a map of the plane's axes takes the shape to itself.
+
+    Returns
+    -------
+    Symmetry
+        Cn or Cnv, C∞v of what is round: rotations about the normal, mirror planes across the plane.
+    """
+    everything = np.array([np.eye(3), MIRROR])
+    if all(holds(turn) for turn in turns_about_normal(np.array(ROUND_ANGLES))):
+        return Symmetry(axes @ everything @ axes.T, axes[:, 2][None], order)
+    # Where the tolerance lets a turn by about the right angle pass, turns by several times that do not.
+    fold = next(
+        n
+        for n in range(MAX_AXIS_ORDER, 0, -1)
+        if all(holds(turn) for turn in turns_about_normal(2.0 * np.pi / n * np.arange(1, n // 2 + 1)))
+    )
+    operations = turns_about_normal(2.0 * np.pi / fold * np.arange(fold))
+    mirror = next(filter(holds, _mirrors(zernike, points)), None)
+    if mirror is not None:
+        operations = np.concatenate([operations, operations @ mirror])
+    return Symmetry(axes @ operations @ axes.T, np.empty((0, 3)), order)
+
+
+def holds_by_outline(points: NDArray, distance: Distance, tolerance: float) -> Holds:
+    """Whether the images of (n, 3) points, about the centroid in the plane's axes, are within the tolerance of the
+    outline. distance: of (k, 3) such points from it."""
+    outermost = np.argsort(-(points * points).sum(axis=1), kind="stable")  # there a turn moves most
+    first = np.concatenate([outermost[: FIRST_SAMPLES // 2], outermost[:: max(1, 2 * len(points) // FIRST_SAMPLES)]])
+
+    def holds(operation: NDArray) -> bool:
+        return all((distance(points[part] @ operation.T) <= tolerance).all() for part in (first, slice(None)))
+
+    return holds
+
+
+def holds_by_moments(zernike: NDArray, order: int, tolerance: float) -> Holds:
+    """Whether the moments of the shape's image are its own but for a share of all of them."""
+    m = np.array([m for _, m in disc_degrees(order)])
+    size = np.linalg.norm(zernike)
+
+    def holds(operation: NDArray) -> bool:
+        angle = np.arctan2(operation[1, 0], operation[0, 0])
+        image = zernike if np.linalg.det(operation[:2, :2]) > 0.0 else zernike.conj()
+        return bool(np.linalg.norm(image * np.exp(-1j * m * angle) - zernike) <= tolerance * size)
+
+    return holds
+
+
+def turns_about_normal(angles: NDArray) -> NDArray[np.float64]:
+    """(k, 3, 3) rotations about the third axis."""
+    turns = np.zeros((len(angles), 3, 3))
+    turns[:, 0, 0] = turns[:, 1, 1] = np.cos(angles)
+    turns[:, 1, 0] = np.sin(angles)
+    turns[:, 0, 1] = -turns[:, 1, 0]
+    turns[:, 2, 2] = 1.0
+    return turns
+
+
+def _mirrors(zernike: NDArray, points: NDArray) -> NDArray[np.float64]:
+    """(k, 3, 3) the reflections that may take a shape to itself: those of its moments, and those that take the
+    outermost corner to another one, for prisms of many sides."""
+    radius = np.hypot(*points.T)
+    outer = points[radius > (1.0 - 1e-4) * radius.max()]
+    corners = np.unique(np.round(np.arctan2(*outer.T[::-1]), 5))[: 2 * MAX_AXIS_ORDER]
+    angles = np.concatenate([_best_angles(zernike.conj(), zernike), corners[0] + corners])
+    return turns_about_normal(angles) @ MIRROR
+
+
+def _best_angles(source: NDArray, target: NDArray) -> NDArray[np.float64]:
+    """(k,) where the overlap of the turned source with the target has its maxima, the largest first."""
+    order = next(n for n in range(len(source) + 1) if len(disc_degrees(n)) == len(source))
+    m = np.array([m for _, m in disc_degrees(order)])
+    terms = target.conj() * source
+    weights = np.array([terms[m == k].sum() for k in range(order + 1)])
+
+    def derivative(angle: NDArray, times: int) -> NDArray:
+        powers = (-1j * np.arange(order + 1)) ** times
+        return (weights * powers * np.exp(-1j * np.multiply.outer(angle, np.arange(order + 1)))).real.sum(axis=1)
+
+    angles = 2.0 * np.pi / ANGLES * np.arange(ANGLES)
+    overlap = derivative(angles, 0)
+    peaks = np.flatnonzero((overlap >= np.roll(overlap, 1)) & (overlap >= np.roll(overlap, -1)))
+    peaks = peaks[np.argsort(-overlap[peaks], kind="stable")][:MAX_CANDIDATES]
+    angles = angles[peaks]
+    for _ in range(NEWTON_STEPS):
+        slope, bend = derivative(angles, 1), derivative(angles, 2)
+        step = np.where(bend < 0.0, -slope / np.where(bend < 0.0, bend, 1.0), 0.0)
+        angles = angles + np.clip(step, -np.pi / ANGLES, np.pi / ANGLES)
+    return angles
