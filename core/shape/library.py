@@ -92,7 +92,7 @@ def read_library(path: Path) -> tuple[list[Entry], list[Finding]]:
             continue
         try:
             document = json.loads(line)
-            records = [dict(record) for record in document["objects"]]
+            records = [dict(record) for record in (*document["objects"], *document.get("flat", ()))]
         except (ValueError, KeyError, TypeError, RecursionError) as error:
             raise FileError("library_line", file=path.name, line=number) from error
         for record in records:

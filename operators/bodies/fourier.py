@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Generator
 from dataclasses import dataclass
+from typing import ClassVar
 
 import bpy
 import numpy as np
@@ -36,6 +37,7 @@ class ObjectTransform:
     transform: BodyTransform
     factor: float
     findings: tuple[Finding, ...]
+    arrays: ClassVar[None] = None  # a `FlatTransform` has those of its plane
 
     def steps(self) -> Generator[float, None, None]:
         """Do the work. Yields the fraction done. Raises MeasureError."""

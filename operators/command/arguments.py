@@ -182,6 +182,11 @@ def _add_settings(parser: argparse.ArgumentParser) -> None:
     )
     add("--kind", choices=("solid", "shell", "wire"), help="(each object's setting, or solid)")
     add(
+        "--flat",
+        action="store_true",
+        help="what is flat and has no volume (faces, 2D curves, text) is measured as a shape in its plane, under flat",
+    )
+    add(
         "--wall",
         choices=("thin", "inward", "outward", "centered"),
         help="of a shell: without or with real thickness, to which side of the surface (each object's setting)",
@@ -298,12 +303,12 @@ def _add_results(parser: argparse.ArgumentParser) -> None:
         metavar="OUT.npz",
         help="write the Fourier transform of the one object: q, and F = ∫exp(-i q·x)dV in m³, in the frame",
     )
-    add("--q", type=Path, metavar="Q.npy", help="at these wave vectors: rows of 3 numbers, in rad/m")
+    add("--q", type=Path, metavar="Q.npy", help="at these wave vectors: rows of 3 numbers, with --flat 2, in rad/m")
     add(
         "--grid",
         type=types.frequencies,
         metavar="N",
-        help="or on a grid of N³ of them: (j - h) Q / h along each axis, with h = N // 2 and j from 0 to N - 1",
+        help="or on a grid of N³ of them, with --flat N²: (j - h) Q / h along each axis, h = N // 2, j from 0 to N - 1",
     )
     add("--qmax", type=types.positive, metavar="Q", help="the largest along each axis of the grid, in rad/m")
     add("--pose", action="store_true", help="add the pose that is the body's own, and its symmetry")

@@ -14,6 +14,7 @@ import gzip
 import os
 import re
 import struct
+import sys
 import zipfile
 import zlib
 from collections.abc import Callable, Iterator
@@ -39,6 +40,7 @@ _KNOWN_FORMAT = 1  # of .blend files
 _TRACEBACK = "Traceback (most recent call last)"
 UNITLESS = (".stl", ".obj", ".ply")
 STREAMED = (".stl", ".ply")  # what can be measured without being imported
+_BLEND_WORD = re.compile(r"\.blend\d*$", re.IGNORECASE)
 USD = (".usd", ".usda", ".usdc", ".usdz")
 
 # Invisible prims are imported hidden, and a hidden object is reported; left out, it would be
@@ -196,3 +198,15 @@ def reason(error: Exception) -> str:
         lines = lines[last + 1 :] or [type(error).__name__]
         return "its importer failed, {}".format(lines[0].rstrip("."))
     return lines[0].removeprefix("Error: ").removeprefix("Python: ").rstrip(".")
+
+
+def requested_file() -> str | None:
+    """The .blend file that Blender was started with. It runs a command on its start-up scene when
+    it cannot open it.
+    """
+    for word in sys.argv[1:]:
+        if word in ("-c", "--command", "--"):
+            return None
+        if _BLEND_WORD.search(word) and not word.startswith("-"):
+            return word
+    return None

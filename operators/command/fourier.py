@@ -15,7 +15,8 @@ from numpy.typing import NDArray
 from ...core.fourier.wave_vectors import FrequencyGrid, wave_vectors
 from ...core.scans.numpy_files import map_array
 from ...core.verdict.finding import Finding, QueryError, finding
-from ..bodies.fourier import object_transform
+from ..bodies.flat_fourier import FlatTransform, flat_transform
+from ..bodies.fourier import ObjectTransform, object_transform
 from ..settings.options import MeasureOptions
 from ..write import spectrum
 from .option_types import MAX_GRID
@@ -28,21 +29,30 @@ def wave_vectors_of(options: Namespace) -> FrequencyGrid | NDArray[np.float64] |
     """The wave vectors that were asked for, None where no transform was. Raises MeasureError."""
     if options.fourier is None:
         return None
-    return FrequencyGrid(options.grid, options.qmax) if options.q is None else _read_wave_vectors(options.q)
+    dimension = 2 if options.flat else 3
+    if options.q is None:
+        return FrequencyGrid(options.grid, options.qmax, dimension)
+    return _read_wave_vectors(options.q, dimension)
 
 
 def write(obj: bpy.types.Object, options: Namespace, measure_options: MeasureOptions) -> tuple[Finding, ...]:
     """Transform the object and write the file. Returns the decisions taken. Raises MeasureError and OSError."""
     depsgraph = bpy.context.evaluated_depsgraph_get()
-    under_way = object_transform(obj, depsgraph, measure_options, options.waves, frame=options.frame)
+    under_way: ObjectTransform | FlatTransform
+    if options.flat:
+        unit = measure_options.unit_scale
+        under_way = flat_transform(obj, depsgraph, options.waves, frame=options.frame, unit=unit)
+    else:
+        under_way = object_transform(obj, depsgraph, measure_options, options.waves, frame=options.frame)
     for _ in under_way.steps():
         pass
     transform, findings = under_way.result()
-    spectrum.save(options.fourier, transform, options.frame, guard("fourier", options.fourier in options.forced))
+    check = guard("fourier", options.fourier in options.forced)
+    spectrum.save(options.fourier, transform, options.frame, check, under_way.arrays)
     return findings
 
 
-def _read_wave_vectors(path: Path) -> NDArray[np.float64]:
+def _read_wave_vectors(path: Path, dimension: int) -> NDArray[np.float64]:
     """Those of a .npy file. Raises MeasureError."""
     try:
         if path.exists() and not path.is_file():
@@ -56,4 +66,4 @@ def _read_wave_vectors(path: Path) -> NDArray[np.float64]:
         raise QueryError("wave_vectors_unreadable", file=str(path), cause=cause.as_record()) from error
     if array.size > 3 * MAX_WAVE_VECTORS:
         raise QueryError("wave_vectors_too_many", count=array.size // 3, limit=MAX_WAVE_VECTORS)
-    return wave_vectors(array, 3)
+    return wave_vectors(array, dimension)

@@ -12,7 +12,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from ...core.verdict.finding import finding
-from ..write.documents import SCHEMA, SPECTRUM_ARRAYS, to_csv
+from ..write.documents import FLAT_SPECTRUM_ARRAYS, SCHEMA, SPECTRUM_ARRAYS, to_csv
 from ..write.robots.marker import is_ours
 
 _HEAD = 1 << 16  # bytes that hold a header, or the beginning of a document
@@ -49,7 +49,8 @@ def _is_result(path: Path, option: str) -> bool:
     try:
         if option == "fourier":
             with zipfile.ZipFile(path) as arrays:
-                return sorted(arrays.namelist()) == sorted(name + ".npy" for name in SPECTRUM_ARRAYS)
+                names = {name.removesuffix(".npy") for name in arrays.namelist()}
+                return names in ({*SPECTRUM_ARRAYS}, {*SPECTRUM_ARRAYS, *FLAT_SPECTRUM_ARRAYS})
         with open(path, "rb") as file:
             head = file.read(_HEAD)
         return (

@@ -11,8 +11,6 @@ too, with its traceback on the standard error.
 from __future__ import annotations
 
 import os
-import re
-import sys
 from argparse import Namespace
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, nullcontext
@@ -36,11 +34,11 @@ from ..write import record
 from ..write.documents import document
 from ..write.properties import store
 from ..write.terminal import print_message
-from . import assets, density_options, fourier, robots
+from . import assets, density_options, flat, fourier, robots
 from .bare_files import BareFile, is_bare
 from .combined import Combined, measure_combined
 from .file_options import is_unitless, unit_findings, unused_array_options, unused_options
-from .files import BLEND, file_suffix, newer_version, open_file
+from .files import BLEND, file_suffix, newer_version, open_file, requested_file
 from .interruption import Progress, check_interruption
 from .measuring import measure_shape, measured_together
 from .objects import failure, objects_to_measure, other_scenes, why_nothing
@@ -51,7 +49,6 @@ from .scripts import scripts_of_open_file
 from .thumbnails import thumbnail_of
 
 _STATUSES = {"file_missing": "missing", "file_version_unsupported": "unsupported_version"}
-_BLEND_WORD = re.compile(r"\.blend\d*$", re.IGNORECASE)
 
 
 @dataclass
@@ -100,7 +97,7 @@ class Run:
 
     def document(self, path: str | None) -> dict[str, Any]:
         """Measure one file, or what is open, and return its document."""
-        file = path or bpy.data.filepath or _requested_file()
+        file = path or bpy.data.filepath or requested_file()
         self.has_opened = self.has_saved = False
         with self._place(path) as place:
             found = self._measured(path, file, place)
@@ -113,13 +110,13 @@ class Run:
         is_saved = self.options.write or self.options.asset_metadata == "file"
         if not is_saved or path is not None and file_suffix(path) != BLEND or not os.path.isfile(target):
             return nullcontext()
-        asked = _requested_file() if path is None else None
+        asked = requested_file() if path is None else None
         at_start = asked is not None and os.path.realpath(asked) == os.path.realpath(target)
         return reserved(target, path is None, at_start)
 
     def _measured(self, path: str | None, file: str | None, place: Place | None) -> dict[str, Any]:
         measured: list[tuple[str, bpy.types.Object, Measurement]] = []
-        objects, errors, caveats, left_out, combined = [], [], [], [], Combined()
+        objects, flats, errors, caveats, left_out, combined = [], [], [], [], [], Combined()
         self._status = None
         try:
             if path is not None and is_bare(path, self.options, self.memory):
@@ -143,21 +140,7 @@ class Run:
                     *blocked_scripts(),
                     *newer_version(),
                 )
-                operands = boolean_operands(bpy.context.scene) if self.options.object is None else {}
-                in_turn = measured_together([obj for _, obj in chosen], self.options, wanted)
-                for label, obj in chosen:
-                    user = operands.get(obj)
-                    cut = [] if user is None else [finding("solid_operand_measured", object=user.name)]
-                    try:
-                        about = (*opened.by_object.get(obj.name, ()), *of_file, *cut)
-                        one, entry = self._measure_record(label, obj, wanted, in_turn, about, errors)
-                    except MeasureError as refusal:
-                        errors.append(failure(label, refusal.finding))
-                    except Exception as error:
-                        errors.append(self._internal_error(label, error))
-                    else:
-                        objects.append(entry)
-                        measured.append((label, obj, one))
+                objects, measured, flats = self._measure_each(chosen, wanted, of_file, opened, errors)
                 caveats += scripts_of_open_file() if path is None else ()
                 caveats += open_body_caveats((label, one.method) for label, _, one in measured)
                 if self.options.object is None:  # else whoever named them knows what they count
@@ -166,8 +149,8 @@ class Run:
                     combined = measure_combined(wanted, self._internal_error, self.options.asset_metadata is not None)
                     errors += combined.errors
                 if self.options.fourier:
-                    errors.extend(self._fourier(chosen, wanted, objects))
-                if not objects and not errors:
+                    errors.extend(self._fourier(chosen, wanted, [*objects, *flats]))
+                if not objects and not flats and not errors:
                     errors.append(failure(None, why_nothing(len(left_out))))
             if self.options.write:
                 errors.extend(self._store(path, measured, wanted))
@@ -198,7 +181,40 @@ class Run:
             frame=self.options.frame,
             status=self._status,
         )
-        return robots.complete(made | combined.records(self.options.frame), measured, self.options)
+        made |= combined.records(self.options.frame) | ({"flat": flats} if self.options.flat else {})
+        return robots.complete(made, measured, self.options)
+
+    def _measure_each(
+        self,
+        chosen: list[tuple[str, bpy.types.Object]],
+        wanted: MeasureOptions,
+        of_file: tuple[Finding, ...],
+        opened: Opened,
+        errors: list[dict[str, Any]],
+    ) -> tuple[list[dict[str, Any]], list[tuple[str, bpy.types.Object, Measurement]], list[dict[str, Any]]]:
+        """The records and measurements of bodies, and the records of flat shapes. of_file: findings about the file.
+        What cannot be measured is added to the errors.
+        """
+        objects, measured, flats = [], [], []
+        operands = boolean_operands(bpy.context.scene) if self.options.object is None else {}
+        in_turn = measured_together([obj for _, obj in chosen], self.options, wanted)
+        for label, obj in chosen:
+            user = operands.get(obj)
+            cut = [] if user is None else [finding("solid_operand_measured", object=user.name)]
+            try:
+                about = (*opened.by_object.get(obj.name, ()), *of_file, *cut)
+                one, entry = self._measure_record(label, obj, wanted, in_turn, about, errors)
+            except MeasureError as refusal:
+                errors.append(failure(label, refusal.finding))
+            except Exception as error:
+                errors.append(self._internal_error(label, error))
+            else:
+                if one is None:
+                    flats.append(entry)
+                else:
+                    objects.append(entry)
+                    measured.append((label, obj, one))
+        return objects, measured, flats
 
     def _measure_record(
         self,
@@ -208,10 +224,10 @@ class Run:
         in_turn: Callable[[bpy.types.Object], Measured | Stacked] | None,
         findings: tuple[Finding, ...],
         errors: list[dict[str, Any]],
-    ) -> tuple[Measurement, dict[str, Any]]:
-        """An object's measurement and its record. What has no moments of the order that was asked for may have a mass:
-        then the record goes without them, and an error is added that says so. in_turn: measures the objects
-        together; None where each has to be measured by itself. findings: about its file.
+    ) -> tuple[Measurement | None, dict[str, Any]]:
+        """An object's measurement and its record, of a flat shape the record alone. What has no moments of the order
+        that was asked for may have a mass: then the record goes without them, and an error is added that says so.
+        in_turn: measures the objects together; None where each has to be measured by itself. findings: about its file.
         """
         order = self.options.order
         density_options.apply(obj, self.options)
@@ -220,6 +236,8 @@ class Run:
                 (in_turn(obj).measurement, {}, ()) if in_turn else measure_shape(obj, self.options, measure_options)
             )
         except MeasureError as refusal:
+            if flat.is_meant(self.options, refusal):
+                return None, flat.record_of(label, obj, self.options, measure_options.unit_scale, refusal, findings)
             if order is None:
                 raise
             lower = replace(measure_options, order=None, surface=False)
@@ -308,18 +326,6 @@ class Run:
             except Exception as error:
                 yield self._internal_error(label, error)
         mark_up_to_date(bpy.context, [obj for _, obj, _ in measured])
-
-
-def _requested_file() -> str | None:
-    """The .blend file that Blender was started with. It runs a command on its start-up scene when
-    it cannot open it.
-    """
-    for word in sys.argv[1:]:
-        if word in ("-c", "--command", "--"):
-            return None
-        if _BLEND_WORD.search(word) and not word.startswith("-"):
-            return word
-    return None
 
 
 def _save(place: Place | None, file: str | None) -> tuple[Finding, ...]:

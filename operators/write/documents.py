@@ -25,6 +25,7 @@ TENSOR = (("xx", 0, 0), ("yy", 1, 1), ("zz", 2, 2), ("xy", 0, 1), ("xz", 0, 2), 
 
 # What the file of a Fourier transform holds.
 SPECTRUM_ARRAYS = ("q", "F", "error", "input", "method", "frame")
+FLAT_SPECTRUM_ARRAYS = ("axes", "origin")  # and of a flat shape, of its plane in the world
 
 # An innermost list of numbers that json.dumps has spread over lines. No text can hold a line break,
 # so none matches.
@@ -131,6 +132,8 @@ def _rows(documents: Iterable[dict[str, Any]]) -> Iterator[dict[str, Any]]:
         for name in ("objects", "assemblies", "bones"):
             for entry in file_document.get(name, ()):
                 yield {**place, **_columns(entry)}
+        for entry in file_document.get("flat", ()):
+            yield {**place, **_flat_columns(entry)}
         for column, entries in (("left_out", file_document["left_out"]), ("error", file_document["errors"])):
             for entry in entries:
                 yield {**place, "name": entry["name"], column: entry["reason"]}
@@ -146,6 +149,15 @@ _COLUMNS = (
 )  # fmt: skip
 _OPTIONAL_COLUMNS = ("armature", "density_from", "thickness", "length", "linear_density", "principal_axes_unique")
 _LAST_COLUMNS = ("warnings", "error")  # notes and findings stand before them
+
+
+def _flat_columns(entry: dict[str, Any]) -> dict[str, Any]:
+    """The record of a flat shape as one flat row."""
+    row = {name: entry[name] for name in ("name", "type", "area")} | {"kind": "flat"}
+    row |= {f"center_of_mass_{axis}": value for axis, value in zip("xyz", entry["centroid"], strict=True)}
+    powers = entry.get("moments", {}).get("area", {})
+    row |= {f"area_moment_{key.replace(',', '_')}": value for key, value in powers.items()}
+    return row | _signature_columns(entry) | _finding_columns(entry)
 
 
 def _columns(entry: dict[str, Any]) -> dict[str, Any]:
@@ -170,14 +182,23 @@ def _columns(entry: dict[str, Any]) -> dict[str, Any]:
             for i, line in enumerate(entry["pose"]["matrix"])
             for j, value in enumerate(line)
         }
+    return row | _signature_columns(entry) | _finding_columns(entry)
+
+
+def _signature_columns(entry: dict[str, Any]) -> dict[str, Any]:
+    row: dict[str, Any] = {}
     for name, values in (entry.get("signature") or {}).items():
         if isinstance(values, list):
             row |= {f"signature_{name}_{number + 1}": value for number, value in enumerate(values)}
         else:
             row[f"signature_{name}"] = values
-    row["findings"] = [one["code"] for one in entry["findings"]]
-    row |= {name: entry[name] for name in ("notes", "warnings")}
     return row
+
+
+def _finding_columns(entry: dict[str, Any]) -> dict[str, Any]:
+    return {"findings": [one["code"] for one in entry["findings"]]} | {
+        name: entry[name] for name in ("notes", "warnings")
+    }
 
 
 def _nested(prefix: str, values: dict[str, Any]) -> dict[str, Any]:

@@ -1006,9 +1006,7 @@ MESSAGES: dict[str, Message] = {
     "flat_mirror_image": _error(
         "A mirror image of the active object, seen from the front. Turn it over, or mirror it."
     ),
-    "flat_and_body": _error(
-        "A flat shape and a body cannot match. Select objects of one kind, or set Kind of both to Shell."
-    ),
+    "flat_and_body": _error("A flat shape and a body cannot match. Select objects of one kind, or set Kind to Shell."),
     "flat_of_type": _error("Only meshes, 2D curves and texts can be flat shapes. Convert the object to a mesh."),
     # ------------------------------------------------------------------ Fourier transform
     "fourier_of_wire": _error(

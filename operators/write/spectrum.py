@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 
 import bpy
@@ -20,10 +20,16 @@ DECADES = 6.0  # from white to black
 SLICE_GAP = 2  # pixels between slices
 
 
-def save(path: Path, spectrum: Spectrum, frame: str, check: Callable[[Path], None] | None = None) -> None:
+def save(
+    path: Path,
+    spectrum: Spectrum,
+    frame: str,
+    check: Callable[[Path], None] | None = None,
+    plane: Mapping[str, NDArray] | None = None,
+) -> None:
     """Write an .npz file, whole or not at all: q (M, 3) in rad/m, F (M,) complex in m³ or m², error (M,) and input,
     what rounding and storing coordinates as float32 may have changed, method and frame. check: as in `whole_file`.
-    Raises OSError."""
+    plane: of a flat shape, whose q is (M, 2), `FLAT_SPECTRUM_ARRAYS`. Raises OSError."""
     with whole_file(path, check) as file:
         np.savez(
             file,
@@ -34,20 +40,23 @@ def save(path: Path, spectrum: Spectrum, frame: str, check: Callable[[Path], Non
                     strict=True,
                 )
             ),
+            **(plane or {}),
         )
 
 
-def picture(name: str, values: NDArray[np.complex128], count: int) -> bpy.types.Image:
-    """An image of the slices z = 0, y = 0 and x = 0, from left to right, of a transform on a grid of count³.
+def picture(name: str, values: NDArray[np.complex128], count: int, dimension: int = 3) -> bpy.types.Image:
+    """An image of the slices z = 0, y = 0 and x = 0, from left to right, of a transform on a grid of count³; of one on
+    a grid of count² all of it.
 
     Gray is log |F|: white where it is largest, black from six decades below on. The first of the axes left runs to the
     right, the other one upward.
     """
     half = count // 2
-    size = np.abs(values).reshape(count, count, count)
+    size = np.abs(values).reshape((count,) * dimension)
     largest = size.max() or 1.0
-    gray = np.zeros((count, 3 * count + 2 * SLICE_GAP))
-    for i, slice_ in enumerate((size[:, :, half], size[:, half, :], size[half, :, :])):
+    slices = (size,) if dimension == 2 else (size[:, :, half], size[:, half, :], size[half, :, :])
+    gray = np.zeros((count, len(slices) * (count + SLICE_GAP) - SLICE_GAP))
+    for i, slice_ in enumerate(slices):
         decades = np.log10(np.maximum(slice_.T / largest, 10.0**-DECADES))
         gray[:, i * (count + SLICE_GAP) :][:, :count] = 1.0 + decades / DECADES
     pixels = np.ones((*gray.shape, 4), np.float32)

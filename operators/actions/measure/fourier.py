@@ -15,6 +15,7 @@ from bpy.types import Context, Event, Operator
 from ....core.fourier.wave_vectors import FrequencyGrid
 from ....core.numerics.float32 import shortest_decimal
 from ....core.verdict.finding import FileError, MeasureError, finding
+from ...bodies.flat_fourier import FlatTransform, flat_transform
 from ...bodies.fourier import ObjectTransform, object_transform
 from ...bodies.measure_object import THREADS
 from ...read import measurable
@@ -38,6 +39,7 @@ class _Settings:
         items=(
             ("BODY", "Body", "∫ exp(−i q·x) dV in m³. For shells, area times thickness"),
             ("AREA", "Surface", "∫ exp(−i q·x) dA over the faces, in m²"),
+            ("FLAT", "Flat Shape", "∫ exp(−i q·x) dA of a flat shape in its own plane, in m²"),
         ),
     )
     frame: EnumProperty(
@@ -88,7 +90,10 @@ class OBJECT_OT_body_moments_fourier(_Settings, Operator):
         return True
 
     def invoke(self, context: Context, event: Event) -> set[str]:
-        name = bpy.path.clean_name(context.object.name) + SUFFIX
+        obj = context.object
+        if not self.properties.is_property_set("of") and obj.body_moments.kind == "SOLID" and not min(obj.dimensions):
+            self.of = "FLAT"
+        name = bpy.path.clean_name(obj.name) + SUFFIX
         folder = os.path.dirname(self.filepath or bpy.data.filepath)
         self.filepath = os.path.join(folder, name)
         context.window_manager.fileselect_add(self)
@@ -157,28 +162,29 @@ class OBJECT_OT_body_moments_fourier_run(ModalSteps, _Settings, Operator):
             raise FileError("fourier_path_missing")
         if not self._path.parent.is_dir():
             raise FileError("fourier_folder_missing", folder=str(self._path.parent))
-        self._work: ObjectTransform = object_transform(
-            obj,
-            depsgraph,
-            MeasureOptions(threads=THREADS),
-            self._grid,
-            frame=self.frame.lower(),
-            area=self.of == "AREA",
-        )
+        self._dimension, frame = 2 if self.of == "FLAT" else 3, self.frame.lower()
+        self._work: ObjectTransform | FlatTransform
+        if self.of == "FLAT":
+            self._work = flat_transform(obj, depsgraph, self._grid, frame=frame)
+        else:
+            options, area = MeasureOptions(threads=THREADS), self.of == "AREA"
+            self._work = object_transform(obj, depsgraph, options, self._grid, frame=frame, area=area)
         self._steps = self._work.steps()
 
     def _grid(self, size: float) -> FrequencyGrid:
         """The grid for a body of this size in m. Where no largest frequency is asked for, its step is π over the
         size."""
-        return FrequencyGrid(self.count, shortest_decimal(self.largest) or pi / size * (self.count // 2))
+        largest = shortest_decimal(self.largest) or pi / size * (self.count // 2)
+        return FrequencyGrid(self.count, largest, self._dimension)
 
     def _finish(self, context: Context) -> set[str]:
         transform, findings = self._work.result()
         try:
-            spectrum.save(self._path, transform, self.frame.lower())
+            spectrum.save(self._path, transform, self.frame.lower(), plane=self._work.arrays)
         except OSError as error:
             raise FileError("fourier_not_written", error=error.strerror or str(error)) from error
-        image = spectrum.picture("Fourier Transform of {:s}".format(self._work.name), transform.values, self.count)
+        name = "Fourier Transform of {:s}".format(self._work.name)
+        image = spectrum.picture(name, transform.values, self.count, self._dimension)
         for area in context.screen.areas if context.screen else ():
             if area.type == "IMAGE_EDITOR":
                 area.spaces.active.image = image

@@ -195,7 +195,7 @@ MESSAGES = {
     "mirror_image": ("Ein Spiegelbild des aktiven Objekts, das keine Drehung zur Deckung bringt.",),
     "flat_mirror_image": ("Ein Spiegelbild des aktiven Objekts, von vorn gesehen. Es umdrehen oder spiegeln.",),
     "flat_and_body": (
-        "Eine ebene Form und ein Körper passen nicht aufeinander. Objekte einer Art auswählen oder Art bei beiden auf "
+        "Eine ebene Form und ein Körper passen nicht aufeinander. Objekte einer Art auswählen oder Art auf "
         "Schale setzen.",
     ),
     "flat_of_type": ("Nur Meshes, 2D-Kurven und Texte können ebene Formen sein. Das Objekt in ein Mesh umwandeln.",),

@@ -1,0 +1,166 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""--flat: records, signatures and Fourier transforms of flat shapes, and `similar` over them."""
+
+import json
+
+import numpy as np
+import pytest
+
+pytest.importorskip("bpy")
+import bpy
+from body_moments.core.shape.library import read_library
+from body_moments.operators.command.results import replaceable
+
+from tests.blender.batch_files import add_box, document
+from tests.blender.command.test_shape import ask
+from tests.blender.flat_objects import sheet, text
+from tests.close import close
+
+pytestmark = pytest.mark.usefixtures("scene")
+
+RECTANGLE = [(0, 0), (3, 0), (3, 2), (0, 2)]
+
+
+def shape(*words):
+    found = document("--flat", *words)
+    assert found["errors"] == [] and found["objects"] == []
+    (entry,) = found["flat"]
+    return entry
+
+
+def test_without_the_option_flat_objects_are_errors_as_before():
+    sheet(RECTANGLE)
+    found = document("--order", "3")
+    assert "flat" not in found and len(found["errors"]) == 1
+
+
+def test_a_flat_shape_has_a_record_of_its_own_beside_the_bodies():
+    box = add_box()
+    sheet(RECTANGLE, "Sheet", location=(1, 2, 3), rotation=(0, 0, np.pi / 2))
+    text("R", "Letter")
+    found = document("--flat")
+    assert [entry["name"] for entry in found["objects"]] == [box.name]
+    assert [entry["name"] for entry in found["flat"]] == ["Letter", "Sheet"]
+    assert close(found["total"]["volume"], 6.0, rel=1e-6)
+    entry = found["flat"][1]
+    assert close(entry["area"], 6.0, rel=1e-6)
+    assert np.abs(np.array(entry["centroid"]) - (0.0, 3.5, 3.0)).max() < 1e-6
+    assert np.abs(np.array(entry["plane"]["x"]) - (0, 1, 0)).max() < 1e-6
+    assert np.abs(np.array(entry["plane"]["normal"]) - (0, 0, 1)).max() < 1e-6
+    assert close(entry["second_moments"]["xx"], 2 * 27 / 12, rel=1e-6)
+    own = document("--flat", "--frame", "object")["flat"][1]
+    assert np.abs(np.array(own["centroid"]) - (1.5, 1.0, 0.0)).max() < 1e-6
+    assert np.abs(np.array(own["plane"]["x"]) - (1, 0, 0)).max() < 1e-6
+
+
+@pytest.mark.parametrize(
+    "words, corner",
+    [
+        ((), (5, 6)),
+        (("--frame", "object"), (0, 0)),
+        (("--about", "origin"), (0, 0)),
+        (("--about", "center"), (-1.5, -1.0)),
+        (("--about", "5,6,100"), (0, 0)),
+        (("--about", "world", "--frame", "object"), (5, 6)),
+    ],
+)
+def test_area_moments_are_about_the_foot_of_the_point_within_their_bounds(words, corner):
+    sheet(RECTANGLE, location=(5, 6, 7))
+    entry = shape("--order", "5", *words)
+    moments = entry["moments"]
+    assert len(moments["area"]) == 21 and {one["name"] for one in entry["invariants"]} >= {"φ7", "c40 c12⁴"}
+    for key, value in moments["area"].items():
+        p, q = map(int, key.split(","))
+        x, y = (
+            ((low + side) ** (n + 1) - low ** (n + 1)) / (n + 1) for low, side, n in zip(corner, (3.0, 2.0), (p, q))
+        )
+        bound = moments["error"]["area"][key] + moments["input"]["area"][key]
+        assert abs(value - x * y) <= bound + 1e-14 * abs(x * y)
+        assert moments["error"]["area"][key] <= 1e-11 * (np.abs(corner).max() + 3.0) ** (p + q + 2)
+
+
+def test_letters_of_a_library_are_found_again_and_mirrored_ones_told_apart(tmp_path):
+    text("R", "R")
+    text("R", "Large", location=(4, 5, 6), rotation=(1, 2, 3), scale=(3, 3, 3), resolution=4)
+    text("R", "Mirrored", scale=(-1, 1, 1))
+    text("k", "k")
+    box = add_box()
+    found = document("--flat", "--signature")
+    assert all(entry["signature"]["dimension"] == 2 for entry in found["flat"])
+    path = tmp_path / "letters.jsonl"
+    path.write_text(json.dumps(found) + "\n")
+    entries, missing = read_library(path)
+    assert not missing and [entry.signature.dimension for entry in entries] == [3, 2, 2, 2, 2]
+    code, answer = ask(tmp_path, path, "--to", "R", "--any-size")
+    rows = answer.splitlines()[1:]
+    assert code == 0 and rows[0].endswith("Large") and "scaled copy" in rows[0]
+    assert "mirror image" in next(row for row in rows if row.endswith("Mirrored"))
+    code, answer = ask(tmp_path, path, "--to", "R", "--any-hand")
+    assert answer.splitlines()[1].endswith("Mirrored")
+    assert "different" in next(row for row in rows if row.endswith(box.name))
+
+
+@pytest.mark.parametrize("frame", ["world", "object"])
+def test_the_transform_of_a_flat_shape_is_in_its_plane(tmp_path, frame):
+    sheet(RECTANGLE, location=(5, 6, 7))
+    q = np.random.default_rng(0).normal(size=(50, 2)) * np.logspace(-9, 1.5, 50)[:, None]
+    np.save(tmp_path / "q.npy", q)
+    out = tmp_path / "out.npz"
+    shape("--fourier", out, "--q", tmp_path / "q.npy", "--frame", frame)
+    low = np.array([5.0, 6.0] if frame == "world" else [0.0, 0.0])
+    true = np.prod([3.0, 2.0] * np.sinc(q * [3.0, 2.0] / (2 * np.pi)), axis=1) * np.exp(-1j * q @ (low + [1.5, 1.0]))
+    with np.load(out) as found:
+        assert (np.abs(found["F"] - true) <= found["error"] + 1e-14).all() and found["error"].max() < 1e-12
+        assert np.abs(found["axes"] - np.eye(3)[:2]).max() < 1e-12
+        assert np.abs(found["origin"] - ([0, 0, 7] if frame == "world" else [5, 6, 7])).max() < 1e-12
+    assert replaceable(out, "fourier")
+    shape("--fourier", out, "--grid", "5", "--qmax", "2", "--frame", frame)
+    with np.load(out) as found:
+        assert found["q"].shape == (25, 2) and found["q"][12].tolist() == [0.0, 0.0]
+        assert close(found["F"][12].real, 6.0, rel=1e-6)
+
+
+def test_wave_vectors_of_three_numbers_are_refused_for_a_flat_shape(tmp_path):
+    sheet(RECTANGLE)
+    np.save(tmp_path / "q.npy", np.zeros((2, 3)))
+    with pytest.raises(SystemExit):
+        document("--flat", "--fourier", tmp_path / "out.npz", "--q", tmp_path / "q.npy")
+
+
+def test_a_body_has_no_flat_transform(tmp_path):
+    add_box()
+    found = document("--flat", "--fourier", tmp_path / "out.npz", "--grid", "4", "--qmax", "2")
+    assert len(found["errors"]) == 1 and not (tmp_path / "out.npz").exists()
+
+
+def test_outlines_that_cross_are_the_reason():
+    sheet([(0, 0), (1, 1), (1, 0), (0, 1)])
+    found = document("--flat")
+    assert found["flat"] == [] and "cross" in found["errors"][0]["reason"]
+
+
+def test_the_table_has_rows_for_flat_shapes():
+    from body_moments.operators.write.documents import to_csv
+
+    sheet(RECTANGLE)
+    add_box()
+    header, box, row = list(to_csv([document("--flat", "--order", "3")]))
+    columns = dict(zip(header.split(","), row.split(",")))
+    assert columns["kind"] == "flat" and close(float(columns["area"]), 6.0, rel=1e-6)
+    assert close(float(columns["area_moment_2_0"]), 2 * 9.0, rel=1e-6)
+
+
+def test_the_operator_writes_a_file_and_a_picture_of_a_flat_shape(tmp_path):
+    text("R", "Letter")
+    path = str(tmp_path / "letter.npz")
+    assert bpy.ops.object.body_moments_fourier(filepath=path, of="FLAT", count=32) == {"FINISHED"}
+    image = bpy.data.images["Fourier Transform of Letter"]
+    assert tuple(image.size) == (32, 32)
+    pixels = np.array(image.pixels[:]).reshape(32, 32, 4)[..., 0]
+    assert pixels[16, 16] == pixels.max() and pixels.min() < 0.7
+    with np.load(path) as found:
+        assert found["q"].shape == (1024, 2)
+        size = np.abs(found["F"]).reshape(32, 32)
+        gray = 1.0 + np.log10(size / size.max()) / 6.0
+        assert np.abs(pixels - gray.T).max() < 0.01  # x to the right, y upward
