@@ -214,7 +214,7 @@ class Run:
                 else:
                     objects.append(entry)
                     measured.append((label, obj, one))
-        return objects, measured, flats
+        return objects, measured, sorted(flats, key=lambda entry: entry["name"])
 
     def _measure_record(
         self,
