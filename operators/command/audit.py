@@ -77,8 +77,9 @@ def answer(options: argparse.Namespace) -> tuple[str, int, int]:
 
 
 def _document(path: Path, options: argparse.Namespace, copies: set[str]) -> dict[str, Any]:
-    description = read_description(path)
-    audit = Auditor(Roots.of(path, options.root, options.allow_outside)).audit(description)
+    roots = Roots.of(path, options.root, options.allow_outside)
+    description = read_description(path, roots)
+    audit = Auditor(roots).audit(description)
     repaired = _write_copy(path, audit, options.repair, copies)
     links = [
         audit_report.link_entry(found.link, found.findings, found.repaired, found.density) for found in audit.links

@@ -1920,6 +1920,11 @@ MESSAGES: dict[str, Message] = {
     "description_unknown": _error("The file is no robot description. Its first element is {tag}."),
     "description_without_links": _error("The file has no links."),
     "description_too_large": _error("The file is larger than {limit} MB, or has too many links."),
+    "include_unreadable": _error(
+        "A file that it includes cannot be read: {name}. Name its folder with --root, or allow all with "
+        "--allow-outside."
+    ),
+    "include_twice": _error("It includes a file twice: {name}."),
     "description_number": _warning("Numbers cannot be read: “{text}”."),
     "mesh_on_network": _warning("A mesh is on a network, and was not loaded: {name}. Download it."),
     "mesh_outside": _warning(

@@ -53,7 +53,7 @@ class IMPORT_SCENE_OT_body_moments_audit(Operator, ImportHelper):
 
     def _audit(self, path: Path) -> list[Finding]:
         roots = Roots.of(path, [Path(bpy.path.abspath(self.root))] if self.root else [], self.allow_outside)
-        audit = Auditor(roots).audit(read_description(path))
+        audit = Auditor(roots).audit(read_description(path, roots))
         copy = self._write_copy(path, audit) if self.write_copy else None
         links = [
             audit_report.link_entry(found.link, found.findings, found.repaired, found.density) for found in audit.links

@@ -11,18 +11,21 @@ from ....core.robots.stated import Description
 from ....core.verdict.finding import FileError
 from . import mjcf, sdf, urdf, usda
 from .limits import MAX_DESCRIPTION, MAX_LINKS
-from .xml import parse
+from .paths import Roots
+from .xml import NOWHERE, Node, parse
 
 ROOTS = {"robot": urdf.read, "sdf": sdf.read, "mujoco": mjcf.read}
 SUFFIXES = (".urdf", ".sdf", ".xml", ".usda", ".usd", ".world")
 
 
-def read_description(path: Path) -> Description:
+def read_description(path: Path, roots: Roots | None = None) -> Description:
     """Return what a file states of a robot.
 
     Parameters
     ----------
     path : Path
+    roots : Roots, optional
+        Where files that it includes may be, by default where its meshes may.
 
     Returns
     -------
@@ -33,6 +36,16 @@ def read_description(path: Path) -> Description:
     FileError
         Where it is none, or is refused.
     """
+    data = _bytes(path)
+    description = usda.read(data) if data.startswith(b"#usda") else _xml(data, roots or Roots.of(path))
+    if len(description.links) > MAX_LINKS:
+        raise FileError("description_too_large", limit=MAX_DESCRIPTION >> 20)
+    if not description.links:
+        raise FileError("description_without_links")
+    return description
+
+
+def _bytes(path: Path) -> bytes:
     try:
         if not stat.S_ISREG(path.stat().st_mode):
             raise FileError("file_not_regular")
@@ -44,18 +57,50 @@ def read_description(path: Path) -> Description:
         raise FileError("file_unreadable", error=error.strerror or str(error)) from error
     if len(data) > MAX_DESCRIPTION:
         raise FileError("description_too_large", limit=MAX_DESCRIPTION >> 20)
-    description = usda.read(data) if data.startswith(b"#usda") else _xml(data)
-    if len(description.links) > MAX_LINKS:
-        raise FileError("description_too_large", limit=MAX_DESCRIPTION >> 20)
-    if not description.links:
-        raise FileError("description_without_links")
-    return description
+    return data
 
 
-def _xml(data: bytes) -> Description:
+def _xml(data: bytes, roots: Roots) -> Description:
     if data.startswith((b"PXR-USDC", b"PK")):
         raise FileError("usd_not_text")
     root = parse(data)
     if root.tag not in ROOTS:
         raise FileError("description_unknown", tag=root.tag)
+    if root.tag == "mujoco":
+        _include(root, roots)
     return ROOTS[root.tag](root, data)
+
+
+def _include(root: Node, roots: Roots) -> None:
+    """Put the elements of the files that an MJCF model includes in the place of each `include`. They have no place in
+    the model's own file, so what they state is judged and not repaired."""
+    included, left = set(), MAX_DESCRIPTION
+    waiting = [root]
+    while waiting:
+        node = waiting.pop()
+        children = []
+        for child in node.children:
+            if child.tag != "include":
+                children.append(child)
+                waiting.append(child)
+                continue
+            name = child.get("file")
+            try:
+                path = roots.find(name)
+                data = _bytes(path)
+            except FileError as error:
+                raise FileError("include_unreadable", name=name) from error
+            left -= len(data)
+            if left < 0:
+                raise FileError("description_too_large", limit=MAX_DESCRIPTION >> 20)
+            if path in included:  # as MuJoCo does; so it cannot go round in a circle
+                raise FileError("include_twice", name=name)
+            included.add(path)
+            found = parse(data)
+            for below in found.walk():
+                below.start = below.end = NOWHERE
+            children += found.children
+            waiting += found.children
+        node.children = children
+        if any(child.tag == "include" for child in children):  # what was included includes more
+            waiting.append(node)

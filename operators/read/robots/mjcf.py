@@ -14,7 +14,7 @@ from ....core.numerics.rotations import rotation_matrix
 from ....core.robots.model import Pose, Shape
 from ....core.robots.stated import Description, StatedInertial, StatedLink, StatedShape
 from ....core.verdict.finding import Finding, finding
-from .xml import Node, numbers
+from .xml import NOWHERE, Node, numbers
 
 ABOUT = {"x": (1, 2), "y": (2, 0), "z": (0, 1)}
 SIZES = {"sphere": 1, "ellipsoid": 3, "box": 3, "capsule": 2, "cylinder": 2}
@@ -87,7 +87,7 @@ def _link(body: Node, model: _Model, current: str, count: int) -> StatedLink:
             shapes += _shape({**of_class, **geom.attributes}, model)
         except (ValueError, IndexError) as error:
             findings.append(finding("description_number", text=str(error)))
-    span = None if node is None else (node.start, node.end)
+    span = None if node is None or node.start == NOWHERE else (node.start, node.end)
     name = body.get("name") or "body {}".format(count + 1)
     return StatedLink(name, inertial, tuple(shapes), span, False, tuple(findings))  # else MuJoCo takes it from geoms
 

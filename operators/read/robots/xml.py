@@ -14,10 +14,12 @@ from numpy.typing import NDArray
 from ....core.verdict.finding import FileError
 from .limits import MAX_DEPTH, MAX_ELEMENTS
 
+NOWHERE = -1  # in place of a position, of what another file states
+
 
 @dataclass(eq=False)
 class Node:
-    """One element. start, end: of its bytes in the file."""
+    """One element. start, end: of its bytes in the file, or NOWHERE."""
 
     tag: str
     attributes: dict[str, str]

@@ -34,6 +34,11 @@ MESSAGES = {
     "description_unknown": ("Die Datei ist keine Roboterbeschreibung. Ihr erstes Element ist {tag}.",),
     "description_without_links": ("Die Datei hat keine Glieder.",),
     "description_too_large": ("Die Datei ist größer als {limit} MB oder hat zu viele Glieder.",),
+    "include_unreadable": (
+        "Eine eingebundene Datei lässt sich nicht lesen: {name}. Ihren Ordner mit --root nennen oder mit "
+        "--allow-outside alle erlauben.",
+    ),
+    "include_twice": ("Eine Datei wird zweimal eingebunden: {name}.",),
     "audit_done": ("{links} Glieder: {errors} Fehler, {warnings} Warnungen, {notes} Hinweise",),
     "audit_text": ("Siehe den Text “{text}” im Texteditor",),
     "audit_not_written": ("Die Datei lässt sich nicht schreiben: {error}.",),

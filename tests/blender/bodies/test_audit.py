@@ -12,7 +12,7 @@ import numpy as np
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.numerics.rotations import rotation_matrix
 from body_moments.core.robots.model import Inertial, Link, Pose, Robot, Shape
-from body_moments.core.verdict.finding import Severity
+from body_moments.core.verdict.finding import FileError, Severity
 from body_moments.operators.bodies.audit import Auditor
 from body_moments.operators.read.robots.descriptions import read_description
 from body_moments.operators.read.robots.paths import Roots
@@ -277,6 +277,35 @@ def test_mujoco_reads_a_body_as_we_do(tmp_path):
     (shape,) = links[0].shapes
     turn = rotation_matrix([0.951548524644, 0.239298337745, 0.189307857412, 0.038134576475])
     assert near(turn, shape.shape.pose.rotation, 1e-10) and shape.shape.size == (0.2, 0.4, 0.02)
+
+
+def test_mujoco_models_are_read_with_what_they_include(tmp_path):
+    """Files in files; what they state is judged, and repaired only where it stands in the model itself."""
+    body = '<body name="{}"><inertial mass="{}" pos="0 0 0" diaginertia="1 1 1"/><geom type="box" size="1 1 1"/></body>'
+    model = '<mujoco><include file="sub/more.xml"/><worldbody>{}<include file="arm.xml"/></worldbody></mujoco>'
+    path = tmp_path / "model.xml"
+    path.write_text(model.format(body.format("own", -1)), encoding="utf-8")
+    (tmp_path / "arm.xml").write_text("<mujocoinclude>{}</mujocoinclude>".format(body.format("arm", 0.001)))
+    (tmp_path / "sub").mkdir()
+    more = '<mujoco><include file="sub/deep.xml"/><compiler angle="radian"/></mujoco>'
+    (tmp_path / "sub" / "more.xml").write_text(more, encoding="utf-8")
+    deep = "<mujoco><worldbody>{}</worldbody></mujoco>".format(body.format("deep", 8))
+    (tmp_path / "sub" / "deep.xml").write_text(deep, encoding="utf-8")
+    found = audit(path)
+    codes = {link.link.name: link.findings[0].code for link in found.links}
+    assert codes == {"deep": "audit_not_uniform", "own": "inertial_mass_not_positive", "arm": "inertial_spread_outside"}
+    assert {link.link.name: link.link.span is None for link in found.links} == {"deep": True, "own": False, "arm": True}
+    repairs = [(link.link, link.repaired) for link in found.links if link.repaired is not None]
+    assert repaired_copy(found.description, repairs) == path.read_bytes()
+    for text, code in (
+        ('<include file="model.xml"/>', "include_twice"),
+        ('<include file="no.xml"/>', "include_unreadable"),
+        ('<include file="../../../etc/hostname"/>', "include_unreadable"),
+    ):
+        (tmp_path / "arm.xml").write_text("<mujocoinclude>{}</mujocoinclude>".format(text * 2))
+        with pytest.raises(FileError) as refused:
+            audit(path)
+        assert refused.value.finding.code == code
 
 
 def test_what_is_impossible_is_an_error_and_what_is_only_otherwise_is_a_note(tmp_path):
