@@ -7,6 +7,7 @@ from __future__ import annotations
 from bpy.types import Context, UILayout
 
 from ..core.verdict.finding import finding
+from ..operators.session import posed
 from ..operators.write import properties
 from ..operators.write.units import Units
 from . import rows
@@ -14,6 +15,7 @@ from . import rows
 AXIS_LABELS = ("X", "Y", "Z")
 PRINCIPAL_LABELS = ("1", "2", "3")
 CENTER_HEADINGS = {"WORLD": "Center of Mass (World)", "OBJECT": "Center of Mass (Object)"}  # by the frame
+RESTING_HEADINGS = {"WORLD": "Center of Mass at Rest (World)", "OBJECT": "Center of Mass at Rest (Object)"}  # of rigs
 
 
 def numbers(layout: UILayout, context: Context, units: Units, shown: properties.StoredProperties) -> None:
@@ -32,5 +34,7 @@ def numbers(layout: UILayout, context: Context, units: Units, shown: properties.
     else:
         rows.value(column, units, "Length", "length", length)
     column = layout.column(align=True)
-    rows.heading(column, CENTER_HEADINGS[context.scene.body_moments.frame], "length", shown.body.center)
+    is_rig = context.object.type == "ARMATURE" and not posed.stands_for_meshes(context.object)
+    headings = RESTING_HEADINGS if is_rig else CENTER_HEADINGS
+    rows.heading(column, headings[context.scene.body_moments.frame], "length", shown.body.center)
     rows.values(column, units, AXIS_LABELS, "length", shown.body.center, shown.body.radii_of_gyration.max())

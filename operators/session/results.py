@@ -190,6 +190,11 @@ def _of_meshes(armature: Object, scene: Scene) -> properties.StoredProperties | 
     )
 
 
+def are_meshes_measured(armature: Object, scene: Scene) -> bool:
+    """Return whether any mesh that an armature deforms has numbers, stored or live."""
+    return any(of_object(mesh, scene) is not None for mesh in posed.deformed_meshes(armature))
+
+
 def total(context: Context) -> Total:
     """The selected objects as one body, by the parallel-axis theorem, from what is stored."""
     key = (handlers.generation(), context.view_layer.name)

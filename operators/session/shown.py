@@ -91,10 +91,14 @@ def shown_body(obj: Object, scene: Scene = None) -> ShownBody | None:
 
 
 def _shown_now(obj: Object, scene: Scene) -> ShownBody | None:
-    if live.is_live(obj) or posed.stands_for_meshes(obj) or obj.body_moments.density_from in BY_OTHERS:
+    if live.is_live(obj) or obj.body_moments.density_from in BY_OTHERS:
         return _computed(obj, scene)
+    if posed.stands_for_meshes(obj):
+        return _computed(obj, scene) if results.are_meshes_measured(obj, scene) else _posed_rig(obj, scene)
     if "body_mass" not in obj:
         return None
+    if obj.type == "ARMATURE":
+        return _posed_rig(obj, scene)
     key = (
         updates.last_change_but_moves(obj),
         obj.get("body_fingerprint"),
@@ -133,6 +137,22 @@ def _computed(obj: Object, scene: Scene, key: tuple | None = None) -> ShownBody 
         center = to_own @ (shown.center - location)
         _own[obj] = _Own(key, center, to_own @ shown.axes, shown.gyration, shown.mass, shown.verdict)
     return shown
+
+
+def _posed_rig(armature: Object, scene: Scene) -> ShownBody | None:
+    """A character as its bones' parts stand now; what is stored on it is its rest pose."""
+    parts = [part for bone in armature.pose.bones if (part := shown_bone(bone, scene)) is not None]
+    if not parts:
+        return None
+    masses, centers = np.array([part.mass for part in parts]), np.array([part.center for part in parts])
+    axes = np.array([part.axes for part in parts])
+    center = masses @ centers / masses.sum()
+    arms = centers - center
+    inertia = np.einsum("n,nij,nj,nkj->ik", masses, axes, np.array([part.gyration**2 for part in parts]), axes)
+    second = np.einsum("n,ni,nk->ik", masses, arms, arms)
+    moments, frame = np.linalg.eigh((inertia + np.trace(second) * np.eye(3) - second) / masses.sum())
+    frame[:, 2] *= np.sign(np.linalg.det(frame))
+    return ShownBody(center, frame, np.sqrt(np.maximum(moments, 0.0)), float(masses.sum()), trust(armature, scene))
 
 
 def shown_bone(bone: PoseBone, scene: Scene) -> ShownBody | None:

@@ -103,6 +103,8 @@ TEXTS = {
     "Body Moments": "Körpermomente",
     "Center of Mass (World)": "Massenmittelpunkt (Welt)",
     "Center of Mass (Object)": "Massenmittelpunkt (Objekt)",
+    "Center of Mass at Rest (World)": "Massenmittelpunkt in Ruhe (Welt)",
+    "Center of Mass at Rest (Object)": "Massenmittelpunkt in Ruhe (Objekt)",
     "Total of Selection": "Summe der Auswahl",
     "1 Object": "1 Objekt",
     "{:d} Objects": "{:d} Objekte",

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from body_moments.operators.bodies.measure_object import measure_object
 from body_moments.operators.bodies.rig import measure_rig
-from body_moments.operators.session import results
+from body_moments.operators.session import handlers, results, shown
 from body_moments.operators.session import rig as session
 from body_moments.operators.session.shown import shown_bone
 from body_moments.operators.write import properties
@@ -330,3 +330,27 @@ def test_a_bone_whose_faces_enclose_nothing_has_no_part():
     assert (lower.name, lower.measurement) == ("Lower", None) and lower.refusal.code == "bone_part_impossible"
     assert "bone_parts_impossible" in codes(rig)
     assert close(upper.measurement.mass_properties.mass, rig.measurement.mass_properties.mass, 1e-12)
+
+
+def test_the_overlay_draws_the_whole_where_the_parts_are_posed():
+    """What is stored is the rest pose; bones' parts move with their bones."""
+    armature, _ = character()
+    bpy.ops.object.body_moments_measure_bones()
+    scene = bpy.context.scene
+    rest = shown.shown_body(armature, scene)
+    assert np.abs(rest.center - armature["body_center_of_mass"]).max() < 1e-6
+    assert close(rest.gyration**2 * rest.mass, np.array(armature["body_principal_moments"]), 1e-6)
+    pose(armature)
+    handlers.count_change()
+    now = shown.shown_body(armature, scene)
+    parts = [shown.shown_bone(bone, scene) for bone in armature.pose.bones]
+    center = sum(part.mass * part.center for part in parts) / sum(part.mass for part in parts)
+    assert np.abs(now.center - center).max() < 1e-12 and np.abs(now.center - rest.center).max() > 1e-3
+    inertia = sum(
+        (part.axes * (part.mass * part.gyration**2)) @ part.axes.T
+        + part.mass * (arm @ arm * np.eye(3) - np.outer(arm, arm))
+        for part in parts
+        for arm in [part.center - center]
+    )
+    found = (now.axes * (now.mass * now.gyration**2)) @ now.axes.T
+    assert np.abs(found - inertia).max() < 1e-12 * np.abs(inertia).max() and np.linalg.det(now.axes) > 0.0
