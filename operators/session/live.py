@@ -6,7 +6,8 @@ Nothing is written to any data. An object that moves is not measured again: its 
 that deforms while it is played or posed gets volume and center at once, in a light pass over its faces (outline.py),
 as far as the budget of a redraw lasts. Full numbers come from a timer, never from a handler: at once where they take
 no longer than the budget, else when neither updates nor frames come any more. Until then the numbers lag, and say so.
-B-spline patches are tracked (core/nurbs/tracked_solid.py).
+B-spline patches are tracked (core/nurbs/tracked_solid.py). Seconds are those of this thread: what others do on a busy
+machine makes no number lag.
 
 Which objects have Live on is kept in memory too: a property of the object would make Blender report an edit of its
 geometry when it is switched.
@@ -194,7 +195,7 @@ def _mapped(
 
 def update(obj: Object, depsgraph: Depsgraph) -> LiveResult:
     """Measure an object with Live on as it is now, and keep the outcome to be shown."""
-    followed, start = _followed[obj], time.perf_counter()
+    followed, start = _followed[obj], time.thread_time()
     measurement, refusal = None, None
     try:
         measurement, followed.outline = _measure(obj, followed, depsgraph)
@@ -203,7 +204,7 @@ def update(obj: Object, depsgraph: Depsgraph) -> LiveResult:
     except Exception as error:
         refusal = internal_error.finding_of(error)
         followed.tracked = None  # what is half followed is no start for the next edit
-    result = LiveResult(measurement, refusal, time.perf_counter() - start, settings_hash(obj, depsgraph.scene))
+    result = LiveResult(measurement, refusal, time.thread_time() - start, settings_hash(obj, depsgraph.scene))
     followed.result = result
     followed.matrix, followed.transform = float64_matrix(obj.matrix_world), transform_key(obj)
     followed.outlined, followed.is_pending, followed.number = None, False, updates.count()
@@ -287,14 +288,14 @@ def _follow_at_once(events: handlers.Updates, changed: set[int]) -> None:
     budget, is_first = _budget(), True
     objects = [obj for obj in events.depsgraph.view_layer.objects if obj.session_uid in changed]
     for obj in sorted(objects, key=lambda obj: _followed[obj].pass_seconds):
-        followed, start = _followed[obj], time.perf_counter()
+        followed, start = _followed[obj], time.thread_time()
         allowed = MAX_PASS * _budget() if is_first else budget
         if followed.outline is None or followed.pass_seconds > allowed:
             followed.outlined = None
             followed.pass_seconds *= RETRY  # a busy moment is not for ever
             continue
         followed.outlined = followed.outline.follow(obj, events.depsgraph)
-        followed.pass_seconds = time.perf_counter() - start
+        followed.pass_seconds = time.thread_time() - start
         budget, is_first = budget - followed.pass_seconds, False
 
 

@@ -16,6 +16,8 @@ import tempfile
 import time
 from pathlib import Path
 
+import numpy as np
+
 WIDTH, HEIGHT = 1600, 1000
 START_LIMIT = 480.0  # seconds until Blender's window answers
 STEP_LIMIT = 240.0  # seconds until what was pressed has happened
@@ -265,6 +267,19 @@ class Window:
         path = self.artefacts / f"{name}.png"
         subprocess.run(["scrot", "-o", str(path)], env=self.environment, check=True, timeout=240)
         return path
+
+    def pixels(self, name: str) -> np.ndarray:
+        """A picture as (height, width, 3) bytes, from the top, read by Blender itself."""
+        path = self.picture(name)
+        array = self.mailbox / "pixels.npy"
+        self.ask(
+            f"import numpy as np\nimage = bpy.data.images.load({str(path)!r})\n"
+            "image.colorspace_settings.name = 'Non-Color'\n"
+            "values = np.empty((image.size[1], image.size[0], image.channels), np.float32)\n"
+            "image.pixels.foreach_get(values.ravel())\nbpy.data.images.remove(image)\n"
+            f"np.save({str(array)!r}, np.round(255.0 * values[::-1, :, :3]).astype(np.uint8))"
+        )
+        return np.load(array)
 
 
 def _end(process: subprocess.Popen) -> None:

@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Arrays as PNG or animated PNG (the PNG specification, third edition), with numpy and zlib alone.
+"""Arrays as animated PNG (the PNG specification, third edition), with numpy and zlib alone.
 
-Animations have one palette, and of each frame only the rectangle that has changed.
+There is one palette, and of each frame only the rectangle that has changed.
 """
 
 import struct
@@ -15,14 +15,6 @@ from numpy.typing import NDArray
 
 SIGNATURE = b"\x89PNG\r\n\x1a\n"
 Image = NDArray[np.uint8]  # (height, width, 3), from the top
-
-
-def write(path: Path, image: Image) -> None:
-    """Write a picture with all its colors."""
-    height, width = image.shape[:2]
-    rows = np.concatenate([np.zeros((height, 1), np.uint8), image.reshape(height, -1)], axis=1)
-    header = _chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0))
-    path.write_bytes(SIGNATURE + header + _chunk(b"IDAT", zlib.compress(rows.tobytes(), 9)) + _chunk(b"IEND", b""))
 
 
 def write_animation(path: Path, frames: Sequence[Image], seconds: Sequence[float]) -> None:

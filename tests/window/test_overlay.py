@@ -33,6 +33,22 @@ def center_color(window, name="overlay"):
     )
 
 
+def colors_of_disc(window, name, center):
+    """(2, 3): the colors in the first two quadrants of the disc at a point of the world."""
+    window.point_at_view()
+    window.redraw()
+    window.get("True")
+    screen = window.pixels(name)
+    x, y = window.ask(
+        "from bpy_extras.view3d_utils import location_3d_to_region_2d as project\nregion = regions['WINDOW']\n"
+        f"place = project(region, area.spaces.active.region_3d, {center!r})\n"
+        "result = [region.x + place.x, region.y + place.y]"
+    )
+    away = 5.0 * window.get("bpy.context.preferences.system.ui_scale") / 2.0**0.5
+    places = [(round(x + side * away), round(len(screen) - 1 - y - away)) for side in (1, -1)]
+    return np.array([screen[row, column] for column, row in places]) / 255.0
+
+
 def is_near(color, truth):
     return bool(np.abs(np.subtract(color, truth)).max() <= FROM_SRGB)
 
@@ -50,6 +66,16 @@ def test_the_disc_is_at_the_projected_center_on_every_background(window, light):
         f"gradients.high_gradient = gradients.gradient = ({0.95 if light else 0.02},) * 3"
     )
     assert is_near(center_color(window, f"overlay-{'light' if light else 'dark'}"), EXACT)
+
+
+def test_what_is_in_front_of_the_disc_shows_through_its_white_quadrants(window):
+    center = window.get("list(bpy.data.objects['Cube'].matrix_world.translation)")
+    inside = colors_of_disc(window, "overlay-hidden", center)
+    window.ask("area.spaces.active.shading.type = 'WIREFRAME'")
+    seen = colors_of_disc(window, "overlay-seen", center)
+    window.ask("area.spaces.active.shading.type = 'SOLID'")
+    assert is_near(inside[0], EXACT) and is_near(seen[0], EXACT)
+    assert is_near(seen[1], (1.0, 1.0, 1.0)) and not is_near(inside[1], (1.0, 1.0, 1.0))
 
 
 def test_the_disc_follows_a_move(window):
