@@ -23,6 +23,7 @@ from .trims import Piece, trims_nothing
 
 MATRIX, SURFACE, TRIMMED, DEFINITION, INSTANCE = 124, 128, 144, 308, 408
 MAX_DEPTH = 50  # of subfigures, transformations and curves in each other
+MAX_PIECES = 10_000  # of the boundary of a surface
 # Surfaces and solids that Blender's surfaces are not, by the names of the specification. What is missing here is no
 # surface: curves, points, annotation, structure.
 REFUSED = {
@@ -38,7 +39,7 @@ NAMES = {SURFACE: "Rational B-Spline Surface", TRIMMED: "Trimmed Surface", INSTA
 # Where the parameters of those that stand on others have the pointers to these: the first, and behind the last.
 REFERENCES = {TRIMMED: (0, 1), 140: (4, 5), 143: (1, 2), 430: (0, 1), 510: (0, 1)}
 CURVES = {100, 102, 104, 106, 110, 112, 116, 126, 130}  # and points: they bound nothing
-PARAMETER_CURVE, GEOMETRY = 142, (0, 6)
+PARAMETER_CURVE = 142
 
 
 def read_iges(path: Path) -> SurfaceFile:
@@ -52,7 +53,7 @@ class _Reader:
         self._entries = self._text.entries
         self._refusals = Refusals()
         self._matrices: dict[int, NDArray[np.float64] | None] = {0: np.eye(4)}
-        self._name, self._placed = path.stem, 0
+        self._name, self._placed, self._pieces_left = path.stem, 0, 0
 
     def read(self) -> SurfaceFile:
         used = set(self._references())
@@ -61,7 +62,7 @@ class _Reader:
         for entry in self._entries.values():
             if entry.type not in NAMES:
                 others += entry.type in CURVES and not entry.dependent
-            elif entry.number in used or entry.use not in GEOMETRY or entry.type in REFUSED and entry.dependent:
+            elif entry.number in used or entry.type in REFUSED and entry.dependent:
                 continue
             elif entry.hidden:
                 hidden += 1
@@ -179,13 +180,15 @@ class _Reader:
         _, base, curve, _, _ = integers(self._text.fields(self._entry(outer, PARAMETER_CURVE)), 5)
         if base != surface or not curve:
             return False
+        self._pieces_left = MAX_PIECES
         pieces = self._pieces(curve, ())
         return pieces is not None and trims_nothing(pieces, spline.domain)
 
     def _pieces(self, pointer: int, path: tuple[int, ...]) -> list[Piece] | None:
         """The curve as lines and splines in order; None where it is something else."""
         entry = self._entries.get(pointer)
-        if entry is None or entry.matrix or pointer in path or len(path) >= MAX_DEPTH:
+        self._pieces_left -= 1
+        if entry is None or entry.matrix or pointer in path or len(path) >= MAX_DEPTH or self._pieces_left < 0:
             return None
         fields = self._text.fields(entry)
         if entry.type == 102:

@@ -39,18 +39,15 @@ class Entry:
     """What the directory says of an entity.
 
     number: of its first line, by which others point to it. parameters: (first line, lines). matrix: pointer to a
-    transformation, or 0. hidden, dependent: by its status. use: 0 geometry, 1 annotation, 2 definition, 5 a curve in
-    parameters, 6 construction.
+    transformation, or 0. hidden, dependent: by its status.
     """
 
     number: int
     type: int
-    form: int
     parameters: tuple[int, int]
     matrix: int
     hidden: bool
     dependent: bool
-    use: int
     label: str
 
 
@@ -141,12 +138,10 @@ def _directory(lines: list[str]) -> dict[int, Entry]:
             entries[number] = Entry(
                 number,
                 _integer(words[0]),
-                _integer(words[13]),
                 (_integer(words[1]), _integer(words[12])),
                 _integer(words[6]),
                 status[:2] == "01",
                 status[2:4] in ("01", "03"),
-                _integer(status[4:6]),
                 words[16].strip(),
             )
         except (ValueError, IndexError):

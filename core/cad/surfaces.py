@@ -17,7 +17,8 @@ from ..verdict.finding import FileError, Finding, MeasureError, finding, truncat
 
 MAX_ORDER = 6  # of the surfaces that are kept
 MAX_POINTS = 1 << 18  # control points of one patch in Bézier form
-MAX_SURFACES = 20_000  # that a file places
+MAX_SURFACES = 10_000  # that a file places
+MAX_TOTAL_POINTS = 1 << 22  # control points of all its patches
 MAX_NAMES = 1000  # that a refusal lists
 MAX_REASONS = 8  # that one refusal lists
 MAX_COORDINATE = 3e38  # below what float32 holds
@@ -84,11 +85,20 @@ class Refusals:
     """What could not be kept, gathered by reason and kind."""
 
     names: dict[tuple, list[str]] = field(default_factory=dict)
+    points: int = 0  # of all patches that were kept
 
     def keep(self, kind: str, name: str, make: Callable[[], list[Patch]]) -> list[Patch]:
         """The patches of a surface, none where it is refused. kind, name: what it is called in the file."""
+        before = self.points
         try:
-            return make()
+            patches = make()
+            # What makes others of this file has counted them.
+            self.points = max(self.points, before + sum(patch.points[..., 0].size for patch in patches))
+            if self.points > MAX_TOTAL_POINTS:
+                raise FileError("too_many_control_points", limit=MAX_TOTAL_POINTS)
+            return patches
+        except FileError:
+            raise
         except SurfaceRefusedError as error:
             self.add(error.code, kind, name, **error.values)
         except MeasureError as error:  # of its control points

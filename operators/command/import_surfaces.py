@@ -54,6 +54,6 @@ def _added(file: SurfaceFile) -> Opened:
     made = import_bodies(file.bodies, bpy.context.scene.collection, unit)
     bpy.context.view_layer.update()
     by_object: dict[str, tuple[Finding, ...]] = {
-        obj.name: (finding("surfaces_rounded", distance=moved),) if moved else () for obj, moved in made
+        obj.name: (finding("surfaces_rounded", share=moved),) if moved else () for obj, moved in made
     }
     return Opened(file.refused, file.notes, by_object)

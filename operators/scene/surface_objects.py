@@ -41,7 +41,7 @@ def surface_object(name: str, patches: Sequence[Patch], factor: float = 1.0) -> 
     obj : Object
         With its origin at that of the patches, or among them where they are far from it.
     moved : float
-        By how much float32 moves a point of the surfaces at most, in Blender units.
+        By how much float32 moves a point of the surfaces at most, as a share of their size.
     """
     data, moved, origin = surface_data(name, patches, factor)
     obj = bpy.data.objects.new(name, data)
@@ -50,7 +50,7 @@ def surface_object(name: str, patches: Sequence[Patch], factor: float = 1.0) -> 
 
 
 def surface_data(name: str, patches: Sequence[Patch], factor: float) -> tuple[Curve, float, NDArray[np.float32]]:
-    """The data of `surface_object`, by how much its points moved, and where its origin is to stand."""
+    """The data of `surface_object`, by what share of the size its points moved, and where its origin is to stand."""
     low = factor * np.min([patch.points.min(axis=(0, 1)) for patch in patches], axis=0)
     high = factor * np.max([patch.points.max(axis=(0, 1)) for patch in patches], axis=0)
     size, distance = float((high - low).max()), float(np.abs([low, high]).max())
@@ -61,7 +61,7 @@ def surface_data(name: str, patches: Sequence[Patch], factor: float) -> tuple[Cu
     data = _grids(name, [patch.points.shape[:2] for patch in patches])
     for spline, patch, (row, _) in zip(data.splines, patches, rows):
         _fill(spline, patch, row)
-    return data, max(moved for _, moved in rows), origin
+    return data, max(moved for _, moved in rows) / (size or 1.0), origin
 
 
 def _stored(patch: Patch, factor: float, origin: NDArray) -> tuple[NDArray[np.float32], float]:

@@ -69,11 +69,14 @@ class GridOptions:
         if not self.sample_positions:
             return EVEN
         rows: list[NDArray[np.float64] | None] = []
+        all_known = _parsed_positions(self.sample_positions)
+        if all_known is None:
+            raise ReadError("positions_damaged", grid=grid)
         for axis, begin, count in zip(AXES, low, shape):
-            known = json.loads(self.sample_positions).get(axis)
+            known = all_known.get(axis)
             if known is not None and not 0 <= begin <= begin + count <= len(known):
                 raise ReadError("positions_of_other_samples", grid=grid, axis=axis, count=len(known))
-            rows.append(None if known is None else np.array(known, np.float64))
+            rows.append(None if known is None else known)
         x, y, z = rows
         return x, y, z
 
@@ -119,3 +122,13 @@ def positions_text(positions: Positions) -> str:
     them."""
     known = {axis: (row * ((len(row) - 1) / row[-1])).tolist() for axis, row in zip(AXES, positions) if row is not None}
     return json.dumps(known, separators=(",", ":")) if known else ""
+
+
+def _parsed_positions(text: str) -> dict[str, NDArray[np.float64]] | None:
+    """The rows by their axes; None where the text is none that `positions_text` writes."""
+    try:
+        rows = {axis: np.array(row, np.float64) for axis, row in json.loads(text).items()}
+    except (ValueError, TypeError, AttributeError, RecursionError):
+        return None
+    ascending = all(row.ndim == 1 and len(row) > 1 and (np.diff(row) > 0.0).all() for row in rows.values())
+    return rows if ascending and all(np.isfinite(row).all() for row in rows.values()) else None

@@ -951,6 +951,9 @@ MESSAGES: dict[str, Message] = {
     "positions_of_other_samples": _error(
         "The grid “{grid}” has samples beyond its {count} positions along {axis}. Import the scan again."
     ),
+    "positions_damaged": _error(
+        "The positions of the samples of “{grid}” are not rows of ascending numbers. Import the scan again."
+    ),
     "positions_only_as_density": _error(
         "The samples of the grid “{grid}” do not stand evenly, and can be measured as a density only. Set Measure As "
         "to Density, or import the scan without positions."
@@ -1319,6 +1322,9 @@ MESSAGES: dict[str, Message] = {
     "file_without_surfaces": _error("The file has no B-spline surfaces. Export surfaces, or import a mesh."),
     "no_surface_kept": _error("No surface of the file can be kept: {causes}"),
     "too_many_surfaces": _error("The file places more than {limit} surfaces. Export fewer at a time."),
+    "too_many_control_points": _error(
+        "The file's surfaces need more than {limit} control points. Export fewer at a time."
+    ),
     "surface_trimmed": _warning(
         "Not imported, because it is trimmed: {kind} {names}. Untrim it, or export a mesh.",
         "Not imported, because they are trimmed: {count} of the kind {kind}: {names}. Untrim them, or export a mesh.",
@@ -1374,7 +1380,8 @@ MESSAGES: dict[str, Message] = {
         "Imported {count} patches of order {order} at most from {file}.",
     ),
     "surfaces_rounded": _note(
-        "Blender stores control points as 32-bit numbers: points of the surfaces moved by up to {distance:length}."
+        "Blender stores control points as 32-bit numbers: points of the surfaces moved by up to {share:percent} of the "
+        "size."
     ),
     "not_imported": _warning("Not imported: {cause}"),
     "no_surface_file": _error("No file is chosen. Choose IGES or .obj files."),

@@ -65,8 +65,8 @@ class OBJECT_OT_body_moments_import_surfaces(Operator, ImportHelper):
             reports.report(self, *(findings or [finding("no_surface_file")]))
             return {"CANCELLED"}
         _select(context, made)
-        # What was refused of one file does not undo the others.
-        reports.report(self, *map(_as_warning, findings))
+        for found in findings:  # a line for each; what was refused of one file does not undo the others
+            reports.report(self, _as_warning(found))
         return {"FINISHED"}
 
     def _paths(self) -> list[Path]:
@@ -85,12 +85,12 @@ class OBJECT_OT_body_moments_import_surfaces(Operator, ImportHelper):
         scale = shortest_decimal(context.scene.unit_settings.scale_length)
         unit = shortest_decimal(self.unit) if file.unit is None else file.unit
         made = import_bodies(file.bodies, context.collection, unit / scale)
-        moved = max(distance for _, distance in made) * scale
+        moved = max(share for _, share in made)
         patches = [patch for body in file.bodies for patch in body.patches]
         order = max(space.order for patch in patches for space in patch.spaces)
         findings = [finding("surfaces_imported", count=len(patches), order=order, file=path.name)]
         if moved:
-            findings.append(finding("surfaces_rounded", distance=moved))
+            findings.append(finding("surfaces_rounded", share=moved))
         return [obj for obj, _ in made], [*findings, *file.refused, *file.notes]
 
 

@@ -93,6 +93,9 @@ MESSAGES = {
     "positions_of_other_samples": (
         "Das Gitter „{grid}“ hat Abtastwerte jenseits seiner {count} Stellen entlang {axis}. Den Scan neu importieren.",
     ),
+    "positions_damaged": (
+        "Die Stellen der Abtastwerte von „{grid}“ sind keine Reihen aufsteigender Zahlen. Den Scan neu importieren.",
+    ),
     "positions_only_as_density": (
         "Die Abtastwerte des Gitters „{grid}“ stehen nicht gleichmäßig und können nur als Dichte gemessen werden. "
         "Messen als auf Dichte stellen, oder den Scan ohne Stellen importieren.",

@@ -14,6 +14,9 @@ MESSAGES = {
     "file_without_surfaces": ("Die Datei hat keine B-Spline-Flächen. Flächen exportieren, oder ein Netz importieren.",),
     "no_surface_kept": ("Keine Fläche der Datei kann übernommen werden: {causes}",),
     "too_many_surfaces": ("Die Datei setzt mehr als {limit} Flächen. Weniger auf einmal exportieren.",),
+    "too_many_control_points": (
+        "Die Flächen der Datei brauchen mehr als {limit} Kontrollpunkte. Weniger auf einmal exportieren.",
+    ),
     "surface_trimmed": (
         "Nicht importiert, weil sie beschnitten ist: {kind} {names}. Die Beschneidung aufheben, oder ein Netz "
         "exportieren.",
@@ -73,8 +76,8 @@ MESSAGES = {
         "{count} Flächen bis zur Ordnung {order} aus {file} importiert.",
     ),
     "surfaces_rounded": (
-        "Blender speichert Kontrollpunkte als 32-Bit-Zahlen: Punkte der Flächen wurden um bis zu {distance:length} "
-        "verschoben.",
+        "Blender speichert Kontrollpunkte als 32-Bit-Zahlen: Punkte der Flächen wurden um bis zu {share:percent} der "
+        "Größe verschoben.",
     ),
     "not_imported": ("Nicht importiert: {cause}",),
     "no_surface_file": ("Keine Datei gewählt. IGES- oder .obj-Dateien wählen.",),

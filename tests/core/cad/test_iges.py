@@ -7,7 +7,7 @@ import random
 
 import numpy as np
 import pytest
-from body_moments.core.cad import read_surfaces
+from body_moments.core.cad import read_surfaces, surfaces
 from body_moments.core.cad.iges_text import UNIT_NAMES, UNITS
 from body_moments.core.numerics.bspline import SplineSpace, clamped_space
 from body_moments.core.nurbs.patch import Patch
@@ -273,6 +273,27 @@ def test_subfigures_that_multiply_end(tmp_path):
         below = file.add(408, [group, 0.0, 0.0, 0.0], status="00010000")
     file.add(408, [group, 0.0, 0.0, 0.0])
     assert refusal(file.write(tmp_path / "a.igs")).code in ("too_many_surfaces", "no_surface_kept")
+
+
+def test_curves_that_multiply_end(tmp_path):
+    file = IgesFile()
+    base = file.surface(unrolled(sphere()), status="00010000")
+    curve = file.add(*line(A, B))
+    for _ in range(45):
+        curve = file.add(102, [2, curve, curve])
+    boundary = file.add(142, [0, base, curve, 0, 1])
+    file.add(144, [base, 1, 0, boundary])
+    assert refusal(file.write(tmp_path / "a.igs")).values["causes"][0]["code"] == "surface_trimmed"
+
+
+def test_large_surfaces_in_many_places_end(tmp_path, monkeypatch):
+    monkeypatch.setattr(surfaces, "MAX_TOTAL_POINTS", 500)
+    file = IgesFile()
+    ball = file.surface(unrolled(sphere()), status="00010000")
+    small = file.add(308, [0, "5HSmall", 1, ball], status="00000200")
+    for _ in range(50):
+        file.add(408, [small, 0.0, 0.0, 0.0])
+    assert refusal(file.write(tmp_path / "a.igs")).code == "too_many_control_points"
 
 
 def test_flattened_far_and_empty(tmp_path):

@@ -197,6 +197,10 @@ def test_uneven_slices_survive_a_file_and_are_no_threshold_and_no_filling(tmp_pa
     with refused("density_volume_unreadable", "Cube"):
         measure(cube)
     obj.body_moments.grid_as = "DENSITY"
+    for damaged in ("{", "[1]", '{"z":1}', '{"z":[0,1,1,2,3,4]}', '{"z":[0,1,2,3,4,NaN]}', '{"z":["a"]}'):
+        obj.body_moments.sample_positions = damaged
+        with refused("positions_damaged", "scan"):
+            measure(obj)
     obj.body_moments.sample_positions = '{"z":[0,1,2]}'
     with refused("positions_of_other_samples", "scan"):
         measure(obj)
