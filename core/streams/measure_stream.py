@@ -116,7 +116,7 @@ def measure_stream(
         if not stream.face_count:
             raise FileError("file_without_faces")
         return StreamIntegrals(volume, area, stream.boundary.is_zero, stream.face_count)
-    raise AssertionError("the box of all points has no piece far from it")
+    raise AssertionError("piece outside its box")
 
 
 class _FarPiece(Exception):
