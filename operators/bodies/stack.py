@@ -320,10 +320,11 @@ def measure_members(members: list[Member], shapes: list[Shape], unit: float, axe
         density = np.where(from_mass, mass / volume.raw[:, 0], density)
     certain = (volume.raw[:, 0] > volume.rounding_error[:, 0]) & (density > 0.0) & (density < np.inf)
     rows = np.flatnonzero(certain)
-    fixed = second_order_frames(volume.at(rows))
-    if not fixed.is_body.all():
-        rows = rows[fixed.is_body]
+    with np.errstate(all="ignore"):  # bodies beyond the range of numbers are refused by themselves
         fixed = second_order_frames(volume.at(rows))
+        if not fixed.is_body.all():
+            rows = rows[fixed.is_body]
+            fixed = second_order_frames(volume.at(rows))
     if not len(rows):
         return None
     if len(rows) < len(members):  # the others are refused by themselves
