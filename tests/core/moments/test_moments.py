@@ -144,6 +144,23 @@ def test_bodies_add_whatever_points_they_are_about():
     assert np.array_equal((left + right).about, (5, 5, 5))
 
 
+def test_bounds_of_a_sum_are_the_sums_of_the_bounds():
+    raw, own = np.arange(1.0, 5.0), np.array([0.5, 0.25, 0.125, 1.0])
+    parts = [Moments(raw, np.zeros(3), Measure.VOLUME, k * own, 8.0 * k * own) for k in (1.0, 2.0, 4.0)]
+    total = sum_moments(parts)
+    assert close(total.raw, 3.0 * raw, 0.0) and close(total.input_error, 56.0 * own, 1e-15)
+    assert (total.rounding_error >= 7.0 * own).all() and close(total.rounding_error, 7.0 * own, 1e-14)
+
+
+@pytest.mark.parametrize("count", [1, 2])
+def test_images_are_about_the_point_that_is_asked_for(count):
+    body = Moments(np.array([2.0, 1.0, 0.0, -1.0]), np.zeros(3))
+    matrix = np.diag([1.0, 2.0, 3.0, 1.0])
+    total = sum_of_images(body, np.stack([matrix] * count), (5.0, -1.0, 0.5))
+    assert total.about.tolist() == [5.0, -1.0, 0.5]
+    assert np.abs(total.center - [0.5, 0.0, -1.5]).max() < 1e-14
+
+
 def test_instances_are_the_sum_of_their_maps():
     rng = np.random.default_rng(1)
     some = np.tile(np.eye(4), (60, 1, 1))
