@@ -57,9 +57,9 @@ class OffsetSolid:
     coefficients, rounding_error, input_error : (20, 6) arrays
         Of s^0 to s^5 for each moment to third order: the coefficients, and bounds for positive and negative s of what
         rounding and storing the points as float32 may have changed.
-    swept_bound : (4,) array
-        Of s^0 to s^3: what both sides sweep at most when storing the points as float32 moves them, which bounds its
-        changes as `input_error` does.
+    swept_bound, swept_rounding : (4,) arrays
+        Of s^0 to s^3: what a side, and what joins both along the boundary, sweep at most when storing the points as
+        float32 moves them, or rounding; this bounds the changes as `input_error` does.
     reach : (2, 3) array
         Of the points from `about` and of the vectors, by axis.
     outward, inward : float
@@ -91,6 +91,7 @@ class OffsetSolid:
     rounding_error: NDArray[np.float64]
     input_error: NDArray[np.float64]
     swept_bound: NDArray[np.float64]
+    swept_rounding: NDArray[np.float64]
     reach: NDArray[np.float64]
     outward: float
     inward: float
@@ -252,7 +253,8 @@ def offset_solid(surface: Surface) -> OffsetSolid:
     directions = offset_directions(points, triangles, stored)
     vectors = directions.vectors
     reach = np.abs(points - about).max(axis=0) * (1.0 + 4.0 * U), np.abs(vectors).max(axis=0)
-    sums, bounds, swept, tested = np.zeros((20, COEFFICIENT_COUNT)), np.zeros((3, 7)), np.zeros(4), []
+    sums, bounds, swept, tested = np.zeros((20, COEFFICIENT_COUNT)), np.zeros((3, 7)), np.zeros((2, 4)), []
+    rounded, slid = 4.0 * U * float(np.linalg.norm(reach[0])), 4.0 * U * float(np.linalg.norm(reach[1]))
     for part, known in zip(blocks(triangles), blocks(directions.has_normal)):
         prisms = _Prisms(points[part], about, vectors[part])
         sums += prisms.sums()
@@ -260,7 +262,8 @@ def offset_solid(surface: Surface) -> OffsetSolid:
         if stored:
             lift[1] += np.where(known, 0.0, 1.0 + prisms.far)  # it should have moved by one
         bounds += prisms.bounds(slide, lift, stored)
-        swept += prisms.swept(slide[1], lift[1], stored)
+        swept[0] += prisms.swept(slide[0] + slid, lift[0] + slid, rounded)
+        swept[1] += prisms.swept(slide[1], lift[1], stored)
         tested.append(prisms.jacobians())
     jacobian, jacobian_error, double = (np.concatenate(column, axis=-1) for column in zip(*tested))
     solid = directions.has_normal
@@ -275,6 +278,9 @@ def offset_solid(surface: Surface) -> OffsetSolid:
     height = jacobian[0, :, solid] / double[solid, None]
     uneven = np.abs(height - 1.0) > UNEVEN_RTOL
     error, moved = _propagate_error(bounds, reach, len(tested), stored)
+    slides = directions.tangential_error.max(axis=1, initial=0.0) + directions.normal_error.max(axis=1, initial=0.0)
+    swept[0] += _swept_by_strips(points, vectors, triangles, rounded, slides[0] + 2.0 * slid)
+    swept[1] += _swept_by_strips(points, vectors, triangles, stored, slides[1])
     return OffsetSolid(
         points,
         vectors,
@@ -283,7 +289,8 @@ def offset_solid(surface: Surface) -> OffsetSolid:
         sums,
         error,
         moved,
-        swept,
+        swept[1],
+        swept[0],
         np.array(reach),
         outward.min(initial=np.inf),
         inward.min(initial=np.inf),
@@ -405,6 +412,19 @@ class _Prisms:
             along[2] * normal_error + across[2] * tangential_error,
         ]
         return np.add.reduce(np.array(coefficients), axis=1) / 2.0
+
+
+def _swept_by_strips(
+    points: NDArray, vectors: NDArray, triangles: NDArray, stored: float, slide: float
+) -> NDArray[np.float64]:
+    """(4,) coefficients in s of what the strips along the boundary sweep when points move by `stored` and directions by
+    `slide`."""
+    boundary = find_edges(triangles).boundary_sides()
+    start, stop = triangles.ravel()[boundary], np.roll(triangles, -1, axis=1).ravel()[boundary]
+    ends = [np.linalg.norm(array[stop] - array[start], axis=1) for array in (points, vectors)]
+    far = np.maximum(*(np.linalg.norm(vectors[end], axis=1) for end in (start, stop)))
+    long, turned = (float((end * far).sum()) for end in ends)
+    return np.array([0.0, long * stored, turned * stored + long * slide, turned * slide])
 
 
 def _propagate_error(

@@ -127,8 +127,8 @@ def _weighed(
 
 def _higher(body: Body, shell: bool) -> Callable[[], Moments | OwnMoments] | None:
     """What gives the moments of higher order of what the principal frame is made from, where they are known."""
-    if not body.any_order or body.mass is not None or body.length is not None:
-        return None
+    if not body.any_order or body.mass is not None or body.length is not None or body.wall is not None:
+        return None  # of walls neither, whose axes follow a slider
     return partial(_frame_moments, body, shell)
 
 
@@ -144,6 +144,7 @@ def _frame_moments(body: Body, shell: bool) -> Moments | OwnMoments:
 def _to_order(body: Body, options: ResolvedOptions, order: int) -> tuple[Moments | None, Moments] | None:
     """The moments of volume and area to the order that was asked for; None where a body has them anyway."""
     shell = options.kind == "shell"
+    thin = shell and body.wall is None
     if order < KNOWN_ORDER and (shell or not options.surface):
         return None
     if not body.any_order:
@@ -155,7 +156,7 @@ def _to_order(body: Body, options: ResolvedOptions, order: int) -> tuple[Moments
     for moments in (volume, area):
         if moments is not None and not np.isfinite([moments.raw, moments.rounding_error, moments.input_error]).all():
             raise ReadError("moments_overflow", order=order)
-    return None if shell else volume, area or body.area
+    return None if thin else volume, area or body.area
 
 
 def _bounds(volume: NDArray, area: NDArray, of_mass: dict[str, float]) -> dict[str, float]:

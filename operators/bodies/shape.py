@@ -217,7 +217,7 @@ def shape_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, options: Mea
     measurement, body = measured.measurement, measured.body
     if body.mass is not None and not body.has_surface:
         raise NoShapeError("shape_of_grid", measurement)
-    if not body.any_order or body.length is not None:
+    if body.wall is not None or body.length is not None:
         raise NoShapeError("shape_of_wire_or_wall", measurement)
     if measurement.method.verdict == Verdict.OPEN:
         raise NoShapeError("shape_of_open_surface", measurement)

@@ -8,8 +8,9 @@ their polynomials; for other maps the surface is mapped to the world first.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from math import floor, inf, isfinite, log10
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,14 +19,14 @@ from ...core.mesh.boxes import boxes_overlap
 from ...core.mesh.surface import Surface
 from ...core.moments.images import sum_of_images
 from ...core.moments.moments import Measure, Moments, monomials, sum_moments
-from ...core.offset.walls import OffsetSolid, offset_solid, split_thickness
+from ...core.offset import OffsetSolid, offset_solid, split_thickness, wall_moments
 from ...core.polyhedron import polyhedron_moments
 from ...core.solid.measure_solid import SolidIntegrals
 from ...core.verdict.finding import Finding, ReadError, finding, unique
 from ...core.verdict.method import Verdict
 from ...core.verdict.tolerances import NEGLIGIBLE
 from ..read import Reading
-from .body import Body, MeshBody
+from .body import KNOWN_ORDER, Body, MeshBody
 from .instances import group_by_similarity
 
 REPORTED = 0.01  # of the thickness: less unevenness is not reported
@@ -49,9 +50,11 @@ class WallPiece:
         """Whether the wall folds over, rounded as `moments` rounds."""
         return not thickness / self.scale < self.offset.max_thickness(side)
 
-    def moments(self, side: str, thickness: float) -> Moments:
+    def moments(self, side: str, thickness: float, order: int = KNOWN_ORDER) -> Moments:
         """Of the wall, in SI units."""
-        return sum_of_images(self.offset.moments(*split_thickness(side, thickness / self.scale)), self.matrices)
+        reach = split_thickness(side, thickness / self.scale)
+        own = self.offset.moments(*reach) if order <= KNOWN_ORDER else wall_moments(self.offset, *reach, order)
+        return sum_of_images(own, self.matrices)
 
     def per_thickness(self) -> Moments:
         """Of the wall by its thickness, where that goes to zero."""
@@ -104,6 +107,7 @@ class Walls:
             wall=wall,
             face_count=thin.face_count,
             walls=self,
+            thickness=thickness,
         )
 
     def drop_arrays(self) -> Walls:
@@ -161,9 +165,18 @@ class Walls:
 
 @dataclass(frozen=True, eq=False)
 class WallBody(Body):
-    """A shell of real thickness, and the `walls` of any thickness that it is one of."""
+    """A shell of real thickness, m, and the `walls` of any thickness that it is one of."""
 
-    walls: Walls | None = None
+    any_order: ClassVar[bool] = True
+
+    walls: Walls = field(kw_only=True)
+    thickness: float = 0.0
+
+    def moments(self, order: int, area: bool) -> tuple[Moments, Moments | None]:
+        """Return the moments of the wall, and of the surface itself."""
+        walls = self.walls
+        wall = sum_moments([piece.moments(walls.side, self.thickness, order) for piece in walls.pieces])
+        return wall, walls.thin.moments(order, True)[1] if area else None
 
 
 def find_walls(reading: Reading, body: MeshBody, side: str) -> Walls:

@@ -188,11 +188,18 @@ def test_a_wire_is_refused_with_the_reason(reported):
     assert reported.codes == ["wire_without_moments"]
 
 
-def test_a_wall_s_moments_end_at_order_three(box, reported):
+def test_a_wall_has_moments_to_any_order(box):
+    from body_moments.operators.session import moments as moments_table
+
     box.body_moments.kind, box.body_moments.wall, box.body_moments.thickness = "SHELL", "INWARD", 0.01
-    settings(moments_order=4)
-    assert bpy.ops.object.body_moments_compute_moments() == {"CANCELLED"}
-    assert reported.values("wall_order") == {"order": 3}
+    settings(moments_order=8)
+    assert bpy.ops.object.body_moments_compute_moments() == {"FINISHED"}
+    computed = moments_table.computed_moments(box)
+    assert computed is not None and computed.order == 8 and computed.mass is not None
+    raw = computed.volume.about_point(box.matrix_world.translation)
+    sides = np.array(box.dimensions[:], float)
+    whole, hollow = (np.prod(size) * (size[0] / 2) ** 8 / 9 for size in (sides, sides - 0.02))
+    assert abs(raw[0, 8, 0] - (whole - hollow)) < 1e-6 * whole  # it is turned about z
 
 
 def test_only_the_last_objects_are_kept(box, monkeypatch):
