@@ -54,6 +54,7 @@ TEXTS = {
     "Center": "Mittelpunkt",
     "Center, Normalized": "Mittelpunkt, normiert",
     "Invariants": "Invarianten",
+    "Flat Shape": "Ebene Form",
     "Mass Properties": "Masseeigenschaften",
     "All Measured Objects": "Alle gemessenen Objekte",
     "Drop Line": "Lotlinie",

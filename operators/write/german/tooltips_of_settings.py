@@ -146,6 +146,9 @@ TEXTS = {
     "Center of the volume or surface: central moments": (
         "Mittelpunkt des Volumens oder der Oberfläche: zentrale Momente"
     ),
+    "∫ exp(−i q·x) dA of a flat shape in its own plane, in m²": (
+        "∫ exp(−i q·x) dA einer ebenen Form in ihrer eigenen Ebene, in m²"
+    ),
     "Area of a flat shape in its own plane, ∫ x^p y^q dA": (
         "Fläche einer ebenen Form in ihrer eigenen Ebene, ∫ x^p y^q dA"
     ),

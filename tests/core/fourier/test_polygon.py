@@ -71,3 +71,30 @@ def test_loops_that_are_none_are_refused(loops):
 def test_wave_vectors_of_three_numbers_are_refused():
     with refused("wave_vectors_shape", dimension=2):
         polygon_transform([OUTLINE], [[1.0, 2.0, 3.0]])
+
+
+def test_a_grid_is_the_list_of_its_wave_vectors_and_bounds_hold_for_points_that_move():
+    from body_moments.core.fourier.polygon import RegionTransform
+    from body_moments.core.fourier.wave_vectors import FrequencyGrid
+
+    points = np.concatenate([OUTLINE, HOLE])
+    edges = np.array([(i, (i + 1) % 6) for i in range(6)] + [(6, 7), (7, 8), (8, 6)])
+
+    def transformed(points, q, **steps):
+        transform = RegionTransform(points, edges, q, **steps)
+        assert list(transform.steps())[-1] == 1.0
+        return transform.result()
+
+    for count in (2, 7, 8):
+        grid = FrequencyGrid(count, 5.0, 2)
+        found = transformed(points, grid)
+        assert found.q.shape == (count**2, 2) and np.array_equal(found.q, grid.vectors())
+        assert np.abs(found.values - polygon_transform([OUTLINE, HOLE], grid.vectors()).values).max() <= 2e-15
+    step, worst = 1e-6, 0.0
+    known = transformed(points, grid, rounded=step, stored=step)
+    for seed in range(20):
+        moved = points + step * np.sign(np.random.default_rng(seed).normal(size=points.shape))
+        off = np.abs(transformed(moved, grid).values - known.values)
+        assert (off <= known.error).all() and off.max() <= known.input_error
+        worst = max(worst, off.max() / known.input_error)
+    assert worst > 0.05
