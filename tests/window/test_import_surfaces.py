@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Surfaces of an IGES file come by the file browser, are drawn and measured, and one undo takes them away."""
+"""Surfaces of an IGES file come by the file browser, are drawn and measured; what was refused is said."""
 
 import numpy as np
 import pytest
