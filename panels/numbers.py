@@ -7,7 +7,7 @@ from __future__ import annotations
 from bpy.types import Context, UILayout
 
 from ..core.verdict.finding import finding
-from ..operators.session import posed
+from ..operators.session import posed, results
 from ..operators.write import properties
 from ..operators.write.units import Units
 from . import rows
@@ -34,7 +34,9 @@ def numbers(layout: UILayout, context: Context, units: Units, shown: properties.
     else:
         rows.value(column, units, "Length", "length", length)
     column = layout.column(align=True)
-    is_rig = context.object.type == "ARMATURE" and not posed.stands_for_meshes(context.object)
+    obj = context.object
+    is_posed = posed.stands_for_meshes(obj) and results.are_meshes_measured(obj, context.scene)
+    is_rig = obj.type == "ARMATURE" and not is_posed
     headings = RESTING_HEADINGS if is_rig else CENTER_HEADINGS
     rows.heading(column, headings[context.scene.body_moments.frame], "length", shown.body.center)
     rows.values(column, units, AXIS_LABELS, "length", shown.body.center, shown.body.radii_of_gyration.max())

@@ -132,7 +132,7 @@ class _Document:
     def text(self, remarks: Sequence[str]) -> str:
         children = {child for node in self.nodes for child in node.get("children", ())}
         roots = [index for index in range(len(self.nodes)) if index not in children]
-        asset: dict[str, Any] = {"generator": MARKER.format("gltf") + " ", "version": "2.0"}
+        asset: dict[str, Any] = {"generator": MARKER.format("gltf"), "version": "2.0"}
         if remarks:
             asset["extras"] = {"remarks": list(remarks)}
         used, of_root = {KHR, OMI}, {}

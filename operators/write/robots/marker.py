@@ -8,7 +8,7 @@ import re
 
 MARKER = "Body Moments: {}"  # the first line of what we write, by which an older result is known
 _HEAD = re.compile(
-    rb"(<\?xml [^>]*>\s*<!-- |#usda 1.0\s*\(\s*\"\"\"|\{\s*\"asset\": \{\s*\"generator\": \")Body Moments: \w+\s"
+    rb"(<\?xml [^>]*>\s*<!-- |#usda 1.0\s*\(\s*\"\"\"|\{\s*\"asset\": \{\s*\"generator\": \")Body Moments: \w+[\s\"]"
 )
 
 
