@@ -733,6 +733,7 @@ def densities(rounds: int) -> None:
     rows = {
         "ours, cubic splines, float64": lambda: density_moments(coefficients, axes, 2),
         "ours, cubic splines, float32": lambda: density_moments(single, axes, 2),
+        "ours, cubic splines, float64, order 4": lambda: density_moments(coefficients, axes, 4),
         "straightforward voxel sum": voxel_sum,
     }
     single = coefficients.astype(np.float32)

@@ -56,6 +56,21 @@ def test_high_orders_of_moments():
     check(density_moments(coefficients, axes, 8), coefficients, axes)
 
 
+@pytest.mark.parametrize("order, signed", [(1, False), (2, False), (3, False), (4, False), (4, True)])
+def test_moments_to_order_20_of_grids_are_those_of_fractions(order, signed):
+    rng = np.random.default_rng(order)
+    coefficients = rng.integers(-9 if signed else 0, 9, (4, 3, 5)) / 4.0
+    axes = [SplineAxis.uniform(count, order) for count in coefficients.shape]
+    moments = density_moments(coefficients, axes, 20)
+    check(moments, coefficients, axes, 1e-12)
+    exact = exact_moments(coefficients, axes, 20, moments.about)
+    table = monomials(20)
+    for value, bound, truth, powers in zip(moments.raw, moments.rounding_error, exact, table.tolist()):
+        if not signed and not any(power % 2 for power in powers):  # nothing cancels
+            assert abs(Fraction(value) - truth) <= truth / 10**12
+            assert bound <= (1e-12 if sum(powers) < 4 else 1e-4) * float(truth)  # (|t| + w)^l is far from sharp
+
+
 def test_bounds_are_not_wild():
     coefficients, axes = spline((4, 4, 4))
     moments = density_moments(coefficients, axes, 2)
