@@ -33,6 +33,7 @@ MODEL = MODEL.format(
     "".join("<triangle v1='{}' v2='{}' v3='{}'/>".format(*face) for face in FACES),
 )
 STATUSES = {"ok", "error", "crashed", "timeout", "memory", "unsupported_version", "missing"}
+CRASHES = Path(__file__).with_name("crash_corpus")
 TEXT = {".obj", ".gltf", ".usda", ".nrrd"}  # damaged by words rather than by bits
 
 
@@ -212,6 +213,8 @@ def write_cases(folder: Path, marker: Path) -> dict[Path, set[str]]:
         "error",
     )
     put("unknown.xyz", b"1 2 3", "error")
+    for path in sorted(CRASHES.iterdir()):  # what has crashed some Blender
+        put(path.name, path.read_bytes(), *(STATUSES - {"missing", "unsupported_version"}))
     empty_scene()
     bpy.ops.wm.save_as_mainfile(filepath=str(folder / "no object.blend"), copy=True)
     found[folder / "no object.blend"] = {"error"}

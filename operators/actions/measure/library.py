@@ -23,6 +23,7 @@ from ...write.whole_file import whole_file
 from ..modal import ModalSteps
 
 RESULT, REPORT = "body_moments.jsonl", "body_moments.html"
+JOURNAL = RESULT + ".journal"
 FOLDER = "FOLDER"
 _PAUSE = 0.05  # seconds between looks at the run
 
@@ -104,6 +105,8 @@ class OBJECT_OT_body_moments_measure_library(ModalSteps, Operator):
         count = sum(1 for _ in listing.expand([folder]))
         self._folder = Path(folder)
         words = [folder, "--format", "jsonl", *(["--thumbnails"] if self.thumbnails else [])]
+        is_begun = (self._folder / JOURNAL).exists() and not (self._folder / RESULT).exists()
+        words += ["--resume"] if is_begun else []  # it was ended before
         if self.asset_metadata:
             words += ["--asset-metadata", "file" if self.overwrite else "copy"]
         blender = None if bpy.app.module else bpy.app.binary_path
@@ -124,7 +127,7 @@ class OBJECT_OT_body_moments_measure_library(ModalSteps, Operator):
         if self._exit_code not in (0, 1, 70) or not result.exists():
             reports.report(self, finding("library_failed", code=self._exit_code))
             return {"CANCELLED"}
-        with Journal(result.with_name(RESULT + ".journal")) as journal:
+        with Journal(result.with_name(JOURNAL)) as journal:
             paths = list(journal.entries)
             failed = sum(entry.status != "ok" for entry in journal.entries.values())
             documents = _Documents(journal, paths)

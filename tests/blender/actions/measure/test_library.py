@@ -57,6 +57,18 @@ def test_a_folder_is_measured_and_reported(library, reported):
     assert (library / "a.blend").read_bytes() == before and mass_in_metadata(library / "a.blend") is None
 
 
+def test_a_run_that_was_ended_goes_on(library):
+    assert measure(library) == {"FINISHED"}
+    journal = library / "body_moments.jsonl.journal"
+    measured = journal.read_bytes()
+    (library / "body_moments.jsonl").unlink()  # as after Esc
+    journal.write_bytes(b"".join(measured.splitlines(keepends=True)[:2]))
+    assert measure(library) == {"FINISHED"} and statuses(library) == ["ok", "ok", "error"]
+    assert journal.read_bytes().startswith(b"".join(measured.splitlines(keepends=True)[:2]))
+    assert measure(library) == {"FINISHED"}  # and one that was not begins anew
+    assert (library / "body_moments.jsonl.journal.old").exists()
+
+
 def test_metadata_goes_into_copies_unless_told_otherwise(library):
     before = (library / "a.blend").read_bytes()
     assert measure(library, asset_metadata=True) == {"FINISHED"}
