@@ -144,3 +144,14 @@ def test_faces_of_surfaces_look_where_the_files_normals_do(tmp_path):
     mesh = obj.evaluated_get(bpy.context.evaluated_depsgraph_get()).to_mesh()
     outward = [polygon.normal.dot(polygon.center) for polygon in mesh.polygons if polygon.area > 1e-6]
     assert min(outward) > 0.5
+
+
+def test_one_undo_takes_the_surfaces_away(tmp_path):
+    path = written(tmp_path, unrolled(sphere()))
+    bpy.ops.ed.undo_push(message="Before")
+    bpy.ops.object.body_moments_import_surfaces("EXEC_DEFAULT", True, filepath=str(path))
+    bpy.ops.ed.undo_push(message="After")
+    bpy.ops.ed.undo()
+    assert "body" in bpy.data.objects
+    bpy.ops.ed.undo()
+    assert "body" not in bpy.data.objects and len(bpy.data.scenes) == 1
