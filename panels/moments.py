@@ -24,7 +24,7 @@ class MomentsPanel:
         column = layout.column()
         column.use_property_split = True
         column.prop(settings, "moments_order")
-        column.row().prop(settings, "moments_of", expand=True)
+        column.prop(settings, "moments_of")
         column.prop(settings, "moments_about")
         column.row().prop(settings, "frame", expand=True)
         layout.operator("object.body_moments_compute_moments", icon="PHYSICS")

@@ -193,7 +193,13 @@ def _displayed_invariants(found: list[Invariant], order: int) -> Iterator[Degree
                 parts = (one.value.real, one.value.imag) if one.is_complex else (one.value.real,)
                 noise = one.rounding_error
                 texts = [number(0.0 if abs(part) <= noise else part) for part in parts]
-                rows.append((one.name, " + ".join(texts) + " i" * one.is_complex, " ".join(map(repr, parts))))
+                rows.append(
+                    (
+                        one.name,
+                        " + ".join(texts).replace("+ −", "− ") + " i" * one.is_complex,
+                        " ".join(map(repr, parts)),
+                    )
+                )
         yield Degree(degree, "", tuple(rows))
 
 
