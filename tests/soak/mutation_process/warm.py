@@ -82,7 +82,6 @@ def _first_failure(items: list) -> str:
     from _pytest.runner import runtestprotocol
 
     for item, following in zip(items, [*items[1:], None], strict=True):
-        item.config._mutant = True
         if any(report.failed for report in runtestprotocol(item, log=False, nextitem=following)):
             return item.nodeid
     return ""
