@@ -273,6 +273,9 @@ def _note_updates(events: handlers.Updates) -> None:
         return
     _last_event = time.monotonic()
     changed = {uid: followed for uid in events.reshaped if (followed := _followed.by_uid(uid)) is not None}
+    active = events.depsgraph.view_layer.objects.active
+    if active is not None and active.mode == "SCULPT" and active in _followed and active.session_uid in events.others:
+        changed[active.session_uid] = _followed[active]  # strokes are drawn without evaluating
     for followed in changed.values():
         followed.is_pending = True
     moved = any(_followed.by_uid(uid) is not None for uid in events.moved)
@@ -317,7 +320,10 @@ def _tick() -> float | None:
     budget, idle = _budget(), time.monotonic() - _last_event >= IDLE and not _is_playing()
     waiting = False
     for seconds, obj in sorted(((_seconds(obj), obj) for obj in due), key=itemgetter(0)):
-        if seconds <= budget or idle:
+        if (seconds <= budget or idle) and not _is_stroking(obj):
+            if obj.mode == "SCULPT":
+                obj.update_tag(refresh={"DATA"})
+                layer.update()
             update(obj, depsgraph)
             budget -= seconds
         else:
@@ -327,6 +333,14 @@ def _tick() -> float | None:
             if area.type in {"VIEW_3D", "PROPERTIES"}:
                 area.tag_redraw()
     return POLL if waiting else None
+
+
+def _is_stroking(obj: Object) -> bool:
+    """Whether a brush is drawn over an object that is sculpted."""
+    if obj.mode != "SCULPT":
+        return False
+    windows = bpy.context.window_manager.windows
+    return any(running.bl_idname.startswith("SCULPT_OT_") for window in windows for running in window.modal_operators)
 
 
 def _seconds(obj: Object) -> float:

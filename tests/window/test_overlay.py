@@ -33,20 +33,20 @@ def center_color(window, name="overlay"):
     )
 
 
-def colors_of_disc(window, name, center):
-    """(2, 3): the colors in the first two quadrants of the disc at a point of the world."""
+def white_pixels_of_disc(window, name):
+    """How many pixels around the cube's center are white."""
     window.point_at_view()
     window.redraw()
     window.get("True")
     screen = window.pixels(name)
     x, y = window.ask(
         "from bpy_extras.view3d_utils import location_3d_to_region_2d as project\nregion = regions['WINDOW']\n"
-        f"place = project(region, area.spaces.active.region_3d, {center!r})\n"
-        "result = [region.x + place.x, region.y + place.y]"
+        "center = bpy.data.objects['Cube'].matrix_world.translation\n"
+        "place = project(region, area.spaces.active.region_3d, center)\n"
+        "result = [round(region.x + place.x), round(region.y + place.y)]"
     )
-    away = 5.0 * window.get("bpy.context.preferences.system.ui_scale") / 2.0**0.5
-    places = [(round(x + side * away), round(len(screen) - 1 - y - away)) for side in (1, -1)]
-    return np.array([screen[row, column] for column, row in places]) / 255.0
+    row = len(screen) - 1 - y
+    return int((screen[row - 8 : row + 9, x - 8 : x + 9] > 240).all(axis=2).sum())
 
 
 def is_near(color, truth):
@@ -69,13 +69,10 @@ def test_the_disc_is_at_the_projected_center_on_every_background(window, light):
 
 
 def test_what_is_in_front_of_the_disc_shows_through_its_white_quadrants(window):
-    center = window.get("list(bpy.data.objects['Cube'].matrix_world.translation)")
-    inside = colors_of_disc(window, "overlay-hidden", center)
+    assert white_pixels_of_disc(window, "overlay-hidden") == 0
     window.ask("area.spaces.active.shading.type = 'WIREFRAME'")
-    seen = colors_of_disc(window, "overlay-seen", center)
+    assert white_pixels_of_disc(window, "overlay-seen") > 20
     window.ask("area.spaces.active.shading.type = 'SOLID'")
-    assert is_near(inside[0], EXACT) and is_near(seen[0], EXACT)
-    assert is_near(seen[1], (1.0, 1.0, 1.0)) and not is_near(inside[1], (1.0, 1.0, 1.0))
 
 
 def test_the_disc_follows_a_move(window):
