@@ -42,6 +42,7 @@ class BoxOfBlocks:
         """Return the least and the largest coordinates, zero where there are none. Raises FileError where some are not
         finite."""
         if self._bad:
-            place = finding("at_" + self._place, **{self._place: self._first})
+            is_triangle = self._place == "triangle"
+            place = finding("at_triangle" if is_triangle else "at_vertex", **{self._place: self._first})
             raise FileError("non_finite_coordinates", count=self._bad, place=place.as_record())
         return (self._low, self._high) if self._rows else (np.zeros(3), np.zeros(3))
