@@ -169,3 +169,9 @@ def values(entry, code):
     """Those of the one finding of this code in a record or a total."""
     (told,) = (told for told in entry["findings"] if told["code"] == code)
     return told["values"]
+
+
+def measure_with(monkeypatch, measure):
+    """Let the command line measure each object by itself, by this in place of `measure_object`."""
+    monkeypatch.setattr("body_moments.operators.command.run.measured_together", lambda *_: None)
+    monkeypatch.setattr("body_moments.operators.command.measuring.measure_object", measure)

@@ -21,7 +21,7 @@ pytest.importorskip("bpy")
 import bpy
 from body_moments.core.verdict.finding import FileError
 from body_moments.operators import batch
-from body_moments.operators.command import inputs, interruption
+from body_moments.operators.command import bare_files, inputs, interruption
 from body_moments.operators.command import run as command
 from body_moments.operators.session.moments import as_csv
 from body_moments.operators.write import report
@@ -223,7 +223,7 @@ def test_a_range_without_files_does_not_measure_what_is_open(main, tmp_path):
 
 def test_results_that_have_no_place_are_wrong_usage_before_anything_is_measured(main, tmp_path, monkeypatch):
     files.add_box()
-    monkeypatch.setattr(command, "measure_object", lambda *_: pytest.fail("measured"))
+    files.measure_with(monkeypatch, lambda *_: pytest.fail("measured"))
     (tmp_path / "a").symlink_to(tmp_path / "b")
     (tmp_path / "b").symlink_to(tmp_path / "a")
     (tmp_path / "file").write_text("")
@@ -255,7 +255,7 @@ def test_too_little_memory_is_no_fault_of_ours(main, monkeypatch):
     def fail(*_):
         raise MemoryError
 
-    monkeypatch.setattr(command, "measure_object", fail)
+    files.measure_with(monkeypatch, fail)
     code, out, _ = main("measure")
     assert code == 1 and "Too little memory" in json.loads(out)["errors"][0]["reason"]
 
@@ -430,7 +430,7 @@ def test_an_interruption_gives_3_and_no_result(main, tmp_path, monkeypatch):
         os.kill(os.getpid(), signal.SIGINT)
         time.sleep(1)
 
-    monkeypatch.setattr(command, "measure_array", interrupt)
+    monkeypatch.setattr(bare_files, "measure_array", interrupt)
     code, out, said = main("measure", tmp_path / "a.npy", "--output", target)
     assert (code, out) == (3, "") and "interrupted" in said and not target.exists()
     assert signal.getsignal(signal.SIGINT) is handler

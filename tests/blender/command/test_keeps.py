@@ -14,8 +14,7 @@ import pytest
 pytest.importorskip("bpy")
 import bpy
 from body_moments.operators import batch
-from body_moments.operators.command import inputs
-from body_moments.operators.command import run as command
+from body_moments.operators.command import inputs, measuring
 from body_moments.operators.write import documents
 
 from tests.blender import batch_files as files
@@ -56,7 +55,7 @@ def no_measuring(monkeypatch):
     def measure(*_):
         raise AssertionError("an hour is lost")
 
-    monkeypatch.setattr(command, "measure_object", measure)
+    files.measure_with(monkeypatch, measure)
 
 
 def foreign():
@@ -226,13 +225,13 @@ def test_names_in_a_large_binary_layer_are_found(tmp_path):
 def test_a_file_that_appears_meanwhile_is_kept_and_so_is_the_result(tmp_path, main, monkeypatch, option, force):
     part = files.box_file(tmp_path / "part.stl")
     target = tmp_path / "out.npz"
-    real = command.measure_object
+    real = measuring.measure_object
 
     def measure(*rest):
         target.write_text("somebody's")
         return real(*rest)
 
-    monkeypatch.setattr(command, "measure_object", measure)
+    files.measure_with(monkeypatch, measure)
     code, said = main(part, *force, option, target, *(WAVES if option == "--fourier" else ()))
     assert code == 1 and target.read_text() == "somebody's"
     kept = tmp_path / "out.1.npz"

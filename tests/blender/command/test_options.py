@@ -562,18 +562,18 @@ def test_options_and_files_may_be_mixed(tmp_path):
 
 
 def test_a_fault_of_our_own_stops_nothing_else(monkeypatch, capsys):
-    from body_moments.operators.command import run as module
+    from body_moments.operators.command import measuring
 
     files.add_box("a")
     files.add_box("b")
-    real = module.measure_object
+    real = measuring.measure_object
 
     def failing(obj, *rest):
         if obj.name == "a":
             raise KeyError("surprise")
         return real(obj, *rest)
 
-    monkeypatch.setattr(module, "measure_object", failing)
+    files.measure_with(monkeypatch, failing)
     line = run()
     assert line.internal_errors == 1 and names(line.documents[0]) == ["b"]
     assert "surprise" in errors(line.documents[0])["a"]

@@ -14,7 +14,7 @@ import pytest
 pytest.importorskip("bpy")
 import bpy
 import numpy as np
-from body_moments.operators.command import run as command
+from body_moments.operators.command import measuring
 from body_moments.operators.write import file_lock
 
 from tests.blender import batch_files as files
@@ -191,14 +191,14 @@ def test_a_refusal_to_store_names_the_object_as_its_record_does(tmp_path):
 
 def meanwhile(monkeypatch, action):
     """Do something once while the object is measured."""
-    real, waiting = command.measure_object, [action]
+    real, waiting = measuring.measure_object, [action]
 
     def measure(*rest):
         while waiting:
             waiting.pop()()
         return real(*rest)
 
-    monkeypatch.setattr(command, "measure_object", measure)
+    files.measure_with(monkeypatch, measure)
 
 
 def replaced(path):

@@ -258,9 +258,7 @@ def test_the_command_line_writes_the_others_into_the_file(tmp_path, monkeypatch)
     path = files.save(tmp_path / "part.blend")
     with monkeypatch.context() as planted:
         unwritable(planted, "b")
-        planted.setattr(
-            "body_moments.operators.command.run.measure_object", lambda *args: measure.measure_body(*args).measurement
-        )
+        files.measure_with(planted, lambda *args: measure.measure_body(*args).measurement)
         line = files.run(path, "--density", "500", "--write")
     assert line.internal_errors == 1
     ((error,),) = [document["errors"] for document in line.documents]
