@@ -37,7 +37,7 @@ def files_read(paths: Iterable[str]) -> Iterator[Path]:
         with suppress(MeasureError, RuntimeError):
             open_file(path)
             waiting += _open_files()
-    return (path for path in _reached(waiting, _NAMES) if path.is_file())
+    return (path for path in _reached(waiting, _NAMES) if _holds(path.is_file))
 
 
 def references(path: str, is_open: bool) -> Iterator[Path]:
@@ -49,7 +49,14 @@ def references(path: str, is_open: bool) -> Iterator[Path]:
     with suppress(OSError, ValueError, RuntimeError):
         first = first.resolve()
     found = (one for one in _reached(waiting, _NAMES_THAT_COUNT) if one != first)
-    return (one for one in found if "." in one.name or one.exists())  # of the words of USD most name nothing
+    return (one for one in found if "." in one.name or _holds(one.exists))  # of the words of USD most name nothing
+
+
+def _holds(question: Callable[[], bool]) -> bool:
+    """Whether it does; no path that no file can have."""
+    with suppress(OSError, ValueError):
+        return question()
+    return False
 
 
 def _reached(waiting: list[Path], readers: dict[str, Callable[[Path], Iterator[str]]]) -> Iterator[Path]:

@@ -27,7 +27,9 @@ def measured_together(
     between one and the next, or more than mass properties is asked for."""
     if options.order is not None or options.pose or options.signature or options.thumbnails:
         return None
-    if options.polynomial is not None or options.density_from is not None or len(set(objects)) < len(objects):
+    if options.threshold is not None or options.polynomial is not None or options.density_from is not None:
+        return None
+    if len(set(objects)) < len(objects):
         return None
     return measured_in_turn(objects, bpy.context.evaluated_depsgraph_get(), measure_options)
 
