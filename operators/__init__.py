@@ -32,16 +32,16 @@ PARTS = (
         "actions.setup." + name
         for name in (
             "presets",
-            "import_scan",
-            "import_surfaces",
             "remedies",
             "node_group",
-            "assembly",
-            "assembly_snap",
-            "bill",
             "rigid_bodies",
         )
     ),
+    "actions.imports.import_scan",
+    "actions.imports.import_surfaces",
+    "actions.assembly.assembly",
+    "actions.assembly.assembly_snap",
+    "actions.assembly.bill",
     *(
         "actions.measure." + name
         for name in (
@@ -60,7 +60,16 @@ PARTS = (
     ),
     *(
         "actions.snap." + name
-        for name in ("origin", "principal_axes", "align", "empty", "cursor", "orientation", "rigid_body", "balance")
+        for name in (
+            "origin",
+            "principal_axes",
+            "align",
+            "empty",
+            "cursor",
+            "orientation",
+            "rigid_body",
+            "sculpt_balance",
+        )
     ),
     *("actions.statics." + name for name in ("stability", "rest_on_ground", "balance_group")),
     *("actions.export." + name for name in ("robot", "copy_inertial", "primitive", "audit")),

@@ -76,7 +76,7 @@ def _measure(argv: list[str], channel: int, file_needed: bool) -> int:
     options.files = supervised.files_of(options)
     _load_settings()
 
-    from .command import checks, output, results
+    from .command import checks, output, own_results
     from .command.run import Run
     from .supervisor import processes
     from .write.documents import FORMATS
@@ -84,7 +84,7 @@ def _measure(argv: list[str], channel: int, file_needed: bool) -> int:
     checks.check(options)
     run = Run(options, memory=processes.memory_share())
     run.measure()
-    check = results.guard("output", options.output in options.forced)
+    check = own_results.guard("output", options.output in options.forced)
     is_written = output.written(FORMATS[options.format](run.documents), options.output, channel, check)
     if run.internal_errors:
         return INTERNAL_ERROR

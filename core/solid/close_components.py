@@ -16,7 +16,7 @@ from ..mesh.edges import Edges, consistent_orientation, find_edges, group_compon
 from ..mesh.surface import normals
 from ..numerics.graph import connected_components
 from ..verdict.finding import Finding, finding
-from .holes import BoundaryLoops, as_vertex_pairs, find_loops, join_sides, side_ends, vertex_pairs
+from .boundary_loops import as_vertex_pairs, find_loops, join_sides, side_ends
 from .repaired_mesh import NO_INDICES, FoldedLoops, RepairedMesh, ZeroAreaLoops
 from .shared_walls import wall_links
 
@@ -129,7 +129,7 @@ def close_gaps(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     loop[gaps.sides] = gaps.loop
     loop = loop[boundary]
     filled = loop >= 0
-    start, stop = _oriented_ends(mesh, boundary[filled])
+    start, stop = mesh.oriented_ends(boundary[filled])
     apex = np.empty(gaps.number, np.intp)
     apex[loop[filled][::-1]] = start[::-1]
     caps = np.concatenate([np.stack([stop, start, apex[loop[filled]]], axis=1), folded.caps])
@@ -137,36 +137,6 @@ def close_gaps(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     if len(caps):
         mesh = mesh.with_caps(caps, owner)
     return mesh if filled.all() else mesh.with_state(uncapped_sides=boundary[~filled])
-
-
-def cap_holes(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
-    """Cap the boundary loops that have an area, each by the cone to its centroid."""
-    side = mesh.state.uncapped_sides
-    if not len(side):
-        return mesh
-    owner, (start, stop) = side // 3, _oriented_ends(mesh, side)
-    begin, end = mesh.points[start].astype(np.float64), mesh.points[stop].astype(np.float64)
-    component = mesh.component[owner]
-    meet = [component * len(mesh.points) + vertex for vertex in (start, stop)]
-    loops = find_loops(begin, end, join_sides(begin, end, *meet, directed=True))
-    of_loop = np.empty(len(loops.perimeter), np.intp)
-    of_loop[loops.of_side] = component
-    is_open = mesh.open.copy()
-    is_open[of_loop[~loops.complete]] = True
-    # In the points' own type: a cap's apex then carries the same coordinate error as every vertex. A cap over three
-    # sides needs none.
-    apex = len(mesh.points) + np.arange(len(loops.perimeter))
-    first = np.empty(len(apex), np.intp)
-    first[loops.of_side[::-1]] = start[::-1]
-    apex = np.where(np.bincount(loops.of_side) == 3, first, apex)[loops.of_side]
-    return replace(
-        mesh,
-        points=np.concatenate([mesh.points, loops.centroid.astype(mesh.points.dtype)]),
-        open=is_open,
-        caps=_count_caps(loops, of_loop, is_open, tolerance),
-        capped_edges=vertex_pairs(mesh.state.given, side),
-        capped_component=component,
-    ).with_caps(np.stack([stop, start, apex], axis=1), owner)
 
 
 def turn_faces(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
@@ -196,13 +166,6 @@ def _edges_along(mesh: RepairedMesh) -> NDArray[np.bool_]:
     along = np.zeros(len(edges.count), bool)
     along[edges.of_side[mesh.state.gaps.sides]] = True
     return along
-
-
-def _oriented_ends(mesh: RepairedMesh, sides: NDArray[np.integer]) -> tuple[NDArray, NDArray]:
-    """The vertices from which and to which sides run once the faces are turned."""
-    start, stop = side_ends(mesh.triangles, sides)
-    flipped = mesh.flipped[sides // 3]
-    return np.where(flipped, stop, start), np.where(flipped, start, stop)
 
 
 def _find_folded_loops(
@@ -236,15 +199,3 @@ def _find_folded_loops(
     caps = np.stack([stop, start, apex[loops.of_side]], axis=1)
     taken = closes[component]
     return FoldedLoops(closes, side[taken], caps[taken], len(np.unique(loops.of_side[taken])))
-
-
-def _count_caps(
-    loops: BoundaryLoops, of_loop: NDArray[np.intp], is_open: NDArray[np.bool_], tolerance: float
-) -> NDArray[np.float64]:
-    """(c, 3) of each component how many flat caps and curved caps it has, and their area. of_loop: (l,) the component
-    of each loop; is_open: (c,)."""
-    hole = loops.has_area(tolerance) & ~is_open[of_loop]
-    level = loops.out_of_plane <= tolerance
-    columns = level, ~level, np.where(level, loops.planar_area, loops.cone_area)
-    counts = [np.bincount(of_loop, column * hole, minlength=len(is_open)) for column in columns]
-    return np.stack(counts, axis=1).astype(np.float64, copy=False)

@@ -15,7 +15,7 @@ from ..mesh.welding import same_vertices_groups
 from ..numerics.graph import connected_components
 from ..verdict.finding import Finding, finding
 from ..verdict.tolerances import NEGLIGIBLE
-from .holes import as_vertex_pairs
+from .boundary_loops import as_vertex_pairs
 from .repaired_mesh import RepairedMesh
 
 

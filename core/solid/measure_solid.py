@@ -14,10 +14,10 @@ from __future__ import annotations
 
 from ..mesh.surface import Surface
 from ..verdict.method import Verdict
-from .judgement import SolidIntegrals, judge
 from .orientation import OrientedSolid, orient_components
 from .repair import repair_surface
 from .self_intersection import find_self_intersection
+from .solid_verdict import SolidIntegrals, judge
 from .triage import CheckedSurface, GivenIntegrals, check_surface, integrate_and_prove
 
 MAX_WELDED_SHARE = 0.1  # of the volume: where welding may change that much, what it closes is no gap left by rounding

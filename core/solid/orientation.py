@@ -16,8 +16,8 @@ from ..moments.moments import Moments, sum_moments
 from ..polyhedron import polyhedron_moments
 from ..verdict.health import MeshReport
 from ..verdict.tolerances import CLOSED_SHEET_VOLUME_RTOL, FLAT_CAP_VOLUME_RTOL
+from .closed_parts import ClosedParts
 from .nesting import ComponentRelations, cavity_host, classify_pairs, orient_nested_components
-from .parts import ClosedParts
 from .repaired_mesh import RepairedMesh
 from .triage import CheckedSurface, GivenIntegrals
 

@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 
 from ..mesh.bvh import sort_components
 from ..verdict.tolerances import CLOSED_SHEET_VOLUME_RTOL, NEGLIGIBLE, WELDING_RTOL
-from .judgement import SolidIntegrals
 from .nesting import classify_pairs
+from .solid_verdict import SolidIntegrals
 
 
 @dataclass(frozen=True, eq=False)

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from ..mesh.edges import Edges
 from ..verdict.finding import Finding
 from ..verdict.health import MeshReport
+from .boundary_loops import side_ends
 
 NO_EDGES = np.empty((0, 2), np.intp)
 NO_INDICES = np.empty(0, np.intp)
@@ -200,6 +201,12 @@ class RepairedMesh:
             flipped=np.concatenate([self.flipped, np.zeros(len(caps), bool)]),
             component=np.concatenate([self.component, self.component[owner]]),
         )
+
+    def oriented_ends(self, sides: NDArray[np.integer]) -> tuple[NDArray, NDArray]:
+        """The vertices from which and to which sides run once the faces are turned."""
+        start, stop = side_ends(self.triangles, sides)
+        flipped = self.flipped[sides // 3]
+        return np.where(flipped, stop, start), np.where(flipped, start, stop)
 
     def faces_of(self, components: NDArray[np.bool_]) -> NDArray[np.integer]:
         """The mesh faces of some components, sorted."""

@@ -26,8 +26,8 @@ from ..polyhedron.third_order_small import NEXT_AXIS, PREVIOUS_AXIS, small_momen
 from ..verdict.finding import Finding
 from ..verdict.health import NO_FACES, Intersection, MeshReport
 from ..verdict.tolerances import CLOSED_SHEET_VOLUME_RTOL, MAX_COORDINATE, MIN_SIZE, WELDING_RTOL
-from .judgement import SolidIntegrals, shape_findings
 from .self_intersection import MAX_UNSURE_LINES, measure_excess
+from .solid_verdict import SolidIntegrals, shape_findings
 from .triage import SUM_ROUNDING
 
 MAX_COMPONENTS = 16  # of one body: each is compared with each
@@ -247,7 +247,7 @@ def _looked_for(stack: SurfaceStack, tolerance: NDArray, part: NDArray[np.intp])
 
 
 def _are_physical(volume: Moments, low: NDArray, high: NDArray, size: NDArray) -> NDArray[np.bool_]:
-    """(n,) whether bodies within these boxes can have these moments, as `judgement` asks of one."""
+    """(n,) whether bodies within these boxes can have these moments, as `solid_verdict` asks of one."""
     total = volume.raw[:, 0]
     mean = volume.raw[:, 1:4] / total[:, None]
     second = volume.raw[:, SECOND_MOMENT_INDEX] / total[:, None, None] - mean[:, :, None] * mean[:, None, :]

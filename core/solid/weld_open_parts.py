@@ -17,8 +17,8 @@ from ..mesh.surface import Surface
 from ..mesh.welding import first_at_equal_position, first_at_near_position, same_vertices_groups, vertex_tolerance
 from ..numerics.graph import connected_components
 from ..verdict.health import MeshReport
+from .boundary_loops import side_ends
 from .duplicate_faces import is_duplicated
-from .holes import side_ends
 from .repaired_mesh import UNKNOWN, OpenParts, RepairedMesh, RepairState, has_distinct_vertices
 
 

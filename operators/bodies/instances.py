@@ -16,8 +16,8 @@ from ...core.moments.affine_maps import are_similarities, distinct_linear_parts,
 from ...core.moments.images import sum_of_images
 from ...core.moments.moments import Moments
 from ...core.polyhedron.sheared_areas import area_of_images
-from ...core.solid.judgement import SolidIntegrals
 from ...core.solid.places import PlaceComparison
+from ...core.solid.solid_verdict import SolidIntegrals
 from ...core.verdict.finding import Finding, finding
 from ...core.verdict.health import DefectiveElements, Intersection, MeshReport
 from ..read import Reading

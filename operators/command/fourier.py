@@ -20,7 +20,7 @@ from ..bodies.fourier import ObjectTransform, object_transform
 from ..settings.options import MeasureOptions
 from ..write import spectrum
 from .option_types import MAX_GRID
-from .results import guard
+from .own_results import guard
 
 MAX_WAVE_VECTORS = MAX_GRID**3
 

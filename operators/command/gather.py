@@ -21,7 +21,7 @@ from ..supervisor import journal, listing
 from ..write.documents import SCHEMA, to_csv, to_json_lines
 from ..write.html.report import to_html
 from ..write.terminal import print_message, visible
-from . import compare, output, results
+from . import compare, output, own_results
 from .option_types import positive
 from .parser import Parser
 
@@ -103,7 +103,7 @@ def run(argv: list[str], channel: int, _file_needed: bool) -> int:
 
 def _guard(options: argparse.Namespace) -> Callable[[Path], None]:
     def check(path: Path) -> None:
-        ours = results.is_empty(path) or results.replaceable(path, "output") or _is_made_here(path)
+        ours = own_results.is_empty(path) or own_results.replaceable(path, "output") or _is_made_here(path)
         if not ours and not options.force:
             raise FileExistsError(str(finding("result_foreign_file", path=str(path))))
 

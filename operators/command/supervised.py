@@ -31,7 +31,7 @@ from ..supervisor.progress import Progress
 from ..write.documents import FORMATS, ROBOT_FORMATS, failed_document
 from ..write.file_lock import Busy, beside, locked
 from ..write.terminal import PROGRAM, print_message
-from . import interruption, output, results, targets
+from . import interruption, output, own_results, targets
 from .arguments import DEFAULT_TIMEOUT, as_record, fail, of_numbers
 
 _ROOT = (__package__ or "").removesuffix(".operators.command")
@@ -136,7 +136,7 @@ class _Places:
     def set_aside(self) -> None:
         """Keep what is there of an earlier run as .old. Raises OSError."""
         for path in self._replaced:
-            if path.exists() and not results.is_empty(path):
+            if path.exists() and not own_results.is_empty(path):
                 os.replace(path, path.with_name(path.name + _OLD))
 
 
@@ -148,7 +148,7 @@ def _check_ours(path: Path, force: bool) -> None:
     """End with a message where a file that this run is to replace is no journal or result."""
     if force or not os.path.lexists(path):
         return
-    if not path.is_file() or not (is_journal(path) or results.replaceable(path, "output")):
+    if not path.is_file() or not (is_journal(path) or own_results.replaceable(path, "output")):
         fail(finding("usage_old_foreign", path=str(path)))
 
 
@@ -262,7 +262,7 @@ class _Supervised:
         """Whether the result could be written."""
         options = self._options
         documents = _Documents(journal, self._paths)
-        check = results.guard("output", options.output in options.forced)
+        check = own_results.guard("output", options.output in options.forced)
         return output.written(FORMATS[options.format](documents), options.output, channel, check)
 
 

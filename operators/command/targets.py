@@ -13,7 +13,7 @@ from contextlib import suppress
 from pathlib import Path
 
 from ...core.verdict.finding import finding
-from . import output, results
+from . import output, own_results
 from .arguments import TARGETS, fail
 
 
@@ -55,9 +55,9 @@ def files_to_replace(options: Namespace, read: Iterable[str | Path]) -> list[tup
         if any(os.path.exists(path) and os.path.samefile(path, target) for path in read):
             fail(finding("usage_overwrites_input", option=option, path=str(target)))
         try:
-            if results.replaceable(target, option):
+            if own_results.replaceable(target, option):
                 continue
-            empty = results.is_empty(target)
+            empty = own_results.is_empty(target)
         except OSError as error:
             fail(finding("usage_not_replaceable", option=option, path=str(target), error=error.strerror))
         if not (empty or options.force):

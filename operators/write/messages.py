@@ -1510,7 +1510,8 @@ MESSAGES: dict[str, Message] = {
     "usage_range": _error("{text!r} is not A:B, two whole numbers with A no larger than B"),
     "usage_needs_supervisor": _error("argument --{option}: applies to FILEs that are measured by other processes"),
     "usage_command": _error(
-        "“{name}” is no command: measure, similar, simplex, audit, manifest, merge, to-csv, summary, compare and report are"
+        "“{name}” is no command: measure, similar, simplex, audit, manifest, merge, to-csv, summary, compare and "
+        "report are"
     ),
     "usage_resume_output": _error("argument --resume: needs the --output of the run to go on with"),
     "usage_no_blender": _error("No module named 'bpy' is here. Use --blender PATH, or install it"),

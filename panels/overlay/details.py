@@ -12,7 +12,7 @@ from bpy.types import Context, Object
 from numpy.typing import NDArray
 
 from ...core.statics.support import Support
-from ...operators.session import balance, faults, stability
+from ...operators.session import balance_groups, faults, stability
 from ...operators.settings.overlay import BodyMomentsOverlaySettings
 from . import appearance as look
 from .bodies import drawn_objects
@@ -33,10 +33,11 @@ class Detail:
 def objects_details(context: Context, settings: BodyMomentsOverlaySettings) -> Iterator[Detail]:
     """Yield what is switched on of each drawn object."""
     if settings.show_path:
-        for empty in balance.groups(context.scene):
-            if empty.visible_in_viewport_get(context.space_data) and (path := balance.path(empty)) is not None:
+        for empty in balance_groups.groups(context.scene):
+            if empty.visible_in_viewport_get(context.space_data) and (path := balance_groups.path(empty)) is not None:
                 yield _path(path)
-                if settings.show_support and (stood := balance.support(empty, context.scene.frame_current)) is not None:
+                stood = balance_groups.support(empty, context.scene.frame_current) if settings.show_support else None
+                if stood is not None:
                     yield support_detail(stood)
     if not (settings.show_faults or settings.show_support):
         return
@@ -47,7 +48,7 @@ def objects_details(context: Context, settings: BodyMomentsOverlaySettings) -> I
             yield support_detail(support)
 
 
-def _path(path: balance.Path) -> Detail:
+def _path(path: balance_groups.Path) -> Detail:
     """A line from frame to frame, orange where the center leaves the support polygon, with a tick at each frame."""
     starts, ends = path.centers[:-1], path.centers[1:]
     outside = np.zeros(len(starts), bool) if path.inside is None else ~(path.inside[:-1] & path.inside[1:])

@@ -13,7 +13,7 @@ from ....core.verdict.finding import Finding, finding
 from ...read.total_caveats import open_body_caveats, total_caveats
 from ...session import staleness
 from ...write import properties, reports
-from ...write.report import stored_document, text
+from ...write.text_report import stored_document, text
 from ...write.translations import localized
 from .. import selection
 

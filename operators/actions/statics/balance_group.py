@@ -19,7 +19,7 @@ from ....core.verdict.finding import EditRefusedError, Finding, finding
 from ...bodies.assembly import measure_assembly
 from ...read import measurable
 from ...read.assembly import Member, MemberKind, members_of, settings_of
-from ...session import balance, stability
+from ...session import balance_groups, stability
 from ...session.motion import Motion
 from ...settings.preferences import copy_defaults
 from ...write import reports
@@ -208,16 +208,16 @@ class OBJECT_OT_body_moments_balance_group(ModalSteps, Operator):
         inside = None
         if self._feet:
             inside = np.array([support is not None and support.stands for support in self._supports])
-        path = balance.Path(self._frames, np.array(self._centers), inside)
+        path = balance_groups.Path(self._frames, np.array(self._centers), inside)
         scene = context.scene
-        empty = balance.find(scene, self._objects)
+        empty = balance_groups.find(scene, self._objects)
         if empty is None:
             empty = bpy.data.objects.new("Balance", None)
             empty.empty_display_type, empty.show_in_front = "SPHERE", True
             empty.empty_display_size = 0.05 * max(1e-6, float(np.ptp(path.centers, axis=0).max()))
-            empty[balance.GROUP] = balance.group_text(self._objects)
+            empty[balance_groups.GROUP] = balance_groups.group_text(self._objects)
             scene.collection.objects.link(empty)
-        balance.store(empty, path, self._supports)
+        balance_groups.store(empty, path, self._supports)
         context.view_layer.update()
         redraw(context)
         findings = [

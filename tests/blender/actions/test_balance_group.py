@@ -24,15 +24,15 @@ def key_matrix(obj, frame, matrix):
 
 
 def path_of(empty):
-    from body_moments.operators.session import balance
+    from body_moments.operators.session import balance_groups
 
-    return balance.path(empty)
+    return balance_groups.path(empty)
 
 
 def groups():
-    from body_moments.operators.session import balance
+    from body_moments.operators.session import balance_groups
 
-    return list(balance.groups(bpy.context.scene))
+    return list(balance_groups.groups(bpy.context.scene))
 
 
 def spin(obj, frames, start, center, velocity, gravity):

@@ -14,7 +14,7 @@ from body_moments.core.verdict.finding import MeasureError, finding
 from body_moments.operators.bodies.measure_object import measure_object
 from body_moments.operators.session import staleness
 from body_moments.operators.settings.options import MeasureOptions
-from body_moments.operators.write import documents, properties, record, report
+from body_moments.operators.write import documents, properties, record, text_report
 
 from tests.blender import batch_files
 from tests.blender.bodies.test_measure_object import add, box, measure
@@ -658,7 +658,7 @@ def test_the_record_the_report_and_the_properties_say_where_the_density_came_fro
     bpy.ops.object.body_moments_measure()
     assert obj["body_density_from"] == entry["density_from"]
     assert obj["body_density"] == pytest.approx((STEEL + CORK) / 2)
-    assert "Density from" in report.report_text(bpy.context, [obj])
+    assert "Density from" in text_report.report_text(bpy.context, [obj])
     bpy.ops.object.body_moments_clear()
     assert not [key for key in properties.DESCRIPTIONS if key in obj]
     assert not properties.density_from(obj)

@@ -10,8 +10,8 @@ import pytest
 from body_moments.operators.write import documents
 
 from tests.blender import batch_files as files
+from tests.blender.actions.assembly.test_assembly import assembly_of_boxes
 from tests.blender.actions.rig.test_rig import character
-from tests.blender.actions.setup.test_assembly import assembly_of_boxes
 from tests.blender.bodies.test_assembly import collection
 from tests.close import close
 

@@ -10,7 +10,7 @@ import pytest
 pytest.importorskip("bpy")
 import bpy
 from body_moments.core.shape.library import read_library
-from body_moments.operators.command.results import replaceable
+from body_moments.operators.command.own_results import replaceable
 
 from tests.blender.batch_files import add_box, document
 from tests.blender.command.test_shape import ask

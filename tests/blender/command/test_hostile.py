@@ -24,7 +24,7 @@ from body_moments.operators import batch
 from body_moments.operators.command import bare_files, inputs, interruption
 from body_moments.operators.command import run as command
 from body_moments.operators.session.moments import as_csv
-from body_moments.operators.write import report
+from body_moments.operators.write import text_report
 from body_moments.operators.write.terminal import visible
 
 from tests.blender import batch_files as files
@@ -410,7 +410,7 @@ def test_reports_and_tables_for_people_show_control_characters(main, library):
     assert out[0] == 2 and "\x1b" not in out[2]
     document = json.loads(text)
     document["errors"] = [{"name": "x\ny", "reason": "z\x07"}]
-    shown = report.text(document)
+    shown = text_report.text(document)
     assert r"b\x1b[2J\u202e" in shown and r"x\ny: z\x07" in shown
     assert all(line.isprintable() for line in shown.splitlines())
 

@@ -14,7 +14,7 @@ import bpy
 import numpy as np
 from body_moments.operators import batch
 from body_moments.operators.settings.properties import copy_settings
-from body_moments.operators.write import report
+from body_moments.operators.write import text_report
 from mathutils import Euler, Matrix
 
 from tests.blender import batch_files as files
@@ -200,7 +200,7 @@ def test_what_is_left_out_is_a_row_of_a_table_and_a_line_of_a_report(tmp_path, s
     assert rows["b"]["left_out"] == sentence("not_rendered") and rows["b"]["mass"] == "" == rows["b"]["error"]
     assert rows["a"]["left_out"] == ""
     assert batch.main(["measure", "--format", "csv", "--output", str(path)]) == 0  # it is known as ours again
-    assert "Left out\n  b: " + sentence("not_rendered") in report.text(document())
+    assert "Left out\n  b: " + sentence("not_rendered") in text_report.text(document())
 
 
 def test_a_density_that_nobody_set_is_a_finding():

@@ -7,8 +7,8 @@ from types import SimpleNamespace
 import bpy
 import pytest
 
+from tests.blender.actions.assembly.test_assembly import assembly_of_boxes
 from tests.blender.actions.rig.test_rig import character
-from tests.blender.actions.setup.test_assembly import assembly_of_boxes
 from tests.blender.bodies.test_assembly import box, empty
 from tests.blender.objects import only
 from tests.blender.panels.test_panel import Layout, drawn, labels

@@ -438,7 +438,7 @@ def test_numbers_of_which_nothing_is_known_are_not_up_to_date(mark):
 )
 def test_numbers_that_a_person_has_overwritten_break_nothing(key, value):
     from body_moments.core.verdict.finding import finding
-    from body_moments.operators.write import report
+    from body_moments.operators.write import text_report
 
     from tests.blender.panels.test_panel import drawn
 
@@ -447,7 +447,7 @@ def test_numbers_that_a_person_has_overwritten_break_nothing(key, value):
     obj[key] = value
     update()
     drawn()
-    text = report.report_text(bpy.context, [obj, good])
+    text = text_report.report_text(bpy.context, [obj, good])
     assert (str(finding("no_stored_results")) in text) == (key in ("body_mass", "body_volume", "body_inertia"))
 
 

@@ -118,7 +118,7 @@ def exists(path):
     if first in PANELS:
         return len(rest) == 1 and rest[0] in [getattr(bpy.types, name).bl_label for name in PANELS[first]]
     if path == "File > Import > Scan of Densities":
-        texts = [node.value for node in constants(ROOT / "operators/actions/setup/import_scan.py")]
+        texts = [node.value for node in constants(ROOT / "operators/actions/imports/import_scan.py")]
         return "Import" in entries("TOPBAR_MT_file") and any(text.startswith("Scan of Densities") for text in texts)
     target = MENUS[first]
     assert getattr(bpy.types, target).bl_label == first

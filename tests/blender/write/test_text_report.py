@@ -9,7 +9,7 @@ import pytest
 pytest.importorskip("bpy")
 import bpy
 from body_moments.operators.bodies.measure_object import measure_object
-from body_moments.operators.write import report
+from body_moments.operators.write import text_report
 from body_moments.operators.write.properties import store
 from mathutils import Euler, Matrix
 
@@ -23,7 +23,7 @@ def stored(*objects):
     depsgraph = bpy.context.evaluated_depsgraph_get()
     for obj in objects:
         store(obj, measure_object(obj, depsgraph))
-    return report.report_text(bpy.context, list(bpy.context.scene.objects))
+    return text_report.report_text(bpy.context, list(bpy.context.scene.objects))
 
 
 def line(text, label, number=0):
@@ -43,7 +43,7 @@ def turned_box(name="Box", density=1000.0):
 
 def test_a_document_is_told_in_the_order_of_cad_dialogs():
     files.add_box("Würfel")
-    text = report.text(document())
+    text = text_report.text(document())
     labels = ["Verdict", "Kind", "Mass", "Density", "Volume", "Surface area", "Center of mass"]
     labels += ["Principal moments", "  I1", "  I2", "  I3", "Radii of gyration", "Inertia tensor"]
     places = [text.index("\n  " + label) for label in labels]
@@ -63,7 +63,7 @@ def test_a_document_is_told_in_the_order_of_cad_dialogs():
 def test_several_objects_have_a_total_and_errors_their_reasons():
     files.add_box("A", (0, 0, 0), (2, 2, 2))
     files.add_box("B", (4, 0, 0), (2, 2, 2))
-    text = report.text(document("--object", "A", "--object", "B", "--object", "C"))
+    text = text_report.text(document("--object", "A", "--object", "B", "--object", "C"))
     assert "Total of 2 objects, world frame" in text
     assert line(text, "Mass", 2) == "16000 kg"
     assert line(text, "Center of mass", 2) == "(2, 0, 0) m, world frame"
@@ -79,14 +79,14 @@ def test_what_is_wrong_with_a_body_is_told():
     bpy.ops.object.mode_set(mode="EDIT")
     bpy.ops.mesh.delete(type="FACE")
     bpy.ops.object.mode_set(mode="OBJECT")
-    text = report.text(document())
+    text = text_report.text(document())
     assert line(text, "Verdict").startswith("capped: The surface is open")
     assert "4 boundary edges" in line(text, "Found")
     assert line(text, "Warning")
 
 
 def test_a_file_that_cannot_be_read_is_told(tmp_path):
-    text = report.text(document(tmp_path / "gone.stl"))
+    text = text_report.text(document(tmp_path / "gone.stl"))
     assert "gone.stl" in text and "File: " + sentence("file_missing") in text
 
 
@@ -95,7 +95,7 @@ def test_stored_results_are_told_as_a_document_tells_them(frame):
     """Health and symmetry are not stored; the rest is the same text."""
     box = turned_box()
     bpy.context.scene.body_moments.frame = frame
-    expected = report.text(document("--frame", frame.lower())).splitlines()
+    expected = text_report.text(document("--frame", frame.lower())).splitlines()
     text = stored(box).splitlines()
     expected = [row for row in expected if not row.startswith("  Found")]
     assert [row.removesuffix(", asymmetric") for row in expected] == text
@@ -116,7 +116,7 @@ def test_the_total_of_stored_results_is_that_of_a_document():
     first, second = turned_box("A"), files.add_box("B", size=(1, 1, 4))
     second.body_moments.density = 50.0
     bpy.context.scene.unit_settings.scale_length = 0.5
-    text, expected = stored(first, second), report.text(document())
+    text, expected = stored(first, second), text_report.text(document())
     for label in ("Mass", "Volume", "Surface area", "Center of mass", "Radii of gyration"):
         assert line(text, label, 2) == line(expected, label, 2)
     for label in ("  I1", "  I2", "  I3"):
@@ -129,7 +129,7 @@ def test_objects_without_results_are_named_and_so_are_damaged_ones():
     objects["B"]["body_inertia"] = "gone"
     objects["C"]["body_center_of_mass"] = [1.0, 2.0]
     objects["D"]["body_mass"] = "heavy"
-    text = report.report_text(bpy.context, list(objects.values()))
+    text = text_report.report_text(bpy.context, list(objects.values()))
     for name in "BCDE":
         assert f"  {name}: {sentence('no_stored_results')}" in text
     assert "\nA\n" in text and "Total" not in text
@@ -138,17 +138,17 @@ def test_objects_without_results_are_named_and_so_are_damaged_ones():
 def test_results_that_no_longer_hold_say_so():
     box = files.add_box()
     stored(box)
-    text = report.report_text(bpy.context, [box], outdated={box.name})
+    text = text_report.report_text(bpy.context, [box], outdated={box.name})
     assert line(text, "Warning") == sentence("stale_results")
 
 
 def test_nothing_selected_is_an_empty_report():
-    assert report.report_text(bpy.context, []) == "Mass properties, SI units, world frame\n"
+    assert text_report.report_text(bpy.context, []) == "Mass properties, SI units, world frame\n"
 
 
 def test_a_wall_is_told_as_one():
     box = files.add_box()
     box.body_moments.kind, box.body_moments.wall, box.body_moments.thickness = "SHELL", "INWARD", 0.01
-    for text in (report.text(document()), stored(box)):
+    for text in (text_report.text(document()), stored(box)):
         assert line(text, "Verdict") == "shell: The mass is in a wall of real thickness"
         assert any("0.01 m" in note for note in re.findall(r"^  Note +(.*)$", text, re.MULTILINE))

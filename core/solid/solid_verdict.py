@@ -18,8 +18,8 @@ from ..verdict.finding import Finding, finding
 from ..verdict.health import NO_FACES, DefectiveElements, Intersection, MeshReport
 from ..verdict.method import Verdict
 from ..verdict.tolerances import NEGLIGIBLE
+from .closed_parts import ClosedParts
 from .orientation import ComponentComparison, OrientedSolid
-from .parts import ClosedParts
 from .repaired_mesh import RepairedMesh
 from .self_intersection import SelfIntersection
 from .triage import CheckedSurface, GivenIntegrals

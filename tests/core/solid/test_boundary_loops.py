@@ -3,7 +3,7 @@
 """Rims as loops: how they are joined, and what is known of their caps."""
 
 import numpy as np
-from body_moments.core.solid.holes import find_loops, join_sides
+from body_moments.core.solid.boundary_loops import find_loops, join_sides
 from hypothesis import given
 
 from tests.close import close
@@ -106,7 +106,7 @@ def test_hundreds_of_sides_at_one_vertex_are_joined_in_pairs():
 
 
 def test_more_pairs_than_allowed_are_joined_in_order(monkeypatch):
-    monkeypatch.setattr("body_moments.core.solid.holes.MAX_END_PAIRS", 1)
+    monkeypatch.setattr("body_moments.core.solid.boundary_loops.MAX_END_PAIRS", 1)
     points = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [-1, 0, 0], [-1, -1, 0]]
     loops = loops_of(points, [(0, 1), (1, 2), (2, 0), (0, 3), (3, 4), (4, 0)])
     assert close(loops.planar_area.sum(), 1.0, rel=1e-15)

@@ -102,7 +102,7 @@ def test_what_cannot_be_imported_leaves_nothing(tmp_path, reported):
 
 
 def test_it_is_in_the_import_menu():
-    import body_moments.operators.actions.setup.import_scan as module
+    import body_moments.operators.actions.imports.import_scan as module
 
     assert module._menu in bpy.types.TOPBAR_MT_file_import._dyn_ui_initialize()
 
@@ -122,7 +122,7 @@ def test_a_volume_is_written_whole_or_not_at_all(tmp_path, monkeypatch, capfd):
     imported(path)
     assert ".." not in capfd.readouterr().out
     kept = (tmp_path / "a.vdb").read_bytes()
-    from body_moments.operators.actions.setup import import_scan
+    from body_moments.operators.actions.imports import import_scan
 
     class Failing:
         """openvdb on a full disk."""
