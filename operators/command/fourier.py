@@ -52,7 +52,7 @@ def write(obj: bpy.types.Object, options: Namespace, measure_options: MeasureOpt
     return findings
 
 
-def _read_wave_vectors(path: Path, dimension: int) -> NDArray[np.float64]:
+def _read_wave_vectors(path: Path, dimension: int = 3) -> NDArray[np.float64]:
     """Those of a .npy file. Raises MeasureError."""
     try:
         if path.exists() and not path.is_file():
