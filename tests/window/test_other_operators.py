@@ -148,6 +148,7 @@ IN_BROWSER = {
     "object.body_moments_save_numbers": ("json", MEASURED, "{path}.is_file()"),
     "object.body_moments_fourier": ("npz", "", "{path}.is_file()"),
     "object.body_moments_import_scan": ("npy", "", "any(obj.type == 'VOLUME' for obj in bpy.data.objects)"),
+    "object.body_moments_import_surfaces": ("obj", "", "any(obj.type == 'SURFACE' for obj in bpy.data.objects)"),
     "import_scene.body_moments_audit": ("urdf", "", "'Audit of window.urdf' in bpy.data.texts"),
     "object.body_moments_find_in_library": (
         "jsonl",
@@ -208,6 +209,10 @@ def test_a_click_opens_a_file_browser_and_return_goes_on(prepared, operator, tmp
 def write_input(operator, path: Path) -> None:
     if operator.endswith("import_scan"):
         np.save(path, np.ones((4, 4, 4), np.float32))
+    elif operator.endswith("import_surfaces"):
+        corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 1\n"
+        surface = "cstype bezier\ndeg 1 1\nsurf 0 1 0 1 1 2 3 4\nparm u 0 1\nparm v 0 1\nend\n"
+        path.write_text(corners + surface, "utf-8")
     elif operator.endswith("audit"):
         inertial = '<inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>'
         path.write_text(f'<robot name="r"><link name="l">{inertial}</link></robot>', "utf-8")
