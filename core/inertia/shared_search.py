@@ -21,6 +21,7 @@ from ..moments.affine_maps import rotate_moments
 from ..moments.moments import Measure, Moments
 from ..moments.monomials import monomial_count, monomials
 from ..moments.symmetric_tensors import tensor_index
+from ..verdict.finding import MeasureError
 from .canonical_frame import (
     FLAT_EXTENT_RTOL,
     MAX_ORDER,
@@ -61,7 +62,16 @@ def shared_frames(moments: Moments, fixed: SecondOrderFrames, bodies: NDArray[np
     -------
     list of EquivalentFrames
         Without values.
+
+    Raises
+    ------
+    MeasureError
+        Where the size of one is beyond the range of numbers.
     """
+    with np.errstate(over="ignore", under="ignore"):
+        reach = moments.raw[:, 0] * fixed.size[bodies].max(axis=1) ** moments.order
+    if not ((reach > np.finfo(float).tiny) & (reach < np.inf)).all():
+        raise MeasureError("moments_overflow", order=moments.order)
     found: list[EquivalentFrames | None] = [None] * len(bodies)
     for name in EQUAL_AXES:
         rows = np.flatnonzero(fixed.symmetry[bodies] == SYMMETRIES.index(name))

@@ -11,6 +11,7 @@ from body_moments.core.inertia.shared_search import shared_frames
 from body_moments.core.moments.moments import stack_moments
 
 from tests.core import bodies, shapes
+from tests.core.findings import refused
 from tests.core.recursion import moments
 
 
@@ -77,6 +78,15 @@ def test_what_was_measured_before_changes_nothing():
         shared_search._search.cache_clear()
         alone = shared_frames(stack.at([i]), fixed, np.array([i]))[0]
         assert np.abs(alone.frames - together[i].frames).max() < 1e-14
+
+
+@pytest.mark.parametrize("scale", [1e-40, 1e60])
+def test_a_body_beyond_the_range_of_numbers_is_refused(scale):
+    points, triangles = bodies.box((-1, -1, -1), (1, 1, 1))
+    stack = stack_moments([moments((points * size, triangles), 6) for size in (1.0, scale)])
+    fixed = second_order_frames(stack)
+    with refused("moments_overflow", order=6):
+        shared_frames(stack, fixed, np.array([0, 1]))
 
 
 def test_the_grid_is_a_tenth_of_noise():
