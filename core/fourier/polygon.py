@@ -97,7 +97,8 @@ class RegionTransform:
         rounded: float = 0.0,
         stored: float = 0.0,
     ):
-        self.q = q if isinstance(q, FrequencyGrid) else wave_vectors(q, 2)
+        self.grid = q if isinstance(q, FrequencyGrid) else None
+        self.vectors = half_of_grid(q) if isinstance(q, FrequencyGrid) else wave_vectors(q, 2)
         used = points[edges.ravel()] if len(edges) else np.zeros((1, 2))
         if not np.isfinite(used).all():
             raise ValueError("coordinates must be finite")
@@ -110,7 +111,6 @@ class RegionTransform:
         self.moved, self.input_error = (
             np.sqrt(2.0) * step * (self.perimeter + 3.0 * step * len(edges)) for step in (rounded, stored)
         )
-        self.vectors = half_of_grid(q) if isinstance(q, FrequencyGrid) else self.q
         self.values = np.empty(len(self.vectors), np.complex128)
 
     def steps(self) -> Iterator[float]:
@@ -133,8 +133,8 @@ class RegionTransform:
             first = (cross[:, None] * (self.start + self.end)).sum(axis=0) / 6.0
             values[near] = cross.sum() / 2.0 - 1j * (q[near] @ first * scale)
         values = values * scale**2 * phase_factors(q, self.center)
-        if isinstance(self.q, FrequencyGrid):
-            q, values = self.q.vectors(), expand_half(self.q, values)
+        if self.grid is not None:
+            q, values = self.grid.vectors(), expand_half(self.grid, values)
         error = U * ROUNDING_FACTOR * self.perimeter * scale + self.moved + 8.0 * U * np.abs(values)
         return Spectrum(q, values, error, float(self.input_error))
 
@@ -143,7 +143,7 @@ def half_of_grid(grid: FrequencyGrid) -> NDArray[np.float64]:
     """((h+1)(2h+1), 2) the wave vectors of a grid from 0 on along x, and from -h to h along y: what the others are
     conjugate to."""
     x, y = np.arange(grid.half + 1) * grid.step, (np.arange(2 * grid.half + 1) - grid.half) * grid.step
-    return np.stack(np.meshgrid(x, y, indexing="ij"), axis=-1).reshape(-1, 2)
+    return np.stack(np.meshgrid(x, y, indexing="ij"), axis=-1).reshape(-1, 2).astype(np.float64, copy=False)
 
 
 def expand_half(grid: FrequencyGrid, values: NDArray[np.complex128]) -> NDArray[np.complex128]:

@@ -147,7 +147,7 @@ def _bases(fixed: NDArray, axis: int) -> NDArray[np.float64]:
 def _ways(fixed: SecondOrderFrames, bodies: NDArray[np.intp], axis: int) -> NDArray[np.intp]:
     """(n,) which ways the fixed axis of bodies may point, as `_search` takes them."""
     allowed, ahead = fixed.allowed[bodies], HALF_TURN_SIGNS[:, axis] > 0.0
-    return allowed[:, ahead].any(axis=1).astype(np.intp) + 2 * allowed[:, ~ahead].any(axis=1)
+    return np.asarray(allowed[:, ahead].any(axis=1) + 2 * allowed[:, ~ahead].any(axis=1), np.intp)
 
 
 def _whitened(

@@ -177,4 +177,4 @@ def _best_angles(source: NDArray, target: NDArray) -> NDArray[np.float64]:
         slope, bend = derivative(angles, 1), derivative(angles, 2)
         step = np.where(bend < 0.0, -slope / np.where(bend < 0.0, bend, 1.0), 0.0)
         angles = angles + np.clip(step, -np.pi / ANGLES, np.pi / ANGLES)
-    return angles
+    return np.asarray(angles, np.float64)

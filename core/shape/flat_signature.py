@@ -17,6 +17,7 @@ from __future__ import annotations
 from math import sqrt
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..moments.complex_moments import complex_moments
 from ..moments.moments import Moments, U
@@ -64,7 +65,7 @@ def flat_signature(moments: Moments, radius: float) -> Signature:
     degree = monomials(INVARIANT_ORDER).sum(axis=1)
     scaled = Moments(low.raw / size**degree / moments.total, np.zeros(3), low.measure)
     c = {key: entry.value for key, entry in complex_moments(scaled).items()}
-    couplings = np.array(
+    couplings: NDArray[np.complex128] = np.array(
         [c[a] * c[b].conjugate() for a, b in pairs()] + [c[a] * c[b] * c[d].conjugate() for a, b, d in triples()]
     )
     scalars = [c[p, p].real for p in range(2, INVARIANT_ORDER // 2 + 1)]

@@ -188,7 +188,7 @@ def _region_of(reading: SectionReading, kind: str, unit: float) -> FlatRegion:
         kind,
         reading.description,
         plane,
-        points,
+        points.astype(np.float64, copy=False),
         flat,
         edges,
         error,

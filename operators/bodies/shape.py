@@ -7,12 +7,12 @@ They need moments of higher order than a measurement carries, of the same body: 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from itertools import chain
 from math import frexp
-from typing import Any
+from typing import Any, Protocol
 
 import bpy
 import numpy as np
@@ -227,11 +227,22 @@ def shape_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, options: Mea
     return shape
 
 
+class Registered(Protocol):
+    """What is laid onto others of its kind: a `Shape`, or a flat one."""
+
+    @property
+    def center(self) -> NDArray[np.float64]: ...
+    @property
+    def size(self) -> float: ...
+    def pieces(self) -> Iterable[Surface]: ...
+    def match(self, target: Any, residual: Callable[[NDArray, int | None], NDArray[np.float64]], /) -> RigidMatch: ...
+
+
 class SurfaceDistance:
     """A shape's surface, to hold points against, once it is grown. Lengths in metres, world axes; Blender's tree of
     triangles keeps them as float32, so about the center and by its size."""
 
-    def __init__(self, shape: Shape):
+    def __init__(self, shape: Registered):
         whole = join_surfaces(list(shape.pieces()))
         self._center, self._scale = shape.center, shape.size
         self._triangles = triangles = whole.all_triangles()[0]
@@ -284,7 +295,11 @@ def _as_tuples(array: NDArray) -> list[tuple]:
 
 
 def register_surfaces(
-    source: Shape, target: Shape, source_skin: SurfaceDistance, target_skin: SurfaceDistance, scale: float = 1.0
+    source: Registered,
+    target: Registered,
+    source_skin: SurfaceDistance,
+    target_skin: SurfaceDistance,
+    scale: float = 1.0,
 ) -> RigidMatch:
     """How a shape comes to lie on another one, about their centers, and what is left between their surfaces.
     source_skin, target_skin: theirs. scale: what the source is multiplied by first."""

@@ -99,6 +99,7 @@ def measure_mesh_file(
             StreamReport(closed=found.closed),
             Method(_verdict(found)),
             (*findings, *_findings(found, kind)),
+            face_count=found.face_count,  # of many faces the axes come from third order, without reading them again
             mesh=mesh,
             unit=unit,
             threads=options.threads,

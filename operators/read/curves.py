@@ -66,9 +66,10 @@ def text_curves(obj, depsgraph) -> list[Curve]:
         ]
     finally:
         obj.to_curve_clear()
-    if not curves or None in curves:
+    known = [curve for curve in curves if curve is not None]
+    if not known or len(known) < len(curves):
         raise ReadError("no_curve", subject=obj.name)
-    return curves
+    return known
 
 
 def is_round(obj) -> bool:

@@ -84,16 +84,18 @@ class ComputedMoments:
     @property
     def known(self) -> Moments:
         """Those that there are."""
-        return self.volume or self.flat.moments
+        if self.volume is not None:
+            return self.volume
+        assert self.flat is not None
+        return self.flat.moments
 
     @property
     def center(self) -> NDArray[np.float64]:
         """(3,) of the volume, or the flat shape."""
-        return (
-            self.volume.center
-            if self.volume
-            else self.flat.plane.origin + self.flat.plane.axes @ (self.flat.moments.center)
-        )
+        if self.volume is not None:
+            return self.volume.center
+        assert self.flat is not None
+        return self.flat.plane.origin + self.flat.plane.axes @ self.flat.moments.center
 
 
 @dataclass(frozen=True)
@@ -241,20 +243,21 @@ def _of(computed: ComputedMoments, of: str) -> Moments:
     moments = {"VOLUME": computed.volume, "SURFACE": computed.area, "MASS": computed.mass, "FLAT": flat}[of]
     if moments is None:
         if of == "FLAT":
-            raise ReadError(computed.not_flat)
+            raise ReadError(computed.not_flat or "moments_of_flat")
         raise ReadError("mass_moments_unknown" if computed.volume else "moments_of_flat", order=computed.order)
     return moments
 
 
 def _in_plane(computed: ComputedMoments, about: str, frame: str, order: int, reference: Reference | None) -> Moments:
     """Along the axes of the plane, about the foot of the frame's origin or of the reference."""
-    moments = _of(computed, "FLAT").truncate(order)
+    moments, flat = _of(computed, "FLAT").truncate(order), computed.flat
     if about == "NORMALIZED":
         return normalize(moments)
     if about == "CENTER":
         return moments.about_center()
     origin = np.zeros(3) if frame == "WORLD" else computed.location
-    return moments.about_point(computed.flat.foot(origin if reference is None else reference.origin))
+    assert flat is not None
+    return moments.about_point(flat.foot(origin if reference is None else reference.origin))
 
 
 def _in_frame(computed: ComputedMoments, of: str, about: str, frame: str, order: int) -> Moments:
@@ -334,6 +337,7 @@ def _flat_csv(computed: ComputedMoments, about: str, frame: str, reference: Refe
             table.writerow([one.name, one.value.real, one.value.imag, one.rounding_error, one.input_error])
         return text.getvalue()
     moments = in_frame(computed, "FLAT", about, frame, computed.order, reference)
+    assert computed.flat is not None
     x, y, normal = (" ".join(map(repr, axis)) for axis in computed.flat.plane.axes.T.tolist())
     text.write(
         "# {:s}: area moments of the flat shape, along x = ({:s}) and y = ({:s}), front ({:s}), {:s}\n".format(

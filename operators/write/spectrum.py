@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from pathlib import Path
+from typing import Any
 
 import bpy
 import numpy as np
@@ -25,7 +26,7 @@ def save(
     spectrum: Spectrum,
     frame: str,
     check: Callable[[Path], None] | None = None,
-    plane: Mapping[str, NDArray] | None = None,
+    plane: Mapping[str, Any] | None = None,
 ) -> None:
     """Write an .npz file, whole or not at all: q (M, 3) in rad/m, F (M,) complex in m³ or m², error (M,) and input,
     what rounding and storing coordinates as float32 may have changed, method and frame. check: as in `whole_file`.

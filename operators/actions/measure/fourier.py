@@ -169,7 +169,7 @@ class OBJECT_OT_body_moments_fourier_run(ModalSteps, _Settings, Operator):
         else:
             options, area = MeasureOptions(threads=THREADS), self.of == "AREA"
             self._work = object_transform(obj, depsgraph, options, self._grid, frame=frame, area=area)
-        self._steps = self._work.steps()
+        self._steps = (done for done in self._work.steps())
 
     def _grid(self, size: float) -> FrequencyGrid:
         """The grid for a body of this size in m. Where no largest frequency is asked for, its step is π over the
