@@ -45,8 +45,6 @@ class StreamBody(Body):
     unit : float
         Meters per unit.
     threads : int
-    progress : callable, optional
-        As for `measure_stream`.
     """
 
     any_order: ClassVar[bool] = True
@@ -54,13 +52,12 @@ class StreamBody(Body):
     mesh: MeshFile = field(kw_only=True)
     unit: float = 1.0
     threads: int = 1
-    progress: Callable[[int], None] | None = None
 
     def moments(self, order: int, area: bool) -> tuple[Moments, Moments | None]:
         """Return the moments to an order; the file is read again where that is more than is known."""
         if order <= self.volume.order and (not area or order <= self.area.order):
             return self.volume.truncate(order), self.area.truncate(order) if area else None
-        found = measure_stream(self.mesh, order, order if area else 0, self.threads, self.progress)
+        found = measure_stream(self.mesh, order, order if area else 0, self.threads)
         volume, areas = _in_meters(found, self.unit)
         return volume, areas if area else None
 
@@ -103,7 +100,6 @@ def measure_mesh_file(
             mesh=mesh,
             unit=unit,
             threads=options.threads,
-            progress=progress,
         )
         if kind == "solid" and not volume.total > volume.rounding_error[0]:
             raise ReadError("no_volume")

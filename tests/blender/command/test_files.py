@@ -170,7 +170,9 @@ def test_what_a_usdz_stores_is_compared_with_its_checksums(tmp_path):
     directory = data.index(b"PK\1\2")
     larger = struct.pack("<II", stored.file_size + 99, stored.file_size + 99)
     (tmp_path / "larger.usdz").write_bytes(data[: directory + 20] + larger + data[directory + 28 :])
-    assert "overlap" in reason(tmp_path / "larger.usdz").lower()
+    assert any(
+        words in reason(tmp_path / "larger.usdz") for words in ("Overlapped", "overlap", "Bad CRC-32")
+    )  # of old Pythons
     assert close(measured(tmp_path / "whole.usdz")["volume"], 6.0, rel=1e-6)
 
 
