@@ -19,6 +19,7 @@ from body_moments.operators.write.html.report import to_html
 
 from tests.blender import batch_files as files
 from tests.blender.batch_files import document, measured
+from tests.blender.grids import vdb_grid, volume_object
 from tests.close import close
 
 pytestmark = pytest.mark.usefixtures("scene")
@@ -233,6 +234,32 @@ def test_materials_and_volumes_are_sources_of_density():
     assert close(measured("--density-from", "materials")["mass"], 30000.0, 1e-12)
     assert close(measured("--density-from", "value", "--order", "0")["mass"], 6000.0, 1e-12)
     assert "no Volume object" in document("--density-from", "volume:none")["errors"][0]["reason"]
+
+
+def test_an_attribute_and_a_volume_are_the_sources_that_the_panel_has(tmp_path):
+    box = files.add_box("Box", (0, 0, 0))
+    values = np.array([1.0 + corner.co.x for corner in box.data.vertices], np.float32)
+    box.data.attributes.new("weight", "FLOAT", "POINT").data.foreach_set("value", values)
+    sheet = "--kind", "shell", "--thickness", "0.01"
+    found = measured(*sheet, "--density-from", "attribute:weight")
+    box.body_moments.kind, box.body_moments.density_from, box.body_moments.density_attribute = (
+        "SHELL",
+        "ATTRIBUTE",
+        "weight",
+    )
+    box.body_moments.thickness = 0.01
+    as_set = measured()
+    assert found["mass"] == as_set["mass"] and found["inertia"] == as_set["inertia"]
+    assert found["center_of_mass"] == as_set["center_of_mass"] != [0.0, 0.0, 0.0]
+
+    box.body_moments.kind, box.body_moments.density_from = "SOLID", "VALUE"
+    samples = np.random.default_rng(1).uniform(1.0, 2.0, (12, 12, 12)).astype(np.float32)
+    cloud = volume_object(tmp_path / "a.vdb", vdb_grid(samples, offset=(-6, -6, -6)))
+    found = measured("--object", "Box", "--density-from", "volume:Cloud")
+    box.body_moments.density_from, box.body_moments.density_volume = "VOLUME", cloud
+    as_set = measured("--object", "Box")
+    assert found["mass"] == as_set["mass"] and found["inertia"] == as_set["inertia"]
+    assert 6.0 < found["mass"] < 12.0  # of a box of 6 m³
 
 
 def test_a_wall_of_real_thickness():
