@@ -107,6 +107,11 @@ def unique(findings: Iterable[Finding]) -> tuple[Finding, ...]:
     return tuple(dict.fromkeys(findings))
 
 
+def system_reason(error: OSError) -> str:
+    """Return why the system refused something, as a part of a sentence."""
+    return (error.strerror or str(error)).rstrip(".")
+
+
 def truncate(items: Elements, limit: int, count: int | None = None) -> tuple[Elements, int]:
     """Keep the first items of a list that is shown.
 

@@ -14,10 +14,10 @@ from ...core.measurement import Measurement
 from ...core.scans import Scan, read_scan, sample_matrix
 from ...core.scans.limits import DEFAULT_LIMITS, Limits
 from ...core.scans.positions import Positions, place_samples, read_all_positions
-from ...core.verdict.finding import Finding, MeasureError, ReadError, finding
-from ..read import Reading
+from ...core.verdict.finding import Finding, ReadError, finding
 from ..settings.grid import GridOptions
 from ..settings.options import MeasureOptions, ResolvedOptions
+from .bare_file import about_file, bare_reading
 from .body import KNOWN_ORDER, Body
 from .grid import density_body
 from .measurement import measurement_of
@@ -52,7 +52,7 @@ def measure_array(
     last time. Raises MeasureError."""
     if options.kind == "shell":
         raise ReadError("grid_as_shell", subject=name)
-    try:
+    with about_file(name):
         scan = read_scan(path, array.limits)
         matrix, findings = sample_matrix(scan, array.spacing, array.origin, array.unit_scale)
         positions = read_all_positions(array.positions, scan.samples.shape)
@@ -61,16 +61,10 @@ def measure_array(
             findings = _with_positions(findings, array.positions)
         measure = _threshold_body if array.threshold is not None else _density_body
         made = measure(name, scan, matrix, positions, array, options, (*scan.findings, *findings), progress)
-        reading = Reading(name, "ARRAY", np.eye(4), np.eye(3), np.zeros(3))
+        reading = bare_reading(name, "ARRAY")
         density = None if made.mass is not None else options.density
         used = ResolvedOptions.of(options, kind="solid", density=density, thickness=0.0, overlap="signed", wall="thin")
         return measurement_of(reading, made, Request(used, 1.0))
-    except MeasureError as error:
-        error.about(name)
-        raise
-    except OSError as error:
-        reason = (error.strerror or str(error)).rstrip(".")
-        raise ReadError("file_unreadable", subject=name, error=reason) from error
 
 
 def _with_positions(findings: Iterable[Finding], files: Mapping[str, str]) -> tuple[Finding, ...]:

@@ -14,11 +14,11 @@ from ...core.measurement import Measurement
 from ...core.moments.moments import Moments
 from ...core.streams import StreamIntegrals, measure_stream, open_mesh_file
 from ...core.streams.mesh_file import MeshFile
-from ...core.verdict.finding import Finding, MeasureError, ReadError, finding
+from ...core.verdict.finding import Finding, ReadError, finding
 from ...core.verdict.health import MeshReport
 from ...core.verdict.method import Method, Verdict
-from ..read import Reading
 from ..settings.options import MeasureOptions, ResolvedOptions
+from .bare_file import about_file, bare_reading
 from .body import KNOWN_ORDER, Body
 from .measurement import measurement_of
 from .request import Request
@@ -86,7 +86,7 @@ def measure_mesh_file(
     order = max(options.order or 0, KNOWN_ORDER)
     area_order = order if kind == "shell" or options.surface else 0
     unit = options.unit_scale or 1.0
-    try:
+    with about_file(name):
         mesh = open_mesh_file(path)
         found = measure_stream(mesh, order, area_order, options.threads, progress)
         volume, area = _in_meters(found, unit)
@@ -103,14 +103,8 @@ def measure_mesh_file(
         )
         if kind == "solid" and not volume.total > volume.rounding_error[0]:
             raise ReadError("no_volume")
-        reading = Reading(name, "MESH", np.eye(4), np.eye(3), np.zeros(3))
+        reading = bare_reading(name, "MESH")
         return measurement_of(reading, body, Request(used, 1.0))
-    except MeasureError as error:
-        error.about(name)
-        raise
-    except OSError as error:
-        reason = (error.strerror or str(error)).rstrip(".")
-        raise ReadError("file_unreadable", subject=name, error=reason) from error
 
 
 def _verdict(found: StreamIntegrals) -> Verdict:

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from ...core.verdict import internal_error
-from ...core.verdict.finding import FileError, MeasureError, Severity, finding
+from ...core.verdict.finding import FileError, MeasureError, Severity, finding, system_reason
 from ..bodies.audit import Audit, Auditor
 from ..read.robots.descriptions import read_description
 from ..read.robots.paths import Roots
@@ -108,5 +108,5 @@ def _write_copy(path: Path, audit: Audit, folder: Path | None, copies: set[str])
         with whole_file(target) as file:
             file.write(repaired_copy(audit.description, repairs))
     except OSError as error:
-        raise FileError("audit_not_written", error=error.strerror or str(error)) from error
+        raise FileError("audit_not_written", error=system_reason(error)) from error
     return str(target)

@@ -12,7 +12,7 @@ from dataclasses import replace
 
 import bpy
 
-from ...core.verdict.finding import MeasureError, finding
+from ...core.verdict.finding import MeasureError, finding, system_reason
 from ..settings.limits import scan_limits
 from . import density_options, fourier, inputs, targets
 from .arguments import fail
@@ -32,7 +32,7 @@ def check(options: Namespace) -> None:
     except MeasureError as error:
         fail(error)
     except OSError as error:
-        fail(finding("usage_path", path=str(error.filename), error=error.strerror))
+        fail(finding("usage_path", path=str(error.filename), error=system_reason(error)))
 
 
 def prepare(options: Namespace) -> None:

@@ -27,7 +27,7 @@ import bpy
 
 from ...core.scans import formats as scans
 from ...core.scans.scan import damaged
-from ...core.verdict.finding import FileError, Finding, finding
+from ...core.verdict.finding import FileError, Finding, finding, system_reason
 from .finite import check_numbers
 from .import_3mf import import_3mf
 from .import_surfaces import import_iges, import_obj
@@ -150,7 +150,7 @@ def check_file(path: str) -> None:
             file.seek(max(0, size - 1024))
             tail = file.read()
     except OSError as error:
-        raise FileError("file_unreadable", error=error.strerror) from error
+        raise FileError("file_unreadable", error=system_reason(error)) from error
     if not size:
         raise FileError("file_empty")
     if kind == ".stl":

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from ...core.fourier.wave_vectors import FrequencyGrid, wave_vectors
 from ...core.scans.numpy_files import map_array
-from ...core.verdict.finding import Finding, QueryError, finding
+from ...core.verdict.finding import Finding, QueryError, finding, system_reason
 from ..bodies.flat_fourier import FlatTransform, flat_transform
 from ..bodies.fourier import ObjectTransform, object_transform
 from ..settings.options import MeasureOptions
@@ -62,7 +62,7 @@ def _read_wave_vectors(path: Path, dimension: int = 3) -> NDArray[np.float64]:
                 raise QueryError("wave_vectors_archive", file=str(path))
         array = map_array(path)
     except OSError as error:
-        cause = finding("file_unreadable", error=error.strerror or str(error))
+        cause = finding("file_unreadable", error=system_reason(error))
         raise QueryError("wave_vectors_unreadable", file=str(path), cause=cause.as_record()) from error
     if array.size > 3 * MAX_WAVE_VECTORS:
         raise QueryError("wave_vectors_too_many", count=array.size // 3, limit=MAX_WAVE_VECTORS)

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from ...core.verdict.finding import MeasureError, QueryError, finding
+from ...core.verdict.finding import MeasureError, QueryError, finding, system_reason
 from ..supervisor import journal, listing
 from ..write.documents import SCHEMA, to_csv, to_json_lines
 from ..write.html.report import to_html
@@ -62,7 +62,7 @@ class Results:
             try:
                 yield from _documents(path)
             except OSError as error:
-                raise QueryError("results_unreadable", file=str(path), error=error.strerror or str(error)) from error
+                raise QueryError("results_unreadable", file=str(path), error=system_reason(error)) from error
             except (ValueError, KeyError, TypeError, RecursionError) as error:
                 raise QueryError("results_malformed", file=str(path)) from error
 

@@ -12,7 +12,7 @@ import bpy
 from ...core.cad.obj import has_surfaces
 from ...core.cad.surface_file import read_surfaces
 from ...core.cad.surfaces import SurfaceFile
-from ...core.verdict.finding import FileError, Finding, finding
+from ...core.verdict.finding import FileError, Finding, finding, system_reason
 from ..scene.surface_objects import import_bodies
 from ..settings.limits import scan_limits
 from .opened import Opened
@@ -25,7 +25,7 @@ def import_iges(path: str) -> Opened:
     try:
         return _added(read_surfaces(path, scan_limits()))
     except OSError as error:
-        raise FileError("file_unreadable", error=error.strerror or str(error)) from error
+        raise FileError("file_unreadable", error=system_reason(error)) from error
 
 
 def import_obj(path: str) -> Opened:
@@ -37,7 +37,7 @@ def import_obj(path: str) -> Opened:
         with open(path, "rb") as file:
             has_faces = any(_MESH.match(line) for line in file)
     except OSError as error:
-        raise FileError("file_unreadable", error=error.strerror or str(error)) from error
+        raise FileError("file_unreadable", error=system_reason(error)) from error
     try:
         opened = _added(read_surfaces(path, scan_limits()))
     except FileError as error:

@@ -16,7 +16,7 @@ import sys
 from collections.abc import Callable, Iterable
 from pathlib import Path
 
-from ...core.verdict.finding import finding
+from ...core.verdict.finding import finding, system_reason
 from ..write.terminal import print_message
 from ..write.whole_file import whole_file
 
@@ -75,7 +75,7 @@ def written(parts: Iterable[str], path: Path | None, channel: int, check: Callab
     try:
         write(parts, path, channel, check)
     except OSError as error:
-        print_message(finding("usage_result_not_written", error=error.strerror or str(error)))
+        print_message(finding("usage_result_not_written", error=system_reason(error)))
         return False
     return True
 

@@ -16,7 +16,7 @@ import bpy
 
 from ...core.measurement import Measurement
 from ...core.robots.model import Robot
-from ...core.verdict.finding import Finding, MeasureError, finding
+from ...core.verdict.finding import Finding, MeasureError, finding, system_reason
 from ..read.links import object_entry
 from ..session.robot_links import SceneLinks, bone_links, collection_links
 from ..settings.options import MeasureOptions
@@ -79,4 +79,4 @@ def _write_meshes(made: SceneLinks, options: Namespace) -> Finding:
     try:
         return write_meshes(made.robot, lambda label: made.surface(bpy.context, label), options.output.parent)
     except OSError as error:
-        return finding("robot_meshes_not_written", error=error.strerror or str(error))
+        return finding("robot_meshes_not_written", error=system_reason(error))

@@ -21,7 +21,7 @@ import bpy
 
 from ...core.measurement import Measurement
 from ...core.verdict import internal_error
-from ...core.verdict.finding import FileError, Finding, MeasureError, finding
+from ...core.verdict.finding import FileError, Finding, MeasureError, finding, system_reason
 from ..bodies.measure_object import THREADS, Measured
 from ..bodies.stack import Stacked
 from ..read.quiet import paused
@@ -294,7 +294,7 @@ class Run:
         except MeasureError as refusal:
             yield failure(label, finding("fourier_failed", cause=refusal.finding.as_record()))
         except OSError as error:
-            yield failure(label, finding("fourier_not_written", error=error.strerror or str(error)))
+            yield failure(label, finding("fourier_not_written", error=system_reason(error)))
         except Exception as error:
             yield self._internal_error(label, error)
 

@@ -17,7 +17,7 @@ from pathlib import Path
 
 import bpy
 
-from ...core.verdict.finding import FileError, Finding, finding
+from ...core.verdict.finding import FileError, Finding, finding, system_reason
 from ..write.file_lock import locked
 from ..write.whole_file import partial_file, replace
 from .files import reason
@@ -88,7 +88,7 @@ def reserved(path: str, opened: bool, at_start: bool) -> Iterator[Place]:
             elif at_start and _saved_since_start(place.path):
                 place.refusal = finding("file_changed_since_start")
         except OSError as error:
-            place.refusal = finding("file_not_saved", error=str(error.strerror or error))
+            place.refusal = finding("file_not_saved", error=system_reason(error))
         yield place
 
 

@@ -8,7 +8,7 @@ import argparse
 from pathlib import Path
 
 from ...core.shape.library import Entry, classify, rank, read_library
-from ...core.verdict.finding import QueryError, finding
+from ...core.verdict.finding import QueryError, finding, system_reason
 from ..write.messages import SIMILARITY
 from ..write.terminal import print_message, visible
 from .parser import Parser
@@ -53,7 +53,7 @@ def answer(options: argparse.Namespace) -> tuple[str, int]:
         try:
             readable, missing = read_library(path)
         except OSError as error:
-            raise QueryError("library_unreadable", file=str(path), error=error.strerror or str(error)) from error
+            raise QueryError("library_unreadable", file=str(path), error=system_reason(error)) from error
         entries += readable
         failures += missing
     for failure in failures:

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from ...core.polyhedron import SimplexMoments, enclosed_moments, facet_moments, facets_of
 from ...core.polyhedron.n_dimensions import multi_indices
 from ...core.polyhedron.simplices import closes
-from ...core.verdict.finding import FileError, QueryError, finding
+from ...core.verdict.finding import FileError, QueryError, finding, system_reason
 from . import option_types as types
 from .parser import Parser
 
@@ -112,4 +112,4 @@ def _read(path: Path) -> tuple[NDArray[np.float64], NDArray[np.integer], NDArray
 
 def reason_of(error: OSError) -> object:
     """Why the file cannot be read."""
-    return finding("file_unreadable", error=(error.strerror or str(error)).rstrip("."))
+    return finding("file_unreadable", error=system_reason(error))

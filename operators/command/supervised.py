@@ -22,7 +22,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from ...core.verdict.finding import Finding, MeasureError, finding
+from ...core.verdict.finding import Finding, MeasureError, finding, system_reason
 from ..supervisor import listing, processes
 from ..supervisor.journal import Journal, is_journal, state
 from ..supervisor.lifeline import end_with_window
@@ -124,7 +124,7 @@ class _Places:
         except Busy:
             fail(finding("usage_busy", path=str(target)))
         except OSError as error:
-            fail(finding("usage_path", path=str(target), error=error.strerror or str(error)))
+            fail(finding("usage_path", path=str(target), error=system_reason(error)))
         shutil.rmtree(self.work, ignore_errors=True)  # of a run that was killed
         _check_ours(self.journal, options.force)
         if not options.resume:

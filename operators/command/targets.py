@@ -12,7 +12,7 @@ from collections.abc import Iterable
 from contextlib import suppress
 from pathlib import Path
 
-from ...core.verdict.finding import finding
+from ...core.verdict.finding import finding, system_reason
 from . import output, own_results
 from .arguments import TARGETS, fail
 
@@ -26,7 +26,7 @@ def check_places(options: Namespace) -> None:
         try:
             _check_place(option, target)
         except OSError as error:  # a name that is too long, a folder that may not be entered
-            fail(finding("usage_path", path=str(error.filename), error=error.strerror))
+            fail(finding("usage_path", path=str(error.filename), error=system_reason(error)))
 
 
 def _check_place(option: str, target: Path) -> None:
@@ -59,7 +59,7 @@ def files_to_replace(options: Namespace, read: Iterable[str | Path]) -> list[tup
                 continue
             empty = own_results.is_empty(target)
         except OSError as error:
-            fail(finding("usage_not_replaceable", option=option, path=str(target), error=error.strerror))
+            fail(finding("usage_not_replaceable", option=option, path=str(target), error=system_reason(error)))
         if not (empty or options.force):
             fail(finding("usage_foreign_file", option=option, path=str(target)))
         replaced.append((target, option))

@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.scans.limits import DEFAULT_LIMITS, Limits
-from ...core.verdict.finding import FileError
+from ...core.verdict.finding import FileError, system_reason
 
 MAX_INSTANCES = 100_000  # meshes that the build places
 UNITS = {"micron": 1e-6, "millimeter": 1e-3, "centimeter": 1e-2, "inch": 0.0254, "foot": 0.3048, "meter": 1.0}
@@ -81,7 +81,7 @@ def read_3mf(path: str, limits: Limits = DEFAULT_LIMITS) -> tuple[list[Placed], 
     except (KeyError, ValueError, IndexError, OverflowError) as error:
         raise FileError("threemf_damaged", error="{}: {}".format(type(error).__name__, error)) from error
     except OSError as error:
-        raise FileError("file_unreadable", error=error.strerror or str(error)) from error
+        raise FileError("file_unreadable", error=system_reason(error)) from error
 
 
 class _Package:

@@ -15,7 +15,7 @@ from collections.abc import Iterable, Iterator
 from contextlib import suppress
 from pathlib import Path
 
-from ...core.verdict.finding import QueryError
+from ...core.verdict.finding import QueryError, system_reason
 
 SCHEMA = "body-moments-manifest/1"
 SUFFIXES = (
@@ -87,7 +87,7 @@ def read(path: Path) -> list[str]:
         if len(names) != lines[0]["files"] or not all(isinstance(name, str) for name in names):
             raise ValueError(path)
     except OSError as error:
-        raise QueryError("manifest_unreadable", file=str(path), error=error.strerror or str(error)) from error
+        raise QueryError("manifest_unreadable", file=str(path), error=system_reason(error)) from error
     except (ValueError, KeyError, TypeError, IndexError, RecursionError) as error:
         raise QueryError("manifest_malformed", file=str(path)) from error
     folder = "" if path.parent == Path() else path.parent

@@ -10,7 +10,7 @@ import numpy as np
 from bpy.props import BoolProperty, StringProperty
 from bpy.types import Context, Event, Operator
 
-from ....core.verdict.finding import FileError, MeasureError, finding
+from ....core.verdict.finding import FileError, MeasureError, finding, system_reason
 from ...bodies.assembly import MemberBody
 from ...bodies.given import properties_of
 from ...write import reports
@@ -90,7 +90,7 @@ class OBJECT_OT_body_moments_export_bill(Operator):
                 with whole_file(path) as file:
                     file.write(bill_csv(rows).encode())
             except OSError as error:
-                raise FileError("file_not_written", error=error.strerror or str(error)) from error
+                raise FileError("file_not_written", error=system_reason(error)) from error
         except MeasureError as error:
             selection.report(self, reports.refusal(error))
             return {"CANCELLED"}

@@ -11,7 +11,7 @@ from bpy.props import BoolProperty, StringProperty
 from bpy.types import Context, Menu, Operator
 from bpy_extras.io_utils import ImportHelper
 
-from ....core.verdict.finding import FileError, Finding, MeasureError, Severity, finding
+from ....core.verdict.finding import FileError, Finding, MeasureError, Severity, finding, system_reason
 from ...bodies.audit import Audit, Auditor
 from ...read.robots.descriptions import SUFFIXES, read_description
 from ...read.robots.paths import Roots
@@ -84,7 +84,7 @@ def _write(path: Path, data: bytes) -> None:
         with whole_file(path) as file:
             file.write(data)
     except OSError as error:
-        raise FileError("audit_not_written", error=error.strerror or str(error)) from error
+        raise FileError("audit_not_written", error=system_reason(error)) from error
 
 
 def _menu(menu: Menu, _context: Context) -> None:

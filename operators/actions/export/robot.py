@@ -15,7 +15,7 @@ from bpy.props import BoolProperty, EnumProperty, StringProperty
 from bpy.types import Context, FileHandler, Menu, Object, Operator, UILayout
 from bpy_extras.io_utils import ExportHelper
 
-from ....core.verdict.finding import EditRefusedError, FileError, Finding, MeasureError, finding
+from ....core.verdict.finding import EditRefusedError, FileError, Finding, MeasureError, finding, system_reason
 from ...read.links import USD_ROOT, sheared_objects, usd_path
 from ...session import robot_links as scenes
 from ...session.robot_links import SceneLinks, meters_per_unit
@@ -45,9 +45,9 @@ GEOMETRY = (
 
 
 class RobotExport(ExportHelper):
-    """What the exporters share. FORMAT: of `WRITERS`, or "gltf"."""
+    """What the exporters share. FORMAT: of `WRITERS`, or "gltf". WRITES_MESHES: whether beside the file."""
 
-    FORMAT = ""
+    FORMAT, WRITES_MESHES = "", True
     bl_options = {"REGISTER", "PRESET"}
 
     use_selection: BoolProperty(
@@ -77,7 +77,7 @@ class RobotExport(ExportHelper):
             selection.report(self, reports.refusal(error))
             return {"CANCELLED"}
         except OSError as error:
-            selection.report(self, finding("robot_not_written", error=error.strerror or str(error)))
+            selection.report(self, finding("robot_not_written", error=system_reason(error)))
             return {"CANCELLED"}
         selection.report(self, *findings)
         return {"FINISHED"}
@@ -120,7 +120,7 @@ class RobotExport(ExportHelper):
         column = layout.column()
         column.enabled = not self.inertial_only
         column.prop(self, "geometry")
-        if self.geometry == "MESH":
+        if self.geometry == "MESH" and self.WRITES_MESHES:
             column.prop(self, "write_meshes")
 
 
@@ -157,6 +157,8 @@ class EXPORT_SCENE_OT_body_moments_mjcf(RobotExport, Operator):
 class GeometryExport(RobotExport):
     """Of those that leave the geometry of objects to Blender's own exporter; all else is a file of our own."""
 
+    WRITES_MESHES = False
+
     def _export(self, context: Context, objects: list[Object], path: Path) -> list[Finding]:
         if self.links != "OBJECT" or self.geometry != "MESH" or self.inertial_only:
             return super()._export(context, objects, path)
@@ -180,13 +182,6 @@ class GeometryExport(RobotExport):
             raise FileError("robot_geometry_not_written", error=" ".join(str(error).split())) from error
         if "FINISHED" not in result or not path.is_file():
             raise FileError("robot_geometry_not_written", error=exporter)
-
-    def _draw_options(self, layout: UILayout) -> None:
-        layout.prop(self, "links")
-        layout.prop(self, "inertial_only")
-        column = layout.column()
-        column.enabled = not self.inertial_only
-        column.prop(self, "geometry")
 
 
 class EXPORT_SCENE_OT_body_moments_usd(GeometryExport, Operator):

@@ -25,7 +25,7 @@ from ....core.scans.formats import SUFFIXES, read_scan, sample_matrix, scan_suff
 from ....core.scans.numpy_files import TYPES, read_raw
 from ....core.scans.positions import Positions, place_samples, read_all_positions
 from ....core.scans.scan import Scan
-from ....core.verdict.finding import FileError, Finding, MeasureError, finding
+from ....core.verdict.finding import FileError, Finding, MeasureError, finding, system_reason
 from ...read.vdb import openvdb
 from ...settings.grid import positions_text
 from ...settings.limits import scan_limits
@@ -167,14 +167,14 @@ class OBJECT_OT_body_moments_import_scan(Operator, ImportHelper):
                 return read_raw(path, self.raw_shape, self.raw_type, self.raw_big_endian, limits)
             return read_scan(path, limits)
         except OSError as error:
-            raise FileError("file_unreadable", error=error.strerror or str(error)) from error
+            raise FileError("file_unreadable", error=system_reason(error)) from error
 
 
 def _read_positions(files: dict[str, str], scan: Scan) -> Positions:
     try:
         return read_all_positions(files, scan.samples.shape)
     except OSError as error:
-        raise FileError("file_unreadable", error=error.strerror or str(error)) from error
+        raise FileError("file_unreadable", error=system_reason(error)) from error
 
 
 def _write(module: ModuleType, target: Path, scan: Scan, matrix: NDArray) -> float:

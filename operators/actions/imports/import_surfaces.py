@@ -13,7 +13,7 @@ from bpy_extras.io_utils import ImportHelper
 
 from ....core.cad.surface_file import SUFFIXES, read_surfaces
 from ....core.numerics.float32 import shortest_decimal
-from ....core.verdict.finding import FileError, Finding, MeasureError, finding
+from ....core.verdict.finding import FileError, Finding, MeasureError, finding, system_reason
 from ...scene.surface_objects import import_bodies
 from ...settings.limits import scan_limits
 from ...write import reports
@@ -81,7 +81,7 @@ class OBJECT_OT_body_moments_import_surfaces(Operator, ImportHelper):
         try:
             file = read_surfaces(path, scan_limits())
         except OSError as error:
-            raise FileError("file_unreadable", error=error.strerror or str(error)) from error
+            raise FileError("file_unreadable", error=system_reason(error)) from error
         scale = shortest_decimal(context.scene.unit_settings.scale_length)
         unit = shortest_decimal(self.unit) if file.unit is None else file.unit
         made = import_bodies(file.bodies, context.collection, unit / scale)

@@ -14,7 +14,7 @@ from bpy.types import Context, Event, Operator
 
 from ....core.fourier.wave_vectors import FrequencyGrid
 from ....core.numerics.float32 import shortest_decimal
-from ....core.verdict.finding import FileError, MeasureError, finding
+from ....core.verdict.finding import FileError, MeasureError, finding, system_reason
 from ...bodies.flat_fourier import FlatTransform, flat_transform
 from ...bodies.fourier import ObjectTransform, object_transform
 from ...bodies.measure_object import THREADS
@@ -182,7 +182,7 @@ class OBJECT_OT_body_moments_fourier_run(ModalSteps, _Settings, Operator):
         try:
             spectrum.save(self._path, transform, self.frame.lower(), plane=self._work.arrays)
         except OSError as error:
-            raise FileError("fourier_not_written", error=error.strerror or str(error)) from error
+            raise FileError("fourier_not_written", error=system_reason(error)) from error
         name = "Fourier Transform of {:s}".format(self._work.name)
         image = spectrum.picture(name, transform.values, self.count, self._dimension)
         for area in context.screen.areas if context.screen else ():

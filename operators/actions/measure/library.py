@@ -13,7 +13,7 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, StringProperty
 from bpy.types import Context, Event, Operator
 
-from ....core.verdict.finding import MeasureError, finding
+from ....core.verdict.finding import MeasureError, finding, system_reason
 from ...supervisor import listing
 from ...supervisor.journal import Journal
 from ...supervisor.whole_run import WholeRun
@@ -85,7 +85,7 @@ class OBJECT_OT_body_moments_measure_library(ModalSteps, Operator):
             reports.report(self, refusal.finding)
             return {"CANCELLED"}
         except OSError as error:
-            reports.report(self, finding("library_not_started", error=error.strerror or str(error)))
+            reports.report(self, finding("library_not_started", error=system_reason(error)))
             return {"CANCELLED"}
         if bpy.app.background or context.window is None:
             return self.run_all_steps(context, count)

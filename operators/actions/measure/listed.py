@@ -10,7 +10,7 @@ import bpy
 from bpy.props import BoolProperty, IntProperty, StringProperty
 from bpy.types import Context, Event, Operator, Scene
 
-from ....core.verdict.finding import FileError, MeasureError, finding
+from ....core.verdict.finding import FileError, MeasureError, finding, system_reason
 from ...write import reports
 from ...write.documents import FORMATS
 from ...write.whole_file import whole_file
@@ -79,7 +79,7 @@ class OBJECT_OT_body_moments_save_numbers(Operator):
                     for piece in FORMATS[SUFFIXES[path.suffix.lower()]]([document]):
                         file.write(piece.encode())
             except OSError as error:
-                raise FileError("file_not_written", error=error.strerror or str(error)) from error
+                raise FileError("file_not_written", error=system_reason(error)) from error
         except MeasureError as error:
             selection.report(self, reports.refusal(error))
             return {"CANCELLED"}

@@ -20,7 +20,7 @@ from bpy.types import Context, Event, Object, Operator, PropertyGroup, Scene
 from ....core.shape.library import UNDECIDED_HANDEDNESS, Entry, Similarity, classify, rank, read_library
 from ....core.shape.registration import MAX_FIT_RTOL, RigidMatch
 from ....core.shape.signature import Likeness, Signature, similarity
-from ....core.verdict.finding import FileError, Finding, MeasureError, finding
+from ....core.verdict.finding import FileError, Finding, MeasureError, finding, system_reason
 from ...bodies.flat_shape import FlatShape, comparable_shape_of, distance_from
 from ...bodies.shape import register_surfaces
 from ...read import measurable_objects
@@ -261,7 +261,7 @@ def _read(path: Path) -> tuple[list[Entry], list[Finding]]:
     try:
         return read_library(path)
     except OSError as error:
-        raise FileError("library_file_unreadable", file=path.name, error=error.strerror or str(error)) from error
+        raise FileError("library_file_unreadable", file=path.name, error=system_reason(error)) from error
 
 
 def _is_mirror_image(match: RigidMatch, size: float) -> bool | None:

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from ....core.verdict.finding import FileError
+from ....core.verdict.finding import FileError, system_reason
 from .fbx import check_fbx
 from .gltf import Buffers, check_gltf, unquote
 from .numbers import MAX_FLOAT32, Data, mapped
@@ -30,7 +30,7 @@ def check_numbers(path: str, kind: str) -> None:
     try:
         data = mapped(path)
     except OSError as error:
-        raise FileError("file_unreadable", error=error.strerror or str(error)) from error
+        raise FileError("file_unreadable", error=system_reason(error)) from error
     check(data, path)
 
 

@@ -8,7 +8,7 @@ import stat
 from pathlib import Path
 
 from ....core.robots.stated import Description
-from ....core.verdict.finding import FileError
+from ....core.verdict.finding import FileError, system_reason
 from . import mjcf, sdf, urdf, usda
 from .limits import MAX_DESCRIPTION, MAX_LINKS
 from .paths import Roots
@@ -54,7 +54,7 @@ def _bytes(path: Path) -> bytes:
     except FileNotFoundError as error:
         raise FileError("file_missing") from error
     except OSError as error:
-        raise FileError("file_unreadable", error=error.strerror or str(error)) from error
+        raise FileError("file_unreadable", error=system_reason(error)) from error
     if len(data) > MAX_DESCRIPTION:
         raise FileError("description_too_large", limit=MAX_DESCRIPTION >> 20)
     return data

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from ....core.mesh.surface import Surface
 from ....core.numerics.rotations import rotation_matrix
-from ....core.verdict.finding import FileError
+from ....core.verdict.finding import FileError, system_reason
 from .dae import read_dae
 from .limits import MAX_MESH, MAX_TRIANGLES
 from .usda import fan
@@ -42,7 +42,7 @@ def read_mesh(path: Path) -> tuple[Surface, NDArray[np.float64] | None]:
         with open(path, "rb") as file:
             data = file.read(MAX_MESH + 1)
     except OSError as error:
-        raise FileError("mesh_damaged", name=path.name, error=error.strerror or str(error)) from error
+        raise FileError("mesh_damaged", name=path.name, error=system_reason(error)) from error
     if len(data) > MAX_MESH:
         raise FileError("mesh_too_large", name=path.name)
     try:
