@@ -86,7 +86,8 @@ class IgesText:
 
 def _lines(text: str) -> list[str]:
     """Lines of 80 columns, with or without line breaks between them."""
-    lines = text.splitlines() if re.search(r"[\r\n]", text[: LINE + 2]) else _cut(text)
+    # Not splitlines: of Latin-1 it also cuts at \x85, which is half of an “Å” in UTF-8.
+    lines = re.split(r"\r\n|\r|\n", text) if re.search(r"[\r\n]", text[: LINE + 2]) else _cut(text)
     return [line for line in lines if line.strip("\0 \x1a")]
 
 
@@ -181,7 +182,7 @@ def _integer(word: str) -> int:
 
 def integers(fields: list[str], count: int) -> list[int]:
     """The first fields. ValueError where they are fewer, or not whole numbers."""
-    if len(fields) < count:
+    if not 0 <= count <= len(fields):
         raise ValueError("too few parameters")
     return [_integer(word) for word in fields[:count]]
 

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from ..nurbs.patch import Patch
 from ..verdict.finding import FileError
-from .surfaces import MAX_SURFACES, Refusals, SurfaceBody, SurfaceFile, SurfaceRefusedError, blender_patches
+from .surfaces import MAX_ORDER, MAX_SURFACES, Refusals, SurfaceBody, SurfaceFile, SurfaceRefusedError, blender_patches
 
 KIND = "surf"
 TRIMS = {"trim", "hole"}
@@ -104,13 +104,13 @@ class _Reader:
     def _statements(self) -> Iterator[tuple[str, list[str]]]:
         """Those that matter here, continued lines as one."""
         with open(self._path, encoding="utf-8", errors="replace") as file:
-            before = ""
+            before: list[str] = []
             for line in file:
-                line = before + line.rstrip("\r\n")
+                line = line.rstrip("\r\n")
                 if line.endswith("\\"):
-                    before = line[:-1] + " "
+                    before.append(line[:-1])
                     continue
-                before = ""
+                line, before = " ".join([*before, line]), []
                 word, *_ = line.split(None, 1) or [""]
                 if word in _WANTED:
                     yield word, line.partition("#")[0].split()[1:]
@@ -142,6 +142,8 @@ def _patches(element: _Element, points: NDArray, weights: NDArray) -> list[Patch
     degrees = [int(word) for word in element.degrees]
     if len(degrees) != 2 or min(degrees) < 1:
         raise ValueError("degrees")
+    if max(degrees) >= MAX_ORDER:  # before knots are repeated so often
+        raise SurfaceRefusedError("surface_order", order=max(degrees) + 1, limit=MAX_ORDER)
     part = [_number(word) for word in element.words[:4]]
     used = _indices(element.words[4:], element.vertices)
     knots = [[_number(word) for word in element.knots.get(name, [])] for name in "uv"]

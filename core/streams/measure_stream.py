@@ -18,7 +18,6 @@ from ..polyhedron.third_order import box_center
 from ..verdict.finding import FileError
 from .mesh_file import MeshFile
 
-MIN_REACH = 1e-300  # of a body that is a point
 MAX_REACH_RATIO = 2.0  # how much farther a body may reach than the faces that were looked at first
 
 
@@ -107,7 +106,7 @@ def measure_stream(
                 order,
                 area_order=area_order,
                 about=stream.center,
-                reach=stream.reach,
+                reach=stream.reach or 1.0,  # of a point
                 allow_open=True,
                 threads=threads,
             )
@@ -127,8 +126,9 @@ class _Stream:
     """The faces of a file on their way to the integral. progress: called with the faces of each piece."""
 
     def __init__(self, mesh: MeshFile, low: NDArray, high: NDArray, progress: Callable[[int], None] | None) -> None:
-        self.center = box_center(low, high, np.dtype(np.float32))
-        self.reach = max(float(np.maximum(high - self.center, self.center - low).max()), MIN_REACH)
+        large = max(np.abs(low).max(), np.abs(high).max()) > np.finfo(np.float32).max
+        self.center = box_center(low, high, np.dtype(np.float64 if large else np.float32))
+        self.reach = float(np.maximum(high - self.center, self.center - low).max())
         self.boundary, self.face_count = BoundarySum(), 0
         self._mesh, self._progress = mesh, progress
 

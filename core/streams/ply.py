@@ -58,10 +58,12 @@ class PlyFile:
             corners = columns[self._column]
             if corners.ndim != 2 or corners.shape[1] < 3 or not len(corners):
                 continue
+            given = corners
             with np.errstate(invalid="ignore"):  # of a text's NaN
                 corners = np.ascontiguousarray(corners, np.int32 if corners.dtype == np.int32 else np.int64)
             first, last = int(corners.min()), int(corners.max()) + 1
-            if not 0 <= first < last <= len(self._points):
+            whole = given.dtype.kind != "f" or np.array_equal(corners, given)
+            if not whole or not 0 <= first < last <= len(self._points):
                 raise self._damaged("damage_ply_index", vertices=len(self._points))
             yield self._piece(corners, first, last)
 
@@ -86,7 +88,7 @@ class PlyFile:
 
     def _read_points(self) -> NDArray[np.floating]:
         """(n, 3) float32 where the file has them as such or as text, else float64."""
-        vertices = next(element for element in self._header.elements if element.name == "vertex")
+        (vertices, *_) = (element for element in self._header.elements if element.name == "vertex")
         columns = [vertices.index(axis) for axis in "xyz"]
         kinds = {vertices.properties[column].type for column in columns}
         exact = self._header.order and kinds != {"f4"}

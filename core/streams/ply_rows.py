@@ -39,7 +39,7 @@ class RowReader:
 
     def rows(self, element: Element) -> Iterator[Block]:
         """Yield the rows of the next element, all of which must be taken."""
-        left = element.rows
+        left = element.rows if element.properties else 0
         while left:
             lengths = self._lengths(element.properties)
             row = self._row_type(element.properties, lengths)

@@ -26,6 +26,7 @@ TRIANGLES_PER_BLOCK, TRIANGLES_IN_CACHE = 1 << 17, 1 << 13
 SAMPLES = 1000  # triangles that show where the body is
 TEXT_PER_BLOCK = 1 << 22  # bytes
 TEXT_PER_TRIANGLE = 250  # bytes, about
+MAX_WAITING = 1 << 23  # bytes of a text without the end of a triangle: beyond that it is none
 SOLID_LINE = re.compile(rb"^[ \t]*(?:end)?solid\b[^\n]*$", re.IGNORECASE | re.MULTILINE)
 FACET_END = re.compile(rb"\bendfacet\b", re.IGNORECASE)
 # facet normal x y z outer loop vertex x y z vertex x y z vertex x y z endloop endfacet
@@ -86,6 +87,8 @@ class StlFile:
         while chunk := file.read(TEXT_PER_BLOCK):
             waiting += chunk
             ends = [match.end() for match in FACET_END.finditer(waiting)]
+            if not ends and len(waiting) > MAX_WAITING:
+                raise self._damaged(done)
             if not ends:
                 continue
             corners = self._parse(waiting[: ends[-1]], done)

@@ -7,6 +7,7 @@ from __future__ import annotations
 import argparse
 import json
 import zipfile
+import zlib
 from math import comb
 from pathlib import Path
 from typing import Any
@@ -92,13 +93,17 @@ def _as_record(moments: SimplexMoments) -> dict[str, dict[str, float]]:
 
 def _read(path: Path) -> tuple[NDArray[np.float64], NDArray[np.integer], NDArray | None]:
     try:
-        with np.load(path, allow_pickle=False) as archive:
-            if not isinstance(archive, np.lib.npyio.NpzFile):
-                raise ValueError
-            points, simplices = archive["points"], archive["simplices"]
-            signs = archive["signs"] if "signs" in archive.files else None
-    except (ValueError, KeyError, EOFError, zipfile.BadZipFile) as error:
+        archive = np.load(path, allow_pickle=False)
+        if not isinstance(archive, np.lib.npyio.NpzFile):
+            raise ValueError("one array")
+        with archive:
+            names = ["points", "simplices", *(["signs"] if "signs" in archive.files else [])]
+            arrays = [archive[name] for name in names]
+        if not all(isinstance(array, np.ndarray) for array in arrays):  # else bytes: of no .npy
+            raise ValueError("no arrays")
+    except (ValueError, KeyError, EOFError, MemoryError, NotImplementedError, zipfile.BadZipFile, zlib.error) as error:
         raise FileError("simplex_arrays") from error
+    points, simplices, signs = (*arrays, None)[:3]
     dimension = points.shape[1] if points.ndim == 2 else 0
     if points.dtype.kind not in "iuf" or not 1 <= dimension <= MAX_DIMENSION or not np.isfinite(points).all():
         raise FileError("simplex_points", limit=MAX_DIMENSION)

@@ -2,9 +2,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """`simplex`: moments in n dimensions, against fractions."""
 
+import io
 import itertools
 import json
 import math
+import zipfile
 from fractions import Fraction
 
 import numpy as np
@@ -83,3 +85,22 @@ def test_wrong_files_and_options_are_said(tmp_path, capfd):
     assert batch.main(["simplex", str(tmp_path / "a.npz"), "--about", "1,2"], channel=1) == 1
     for words in (["--order", "31"], ["--about", "1,x"], []):
         assert batch.main(["simplex", *([str(tmp_path / "a.npz")] if words else []), *words], channel=1) == 2
+
+
+def test_archives_of_other_things_are_said(tmp_path, capfd):
+    path = tmp_path / "a.npz"
+    with open(path, "wb") as file:
+        np.save(file, np.eye(3))  # one array, called like an archive
+    plain = path.read_bytes()
+    np.savez_compressed(path, points=np.random.default_rng(0).random((1000, 3)), simplices=[[0, 1, 2]])
+    broken = bytearray(path.read_bytes())
+    broken[3000:3100] = b"\xff" * 100
+    texts = io.BytesIO()
+    with zipfile.ZipFile(texts, "w") as archive:
+        archive.writestr("points", b"no array")
+        archive.writestr("simplices", b"none either")
+    for data in (plain, bytes(broken), texts.getvalue()):
+        path.write_bytes(data)
+        assert batch.main(["simplex", str(path)], channel=1) == 1
+        said = capfd.readouterr()
+        assert not said.out and "a.npz" in said.err

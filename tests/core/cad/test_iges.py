@@ -365,3 +365,18 @@ def test_damaged_files_are_refused_or_read_and_nothing_else(tmp_path):
             assert error.reason
         else:
             assert all(np.isfinite(patch.points).all() for body in read.bodies for patch in body.patches)
+
+
+def test_a_letter_that_latin_1_takes_for_a_line_break_breaks_none(tmp_path):
+    file = IgesFile()
+    file.surface(unrolled(sphere()), label="A\x85B\x0c")
+    assert close(volume(read_surfaces(file.write(tmp_path / "a.igs"))).total, BALL, 1e-14)
+
+
+def test_a_negative_number_of_members_is_damage(tmp_path):
+    file = IgesFile()
+    ball = file.surface(unrolled(sphere()), status="00010000")
+    two = file.add(308, [0, "3HTwo", -1, ball, ball], status="00000200")
+    file.add(408, [two, 0.0, 0.0, 0.0, 1.0])
+    file.surface(unrolled(sphere()))
+    assert "surface_damaged" in refused(read_surfaces(file.write(tmp_path / "a.igs")))

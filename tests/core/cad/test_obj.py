@@ -3,6 +3,7 @@
 """Free-form surfaces of .obj files: B-splines and Bézier patches, and what is refused."""
 
 import random
+import time
 
 import numpy as np
 import pytest
@@ -145,3 +146,17 @@ def test_damaged_files_are_refused_or_read_and_nothing_else(tmp_path):
             assert error.reason
         else:
             assert all(np.isfinite(patch.points).all() for body in found.bodies for patch in body.patches)
+
+
+@pytest.mark.parametrize("kind", ["bezier", "bspline"])
+def test_a_degree_beyond_all_memory_is_refused(tmp_path, kind):
+    text = "v 0 0 0\ncstype {}\ndeg 1000000000000 1\nsurf 0 1 0 1 1\nparm u 0 1\nparm v 0 1\nend\n".format(kind)
+    assert cause(tmp_path, text) == "surface_order"
+
+
+def test_a_statement_of_many_lines_is_read_in_time(tmp_path):
+    path = tmp_path / "a.obj"
+    path.write_text(BALL_TEXT.replace("parm u", "parm u " + "\\\n" * 400_000, 1))
+    start = time.process_time()
+    assert read_surfaces(path).bodies
+    assert time.process_time() - start < 2.0  # it took five and more, with the square of the number

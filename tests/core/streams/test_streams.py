@@ -218,3 +218,55 @@ def test_progress_counts_faces(tmp_path, small_blocks, monkeypatch):
         seen.clear()
         measured(tmp_path, name, make(part), progress=seen.append)
         assert sum(seen) == len(part[1]) and len(seen) > 5
+
+
+def ply_text(elements, rows):
+    return "ply\nformat ascii 1.0\n{}end_header\n{}".format(elements, rows).encode()
+
+
+VERTICES = "element vertex 4\nproperty double x\nproperty double y\nproperty double z\n"
+FACES = "element face 4\nproperty list uchar int vertex_indices\n"
+TETRAHEDRON = "0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n"
+
+
+def test_a_ply_without_vertices_or_with_indices_between_them_is_refused(tmp_path):
+    with refused("file_damaged"):
+        measured(tmp_path, "a.ply", ply_text(FACES, TETRAHEDRON))
+    with refused("file_damaged"):
+        measured(tmp_path, "a.ply", ply_text(VERTICES + FACES, TETRAHEDRON.replace("3 1 2 3", "3 1.5 2 3")))
+
+
+def test_elements_without_properties_take_nothing(tmp_path):
+    empty = "element nothing 1000000000000\n"
+    assert measured(tmp_path, "a.ply", ply_text(empty + VERTICES + FACES, TETRAHEDRON)).closed
+
+
+@pytest.mark.parametrize("order", [3, 4])
+def test_coordinates_beyond_float32(tmp_path, order):
+    points, faces = box()
+    found = measured(tmp_path, "a.ply", ply(points * 1e39, faces, kind="f8"), order)
+    assert found.closed and close(found.volume.total / 1e117, in_memory((points, faces), 3, None)[0].total, rel=1e-12)
+
+
+def test_moments_beyond_all_numbers_are_refused(tmp_path):
+    points, faces = box()
+    with refused("moments_overflow"):
+        measured(tmp_path, "a.ply", ply(points * 1e120, faces, kind="f8"))
+
+
+@pytest.mark.parametrize("order", [3, 5, 20])
+def test_a_body_that_is_a_point_has_no_volume(tmp_path, order):
+    found = measured(tmp_path, "a.stl", stl((np.full((3, 3), 0.1), np.array([[0, 1, 2]]))), order, order)
+    assert found.volume.total == 0.0 == found.area.total
+
+
+def test_a_file_that_starts_as_a_text_and_is_none_is_not_read_to_its_end(tmp_path, monkeypatch):
+    monkeypatch.setattr(stl_module, "TEXT_PER_BLOCK", 700)
+    monkeypatch.setattr(stl_module, "MAX_WAITING", 2000)
+    sizes = []
+    search = stl_module.FACET_END
+    spy = type("Spy", (), {"finditer": lambda _, text: sizes.append(len(text)) or search.finditer(text)})
+    monkeypatch.setattr(stl_module, "FACET_END", spy())
+    with refused("file_damaged"):
+        measured(tmp_path, "a.stl", b"solid" + bytes(100_000))
+    assert max(sizes) <= 2700
