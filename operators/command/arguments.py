@@ -52,7 +52,7 @@ def parse(argv: list[str], file_needed: bool = False) -> argparse.Namespace:
     Raises SystemExit(2) with a message on the standard error, or SystemExit(0) after --help.
     """
     parser = _parser()
-    options = parser.parse_intermixed_args(_join_negative_values(argv))
+    options = parser.parse_intermixed_args(join_negative_values(argv))
     has_files = bool(options.files or options.manifest)
     if file_needed and not has_files:
         fail(finding("usage_file_needed"))
@@ -133,7 +133,7 @@ def _check_fourier(options: argparse.Namespace) -> None:
             fail(finding("usage_path_twice", path=str(first)))
 
 
-def _join_negative_values(argv: list[str]) -> list[str]:
+def join_negative_values(argv: list[str]) -> list[str]:
     """With `--origin -1,2,3` as `--origin=-1,2,3`: the parser would take what begins with a minus for an option."""
     joined: list[str] = []
     for word in argv:

@@ -17,9 +17,10 @@ from numpy.typing import NDArray
 
 from ...core.polyhedron import SimplexMoments, enclosed_moments, facet_moments, facets_of
 from ...core.polyhedron.n_dimensions import multi_indices
-from ...core.polyhedron.simplices import closes
+from ...core.polyhedron.simplices import closes, outer_facets
 from ...core.verdict.finding import FileError, QueryError, finding, system_reason
 from . import option_types as types
+from .arguments import join_negative_values
 from .parser import Parser
 
 MAX_DIMENSION = 12
@@ -29,7 +30,8 @@ _EPILOG = """\
 FILE.npz has `points`, m rows of n coordinates, and `simplices`, rows of numbers of points from 0 on: n + 1 of them are
 a full simplex (a triangle in the plane, a tetrahedron in space), n a facet of the boundary, outward where the
 determinant of its corners is positive for a body around the origin: edges counter-clockwise in the plane, triangles
-counter-clockwise from outside in space. Optional are `signs`, 1 or -1 for each facet.
+counter-clockwise from outside in space. Optional are `signs`, 1 or -1 for each row: with -1 it is turned, or its full
+simplex taken away.
 exit code: 0 measured, 1 the file cannot be measured, 2 wrong usage, 3 interrupted, 70 a fault of the program"""
 
 
@@ -49,7 +51,7 @@ def parse(argv: list[str]) -> argparse.Namespace:
     add("--order", type=types.order, default=2, metavar="N", help="all |α| up to this (2)")
     add("--about", type=_point, metavar="X,Y,...", help="the point that they are about (the origin)")
     add("--boundary", action="store_true", help="add the moments of the boundary itself: length, area, …")
-    return parser.parse_intermixed_args(argv)
+    return parser.parse_intermixed_args(join_negative_values(argv))
 
 
 def answer(options: argparse.Namespace) -> str:
@@ -63,7 +65,8 @@ def answer(options: argparse.Namespace) -> str:
         raise QueryError("simplex_point", count=len(about), dimension=dimension)
     facets = simplices
     if simplices.shape[1] == dimension + 1:
-        facets, signs = facets_of(points, simplices)
+        facets, turned = facets_of(points, simplices)
+        signs = turned if signs is None else turned * np.tile(signs, dimension + 1)
     record: dict[str, Any] = {
         "schema": "body-moments-simplex/1",
         "file": str(options.file),
@@ -75,7 +78,8 @@ def answer(options: argparse.Namespace) -> str:
         **_as_record(enclosed_moments(points, facets, options.order, about, signs)),
     }
     if options.boundary:
-        record["boundary"] = _as_record(facet_moments(points, facets, options.order, about))
+        outer = facets if facets is simplices else outer_facets(points, facets, signs)
+        record["boundary"] = _as_record(facet_moments(points, outer, options.order, about))
     return json.dumps(record, indent=1, allow_nan=False) + "\n"
 
 
@@ -101,7 +105,7 @@ def _read(path: Path) -> tuple[NDArray[np.float64], NDArray[np.integer], NDArray
             arrays = [archive[name] for name in names]
         if not all(isinstance(array, np.ndarray) for array in arrays):  # else bytes: of no .npy
             raise ValueError("no arrays")
-    except (ValueError, KeyError, EOFError, MemoryError, NotImplementedError, zipfile.BadZipFile, zlib.error) as error:
+    except (ValueError, KeyError, EOFError, MemoryError, RuntimeError, zipfile.BadZipFile, zlib.error) as error:
         raise FileError("simplex_arrays") from error
     points, simplices, signs = (*arrays, None)[:3]
     dimension = points.shape[1] if points.ndim == 2 else 0

@@ -87,20 +87,38 @@ def test_wrong_files_and_options_are_said(tmp_path, capfd):
         assert batch.main(["simplex", *([str(tmp_path / "a.npz")] if words else []), *words], channel=1) == 2
 
 
-def test_archives_of_other_things_are_said(tmp_path, capfd):
-    path = tmp_path / "a.npz"
-    with open(path, "wb") as file:
-        np.save(file, np.eye(3))  # one array, called like an archive
-    plain = path.read_bytes()
-    np.savez_compressed(path, points=np.random.default_rng(0).random((1000, 3)), simplices=[[0, 1, 2]])
-    broken = bytearray(path.read_bytes())
-    broken[3000:3100] = b"\xff" * 100
-    texts = io.BytesIO()
-    with zipfile.ZipFile(texts, "w") as archive:
-        archive.writestr("points", b"no array")
-        archive.writestr("simplices", b"none either")
-    for data in (plain, bytes(broken), texts.getvalue()):
+def test_the_boundary_of_full_simplices_is_what_is_outside(tmp_path):
+    square = np.array([[0, 0], [1, 0], [1, 1], [0, 1]], float)
+    for simplices in ([[0, 1, 2], [0, 2, 3]], [[0, 1, 2], [0, 3, 2]]):
+        np.savez(tmp_path / "a.npz", points=square, simplices=simplices)
+        record = answered(tmp_path / "a.npz", "--boundary")[1]
+        assert record["boundary"]["moments"]["0,0"] == pytest.approx(4.0, rel=1e-14)
+    np.savez(tmp_path / "a.npz", points=square, simplices=[[0, 1, 2], [0, 3, 2]], signs=[1, -1])
+    assert abs(answered(tmp_path / "a.npz")[1]["moments"]["0,0"]) < 1e-14
+    assert answered(tmp_path / "a.npz", "--about", "-1,-2")[1]["about"] == [-1, -2]
+
+
+def test_archives_that_are_damaged_or_something_else_are_said(tmp_path, capfd):
+    path, rng = tmp_path / "a.npz", np.random.default_rng(0)
+    np.savez_compressed(path, points=rng.random((500, 3)), simplices=[[0, 1, 2]])
+    packed = bytearray(path.read_bytes())
+    packed[200:260] = b"\xff" * 60
+    np.savez(path, points=np.eye(3, 2), simplices=[[0, 1, 2]])
+    encrypted = bytearray(path.read_bytes())
+    for mark, flag in ((b"PK\x03\x04", 6), (b"PK\x01\x02", 8)):
+        for at in range(len(encrypted)):
+            if encrypted.startswith(mark, at):
+                encrypted[at + flag] |= 1
+    head, plain, text = io.BytesIO(), io.BytesIO(), io.BytesIO()
+    form = {"descr": "<f8", "fortran_order": False, "shape": (10**15, 3)}
+    np.lib.format.write_array_header_1_0(head, form)
+    huge = io.BytesIO()
+    for target, content in ((huge, head.getvalue()), (text, b"no array")):
+        with zipfile.ZipFile(target, "w") as archive:
+            for name in ("points", "simplices"):
+                archive.writestr(name + ".npy" * (target is huge), content)
+    np.save(plain, np.eye(3))
+    for data in (packed, encrypted, huge.getvalue(), text.getvalue(), plain.getvalue()):
         path.write_bytes(data)
         assert batch.main(["simplex", str(path)], channel=1) == 1
-        said = capfd.readouterr()
-        assert not said.out and "a.npz" in said.err
+        assert "a.npz" in capfd.readouterr().err
