@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator
 from typing import Any
 
 _SCALARS = ("mass", "volume", "area", "density", "length", "linear_density", "thickness")
-_DOMAINS = ("volume", "surface", "length", "mass")  # of moments
+_DOMAINS = ("volume", "surface", "length", "mass", "area")  # of moments
 _LINE = "{:<5} {}: {:<18} {:>12.6g} {:>12.6g}  difference {:.2e}, allowed {:.2e}"
 
 Matrix = list[list[float]]
@@ -57,9 +57,11 @@ def differences(
 
 
 def _bodies(document: dict[str, Any]) -> dict[str, dict[str, Any]]:
-    """The records of a document by their names: objects, assemblies, and bones with those of their armatures."""
+    """The records of a document by their names: objects, assemblies, and bones with those of their armatures, and
+    flat shapes."""
     found = {entry["name"]: entry for entry in document["objects"]}
     found |= {"assembly {}".format(entry["name"]): entry for entry in document.get("assemblies", ())}
+    found |= {"flat {}".format(entry["name"]): entry for entry in document.get("flat", ())}
     bones = document.get("bones", ())
     return found | {"bone {} of {}".format(entry["name"], entry["armature"]): entry for entry in bones}
 
@@ -68,10 +70,13 @@ def _numbers(
     label: str, first: dict[str, Any], second: dict[str, Any], tolerance: float, align: bool
 ) -> Iterator[tuple[str, bool]]:
     """A line for each number of an object that differs at all, and whether it passes."""
-    if align and not (first.get("pose") and second.get("pose")):
+    if "plane" in first:
+        values, others = (_flat_values(entry, align) for entry in (first, second))
+    elif align and not (first.get("pose") and second.get("pose")):
         yield "FAIL  {}: no pose to align by".format(label), False
         return
-    values, others = (_values(entry, align) for entry in (first, second))
+    else:
+        values, others = (_values(entry, align) for entry in (first, second))
     for name in dict.fromkeys((*values, *others)):
         (value, size, bound), (other, _, second_bound) = (of.get(name, (None, 0.0, 0.0)) for of in (values, others))
         if value is None or other is None:
@@ -112,6 +117,35 @@ def _values(entry: dict[str, Any], align: bool) -> dict[str, Number]:
     for number, value in enumerate(entry["principal_moments"]):
         found["principal_moments[{}]".format(number + 1)] = (value, largest, bound)
     return found
+
+
+def _flat_values(entry: dict[str, Any], align: bool) -> dict[str, Number]:
+    """Those of a flat shape. align: what does not change with where it lies."""
+    area, bounds = entry["area"], entry["error_bound"]
+    found: dict[str, Number] = {"area": (area, area, _flat_bound(bounds, "area"))}
+    for one in entry.get("invariants", ()):
+        size = math.hypot(one["real"], one["imaginary"])
+        for part in ("real", "imaginary"):
+            found["{} {}".format(one["name"], part)] = (one[part], size, one["error"] + one["input"])
+    if align:
+        return found
+    second = entry["second_moments"]
+    gyration = math.sqrt((second["xx"] + second["yy"]) / area)
+    bound = _flat_bound(bounds, "centroid")
+    found |= {"centroid[{}]".format(axis): (value, gyration, bound) for axis, value in zip("xyz", entry["centroid"])}
+    turned = found["area"][2] / area  # axes are not known better than that
+    for name in ("x", "y", "normal"):
+        found |= {
+            "plane.{}[{}]".format(name, axis): (value, 1.0, turned) for axis, value in zip("xyz", entry["plane"][name])
+        }
+    largest = max(map(abs, second.values()))
+    bound = _flat_bound(bounds, "second_moments")
+    found |= {"second_moments[{}]".format(name): (value, largest, bound) for name, value in second.items()}
+    return found | _moments(entry.get("moments") or {})
+
+
+def _flat_bound(bounds: dict[str, Any], name: str) -> float:
+    return (bounds.get(name) or 0.0) + (bounds["input"].get(name) or 0.0)
 
 
 def _tensor(name: str, rows: Matrix, bound: float) -> dict[str, Number]:

@@ -154,6 +154,7 @@ _LAST_COLUMNS = ("warnings", "error")  # notes and findings stand before them
 def _flat_columns(entry: dict[str, Any]) -> dict[str, Any]:
     """The record of a flat shape as one flat row."""
     row = {name: entry[name] for name in ("name", "type", "area")} | {"kind": "flat"}
+    row |= _nested("error_bound", entry["error_bound"])
     row |= {f"center_of_mass_{axis}": value for axis, value in zip("xyz", entry["centroid"], strict=True)}
     powers = entry.get("moments", {}).get("area", {})
     row |= {f"area_moment_{key.replace(',', '_')}": value for key, value in powers.items()}

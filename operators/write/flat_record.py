@@ -11,12 +11,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.moments.complex_moments import Invariant
-from ...core.moments.moments import Moments
+from ...core.moments.moments import Moments, U
+from ...core.moments.monomials import monomial_index
 from ...core.plane.region_moments import plane_positions
 from ...core.plane.section import Plane
 from ...core.polyhedron.n_dimensions import multi_indices
 from ...core.verdict.finding import Finding
 from .record import described, plain
+
+_FIRST, _SECOND = ((1, 0, 0), (0, 1, 0)), ((2, 0, 0), (0, 2, 0), (1, 1, 0))
+SHIFT_ROUNDINGS = 16.0  # u of the distance, from the plane to the frame
 
 
 def flat_record(
@@ -78,11 +82,21 @@ def flat_record(
             for one in invariants
         ]
     entry |= more or {}
-    entry["error_bound"] = {
-        "area": float(moments.rounding_error[0]),
-        "input": {"area": float(moments.input_error[0])},
-    }
+    rounding = _bounds(central, central.rounding_error, U * float(np.linalg.norm(centroid)))
+    entry["error_bound"] = {**rounding, "input": _bounds(central, central.input_error, 0.0)}
     return plain(entry) | described(findings)
+
+
+def _bounds(central: Moments, bounds: NDArray[np.float64], shift: float) -> dict[str, float]:
+    """Of the area, of each coordinate of the centroid and of each second moment. bounds: of the central moments."""
+    first, second = (
+        float(np.linalg.norm([bounds[monomial_index(*row)] for row in rows])) for rows in (_FIRST, _SECOND)
+    )
+    return {
+        "area": float(bounds[0]),
+        "centroid": first / abs(central.total) + SHIFT_ROUNDINGS * shift,
+        "second_moments": second,
+    }
 
 
 def _point(

@@ -10,6 +10,7 @@ import pytest
 pytest.importorskip("bpy")
 import bpy
 from body_moments.core.shape.library import read_library
+from body_moments.operators.command import compare
 from body_moments.operators.command.own_results import replaceable
 
 from tests.blender.batch_files import add_box, document
@@ -164,3 +165,38 @@ def test_the_operator_writes_a_file_and_a_picture_of_a_flat_shape(tmp_path):
         size = np.abs(found["F"]).reshape(32, 32)
         gray = 1.0 + np.log10(size / size.max()) / 6.0
         assert np.abs(pixels - gray.T).max() < 0.01  # x to the right, y upward
+
+
+def test_flat_shapes_are_compared():
+    """Each number that a record has, and none fails that stayed, or moved within its bounds."""
+    add_box()
+    flat = sheet(RECTANGLE, "Sheet", location=(1, 2, 3))
+
+    def differs(first, second, align=False):
+        lines, fails = compare.differences([first], [second], 0.0, align)
+        assert "2 bodies compared" in lines[-1]
+        return fails
+
+    first = document("--flat", "--order", "3", "--pose")
+    assert not differs(first, first) and not differs(first, first, align=True)
+    for number in (0, 1, 2):
+        flat.location[number] += 0.5
+        moved = document("--flat", "--order", "3", "--pose")
+        assert differs(first, moved) and not differs(first, moved, align=True)
+        flat.location[number] -= 0.5
+    flat.scale.x = 1.01
+    wider = document("--flat", "--order", "3", "--pose")
+    assert differs(first, wider) and differs(first, wider, align=True)
+    assert compare.differences([first], [{**first, "flat": []}], 0.0, False)[1]
+
+
+def test_centroid_and_second_moments_have_bounds():
+    sheet(RECTANGLE, location=(0.1, 1000.3, 0.7), rotation=(0.3, 0.2, 0.1))
+    for frame in ("world", "object"):
+        entry = shape("--frame", frame)
+        bounds = entry["error_bound"]
+        for given in (bounds, bounds["input"]):
+            assert all(0.0 < given[name] < 0.1 for name in ("area", "centroid", "second_moments"))
+        second, allowed = entry["second_moments"], bounds["second_moments"] + bounds["input"]["second_moments"]
+        trace = second["xx"] + second["yy"]
+        assert abs(trace - 6.5) <= 2.0 * allowed
