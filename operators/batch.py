@@ -127,11 +127,12 @@ def _similar(argv: list[str], channel: int, _file_needed: bool) -> int:
 
 def _audit(argv: list[str], channel: int, _file_needed: bool) -> int:
     """Check robot descriptions."""
-    from .command import audit, output
+    from .command import audit, output, own_results
 
     options = audit.parse(argv)
     text, faults, internal = audit.answer(options)
-    is_written = output.written([text], options.output, channel)
+    check = own_results.guard("output", options.output in options.forced)
+    is_written = output.written([text], options.output, channel, check)
     if internal:
         return INTERNAL_ERROR
     return SOME_FAILED if faults or not is_written else ALL_MEASURED

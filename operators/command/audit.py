@@ -18,6 +18,7 @@ from ..write.robots import audit_report
 from ..write.robots.repair import repaired_copy
 from ..write.terminal import print_message, visible
 from ..write.whole_file import whole_file
+from . import targets
 from .parser import Parser
 
 _EPILOG = """\
@@ -47,6 +48,7 @@ def parse(argv: list[str]) -> argparse.Namespace:
     formats = "{" + ",".join(audit_report.FORMATS) + "}"
     add("--format", choices=tuple(audit_report.FORMATS), default="json", metavar=formats, help="(json)")
     add("--output", type=Path, metavar="PATH", help="(standard output)")
+    add("--force", action="store_true", help="replace any file at --output and in --repair (only results)")
     options = parser.parse_intermixed_args(argv)
     if options.repair is not None:
         if not options.repair.is_dir():
@@ -54,6 +56,8 @@ def parse(argv: list[str]) -> argparse.Namespace:
         here = os.path.realpath(options.repair)
         if any(os.path.realpath(path.parent) == here for path in options.files):
             parser.error(str(finding("usage_repair_same", path=str(options.repair))))
+    targets.check_places(options)
+    targets.files_to_replace(options, options.files)
     return options
 
 
@@ -80,7 +84,7 @@ def _document(path: Path, options: argparse.Namespace, copies: set[str]) -> dict
     roots = Roots.of(path, options.root, options.allow_outside)
     description = read_description(path, roots)
     audit = Auditor(roots).audit(description)
-    repaired = _write_copy(path, audit, options.repair, copies)
+    repaired = _write_copy(path, audit, options, copies)
     links = [
         audit_report.link_entry(found.link, found.findings, found.repaired, found.density) for found in audit.links
     ]
@@ -96,8 +100,9 @@ def summary(document: dict[str, Any]) -> Any:
     return finding("audit_done", links=len(document["links"]), **counts)
 
 
-def _write_copy(path: Path, audit: Audit, folder: Path | None, copies: set[str]) -> str | None:
+def _write_copy(path: Path, audit: Audit, options: argparse.Namespace, copies: set[str]) -> str | None:
     repairs = [(found.link, found.repaired) for found in audit.links if found.repaired is not None]
+    folder = options.repair
     if folder is None or not repairs:
         return None
     if path.name in copies:
@@ -105,8 +110,11 @@ def _write_copy(path: Path, audit: Audit, folder: Path | None, copies: set[str])
     copies.add(path.name)
     target = folder / path.name
     try:
+        copy = repaired_copy(audit.description, repairs)
+        if target.is_file() and not options.force and target.read_bytes() not in (b"", copy):
+            raise FileError("audit_copy_exists", path=str(target))
         with whole_file(target) as file:
-            file.write(repaired_copy(audit.description, repairs))
+            file.write(copy)
     except OSError as error:
         raise FileError("audit_not_written", error=system_reason(error)) from error
     return str(target)

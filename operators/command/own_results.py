@@ -13,10 +13,11 @@ from pathlib import Path
 
 from ...core.verdict.finding import finding
 from ..write.documents import FLAT_SPECTRUM_ARRAYS, SCHEMA, SPECTRUM_ARRAYS, to_csv
-from ..write.robots.marker import is_ours
+from ..write.robots.marker import AUDIT_SCHEMA, is_audit, is_ours
 
 _HEAD = 1 << 16  # bytes that hold a header, or the beginning of a document
-_DOCUMENT = re.compile(rb'\s*\[?\s*\{\s*"schema"\s*:\s*"' + re.escape(SCHEMA.encode()) + rb'"')
+_SCHEMAS = (SCHEMA, AUDIT_SCHEMA)
+_DOCUMENT = re.compile(r'\s*\[?\s*\{{\s*"schema"\s*:\s*"(?:{})"'.format("|".join(map(re.escape, _SCHEMAS))).encode())
 _COLUMNS = next(csv.reader(to_csv([])))
 _LAST = 2  # of them stand at the end, behind those that only some records have
 
@@ -55,6 +56,7 @@ def _is_result(path: Path, option: str) -> bool:
             head = file.read(_HEAD)
         return (
             is_ours(head)
+            or is_audit(head)
             or _is_table(head)
             or bool(_DOCUMENT.match(head))
             and _are_documents(path.read_text(encoding="utf-8"))
@@ -74,4 +76,4 @@ def _are_documents(text: str) -> bool:
     except ValueError:
         found = [json.loads(line) for line in text.split("\n") if line.strip()]
     found = found if isinstance(found, list) else [found]
-    return all(isinstance(one, dict) and one.get("schema") == SCHEMA for one in found)
+    return all(isinstance(one, dict) and one.get("schema") in _SCHEMAS for one in found)

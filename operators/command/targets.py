@@ -20,7 +20,7 @@ from .arguments import TARGETS, fail
 def check_places(options: Namespace) -> None:
     """End with a message where no file can be written."""
     for option in TARGETS:
-        target = getattr(options, option)
+        target = getattr(options, option, None)
         if target is None or output.is_stdout(target):
             continue
         try:
@@ -49,7 +49,7 @@ def files_to_replace(options: Namespace, read: Iterable[str | Path]) -> list[tup
     options.forced = []
     read, replaced = list(read), []
     for option in TARGETS:
-        target = getattr(options, option)
+        target = getattr(options, option, None)
         if target is None or not target.exists() or output.is_stdout(target):
             continue
         if any(os.path.exists(path) and os.path.samefile(path, target) for path in read):

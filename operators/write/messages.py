@@ -1949,6 +1949,7 @@ MESSAGES: dict[str, Message] = {
     "usage_repair_same": _error("--repair: {path} is the folder of a file that is read. Choose another one"),
     "audit_copies_alike": _error("Two files have one name: {name}. Audit them one at a time, or choose other folders."),
     "audit_text": _note("See the text “{text}” in the Text Editor"),
+    "audit_copy_exists": _error("{path} is another file and would be lost. Choose another folder, or --force."),
     "audit_not_written": _error("The file cannot be written: {error}."),
     # ------------------------------------------------------------------ Audit: what no body can have
     "inertial_missing": _warning("No inertial. Readers differ: some take 1 kg, some none. Add mass and inertia."),

@@ -41,5 +41,8 @@ MESSAGES = {
     "include_twice": ("Eine Datei wird zweimal eingebunden: {name}.",),
     "audit_done": ("{links} Glieder: {errors} Fehler, {warnings} Warnungen, {notes} Hinweise",),
     "audit_text": ("Siehe den Text “{text}” im Texteditor",),
+    "audit_copy_exists": (
+        "{path} ist eine andere Datei und ginge verloren. Wählen Sie einen anderen Ordner, oder --force.",
+    ),
     "audit_not_written": ("Die Datei lässt sich nicht schreiben: {error}.",),
 }

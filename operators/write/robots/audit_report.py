@@ -16,9 +16,10 @@ from ....core.verdict.finding import Finding, Severity
 from ..documents import table
 from ..messages import sentence, severity
 from ..record import plain
+from .marker import AUDIT_COLUMNS as COLUMNS
+from .marker import AUDIT_PAGE
+from .marker import AUDIT_SCHEMA as SCHEMA
 
-SCHEMA = "body-moments-audit/1"
-COLUMNS = ("file", "link", "severity", "code", "message", "mass", "density", "repaired")
 _STYLE = (
     "body{font:15px/1.45 system-ui,sans-serif;margin:2rem auto;max-width:75rem;color:#222;background:#fff}"
     "table{border-collapse:collapse;width:100%}th,td{text-align:left;vertical-align:top;padding:.35rem .6rem;"
@@ -97,7 +98,7 @@ def to_csv(documents: Sequence[dict[str, Any]]) -> str:
 
 def to_html(documents: Sequence[dict[str, Any]]) -> str:
     """A page by itself, without scripts and without anything from elsewhere."""
-    lines = ["<!DOCTYPE html>", '<html lang="en">', '<meta charset="utf-8">', "<title>Audit</title>"]
+    lines = [AUDIT_PAGE, '<html lang="en">', '<meta charset="utf-8">', "<title>Audit</title>"]
     lines += ["<style>{}</style>".format(_STYLE), "<h1>Audit of robot descriptions</h1>"]
     for one in documents:
         lines.append("<h2>{}</h2>".format(html.escape(str(one["file"]))))

@@ -82,3 +82,27 @@ def test_the_entry_gives_the_exit_codes(tmp_path, monkeypatch):
     assert batch.main(["audit", str(bad)], channel=1) == 1
     assert batch.main(["audit"], channel=1) == 2
     assert json.loads(kept[0])["status"] == "ok"
+
+
+def test_no_file_of_a_user_is_replaced_without_being_asked_to(tmp_path, capfd):
+    """Reports and repaired copies alike; an older report is."""
+    (tmp_path / "out").mkdir()
+    path, notes, copy = description(tmp_path / "r.urdf", WRONG), tmp_path / "notes.txt", tmp_path / "out" / "r.urdf"
+    notes.write_text("mine", encoding="utf-8")
+    for target in (notes, path, tmp_path, tmp_path / "none" / "a.json"):
+        assert batch.main(["audit", str(path), "--output", str(target)], channel=1) == 2
+        assert "--output" in capfd.readouterr().err
+    assert batch.main(["audit", str(path), "--output", str(path), "--force"], channel=1) == 2
+    assert notes.read_text(encoding="utf-8") == "mine" and WRONG in path.read_text(encoding="utf-8")
+    report = tmp_path / "report"
+    for form in (*audit_report.FORMATS, "json"):
+        assert batch.main(["audit", str(path), "--output", str(report), "--format", form], channel=1) == 1
+    assert json.loads(report.read_text(encoding="utf-8"))["schema"] == audit_report.SCHEMA
+    assert batch.main(["audit", str(path), "--output", str(notes), "--force"], channel=1) == 1
+    assert "mine" not in notes.read_text(encoding="utf-8")
+    copy.write_text("mine", encoding="utf-8")
+    found = json.loads(answer("--repair", tmp_path / "out", path)[0])
+    assert found["errors"][0]["code"] == "audit_copy_exists" and copy.read_text(encoding="utf-8") == "mine"
+    for words in (["--force"], []):  # and the same once more is no loss
+        assert not json.loads(answer("--repair", tmp_path / "out", *words, path)[0])["errors"]
+    assert "mine" not in copy.read_text(encoding="utf-8")
