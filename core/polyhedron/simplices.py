@@ -99,7 +99,7 @@ def _places(points: ArrayLike, simplices: ArrayLike) -> NDArray[np.intp]:
 
 
 def _has_extent(points: ArrayLike, simplices: ArrayLike) -> NDArray[np.bool_]:
-    return (np.diff(np.sort(_places(points, simplices), axis=1), axis=1) > 0).all(axis=1)
+    return np.asarray((np.diff(np.sort(_places(points, simplices), axis=1), axis=1) > 0).all(axis=1))
 
 
 def _sorted_corners(

@@ -101,13 +101,12 @@ def _read(path: Path) -> tuple[NDArray[np.float64], NDArray[np.integer], NDArray
         if not isinstance(archive, np.lib.npyio.NpzFile):
             raise ValueError("one array")
         with archive:
-            names = ["points", "simplices", *(["signs"] if "signs" in archive.files else [])]
-            arrays = [archive[name] for name in names]
-        if not all(isinstance(array, np.ndarray) for array in arrays):  # else bytes: of no .npy
-            raise ValueError("no arrays")
+            points, simplices = archive["points"], archive["simplices"]
+            signs = archive["signs"] if "signs" in archive.files else None
+        if not all(isinstance(array, np.ndarray) for array in (points, simplices, signs) if array is not None):
+            raise ValueError("bytes, of no .npy")
     except (ValueError, KeyError, EOFError, MemoryError, RuntimeError, zipfile.BadZipFile, zlib.error) as error:
         raise FileError("simplex_arrays") from error
-    points, simplices, signs = (*arrays, None)[:3]
     dimension = points.shape[1] if points.ndim == 2 else 0
     if points.dtype.kind not in "iuf" or not 1 <= dimension <= MAX_DIMENSION or not np.isfinite(points).all():
         raise FileError("simplex_points", limit=MAX_DIMENSION)
