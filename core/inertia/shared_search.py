@@ -36,6 +36,7 @@ from .second_order import EQUAL_AXES, HALF_TURN_SIGNS, SYMMETRIES, SecondOrderFr
 GRID = 1e-6  # of normalized moments, times NOISE_GROWTH: a tenth of NOISE_LEVEL
 LEAST_BOUND = 2.0**-30  # bounds below this are that, others are rounded up to three binary digits: copies have the same
 MAX_KNOWN = 1024  # problems that are remembered
+MAX_TAIL = 4.0  # times NOISE_GROWTH: in larger moments, as of spikes, rounding turns axes by more than noise
 MAX_CORRECTION = 1e-4  # frames that a refinement turns by more are looked for by themselves
 REFINEMENTS = 2  # each squares what is left: the grid's 1e-6 at first
 NO_VALUES = np.empty(0)
@@ -93,6 +94,7 @@ def _frames_alike(
     raw, bound, extent = _whitened(moments, fixed, bodies, basis, name)
     usable = np.isfinite(raw).all(axis=1) & np.isfinite(bound).all(axis=1)
     usable &= extent.min(axis=1) > FLAT_EXTENT_RTOL * extent.max(axis=1)
+    usable &= (np.abs(raw[:, THIRD:]) <= MAX_TAIL / GRID * STEP).all(axis=1)
     step = _rounded_up(fixed.step[bodies] / extent.min(axis=1))
     tilt = _rounded_up(fixed.tilt[bodies]) * (fixed.tilt[bodies] > 0.0)
     cells = np.where(usable[:, None], np.rint(raw[:, THIRD:] / STEP), 0.0).astype(np.int32)

@@ -91,3 +91,18 @@ def test_a_body_beyond_the_range_of_numbers_is_refused(scale):
 
 def test_the_grid_is_a_tenth_of_noise():
     assert 5.0 < canonical_frame.NOISE_LEVEL / shared_search.GRID < 20.0
+
+
+@pytest.mark.parametrize(("small", "far"), [(0.1, 5.0), (0.1, 20.0), (0.05, 30.0)])
+def test_a_body_of_a_core_and_far_pieces_has_the_axes_that_it_has_by_itself(small, far):
+    """Moments of sixth order that are thousands of times what they are for a cube, and beyond 32 bits on the grid."""
+    points, triangles = bodies.box((-1, -1, -1), (1, 1, 1))
+    centers = np.concatenate([np.zeros((1, 3)), far * np.eye(3), -far * np.eye(3)])
+    sizes = [1.0, *[small] * 6]
+    whole = np.concatenate([center + size * np.asarray(points) for center, size in zip(centers, sizes)])
+    faces = np.concatenate([np.asarray(triangles) + i * len(points) for i in range(7)])
+    stack = stack_moments([moments((whole @ bodies.rotation(3).T, faces), 6)])
+    fixed = second_order_frames(stack)
+    shared = shared_frames(stack, fixed, np.array([0]))[0]
+    alone = canonical_frames(stack.at(0), fixed.spread(0), fixed.frames(0))
+    assert len(alone.frames) == 24 and same_frames(shared.frames, alone.frames)
