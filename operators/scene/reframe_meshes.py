@@ -5,7 +5,8 @@ modifiers, and to which nothing refers.
 
 Where their points come to lie is known, so that no trial is needed. Objects that share a mesh and want the same change
 of it go on sharing; for other changes, and where others use the mesh, too, it is copied. What is not as it should be
-after the objects were moved is put back and left to `reframe`, which looks at each by itself.
+after the objects were moved is put back and left to `reframe`, which looks at each by itself. So is everything where an
+error comes.
 """
 
 from __future__ import annotations
@@ -13,11 +14,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
+import bpy
 import numpy as np
 from bpy.types import Context, Mesh, Object
 from mathutils import Matrix
 from numpy.typing import NDArray
 
+from ...core.verdict import internal_error
 from ...core.verdict.finding import Finding, finding
 from .dependents import SAME_SHAPE_RTOL
 from .transforms import (
@@ -96,14 +99,33 @@ def reframe_own_meshes(context: Context, plans: Sequence[Plan]) -> list[Object]:
     for move_only in (True, False):
         some = [plan for plan in plans if plan.move_only == move_only]
         if some:
-            done += _reframe_alike(context, some, move_only)
+            done += _reframe_or_put_back(context, some, move_only)
     return done
 
 
-def _reframe_alike(context: Context, plans: Sequence[Plan], move_only: bool) -> list[Object]:
+def _reframe_or_put_back(context: Context, plans: Sequence[Plan], move_only: bool) -> list[Object]:
+    before = [(TransformChannels(plan.obj), plan.obj.data) for plan in plans]
+    try:
+        return _reframe_alike(context, plans, [channels for channels, _ in before], move_only)
+    except BaseException as error:
+        copies = {plan.obj.data for plan in plans}.difference(mesh for _, mesh in before)
+        for plan, (channels, mesh) in zip(plans, before):
+            channels.restore()
+            plan.obj.data = mesh
+            plan.findings.clear()
+        bpy.data.batch_remove(copies)
+        context.view_layer.update()
+        if not isinstance(error, Exception):
+            raise
+        internal_error.finding_of(error)  # each is tried by itself
+        return []
+
+
+def _reframe_alike(
+    context: Context, plans: Sequence[Plan], channels: Sequence[TransformChannels], move_only: bool
+) -> list[Object]:
     objects = [plan.obj for plan in plans]
     targets, was = np.array([plan.target for plan in plans]), _worlds(objects)
-    channels = [TransformChannels(obj) for obj in objects]
     fits = np.ones(len(plans), bool)
     for obj, location in zip(objects, targets[:, :3, 3].tolist()):
         obj.location = location
@@ -195,11 +217,22 @@ def _transform_meshes(meshes: Sequence[Mesh], changes: NDArray) -> None:
     moved = changes[owner, :3, 3]
     for axis in range(3):
         moved += changes[owner, :3, axis] * points[:, axis, None].astype(np.float64)
-    points = moved.astype(np.float32)
-    for mesh, start, end, change, is_flipped in zip(meshes, ends, ends[1:], changes, flips.tolist()):
-        if mesh.has_custom_normals:
-            mesh.transform(Matrix(change))  # turns them, too
-        mesh.attributes["position"].data.foreach_set("vector", points[start:end].reshape(-1))
-        if is_flipped:
-            mesh.flip_normals()
-        mesh.update()
+    moved_points = moved.astype(np.float32)
+    written = 0
+    try:
+        for mesh, start, end, change, is_flipped in zip(meshes, ends, ends[1:], changes, flips.tolist()):
+            _write_points(mesh, change, moved_points[start:end], is_flipped)
+            written += 1
+    except BaseException:
+        for i in range(written):
+            _write_points(meshes[i], np.linalg.inv(changes[i]), points[ends[i] : ends[i + 1]], bool(flips[i]))
+        raise
+
+
+def _write_points(mesh: Mesh, change: NDArray, points: NDArray[np.float32], is_flipped: bool) -> None:
+    if mesh.has_custom_normals:
+        mesh.transform(Matrix(change))  # turns them, too
+    mesh.attributes["position"].data.foreach_set("vector", points.reshape(-1))
+    if is_flipped:
+        mesh.flip_normals()
+    mesh.update()

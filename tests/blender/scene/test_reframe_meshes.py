@@ -128,3 +128,45 @@ def test_linked_meshes_are_copied_where_they_have_to_be():
     only = plan(first, shift)  # the second one keeps the mesh
     reframe_meshes.reframe_own_meshes(bpy.context, [only])
     assert first.data != second.data and only.findings[0].code == "data_copied"
+
+
+@pytest.mark.parametrize("operator", OPERATORS)
+@pytest.mark.parametrize(
+    ("where", "after"), [("data_change", 0), ("data_change", 1), ("_transform_meshes", 0), ("_write_points", 2)]
+)
+def test_an_error_halfway_puts_all_back_and_each_is_tried_by_itself(operator, where, after, monkeypatch):
+    objects, states, calls = parts(), [], []
+    real, together = getattr(reframe_meshes, where), reframe_meshes.reframe_own_meshes
+
+    def failing(*args):
+        calls.append(args)
+        if len(calls) == after + 1:
+            raise TypeError("planted")
+        return real(*args)
+
+    def state():
+        bpy.context.view_layer.update()
+        return [
+            (obj.data, *obj.location, *obj.rotation_euler, *obj.scale)
+            + tuple(value for vertex in obj.data.vertices for value in vertex.co)
+            + tuple(index for face in obj.data.polygons for index in sorted(face.vertices))
+            for obj in objects
+        ], len(bpy.data.meshes)
+
+    def looked_at(context, plans):
+        if states:  # once more, whether all are right
+            return together(context, plans)
+        states.append(state())
+        done = together(context, plans)
+        states.append(state())
+        assert not done and not any(plan.findings for plan in plans)
+        return done
+
+    monkeypatch.setattr(reframe_meshes, where, failing)
+    monkeypatch.setattr(reframe, "reframe_own_meshes", looked_at)
+    before = seen(objects)
+    assert getattr(bpy.ops.object, operator)() == {"FINISHED"}
+    assert len(calls) > after and states[0] == states[1]
+    after_all = seen(objects)
+    for obj in objects:
+        assert np.abs(after_all[obj.name][0] - before[obj.name][0]).max() < 1e-3
