@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Runs what takes long: every module of this folder that has `run(budget_seconds, seed)`, which returns a report.
 
-    python tests/soak [--minutes N] [--seed S] [NAME …]
+    python tests/soak [--minutes N] [--seed S] [NAME[:PART,…] …]
 
-A module fails by an exception. Each report is a file in the folder that --reports names.
+PART is a further argument of that `run`. A module fails by an exception. Each report is a file in
+the folder that --reports names.
 """
 
 import argparse
@@ -27,18 +28,19 @@ def main() -> int:
     parser.add_argument("--seed", type=int, default=int(time.time()))
     parser.add_argument("--reports", type=Path, default=ROOT / ".envs" / "soak")
     options = parser.parse_args()
-    unknown = set(options.names) - set(NAMES)
+    unknown = {word.partition(":")[0] for word in options.names} - set(NAMES)
     if unknown:
         parser.error("unknown: " + ", ".join(sorted(unknown)))
     names = options.names or NAMES
     options.reports.mkdir(parents=True, exist_ok=True)
     failed = []
-    for name in names:
+    for word in names:
+        name, _, parts = word.partition(":")
         begun = time.monotonic()
-        print("{} with seed {} ...".format(name, options.seed), flush=True)
+        print("{} with seed {} ...".format(word, options.seed), flush=True)
         try:
             report = importlib.import_module("tests.soak." + name).run(
-                60.0 * options.minutes / len(names), options.seed
+                60.0 * options.minutes / len(names), options.seed, *filter(None, parts.split(","))
             )
         except Exception:
             report = traceback.format_exc()

@@ -3,11 +3,13 @@
 """Mutants of the product: how many of a sample from each package the tests find.
 
 First each test file runs once, and the lines that its tests run are noted (kept in .envs/soak/lines while neither the
-product nor the file changes). Then mutants are drawn, round after round one of each package. Each is written into a
-copy of the project, and the tests that run its line pass there, the quickest first, until one fails.
+file nor the modules that it runs change). Then mutants are drawn, round after round one of each package. Each is
+written into a copy of the project, and the tests that run its line pass there, the quickest first, until one fails.
 
 A mutant counts as found when a test fails, does not end, or dies. Those that no test could find are in
-tests/soak/equivalent_mutants.py, with reasons, and are not drawn.
+tests/soak/equivalent_mutants.py, with reasons, and are not drawn. `mutation:core/mesh,core/solid` draws from these
+packages alone. The same seed draws the same mutants again: what is found stays so while its module does not change
+(.envs/soak/found.json), the others are tried again, and then come new ones.
 """
 
 from __future__ import annotations
@@ -15,14 +17,13 @@ from __future__ import annotations
 import hashlib
 import json
 import os
-import random
 import shutil
 import subprocess
 import sys
 import tempfile
 import time
 from collections import Counter, defaultdict
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 from tests.soak import equivalent_mutants, mutants
@@ -30,14 +31,16 @@ from tests.soak import equivalent_mutants, mutants
 ROOT = Path(__file__).resolve().parent.parent.parent
 PROCESS = Path(__file__).resolve().parent / "mutation_process"
 KEPT = ROOT / ".envs" / "soak" / "lines"
-GROUPS = ("core", "blender")
+FOUND = ROOT / ".envs" / "soak" / "found.json"
+GROUPS = {"core": ("core",), "operators": ("blender",), "panels": ("blender",)}  # tests of each part
 LEFT_OUT = ("test_random_sessions.py",)  # what takes as long as it is given
+MISSED = ("passed", "no test")
 LEAST = 0.95  # of each package's mutants
 LEAST_DRAWN = 20  # below this, a share says nothing
 MAX_SECONDS = 45.0  # of the tests of one mutant
 
 
-def run(budget_seconds: float, seed: int) -> str:
+def run(budget_seconds: float, seed: int, *packages: str) -> str:
     """Draw mutants until the budget is spent.
 
     Parameters
@@ -45,6 +48,8 @@ def run(budget_seconds: float, seed: int) -> str:
     budget_seconds : float
         For the mutants; noting lines comes before, and takes as long as all tests.
     seed : int
+    packages : str
+        Such as "core/mesh" or "panels"; all if none is given.
 
     Returns
     -------
@@ -57,11 +62,14 @@ def run(budget_seconds: float, seed: int) -> str:
         With the same, where less than `LEAST` of a package were found.
     """
     with Project() as project:
-        project.note_lines()
-        project.load_tests()
-        end, draws = time.monotonic() + budget_seconds, drawn(ROOT, seed)
+        decks = {name: deck for name, deck in all_mutants(ROOT).items() if name in (packages or {name})}
+        groups = sorted({group for name in decks for group in GROUPS[name.partition("/")[0]]})
+        project.note_lines(groups)
+        project.load_tests("tests/" + group for group in groups)
+        end, draws = time.monotonic() + budget_seconds, drawn(decks, seed)
         while time.monotonic() < end and (mutant := next(draws, None)):
-            project.try_mutant(mutant)
+            answer = project.try_mutant(mutant)
+            print("{:9} {:5.1f} s  {}".format(answer["outcome"], answer["seconds"], mutant), flush=True)
         text = report(project.results)
         assert not too_few(project.results), text
     return text
@@ -84,21 +92,21 @@ def all_mutants(root: Path) -> dict[str, list[mutants.Mutant]]:
     return dict(found)
 
 
-def drawn(root: Path, seed: int):
-    """Mutants in rounds, one of each package in a round, no two of one line."""
-    draw = random.Random(seed)
-    decks = all_mutants(root)
-    for deck in decks.values():
-        draw.shuffle(deck)
+def drawn(decks: dict[str, list[mutants.Mutant]], seed: int) -> Iterator[mutants.Mutant]:
+    """Mutants in rounds, one of each package in a round, no two of one line; the same ones while others come or go."""
+    order = {
+        name: iter(sorted(deck, key=lambda mutant: hashlib.sha256(repr((seed, mutant.key)).encode()).digest()))
+        for name, deck in decks.items()
+    }
     lines = set()
-    while any(decks.values()):
-        for deck in decks.values():
-            while deck:
-                mutant = deck.pop()
-                if (mutant.path, mutant.line) not in lines:
-                    lines.add((mutant.path, mutant.line))
-                    yield mutant
-                    break
+    while order:
+        for name, deck in list(order.items()):
+            mutant = next((one for one in deck if (one.path, one.line) not in lines), None)
+            if mutant is None:
+                del order[name]
+            else:
+                lines.add((mutant.path, mutant.line))
+                yield mutant
 
 
 def report(results: list[tuple[mutants.Mutant, dict]]) -> str:
@@ -108,15 +116,11 @@ def report(results: list[tuple[mutants.Mutant, dict]]) -> str:
     rows = ["{:24} {:>6} {:>6} {:>6}".format("package", "drawn", "found", "share")]
     for package in sorted(counts):
         count = counts[package]
-        found = count.total() - count["passed"] - count["no test"]
+        found = count.total() - sum(count[outcome] for outcome in MISSED)
         rows.append("{:24} {:6d} {:6d} {:5.0f}%".format(package, count.total(), found, 100.0 * found / count.total()))
     total = Counter(answer["outcome"] for _, answer in results)
     rows.append("{} mutants: {}".format(total.total(), ", ".join("{} {}".format(*one) for one in total.most_common())))
-    rows += [
-        "{}  {}".format(answer["outcome"], mutant)
-        for mutant, answer in results
-        if answer["outcome"] in ("passed", "no test")
-    ]
+    rows += ["{}  {}".format(answer["outcome"], mutant) for mutant, answer in results if answer["outcome"] in MISSED]
     return "\n".join(rows)
 
 
@@ -125,7 +129,7 @@ def too_few(results: list[tuple[mutants.Mutant, dict]]) -> list[str]:
     drawn_of, missed = Counter(), Counter()
     for mutant, answer in results:
         drawn_of[package_of(mutant.path)] += 1
-        missed[package_of(mutant.path)] += answer["outcome"] in ("passed", "no test")
+        missed[package_of(mutant.path)] += answer["outcome"] in MISSED
     return [
         package
         for package, count in drawn_of.items()
@@ -136,8 +140,9 @@ def too_few(results: list[tuple[mutants.Mutant, dict]]) -> list[str]:
 class Project:
     """A copy of the project, and a process in which tests run on it."""
 
-    def __init__(self, kept: Path = KEPT):
-        self.kept = kept
+    def __init__(self, kept: Path = KEPT, found: Path = FOUND):
+        self.kept, self.found_file = kept, found
+        self.found = json.loads(found.read_text(encoding="utf-8")) if found.is_file() else {}
         self.results: list[tuple[mutants.Mutant, dict]] = []
 
     def __enter__(self) -> Project:
@@ -165,35 +170,33 @@ class Project:
                 process.stdout.close()
         shutil.rmtree(self.folder, ignore_errors=True)
 
-    def load_tests(self, files: Iterable[str] = ()) -> None:
-        """Start the process that knows all tests, or those of some files."""
-        self.warm = self._start("warm.py", *(files or ("tests/" + group for group in GROUPS)))
+    def load_tests(self, files: Iterable[str]) -> None:
+        """Start the process that knows the tests of some files or folders."""
+        self.warm = self._start("warm.py", *files)
         assert json.loads(self.warm.stdout.readline())["count"], "no tests"
 
     def ask(self, tests: list, seconds: float, lines: Path | None = None) -> dict:
         return _answer(self.server, {"tests": tests, "seconds": seconds, "lines": lines and str(lines)})
 
-    def note_lines(self) -> None:
+    def note_lines(self, groups: Iterable[str]) -> None:
         """Run every test file that has changed, and know for each line of the product which tests run it."""
         self.kept.mkdir(parents=True, exist_ok=True)
         self.tests_of, self.seconds = defaultdict(set), {}
-        digest = _digest(path for part in ("core", "operators", "panels") for path in (self.root / part).rglob("*.py"))
-        for group in GROUPS:
+        for group in groups:
             for path in sorted((self.root / "tests" / group).rglob("test_*.py")):
                 if path.name not in LEFT_OUT:
-                    self._note_file(path.relative_to(self.root).as_posix(), digest)
+                    self._note_file(path.relative_to(self.root).as_posix())
 
-    def _note_file(self, file: str, digest: str) -> None:
+    def _note_file(self, file: str) -> None:
         kept = self.kept / (file.replace("/", ".") + ".json")
-        stamp = digest + _digest([self.root / file])
-        notes = json.loads(kept.read_text(encoding="utf-8")) if kept.is_file() else {}
-        if notes.get("stamp") != stamp:
+        notes = json.loads(kept.read_text(encoding="utf-8")) if kept.is_file() else {"tests": {}}
+        if notes.get("stamp") != self._stamp(file, notes):
             found = self.folder / "lines.json"
             found.unlink(missing_ok=True)
             answer = self.ask([[file, None]], 3600.0, found)
             tests = json.loads(found.read_text(encoding="utf-8")) if found.is_file() else {}
-            notes = {"stamp": stamp, "outcome": answer["outcome"], "tests": tests}
-            kept.write_text(json.dumps(notes), encoding="utf-8")
+            notes = {"outcome": answer["outcome"], "tests": tests}
+            kept.write_text(json.dumps({**notes, "stamp": self._stamp(file, notes)}), encoding="utf-8")
         for name, note in notes["tests"].items():
             if note["ok"]:
                 self.seconds[name] = note["seconds"]
@@ -201,15 +204,42 @@ class Project:
                     for line in lines:
                         self.tests_of[path, line].add(name)
 
+    def _stamp(self, file: str, notes: dict) -> str:
+        """Of a test file and the modules that it ran."""
+        names = {file}.union(*(note["lines"] for note in notes["tests"].values()))
+        return hashlib.sha256(b"".join(map(self._digest, sorted(names)))).hexdigest()
+
+    def _digest(self, name: str) -> bytes:
+        path = self.root / name
+        return hashlib.sha256(path.read_bytes()).digest() if path.is_file() else b""
+
     def try_mutant(self, mutant: mutants.Mutant) -> dict:
+        """What comes of its tests, or came of them before if they found it."""
+        name = "{} {} {}".format(self._digest(mutant.path).hex(), mutant.start, mutant)
+        answer = self.found.get(name) or self._new_answer(mutant)
+        self.results.append((mutant, answer))
+        if answer["outcome"] not in MISSED and name not in self.found:
+            self.found[name] = answer
+            self.found_file.write_text(json.dumps(self.found, indent=0), encoding="utf-8")
+        return answer
+
+    def _new_answer(self, mutant: mutants.Mutant) -> dict:
         """What comes of the tests that run its line; where the line runs while it is imported, its module."""
         path = self.root / mutant.path
         text, status = path.read_text(encoding="utf-8"), path.stat()
         answer = {"outcome": "no test", "test": "", "seconds": 0.0}
         tests = self.tests_for(mutant)
-        seconds = 30.0 + 10.0 * sum(self.seconds[name] for name in tests)
+        limits = [int(20.0 + 10.0 * self.seconds[name]) for name in tests]
+        seconds = float(sum(limits))
         changed = mutant.text(text)
-        job = {"path": mutant.path, "before": text, "text": changed, "tests": tests, "seconds": seconds}
+        job = {
+            "path": mutant.path,
+            "before": text,
+            "text": changed,
+            "tests": tests,
+            "seconds": seconds,
+            "limits": limits,
+        }
         job["lines"] = list(range(mutant.line, mutant.line + mutant.before.count("\n") + 1))
         try:
             path.write_text(changed, encoding="utf-8")
@@ -222,7 +252,6 @@ class Project:
         finally:
             path.write_text(text, encoding="utf-8")
             os.utime(path, ns=(status.st_atime_ns, status.st_mtime_ns))
-        self.results.append((mutant, answer))
         return answer
 
     def tests_for(self, mutant: mutants.Mutant) -> list[str]:
@@ -253,10 +282,3 @@ def _by_file(names: list[str]) -> list:
         file, _, test = name.partition("::")
         files[file].append(test)
     return [[file, tests] for file, tests in files.items()]
-
-
-def _digest(paths) -> str:
-    total = hashlib.sha256()
-    for path in sorted(paths):
-        total.update(path.read_bytes())
-    return total.hexdigest()

@@ -5,16 +5,17 @@
     python -P warm.py ROOT FOLDER ...
 
 A line of standard input is a job: {"path": of the module, "before": its text, "text": of the mutant, which is on the
-disk, "lines": those changed, "tests": node ids, "seconds": s}. A line of standard output is what came of it:
-{"outcome": "passed", "failed", "killed", "timeout" or "cold", "test": the first that failed, "seconds": s}. A mutant
-is "cold" where its code has run while things were loaded, or cannot take the place of the loaded one: then server.py
-does it.
+disk, "lines": those changed, "tests": node ids, "limits": seconds of each, "seconds": of all}. A line of standard
+output is what came of it: {"outcome": "passed", "failed", "killed", "timeout" or "cold", "test": the first that failed,
+"seconds": s}. A mutant is "cold" where its code has run while things were loaded, or cannot take the place of the
+loaded one: then server.py does it.
 """
 
 import gc
 import json
 import os
 import resource
+import signal
 import sys
 import tempfile
 import types
@@ -69,7 +70,7 @@ class _Jobs:
             if any((job["path"], line) in self.run for line in job["lines"]):
                 raise Cold
             replace_code(str(server.ROOT / job["path"]), job["before"], job["text"])
-            outcome["test"] = _first_failure([items[name] for name in job["tests"] if name in items])
+            outcome["test"] = _first_failure(job, items)
             outcome["outcome"] = "failed" if outcome["test"] else "passed"
         except Cold:
             outcome["outcome"] = "cold"
@@ -78,10 +79,12 @@ class _Jobs:
         server.write_answer(result, outcome)
 
 
-def _first_failure(items: list) -> str:
+def _first_failure(job: dict, items: dict) -> str:
     from _pytest.runner import runtestprotocol
 
-    for item, following in zip(items, [*items[1:], None], strict=True):
+    chosen = [(items[name], limit) for name, limit in zip(job["tests"], job["limits"], strict=True) if name in items]
+    for (item, limit), (following, _) in zip(chosen, [*chosen[1:], (None, 0)], strict=True):
+        signal.alarm(limit)  # kills this process
         if any(report.failed for report in runtestprotocol(item, log=False, nextitem=following)):
             return item.nodeid
     return ""
