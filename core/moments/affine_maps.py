@@ -25,6 +25,9 @@ from .monomials import (
     quotient_indices,
 )
 
+# Where the columns of a matrix, scaled to unit length, span less volume than this, the rounding of
+# float32 entries alone may have made it: such a matrix cannot be distinguished from one that flattens.
+SINGULAR_RTOL = 4.0 * float(np.finfo(np.float32).eps)
 SIMILARITY_RTOL = 1e-5  # a float32 rotation matrix is a similarity to about 1e-7; a real shear is far above this
 
 
@@ -155,6 +158,21 @@ def apply_translation(values: NDArray, order: int, offsets: NDArray) -> NDArray[
             cube = np.einsum("mpi,miqr->mpqr", table, cube)
         values = np.moveaxis(cube, 1, axis + 1).reshape(len(values), -1)[:, positions]
     return values.reshape(*lead, -1)
+
+
+def are_singular(linear: NDArray) -> NDArray[np.bool_]:
+    """(k,) whether each of the (k, 3, 3) maps is singular, as far as entries that were float32 show."""
+    columns = np.asarray(linear, np.float64).transpose(1, 2, 0).copy()
+    # by the largest entry first, so that no square of a very small or large scale leaves the range of float64
+    largest = np.abs(columns).max(axis=0)
+    columns /= np.where(largest > 0.0, largest, 1.0)
+    lengths = np.sqrt((columns * columns).sum(axis=0))
+    columns /= np.where(lengths > 0.0, lengths, 1.0)
+    x, y, z = columns
+    volume = (
+        x[0] * (y[1] * z[2] - z[1] * y[2]) + y[0] * (z[1] * x[2] - x[1] * z[2]) + z[0] * (x[1] * y[2] - y[1] * x[2])
+    )
+    return np.abs(volume) <= SINGULAR_RTOL
 
 
 def are_similarities(linear: NDArray) -> NDArray[np.bool_]:

@@ -17,8 +17,7 @@ import numpy as np
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict import internal_error
 from ..read.fingerprint import effective_hash
-from ..read.mesh import mesh_surface
-from ..read.visibility import plain_mesh
+from ..read.mesh import mesh_surface, plain_mesh
 from ..settings.density import object_density
 from ..settings.options import AS_SET, MeasureOptions
 from .measure_object import Measured, measure_body

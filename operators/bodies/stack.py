@@ -21,7 +21,7 @@ from ...core.inertia.principal_frame import OwnMoments
 from ...core.inertia.second_order import second_order_frames
 from ...core.measurement import DENSITY_FROM_MASS, DENSITY_FROM_VALUE, Measurement
 from ...core.mesh.surface import Surface
-from ...core.moments.affine_maps import are_similarities
+from ...core.moments.affine_maps import are_similarities, are_singular
 from ...core.moments.moments import Moments, image, stack_moments
 from ...core.numerics.rotations import rotation_matrix
 from ...core.polyhedron import area_of_images, polyhedron_moments
@@ -37,7 +37,6 @@ from ...core.verdict.finding import Finding, MeasureError
 from ...core.verdict.health import DefectiveElements, MeshReport
 from ...core.verdict.method import Method, Verdict
 from ..read.fingerprint import fingerprint, surface_digest, transform_keys
-from ..read.reading import are_singular, to_si
 from ..settings.accepted import accepted_codes, with_acceptance
 from .body import own_moments, with_known
 
@@ -306,11 +305,12 @@ def measure_members(members: list[Member], shapes: list[Shape], unit: float, axe
     matrices = np.array([member.matrix for member in members], np.float64)
     usable = (which >= 0) & np.isfinite(matrices).all(axis=(1, 2))
     usable &= own.raw[which, 0] > own.rounding_error[which, 0]
-    usable[usable] = ~are_singular(matrices[usable])
+    usable[usable] = ~are_singular(matrices[usable, :3, :3])
     members, matrices, which = _chosen(members, usable), matrices[usable], which[usable]
     if not members:
         return None
-    keys, matrices = transform_keys(matrices), to_si(matrices, unit)
+    keys = transform_keys(matrices)
+    matrices[:, :3] *= unit
     volume = _placed(own.at(which), matrices)
     area = _areas(own_area.at(which), matrices, members)
     density = np.array([member.density for member in members])

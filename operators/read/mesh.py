@@ -33,6 +33,26 @@ FACES_PER_BLOCK = 1 << 15
 Read = TypeVar("Read")
 
 
+def plain_mesh(obj, depsgraph):
+    """The evaluated mesh of an object that shows its own mesh and nothing else, of which reading has nothing to decide:
+    `read_object` would give one part in one place and no findings. None where that has to look for itself.
+    """
+    data, parent = obj.data, obj.parent
+    if (
+        obj.type != "MESH"
+        or obj.mode == "SCULPT"
+        or obj.instance_type != "NONE"
+        or data.is_editmode
+        or data.shape_keys is not None
+        or len(obj.modifiers)
+        or not obj.visible_get(view_layer=depsgraph.view_layer)
+        or (parent is not None and parent.instance_type in {"VERTS", "FACES"})
+    ):
+        return None
+    evaluated = obj.evaluated_get(depsgraph)
+    return evaluated.data if evaluated.is_evaluated else None
+
+
 def mesh_surface(mesh, *, edges: bool = True) -> Surface:
     """The polygons of a `bpy.types.Mesh` as copied arrays, float32 points in the mesh's own
     coordinates.

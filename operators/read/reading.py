@@ -10,13 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.mesh.surface import Surface, join_surfaces
+from ...core.moments.affine_maps import are_singular
 from ...core.nurbs.curve import Curve
 from ...core.nurbs.patch import Patch
 from ...core.verdict.finding import Finding
-
-# Where the columns of a matrix, scaled to unit length, span less volume than this, the rounding of
-# float32 entries alone may have made it: such a matrix cannot be distinguished from one that flattens.
-SINGULAR_RTOL = 4.0 * float(np.finfo(np.float32).eps)
 
 NO_SLOTS = np.empty(0, np.intp)
 NO_VALUES = np.empty(0)
@@ -96,11 +93,11 @@ class Reading:
     @property
     def is_singular(self) -> bool:
         """Whether the object's own matrix flattens."""
-        return bool(are_singular(self.matrix[None])[0])
+        return bool(are_singular(self.matrix[None, :3, :3])[0])
 
     @property
     def singular_instance_count(self) -> int:
-        return sum([int(are_singular(part.matrices).sum()) for part in self.parts])
+        return sum([int(are_singular(part.matrices[:, :3, :3]).sum()) for part in self.parts])
 
     @property
     def all_singular(self) -> bool:
@@ -121,22 +118,6 @@ def said_of(result: Finding, source: str, whole: str) -> Finding:
     """A finding about a surface of the object `whole`: with the name of the surface's own object where that is another
     one."""
     return result if source in ("", whole) else result.of_sources([source])
-
-
-def are_singular(matrices: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """(k,) whether each of the (k, 4, 4) maps is singular, as far as entries that were float32 show."""
-    columns = matrices[:, :3, :3].transpose(1, 2, 0).copy()
-    # By the largest entry first, so that no square of a very small or large scale leaves the range
-    # of float64.
-    largest = np.abs(columns).max(axis=0)
-    columns /= np.where(largest > 0.0, largest, 1.0)
-    lengths = np.sqrt((columns * columns).sum(axis=0))
-    columns /= np.where(lengths > 0.0, lengths, 1.0)
-    x, y, z = columns
-    volume = (
-        x[0] * (y[1] * z[2] - z[1] * y[2]) + y[0] * (z[1] * x[2] - x[1] * z[2]) + z[0] * (x[1] * y[2] - y[1] * x[2])
-    )
-    return np.abs(volume) <= SINGULAR_RTOL
 
 
 def to_si(matrices: NDArray, unit: float) -> NDArray[np.float64]:

@@ -86,26 +86,6 @@ def instanced_by_parent(obj) -> bool:
     return obj.parent is not None and obj.parent.instance_type in {"VERTS", "FACES"}
 
 
-def plain_mesh(obj, depsgraph):
-    """The evaluated mesh of an object that shows its own mesh and nothing else, of which reading has nothing to decide:
-    `read_object` would give one part in one place and no findings. None where that has to look for itself.
-    """
-    data, parent = obj.data, obj.parent
-    if (
-        obj.type != "MESH"
-        or obj.mode == "SCULPT"
-        or obj.instance_type != "NONE"
-        or data.is_editmode
-        or data.shape_keys is not None
-        or len(obj.modifiers)
-        or not obj.visible_get(view_layer=depsgraph.view_layer)
-        or (parent is not None and parent.instance_type in {"VERTS", "FACES"})
-    ):
-        return None
-    evaluated = obj.evaluated_get(depsgraph)
-    return evaluated.data if evaluated.is_evaluated else None
-
-
 def metaball_families(view_layer) -> list[list]:
     """The metaball objects by family, in each the one first that holds the polygons of all.
 

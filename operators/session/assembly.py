@@ -105,7 +105,7 @@ def stale_reason(root: Root) -> str | None:
 
 
 def _stale_reason(root: Root) -> str | None:
-    mark = marks.parse(str(root.get("body_fingerprint", "")))
+    mark = marks.parse(properties.fingerprint(root))
     depsgraph = bpy.context.view_layer.depsgraph
     if mark is None or mark.version != VERSION or depsgraph is None:
         return "stale_fingerprint" if "body_mass" in root and mark is None else None
@@ -113,7 +113,7 @@ def _stale_reason(root: Root) -> str | None:
     if structure_hash(member) != mark.settings:
         return "stale_members"
     objects = [one.data for one in member.walk() if one.kind == MemberKind.OBJECT and one.is_measured]
-    stored = {obj: marks.of_results(obj) for obj in objects}
+    stored = {obj: properties.fingerprint(obj) for obj in objects}
     if any(staleness.stale_reason(obj, depsgraph.scene) for obj in objects):
         return "stale_member"
     if digest(members_key(member, stored).encode()) != mark.geometry:
@@ -136,14 +136,14 @@ def kept_up_to_date(context: Context) -> Iterator[None]:
     yield
     depsgraph = context.evaluated_depsgraph_get()
     for root, bodies in before.items():
-        member, mark = members_of(root, depsgraph), marks.parse(marks.of_results(root))
+        member, mark = members_of(root, depsgraph), marks.parse(properties.fingerprint(root))
         now = _member_bodies(member)
         if mark is None or structure_hash(member) != mark.settings or bodies.keys() != now.keys():
             continue
         if any(staleness.stale_reason(obj, scene) for obj in now):
             continue
         if all(_is_same(bodies[obj], now[obj]) for obj in now):
-            key = members_key(member, {obj: marks.of_results(obj) for obj in now})
+            key = members_key(member, {obj: properties.fingerprint(obj) for obj in now})
             root["body_fingerprint"] = ":".join(mark._replace(geometry=digest(key.encode())))
     handlers.count_change()
 

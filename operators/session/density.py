@@ -43,7 +43,7 @@ def follow_density(obj: Object, scene: Scene) -> None:
     scene : bpy.types.Scene
         Whose unit scale and default density count.
     """
-    mark = marks.parse(marks.of_results(obj))
+    mark = marks.parse(properties.fingerprint(obj))
     if mark is None or mark.version != VERSION or "body_density_from" in obj or not _can_store(obj):
         return
     numbers = properties.numbers(obj)

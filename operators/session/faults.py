@@ -42,6 +42,7 @@ class Faults:
 
 
 _faults: SessionCache[Faults] = SessionCache()
+forget = _faults.forget
 
 
 def remember(obj: Object, measured: Measured) -> None:
@@ -56,11 +57,10 @@ def remember(obj: Object, measured: Measured) -> None:
     _remember(obj, part.surface, np.linalg.inv(reading.matrix) @ part.matrices[0], elements)
 
 
-def remember_own(obj: Object, surface: Surface, elements: DefectiveElements | None) -> None:
-    """Do as `remember` for an object that shows its own mesh alone, this surface; elements: None where there are no
-    faults."""
+def remember_own(obj: Object, surface: Surface, elements: DefectiveElements) -> None:
+    """Do as `remember` for an object that shows its own mesh alone, this surface."""
     _faults.forget(obj)
-    if elements is not None and _any_faults(elements):
+    if _any_faults(elements):
         _remember(obj, surface, np.eye(4), elements)
 
 

@@ -3,8 +3,9 @@
 """What Blender reports while a file is open, heard once, and passed on to all of the session.
 
 These are the add-on's only application handlers. Who wants to know appends a plain function to one of the lists below
-when it is registered, and removes it when it is unregistered. A subscriber never writes data while Blender evaluates:
-that would be reported as the next change. Only before a file is saved may it write, and what it writes is saved.
+when it is registered, and removes it when it is unregistered; who follows only some objects does so while there are
+any. A subscriber never writes data while Blender evaluates: that would be reported as the next change. Only before a
+file is saved may it write, and what it writes is saved.
 """
 
 from __future__ import annotations
@@ -71,6 +72,18 @@ def count_change() -> None:
     """Count a change that Blender does not report, such as of what is noted about an object."""
     global _generation
     _generation += 1
+
+
+def subscribe(subscribers: list[Callable[..., None]], function: Callable[..., None]) -> None:
+    """Append a function to one of the lists, unless it is there."""
+    if function not in subscribers:
+        subscribers.append(function)
+
+
+def unsubscribe(subscribers: list[Callable[..., None]], function: Callable[..., None]) -> None:
+    """Remove a function from one of the lists, if it is there; also while they are called."""
+    if function in subscribers:
+        subscribers.remove(function)
 
 
 def _call(subscribers: Sequence[Callable[..., None]], *args: Updates) -> None:

@@ -44,7 +44,6 @@ from ..settings.options import MeasureOptions
 from ..settings.preferences import preferences
 from ..write.properties import StoredProperties
 from . import handlers, updates
-from .affected import shown_by
 from .cache import SessionCache
 from .outline import Outline
 
@@ -214,7 +213,8 @@ def update(obj: Object, depsgraph: Depsgraph) -> LiveResult:
 
 def start(obj: Object, depsgraph: Depsgraph) -> LiveResult:
     """Let the object's numbers follow its edits; the first of them."""
-    _followed[obj] = _Followed(shows_others=next(shown_by(obj), None) is not None)
+    handlers.subscribe(handlers.on_update, _note_updates)
+    _followed[obj] = _Followed(shows_others=next(updates.shown_by(obj), None) is not None)
     return update(obj, depsgraph)
 
 
@@ -270,6 +270,7 @@ def _budget() -> float:
 def _note_updates(events: handlers.Updates) -> None:
     global _last_event
     if not len(_followed):
+        handlers.unsubscribe(handlers.on_update, _note_updates)
         return
     _last_event = time.monotonic()
     changed = {uid: followed for uid in events.reshaped if (followed := _followed.by_uid(uid)) is not None}
@@ -359,13 +360,11 @@ def _is_due(obj: Object, scene: Scene) -> bool:
     return followed.is_pending
 
 
-def register() -> None:
-    """Follow what Blender evaluates anew."""
-    handlers.on_update.append(_note_updates)
+CLASSES = ()  # it listens while an object is followed
 
 
 def unregister() -> None:
-    """Follow it no more."""
-    handlers.on_update.remove(_note_updates)
+    """Follow no object any more."""
+    handlers.unsubscribe(handlers.on_update, _note_updates)
     if bpy.app.timers.is_registered(_tick):
         bpy.app.timers.unregister(_tick)

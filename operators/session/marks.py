@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 from bpy.types import Object
 
-from ..write import section
+from ..write import properties, section
 
 EDITED = "edited"
 
@@ -44,11 +44,6 @@ def parse(text: str) -> Mark | None:
     return Mark(*parts) if len(parts) == len(Mark._fields) else None
 
 
-def of_results(obj: Object) -> str:
-    """Return the mark of the stored results, "" where there is none."""
-    return str(obj.get("body_fingerprint", ""))
-
-
 def of_section(obj: Object) -> str:
     """Return the mark of the stored section, "" where there is none."""
     return section.fingerprint(obj)
@@ -73,7 +68,7 @@ def of_object(obj: Object) -> list[str]:
     list of str
         None of them empty.
     """
-    return [mark for mark in (of_results(obj), of_section(obj), of_symmetry(obj)) if mark]
+    return [mark for mark in (properties.fingerprint(obj), of_section(obj), of_symmetry(obj)) if mark]
 
 
 def write_edited(obj: Object, edited: Container[str]) -> None:
@@ -87,7 +82,7 @@ def write_edited(obj: Object, edited: Container[str]) -> None:
         These marks.
     """
     for mark, group, key in (
-        (of_results(obj), obj, "body_fingerprint"),
+        (properties.fingerprint(obj), obj, "body_fingerprint"),
         (of_section(obj), obj.get(section.KEY), "fingerprint"),
     ):
         if mark in edited and parse(mark):

@@ -15,7 +15,7 @@ from bpy.types import Depsgraph, Object
 from numpy.typing import NDArray
 
 from ...core.mesh.convex_hull import ConvexHull
-from ...core.moments.affine_maps import are_similarities
+from ...core.moments.affine_maps import are_similarities, are_singular
 from ...core.moments.moments import Measure, Moments
 from ...core.numerics.float32 import shortest_decimal
 from ...core.statics.mixes import Mixes, fit_mixes, sample_count
@@ -24,7 +24,7 @@ from ...core.verdict.method import Method, Verdict
 from ..bodies.hull import object_hull
 from ..bodies.measure_object import measure_body
 from ..read import read_object
-from ..read.reading import are_singular, float64_matrix
+from ..read.reading import float64_matrix
 from . import updates
 
 MAX_SAMPLES = 200  # of a shape-key mix: with more keys each frame is measured
@@ -151,7 +151,7 @@ def _measured(
     moments, factor = measurement.mass_moments
     followed.given_mass = _given_mass(obj)
     followed.moments = None
-    if not are_singular(matrix[None])[0] and _can_map(moments, matrix):
+    if not are_singular(matrix[None, :3, :3])[0] and _can_map(moments, matrix):
         followed.moments = (moments.truncate(1) * factor).transform(np.linalg.inv(_in_si(matrix, unit)))
     return measurement.mass_properties.mass, measurement.mass_properties.center / unit
 

@@ -110,7 +110,10 @@ def _store_stack(stack: MeasuredStack, which: list[int], scene: Scene) -> Iterat
     )
     for obj, member, refusal in zip(objects, part.members, refusals):
         if refusal is None:
-            faults.remember_own(obj, member.shape.surface, member.shape.defects)
+            if (defects := member.shape.defects) is None:
+                faults.forget(obj)
+            else:
+                faults.remember_own(obj, member.shape.surface, defects)
             if obj in about:
                 reference.follow(obj, scene, about[obj])
         yield obj, refusal

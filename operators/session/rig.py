@@ -76,7 +76,7 @@ def stale_reason(armature: Object, scene: Scene) -> str | None:
 
 
 def _stale_reason(armature: Object, scene: Scene) -> str | None:
-    mark = marks.parse(marks.of_results(armature))
+    mark = marks.parse(properties.fingerprint(armature))
     if mark is None or mark.version != VERSION:
         return "stale_fingerprint" if "body_mass" in armature else None
     if mark.geometry == marks.EDITED or _edited.get(armature):
@@ -89,11 +89,15 @@ def _stale_reason(armature: Object, scene: Scene) -> str | None:
 def _watch(armature: Object, objects: Iterable[Object]) -> None:
     """Note edits of the meshes that an armature deforms from now on."""
     for obj in skinned_objects(armature, objects):
+        handlers.subscribe(handlers.on_update, _note_updates)
         _watched[obj.session_uid] = armature
 
 
 def _note_updates(updates: handlers.Updates) -> None:
-    if paused.depth or not _watched:
+    if not _watched:
+        handlers.unsubscribe(handlers.on_update, _note_updates)
+        return
+    if paused.depth:
         return
     touched = {*updates.reshaped, *updates.moved, *updates.others}
     for uid in _watched.keys() & updates.reshaped:
@@ -118,11 +122,10 @@ def _write_notes() -> None:
     if len(_edited):
         for obj in bpy.data.objects:
             if obj.type == "ARMATURE" and _edited.get(obj) and obj.is_editable:
-                marks.write_edited(obj, [marks.of_results(obj)])
+                marks.write_edited(obj, [properties.fingerprint(obj)])
 
 
 SUBSCRIPTIONS: tuple[tuple[list[Any], Callable[..., None]], ...] = (
-    (handlers.on_update, _note_updates),
     (handlers.on_undo, _watch_all),  # which makes Python's references to objects invalid
     (handlers.on_load, _watch_all),
     (handlers.on_save, _write_notes),
@@ -142,4 +145,5 @@ def unregister() -> None:
     for subscribers, function in reversed(SUBSCRIPTIONS):
         subscribers.remove(function)
     del staleness.reasons_by_type["ARMATURE"]
+    handlers.unsubscribe(handlers.on_update, _note_updates)
     _watched.clear()

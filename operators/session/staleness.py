@@ -33,6 +33,7 @@ from bpy.types import Context, Depsgraph, Object, Scene
 from ...core.verdict.method import Verdict
 from ..read.fingerprint import VERSION, has_transform, matrix_hash, scale_hash, settings_hash, shape_digest
 from ..read.quiet import paused
+from ..write import properties
 from . import handlers, marks, updates
 from .cache import SessionCache
 
@@ -65,7 +66,7 @@ def mark_up_to_date(
     for obj in objects:
         note_edits(obj)  # of its other marks
         mark_object(obj)
-        mark = marks.of_results(obj)
+        mark = properties.fingerprint(obj)
         shape = shapes.get(obj)
         if shape is not None and obj.mode == "OBJECT" and not _varies(obj):
             _shapes[mark] = shape
@@ -100,7 +101,7 @@ def mark_object(obj: Object) -> None:
         An original object.
     """
     _resolved[obj.session_uid] = updates.count()
-    _set_edited(obj, marks.of_results(obj), False)
+    _set_edited(obj, properties.fingerprint(obj), False)
     handlers.count_change()
 
 
@@ -114,7 +115,7 @@ def replace_mark(obj: Object, before: str) -> None:
     before : str
         The mark of the results that were replaced.
     """
-    mark = marks.of_results(obj)
+    mark = properties.fingerprint(obj)
     _set_edited(obj, mark, before in _edited_marks(obj))
     if before in _shapes:
         _shapes[mark] = _shapes[before]
@@ -128,7 +129,7 @@ def pin(obj: Object) -> None:
     obj : bpy.types.Object
         An original object that can hold results.
     """
-    mark = marks.parse(before := marks.of_results(obj))
+    mark = marks.parse(before := properties.fingerprint(obj))
     if mark is not None and has_transform(obj, mark.transform):
         obj["body_fingerprint"] = ":".join(mark._replace(transform=matrix_hash(obj)))
         replace_mark(obj, before)
@@ -152,7 +153,7 @@ def mark_axes_changed(objects: Iterable[Object]) -> None:
 
 def is_edited(obj: Object) -> bool:
     """Return whether geometry or transform have changed since the results were stored, whatever the settings are."""
-    mark = marks.parse(marks.of_results(obj))
+    mark = marks.parse(properties.fingerprint(obj))
     return mark is None or _has_new_geometry(obj, mark) or not has_transform(obj, mark.transform)
 
 
@@ -171,7 +172,7 @@ def stale_reason(obj: Object, scene: Scene) -> str | None:
     str or None
         The code of why they are out of date; None where they are not, or there are none.
     """
-    mark = marks.parse(marks.of_results(obj))
+    mark = marks.parse(properties.fingerprint(obj))
     if mark is None or mark.version != VERSION:
         return "stale_fingerprint" if "body_mass" in obj else None
     if obj.get("body_method") == Verdict.ASSEMBLY and obj.type in reasons_by_type:
@@ -185,7 +186,7 @@ def stale_reason(obj: Object, scene: Scene) -> str | None:
 
 def has_transform_of_results(obj: Object) -> bool:
     """Return whether an object is scaled as it was when its results were stored, and stands where they hold."""
-    mark = marks.parse(marks.of_results(obj))
+    mark = marks.parse(properties.fingerprint(obj))
     return mark is not None and has_transform(obj, mark.transform)
 
 

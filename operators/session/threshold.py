@@ -77,7 +77,7 @@ def on_threshold(settings: PropertyGroup, context: Context) -> None:
 
 def _current(obj: Object, scene: Scene | None) -> _CachedGrid | None:
     """What is kept of an object, where its stored numbers are of the same geometry and transform."""
-    cached, mark = _cache.get(obj), marks.parse(marks.of_results(obj))
+    cached, mark = _cache.get(obj), marks.parse(properties.fingerprint(obj))
     if cached is None or mark is None or scene is None:
         return None
     same = mark.geometry in cached.geometries and mark.transform == cached.transform

@@ -9,16 +9,15 @@ the update of a setting and that of undo.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from typing import Any, NamedTuple
 
 import bpy
-from bpy.types import Context, Depsgraph, Object, PropertyGroup
+from bpy.types import ID, Context, Depsgraph, Object, PropertyGroup
 
 from ..read.quiet import paused
 from ..settings import hooks
 from . import handlers
-from .affected import density_source, shown_by
 
 
 class Stamp(NamedTuple):
@@ -53,6 +52,49 @@ _undo_pending = False  # whether the next update is that of undo or redo
 def count() -> int:
     """Return how many updates there were."""
     return _count
+
+
+def shown_by(obj: Object) -> Iterator[ID]:
+    """Find what an object shows as instances, whose shape and place matter.
+
+    Parameters
+    ----------
+    obj : bpy.types.Object
+        An original object.
+
+    Yields
+    ------
+    bpy.types.ID
+        Objects and collections. Of collections Blender reports what happens to their members.
+    """
+    kind = obj.instance_type
+    if kind == "COLLECTION":
+        if obj.instance_collection is not None:
+            yield obj.instance_collection
+    elif kind != "NONE":
+        yield from obj.children_recursive
+    for system in obj.particle_systems:
+        settings = system.settings
+        if settings.instance_object is not None:
+            yield settings.instance_object
+        if settings.instance_collection is not None:
+            yield settings.instance_collection
+
+
+def density_source(obj: Object) -> Object | None:
+    """Return the Volume object that the density comes from, of which the shape matters; its place is a setting.
+
+    Parameters
+    ----------
+    obj : bpy.types.Object
+        An original object.
+
+    Returns
+    -------
+    bpy.types.Object or None
+    """
+    settings = obj.body_moments
+    return settings.density_volume if settings.density_from == "VOLUME" else None
 
 
 def last_edit(obj: Object, since: int = 0) -> Stamp:

@@ -104,7 +104,7 @@ def _walls_on_side(cached: _CachedWalls, obj: Object) -> Walls:
 
 def _current_walls(obj: Object) -> _CachedWalls | None:
     """What is kept of an object, where its stored numbers are of the same geometry and transform."""
-    cached, mark = _cache.get(obj), marks.parse(marks.of_results(obj))
+    cached, mark = _cache.get(obj), marks.parse(properties.fingerprint(obj))
     if cached is None or mark is None or (mark.geometry, mark.transform) != (cached.geometry, cached.transform):
         return None
     return cached

@@ -319,6 +319,11 @@ def method_text(obj: Owner) -> str:
     return str(obj.get("body_method", ""))
 
 
+def fingerprint(obj: Owner) -> str:
+    """The mark of what the numbers were computed from (session/marks.py), "" where there is none."""
+    return str(obj.get("body_fingerprint", ""))
+
+
 def findings(obj: Owner) -> tuple[Finding, ...]:
     """What was found and decided when the stored numbers were computed; see `findings_in`."""
     return findings_in(obj.get("body_findings"))

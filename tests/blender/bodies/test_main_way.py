@@ -15,7 +15,7 @@ from body_moments.operators.bodies.kinds import KINDS
 
 ROOT = str(Path(__file__).resolve().parent.parent.parent.parent)
 pytestmark = pytest.mark.usefixtures("scene")
-MAX_MODULES, MAX_CALLS = 39, 200
+MAX_MODULES, MAX_CALLS = 32, 200
 
 
 def pressed() -> list[tuple[str, str]]:

@@ -506,7 +506,16 @@ def test_live_numbers_follow_undo_and_stop_at_a_file_and_when_unregistered(tmp_p
     body_moments.register()
     assert not live.is_live(bpy.context.object) and not len(live._followed)
     assert bpy.app.handlers.depsgraph_update_post.count(handlers._on_update) == 1
+    assert live._note_updates not in handlers.on_update
+    for _ in range(2):
+        bpy.ops.object.body_moments_live()
+        bpy.ops.object.body_moments_live()
+    bpy.ops.object.body_moments_live()
     assert handlers.on_update.count(live._note_updates) == 1
+    bpy.ops.object.body_moments_live()
+    bpy.context.object.location.x += 1.0
+    bpy.context.view_layer.update()
+    assert live._note_updates not in handlers.on_update
 
 
 def test_a_hook_under_a_flattened_object_leaves_the_display_mesh():
