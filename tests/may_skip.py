@@ -11,7 +11,7 @@ REASONS = {
     "no libsdformat": "SDF is held against a restated schema all the same",
     "no Slurm": "its tasks are run as it would run them",
     "no Node": "runs the job type of Flamenco with stubs",
-    "could not import 'bornagain'": "compared with in the environment of 5.2; large, and its wheels are for few systems",
+    "could not import 'bornagain'": "compared with where Blender 5.2 is; its wheels are for few systems",
     "comprehensions are calls of their own": "Python 3.11 counts more calls than the ones that are limited",
     "not on this system": "Windows has no such devices, signals, owners or links",
     "Dynamic topology cannot be turned on without a window": "the window tests see it there",
