@@ -11,13 +11,80 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from ..numerics.arrays import segment_starts
 from ..numerics.graph import connected_components
 from .surface import Surface, flipped_quads, indices_in_range
 
 
 @dataclass(frozen=True, eq=False)
-class SurfaceStack:
-    """The arrays of n surfaces, each with its own numbers of points moved behind those of the surfaces before it.
+class TriangleStack:
+    """The triangles of n surfaces, each with its own numbers of points moved behind those of the surfaces before it.
+
+    Attributes
+    ----------
+    points : (p, 3) float32 or float64
+    triangles : (t, 3) int
+    point_counts, triangle_counts : (n,) int
+        Of each surface; none has no points or no triangles.
+    """
+
+    points: NDArray[np.floating]
+    triangles: NDArray[np.intp]
+    point_counts: NDArray[np.intp]
+    triangle_counts: NDArray[np.intp]
+
+    def __len__(self) -> int:
+        return len(self.point_counts)
+
+    def some(self, which: NDArray[np.intp]) -> TriangleStack:
+        """The triangles of some of the surfaces, in ascending order."""
+        of_point, of_triangle = self.owned(which)
+        return TriangleStack(
+            self.points[of_point],
+            (np.cumsum(of_point) - 1)[self.triangles[of_triangle]],
+            self.point_counts[which],
+            self.triangle_counts[which],
+        )
+
+    def owned(self, which: NDArray[np.intp]) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+        """(p,) the points and (t,) the triangles of some of the surfaces."""
+        chosen = np.zeros(len(self), bool)
+        chosen[which] = True
+        return np.repeat(chosen, self.point_counts), np.repeat(chosen, self.triangle_counts)
+
+    @cached_property
+    def first_point(self) -> NDArray[np.intp]:
+        """(n,) where each one's points begin."""
+        return np.cumsum(self.point_counts) - self.point_counts
+
+    @cached_property
+    def first_triangle(self) -> NDArray[np.intp]:
+        """(n,) where each one's triangles begin."""
+        return np.cumsum(self.triangle_counts) - self.triangle_counts
+
+    @cached_property
+    def point_owners(self) -> NDArray[np.intp]:
+        """(p,) the surface of each point."""
+        return np.repeat(np.arange(len(self)), self.point_counts)
+
+    @cached_property
+    def box(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """(n, 3) and (n, 3) the smallest and the largest coordinates of each surface."""
+        rows, starts = np.ascontiguousarray(self.points.T), self.first_point
+        low, high = np.minimum.reduceat(rows, starts, axis=1), np.maximum.reduceat(rows, starts, axis=1)
+        return low.T.astype(np.float64), high.T.astype(np.float64)
+
+    @cached_property
+    def coordinate_error(self) -> NDArray[np.float64]:
+        """(n, 3) as `Surface.coordinate_error` of each."""
+        low, high = self.box
+        largest = np.minimum(np.maximum(high, -low), 2.0**127)
+        return np.spacing(largest.astype(np.float32)).astype(np.float64) / 2.0
+
+
+@dataclass(frozen=True, eq=False)
+class SurfaceStack(TriangleStack):
+    """The arrays of n surfaces.
 
     Make them by `of`. Faces are the meshes' own, numbered one surface after the other.
 
@@ -36,22 +103,15 @@ class SurfaceStack:
         Of each surface; none has no points or no triangles.
     """
 
-    points: NDArray[np.floating]
-    triangles: NDArray[np.intp]
     triangle_faces: NDArray[np.intp]
     quads: NDArray[np.intp]
     quad_faces: NDArray[np.intp]
     corner_vertices: NDArray[np.intp]
     corner_edges: NDArray[np.intp]
-    point_counts: NDArray[np.intp]
-    triangle_counts: NDArray[np.intp]
     quad_counts: NDArray[np.intp]
     corner_counts: NDArray[np.intp]
     face_counts: NDArray[np.intp]
     edge_counts: NDArray[np.intp]
-
-    def __len__(self) -> int:
-        return len(self.point_counts)
 
     @staticmethod
     def takes(surface: Surface) -> bool:
@@ -108,84 +168,23 @@ class SurfaceStack:
         return cls(
             points,
             cut,
+            point_counts,
+            single + 2 * quad_counts,
             cut_faces,
             quads,
             faces[1],
             corners,
             edges,
-            point_counts,
-            single + 2 * quad_counts,
             quad_counts,
             corner_counts,
             face_counts,
             edge_counts,
         )
 
-    def some(self, which: NDArray[np.intp]) -> SurfaceStack:
-        """A stack of some of the surfaces, in ascending order."""
-        kept = np.zeros(len(self), bool)
-        kept[which] = True
-        of_point, of_triangle, of_quad, of_corner, of_face = (
-            np.repeat(kept, counts)
-            for counts in (
-                self.point_counts,
-                self.triangle_counts,
-                self.quad_counts,
-                self.corner_counts,
-                self.face_counts,
-            )
-        )
-        point, face = (np.cumsum(chosen) - 1 for chosen in (of_point, of_face))
-        edge = np.cumsum(np.repeat(kept, self.edge_counts)) - 1
-        return SurfaceStack(
-            self.points[of_point],
-            point[self.triangles[of_triangle]],
-            face[self.triangle_faces[of_triangle]],
-            point[self.quads[of_quad]],
-            face[self.quad_faces[of_quad]],
-            point[self.corner_vertices[of_corner]],
-            edge[self.corner_edges[of_corner]],
-            *(
-                counts[which]
-                for counts in (
-                    self.point_counts,
-                    self.triangle_counts,
-                    self.quad_counts,
-                    self.corner_counts,
-                    self.face_counts,
-                    self.edge_counts,
-                )
-            ),
-        )
-
-    @cached_property
-    def first_point(self) -> NDArray[np.intp]:
-        """(n,) where each one's points begin."""
-        return np.cumsum(self.point_counts) - self.point_counts
-
-    @cached_property
-    def first_triangle(self) -> NDArray[np.intp]:
-        """(n,) where each one's triangles begin."""
-        return np.cumsum(self.triangle_counts) - self.triangle_counts
-
     @cached_property
     def first_face(self) -> NDArray[np.intp]:
         """(n,) where each one's faces begin."""
         return np.cumsum(self.face_counts) - self.face_counts
-
-    @cached_property
-    def box(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """(n, 3) and (n, 3) the smallest and the largest coordinates of each surface."""
-        rows, starts = np.ascontiguousarray(self.points.T), self.first_point
-        low, high = np.minimum.reduceat(rows, starts, axis=1), np.maximum.reduceat(rows, starts, axis=1)
-        return low.T.astype(np.float64), high.T.astype(np.float64)
-
-    @cached_property
-    def coordinate_error(self) -> NDArray[np.float64]:
-        """(n, 3) as `Surface.coordinate_error` of each."""
-        low, high = self.box
-        largest = np.minimum(np.maximum(high, -low), 2.0**127)
-        return np.spacing(largest.astype(np.float32)).astype(np.float64) / 2.0
 
     @cached_property
     def face_sizes(self) -> NDArray[np.intp]:
@@ -202,35 +201,71 @@ class SurfaceStack:
         used[self.triangles] = True
         return np.logical_and.reduceat(used, self.first_point)
 
-    def closed_components(self) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-        """(n,) of each surface that its own edges prove closed and oriented, as `closed_side_faces` says, how many
-        components it has, 0 of others; and (f,) the component of each face, numbered in the order of their first faces,
-        which means nothing in those others."""
-        sizes, corners = self.face_sizes, self.corner_vertices
+    def connections(self) -> Connections:
+        """How the faces hang together, as the meshes' own edges say."""
+        sizes, corners, edges = self.face_sizes, self.corner_vertices, self.corner_edges
         first_face = self.first_face
         fits = np.add.reduceat(sizes, first_face) == self.corner_counts
         fits &= np.minimum.reduceat(sizes, first_face) > 0
         if not fits.all():  # the rings of the others are not known; their corners must not be taken for rings
             sizes = np.where(np.repeat(fits, self.face_counts), sizes, 0)
-            corners = corners[np.repeat(fits, self.corner_counts)]
+            known = np.repeat(fits, self.corner_counts)
+            corners, edges = corners[known], edges[known]
         sizes_met = sizes[sizes > 0]
         ends = np.cumsum(sizes_met)
         following = np.roll(corners, -1)
         if len(ends):
             following[ends - 1] = corners[ends - sizes_met]
-        edges = self.corner_edges if fits.all() else self.corner_edges[np.repeat(fits, self.corner_counts)]
+        face = np.repeat(np.flatnonzero(sizes), sizes_met)
         count = int(self.edge_counts.sum())
         sides = np.full(2 * count, -1)
-        sides[edges + count * (corners < following)] = np.repeat(np.flatnonzero(sizes), sizes_met)
-        above, below = sides.reshape(2, count) >= 0
-        first_edge = np.cumsum(self.edge_counts) - self.edge_counts
-        paired = np.add.reduceat(above & below, first_edge, dtype=np.intp)
-        closed = fits & (np.add.reduceat(above | below, first_edge, dtype=np.intp) == paired)
-        closed &= 2 * paired == self.corner_counts
-        linked = above & below
-        component, _ = connected_components(len(sizes), *sides.reshape(2, count)[:, linked])
+        sides[edges + count * (corners < following)] = np.arange(len(corners))
+        above, below = sides.reshape(2, count)
+        has_above, has_below = above >= 0, below >= 0
+        linked = has_above & has_below
+        above, below = above[linked], below[linked]
+        first_edge = segment_starts(self.edge_counts)
+        pairs = np.add.reduceat(linked, first_edge, dtype=np.intp)
+        single = np.add.reduceat(has_above ^ has_below, first_edge, dtype=np.intp)
+        oriented = fits & (2 * pairs + single == self.corner_counts)
+        wrong = (corners[above] != following[below]) | (following[above] != corners[below])
+        if wrong.any():  # edges that do not fit the vertices
+            oriented[self.point_owners[corners[above[wrong]]]] = False
+        component, _ = connected_components(len(sizes), face[above], face[below])
         last = np.maximum.reduceat(component, first_face)  # they are numbered in the order of their first faces
-        return np.where(closed, np.diff(last, prepend=-1), 0), component
+        is_open = oriented & (single > 0)
+        sides = np.empty((2, 0), np.intp)
+        if is_open.any():
+            alone = np.ones(len(corners), bool)
+            alone[above] = alone[below] = False
+            sides = np.stack([corners[alone], following[alone]])
+            sides = sides[:, is_open[self.point_owners[sides[0]]]]
+        return Connections(oriented & (single == 0), is_open, np.diff(last, prepend=-1), component, sides)
+
+
+@dataclass(frozen=True, eq=False)
+class Connections:
+    """How the faces of n surfaces hang together, as their meshes' own edges say.
+
+    Attributes
+    ----------
+    is_closed : (n,) bool
+        Whether every edge that has faces has two, which run along it in opposite directions.
+    is_open : (n,) bool
+        Whether that is so but for edges with one face, of which there are some.
+    component_counts : (n,) int
+        Of those that are closed or open as above; of others it means nothing.
+    component : (f,) int
+        The component of each face, numbered in the order of their first faces.
+    open_sides : (2, k) int
+        Where the sides of the edges with one face begin and end, of the surfaces that are open.
+    """
+
+    is_closed: NDArray[np.bool_]
+    is_open: NDArray[np.bool_]
+    component_counts: NDArray[np.intp]
+    component: NDArray[np.intp]
+    open_sides: NDArray[np.intp]
 
 
 def _faces(surface: Surface, name: str) -> NDArray[np.integer]:

@@ -5,7 +5,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +12,7 @@ from numpy.typing import NDArray
 from ..mesh.bvh import SortedComponents, sort_components
 from ..mesh.surface import Surface
 from ..moments.moments import Moments, sum_moments
+from ..numerics.arrays import PerBody
 from ..polyhedron import polyhedron_moments
 from ..verdict.health import MeshReport
 from ..verdict.tolerances import CLOSED_SHEET_VOLUME_RTOL, FLAT_CAP_VOLUME_RTOL
@@ -172,7 +172,7 @@ def orient_components(
         volume = _integrate_oriented(checked.surface, given, mesh, flipped, surface, threads)
     total, has_open = volume.total, bool(mesh.open.any())
     if comparison is None:
-        threshold = _zero_volume_threshold(checked.size, given.area.total, bool(mesh.caps.any()), checked.error)
+        threshold = zero_volume(checked.size, given.area.total, bool(mesh.caps.any()), checked.error)
         is_solid = bool(abs(total) > max(threshold, volume.rounding_error[0]))
         solid = np.full(mesh.number, is_solid)
         # what is open has no inside
@@ -201,16 +201,16 @@ def compare_components(mesh: RepairedMesh, tolerance: float, error: float) -> Co
     """
     components = sort_components(mesh.points, mesh.triangles, mesh.component, mesh.number)
     size = np.linalg.norm(components.high - components.low, axis=1)
-    closed, capped = [_zero_volume_threshold(size, components.area, caps, error) for caps in (False, True)]
-    solid = ~mesh.open & (np.abs(components.volume) > np.where(mesh.caps.any(axis=1), capped, closed))
+    threshold = zero_volume(size, components.area, mesh.caps.any(axis=1), error)
+    solid = ~mesh.open & (np.abs(components.volume) > threshold)
     return ComponentComparison.from_relations(
         components, classify_pairs(mesh.points, components, solid, tolerance), solid
     )
 
 
-def _zero_volume_threshold(size: Any, area: Any, capped: bool, error: float) -> Any:
-    """(...) the volume that is none: what rounding leaves of a closed sheet, and what capping leaves of a flat one."""
-    return (FLAT_CAP_VOLUME_RTOL * size + 4.0 * error) * area if capped else CLOSED_SHEET_VOLUME_RTOL * size * area
+def zero_volume(size: PerBody, area: PerBody, capped: PerBody, error: PerBody) -> PerBody:
+    """The volume that is none: what rounding leaves of a closed sheet, and what capping leaves of a flat one."""
+    return np.where(capped, FLAT_CAP_VOLUME_RTOL * size + 4.0 * error, CLOSED_SHEET_VOLUME_RTOL * size) * area
 
 
 def _oriented_surface(

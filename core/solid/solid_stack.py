@@ -1,16 +1,16 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Many small solids measured at once: those that are closed as they are, and outward, in one piece or in several that
-stand apart.
+"""Many small solids measured at once: those that are closed as they are, or by caps alone, and outward, in one piece
+or in several that stand apart.
 
-What is exact here is what `measure_solid` would call exact, with the same numbers. Everything else is for
+What is certain here is what `measure_solid` would call exact or capped, with the same numbers. Everything else is for
 `measure_solid`, one by one.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,16 +18,19 @@ from numpy.typing import NDArray
 from ..mesh.planarity import Planarity, StackPlanarity, stack_planarity
 from ..mesh.scan_lines import LineGrids, find_crossings, line_counts
 from ..mesh.surface import Surface
-from ..mesh.surface_stack import SurfaceStack
+from ..mesh.surface_stack import SurfaceStack, TriangleStack
 from ..moments.moments import SECOND_MOMENT_INDEX, Moments, U, stack_moments
 from ..polyhedron.any_order_small import extend_small_moments
 from ..polyhedron.third_order import MAX_SMALL_TRIANGLES, MAX_UNSCALED_REACH
 from ..polyhedron.third_order_small import NEXT_AXIS, PREVIOUS_AXIS, small_moments
 from ..verdict.finding import Finding
-from ..verdict.health import NO_FACES, Intersection, MeshReport
-from ..verdict.tolerances import CLOSED_SHEET_VOLUME_RTOL, MAX_COORDINATE, MIN_SIZE, WELDING_RTOL
+from ..verdict.health import NO_FACES, DefectiveElements, Intersection, MeshReport
+from ..verdict.method import Verdict
+from ..verdict.tolerances import MAX_COORDINATE, MIN_SIZE, WELDING_RTOL
+from .capped_stack import StackCaps, cap_stack
+from .orientation import zero_volume
 from .self_intersection import MAX_UNSURE_LINES, measure_excess
-from .solid_verdict import SolidIntegrals, shape_findings
+from .solid_verdict import SolidIntegrals, cap_finding, shape_findings
 from .triage import SUM_ROUNDING
 
 MAX_COMPONENTS = 16  # of one body: each is compared with each
@@ -40,46 +43,74 @@ class SolidStack:
 
     Attributes
     ----------
-    is_exact : (n,) bool
-        Which of them are closed as they are; the others have to be measured one by one.
+    is_measured : (n,) bool
+        Which of them are closed, as they are or by caps; the others have to be measured one by one.
     volume, area : Moments
-        Of each, to order 3 and 0, about a point of its own; only those that are exact mean anything.
+        Of each, to order 3 and 0, about a point of its own; only those that are measured mean anything. The area is
+        without caps.
+    size : (n,) float
+        The diagonal of the bounding box (unit).
     planarity : StackPlanarity
     intersection : (n,) array of Intersection
     component_counts : (n,) int
-    surfaces : SurfaceStack
+    caps : StackCaps, optional
+        None where nothing was capped.
+    triangles : TriangleStack
+        What bounds them, with caps.
     """
 
-    is_exact: NDArray[np.bool_]
+    is_measured: NDArray[np.bool_]
     volume: Moments
     area: Moments
+    size: NDArray[np.float64]
     planarity: StackPlanarity
     intersection: NDArray[np.object_]
     component_counts: NDArray[np.intp]
-    surfaces: SurfaceStack
+    caps: StackCaps | None
+    triangles: TriangleStack
+
+    def verdict(self, i: int) -> Verdict:
+        """How a measured one closes."""
+        return Verdict.EXACT if self.caps is None or not self.caps.is_capped[i] else Verdict.CAPPED
 
     def health(self, i: int) -> MeshReport:
-        """What the surface of an exact one is like."""
+        """What the surface of a measured one is like."""
         flat = self.planarity
-        return MeshReport(
+        report = MeshReport(
             closed=True,
             components=int(self.component_counts[i]),
             non_planar_faces=int(flat.non_planar_counts[i]),
             volume_spread=float(flat.volume_ambiguity[i]),
             self_intersection=self.intersection[i],
         )
+        if self.caps is None or not self.caps.is_capped[i]:
+            return report
+        edges = self.caps.edges_of(i)
+        return replace(
+            report,
+            closed=False,
+            boundary_edges=len(edges),
+            cap_area_share=self._cap_share(self.caps, i),
+            defective_elements=DefectiveElements(boundary_edges=edges),
+        )
 
     def findings(self, i: int) -> tuple[Finding, ...]:
-        """What is to be reported of an exact one."""
-        flat = self.planarity
-        if not flat.volume_ambiguity[i]:
-            return ()
-        planarity = Planarity(int(flat.non_planar_counts[i]), float(flat.volume_ambiguity[i]), NO_FACES)
-        return tuple(shape_findings(True, planarity, self.volume.at(i)))
+        """What is to be reported of a measured one."""
+        flat, found = self.planarity, []
+        if self.caps is not None and self.caps.is_capped[i]:
+            share, total = self._cap_share(self.caps, i), float(self.volume.raw[i, 0])
+            found.append(cap_finding(self.caps.edges_of(i), self.caps.counts[i], share, float(self.size[i]), total))
+        if flat.volume_ambiguity[i]:
+            planarity = Planarity(int(flat.non_planar_counts[i]), float(flat.volume_ambiguity[i]), NO_FACES)
+            found += shape_findings(True, planarity, self.volume.at(i))
+        return tuple(found)
+
+    def _cap_share(self, caps: StackCaps, i: int) -> float:
+        return float(caps.counts[i, 2] / self.area.raw[i, 0])
 
     def to_order(self, rows: NDArray[np.intp], order: int) -> Moments:
         """The volumes of some, in ascending order, to a higher order than third."""
-        stack, volume = self.surfaces.some(rows), self.volume.at(rows)
+        stack, volume = self.triangles.some(rows), self.volume.at(rows)
         low, high = stack.box
         reach = np.maximum(high - volume.about, volume.about - low) * (1.0 + 4.0 * U) + stack.coordinate_error
         return extend_small_moments(volume, order, stack.points, stack.triangles, stack.triangle_counts, reach)
@@ -116,7 +147,7 @@ def can_be_stacked(surface: Surface) -> bool:
 
 
 def measure_stack(surfaces: Sequence[Surface]) -> SolidStack:
-    """Measure the bodies that many small surfaces bound, as far as they are closed as they are.
+    """Measure the bodies that many small surfaces bound, as far as they are closed as they are, or by caps alone.
 
     Parameters
     ----------
@@ -128,7 +159,6 @@ def measure_stack(surfaces: Sequence[Surface]) -> SolidStack:
     SolidStack
     """
     stack = SurfaceStack.of(surfaces)
-    starts = stack.first_triangle
     low, high = stack.box
     center = (low / 2.0 + high / 2.0).astype(np.float32).astype(np.float64)
     reach = np.maximum(high - center, center - low) * (1.0 + 4.0 * U)
@@ -142,45 +172,37 @@ def measure_stack(surfaces: Sequence[Surface]) -> SolidStack:
         area=True,
         shell=False,
     )
-    planarity = stack_planarity(stack)
+    planarity, links = stack_planarity(stack), stack.connections()
     size, farthest = np.sqrt(np.add.reduce((high - low) ** 2, axis=1)), reach.max(axis=1)
-    component_counts, component = stack.closed_components()
-    is_exact = (
-        (component_counts > 0)
-        & (component_counts <= MAX_COMPONENTS)
-        & ~planarity.has_degenerate
-        & stack.uses_all_points()
-    )
-    is_exact &= (farthest > 1.0 / MAX_UNSCALED_REACH) & (farthest < MAX_UNSCALED_REACH) & (size >= MIN_SIZE)
-    is_exact &= np.maximum(size, np.maximum(np.abs(low), np.abs(high)).max(axis=1)) < MAX_COORDINATE
-    none = np.maximum(CLOSED_SHEET_VOLUME_RTOL * size * area.raw[:, 0], volume.rounding_error[:, 0])
-    is_exact &= volume.raw[:, 0] > none
-    rows = np.flatnonzero(is_exact)
-    is_exact[rows] = _are_physical(volume.at(rows), low[rows], high[rows], size[rows])
-    tolerance = np.maximum(WELDING_RTOL * size, 4.0 * np.sqrt(np.add.reduce(stack.coordinate_error**2, axis=1)))
-    part = component[stack.triangle_faces]
-    several = np.flatnonzero(is_exact & (component_counts > 1))
+    usable = (links.component_counts <= MAX_COMPONENTS) & ~planarity.has_degenerate & stack.uses_all_points()
+    usable &= (farthest > 1.0 / MAX_UNSCALED_REACH) & (farthest < MAX_UNSCALED_REACH) & (size >= MIN_SIZE)
+    usable &= np.maximum(size, np.maximum(np.abs(low), np.abs(high)).max(axis=1)) < MAX_COORDINATE
+    error = np.sqrt(np.add.reduce(stack.coordinate_error**2, axis=1))
+    tolerance = np.maximum(WELDING_RTOL * size, 4.0 * error)
+    caps = cap_stack(stack, links, usable, tolerance) if links.is_open.any() else None
+    capped, triangles, part = np.zeros(len(stack), bool), stack, links.component[stack.triangle_faces]
+    if caps is not None:
+        capped, triangles, part, volume = caps.is_capped, caps.triangles, caps.part, caps.add_to(volume)
+    is_measured = usable & (links.is_closed | capped)
+    none = np.maximum(zero_volume(size, area.raw[:, 0], capped, error), volume.rounding_error[:, 0])
+    is_measured &= volume.raw[:, 0] > none
+    rows = np.flatnonzero(is_measured)
+    is_measured[rows] = _are_physical(volume.at(rows), low[rows], high[rows], size[rows])
+    several = np.flatnonzero(is_measured & (links.component_counts > 1))
     if len(several):
-        is_exact[several] = _stand_apart(stack, part, several, center, component_counts[several], tolerance[several])
-    intersection = np.full(len(starts), Intersection.NOT_CHECKED, object)
-    intersection[is_exact] = Intersection.EXCLUDED
-    centers = volume.about + volume.raw[:, 1:4] / np.where(is_exact, volume.raw[:, 0], 1.0)[:, None]
-    is_star = _are_stars(stack, starts, centers)
-    if not is_star[is_exact].all():
-        is_star |= _are_stars(stack, starts, volume.about)
-    rows = np.flatnonzero(is_exact & ~(is_star & (component_counts == 1)))
+        is_measured[several] = _stand_apart(triangles, part, several, links.component_counts, tolerance, capped, error)
+    intersection = np.full(len(stack), Intersection.NOT_CHECKED, object)
+    intersection[is_measured] = Intersection.EXCLUDED
+    centers = volume.about + volume.raw[:, 1:4] / np.where(is_measured, volume.raw[:, 0], 1.0)[:, None]
+    is_star = _are_stars(triangles, centers)
+    if not is_star[is_measured & ~capped].all():
+        is_star |= ~capped & _are_stars(triangles, volume.about)
+    rows = np.flatnonzero(is_measured & ~(is_star & (links.component_counts == 1)))
     if len(rows):
-        chosen = _of_bodies(stack, rows)
-        intersection[rows] = _looked_for(stack.some(rows), tolerance[rows], _renumbered(part[chosen]))
-        is_exact[rows] = intersection[rows] == Intersection.NOT_FOUND
-    return SolidStack(is_exact, volume, area, planarity, intersection, component_counts, stack)
-
-
-def _of_bodies(stack: SurfaceStack, rows: NDArray[np.intp]) -> NDArray[np.bool_]:
-    """(t,) the triangles of some of the surfaces."""
-    chosen = np.zeros(len(stack), bool)
-    chosen[rows] = True
-    return np.repeat(chosen, stack.triangle_counts)
+        chosen = triangles.owned(rows)[1]
+        intersection[rows] = _looked_for(triangles.some(rows), tolerance[rows], _renumbered(part[chosen]))
+        is_measured[rows] = intersection[rows] == Intersection.NOT_FOUND
+    return SolidStack(is_measured, volume, area, size, planarity, intersection, links.component_counts, caps, triangles)
 
 
 def _renumbered(labels: NDArray[np.intp]) -> NDArray[np.intp]:
@@ -189,19 +211,21 @@ def _renumbered(labels: NDArray[np.intp]) -> NDArray[np.intp]:
 
 
 def _stand_apart(
-    stack: SurfaceStack,
+    stack: TriangleStack,
     part: NDArray[np.intp],
     rows: NDArray[np.intp],
-    center: NDArray,
     counts: NDArray[np.intp],
-    tolerance: NDArray,
+    tolerance: NDArray[np.float64],
+    capped: NDArray[np.bool_],
+    error: NDArray[np.float64],
 ) -> NDArray[np.bool_]:
     """(k,) whether the components of some of the bodies, the `part` of each triangle of all, face outward, each with a
-    volume that is certain, and have boxes that do not touch."""
-    chosen = _of_bodies(stack, rows)
+    volume that is certain, and have boxes that do not touch. counts, tolerance, capped, error: of all bodies."""
+    chosen = stack.owned(rows)[1]
     part = _renumbered(part[chosen])
-    body = np.repeat(np.arange(len(rows)), counts)  # of each part: they are numbered one body after the other
-    corners = stack.points[stack.triangles[chosen]].astype(np.float64) - center[rows][body[part], None]
+    body = np.repeat(np.arange(len(rows)), counts[rows])  # of each part: they are numbered one body after the other
+    corners = stack.points[stack.triangles[chosen]].astype(np.float64)
+    corners -= np.repeat(stack.box[0][rows], stack.triangle_counts[rows], axis=0)[:, None]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     volume = np.bincount(part, np.add.reduce(corners[:, 0] * normals, axis=1)) / 6.0
     area = np.bincount(part, np.sqrt(np.add.reduce(normals * normals, axis=1))) / 2.0
@@ -209,31 +233,30 @@ def _stand_apart(
     starts = np.searchsorted(part[order], np.arange(len(body)))
     low = np.minimum.reduceat(corners.min(axis=1)[order], starts)
     high = np.maximum.reduceat(corners.max(axis=1)[order], starts)
-    is_bad = (
-        volume <= CLEAR_VOLUME * CLOSED_SHEET_VOLUME_RTOL * np.sqrt(np.add.reduce((high - low) ** 2, axis=1)) * area
-    )
-    apart = 2.0 * tolerance[body]
-    for step in range(1, int(counts.max())):
+    size, of_all = np.sqrt(np.add.reduce((high - low) ** 2, axis=1)), rows[body]
+    is_bad = volume <= CLEAR_VOLUME * zero_volume(size, area, capped[of_all], error[of_all])
+    apart = 2.0 * tolerance[of_all]
+    for step in range(1, int(counts[rows].max())):
         gap = np.maximum(low[step:] - high[:-step], low[:-step] - high[step:]).max(axis=1)
         is_bad[:-step] |= (body[step:] == body[:-step]) & ~(gap > apart[:-step])
     return np.bincount(body, is_bad) == 0
 
 
-def _are_stars(stack: SurfaceStack, starts: NDArray[np.intp], points: NDArray) -> NDArray[np.bool_]:
+def _are_stars(stack: TriangleStack, points: NDArray) -> NDArray[np.bool_]:
     """(n,) whether the cones over all faces of a surface, from its point, (n, 3), agree and surround it once: by their
     solid angles (van Oosterom and Strackee 1983)."""
-    places = points.take(np.repeat(np.arange(len(starts)), stack.triangle_counts), 0).T[:, None]
+    places = points.take(np.repeat(np.arange(len(stack)), stack.triangle_counts), 0).T[:, None]
     corners = stack.points.T.take(stack.triangles.T, 1) - places
     after, before = corners.take(NEXT_AXIS, 0), corners.take(PREVIOUS_AXIS, 0)
     cones = np.add.reduce(corners[:, 0] * (after[:, 1] * before[:, 2] - before[:, 1] * after[:, 2]))
     la, lb, lc = np.sqrt(np.add.reduce(corners * corners))
     ab, bc, ca = np.add.reduce(corners * corners.take(NEXT_AXIS, 1))
     halves = np.arctan2(cones, la * lb * lc + ab * lc + bc * la + ca * lb)
-    total, signed, angle = np.add.reduceat(np.stack([np.abs(cones), cones, halves]), starts, axis=1)
+    total, signed, angle = np.add.reduceat(np.stack([np.abs(cones), cones, halves]), stack.first_triangle, axis=1)
     return (total - signed <= SUM_ROUNDING * total) & (np.rint(angle / (2.0 * np.pi)) == 1.0)
 
 
-def _looked_for(stack: SurfaceStack, tolerance: NDArray, part: NDArray[np.intp]) -> NDArray[np.object_]:
+def _looked_for(stack: TriangleStack, tolerance: NDArray, part: NDArray[np.intp]) -> NDArray[np.object_]:
     """(k,) whether surfaces go through themselves, as `find_self_intersection` finds by lines. part: (t,) the component
     of each triangle."""
     low, high = stack.box

@@ -168,7 +168,8 @@ def judge(
     if len(inverted):
         findings.append(_inverted_finding(mesh, inverted, checked.size, volume.total))
     if caps[:2].any():
-        findings.append(_cap_finding(checked, oriented, caps, cap_share))
+        edges = _capped_edges(checked, oriented)
+        findings.append(cap_finding(edges, caps, cap_share, checked.size, volume.total))
     if oriented.comparison is not None:
         findings += _component_findings(mesh, oriented.comparison, checked.size, volume.total)
     if self_intersecting:
@@ -275,14 +276,19 @@ def _inverted_finding(mesh: RepairedMesh, inverted: NDArray[np.intp], size: floa
     return finding(code, faces, count=len(inverted), total=int(mesh.number))
 
 
-def _cap_finding(checked: CheckedSurface, oriented: OrientedSolid, caps: NDArray[np.float64], share: float) -> Finding:
-    """About the capped holes of components that have a volume. caps: (3,) flat ones, curved ones, and their area;
-    share: of the surface's."""
+def _capped_edges(checked: CheckedSurface, oriented: OrientedSolid) -> NDArray[np.intp]:
+    """The edges of the capped holes of components that have a volume."""
     mesh, vertices = oriented.mesh, checked.vertices
-    flat, curved = map(int, caps[:2])
     edges = mesh.capped_edges[oriented.solid[mesh.capped_component]]
-    edges = unique_pairs(edges if vertices is None else vertices[edges])
-    if caps[2] * checked.size < NEGLIGIBLE * oriented.volume.total:  # all their moments together
+    return unique_pairs(edges if vertices is None else vertices[edges])
+
+
+def cap_finding(
+    edges: NDArray[np.intp], caps: NDArray[np.float64], share: float, size: float, volume: float
+) -> Finding:
+    """About capped holes. caps: (3,) flat ones, curved ones, and their area; share: of the surface's."""
+    flat, curved = map(int, caps[:2])
+    if caps[2] * size < NEGLIGIBLE * volume:  # all their moments together
         return finding("holes_capped_slightly", edges, count=flat + curved, share=share)
     return finding("holes_capped", edges, count=flat + curved, flat=flat, curved=curved, share=share)
 

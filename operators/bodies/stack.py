@@ -40,7 +40,7 @@ from ..read.fingerprint import fingerprint, surface_digest, transform_keys
 from ..settings.accepted import accepted_codes, with_acceptance
 from .body import own_moments, with_known
 
-EXACT = Method(Verdict.EXACT)
+METHODS = {verdict: Method(verdict) for verdict in Verdict}
 
 
 @dataclass(eq=False)
@@ -65,7 +65,7 @@ class Shape:
     row: int = -1
     solids: SolidStack | None = None
     alone: SolidIntegrals | None = None
-    method: Method = EXACT
+    method: Method = METHODS[Verdict.EXACT]
     findings: tuple[Finding, ...] = ()
 
     @property
@@ -79,7 +79,8 @@ class Shape:
     @property
     def defects(self) -> DefectiveElements | None:
         """Where its faults are; None where there are none."""
-        return None if self.alone is None else self.alone.health.defective_elements
+        spotless = self.alone is None and self.method is METHODS[Verdict.EXACT]
+        return None if spotless else self.health.defective_elements
 
     @cached_property
     def digest(self) -> bytes | None:
@@ -106,8 +107,9 @@ def measure_shapes(shapes: list[Shape]) -> tuple[Moments, Moments] | None:
     if small:
         solids = measure_stack([shape.surface for shape in small])
         volumes, areas = [solids.volume], [solids.area]
-        for i in np.flatnonzero(solids.is_exact).tolist():
+        for i in np.flatnonzero(solids.is_measured).tolist():
             small[i].row, small[i].solids, small[i].findings = i, solids, solids.findings(i)
+            small[i].method = METHODS[solids.verdict(i)]
     others = []
     for shape in shapes:
         if shape.solids is None:
@@ -115,7 +117,7 @@ def measure_shapes(shapes: list[Shape]) -> tuple[Moments, Moments] | None:
                 solid = shape.alone = measure_solid(shape.surface)
             except MeasureError:  # the objects are refused one by one, with the reason
                 continue
-            shape.row, shape.method, shape.findings = len(small) + len(others), Method(solid.method), solid.findings
+            shape.row, shape.method, shape.findings = len(small) + len(others), METHODS[solid.method], solid.findings
             others.append(solid)
     if others:
         volumes.append(stack_moments([solid.volume for solid in others]))

@@ -71,12 +71,12 @@ def _any_faults(elements: DefectiveElements) -> bool:
 def _remember(obj: Object, surface: Surface, place: NDArray, elements: DefectiveElements) -> None:
     pairs, faces = ([getattr(elements, name) for name in names] for names in (PAIRS, FACES))
     points = surface.points.astype(np.float64) @ place[:3, :3].T + place[:3, 3]
-    triangles, face = surface.all_triangles()
-    faulty = np.isin(face, np.concatenate(faces))
+    triangles, faulty = surface.triangles[:0], np.concatenate(faces)
+    if len(faulty):
+        triangles, face = surface.all_triangles()
+        triangles = triangles[np.isin(face, faulty)][:MAX_DRAWN]
     _faults[obj] = Faults(
-        points[np.concatenate(pairs)[:MAX_DRAWN]],
-        points[triangles[faulty][:MAX_DRAWN]],
-        updates.last_change_of_geometry(obj),
+        points[np.concatenate(pairs)[:MAX_DRAWN]], points[triangles], updates.last_change_of_geometry(obj)
     )
 
 

@@ -28,6 +28,15 @@ KINDS = {
     "cylinder": lambda rng, i: s.prism(s.regular(5 + i % 28), height=rng.uniform(0.5, 3)),
     "L": lambda rng, i: s.prism(s.L_PLAN, slant=(0.1 * i, 0.2)),
     "open": lambda rng, i: s.without(s.box((0, 0, 0), rng.uniform(0.5, 2, 3)), 0),
+    "tube": lambda rng, i: s.without(s.prism(s.regular(5 + i), height=rng.uniform(0.5, 3)), 0, 1),
+    "holed": lambda rng, i: s.without(s.random_hull(i), 2, 7, 11),
+    "halves": lambda rng, i: s.joined(
+        s.box((5, 0, 0), (6, 1, 1)),
+        s.without(s.box((8, 0, 0), rng.uniform(9, 10, 3)), i),
+        s.without(s.random_hull(i), i),
+    ),
+    "warped": lambda rng, i: s.without((s.box()[0] + rng.uniform(-0.1, 0.1, (8, 3)), s.box()[1]), 2),
+    "cracked": lambda rng, i: cracked(10.0 ** (i - 9.5)),
     "two": lambda rng, i: s.joined(s.box(), s.box((3, 0, 0), rng.uniform(4, 5, 3))),
     "touching": lambda rng, i: s.joined(s.box(), s.box((1, 0, 0), rng.uniform(2, 3, 3))),
     "nested": lambda rng, i: s.joined(s.box((0, 0, 0), (9, 9, 9)), s.box((3, 3, 3), rng.uniform(4, 5, 3))),
@@ -44,6 +53,14 @@ KINDS = {
     "flat": lambda rng, i: s.sheet(3),
     "unwelded": lambda rng, i: s.unwelded(s.random_hull(i)),
 }
+
+
+def cracked(width):
+    """A box with one corner of one face in another place."""
+    points, faces = s.box()
+    face = next(i for i, corners in enumerate(faces) if 0 in corners)
+    moved = [8 if corner == 0 else corner for corner in faces[face]]
+    return np.concatenate([points, points[:1] - width]), [*faces[:face], moved, *faces[face + 1 :]]
 
 
 def shards(count=4, seed=3):
@@ -125,7 +142,8 @@ def test_shards_of_all_kinds_together_are_those_alone():
     stacked = {obj.name.split()[0] for obj, found in pairs if isinstance(found, Stacked)}
     together = {obj.name.split()[0] for obj, found in pairs if isinstance(found, Stacked) and _is_together(found)}
     assert together >= {"shard", "box", "cylinder", "L", "two", "scattered"}
-    assert not together & {"touching", "nested", "cavity", "inside", "with", "open"}
+    assert together >= {"open", "tube", "holed", "halves", "warped"}
+    assert not together & {"touching", "nested", "cavity", "inside", "with", "cracked"}
     assert stacked >= {"shard", "box", "cylinder", "L", "open", "two", "flipped", "inverted", "bent", "unwelded"}
     for obj, found in pairs:
         assert_same(found, alone(obj, depsgraph))

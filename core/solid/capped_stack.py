@@ -1,0 +1,209 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Holes of many small surfaces capped at once: of those that need nothing else.
+
+That is where every edge has one face, or two that agree, where at each vertex along a boundary one side arrives and one
+leaves, every loop has an area, and no vertices touch that a repair would weld. The caps are those of `cap_holes`, to
+the bit. What needs more is repaired by itself.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..mesh.surface_stack import Connections, SurfaceStack, TriangleStack
+from ..moments.moments import Moments, U, sum_moments
+from ..numerics.arrays import segment_starts
+from ..polyhedron.third_order import MAX_SMALL_TRIANGLES
+from ..polyhedron.third_order_small import small_moments
+from .boundary_loops import BoundaryLoops, find_loops, join_sides
+from .repaired_mesh import has_distinct_vertices
+
+# Points that are nearer to each other are so along it, too; no plane or axis of a usual body is across it.
+DIRECTION = 0.5477, 0.3163, 0.7746
+
+
+@dataclass(frozen=True, eq=False)
+class StackCaps:
+    """The caps of n surfaces.
+
+    Attributes
+    ----------
+    is_capped : (n,) bool
+        The surfaces that have caps.
+    triangles : TriangleStack
+        Those of all surfaces, of each its caps last.
+    part : (t,) int
+        The component of each.
+    cap_counts : (n,) int
+        How many of them are caps.
+    counts : (n, 3) float
+        How many holes have flat caps, how many curved ones, and the area of the caps (unit²).
+    edges : (k, 2) int
+        The edges of the holes as pairs of the surfaces' own vertices, sorted, one surface after the other.
+    edge_counts : (n,) int
+    """
+
+    is_capped: NDArray[np.bool_]
+    triangles: TriangleStack
+    part: NDArray[np.intp]
+    cap_counts: NDArray[np.intp]
+    counts: NDArray[np.float64]
+    edges: NDArray[np.intp]
+    edge_counts: NDArray[np.intp]
+
+    def add_to(self, volume: Moments) -> Moments:
+        """The volumes of the surfaces with those of their caps, about the same points."""
+        rows, stack = np.flatnonzero(self.is_capped), self.triangles.some(np.flatnonzero(self.is_capped))
+        counts, center = self.cap_counts[rows], volume.about[rows]
+        low, high = stack.box
+        is_cap = np.arange(len(stack.triangles)) >= np.repeat(
+            np.cumsum(stack.triangle_counts) - counts, stack.triangle_counts
+        )
+        caps, _, _ = small_moments(
+            stack.points,
+            stack.triangles[is_cap],
+            counts,
+            center,
+            np.maximum(high - center, center - low) * (1.0 + 4.0 * U),
+            stack.coordinate_error,
+            area=True,
+            shell=False,
+        )
+        total = sum_moments([volume.at(rows), caps])
+        changed = {name: getattr(volume, name).copy() for name in ("raw", "rounding_error", "input_error")}
+        for name, values in changed.items():
+            values[rows] = getattr(total, name)
+        return replace(volume, **changed)
+
+    def edges_of(self, i: int) -> NDArray[np.intp]:
+        """(k, 2) those of one surface."""
+        stop = self._edge_stops[i]
+        return self.edges[stop - self.edge_counts[i] : stop]
+
+    @cached_property
+    def _edge_stops(self) -> NDArray[np.intp]:
+        return np.cumsum(self.edge_counts)
+
+
+def cap_stack(
+    stack: SurfaceStack, links: Connections, usable: NDArray[np.bool_], tolerance: NDArray[np.float64]
+) -> StackCaps | None:
+    """Cap the surfaces of a stack that need nothing but caps.
+
+    Parameters
+    ----------
+    stack : SurfaceStack
+    links : Connections
+        Of its faces.
+    usable : (n,) bool
+        Which surfaces may be capped at all.
+    tolerance : (n,) float
+        What counts as touching (unit).
+
+    Returns
+    -------
+    StackCaps, or None where nothing can be capped
+    """
+    can = usable & links.is_open
+    start, stop = links.open_sides
+    owner, total = stack.point_owners, len(stack.points)
+    leaving, arriving = np.bincount(start, minlength=total), np.bincount(stop, minlength=total)
+    can &= np.logical_and.reduceat((leaving <= 1) & (leaving == arriving), stack.first_point)
+    can[_owners_of_near(stack.points[start], owner[start], tolerance)] = False
+    chosen = np.flatnonzero(can[owner])
+    can[_owners_of_near(stack.points[chosen], owner[chosen], np.zeros(len(can)))] = False
+    onto = np.full(total, -1)
+    onto[start] = stop
+    following = stack.triangles[:, [1, 2, 0]]
+    is_side = onto[stack.triangles] == following
+    found = np.add.reduceat(np.add.reduce(is_side, axis=1, dtype=np.intp), stack.first_triangle)
+    can &= found == np.bincount(owner[start], minlength=len(can))  # diagonals may run along boundaries
+    can &= found + stack.triangle_counts <= MAX_SMALL_TRIANGLES
+    can &= np.logical_and.reduceat(has_distinct_vertices(stack.triangles), stack.first_triangle)
+    side = np.flatnonzero(is_side)
+    while can.any():
+        side = side[can[owner[stack.triangles.ravel()[side]]]]
+        start, stop = stack.triangles.ravel()[side], following.ravel()[side]
+        begin, end = stack.points[start].astype(np.float64), stack.points[stop].astype(np.float64)
+        loops = find_loops(begin, end, join_sides(begin, end, start, stop, directed=True))
+        of_loop = np.empty(len(loops.perimeter), np.intp)
+        of_loop[loops.of_side] = owner[start]
+        bad = ~loops.complete | ~loops.has_area(tolerance[of_loop])
+        if not bad.any():
+            part = _numbered_by_triangles(links.component[stack.triangle_faces])
+            return _capped(stack, part, can, tolerance, (side // 3, start, stop), loops, of_loop)
+        can[of_loop[bad]] = False
+    return None
+
+
+def _owners_of_near(points: NDArray, owner: NDArray[np.intp], tolerance: NDArray) -> NDArray[np.intp]:
+    """The owners of points that may be as near to each other as its tolerance; certainly those of all that are."""
+    x, y, z = points.T.astype(np.float64)
+    along = x * DIRECTION[0] + y * DIRECTION[1] + z * DIRECTION[2]
+    order = np.lexsort((along, owner))
+    along, owner = along[order], owner[order]
+    near = (owner[1:] == owner[:-1]) & (np.diff(along) <= 1.01 * tolerance[owner[1:]])
+    return owner[1:][near]
+
+
+def _numbered_by_triangles(part: NDArray[np.intp]) -> NDArray[np.intp]:
+    """Labels from 0 on, in the order of the first triangles that have them."""
+    _, first, number = np.unique(part, return_index=True, return_inverse=True)
+    return first.argsort().argsort()[number.ravel()]
+
+
+def _capped(
+    stack: SurfaceStack,
+    part: NDArray[np.intp],
+    is_capped: NDArray[np.bool_],
+    tolerance: NDArray[np.float64],
+    sides: tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.intp]],
+    loops: BoundaryLoops,
+    of_loop: NDArray[np.intp],
+) -> StackCaps:
+    """The surfaces with the cones over their loops. part: (t,) the component of each triangle. sides: the triangle of
+    each side, where it starts and where it stops; of_loop: the surface of each loop."""
+    triangle, start, stop = sides
+    count, body = len(stack), stack.point_owners[start]
+    loop_counts = np.bincount(of_loop, minlength=count)
+    shift = segment_starts(loop_counts)
+    first = np.empty(len(of_loop), np.intp)
+    first[loops.of_side[::-1]] = start[::-1]
+    ends = stack.first_point + stack.point_counts
+    apex = np.where(np.bincount(loops.of_side) == 3, first + shift[of_loop], ends[of_loop] + np.arange(len(of_loop)))
+    caps = np.stack([stop + shift[body], start + shift[body], apex[loops.of_side]], axis=1)
+    kept = has_distinct_vertices(caps)
+    caps, cap_body, cap_part = caps[kept], body[kept], part[triangle[kept]]
+    cap_counts, after = np.bincount(cap_body, minlength=count), (stack.first_triangle + stack.triangle_counts)[cap_body]
+    moved = stack.triangles + np.repeat(shift, stack.triangle_counts)[:, None]
+    triangles = TriangleStack(
+        np.insert(stack.points, ends[of_loop], loops.centroid.astype(stack.points.dtype), axis=0),
+        np.insert(moved, after, caps, axis=0),
+        stack.point_counts + loop_counts,
+        stack.triangle_counts + cap_counts,
+    )
+    level = loops.out_of_plane <= tolerance[of_loop]
+    of_part = np.empty(len(of_loop), np.intp)
+    of_part[loops.of_side] = part[triangle]
+    part_owner = np.zeros(int(part.max()) + 1, np.intp)
+    part_owner[part] = np.repeat(np.arange(count), stack.triangle_counts)
+    columns = level, ~level, np.where(level, loops.planar_area, loops.cone_area)
+    counts = [
+        np.bincount(part_owner, np.bincount(of_part, column, len(part_owner)), minlength=count) for column in columns
+    ]
+    low, high = np.minimum(start, stop) - stack.first_point[body], np.maximum(start, stop) - stack.first_point[body]
+    edges = np.stack([low, high], axis=1)[np.lexsort((high, low, body))]
+    return StackCaps(
+        is_capped,
+        triangles,
+        np.insert(part, after, cap_part),
+        cap_counts,
+        np.stack(counts, axis=1),
+        edges,
+        np.bincount(body, minlength=count),
+    )
