@@ -90,20 +90,18 @@ def dominant_bones(
     [0]
     """
     points, bones = np.asarray(points, np.float64), np.asarray(bones, np.float64)
-    count, number = int(faces.max(initial=-1)) + 1, len(bones)
-    size = np.bincount(faces, minlength=count)
-    center = np.stack(
-        [np.bincount(faces, points[corners, k], minlength=count) / np.maximum(size, 1) for k in range(3)], axis=1
-    )
+    number = len(bones)
+    size = np.bincount(faces)
+    center = np.stack([np.bincount(faces, points[corners, k]) / np.maximum(size, 1) for k in range(3)], axis=1)
     face, bone, score = _scores(faces, corners, weights, number)
-    result = np.full(count, -1)
+    result = np.full(len(size), -1)
     if len(face):
         starts = np.flatnonzero(np.r_[True, face[1:] != face[:-1]])
         best = np.maximum.reduceat(score, starts)
         leading = score >= (1.0 - TIE_RTOL) * best[np.repeat(np.arange(len(starts)), np.diff(np.r_[starts, len(face)]))]
         face, bone = face[leading], bone[leading]
         result[face] = bone
-        rivals = np.flatnonzero(np.bincount(face, minlength=count)[face] > 1)
+        rivals = np.flatnonzero(np.bincount(face)[face] > 1)
         if len(rivals):
             away = _distances(center[face[rivals]], bones[bone[rivals]])
             result[face[rivals]] = _nearest(face[rivals], bone[rivals], away)

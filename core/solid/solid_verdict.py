@@ -151,7 +151,7 @@ def judge(
         flipped, inverted = _flipped_faces(mesh, oriented.turned)
     self_intersecting = oriented.is_solid and not has_open and not _is_physical(volume, checked)
     caps = mesh.caps[oriented.solid].sum(axis=0)
-    cap_share = float(caps[2] / given.area.total) if caps.any() and given.area.total > 0.0 else 0.0
+    cap_share = float(caps[2] / given.area.total) if given.area.total > 0.0 else 0.0
     if has_open or not oriented.is_solid or self_intersecting:
         verdict = Verdict.OPEN
     elif caps.any():

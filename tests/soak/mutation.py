@@ -17,6 +17,7 @@ from __future__ import annotations
 import hashlib
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -32,12 +33,21 @@ ROOT = Path(__file__).resolve().parent.parent.parent
 PROCESS = Path(__file__).resolve().parent / "mutation_process"
 KEPT = ROOT / ".envs" / "soak" / "lines"
 FOUND = ROOT / ".envs" / "soak" / "found.json"
-GROUPS = {"core": ("core",), "operators": ("blender",), "panels": ("blender",)}  # tests of each part
+TESTS = {  # of a package, or of all in a part
+    "core": ("core",),
+    "core/robots": ("blender/bodies/test_audit.py", "blender/read/test_robots.py", "blender/actions/export"),
+    "operators": ("blender",),
+    "panels": ("blender",),
+}
+READERS = {  # tests that read the source, by what they look for in it
+    re.compile(r"(finding|\w+Error)\("): "tests/core/verdict/test_finding.py::"
+    "test_every_value_that_a_message_needs_is_given",
+}
 LEFT_OUT = ("test_random_sessions.py",)  # what takes as long as it is given
 MISSED = ("passed", "no test")
 LEAST = 0.95  # of each package's mutants
 LEAST_DRAWN = 20  # below this, a share says nothing
-MAX_SECONDS = 45.0  # of the tests of one mutant
+MAX_SECONDS = 10.0  # of the tests of one mutant
 
 
 def run(budget_seconds: float, seed: int, *packages: str) -> str:
@@ -63,9 +73,10 @@ def run(budget_seconds: float, seed: int, *packages: str) -> str:
     """
     with Project() as project:
         decks = {name: deck for name, deck in all_mutants(ROOT).items() if name in (packages or {name})}
-        groups = sorted({group for name in decks for group in GROUPS[name.partition("/")[0]]})
-        project.note_lines(groups)
-        project.load_tests("tests/" + group for group in groups)
+        tests = {test for name in decks for test in TESTS.get(name, TESTS[name.partition("/")[0]])}
+        tests = sorted("tests/" + test for test in tests if test.partition("/")[0] not in tests - {test})
+        project.note_lines(tests)
+        project.load_tests(tests)
         end, draws = time.monotonic() + budget_seconds, drawn(decks, seed)
         while time.monotonic() < end and (mutant := next(draws, None)):
             answer = project.try_mutant(mutant)
@@ -178,16 +189,18 @@ class Project:
     def ask(self, tests: list, seconds: float, lines: Path | None = None) -> dict:
         return _answer(self.server, {"tests": tests, "seconds": seconds, "lines": lines and str(lines)})
 
-    def note_lines(self, groups: Iterable[str]) -> None:
+    def note_lines(self, tests: Iterable[str]) -> None:
         """Run every test file that has changed, and know for each line of the product which tests run it."""
         self.kept.mkdir(parents=True, exist_ok=True)
-        self.tests_of, self.seconds = defaultdict(set), {}
-        for group in groups:
-            for path in sorted((self.root / "tests" / group).rglob("test_*.py")):
+        self.tests_of, self.seconds, self.texts = defaultdict(set), {}, {}
+        for test in tests:
+            place = self.root / test
+            for path in sorted(place.rglob("test_*.py")) if place.is_dir() else [place]:
                 if path.name not in LEFT_OUT:
                     self._note_file(path.relative_to(self.root).as_posix())
 
     def _note_file(self, file: str) -> None:
+        self.texts[file] = (self.root / file).read_text(encoding="utf-8")
         kept = self.kept / (file.replace("/", ".") + ".json")
         notes = json.loads(kept.read_text(encoding="utf-8")) if kept.is_file() else {"tests": {}}
         if notes.get("stamp") != self._stamp(file, notes):
@@ -257,10 +270,14 @@ class Project:
     def tests_for(self, mutant: mutants.Mutant) -> list[str]:
         """The tests that may find it: those of its own folder first, the quickest first."""
         near = "/{}/".format(package_of(mutant.path).rpartition("/")[2])
+        names = {test for look, test in READERS.items() if look.match(mutant.before) and test in self.seconds}
         if mutant.is_imported:
-            names = set().union(*(tests for (path, _), tests in self.tests_of.items() if path == mutant.path))
+            module = mutant.path[:-3].replace("/", ".")
+            importers = {file for file, text in self.texts.items() if module in text}
+            names |= {name for name in self.seconds if name.partition("::")[0] in importers}
+            names = names.union(*(tests for (path, _), tests in self.tests_of.items() if path == mutant.path))
         else:
-            names = self.tests_of.get((mutant.path, mutant.line), set())
+            names |= self.tests_of.get((mutant.path, mutant.line), set())
         chosen, total = [], 0.0
         for name in sorted(names, key=lambda name: (near not in name, self.seconds[name], name)):
             total += self.seconds[name]

@@ -84,10 +84,10 @@ class OBJECT_OT_body_moments_measure_section(Operator):
             record.store(obj, section, what, findings, mark, unit)
         staleness.mark_fingerprints(context, [(obj, record.fingerprint(obj)) for obj, *_ in sections])
         redraw(context)
-        warned = sum(bool(of_severity(findings, Severity.WARNING, Severity.ERROR)) for *_, findings in sections)
+        warned = [obj.name for obj, *_, found in sections if of_severity(found, Severity.WARNING, Severity.ERROR)]
         if len(sections) > 1:
             done = [finding("measured_sections", count=len(sections))]
-            done += [finding("with_warnings", count=warned)] if warned else []
+            done += [finding("with_warnings", count=len(warned), objects=warned)] if warned else []
         else:
             code = "measured_section_with_warnings" if warned else "measured_section"
             done = [finding(code, object=obj.name) for obj, *_ in sections]

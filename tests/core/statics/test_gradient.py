@@ -11,6 +11,7 @@ from body_moments.core.moments.moments import monomial_index, monomials
 from body_moments.core.polyhedron import polyhedron_moments
 from body_moments.core.statics.gradient import area_gradient, volume_gradient
 
+from tests.close import close
 from tests.core import bodies, exact
 
 EYE = np.eye(3, dtype=int)
@@ -198,6 +199,17 @@ def test_a_mesh_of_many_blocks_is_derived_as_one(monkeypatch):
     monkeypatch.setattr("body_moments.core.statics.gradient.TRIANGLES_PER_BLOCK", 37)
     pieces = volume_gradient(bodies.surface(part), np.zeros(3)).by_vertex
     assert np.abs(whole - pieces).max() < 1e-16
+
+
+@pytest.mark.parametrize("power", [-20, 30])
+def test_derivatives_and_their_bounds_scale_with_the_body(part, kind, power):
+    points, triangles = part
+    about = np.array([0.25, -0.5, 0.125])
+    one = KINDS[kind](bodies.surface(part), about)
+    other = KINDS[kind](bodies.surface((np.ldexp(points, power), triangles)), np.ldexp(about, power))
+    degree = power * (monomials(2).sum(axis=1) + (2 if kind == "volume" else 1))
+    assert np.array_equal(other.by_vertex, np.ldexp(one.by_vertex, degree[:, None]))
+    assert close(other.error(), np.ldexp(one.error(), degree), 1e-12)
 
 
 def test_fewer_orders_are_the_same_numbers(kind):

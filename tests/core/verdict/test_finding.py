@@ -3,6 +3,7 @@
 """Findings are data, and their one table of sentences covers every code that the source makes."""
 
 import ast
+import functools
 import json
 import string
 from dataclasses import fields
@@ -84,22 +85,49 @@ def test_a_template_has_only_placeholders_that_the_formatter_knows():
                 assert spec is None or spec in known or spec[-1] in "dgfes%", (code, text, spec)
 
 
-def made_codes() -> dict[str, str]:
-    """Codes that the source makes: string arguments of what makes findings and refusals; code → where."""
+@functools.cache
+def calls_that_make() -> list[tuple[str, ast.Call]]:
+    """Where the source makes findings and refusals."""
     makers = {"finding", "Finding", "MeasureError", "ReadError", "EditRefusedError", "FileError", "QueryError"}
-    made = {}
-    for part in ("core", "operators", "panels"):
-        for path in (ROOT / part).rglob("*.py"):
-            for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-                if isinstance(node, ast.Call) and getattr(node.func, "id", "") in makers and node.args:
-                    for constant in ast.walk(node.args[0]):
-                        if isinstance(constant, ast.Constant) and isinstance(constant.value, str):
-                            made[constant.value] = f"{path.relative_to(ROOT)}:{node.lineno}"
-    return made
+    makers |= {"SurfaceRefusedError", "NoShapeError"}
+    return [
+        ("{}:{}".format(path.relative_to(ROOT), node.lineno), node)
+        for part in ("core", "operators", "panels")
+        for path in (ROOT / part).rglob("*.py")
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+        if isinstance(node, ast.Call) and getattr(node.func, "id", "") in makers and node.args
+    ]
+
+
+def codes_of(call: ast.Call) -> list[str]:
+    """The strings of its first argument."""
+    constants = (node for node in ast.walk(call.args[0]) if isinstance(node, ast.Constant))
+    return [constant.value for constant in constants if isinstance(constant.value, str)]
 
 
 def test_every_code_that_is_made_has_a_message():
-    missing = {code: place for code, place in made_codes().items() if code not in MESSAGES}
+    assert not {code: place for place, call in calls_that_make() for code in codes_of(call) if code not in MESSAGES}
+
+
+FILLED_IN_LATER = {"axes_made_principal": {"count"}, "origins_moved": {"count"}}
+
+
+def test_every_value_that_a_message_needs_is_given():
+    missing = []
+    for place, call in calls_that_make():
+        given = {"elements", *(keyword.arg for keyword in call.keywords)}
+        if call.func.id == "SurfaceRefusedError":  # these are known where the surfaces of a file are listed
+            given |= {"count", "kind", "names"}
+        holds_another = any(isinstance(node, ast.Call) for node in ast.walk(call.args[0]))
+        if holds_another or call.func.id == "Finding" or None in given:
+            continue
+        for code in codes_of(call):
+            message, known = MESSAGES[code], given | FILLED_IN_LATER.get(code, set())
+            if code.startswith("progress_"):
+                known |= {"share"}
+            texts = [message.text, message.plural or ""]
+            needed = {name for text in texts for _, name, _, _ in string.Formatter().parse(text) if name}
+            missing += [(place, code, name) for name in needed - known]
     assert not missing
 
 

@@ -429,6 +429,14 @@ def test_the_operator_measures_all_selected_and_names_those_it_cannot():
     assert not bpy.ops.object.body_moments_measure_section.poll()
 
 
+def test_several_sections_with_warnings_are_measured_and_named(capfd):
+    objects = [add(flat_mesh(square(0, 0, 3), square(2, 2, 3)), name) for name in ("First", "Second")]
+    only(*objects)
+    assert bpy.ops.object.body_moments_measure_section() == {"FINISHED"}
+    assert "2 with warnings: “First”, “Second”" in capfd.readouterr().out
+    assert all(stored(obj) is not None for obj in objects)
+
+
 def test_out_of_date_after_a_change_of_shape_place_or_unit_and_not_after_measuring():
     obj = add(flat_mesh(I_BEAM))
     update = bpy.context.view_layer.update

@@ -1,0 +1,39 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Whatever is raised becomes a finding: a refusal its own, a fault of this program one that says what and where."""
+
+import traceback
+
+import pytest
+from body_moments.core.rigs import dominant_bones
+from body_moments.core.verdict.finding import MeasureError, finding
+from body_moments.core.verdict.internal_error import finding_of
+
+
+def test_a_refusal_is_its_finding_and_too_little_memory_is_one(capsys):
+    refusal = MeasureError("holes_capped", count=2)
+    assert finding_of(refusal) is refusal.finding
+    assert finding_of(MemoryError()) == finding("out_of_memory")
+    assert capsys.readouterr().err == ""
+
+
+@pytest.mark.parametrize("text, said", [("of\n  two lines.", "of two lines"), ("", "-"), (".", "-")])
+def test_a_fault_outside_says_its_kind_and_message_and_prints_its_traceback(text, said, capsys):
+    try:
+        raise KeyboardError(text)
+    except KeyboardError as error:
+        found = finding_of(error)
+    assert found == finding("internal_error", type="KeyboardError", error=said, where="-")
+    assert "raise KeyboardError(text)" in capsys.readouterr().err
+
+
+def test_a_fault_inside_says_its_innermost_line_of_ours():
+    with pytest.raises(ValueError) as caught:
+        dominant_bones(None, None, [], None, [])
+    frames = traceback.extract_tb(caught.value.__traceback__)
+    (line,) = {frame.lineno for frame in frames if frame.filename.endswith("dominance.py")}
+    assert finding_of(caught.value).values["where"] == "core/rigs/dominance.py:{}".format(line)
+
+
+class KeyboardError(Exception):
+    pass
