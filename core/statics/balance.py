@@ -175,6 +175,8 @@ def _limited_moves(step_directions: NDArray, multiplier: NDArray, limit: float) 
     """(k, 3) the moves of the (r, k, 3) pulls times the (r,) multiplier, cut to the limit."""
     moves = np.einsum("rnk,r->nk", step_directions, multiplier)
     length = np.linalg.norm(moves, axis=1)
+    if not (length > limit).any():  # also for no limit
+        return moves
     return moves * (limit / np.maximum(length, limit))[:, None]
 
 
