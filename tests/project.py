@@ -392,7 +392,7 @@ def test_subject(options: argparse.Namespace) -> int:
 
 
 def pytest_options(options: argparse.Namespace) -> list[str]:
-    return [*options.pytest, *(["-k", options.k] if options.k else [])]
+    return [*options.arguments, *(["-k", options.k] if options.k else [])]
 
 
 def test(options: argparse.Namespace) -> int:
@@ -507,7 +507,8 @@ def lint(options: argparse.Namespace) -> int:
     return int(any([show([python, "-m", *check]) for check in checks]))  # a list: none is skipped
 
 
-def main() -> int:
+def parse(words: list[str]) -> argparse.Namespace:
+    """The command and its options; `arguments` are those for what it calls."""
     parser = argparse.ArgumentParser(
         prog="project.py", description="Sets up what it needs and runs one of the commands."
     )
@@ -516,7 +517,7 @@ def main() -> int:
         (demo, "measure a real body"),
         (test, "pass the tests"),
         (build, "build the extension's zip"),
-        (benchmark, "times and ratios against trimesh and libigl"),
+        (benchmark, "times and ratios against trimesh and libigl; --quick, --stream M"),
         (tables, "the paper's tables of trivariate densities beside ours"),
         (soak, "what takes long: hostile files, kills, random damage; --minutes N, --seed S, names"),
         (lint, "check the rules, the format and the types"),
@@ -530,12 +531,17 @@ def main() -> int:
             command.add_argument("--only", action="append", choices=GROUPS, help="repeatable")
             command.add_argument("-k", metavar="WORDS", help="tests with such names, as in pytest")
             command.epilog = "What follows -- is for pytest."
-        if function in (benchmark, soak):
-            command.add_argument("arguments", nargs=argparse.REMAINDER, help="for what is called")
-    words = sys.argv[1:]
-    split = words.index("--") if words[:1] == ["test"] and "--" in words else len(words)
-    options = parser.parse_args(words[:split])
-    options.pytest = words[split + 1 :]
+    own, arguments = words, []
+    if words[:1] in (["benchmark"], ["soak"]):  # argparse would take options for the parser's own
+        own, arguments = words[:1], words[1:]
+    elif words[:1] == ["test"] and "--" in words:
+        split = words.index("--")
+        own, arguments = words[:split], words[split + 1 :]
+    return argparse.Namespace(**vars(parser.parse_args(own)), arguments=arguments)
+
+
+def main() -> int:
+    options = parse(sys.argv[1:])
     for name in ("SIGTERM", "SIGHUP"):
         if hasattr(signal, name):
             signal.signal(getattr(signal, name), signal.default_int_handler)

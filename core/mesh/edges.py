@@ -58,39 +58,6 @@ def closed_side_faces(surface: Surface) -> NDArray[np.int32] | None:
     return sides if len(corners) == sides.size and sides.min() >= 0 else None
 
 
-def sorted_side_faces(surface: Surface) -> NDArray[np.int32] | None:
-    """(2, e) the same as `closed_side_faces`, for arrays of triangles or of quads without a mesh's edges: by sorting
-    their directed edges, in one number each with the side that it is."""
-    faces = surface.triangles if len(surface.triangles) else surface.quads
-    alone = not (len(surface.triangles) and len(surface.quads))
-    count, corners = faces.size, faces.shape[1]
-    bits = int(count).bit_length()
-    if (
-        not alone
-        or count % 2
-        or surface.triangle_faces is not None
-        or surface.quad_faces is not None
-        or 2 * int(len(surface.points)).bit_length() + bits + 1 > 64
-    ):
-        return None
-    keys = np.empty((len(faces), corners), np.uint64)
-    points, sides = np.uint64(len(surface.points)), np.arange(corners, dtype=np.uint64)
-    for start in range(0, len(faces), EDGES_PER_BLOCK):
-        block = faces[start : start + EDGES_PER_BLOCK].astype(np.uint64)
-        following = np.roll(block, -1, axis=1)
-        key = np.minimum(block, following) * points + np.maximum(block, following)
-        key = (key << np.uint64(1) | (block < following)) << np.uint64(bits)
-        first = np.arange(start * corners, start * corners + block.size, corners, dtype=np.uint64)
-        keys[start : start + EDGES_PER_BLOCK] = key | (first[:, None] + sides)
-    flat = keys.reshape(-1)
-    flat.sort()
-    pairs = flat.reshape(-1, 2)
-    if not ((pairs[:, 0] ^ pairs[:, 1]) >> np.uint64(bits) == 1).all():
-        return None
-    of_side = (pairs & np.uint64((1 << bits) - 1)) // np.uint64(corners)
-    return np.ascontiguousarray(of_side.T).astype(np.int32)
-
-
 def _sides_at(surface: Surface) -> Callable[[int], tuple[NDArray[np.int32], NDArray[np.bool_]]] | None:
     """A function of where a block of corners starts: the face of each, and whether the side that starts there runs to a
     higher vertex. None where faces and corners do not fit."""

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 # corners at a time: large enough for threads to help. A multiple of 3 and 4, so that no face is split
 EDGES_PER_BLOCK = 3 << 16
+NODES_PER_BLOCK = 1 << 14  # in the cache with the paths that lead from them
 
 
 def connected_components(count: int, a: NDArray[np.integer], b: NDArray[np.integer]) -> tuple[NDArray[np.intp], int]:
@@ -38,24 +39,16 @@ def connected_components(count: int, a: NDArray[np.integer], b: NDArray[np.integ
     label, number = None, count
     while True:
         blocks = [slice(start, start + EDGES_PER_BLOCK) for start in range(0, len(a), EDGES_PER_BLOCK)]
-        node = np.arange(number, dtype=np.int32 if number < 1 << 31 else np.int64)
-        parent = node.copy()
+        parent = np.arange(number, dtype=np.int32 if number < 1 << 31 else np.int64)
         for block in blocks:
             np.minimum.at(
                 parent,
                 np.maximum(a[block], b[block]).astype(np.intp),
                 np.minimum(a[block], b[block]).astype(parent.dtype),
             )
-        first = parent == node
-        number = int(np.count_nonzero(first))
-        if number == 1:  # all paths downward end there
+        tree, number = _trees(parent)
+        if number == 1:
             return np.broadcast_to(np.intp(0), count), 1
-        while True:
-            grand = parent.take(parent, mode="clip")
-            if np.array_equal(grand, parent):
-                break
-            parent = grand
-        tree = (np.cumsum(first, dtype=parent.dtype) - 1).take(parent, mode="clip")
         label = tree if label is None else tree.take(label, mode="clip")
         left_ends, right_ends = [tree[:0]], [tree[:0]]
         for block in blocks:
@@ -66,3 +59,48 @@ def connected_components(count: int, a: NDArray[np.integer], b: NDArray[np.integ
         a, b = np.concatenate(left_ends), np.concatenate(right_ends)
         if not len(a):
             return label.astype(np.intp), number
+
+
+def connected_neighbors(neighbors: NDArray[np.integer]) -> tuple[NDArray[np.intp], int]:
+    """As `connected_components`, of a graph all of whose nodes have the same number of links, each seen from both ends.
+
+    neighbors: (n, k) the other ends of each node's links.
+    """
+    count = len(neighbors)
+    parent = np.arange(count, dtype=neighbors.dtype)
+    for column in neighbors.T:
+        np.minimum(parent, column, out=parent)
+    tree, number = _trees(parent)
+    if number == 1:
+        return np.broadcast_to(np.intp(0), count), 1
+    ends = [(tree[:0], tree[:0])]
+    for start in range(0, count, EDGES_PER_BLOCK):
+        own = tree[start : start + EDGES_PER_BLOCK]
+        for column in neighbors[start : start + EDGES_PER_BLOCK].T:
+            other = tree.take(column, mode="clip")
+            lower = np.flatnonzero(other < own)  # each link once
+            ends.append((own[lower], other[lower]))
+    component, number = connected_components(number, *(np.concatenate(each) for each in zip(*ends)))
+    return component.take(tree, mode="clip"), number
+
+
+def _trees(parent: NDArray[np.integer]) -> tuple[NDArray[np.integer], int]:
+    """The tree of each node, numbered in the order of their roots, and how many. parent: no higher than the node; is
+    overwritten.
+
+    Paths are halved by pointer jumping, block by block: what leads out of a block ends at a root at once.
+    """
+    roots = np.flatnonzero(parent == np.arange(len(parent), dtype=parent.dtype))
+    if len(roots) == 1:  # all paths downward end there
+        return np.broadcast_to(parent.dtype.type(0), len(parent)), 1
+    tree = np.empty_like(parent)
+    tree[roots] = np.arange(len(roots), dtype=parent.dtype)
+    for start in range(0, len(parent), NODES_PER_BLOCK):
+        block = parent[start : start + NODES_PER_BLOCK]
+        while True:
+            grand = parent.take(block, mode="clip")
+            if np.array_equal(grand, block):
+                break
+            block[...] = grand
+        tree[start : start + NODES_PER_BLOCK] = tree.take(block, mode="clip")
+    return tree, len(roots)

@@ -11,11 +11,12 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.edges import closed_side_faces, face_of_each, sorted_side_faces
+from ..mesh.edges import closed_side_faces, face_of_each
 from ..mesh.planarity import Planarity, PlanarityAccumulator
+from ..mesh.side_pairs import faces_across_sides
 from ..mesh.surface import Surface, indices_in_range
 from ..moments.moments import Moments
-from ..numerics.graph import connected_components
+from ..numerics.graph import connected_components, connected_neighbors
 from ..polyhedron import polyhedron_moments, third_order
 from ..verdict.finding import MeasureError
 from ..verdict.health import MeshReport
@@ -169,10 +170,10 @@ def prove_closed(surface: Surface) -> RepairedMesh | None:
 
     The triangles of a single component are left out: nothing asks for them.
     """
-    sides = sorted_side_faces(surface) if surface.corner_edges is None else closed_side_faces(surface)
-    if sides is None:
+    found = _components_of_closed(surface)
+    if found is None:
         return None
-    component, component_count = connected_components(int(sides.max()) + 1, *sides)
+    component, component_count = found
     triangles, face = surface.triangles[:0], component[:0]
     if component_count > 1:
         quad_faces, triangle_faces = face_of_each(surface)
@@ -189,3 +190,16 @@ def prove_closed(surface: Surface) -> RepairedMesh | None:
         np.zeros((component_count, 3)),
         report=MeshReport(closed=True, components=component_count),
     )
+
+
+def _components_of_closed(surface: Surface) -> tuple[NDArray[np.intp], int] | None:
+    """The component of each mesh face, and how many; None where nothing proves the surface closed and oriented."""
+    if surface.corner_edges is not None:
+        sides = closed_side_faces(surface)
+        return None if sides is None else connected_components(int(sides.max()) + 1, *sides)
+    if surface.triangle_faces is not None or surface.quad_faces is not None:
+        return None
+    if len(surface.triangles) and len(surface.quads):
+        return None
+    across = faces_across_sides(surface.triangles if len(surface.triangles) else surface.quads, len(surface.points))
+    return None if across is None else connected_neighbors(across)

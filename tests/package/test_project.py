@@ -1,0 +1,60 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The project's commands take the options that their texts name."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+TESTS = Path(__file__).resolve().parent.parent
+PARSED = """\
+import sys
+sys.path.insert(0, sys.argv[1])
+import project
+options = project.parse(sys.argv[2:])
+print(options.function.__name__, options.arguments, getattr(options, "subject", None), getattr(options, "k", None))
+"""
+
+
+def parsed(*words: str) -> str:
+    """What the command line comes to, in a process of its own: the module's name is that of nobody else."""
+    command = [sys.executable, "-c", PARSED, str(TESTS), *words]
+    return subprocess.run(command, capture_output=True, encoding="utf-8", check=True).stdout.strip()
+
+
+@pytest.mark.parametrize(
+    ("words", "expected"),
+    [
+        (["benchmark"], "benchmark [] None None"),
+        (["benchmark", "--quick"], "benchmark ['--quick'] None None"),
+        (["soak", "--minutes", "2", "kills"], "soak ['--minutes', '2', 'kills'] None None"),
+        (["soak", "kills", "--seed", "3"], "soak ['kills', '--seed', '3'] None None"),
+        (["test", "solid", "-k", "cube"], "test [] solid cube"),
+        (["test", "solid", "--", "-x", "--lf"], "test ['-x', '--lf'] solid None"),
+    ],
+    ids=" ".join,
+)
+def test_options_reach_what_is_called(words, expected):
+    assert parsed(*words) == expected
+
+
+def test_blenders_reports_do_not_stand_between_the_rows_of_the_benchmark(tmp_path):
+    """Neither where the output is a pipe, whose buffer is written late, nor before or after."""
+    code = """\
+import importlib.util, os, sys
+spec = importlib.util.spec_from_file_location("benchmark", sys.argv[1])
+benchmark = importlib.util.module_from_spec(spec)
+spec.loader.exec_module(benchmark)
+import ctypes
+print("before")
+benchmark.hide_reports()
+print("row 1")
+ctypes.CDLL(None).puts(b"Info: Measured") if os.name != "nt" else os.write(1, b"Info: Measured")
+os.write(1, b"Info: Measured")
+print("row 2")
+"""
+    command = [sys.executable, "-c", code, str(TESTS / "benchmark.py")]
+    done = subprocess.run(command, capture_output=True, encoding="utf-8", check=True, cwd=tmp_path)
+    assert done.stdout.split("\n") == ["before", "row 1", "row 2", ""]
