@@ -16,16 +16,17 @@ import bpy
 
 from ...core.measurement import Measurement
 from ...core.robots.model import Robot
-from ...core.verdict.finding import Finding, MeasureError, finding, system_reason
-from ..read.links import object_entry
+from ...core.verdict.finding import Finding, MeasureError, Severity, finding, system_reason
+from ..read.links import link_entry, object_entry
 from ..session.robot_links import SceneLinks, bone_links, collection_links
 from ..settings.options import MeasureOptions
 from ..write.documents import ROBOT_FORMATS
-from ..write.messages import sentence
+from ..write.messages import sentence, severity
 from ..write.robots.formats import EMBEDDING, robot_text
 from ..write.robots.from_records import robot_name, robot_of_document
 from ..write.robots.stl import write_meshes
 from ..write.terminal import print_message
+from .objects import failure
 
 MeasuredObject = tuple[str, bpy.types.Object | None, Measurement]
 
@@ -48,13 +49,16 @@ def complete(document: dict[str, Any], measured: Sequence[MeasuredObject], optio
         findings.append(_write_meshes(made, options))
     for one in findings:
         print_message(sentence(one))
-    return {**document, "robot": text}
+    refused = [failure(None, one) for one in findings if severity(one) == Severity.ERROR]
+    return {**document, "robot": text, "errors": [*document["errors"], *refused]}
 
 
 def _by_object(document: dict[str, Any], measured: Sequence[MeasuredObject]) -> SceneLinks:
     """From the records of objects, which get the entry `link`."""
     labels = {obj: label for label, obj, _ in measured if obj is not None}
-    links = {label: object_entry(obj, one, labels) for label, obj, one in measured if obj is not None}
+    links = {
+        label: link_entry(one) if obj is None else object_entry(obj, one, labels) for label, obj, one in measured
+    }
     for entry in document["objects"]:
         if entry["name"] in links:
             entry["link"] = links[entry["name"]]

@@ -103,7 +103,7 @@ def _link(record: Mapping[str, Any], file: str) -> Link:
 
 
 def _has_surface(record: Mapping[str, Any]) -> bool:
-    return record["type"] not in ("VOLUME", "EMPTY") and record["kind"] != "wire"
+    return record["type"] not in ("VOLUME", "EMPTY", "ARRAY") and record["kind"] != "wire"
 
 
 def _free(axes: Iterable[Mapping[str, Any]]) -> tuple[FreeAxis, ...]:
