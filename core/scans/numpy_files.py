@@ -7,7 +7,8 @@ from __future__ import annotations
 import math
 import re
 import zipfile
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import cast
 
@@ -45,33 +46,57 @@ def map_array(path: Path) -> NDArray:
 
 
 def read_npz(path: Path, limits: Limits) -> Scan:
-    """The array called “density”, else the first of three dimensions. It is read to the end of its entry, where
-    zipfile compares the checksum; of the others the headers alone are read."""
+    """The array called “density”, else the first of three dimensions; of the others the headers alone are read."""
     array = None
-    try:
-        with zipfile.ZipFile(path) as archive:
-            entries = archive.infolist()
-            limits.check(path, "entries", len(entries))
-            if any(ENTRY in entry.comment + entry.extra for entry in entries):
-                raise zipfile.BadZipFile("overlapping entries")  # by a wrong length
-            heads = {entry.filename: _npz_header(archive, entry) for entry in entries}
-            volumes = [name.removesuffix(".npy") for name, shape in heads.items() if len(shape) == 3]
-            name = "density" if "density" in volumes else volumes[0] if volumes else None
-            if name:
-                limits.check(path, "unpacked_bytes", archive.getinfo(name + ".npy").file_size)
-                with archive.open(name + ".npy") as file:
-                    array = np.lib.format.read_array(file, allow_pickle=False)
-    except (MemoryError, FileError):
-        raise
-    except zipfile.BadZipFile as error:
-        raise damaged(path, "damage_archive", error=str(error).rstrip(".")) from error
-    except Exception as error:  # as above, and whatever unpacking raises
-        raise damaged(path, "damage_arrays") from error
+    with _archive(path, limits) as (archive, shapes):
+        volumes = [name for name, shape in shapes.items() if len(shape) == 3]
+        name = "density" if "density" in volumes else volumes[0] if volumes else None
+        if name:
+            array = _unpack(archive, path, name, limits)
     if not name or array is None:
         raise FileError("no_3d_array")
     others = [volume for volume in volumes if volume != name]
     findings = (finding("arrays_left_out", array=name, arrays=others),) if others else ()
     return Scan(real_samples(array), np.eye(4), findings=findings)
+
+
+def read_arrays(path: Path, names: Sequence[str], limits: Limits) -> dict[str, NDArray]:
+    """Those of the arrays that an .npz has, of any shape and type but objects. FileError where it is damaged or asks
+    for more than the limits, OSError where it cannot be opened."""
+    with _archive(path, limits) as (archive, shapes):
+        return {name: _unpack(archive, path, name, limits) for name in names if name in shapes}
+
+
+@contextmanager
+def _archive(path: Path, limits: Limits) -> Iterator[tuple[zipfile.ZipFile, dict[str, tuple[int, ...]]]]:
+    """An archive and the shapes of its arrays, by name. What is raised meanwhile becomes a FileError."""
+    with open(path, "rb") as file, _damage(path), zipfile.ZipFile(file) as archive:
+        entries = archive.infolist()
+        limits.check(path, "entries", len(entries))
+        if any(ENTRY in entry.comment + entry.extra for entry in entries):
+            raise zipfile.BadZipFile("overlapping entries")  # by a wrong length
+        heads = {entry.filename: _npz_header(archive, entry) for entry in entries}
+        yield archive, {name.removesuffix(".npy"): shape for name, shape in heads.items()}
+
+
+@contextmanager
+def _damage(path: Path) -> Iterator[None]:
+    """Make a FileError of whatever unpacking raises."""
+    try:
+        yield
+    except (MemoryError, FileError):
+        raise
+    except zipfile.BadZipFile as error:
+        raise damaged(path, "damage_archive", error=str(error).rstrip(".")) from error
+    except Exception as error:  # as above
+        raise damaged(path, "damage_arrays") from error
+
+
+def _unpack(archive: zipfile.ZipFile, path: Path, name: str, limits: Limits) -> NDArray:
+    """An array, read to the end of its entry, where zipfile compares the checksum."""
+    limits.check(path, "unpacked_bytes", archive.getinfo(name + ".npy").file_size)
+    with archive.open(name + ".npy") as file:
+        return np.lib.format.read_array(file, allow_pickle=False)
 
 
 def _check_array_header(start: bytes) -> None:

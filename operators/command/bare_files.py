@@ -63,7 +63,7 @@ class BareFile:
         findings = (*measurement.findings, *unused_options(self.options, measurement), *shapeless)
         measurement = replace(measurement, findings=findings)
         surface = measurement.area_moments if self.options.surface_moments else None
-        more = dict.fromkeys(requested)
+        more = dict.fromkeys([*requested, *["thumbnail"] * bool(self.options.thumbnails)])
         order, frame, about = self.options.order, self.options.frame, self.options.about
         self.objects = [record.record(measurement, frame, order, surface, more, about)]
         self.measured = [(name, None, measurement)]

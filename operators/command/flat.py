@@ -11,7 +11,7 @@ import bpy
 
 from ...core.moments.complex_moments import flusser_invariants, hu_invariants
 from ...core.moments.normalized import normalize
-from ...core.verdict.finding import Finding, MeasureError
+from ...core.verdict.finding import Finding, MeasureError, finding
 from ..bodies.flat import NO_BODY, area_findings, clearer_refusal, flat_region
 from ..bodies.flat_shape import flat_shape_of
 from ..write.flat_record import flat_record
@@ -48,7 +48,9 @@ def _record(
     order = options.order
     region = flat_region(obj, depsgraph, selected=False, unit=unit)
     moments = region.moments(max(order or 0, LEAST_ORDER))
-    more = {"signature": flat_shape_of(obj, depsgraph, unit).signature().as_record()} if options.signature else {}
+    posed = (finding("pose_of_flat"),) if options.pose else ()
+    more: dict[str, Any] = {"pose": None} if options.pose else {}
+    more |= {"signature": flat_shape_of(obj, depsgraph, unit).signature().as_record()} if options.signature else {}
     invariants = []
     if order is not None and order >= HU_ORDER:
         normalized = normalize(moments)
@@ -58,7 +60,7 @@ def _record(
         obj.type,
         region.plane,
         moments,
-        (*region.findings, *area_findings(region, moments.total), *findings),
+        (*region.findings, *area_findings(region, moments.total), *posed, *findings),
         order=order,
         invariants=invariants,
         more=more,

@@ -188,10 +188,10 @@ def _summary(options: argparse.Namespace) -> tuple[Iterable[str], bool]:
             failed.append("{}  {}: {}".format(document["status"], file, document["errors"][0]["reason"]))
         if "seconds" in about:
             slowest = sorted([*slowest, (float(about["seconds"]), str(file))], reverse=True)[:_LISTED]
-        for entry in document["objects"]:
-            methods[entry["method"]] += 1
+        for entry in (*document["objects"], *document.get("flat", ())):
+            methods[entry.get("method", "flat")] += 1
             codes.update({(one["severity"], one["code"]) for one in entry["findings"]})
-            bound, size = _bound(entry), abs(entry["volume"] or entry["area"] or 0.0)
+            bound, size = _bound(entry), abs(entry.get("volume") or entry["area"] or 0.0)
             if bound is not None and size:
                 widest = sorted([*widest, (bound / size, "{}: {}".format(file, entry["name"]))], reverse=True)[:_LISTED]
     lines = ["{} files: {}".format(statuses.total(), _counted(statuses))]
@@ -211,7 +211,7 @@ def _summary(options: argparse.Namespace) -> tuple[Iterable[str], bool]:
 def _bound(entry: dict[str, Any]) -> float | None:
     """That of the volume or area, by rounding and by the input."""
     bounds = entry["error_bound"] or {}
-    name = "volume" if entry["volume"] else "area"
+    name = "volume" if entry.get("volume") else "area"
     known = [one for one in (bounds.get(name), (bounds.get("input") or {}).get(name)) if one is not None]
     return sum(known) if known else None
 

@@ -56,9 +56,7 @@ def complete(document: dict[str, Any], measured: Sequence[MeasuredObject], optio
 def _by_object(document: dict[str, Any], measured: Sequence[MeasuredObject]) -> SceneLinks:
     """From the records of objects, which get the entry `link`."""
     labels = {obj: label for label, obj, _ in measured if obj is not None}
-    links = {
-        label: link_entry(one) if obj is None else object_entry(obj, one, labels) for label, obj, one in measured
-    }
+    links = {label: link_entry(one) if obj is None else object_entry(obj, one, labels) for label, obj, one in measured}
     for entry in document["objects"]:
         if entry["name"] in links:
             entry["link"] = links[entry["name"]]

@@ -6,8 +6,6 @@ from __future__ import annotations
 
 import argparse
 import json
-import zipfile
-import zlib
 from math import comb
 from pathlib import Path
 from typing import Any
@@ -18,7 +16,11 @@ from numpy.typing import NDArray
 from ...core.polyhedron import SimplexMoments, enclosed_moments, facet_moments, facets_of
 from ...core.polyhedron.n_dimensions import multi_indices
 from ...core.polyhedron.simplices import closes, outer_facets
+from ...core.scans.numpy_files import read_arrays
 from ...core.verdict.finding import FileError, QueryError, finding, system_reason
+from ..settings.limits import scan_limits
+from ..write.record import described
+from ..write.terminal import print_message
 from . import option_types as types
 from .arguments import join_negative_values
 from .parser import Parser
@@ -67,15 +69,20 @@ def answer(options: argparse.Namespace) -> str:
     if simplices.shape[1] == dimension + 1:
         facets, turned = facets_of(points, simplices)
         signs = turned if signs is None else turned * np.tile(signs, dimension + 1)
+    is_closed = closes(points, facets, signs)
+    findings = [] if is_closed else [finding("simplex_open")]
+    for one in findings:
+        print_message(options.file, one)
     record: dict[str, Any] = {
         "schema": "body-moments-simplex/1",
         "file": str(options.file),
         "dimension": dimension,
         "simplices": len(simplices),
-        "closed": closes(points, facets, signs),
+        "closed": is_closed,
         "order": options.order,
         "about": about.tolist(),
         **_as_record(enclosed_moments(points, facets, options.order, about, signs)),
+        **described(findings),
     }
     if options.boundary:
         outer = facets if facets is simplices else outer_facets(points, facets, signs)
@@ -96,17 +103,10 @@ def _as_record(moments: SimplexMoments) -> dict[str, dict[str, float]]:
 
 
 def _read(path: Path) -> tuple[NDArray[np.float64], NDArray[np.integer], NDArray | None]:
-    try:
-        archive = np.load(path, allow_pickle=False)
-        if not isinstance(archive, np.lib.npyio.NpzFile):
-            raise ValueError("one array")
-        with archive:
-            points, simplices = archive["points"], archive["simplices"]
-            signs = archive["signs"] if "signs" in archive.files else None
-        if not all(isinstance(array, np.ndarray) for array in (points, simplices, signs) if array is not None):
-            raise ValueError("bytes, of no .npy")
-    except (ValueError, KeyError, EOFError, MemoryError, RuntimeError, zipfile.BadZipFile, zlib.error) as error:
-        raise FileError("simplex_arrays") from error
+    arrays = read_arrays(path, ("points", "simplices", "signs"), scan_limits())
+    if not {"points", "simplices"} <= arrays.keys():
+        raise FileError("simplex_arrays")
+    points, simplices, signs = arrays["points"], arrays["simplices"], arrays.get("signs")
     dimension = points.shape[1] if points.ndim == 2 else 0
     if points.dtype.kind not in "iuf" or not 1 <= dimension <= MAX_DIMENSION or not np.isfinite(points).all():
         raise FileError("simplex_points", limit=MAX_DIMENSION)

@@ -993,6 +993,7 @@ MESSAGES: dict[str, Message] = {
         "Zhang and Chen's rule is undefined without skewness along axes 1 and 2. Turn it off."
     ),
     "shape_of_grid": _warning("A grid of densities has no shape for a pose or signature."),
+    "pose_of_flat": _warning("A flat shape has no pose. Its plane and second moments say how it lies."),
     "shape_of_stream": _warning("A mesh that is read in blocks has no pose or signature. Use --stream never."),
     "shape_of_wire_or_wall": _error(
         "Pose and signature are not available for wires and walls. Set Wall to Thin, or convert to a mesh."
@@ -1455,6 +1456,10 @@ MESSAGES: dict[str, Message] = {
     # simplex
     "simplex_arrays": _error("The file is no .npz archive with the arrays “points” and “simplices”."),
     "simplex_points": _error("“points” must be rows of 1 to {limit} finite coordinates."),
+    "simplex_open": _warning(
+        "The facets do not close, so the moments depend on the reference point. Add the missing ones, or turn those "
+        "that face the other way by “signs”."
+    ),
     "simplex_rows": _error("“simplices” must be rows of {dimension} or one more numbers of points, counted from 0."),
     "simplex_signs": _error("“signs” must be 1 or -1 for each of the simplices."),
     "simplex_point": _error("--about has {count} coordinates, and the points {dimension}."),

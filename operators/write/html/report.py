@@ -107,16 +107,21 @@ def to_html(documents: Iterable[dict[str, Any]]) -> Iterator[str]:
 def _rows(document: dict[str, Any]) -> Iterator[str]:
     file, status = document["file"] or "", document["status"]
     for entry in document["objects"]:
-        remarks = [("warning", text) for text in entry["warnings"]] + [("", text) for text in entry["notes"]]
         mass, moments = entry["mass"], entry["principal_moments"]
         size = math.sqrt(sum(moments) / (2.0 * mass)) if mass and moments and None not in moments else None
         bounds, volume = entry["error_bound"] or {}, entry["volume"]
         known = [one for one in (bounds.get("volume"), (bounds.get("input") or {}).get("volume")) if one is not None]
         values = {"mass": mass, "volume": volume, "area": entry["area"], "size": size}
         values["bound"] = sum(known) / abs(volume) if known and volume else None
-        yield _row(_picture(entry), file, entry["name"], status, entry["method"], values, remarks)
+        yield _row(_picture(entry), file, entry["name"], status, entry["method"], values, _remarks(entry))
+    for entry in document.get("flat", ()):
+        yield _row("", file, entry["name"], status, "flat", {"area": entry["area"]}, _remarks(entry))
     for error in document["errors"]:
         yield _row("", file, error["name"] or "", status, "", {}, [("error", error["reason"])])
+
+
+def _remarks(entry: dict[str, Any]) -> list[tuple[str, str]]:
+    return [("warning", text) for text in entry["warnings"]] + [("", text) for text in entry["notes"]]
 
 
 def _row(

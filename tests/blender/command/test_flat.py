@@ -3,6 +3,7 @@
 """--flat: records, signatures and Fourier transforms of flat shapes, and `similar` over them."""
 
 import json
+from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -10,8 +11,10 @@ import pytest
 pytest.importorskip("bpy")
 import bpy
 from body_moments.core.shape.library import read_library
+from body_moments.operators import batch
 from body_moments.operators.command import compare
 from body_moments.operators.command.own_results import replaceable
+from body_moments.operators.write.html.report import to_html
 
 from tests.blender.batch_files import add_box, document
 from tests.blender.command.test_shape import ask
@@ -152,6 +155,21 @@ def test_the_table_has_rows_for_flat_shapes():
     assert close(float(columns["area_moment_2_0"]), 2 * 9.0, rel=1e-6)
 
 
+def test_summary_and_report_have_flat_shapes_and_a_pose_is_refused(tmp_path, capfd):
+    sheet(RECTANGLE, "Sheet <b>")
+    add_box()
+    found = document("--flat", "--pose", "--density", "1000")
+    (entry,) = found["flat"]
+    assert entry["pose"] is None and [one["code"] for one in entry["findings"]] == ["pose_of_flat"]
+    path = tmp_path / "found.json"
+    path.write_text(json.dumps(found), encoding="utf-8")
+    assert batch.main(["summary", str(path)], channel=1) == 0
+    counted = capfd.readouterr().out
+    assert "2 objects: " in counted and "1 flat" in counted and "pose_of_flat" in counted
+    page = "".join(to_html([found]))
+    assert page.count("Sheet &lt;b&gt;") == 2 and "has no pose" in page
+
+
 def test_the_operator_writes_a_file_and_a_picture_of_a_flat_shape(tmp_path):
     text("R", "Letter")
     path = str(tmp_path / "letter.npz")
@@ -188,6 +206,48 @@ def test_flat_shapes_are_compared():
     wider = document("--flat", "--order", "3", "--pose")
     assert differs(first, wider) and differs(first, wider, align=True)
     assert compare.differences([first], [{**first, "flat": []}], 0.0, False)[1]
+
+
+def exact_moments(points):
+    """Area, centroid and central second moments (xx, yy, xy) of a polygon, as fractions."""
+    x, y = ([Fraction(float(value)) for value in column] for column in np.asarray(points).T)
+    after = [*range(1, len(x)), 0]
+    cross = [x[i] * y[j] - x[j] * y[i] for i, j in enumerate(after)]
+    area = sum(cross) / 2
+    center = [sum(c * (u[i] + u[j]) for i, (j, c) in enumerate(zip(after, cross))) / (6 * area) for u in (x, y)]
+    second = [
+        sum(c * (2 * u[i] * v[i] + 2 * u[j] * v[j] + u[i] * v[j] + u[j] * v[i]) for i, (j, c) in enumerate(pairs)) / 24
+        - area * center[one] * center[other]
+        for u, v, one, other in ((x, x, 0, 0), (y, y, 1, 1), (x, y, 0, 1))
+        for pairs in [list(zip(after, cross))]
+    ]
+    return area, center, second
+
+
+@pytest.mark.parametrize("far, least", [(0.0, 1e-3), (300.0, 1e-6)])
+def test_centroid_and_second_moments_are_within_bounds_that_are_not_wide(far, least):
+    """Of polygons whose coordinates are float32, against fractions."""
+    rng, worst = np.random.default_rng(5), dict.fromkeys(("area", "centroid", "second_moments"), 0.0)
+    for _ in range(12):
+        turns = np.sort(rng.random(7)) * 2.0 * np.pi
+        points = far + rng.uniform(0.5, 1.5, (7, 1)) * np.column_stack([np.cos(turns), np.sin(turns)])
+        points = points.astype(np.float32)
+        obj = sheet(points.tolist())
+        entry, (area, center, second) = shape(), exact_moments(points)
+        bpy.data.objects.remove(obj)
+        assert entry["plane"]["x"] == [1, 0, 0] and entry["plane"]["y"] == [0, 1, 0]
+        found = {
+            "area": [(entry["area"], area)],
+            "centroid": zip(entry["centroid"], center),
+            "second_moments": [
+                (entry["second_moments"][name], truth) for name, truth in zip(("xx", "yy", "xy"), second)
+            ],
+        }
+        for name, pairs in found.items():
+            off = max(abs(Fraction(value) - truth) for value, truth in pairs)
+            assert off <= Fraction(entry["error_bound"][name])
+            worst[name] = max(worst[name], float(off / Fraction(entry["error_bound"][name])))
+    assert min(worst.values()) > least, worst
 
 
 def test_centroid_and_second_moments_have_bounds():

@@ -15,11 +15,12 @@ from body_moments.core.polyhedron import facets_of
 from body_moments.operators import batch
 
 from tests.blender.command.test_process import script
+from tests.records import valid
 
 
 def answered(path, *words):
     ended = script("simplex", path, *words)
-    return ended.returncode, json.loads(ended.stdout) if ended.stdout else ended.stderr.decode()
+    return ended.returncode, valid(json.loads(ended.stdout)) if ended.stdout else ended.stderr.decode()
 
 
 def corner(dimension, exponents) -> Fraction:
@@ -39,7 +40,7 @@ def test_moments_of_a_corner_in_n_dimensions_are_fractions(tmp_path, capfd, dime
         arrays = {"points": points, "simplices": facets, "signs": signs}
     np.savez(tmp_path / "a.npz", **arrays)
     assert batch.main(["simplex", str(tmp_path / "a.npz"), "--order", str(order)], channel=1) == 0
-    record = json.loads(capfd.readouterr().out)
+    record = valid(json.loads(capfd.readouterr().out))
     assert record["dimension"] == dimension and record["closed"] is True
     powers = [row for row in itertools.product(range(order + 1), repeat=dimension) if sum(row) <= order]
     assert len(record["moments"]) == len(powers)
@@ -58,7 +59,17 @@ def test_about_boundary_and_what_is_open(tmp_path):
     assert record["moments"]["2,0"] == pytest.approx(4.0 / 3.0, rel=1e-14)
     assert record["boundary"]["moments"]["0,0"] == pytest.approx(8.0, rel=1e-14)
     np.savez(tmp_path / "a.npz", points=square, simplices=[[0, 1], [1, 2], [2, 3]])
-    assert answered(tmp_path / "a.npz")[1]["closed"] is False
+    record = answered(tmp_path / "a.npz")[1]
+    assert record["closed"] is False and [one["code"] for one in record["findings"]] == ["simplex_open"]
+
+
+def test_an_archive_unpacks_to_no_more_than_the_limit(tmp_path, capfd, monkeypatch):
+    path = tmp_path / "a.npz"
+    np.savez_compressed(path, points=np.zeros((1000, 2)), simplices=[[0, 1, 2]])
+    for limit, code in ((16128, 0), (16127, 1)):  # with the header of 128 bytes
+        monkeypatch.setenv("BODY_MOMENTS_LIMITS", "unpacked_bytes={}".format(limit))
+        assert batch.main(["simplex", str(path)], channel=1) == code, limit
+    assert "unpacked_bytes" in capfd.readouterr().err
 
 
 def test_wrong_files_and_options_are_said(tmp_path, capfd):
