@@ -58,7 +58,7 @@ class RowReader:
             yield Block([table["p{}".format(number)][:count] for number in range(len(element.properties))])
 
     def _lengths(self, properties: Sequence[Property]) -> dict[int, int]:
-        """How long the lists of the next row are."""
+        """How long the lists of the next row are, all of which is in the buffer then."""
         at, lengths = 0, {}
         for number, one in enumerate(properties):
             if one.counter:
@@ -80,10 +80,7 @@ class RowReader:
 
     def _table(self, row: np.dtype, left: int) -> NDArray:
         """As many rows as are in the buffer, and the next ones of the file in it."""
-        if not row.itemsize:
-            return np.zeros(left, row)
         unit = self._buffer.itemsize
-        self._fill(row.itemsize // unit)
         self._read_ahead(min(left * row.itemsize, BYTES_PER_BLOCK) // unit)
         count = min(left, len(self._buffer) * unit // row.itemsize)
         return np.frombuffer(self._buffer, row, count)
@@ -98,7 +95,6 @@ class RowReader:
             if key not in types:
                 types[key] = self._row_type(element.properties, lengths)
             size = types[key].itemsize // self._buffer.itemsize
-            self._fill(size)
             by_lengths.setdefault(key, []).append(self._buffer[:size].tobytes())
             self._buffer = self._buffer[size:]
         for key, found in by_lengths.items():

@@ -10,8 +10,30 @@ from tests.soak.mutants import Mutant
 
 # names of constants: the reason
 NAMES = {
-    r"_PER_(BLOCK|BATCH|CHUNK|SLAB|TASK|THREAD|STACK)$|^_?BLOCK|_BLOCK$": "how much is computed at a time",
+    r"_PER_(BLOCK|BATCH|CHUNK|SLAB|TASK|THREAD|STACK)$|^_?BLOCK|_BLOCK$|_ROWS$|_IN_CACHE$|^SAMPLES$": "how much is "
+    "computed or read at a time",
     r"^MAX_CACHED_|_SCRATCH_": "how much is remembered",
+    r"^DIRECT_COST$|_TIME$": "how time is estimated",
+    r"^NO_[A-Z]+$": "a mark, of which any negative number is one",
+}
+# places ("module function"), and the mutant's text before and after it: the reason
+PATTERNS = [
+    (r".*", r".*\*= -1\.0", r".*/= -1\.0", "times -1 is by -1"),
+    (r".*", r".*\bsort\(.*kind=.stable.*", r"((?!kind=).)*", "the order of equal ones, of which any may be first"),
+    (r".*triangle_kernel.py _morton_code", r".*", r".*", "the order in which triangles are summed"),
+    (r".*polyhedron/third_order.py integrate", r"room.*|count.*", r".*", "how much is computed at a time"),
+    (r".*nurbs/patch_topology.py _overlapping_sides", r"0", r"1", "each of the two runs as the other does"),
+    (r".*density/threshold.py threshold_body", r"2", r"3", "a reference point near the middle"),
+    (r".*cad/iges.py _Reader._pieces", r"1", r"2", "how soon a boundary of more pieces than any has is given up"),
+]
+# functions that make bounds of errors, where a constant factor twice as large gives a bound still
+LOOSER = {
+    "core/inertia/canonical_frame.py _extreme_directions",
+    "core/inertia/canonical_frame.py _normalization",
+    "core/inertia/canonical_stack.py _along_axes",
+    "core/inertia/reference.py Reference.refer",
+    "core/plane/section.py _bounds",
+    "core/polyhedron/any_order_kernel.py absolute_sums",
 }
 # (module, function, before, after): the reason
 EQUIVALENT: dict[tuple[str, str, str, str], str] = {
@@ -31,4 +53,11 @@ def reason(mutant: Mutant) -> str:
         for pattern, why in NAMES.items():
             if re.search(pattern, name):
                 return why
+    path, function, before, after = mutant.key
+    place = "{} {}".format(path, function)
+    if place in LOOSER and re.fullmatch(r"\d+\.\d*", before) and after == repr(2.0 * float(before)):
+        return "a looser bound"
+    for where, old, new, why in PATTERNS:
+        if re.fullmatch(where, place) and re.fullmatch(old, before) and re.fullmatch(new, after):
+            return why
     return EQUIVALENT.get(mutant.key, "")

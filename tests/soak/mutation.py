@@ -35,12 +35,15 @@ KEPT = ROOT / ".envs" / "soak" / "lines"
 FOUND = ROOT / ".envs" / "soak" / "found.json"
 TESTS = {  # of a package, or of all in a part
     "core": ("core",),
+    "core/mesh": ("core", "blender/bodies/test_many.py"),
+    "core/solid": ("core", "blender/bodies/test_many.py"),
+    "core/shape": ("core", "blender/actions/shape"),
     "core/robots": ("blender/bodies/test_audit.py", "blender/read/test_robots.py", "blender/actions/export"),
     "operators": ("blender",),
     "panels": ("blender",),
 }
 READERS = {  # tests that read the source, by what they look for in it
-    re.compile(r"(finding|\w+Error)\("): "tests/core/verdict/test_finding.py::"
+    re.compile(r"(finding|\w+Error|self\._damaged)\("): "tests/core/verdict/test_finding.py::"
     "test_every_value_that_a_message_needs_is_given",
 }
 LEFT_OUT = ("test_random_sessions.py",)  # what takes as long as it is given

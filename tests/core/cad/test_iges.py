@@ -275,6 +275,21 @@ def test_subfigures_that_multiply_end(tmp_path):
     assert refusal(file.write(tmp_path / "a.igs")).code in ("too_many_surfaces", "no_surface_kept")
 
 
+@pytest.mark.parametrize("depth, kept", [(45, True), (55, False)])
+def test_subfigures_in_each_other_end(tmp_path, depth, kept):
+    file = IgesFile()
+    below = file.surface(unrolled(sphere()), status="00010000")
+    for level in range(depth):
+        group = file.add(308, [0, "1HA", 1, below], status="00000200")
+        status = "00010000" if level < depth - 1 else "00000000"
+        below = file.add(408, [group, 0.0, 0.0, 0.0], status=status)
+    path = file.write(tmp_path / "a.igs")
+    if kept:
+        assert close(volume(read_surfaces(path)).total, BALL, 1e-14)
+    else:
+        assert refusal(path).values["causes"][0]["code"] == "surface_recursive"
+
+
 def test_curves_that_multiply_end(tmp_path):
     file = IgesFile()
     base = file.surface(unrolled(sphere()), status="00010000")
@@ -380,3 +395,22 @@ def test_a_negative_number_of_members_is_damage(tmp_path):
     file.add(408, [two, 0.0, 0.0, 0.0, 1.0])
     file.surface(unrolled(sphere()))
     assert "surface_damaged" in refused(read_surfaces(file.write(tmp_path / "a.igs")))
+
+
+def test_all_surfaces_of_the_specification_are_refused_by_name(tmp_path):
+    """The numbers and names of IGES 5.3, section 4."""
+    names = "108 Plane|114 Parametric Spline Surface|118 Ruled Surface|120 Surface of Revolution|122 Tabulated Cylinder"
+    names += "|140 Offset Surface|143 Bounded Surface|150 Block|152 Wedge|154 Cylinder|156 Cone Frustum|158 Sphere"
+    names += "|160 Torus|162 Solid of Revolution|164 Solid of Linear Extrusion|168 Ellipsoid|180 Boolean Tree"
+    names += "|184 Solid Assembly|186 Manifold Solid B-Rep|190 Plane Surface|192 Cylindrical Surface"
+    names += "|194 Conical Surface|196 Spherical Surface|198 Toroidal Surface|412 Rectangular Array|414 Circular Array"
+    names += "|416 External Reference|430 Solid Instance|510 Face|514 Shell"
+    file = IgesFile()
+    file.surface(unrolled(sphere()))
+    kinds = []
+    for number, _, name in (entry.partition(" ") for entry in names.split("|")):
+        file.add(int(number), [0] * 12)
+        kinds.append("{} ({})".format(name, number))
+    refused = read_surfaces(file.write(tmp_path / "a.igs")).refused
+    assert [found.values["kind"] for found in refused] == kinds
+    assert {found.code for found in refused} == {"surface_type_unsupported"}

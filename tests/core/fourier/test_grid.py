@@ -8,7 +8,7 @@ from functools import partial
 import numpy as np
 import pytest
 from body_moments.core.fourier import grid as fourier_grid
-from body_moments.core.fourier.grid import GridTransform
+from body_moments.core.fourier.grid import GridTransform, _sample_indices
 from body_moments.core.fourier.nufft import Spreading, aliasing
 from body_moments.core.fourier.transform import run_to_completion, solid_transform, surface_transform
 from body_moments.core.fourier.wave_vectors import FrequencyGrid
@@ -166,3 +166,12 @@ def test_the_bound_of_the_points_holds():
             fine, more = triangle_rule(24)
             error = np.exp(-1j * (phases @ places)) @ weights - np.exp(-1j * (phases @ fine)) @ more
             assert np.abs(error).max() <= bounded[0] + 1e-15
+
+
+def test_compared_are_the_ends_of_axes_and_diagonals():
+    grid = FrequencyGrid(9, 1.0)
+    found = np.array(np.unravel_index(_sample_indices(grid), (9, 9, 9))).T - grid.half
+    for way in ((1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 1, 1), (0, 1, 1), (1, 0, 1), (1, 1, 0)):
+        for step in (-grid.half, -1, 1):
+            assert (found == np.clip(step * np.array(way), -grid.half, 8 - grid.half)).all(axis=1).any()
+    assert len(found) > 30 and len(np.unique(found, axis=0)) == len(found)

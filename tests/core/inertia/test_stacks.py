@@ -4,6 +4,7 @@
 
 import numpy as np
 import pytest
+from body_moments.core.inertia.canonical_stack import choose_about_axis
 from body_moments.core.inertia.mass_properties import MassProperties
 from body_moments.core.inertia.principal_frame import OwnMoments, principal_frame
 from body_moments.core.inertia.second_order import second_order_frames
@@ -108,3 +109,12 @@ def test_copies_share_the_axes_of_their_shape(name):
             first = 0 if not mirrored[i] else int(np.flatnonzero(mirrored)[0])
             own = [rotation[j].T @ stack.axes[j] for j in (first, i)]
             assert np.abs(own[0] - own[1]).max() < 1e-9
+
+
+@pytest.mark.parametrize("height", [0.3, 1.7, 6.0])
+def test_prisms_to_six_sides_have_directions_about_their_axes_and_others_have_none(height):
+    """E[(x + i y)^n] of an n-gon is the first harmonic that is not zero."""
+    parts = [moments(shapes.prism(n, height), 6) for n in range(3, 9)]
+    parts = stack_moments([part.transform(matrix) for part, matrix in zip(parts, placed(len(parts)))])
+    is_round, allowed = choose_about_axis(parts, second_order_frames(parts.truncate(3)), np.arange(6))
+    assert is_round.tolist() == [False] * 4 + [True] * 2 and allowed[4:].any(axis=1).all()

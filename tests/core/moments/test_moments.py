@@ -10,7 +10,16 @@ import numpy as np
 import pytest
 from body_moments.core.moments.affine_maps import are_similarities
 from body_moments.core.moments.images import sum_of_images
-from body_moments.core.moments.moments import Measure, Moments, monomial_count, monomial_index, monomials, sum_moments
+from body_moments.core.moments.moments import (
+    FLOAT32_HALF_ULP,
+    Measure,
+    Moments,
+    U,
+    monomial_count,
+    monomial_index,
+    monomials,
+    sum_moments,
+)
 from body_moments.core.moments.normalized import normalize
 
 from tests.close import close
@@ -265,6 +274,21 @@ def test_the_bounds_of_normalized_moments_hold_for_bodies_moved_within_theirs(by
         assert told.rounding_error.max() < 1e-3
 
 
+@pytest.mark.parametrize("by", ["size", "gyration"])
+@pytest.mark.parametrize("wrong", range(10))
+def test_the_bounds_of_normalized_moments_hold_whichever_moment_is_off(by, wrong):
+    exact = np.array([float(x) for x in box_moments((0, 0, 0), (1, 2, 3), 4, (0.5, 1, 1.5))])
+    true = normalize(Moments(exact, np.zeros(3)), by)
+    for size in (1e-6, 1e-2):
+        delta = np.zeros(len(exact))
+        delta[wrong] = size * exact[[0, 0, 0, 0, 4, 4, 4, 7, 7, 9][wrong]]
+        for way in (delta, -delta):
+            off = normalize(Moments(exact + way, np.zeros(3), rounding_error=np.abs(delta)), by)
+            limit = off.rounding_error + true.rounding_error
+            away = np.abs(off.raw - true.raw)
+            assert (away <= limit).all() and limit.max() < 300.0 * away.max() + 1e-12
+
+
 def test_what_cannot_be_normalized_is_refused():
     with pytest.raises(ValueError, match="gyration"):
         normalize(Moments(np.ones(10), np.zeros(3), "mass"))
@@ -331,3 +355,23 @@ def test_maps_that_are_none_are_refused(matrix):
 def test_points_that_are_none_are_refused(point):
     with pytest.raises(ValueError, match="about"):
         Moments(np.ones(20), np.zeros(3)).about_point(point)
+
+
+def test_coordinates_are_off_by_half_of_what_follows_one():
+    assert np.nextafter(np.float32(1.0), np.float32(2.0)) == 1.0 + 2.0 * FLOAT32_HALF_ULP
+    assert np.nextafter(1.0, 2.0) == 1.0 + 2.0 * U
+
+
+@pytest.mark.parametrize("size", [1e-6, 1.0, 1e6])
+@pytest.mark.parametrize("count", [1, 7, 300])
+def test_bounds_of_sums_of_images_say_something(size, count):
+    """They are some roundings of the moments of the absolute values, which all images have about the sum's center."""
+    rng = np.random.default_rng(count)
+    body = floats(box_moments((0, 0, 0), (1, 2, 3)))
+    matrices = np.tile(np.eye(4), (count, 1, 1))
+    matrices[:, :3, :3] = size * rng.normal(size=(count, 3, 3))
+    matrices[:, :3, 3] = 3.0 * size * rng.normal(size=(count, 3))
+    total = sum_of_images(body, matrices)
+    volume = 6.0 * np.abs(np.linalg.det(matrices[:, :3, :3])).sum()
+    reach = np.linalg.norm(matrices[:, :3, :3], axis=(1, 2)).max() * 4.0 + np.ptp(matrices[:, :3, 3], axis=0).max()
+    assert (total.rounding_error <= (400.0 + 4.0 * count) * U * volume * reach ** monomials(ORDER).sum(axis=1)).all()

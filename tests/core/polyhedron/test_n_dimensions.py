@@ -17,6 +17,7 @@ from body_moments.core.polyhedron.n_dimensions import (
     multi_index_position,
     multi_indices,
 )
+from body_moments.core.polyhedron.simplices import closes, facets_of, outer_facets
 
 from tests.close import close
 from tests.core import bodies, rational
@@ -240,3 +241,15 @@ def test_each_simplex_has_a_sign():
 
 def test_nothing_encloses_nothing():
     assert not enclosed_moments(np.zeros((0, 3)), np.zeros((0, 3), int), 2).raw.any()
+
+
+def test_facets_of_simplices_close_and_the_outer_ones_bound_with_or_without_signs():
+    square, halves = [[0, 0], [1, 0], [1, 1], [0, 1]], [[0, 1, 2], [0, 2, 3]]
+    facets, signs = facets_of(square, halves)
+    outer = outer_facets(square, facets, signs)
+    assert sorted(sorted(pair) for pair in outer.tolist()) == [[0, 1], [0, 3], [1, 2], [2, 3]]
+    assert closes(square, facets, signs) and not closes(square, facets)
+    ring = [[0, 1], [1, 2], [2, 3], [3, 0]]
+    assert closes(square, ring) and not closes(square, ring[1:])
+    assert sorted(outer_facets(square, [*ring, [0, 2], [2, 0]]).tolist()) == sorted(ring)
+    assert sorted(outer_facets(square, [*ring, [0, 2], [0, 2]]).tolist()) == sorted([*ring, [0, 2], [0, 2]])

@@ -182,6 +182,8 @@ def test_an_stl_that_is_cut_short_is_refused(tmp_path, small_blocks, cut):
     text = stl_text(part)
     with refused("stl_cut_short", "file_damaged"):
         measured(tmp_path, "a.stl", text[: -cut - 15])
+    with refused("stl_cut_short", "file_damaged"):  # though the first of two solids has its end
+        measured(tmp_path, "a.stl", text + text.replace(b"part", b"another one")[: -cut - 15])
     assert measured(tmp_path, "a.stl", text + text.replace(b"part", b"another one")).face_count == 2 * len(part[1])
     assert measured(tmp_path, "a.stl", text.upper().replace(b"\n", b"\r\n")).closed
 
@@ -239,6 +241,19 @@ def test_a_ply_without_vertices_or_with_indices_between_them_is_refused(tmp_path
 def test_elements_without_properties_take_nothing(tmp_path):
     empty = "element nothing 1000000000000\n"
     assert measured(tmp_path, "a.ply", ply_text(empty + VERTICES + FACES, TETRAHEDRON)).closed
+
+
+@pytest.mark.parametrize("order", ["<", ">"])
+def test_rows_with_lists_that_are_empty_take_the_bytes_of_their_counts(tmp_path, order):
+    whole = ply(*moved(sphere(0)), order)
+    head, end, body = whole.partition(b"end_header\n")
+    empty = b"element edge 5000\nproperty list uchar double ends\n"
+    assert measured(tmp_path, "a.ply", head + empty + end + body + bytes(5000)).closed
+    first = head.index(b"element vertex")
+    before = head[:first] + empty + head[first:] + end + bytes(5000) + body
+    assert measured(tmp_path, "a.ply", before).closed
+    with refused("file_damaged"):
+        measured(tmp_path, "a.ply", head + empty.replace(b"5000", b"50000") + end + body + bytes(5000))
 
 
 @pytest.mark.parametrize("order", [3, 4])

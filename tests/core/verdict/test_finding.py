@@ -89,14 +89,18 @@ def test_a_template_has_only_placeholders_that_the_formatter_knows():
 def calls_that_make() -> list[tuple[str, ast.Call]]:
     """Where the source makes findings and refusals."""
     makers = {"finding", "Finding", "MeasureError", "ReadError", "EditRefusedError", "FileError", "QueryError"}
-    makers |= {"SurfaceRefusedError", "NoShapeError"}
+    makers |= {"SurfaceRefusedError", "NoShapeError", "_damaged"}
     return [
         ("{}:{}".format(path.relative_to(ROOT), node.lineno), node)
         for part in ("core", "operators", "panels")
         for path in (ROOT / part).rglob("*.py")
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
-        if isinstance(node, ast.Call) and getattr(node.func, "id", "") in makers and node.args
+        if isinstance(node, ast.Call) and maker_of(node) in makers and node.args
     ]
+
+
+def maker_of(call: ast.Call) -> str:
+    return getattr(call.func, "id", getattr(call.func, "attr", ""))
 
 
 def codes_of(call: ast.Call) -> list[str]:
@@ -116,10 +120,10 @@ def test_every_value_that_a_message_needs_is_given():
     missing = []
     for place, call in calls_that_make():
         given = {"elements", *(keyword.arg for keyword in call.keywords)}
-        if call.func.id == "SurfaceRefusedError":  # these are known where the surfaces of a file are listed
+        if maker_of(call) == "SurfaceRefusedError":  # these are known where the surfaces of a file are listed
             given |= {"count", "kind", "names"}
         holds_another = any(isinstance(node, ast.Call) for node in ast.walk(call.args[0]))
-        if holds_another or call.func.id == "Finding" or None in given:
+        if holds_another or maker_of(call) == "Finding" or None in given:
             continue
         for code in codes_of(call):
             message, known = MESSAGES[code], given | FILLED_IN_LATER.get(code, set())
