@@ -158,11 +158,13 @@ def find_crossings(surface: Surface, grids: LineGrids, body: NDArray[np.integer]
         In no particular order.
     """
     triangles, number = _crossed_triangles(surface, _cells(surface.points, grids, body))
-    corners = triangles.ravel()
-    owner = np.zeros(len(triangles), np.intp) if body is None else body[triangles[:, 0]].astype(np.intp)
-    places = grids.places(surface.points[corners], None if body is None else body[corners]).reshape(3, -1, 3)
-    above = np.ceil(places[0]).astype(np.intp)  # the first row that the corner is not above
-    first, last = (np.clip(end, 0, grids.rows) for end in (above.min(axis=1), above.max(axis=1)))
+    corners, count = triangles.ravel(), triangles.shape[1]
+    owner = np.zeros(count, np.intp) if body is None else body[triangles[0]].astype(np.intp)
+    places = grids.places(surface.points.take(corners, 0), None if body is None else body[corners])
+    above = np.ceil(places[0]).astype(np.intp).reshape(3, count)  # the first row that the corner is not above
+    first, last = (
+        np.clip(end, 0, grids.rows) for end in (np.minimum.reduce(above, axis=0), np.maximum.reduce(above, axis=0))
+    )
     bodies, faces = len(grids.cell), _count_faces(surface, body, len(grids.cell))
     apart = _rows_apart(sums_by_index(owner, last - first, bodies), MAX_PAIRS, faces)
     step = apart[owner]
@@ -172,7 +174,7 @@ def find_crossings(surface: Surface, grids: LineGrids, body: NDArray[np.integer]
     for part in batches(count, PAIRS_PER_BLOCK) if len(count) else ():
         which = part.start + np.repeat(np.arange(len(count[part])), count[part])
         row = first[which] + segment_ranges(count[part]) * step[which]
-        pieces.append((which, row, *_cross_row(places[:, which], triangles[which], above[which] > row[:, None], row)))
+        pieces.append((which, row, *_cross_row(places, corners, which, above.take(which, 1) > row, row)))
     if not pieces:
         none = np.empty(0, np.intp)
         return Crossings(none, none, none, none, np.empty(0), none, apart)
@@ -220,48 +222,56 @@ def _rows_apart(work: NDArray[np.float64], limit: tuple[int, float], faces: NDAr
 def _crossed_triangles(
     surface: Surface, cells: tuple[NDArray[np.integer], NDArray[np.integer]]
 ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """(k, 3) the triangles in several rows and columns, and their numbers. Of a quad that is, both are there."""
-    triangles, number = [np.empty((0, 3), np.intp)], [np.empty(0, np.intp)]
+    """(3, k) the triangles in several rows and columns, and their numbers. Of a quad that is, both are there."""
+    triangles, number = [np.empty((3, 0), np.intp)], [np.empty(0, np.intp)]
     quads = surface.quads
     for faces in (quads, surface.triangles):
         for start in range(0, len(faces), FACES_PER_BLOCK):
-            block = faces[start : start + FACES_PER_BLOCK]
+            block = faces[start : start + FACES_PER_BLOCK].T.astype(np.intp, order="C")
             crossed = np.flatnonzero(_differ(cells[0], block))
-            crossed = crossed[_differ(cells[1], block[crossed])]
-            corners = block[crossed].astype(np.intp)
+            block = block.take(crossed, 1)
+            both = np.flatnonzero(_differ(cells[1], block))
+            crossed, corners = crossed[both], block.take(both, 1)
             if faces is quads:
-                flipped = flipped_quads(surface.points, corners)
-                corners = np.where(flipped[:, None], np.roll(corners, -1, axis=1), corners)
-                triangles.append(corners[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3))
+                flipped = flipped_quads(surface.points, corners.T)
+                corners = np.where(flipped, np.roll(corners, -1, axis=0), corners)
+                triangles.append(corners.take([[0, 0], [1, 2], [2, 3]], 0).transpose(0, 2, 1).reshape(3, -1))
                 number.append((2 * (start + crossed)[:, None] + [0, 1]).ravel())
             else:
                 triangles.append(corners)
                 number.append(2 * len(quads) + start + crossed)
-    return np.concatenate(triangles), np.concatenate(number)
+    return np.concatenate(triangles, axis=1), np.concatenate(number)
 
 
-def _differ(cell: NDArray[np.integer], faces: NDArray[np.integer]) -> NDArray[np.bool_]:
-    """(k,) whether the corners of faces are in different rows, or columns."""
-    first = cell.take(faces[:, 0])
-    differ = cell.take(faces[:, 1]) != first
-    for k in range(2, faces.shape[1]):
-        differ |= cell.take(faces[:, k]) != first
+def _differ(cell: NDArray[np.integer], corners: NDArray[np.intp]) -> NDArray[np.bool_]:
+    """(k,) whether the corners of faces, (3 or 4, k), are in different rows, or columns."""
+    first = cell.take(corners[0])
+    differ = cell.take(corners[1]) != first
+    for corner in corners[2:]:
+        differ |= cell.take(corner) != first
     return differ
 
 
 def _cross_row(
-    places: NDArray[np.float64], triangles: NDArray[np.intp], higher: NDArray[np.bool_], row: NDArray[np.intp]
+    places: NDArray[np.float64],
+    corners: NDArray[np.intp],
+    which: NDArray[np.intp],
+    higher: NDArray[np.bool_],
+    row: NDArray[np.intp],
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.intp]]:
     """(2, k) and (2, k) where a row enters and leaves each triangle: in columns, and along the lines; and the sign of
-    the lines' crossings in between. places: (3, k, 3) of the corners; higher: (k, 3) which are above the row."""
-    single = higher.sum(axis=1) == 1
-    lone = np.where(single, higher.argmax(axis=1), higher.argmin(axis=1))  # the corner on a side of its own
-    each = np.arange(len(triangles))
-    ends = []
+    the lines' crossings in between. places, corners: (3, 3t) and (3t,) of all first corners, all second and all third
+    ones; which: (k,) the triangles; higher: (3, k) which of their corners are above the row."""
+    first, second, third = higher
+    single = (first ^ second ^ third) & ~(first & second & third)
+    lone = np.where(first == second, 2, first == third)  # the corner on a side of its own
+    total, ends = len(corners) // 3, []
+    at = which + total * lone
     for k in (1, 2):
-        next_one = (lone + k) % 3
-        swap = triangles[each, lone] > triangles[each, next_one]
-        begin, end = places[:, each, np.where(swap, next_one, lone)], places[:, each, np.where(swap, lone, next_one)]
+        next_one = which + total * ((lone + k) % 3)
+        swap = corners.take(at) > corners.take(next_one)
+        begin = places.take(np.where(swap, next_one, at), 1)
+        end = places.take(np.where(swap, at, next_one), 1)
         share = (row - begin[0]) / (end[0] - begin[0])
         ends.append(begin[1:] + share * (end[1:] - begin[1:]))
     forward = ends[0][0] < ends[1][0]
