@@ -135,13 +135,14 @@ class MassProperties:
         # of a flat body rounding may set them apart
         principal[..., 2] = np.minimum(principal[..., 2], principal[..., 0] + principal[..., 1])
         mass = weight * total
+        rounding, moved = _propagate_errors(moments, weight)
         return cls(
             mass=mass if mass.ndim else float(mass),
             center=moments.about + shift,
             inertia=inertia,
             principal=replace(frame, moments=principal),
-            rounding_error=_propagate_error(moments, weight, moments.rounding_error, rounded=True),
-            input_error=_propagate_error(moments, weight, moments.input_error, rounded=False),
+            rounding_error=rounding,
+            input_error=moved,
         )
 
     def at(self, which: int | list[int]) -> MassProperties:
@@ -227,37 +228,33 @@ def combine(bodies: Sequence[tuple[Moments, float]], preferred_axes: NDArray | N
     return MassProperties.from_moments(sum_moments(weighed), preferred_axes=preferred_axes)
 
 
-def _propagate_error(moments: Moments, density: NDArray, delta: NDArray, rounded: bool) -> dict[str, float | NDArray]:
-    """Bounds of the change when the moments are off by `delta`: propagated to first order, with the divisor at its
-    smallest; infinite where nothing bounds a quotient."""
-    total, off = moments.raw[..., 0], delta[..., 0]
+def _propagate_errors(moments: Moments, density: NDArray) -> tuple[dict[str, PerBody], dict[str, PerBody]]:
+    """Bounds of the change that rounding makes, and of that when the moments are off by their `input_error`: propagated
+    to first order, with the divisor at its smallest; infinite where nothing bounds a quotient."""
+    delta, raw = np.stack([moments.rounding_error, moments.input_error]), moments.raw
+    total, off = raw[..., 0], delta[..., 0]
     is_bounded = total > 2.0 * off
     total = np.where(is_bounded, total, 1.0)[..., None]
     least = np.where(is_bounded, total[..., 0] - off, 1.0)[..., None]
-    first, off_first = np.abs(moments.raw[..., 1:4]), delta[..., 1:4]
+    first, off_first = np.abs(raw[..., 1:4]), delta[..., 1:4]
     shift = first / total
     center = _lengths((off_first + shift * off[..., None]) / least)
     cross = off_first[..., :, None] * shift[..., None, :]
     second = delta[..., SECOND_MOMENT_INDEX] + (cross + cross.swapaxes(-1, -2)) * (total / least)[..., None]
     second = second + shift[..., :, None] * shift[..., None, :] * off[..., None, None]
     second = second + off_first[..., :, None] * (off_first / least)[..., None, :]
-    if rounded:
-        center = center + 2.0 * U * _lengths(np.abs(moments.about) + 2.0 * shift)
-        own = np.abs(moments.raw[..., SECOND_MOMENT_INDEX]) + first[..., :, None] * shift[..., None, :]
-        second = second + 6.0 * U * own
+    center[0] += 2.0 * U * _lengths(np.abs(moments.about) + 2.0 * shift[0])
+    second[0] += 6.0 * U * (np.abs(raw[..., SECOND_MOMENT_INDEX]) + first[..., :, None] * shift[0][..., None, :])
     tensor = second.trace(axis1=-2, axis2=-1)[..., None, None] * IDENTITY_3 + second
     inertia = np.abs(density) * _lengths(tensor.reshape(*tensor.shape[:-2], 9))
-    mass = np.abs(density) * (off + (U * moments.raw[..., 0] if rounded else 0.0))
-    bounds = {
-        "mass": mass,
-        "center": np.where(is_bounded, center, np.inf),
-        "inertia": np.where(is_bounded, inertia, np.inf),
-    }
-    return bounds if total.ndim > 1 else {name: float(bound) for name, bound in bounds.items()}
+    off[0] += U * raw[..., 0]
+    bounds = np.abs(density) * off, np.where(is_bounded, center, np.inf), np.where(is_bounded, inertia, np.inf)
+    columns = bounds if raw.ndim > 1 else [bound.tolist() for bound in bounds]
+    rounding, moved = (dict(zip(("mass", "center", "inertia"), each)) for each in zip(*columns))
+    return rounding, moved
 
 
 def _lengths(vectors: NDArray) -> NDArray[np.float64]:
     """(...,) of (..., k) vectors, whose squares may vanish."""
-    if vectors.ndim == 1:
-        return np.asarray(hypot(*vectors.tolist()))
-    return np.array([hypot(*vector) for vector in vectors.tolist()])
+    lengths = [hypot(*vector) for vector in vectors.reshape(-1, vectors.shape[-1]).tolist()]
+    return np.array(lengths).reshape(vectors.shape[:-1])

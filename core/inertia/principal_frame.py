@@ -34,6 +34,7 @@ from .second_order import EQUAL_AXES, HALF_TURN_SIGNS, SYMMETRIES, SecondOrderFr
 from .shared_search import shared_frames
 
 NO_VALUES = np.empty(0)
+SIGN_BITS = np.array([1, 2, 4, 8])  # of the HALF_TURN_SIGNS that are allowed
 
 # What was chosen where the body leaves a choice: the object's own directions, or of the body's own ones the nearest.
 FREE = {
@@ -207,12 +208,13 @@ def principal_frames(
     axes = fixed.axes * HALF_TURN_SIGNS[fixed.allowed.argmax(axis=1)][:, None]
     left = np.flatnonzero((fixed.symmetry > 0) | (fixed.allowed.sum(axis=1) != 1))
     if higher is None:
-        kinds, kind = np.unique(np.column_stack([fixed.symmetry, fixed.allowed])[left], axis=0, return_inverse=True)
-        for number, (name, *allowed) in enumerate(kinds.tolist()):
-            bodies = left[kind.ravel() == number]
-            free, name = EQUAL_AXES[SYMMETRIES[name]], SYMMETRIES[name]
+        kind = fixed.allowed[left] @ SIGN_BITS + 16 * fixed.symmetry[left]
+        for number in sorted(set(kind.tolist())):
+            bodies = left[kind == number]
+            name, allowed = SYMMETRIES[number // 16], fixed.allowed[bodies[0]]
+            free = EQUAL_AXES[name]
             undetermined[bodies], chosen[bodies] = [free] * len(bodies), FREE[name]
-            frames = fixed.axes[bodies, None] * HALF_TURN_SIGNS[np.array(allowed, bool), None]
+            frames = fixed.axes[bodies, None] * HALF_TURN_SIGNS[allowed, None]
             preferred = preferred_axes[bodies]
             frames = complete_free_axes(frames, free, preferred[:, None])
             axes[bodies] = nearest_frames(frames, preferred, fixed.tilt[bodies])

@@ -141,6 +141,12 @@ def _cube_layout(order: int) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
 
 def apply_translation(values: NDArray, order: int, offsets: NDArray) -> NDArray[np.float64]:
     """(..., K): each functional F, (..., K), with its own offset, (..., 3): F[(x+t)^α], one axis after the other."""
+    moved = offsets.any(axis=-1)
+    if not moved.all():  # most images are about the image of their point
+        values = values.copy()
+        if moved.any():
+            values[moved] = apply_translation(values[moved], order, offsets[moved])
+        return values
     lead, n = values.shape[:-1], order + 1
     values, offsets = values.reshape(-1, values.shape[-1]), offsets.reshape(-1, 3)
     positions, binomials = _cube_layout(order)
@@ -153,10 +159,12 @@ def apply_translation(values: NDArray, order: int, offsets: NDArray) -> NDArray[
         table = binomials * powers[:, np.maximum(lag, 0)]
         cube = np.zeros((len(values), n**3))
         cube[:, positions] = values  # what stands above `order` is no moment, and must not come back
-        cube = np.moveaxis(cube.reshape(-1, n, n, n), axis + 1, 1)
+        cube = cube.reshape(-1, n, n, n).swapaxes(axis + 1, 1)
+        total = np.zeros(cube.shape)
         with np.errstate(over="ignore", invalid="ignore"):
-            cube = np.einsum("mpi,miqr->mpqr", table, cube)
-        values = np.moveaxis(cube, 1, axis + 1).reshape(len(values), -1)[:, positions]
+            for i in range(n):  # one after the other, so that a stack's sums are those of each
+                total[:, i:] += table[:, i:, i, None, None] * cube[:, i, None]
+        values = total.swapaxes(1, axis + 1).reshape(len(values), -1)[:, positions]
     return values.reshape(*lead, -1)
 
 

@@ -8,6 +8,7 @@ segment of the rows.
 
 from __future__ import annotations
 
+from functools import lru_cache
 from math import factorial
 
 import numpy as np
@@ -15,6 +16,7 @@ from numpy.typing import NDArray
 
 from ..moments.moments import Measure, Moments, U
 from ..moments.monomials import count_of_degree, monomial_count, monomials, quotient_indices
+from ..numerics.vectors import cross, dot
 
 TRIANGLES_PER_BLOCK = 256  # whose levels stay in the cache
 
@@ -43,8 +45,7 @@ def extend_small_moments(
         What bounds the distances of a body's points from there, and how far storing may have moved them.
     """
     known, ends = volume.raw.shape[1], np.cumsum(counts)
-    powers = monomials(order)[known:]
-    degree = powers.sum(axis=1)
+    powers, degree, factors = _new_monomials(known, order)
     coordinates, first, sums, sizes = np.ascontiguousarray(points.T), 0, [], []
     while first < len(counts):
         start = ends[first] - counts[first]
@@ -53,15 +54,12 @@ def extend_small_moments(
         corners = coordinates.take(triangles[start : ends[last - 1]].T, axis=1).astype(np.float64, copy=False)
         corners = corners - np.repeat(volume.about[part].T, own, axis=1)[:, None]
         a, b, c = corners.transpose(1, 0, 2)
-        det = np.add.reduce(a * np.cross(b - a, c - a, axis=0))
+        det = dot(a, cross(b - a, c - a))
         starts = np.cumsum(own) - own
         sums.append(np.add.reduceat(_coefficients(a, b, c, order)[known:] * det, starts, axis=1).T)
         sizes.append(np.add.reduceat(np.abs(det), starts))
         first = last
-    factors = np.array(
-        [np.prod([float(factorial(p)) for p in row]) / factorial(sum(row) + 2) for row in powers.tolist()]
-    )
-    raw = np.concatenate(sums) * (factors / (degree + 3.0))
+    raw = np.concatenate(sums) * factors
     largest = np.multiply.reduce(reach[:, None] ** powers, axis=2)
     # a coefficient is off by (6 n + 8) u, a determinant by what the known total is, and the sums by their lengths
     relative = U * (14.0 * degree + 16.0 + 3.0 * counts[:, None])
@@ -74,6 +72,15 @@ def extend_small_moments(
         np.concatenate([volume.rounding_error, error], axis=1),
         np.concatenate([volume.input_error, volume.input_error[:, :1] * largest], axis=1),
     )
+
+
+@lru_cache
+def _new_monomials(known: int, order: int) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.float64]]:
+    """The exponents and the degrees of the monomials after so many, and what makes moments of their coefficients."""
+    powers = monomials(order)[known:]
+    degree = powers.sum(axis=1)
+    factors = [np.prod([float(factorial(p)) for p in row]) / factorial(sum(row) + 2) for row in powers.tolist()]
+    return powers, degree, np.array(factors) / (degree + 3.0)
 
 
 def _coefficients(a: NDArray, b: NDArray, c: NDArray, order: int) -> NDArray[np.float64]:
