@@ -16,6 +16,7 @@ from .ply_header import Element, Property
 BYTES_PER_BLOCK = 1 << 22
 FEW_ROWS = 64  # of one length: fewer in a row are read one at a time
 SINGLE_ROWS = 1 << 14  # that are read one at a time before more of one length are looked for
+MAX_LIST = 1 << 26  # numbers of a face: what says more is damaged, and would be read into memory
 NUMBERS = np.dtype(np.float64)  # what a text is read as
 
 
@@ -113,7 +114,7 @@ class RowReader:
         end = at + self._size(kind)
         self._fill(end)
         value = self._buffer[at:end].view(self._type(kind))[0]
-        if not 0 <= value < 1 << 31 or value != int(value):
+        if not 0 <= value <= MAX_LIST or value != int(value):
             raise RowsError
         return int(value)
 

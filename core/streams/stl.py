@@ -99,12 +99,13 @@ class StlFile:
             raise FileError("stl_cut_short")
 
     def _parse(self, text: bytes, done: int) -> NDArray[np.float32]:
-        words = SOLID_LINE.sub(b"", text).split()
+        facets = SOLID_LINE.sub(b"", text)
+        words = facets.split()
         lower = [word.lower() for word in words] if any(word.isupper() for word in words[:2]) else words
         sound = len(words) % FACET_WORDS == 0 and all(
             set(lower[place::FACET_WORDS]) == {word} for place, word in KEYWORDS.items()
         )
-        if not sound or b"_" in b"".join(words[8:11]):
+        if not sound or b"_" in facets:  # which Python takes as a part of numbers
             raise self._damaged(done)
         try:
             columns = [np.array([*map(float, words[place::FACET_WORDS])]) for place in NUMBERS]

@@ -196,6 +196,23 @@ def test_a_text_that_is_no_stl_is_refused(tmp_path, small_blocks, old, new):
         measured(tmp_path, "a.stl", text[:at] + new + text[at + len(old) :])
 
 
+def test_no_number_of_a_text_has_an_underscore(tmp_path):
+    """Which Python would read."""
+    text = stl_text(moved(sphere(1)))
+    at = text.rindex(b".")
+    with refused("file_damaged"):
+        measured(tmp_path, "a.stl", text[:at] + b"_" + text[at + 1 :])
+
+
+def test_a_face_of_too_many_corners_is_not_read_into_memory(tmp_path, monkeypatch):
+    whole = ply(*moved(sphere(1)))
+    monkeypatch.setattr(ply_rows, "MAX_LIST", 3)
+    assert measured(tmp_path, "a.ply", whole).closed
+    monkeypatch.setattr(ply_rows, "MAX_LIST", 2)
+    with refused("file_damaged"):
+        measured(tmp_path, "a.ply", whole)
+
+
 @pytest.mark.parametrize("name", FORMS)
 @pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf])
 def test_numbers_that_are_not_finite_are_refused_with_their_count_and_place(tmp_path, small_blocks, name, bad):
