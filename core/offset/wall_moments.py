@@ -90,27 +90,31 @@ def _strip_moments(corners: NDArray[np.float64], about: NDArray[np.float64], ord
     u, w = (grid.ravel() for grid in np.meshgrid(nodes, nodes, indexing="ij"))
     weight = np.multiply.outer(weights, weights).ravel()
     share = np.stack([(1 - u) * (1 - w), u * (1 - w), u * w, (1 - u) * w])
-    along, across = np.stack([w - 1, 1 - w, w, -w]), np.stack([u - 1, -u, u, 1 - u])
+    along, across = np.stack([1 - w, w]), np.stack([1 - u, u])
     step = max(1, NODES_PER_BLOCK // len(weight))
     for first in range(0, corners.shape[1], step):
         block = corners[:, first : first + step]
-        place, tangent, other = (
-            np.einsum("cn,cki->ikn", rows, block).reshape(3, -1) for rows in (share, along, across)
+        # by differences of corners, whose rounding is that of sides that may be much shorter than they are far
+        sides, ends = block[[1, 2]] - block[[0, 3]], block[[3, 2]] - block[[0, 1]]
+        place, reach, tangent, other = (
+            np.einsum("cn,cki->ikn", rows, vectors).reshape(3, -1)
+            for rows, vectors in ((share, block), (share, np.abs(block)), (along, sides), (across, ends))
         )
         flux = np.einsum("in,in->n", place, np.stack(cross(tangent, other)))
         mixed = (
             np.abs(tangent)[[1, 2, 0]] * np.abs(other)[[2, 0, 1]]
             + np.abs(tangent)[[2, 0, 1]] * np.abs(other)[[1, 2, 0]]
         )
-        flux_size = np.einsum("in,in->n", np.abs(place), mixed)
+        flux_size = np.einsum("in,in->n", reach, mixed)
         all_weights = np.tile(weight, block.shape[1])
-        powers = np.ones((order + 1, 3, place.shape[1]))
+        factors = np.stack([place, reach])
+        powers = np.ones((order + 1, 2, 3, place.shape[1]))
         for power in range(order):
-            powers[power + 1] = powers[power] * place
+            powers[power + 1] = powers[power] * factors
         for number, (p, q, r) in enumerate(table.tolist()):
-            value = powers[p, 0] * powers[q, 1] * powers[r, 2] * all_weights
+            value, value_size = powers[p, :, 0] * powers[q, :, 1] * powers[r, :, 2] * all_weights
             raw[number] += value @ flux
-            size[number] += np.abs(value) @ flux_size
+            size[number] += value_size @ flux_size
     degree = table.sum(axis=1)
     units = (8.0 * degree + 64.0 + corners.shape[1] * len(weight) / step) * U
     return Moments(raw / (degree + 3.0), about, Measure.VOLUME, units * size / (degree + 3.0))
