@@ -39,7 +39,14 @@ class AdvancedPanel:
         if shown is not None and live.current_numbers(obj) is None:
             _bounds(layout, obj, units, shown)
             _display_mesh(layout, obj, units, shown)
-        layout.operator("object.body_moments_fourier", text="Fourier Transform...", icon="MOD_WAVE")
+        rows.button(
+            layout,
+            context,
+            "object.body_moments_fourier",
+            "MOD_WAVE",
+            text="Fourier Transform...",
+            short="Fourier...",
+        )
 
 
 def _display_mesh(layout: UILayout, obj: Object, units: Units, shown: properties.StoredProperties) -> None:
@@ -69,12 +76,14 @@ def _bounds(layout: UILayout, obj: Object, units: Units, shown: properties.Store
         column = body.column(align=True)
         column.label(text=ESTIMATED if bound is None and properties.is_estimated(obj) else heading)
         values = shown.error_bound if bound is None else shown.error_bound[bound]
-        for name, (label, quantity) in BOUND_LABELS.items():
-            if name in ("volume", "area") and not sizes[name]:
-                continue  # a wire has neither, a grid of densities no surface
-            rows.texts(
-                column, label, units.bound(quantity, values[name], sizes[name]), repr(values[name]), SI_UNITS[quantity]
-            )
+        rows.table(
+            column,
+            [
+                (label, units.bound(quantity, values[name], sizes[name]), repr(values[name]), SI_UNITS[quantity])
+                for name, (label, quantity) in BOUND_LABELS.items()
+                if name not in ("volume", "area") or sizes[name]  # a wire has neither, a grid of densities no surface
+            ],
+        )
 
 
 CLASSES = VIEW3D_PT_body_moments_advanced, OBJECT_PT_body_moments_advanced = in_both_places(AdvancedPanel, "advanced")

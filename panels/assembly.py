@@ -20,6 +20,7 @@ from . import remedies, rows
 from .given import given_rows
 from .numbers import AXIS_LABELS, PRINCIPAL_LABELS
 from .places import in_both_places
+from .settings import setting
 
 MEMBER_ICONS = {
     "COLLECTION": "OUTLINER_COLLECTION",
@@ -77,10 +78,9 @@ def draw_assembly(layout: UILayout, context: Context, root: Root) -> None:
     layout.use_property_decorate = False
     settings, target = settings_of(root), "COLLECTION" if isinstance(root, Collection) else "OBJECT"
     column = layout.column()
-    column.use_property_split = True
-    column.row().prop(settings, "mass_from", expand=True)
+    setting(column, settings, "mass_from", expand=True)
     if settings.mass_from == "MASS":
-        column.prop(settings, "mass", text="Mass (kg)")
+        setting(column, settings, "mass", text="Mass (kg)")
         given_rows(layout, settings)
     button = layout.row()
     button.scale_y = 1.4
@@ -97,13 +97,17 @@ def draw_assembly(layout: UILayout, context: Context, root: Root) -> None:
     _numbers(layout, units, stored, isinstance(root, Collection))
     remedies.notes(layout, context, "body_moments_assembly_notes", findings)
     row = layout.row(align=True)
-    row.operator("object.body_moments_export_bill", text="Bill of Masses...", icon="EXPORT").target = target
+    rows.button(
+        row, context, "object.body_moments_export_bill", "EXPORT", text="Bill of Masses...", short="Masses..."
+    ).target = target
     row.operator("object.body_moments_clear_assembly", text="", icon="TRASH").target = target
     column = layout.column(align=True)
-    column.operator("view3d.body_moments_cursor_to_assembly", icon="PIVOT_CURSOR").target = target
-    column.operator("object.body_moments_assembly_empty", icon="OUTLINER_OB_EMPTY").target = target
+    rows.button(
+        column, context, "view3d.body_moments_cursor_to_assembly", "PIVOT_CURSOR", short="Cursor"
+    ).target = target
+    rows.button(column, context, "object.body_moments_assembly_empty", "OUTLINER_OB_EMPTY").target = target
     text = "Instance Offset to Center of Mass" if target == "COLLECTION" else "Origin to Center of Mass"
-    column.operator("object.body_moments_assembly_origin", text=text, icon="OBJECT_ORIGIN").target = target
+    rows.button(column, context, "object.body_moments_assembly_origin", "OBJECT_ORIGIN", text=text).target = target
 
 
 def _tree(layout: UILayout, context: Context, settings: PropertyGroup) -> None:
@@ -124,10 +128,8 @@ def _tree(layout: UILayout, context: Context, settings: PropertyGroup) -> None:
 
 def _numbers(layout: UILayout, units: Units, stored: properties.StoredProperties, in_world: bool) -> None:
     column = layout.column(align=True)
-    if stored.volume:
-        rows.value(column, units, "Volume", "volume", stored.volume)
-    if stored.area:
-        rows.value(column, units, "Area", "area", stored.area)
+    entries = [("Volume", "volume", stored.volume), ("Area", "area", stored.area)]
+    rows.quantities(column, units, [entry for entry in entries if entry[-1]])
     column = layout.column(align=True)
     heading = "Center of Mass (World)" if in_world else "Center of Mass (Object)"
     rows.heading(column, heading, "length", stored.body.center)

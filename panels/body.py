@@ -40,16 +40,18 @@ class BodyPanel:
         remedies.last_action(layout, context)
         remedies.warnings(layout, context, "body_moments_warnings", findings)
         material_row(layout, context, obj)
-        row = layout.row(align=True)
-        row.scale_y = 1.4
-        rows.button(row, context, "object.body_moments_measure", "PHYSICS")
+        narrow = rows.is_narrow(context)
+        buttons = layout.column(align=True) if narrow else layout.row(align=True)
+        buttons.scale_y = 1.4
+        rows.button(buttons, context, "object.body_moments_measure", "PHYSICS")
+        row = buttons.row(align=True)
         followed = any(live.is_live(subject) for subject in posed.subjects([obj]))
-        row.operator("object.body_moments_live", icon="REC", depress=followed)
+        rows.button(row, context, "object.body_moments_live", "REC", depress=followed)
         row.operator("object.body_moments_select_faults", text="", icon="ZOOM_SELECTED")
         if shown is not None:
             remedies.unit_question(layout, context, shown)
             numbers(layout, context, Units.of(scene.unit_settings), shown)
-            row = layout.column(align=True) if rows.is_narrow(context) else layout.row(align=True)
+            row = layout.column(align=True) if narrow else layout.row(align=True)
             rows.button(row, context, "object.body_moments_copy_report", "COPYDOWN")
             rows.button(row, context, "object.body_moments_clear", "TRASH")
             remedies.notes(layout, context, "body_moments_notes", findings)

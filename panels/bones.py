@@ -12,6 +12,7 @@ from ..operators.write.units import Units
 from . import rows
 from .numbers import AXIS_LABELS, PRINCIPAL_LABELS
 from .places import in_both_places
+from .settings import setting
 
 LISTED = 60  # bones that the sub-panel lists
 
@@ -49,9 +50,9 @@ class BonesPanel:
         if len(measured) > LISTED:
             rows.filled(layout, "And {:d} more", len(measured) - LISTED)
         column = layout.column(align=True)
-        column.operator("object.body_moments_physics_rig", icon="RIGID_BODY")
-        column.operator("object.body_moments_rig_center", icon="EMPTY_AXIS")
-        column.operator("object.body_moments_clear_bones", icon="TRASH")
+        rows.button(column, context, "object.body_moments_physics_rig", "RIGID_BODY")
+        rows.button(column, context, "object.body_moments_rig_center", "EMPTY_AXIS")
+        rows.button(column, context, "object.body_moments_clear_bones", "TRASH")
 
 
 class BONE_PT_body_moments(Panel):
@@ -73,13 +74,12 @@ class BONE_PT_body_moments(Panel):
         layout.use_property_decorate = False
         settings = bone.body_moments
         column = layout.column()
-        column.use_property_split = True
-        column.prop(settings, "mass_from")
+        setting(column, settings, "mass_from")
         if settings.mass_from == "DENSITY":
-            column.prop(settings, "density", text="Density (kg/m³)")
+            setting(column, settings, "density", text="Density (kg/m³)")
         elif settings.mass_from == "MASS":
-            column.prop(settings, "mass", text="Mass (kg)")
-        layout.operator("object.body_moments_measure_bones", icon="BONE_DATA")
+            setting(column, settings, "mass", text="Mass (kg)")
+        rows.button(layout, context, "object.body_moments_measure_bones", "BONE_DATA")
         rows.stale_row(layout, context, stored_rig.stale_reason(bone.id_data, context.scene))
         _numbers(layout, context, bone)
 
@@ -97,8 +97,7 @@ def _numbers(layout: UILayout, context: Context, bone: PoseBone) -> None:
         return
     stored, units = properties.from_numbers(numbers), Units.of(context.scene.unit_settings)
     column = layout.column(align=True)
-    rows.value(column, units, "Mass", "mass", stored.body.mass)
-    rows.value(column, units, "Volume", "volume", stored.volume)
+    rows.quantities(column, units, [("Mass", "mass", stored.body.mass), ("Volume", "volume", stored.volume)])
     column = layout.column(align=True)
     rows.heading(column, "Center of Mass (Rest Frame)", "length", stored.body.center)
     rows.values(column, units, AXIS_LABELS, "length", stored.body.center, stored.body.radii_of_gyration.max())

@@ -5,6 +5,7 @@ attribute, Volume object."""
 
 from __future__ import annotations
 
+import bpy
 from bpy.types import Context, Object, Scene, UILayout
 
 from ..core.verdict.finding import finding
@@ -17,6 +18,7 @@ from ..operators.write.units import Units
 from . import grid, rows
 from . import material_menus as materials
 from .places import in_both_places
+from .settings import setting
 
 
 class DensityPanel:
@@ -46,15 +48,15 @@ def material_row(layout: UILayout, context: Context, obj: Object) -> None:
     column = layout.column()
     column.use_property_split = True
     if obj.type == "VOLUME" and settings.grid_as == "DENSITY":
-        column.prop(settings, "grid")
+        setting(column, settings, "grid")
     elif settings.mass_from == "MASS":
-        column.prop(settings, "mass", text="Mass (kg)")
+        setting(column, settings, "mass", text="Mass (kg)")
     elif settings.kind == "WIRE":
-        column.prop(settings, "linear_density", text="Density (kg/m)")
+        setting(column, settings, "linear_density", text="Density (kg/m)")
     elif settings.density_from == "VALUE" or obj.type == "VOLUME":
         _material(column, context, settings, "Material")
     else:
-        column.prop(settings, "density_from")
+        setting(column, settings, "density_from")
 
 
 def _settings(layout: UILayout, context: Context, obj: Object) -> None:
@@ -66,9 +68,9 @@ def _settings(layout: UILayout, context: Context, obj: Object) -> None:
     column = layout.column()
     column.use_property_split = True
     if obj.type == "VOLUME":
-        column.row().prop(settings, "mass_from", expand=True)
+        setting(column, settings, "mass_from", expand=True)
         if settings.mass_from == "MASS":
-            column.prop(settings, "mass", text="Mass (kg)")
+            setting(column, settings, "mass", text="Mass (kg)")
         else:
             _uniform_density(column, context, settings, "Material")
         return
@@ -77,29 +79,29 @@ def _settings(layout: UILayout, context: Context, obj: Object) -> None:
     for kind in ("SOLID", "SHELL", "WIRE") if obj.type == "CURVE" or settings.kind == "WIRE" else ("SOLID", "SHELL"):
         row.prop_enum(settings, "kind", kind)
     if settings.kind == "SHELL":
-        column.prop(settings, "wall")
-        column.prop(settings, "thickness")
+        setting(column, settings, "wall")
+        setting(column, settings, "thickness")
         _max_thickness(column, context, obj)
     elif settings.kind == "SOLID":
-        column.prop(settings, "overlap")
-    column.row().prop(settings, "mass_from", expand=True)
+        setting(column, settings, "overlap")
+    setting(column, settings, "mass_from", expand=True)
     if settings.mass_from == "DENSITY" and settings.kind == "WIRE":
-        column.prop(settings, "linear_density", text="Density (kg/m)")
+        setting(column, settings, "linear_density", text="Density (kg/m)")
         return
     if settings.mass_from == "MASS":
-        column.prop(settings, "mass", text="Mass (kg)")
+        setting(column, settings, "mass", text="Mass (kg)")
         return
-    column.prop(settings, "density_from")
+    setting(column, settings, "density_from")
     if settings.density_from == "POLYNOMIAL":
-        column.prop(settings, "density_polynomial")
-        column.row().prop(settings, "density_frame", expand=True)
+        setting(column, settings, "density_polynomial")
+        setting(column, settings, "density_frame", expand=True)
     elif settings.density_from == "ATTRIBUTE":
         if obj.type == "MESH":
             column.prop_search(settings, "density_attribute", obj.data, "attributes", results_are_suggestions=True)
         else:
-            column.prop(settings, "density_attribute")
+            setting(column, settings, "density_attribute")
     elif settings.density_from == "VOLUME":
-        column.prop(settings, "density_volume")
+        setting(column, settings, "density_volume")
     elif settings.density_from == "MATERIALS":
         _materials(layout, context, obj)
     else:
@@ -132,7 +134,10 @@ def _materials(layout: UILayout, context: Context, obj: Object) -> None:
 
 
 def _labeled_row(column: UILayout, label: str) -> UILayout:
-    """A row beside a label, as Blender puts properties there."""
+    """A row beside a label, as Blender puts properties there, or below it where there is little room."""
+    if rows.is_narrow(bpy.context):
+        rows.title(column, label)
+        return column.row(align=True)
     split = column.row(align=True).split(factor=0.4, align=True)
     heading = split.row()
     heading.alignment = "RIGHT"
@@ -143,11 +148,11 @@ def _labeled_row(column: UILayout, label: str) -> UILayout:
 def _uniform_density(column: UILayout, context: Context, settings, heading: str) -> None:
     """The object's own density, with the table and the user's presets."""
     _material(column, context, settings, heading)
-    column.prop(settings, density_field_name(context.scene))
+    setting(column, settings, density_field_name(context.scene))
 
 
 def _material(column: UILayout, context: Context, settings, heading: str) -> None:
-    row = column.row(align=True) if rows.is_narrow(context) else _labeled_row(column, heading)
+    row = _labeled_row(column, heading)
     row.menu("OBJECT_MT_body_moments_materials", text=settings.material or _unset_material(settings, context.scene))
     row.popover("OBJECT_PT_body_moments_presets", text="", icon="PRESET")
 

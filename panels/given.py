@@ -7,6 +7,7 @@ from __future__ import annotations
 from bpy.types import Context, PropertyGroup, UILayout
 
 from .places import in_both_places
+from .settings import setting
 
 
 class GivenPanel:
@@ -31,8 +32,7 @@ class GivenPanel:
             if settings.mass_from != "MASS":
                 return
         column = layout.column()
-        column.use_property_split = True
-        column.prop(settings, "mass", text="Mass (kg)")
+        setting(column, settings, "mass", text="Mass (kg)")
         given_rows(layout, settings)
 
 
@@ -43,14 +43,13 @@ def _may_be_point(obj) -> bool:
 def given_rows(layout: UILayout, settings: PropertyGroup) -> None:
     """Draw what may be given beside a mass."""
     column = layout.column()
-    column.use_property_split = True
-    column.prop(settings, "use_center")
+    setting(column, settings, "use_center")
     if settings.use_center:
-        column.prop(settings, "given_center", text="Center")
-    column.prop(settings, "use_inertia")
+        setting(column, settings, "given_center", text="Center")
+    setting(column, settings, "use_inertia")
     if settings.use_inertia:
-        column.prop(settings, "given_inertia_diagonal", text="Ixx, Iyy, Izz")
-        column.prop(settings, "given_inertia_products", text="Ixy, Ixz, Iyz")
+        setting(column, settings, "given_inertia_diagonal", text="Ixx, Iyy, Izz")
+        setting(column, settings, "given_inertia_products", text="Ixy, Ixz, Iyz")
 
 
 CLASSES = VIEW3D_PT_body_moments_given, OBJECT_PT_body_moments_given = in_both_places(GivenPanel, "given")

@@ -10,6 +10,7 @@ from ..core.verdict.finding import finding
 from ..operators.session import moments as moments_table
 from . import rows
 from .places import in_both_places
+from .settings import setting
 
 
 class MomentsPanel:
@@ -22,12 +23,11 @@ class MomentsPanel:
         layout, obj, settings = self.layout, context.object, context.scene.body_moments
         layout.use_property_decorate = False
         column = layout.column()
-        column.use_property_split = True
-        column.prop(settings, "moments_order")
-        column.prop(settings, "moments_of")
-        column.prop(settings, "moments_about")
-        column.row().prop(settings, "frame", expand=True)
-        layout.operator("object.body_moments_compute_moments", icon="PHYSICS")
+        setting(column, settings, "moments_order")
+        setting(column, settings, "moments_of")
+        setting(column, settings, "moments_about")
+        setting(column, settings, "frame", expand=True)
+        rows.button(layout, context, "object.body_moments_compute_moments", "PHYSICS", short="Compute")
         computed = moments_table.computed_moments(obj)
         if computed is None:
             return
@@ -38,12 +38,11 @@ class MomentsPanel:
         for degree in degrees:
             column = layout.column(align=True)
             rows.filled(column, "Order {:d} ({:s})" if degree.unit else "Order {:d}", degree.degree, degree.unit)
-            for label, text, exact in degree.rows:
-                rows.texts(column, label, text, exact, degree.unit)
+            rows.table(column, [(*row, degree.unit) for row in degree.rows])
         if computed.order > moments_table.MAX_SHOWN_ORDER:
             orders = finding("panel_orders_copied", first=moments_table.MAX_SHOWN_ORDER + 1, last=computed.order)
             rows.message(layout, context, orders)
-        layout.operator("object.body_moments_copy_moments", icon="COPYDOWN")
+        rows.button(layout, context, "object.body_moments_copy_moments", "COPYDOWN", short="Copy as CSV")
 
 
 CLASSES = VIEW3D_PT_body_moments_orders, OBJECT_PT_body_moments_orders = in_both_places(

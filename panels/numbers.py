@@ -21,18 +21,19 @@ RESTING_HEADINGS = {"WORLD": "Center of Mass at Rest (World)", "OBJECT": "Center
 def numbers(layout: UILayout, context: Context, units: Units, shown: properties.StoredProperties) -> None:
     """Draw mass, volume, area, density and center of what was measured."""
     column = layout.column(align=True)
-    rows.value(column, units, "Mass", "mass", shown.body.mass)
+    entries = [("Mass", "mass", shown.body.mass)]
     length = properties.optional(context.object, "body_length")
     if length is None:
-        rows.value(column, units, "Volume", "volume", shown.volume)
+        entries.append(("Volume", "volume", shown.volume))
         if shown.area:  # a grid of densities has no surface
-            rows.value(column, units, "Area", "area", shown.area)
-        rows.value(column, units, "Density", "density", shown.density)
-        source = properties.density_from(context.object)
-        if source:
-            rows.message(column, context, finding("panel_density_mean", cause=source), icon="BLANK1")
+            entries.append(("Area", "area", shown.area))
+        entries.append(("Density", "density", shown.density))
     else:
-        rows.value(column, units, "Length", "length", length)
+        entries.append(("Length", "length", length))
+    rows.quantities(column, units, entries)
+    source = properties.density_from(context.object) if length is None else None
+    if source:
+        rows.message(column, context, finding("panel_density_mean", cause=source), icon="BLANK1")
     column = layout.column(align=True)
     obj = context.object
     is_posed = posed.stands_for_meshes(obj) and results.are_meshes_measured(obj, context.scene)

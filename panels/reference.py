@@ -14,6 +14,7 @@ from ..operators.write.units import Units
 from . import rows
 from .numbers import AXIS_LABELS
 from .places import in_both_places
+from .settings import setting
 
 
 class ReferencePanel:
@@ -27,14 +28,15 @@ class ReferencePanel:
         layout.use_property_decorate = False
         settings = scene.body_moments_reference
         column = layout.column()
-        column.use_property_split = True
-        column.prop(settings, "about")
+        setting(column, settings, "about")
         if settings.about == "OBJECT":
-            column.prop(settings, "object")
+            setting(column, settings, "object")
         elif settings.about == "AXIS":
-            column.prop(settings, "first")
-            column.prop(settings, "second")
-            layout.operator("object.body_moments_axis_from_selection", icon="EYEDROPPER")
+            setting(column, settings, "first")
+            setting(column, settings, "second")
+            rows.button(
+                layout, context, "object.body_moments_axis_from_selection", "EYEDROPPER", short="From Selection"
+            )
         result = reference.referred(context.object, scene)
         if result is None:
             return
@@ -45,8 +47,8 @@ class ReferencePanel:
         if settings.about == "AXIS":
             column = layout.column(align=True)
             rows.value(column, units, "About Axis", "inertia", result.about_z)
-            rows.value(column, units, "Radius", "length", result.radius_about_z)
-            rows.value(column, units, "Distance", "length", result.distance_from_z)
+            distances = result.radius_about_z, result.distance_from_z
+            rows.values(column, units, ("Radius of Gyration", "Distance of Center"), "length", distances)
         column = layout.column(align=True)
         rows.heading(column, "Center of Mass from There", "length", result.center)
         rows.values(column, units, AXIS_LABELS, "length", result.center, float(np.abs(result.center).max()))
@@ -56,12 +58,17 @@ class ReferencePanel:
         rows.values(column, units, ["I" + name for name in properties.ENTRIES], "inertia", entries)
         column = layout.column(align=True)
         size = float(np.abs(result.inertia).max())
-        for label, bounds in (("Rounding, at Most", result.rounding_error), ("Float32, at Most", result.input_error)):
-            text = units.bound("inertia", bounds["inertia"], size)
-            rows.texts(column, label, text, repr(bounds["inertia"]), "kg·m²")
+        bounds = {
+            label: error["inertia"]
+            for label, error in (("Rounding, at Most", result.rounding_error), ("Float32, at Most", result.input_error))
+        }
+        rows.table(
+            column,
+            [(label, units.bound("inertia", bound, size), repr(bound), "kg·m²") for label, bound in bounds.items()],
+        )
         row = layout.row(align=True)
-        row.operator("object.body_moments_store_reference", text="Store", icon="FILE_TICK")
-        row.operator("object.body_moments_copy_reference", text="Copy", icon="COPYDOWN")
+        rows.button(row, context, "object.body_moments_store_reference", "FILE_TICK", text="Store")
+        rows.button(row, context, "object.body_moments_copy_reference", "COPYDOWN", text="Copy")
 
 
 CLASSES = VIEW3D_PT_body_moments_reference, OBJECT_PT_body_moments_reference = in_both_places(

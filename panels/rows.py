@@ -26,6 +26,7 @@ from ..operators.write.units import SI_UNITS, Units
 LABEL_SHARE, SHORT_LABEL_SHARE, INDEX_LABEL_SHARE = 0.36, 0.3, 0.12
 REGION_MARGIN = 88  # what tabs, borders and an icon take of the region's width, in unscaled pixels
 ROW_MARGIN = 80  # the same of a row without an icon, but with a button
+TEXT_MARGIN = 0.2  # around a text in a row, of the size of the font
 DEFAULT_WIDTH = 300  # unscaled pixels of a region that is not known
 BOX_MARGIN = 12  # what a box takes besides
 MIN_LINE_WIDTH = 50  # no line is made narrower
@@ -34,9 +35,20 @@ NARROW = 220  # regions below this width have buttons without icons, and heading
 ICONS = {Severity.NOTE: "INFO", Severity.WARNING: "ERROR", Severity.ERROR: "CANCEL"}  # ERROR is Blender's warning sign
 
 
+Cell = tuple[str, str, str, str]  # label, text, what is copied, its unit
+
+
 def value(layout: UILayout, units: Units, label: str, quantity: str, si: float) -> None:
     """One value with its unit, and a button that copies it to the last digit."""
-    texts(layout, label, units.text(quantity, si), repr(float(si)), SI_UNITS[quantity])
+    quantities(layout, units, [(label, quantity, si)])
+
+
+def quantities(layout: UILayout, units: Units, entries: Sequence[tuple[str, str, float]]) -> None:
+    """A row for each (label, quantity, SI value), each in the unit that suits it."""
+    table(
+        layout,
+        [(label, units.text(quantity, si), repr(float(si)), SI_UNITS[quantity]) for label, quantity, si in entries],
+    )
 
 
 def values(
@@ -48,26 +60,36 @@ def values(
     size: float = 0.0,
 ) -> None:
     """A row for each value, all in the same unit. size: as for `Units.texts`."""
-    for label, text, number in zip(labels, units.texts(quantity, si, size), si):
-        texts(layout, label, text, repr(float(number)), SI_UNITS[quantity])
+    texts = units.texts(quantity, si, size)
+    table(
+        layout,
+        [(label, text, repr(float(number)), SI_UNITS[quantity]) for label, text, number in zip(labels, texts, si)],
+    )
 
 
 def heading(layout: UILayout, label: str, quantity: str, si: Sequence[float]) -> None:
     """A heading whose button copies all values below it."""
     row = layout.row(align=True)
-    if _fits(1.0, localized(label)):
-        row.label(text=label)
-    else:
-        sentence(row, bpy.context, localized(label))
+    _title(row, localized(label))
     _copy(row, repr(np.asarray(si, float).tolist()), SI_UNITS.get(quantity, ""))
+
+
+def title(layout: UILayout, label: str) -> None:
+    """A label above rows, in more lines where one is too narrow for it."""
+    _title(layout, localized(label))
 
 
 def direction(layout: UILayout, label: str, vector: Sequence[float]) -> None:
     """A unit vector in one row, or in three where that is too narrow."""
     cosines = ["{:.4f}".format(component + 0.0).replace("-0.0000", "0.0000").replace("-", "−") for component in vector]
-    if not _fits(1.0 - INDEX_LABEL_SHARE, *cosines):
-        for name, text, component in zip("xyz", cosines, vector):
-            texts(layout, "{:s} {:s}".format(label, name).strip(), text, repr(float(component)), "")
+    if not fits(1.0 - INDEX_LABEL_SHARE, *cosines):
+        table(
+            layout,
+            [
+                ("{:s} {:s}".format(label, name).strip(), text, repr(float(component)), "")
+                for name, text, component in zip("xyz", cosines, vector)
+            ],
+        )
         return
     row = layout.row(align=True)
     split = row.split(factor=INDEX_LABEL_SHARE, align=True)
@@ -80,27 +102,59 @@ def direction(layout: UILayout, label: str, vector: Sequence[float]) -> None:
     _copy(row, repr([float(component) for component in vector]), "")
 
 
-def texts(layout: UILayout, label: str, text: str, exact: str, unit: str) -> None:
-    """Label, text to the right, copy button; the label above them where a row is too narrow for both, and the unit
-    beside the label where one is too narrow for the text."""
-    share = INDEX_LABEL_SHARE if len(label) < 2 else SHORT_LABEL_SHARE if len(label) < 4 else LABEL_SHARE
-    if _fits(1.0 - share, text) and _fits(share, localized(label)):
-        row = layout.row(align=True)
-        cell = row.split(factor=share, align=True)
-        cell.label(text=label)
-        _right(cell, text)
-        _copy(row, exact, unit)
-    elif _fits(1.0, text):
-        layout.label(text=label)
-        row = layout.row(align=True)
-        _right(row, text)
-        _copy(row, exact, unit)
+def text(layout: UILayout, label: str, shown: str, exact: str, unit: str) -> None:
+    """Label, text to the right, copy button; as a `table` of one row."""
+    table(layout, [(label, shown, exact, unit)])
+
+
+def table(layout: UILayout, cells: Sequence[Cell]) -> None:
+    """Rows of label, text to the right, copy button, all of one form: labels are above their texts where rows are too
+    narrow for both, and units beside the labels where rows are too narrow for the texts.
+    """
+    if not cells:
+        return
+    labels = [localized(label) for label, *_ in cells]
+    share, rests = _form(labels, [shown for _, shown, *_ in cells])
+    for label, (_, shown, exact, unit) in zip(labels, cells):
+        if share:
+            row = layout.row(align=True)
+            cell = row.split(factor=share, align=True)
+            cell.label(text=label, translate=False)
+            _right(cell, shown)
+            _copy(row, exact, unit)
+        elif rests:
+            _title(layout, label)
+            row = layout.row(align=True)
+            _right(row, shown)
+            _copy(row, exact, unit)
+        else:
+            number, _, name = shown.rpartition(" ")
+            row = layout.row(align=True)
+            _title(row, "{:s} {:s}".format(label, name))
+            _copy(row, exact, unit)
+            _right(layout, number)
+
+
+def _form(labels: Sequence[str], shown: Sequence[str]) -> tuple[float, bool]:
+    """The share of a row that its label takes, 0 where it stands above, and whether the text has place in a row."""
+    letters = max(map(len, labels))
+    share = INDEX_LABEL_SHARE if letters < 2 else SHORT_LABEL_SHARE if letters < 4 else LABEL_SHARE
+    room = _room()
+    if room is None:
+        return share, True
+    label, text = max(map(_length, labels)), max(map(_length, shown))
+    if label + text > room:
+        return 0.0, text <= room
+    return min(max(share, label / room), 1.0 - text / room), True
+
+
+def _title(layout: UILayout, text: str) -> None:
+    """A label, already translated, in as many lines as it needs."""
+    room = _room()
+    if room is None or _length(text) <= room:
+        layout.label(text=text, translate=False)
     else:
-        number, _, name = text.rpartition(" ")
-        row = layout.row(align=True)
-        row.label(text="{:s} {:s}".format(localized(label), name), translate=False)
-        _copy(row, exact, unit)
-        _right(layout, number)
+        sentence(layout, bpy.context, text)
 
 
 def _right(layout: UILayout, text: str) -> None:
@@ -126,9 +180,11 @@ def is_narrow(context: Context) -> bool:
     return region is not None and 0 < region.width < NARROW * context.preferences.system.ui_scale
 
 
-def button(layout: UILayout, context: Context, idname: str, icon: str, **options: str):
-    """The button of an operator, without its icon where the words need the room."""
-    return layout.operator(idname, icon="NONE" if is_narrow(context) else icon, **options)
+def button(layout: UILayout, context: Context, idname: str, icon: str, short: str = "", **options: object):
+    """The button of an operator; where there is little room, without its icon, and with a text that is short."""
+    if not is_narrow(context):
+        return layout.operator(idname, icon=icon, **options)
+    return layout.operator(idname, **(options | {"text": short} if short else options))
 
 
 def sentence(layout: UILayout, context: Context, text: str, icon: str = "NONE", boxed: bool = False) -> None:
@@ -160,15 +216,25 @@ def stale_row(layout: UILayout, context: Context, code: str | None) -> None:
         sentence(row, context, localized("Out of date: {:s}").format(reason), icon="FILE_REFRESH")
 
 
-def _fits(share: float, *cells: str) -> bool:
+def fits(share: float, *cells: str) -> bool:
     """Whether texts have place beside each other in that share of a row, beside its button, of the region that is being
     drawn."""
+    room = _room()
+    return room is None or len(cells) * max(map(_length, cells)) <= share * room
+
+
+def _room() -> float | None:
+    """Pixels that a row has beside its button; None where no region is being drawn."""
     if bpy.context.region is None:
-        return True
+        return None
+    return bpy.context.region.width - ROW_MARGIN * bpy.context.preferences.system.ui_scale
+
+
+def _length(text: str) -> float:
+    """Pixels that a text takes, with the space around it."""
     _, size = _width(bpy.context)
     blf.size(0, size)
-    room = bpy.context.region.width - ROW_MARGIN * bpy.context.preferences.system.ui_scale
-    return len(cells) * max(blf.dimensions(0, cell)[0] + 0.2 * size for cell in cells) <= share * room
+    return blf.dimensions(0, text)[0] + TEXT_MARGIN * size
 
 
 def _width(context: Context) -> tuple[int, float]:

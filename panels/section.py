@@ -40,7 +40,7 @@ class SectionPanel:
     def draw(self, context: Context) -> None:
         obj, layout = context.object, self.layout
         layout.use_property_decorate = False
-        layout.operator("object.body_moments_measure_section", icon="FACESEL")
+        rows.button(layout, context, "object.body_moments_measure_section", "FACESEL", short="Measure")
         stored = record.stored(obj)
         if stored is None:
             layout.label(text="Not Measured", icon="RADIOBUT_OFF")
@@ -51,7 +51,7 @@ class SectionPanel:
         _numbers(layout, units, stored.section)
         _more_numbers(layout, units, stored.section)
         remedies.notes(layout, context, "body_moments_section_notes", stored.findings)
-        layout.operator("object.body_moments_copy_section", icon="COPYDOWN")
+        rows.button(layout, context, "object.body_moments_copy_section", "COPYDOWN", short="Copy")
 
 
 def _verdict(layout: UILayout, context: Context, stored: record.StoredSection, outdated: str | None) -> None:
@@ -67,16 +67,15 @@ def _verdict(layout: UILayout, context: Context, stored: record.StoredSection, o
 
 def _numbers(layout: UILayout, units: Units, section) -> None:
     column = layout.column(align=True)
-    rows.value(column, units, "Area", "area", section.area)
-    rows.value(column, units, "Perimeter", "length", section.perimeter)
+    rows.quantities(column, units, [("Area", "area", section.area), ("Perimeter", "length", section.perimeter)])
     size = section.area**0.5
     column = layout.column(align=True)
     rows.heading(column, "Centroid (World)", "length", section.center)
     rows.values(column, units, AXIS_LABELS, "length", section.center, size)
     column = layout.column(align=True)
     rows.heading(column, "Second Moments of Area", "area_moment", section.second)
-    rows.values(column, units, ("Ix", "Iy", "Ixy"), "area_moment", section.second, section.polar)
-    rows.value(column, units, "Polar Jp", "area_moment", section.polar)
+    second = *section.second, section.polar
+    rows.values(column, units, ("Ix", "Iy", "Ixy", "Polar Jp"), "area_moment", second, section.polar)
     column = layout.column(align=True)
     rows.heading(column, "Principal", "area_moment", section.principal)
     rows.values(column, units, ("I1", "I2"), "area_moment", section.principal)
@@ -84,7 +83,7 @@ def _numbers(layout: UILayout, units: Units, section) -> None:
         column.label(text="Every Axis Is Principal", icon="INFO")
     else:
         angle = degrees(section.angle)
-        rows.texts(
+        rows.text(
             column,
             "Angle from x to 1",
             "{:s}°".format(number(0.0 if abs(angle) < 1e-6 else angle)),
@@ -130,14 +129,13 @@ def _more_numbers(layout: UILayout, units: Units, section) -> None:
         ):
             column = body.column(align=True)
             column.label(text=title)
-            for name, (label, quantity) in BOUND_LABELS.items():
-                rows.texts(
-                    column,
-                    label,
-                    units.bound(quantity, bounds[name], sizes[name]),
-                    repr(bounds[name]),
-                    SI_UNITS[quantity],
-                )
+            rows.table(
+                column,
+                [
+                    (label, units.bound(quantity, bounds[name], sizes[name]), repr(bounds[name]), SI_UNITS[quantity])
+                    for name, (label, quantity) in BOUND_LABELS.items()
+                ],
+            )
 
 
 CLASSES = VIEW3D_PT_body_moments_section, OBJECT_PT_body_moments_section = in_both_places(

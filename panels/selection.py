@@ -9,7 +9,7 @@ from bpy.types import Context, UILayout, UIList
 
 from ..core.verdict.finding import finding
 from ..operators.session import results
-from ..operators.session.listing import SortBy, listing
+from ..operators.session.listing import SortBy, listed_masses, listing
 from ..operators.session.shown import shown_body
 from ..operators.session.trust import Trust
 from ..operators.write.messages import truncate_list
@@ -24,12 +24,6 @@ VERDICT_ICONS = {  # the form says it, not the color alone
     Trust.REPAIRED: "MODIFIER",
     Trust.DOUBTFUL: "ERROR",
     Trust.OUT_OF_DATE: "FILE_REFRESH",
-}
-VERDICT_NAMES = {
-    Trust.EXACT: "Exact",
-    Trust.REPAIRED: "Repaired",
-    Trust.DOUBTFUL: "Doubtful",
-    Trust.OUT_OF_DATE: "Out of Date",
 }
 LINES = 5  # of the list, before it scrolls
 
@@ -58,13 +52,11 @@ class BODY_MOMENTS_UL_measured(UIList):
         row = layout.row(align=True)
         row.alert = body.verdict == Trust.OUT_OF_DATE
         row.active = obj.select_get()
-        narrow = rows.is_narrow(context)
-        split = row.split(factor=0.6 if narrow else 0.45, align=True)
-        split.label(text=obj.name, icon=VERDICT_ICONS[body.verdict], translate=False)
-        values = split.row(align=True)
-        values.label(text=Units.of(context.scene.unit_settings).text("mass", body.mass), translate=False)
-        if not narrow:
-            values.label(text=VERDICT_NAMES[body.verdict])
+        row.label(text=obj.name, icon=VERDICT_ICONS[body.verdict], translate=False)
+        if not rows.is_narrow(context):
+            cell = row.row(align=True)
+            cell.alignment = "RIGHT"
+            cell.label(text=listed_masses(context.scene, context.view_layer)[obj.name], translate=False)
 
     def draw_filter(self, _context, layout) -> None:
         row = layout.row(align=True)
@@ -89,7 +81,7 @@ class SelectionPanel:
     def draw(self, context: Context) -> None:
         layout = self.layout
         if len(context.selected_objects) > 1:
-            layout.operator("object.body_moments_copy_settings", icon="PASTEDOWN")
+            rows.button(layout, context, "object.body_moments_copy_settings", "PASTEDOWN", short="Copy Settings")
         _listed(layout, context)
         _total(layout, context, Units.of(context.scene.unit_settings))
 
@@ -106,12 +98,14 @@ def _listed(layout: UILayout, context: Context) -> None:
         rows=LINES,
     )
     column = layout.column(align=True)
-    column.operator("object.body_moments_copy_csv", icon="COPYDOWN")
-    column.operator("object.body_moments_save_numbers", text="Save CSV or JSON...", icon="FILE_TICK")
+    rows.button(column, context, "object.body_moments_copy_csv", "COPYDOWN")
+    rows.button(
+        column, context, "object.body_moments_save_numbers", "FILE_TICK", text="Save CSV or JSON...", short="Save..."
+    )
 
 
 def _total(layout: UILayout, context: Context, units: Units) -> None:
-    layout.label(text="Total of Selection")
+    rows.title(layout, "Total of Selection")
     total = results.total(context)
     column = layout.column(align=True)
     if not total.count:
@@ -130,12 +124,9 @@ def _total(layout: UILayout, context: Context, units: Units) -> None:
     for caveat in total.findings:
         rows.message(column, context, caveat)
     column = layout.column(align=True)
-    if total.body is not None:
-        rows.value(column, units, "Mass", "mass", total.body.mass)
-    if total.volume:
-        rows.value(column, units, "Volume", "volume", total.volume)
-    if total.area:
-        rows.value(column, units, "Area", "area", total.area)
+    mass = None if total.body is None else total.body.mass
+    entries = [("Mass", "mass", mass), ("Volume", "volume", total.volume), ("Area", "area", total.area)]
+    rows.quantities(column, units, [(label, quantity, si) for label, quantity, si in entries if si])
     if total.body is None:
         return
     column = layout.column(align=True)

@@ -36,12 +36,12 @@ class ShapePanel:
     def draw(self, context: Context) -> None:
         layout = self.layout
         layout.use_property_decorate = False
-        layout.operator("object.body_moments_find_symmetry", icon="MOD_MIRROR")
+        rows.button(layout, context, "object.body_moments_find_symmetry", "MOD_MIRROR", short="Symmetry")
         _symmetry(layout, context, context.object)
         column = layout.column(align=True)
-        column.operator("object.body_moments_match_pose", icon="SNAP_ON")
+        rows.button(column, context, "object.body_moments_match_pose", "SNAP_ON")
         row = column.row(align=True)
-        row.operator("object.body_moments_find_similar", icon="VIEWZOOM")
+        rows.button(row, context, "object.body_moments_find_similar", "VIEWZOOM", short="Similar")
         row.operator("object.body_moments_find_in_library", text="", icon="FILEBROWSER")
         _similar(layout, context)
 

@@ -32,12 +32,19 @@ class StabilityPanel:
             rows.message(layout, context, finding("panel_stability_unknown"))
         elif stability.is_stale(obj):
             rows.message(layout, context, finding("panel_stability_stale"), icon="FILE_REFRESH")
-        layout.operator("object.body_moments_stability", icon="CON_FLOOR")
+        rows.button(layout, context, "object.body_moments_stability", "CON_FLOOR", short="Check")
         support = stability.support(obj, context.scene)
         if support is not None:
             _support(layout, context, support)
             _poses(layout, context, obj)
-        layout.operator("object.body_moments_balance_group", text="Balance Group...", icon="CON_FOLLOWPATH")
+        rows.button(
+            layout,
+            context,
+            "object.body_moments_balance_group",
+            "CON_FOLLOWPATH",
+            text="Balance Group...",
+            short="Balance...",
+        )
 
 
 def _support(layout: UILayout, context: Context, support: Support) -> None:
@@ -47,11 +54,21 @@ def _support(layout: UILayout, context: Context, support: Support) -> None:
         column.label(text="Stands", icon="CHECKMARK")
     else:
         column.label(text="Tips Over", icon="ERROR")
-    rows.value(column, Units.of(context.scene.unit_settings), "Margin", "length", support.margin * unit)
+    margin = support.margin * unit
     angle = float(np.degrees(support.tipping_angle))
-    rows.texts(column, "Tips at", "{:.2f}°".format(angle).replace("-", "−"), repr(angle), "°")
     toward = float(np.degrees(np.arctan2(support.direction[1], support.direction[0])))
-    rows.texts(column, "Toward", "{:.1f}° (X → Y)".format(toward + 0.0).replace("-", "−"), repr(toward), "°")
+    rows.table(
+        column,
+        [
+            ("Margin", Units.of(context.scene.unit_settings).text("length", margin), repr(margin), "m"),
+            ("Tipping Angle", _degrees(angle), repr(angle), "°"),
+            ("Toward, from X", _degrees(toward), repr(toward), "°"),
+        ],
+    )
+
+
+def _degrees(angle: float) -> str:
+    return "{:.2f}°".format(round(angle, 2) + 0.0).replace("-", "−")
 
 
 def _poses(layout: UILayout, context: Context, obj: Object) -> None:
@@ -61,24 +78,27 @@ def _poses(layout: UILayout, context: Context, obj: Object) -> None:
         rows.message(layout, context, poses)
     if not isinstance(poses, RestingPoses):
         return
+    narrow = rows.is_narrow(context)
     column = layout.column(align=True)
     heading = column.row()
-    heading.label(text="Probability")
+    heading.label(text="Share" if narrow else "Probability")
     cell = heading.row()
     cell.alignment = "RIGHT"
     cell.label(text="Tips at")
-    cell.label(icon="BLANK1")
+    if not narrow:
+        cell.label(icon="BLANK1")
     angles = np.degrees(poses.tipping_angles)
     for place, (share, angle) in enumerate(zip(poses.shares[:MAX_POSES], angles)):
         row = column.row(align=True)
-        row.label(text="{:d}: {:.1f}%".format(place + 1, 100.0 * share), translate=False)
+        number = "" if narrow else "{:d}: ".format(place + 1)
+        row.label(text="{:s}{:.1f}%".format(number, 100.0 * share), translate=False)
         cell = row.row(align=True)
         cell.alignment = "RIGHT"
         cell.label(text="{:.1f}°".format(angle), translate=False)
         row.operator("object.body_moments_rest_on_ground", text="", icon="TRIA_DOWN_BAR").pose = place + 1
     if len(angles) > MAX_POSES:
         rows.filled(column, "{:d} more", len(angles) - MAX_POSES)
-    layout.operator("object.body_moments_rest_on_ground", icon="TRIA_DOWN_BAR").pose = 1
+    rows.button(layout, context, "object.body_moments_rest_on_ground", "TRIA_DOWN_BAR", short="Rest").pose = 1
 
 
 CLASSES = VIEW3D_PT_body_moments_stability, OBJECT_PT_body_moments_stability = in_both_places(

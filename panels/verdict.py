@@ -95,6 +95,7 @@ def _headline(column: UILayout, context: Context, obj: Object) -> None:
     key = method_key(method, any(found.code == "wall_measured" for found in findings))
     source = Source.POLYGONS if method is None or key == str(method) else method.source
     headline, explanation = METHODS.get(key, (properties.method_text(obj).title(), ""))
-    rows.filled(column, SOURCES.get(source, "{:s}"), localized(headline), icon=ICONS.get(key, "INFO"))
+    title = localized(SOURCES.get(source, "{:s}")).format(localized(headline))
+    rows.sentence(column, context, title, icon=ICONS.get(key, "INFO"))
     if explanation:
         rows.sentence(column, context, localized(explanation), icon="BLANK1")

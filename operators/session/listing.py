@@ -9,6 +9,7 @@ from enum import StrEnum
 
 from bpy.types import Object, Scene, ViewLayer
 
+from ..write.units import Units
 from . import handlers
 from .cache import SessionCache
 from .shown import ShownBody, shown_body
@@ -26,6 +27,7 @@ class SortBy(StrEnum):
     VERDICT = "VERDICT"  # the least trustworthy first
 
 
+_masses: SessionCache[tuple[tuple, dict[str, str]]] = SessionCache()  # of scenes, and what each was asked for
 _listings: SessionCache[tuple[tuple, Listing]] = SessionCache()  # of scenes, and what each was asked for
 
 
@@ -51,6 +53,29 @@ def listing(scene: Scene, view_layer: ViewLayer, name: str, sort_by: SortBy, war
     cached = _listings.get(scene)
     if cached is None or cached[0] != key:
         cached = _listings[scene] = (key, _listing(scene, view_layer, name.lower(), sort_by, warnings_first))
+    return cached[1]
+
+
+def listed_masses(scene: Scene, view_layer: ViewLayer) -> dict[str, str]:
+    """Format the masses of a view layer's measured objects as one column.
+
+    Parameters
+    ----------
+    scene : bpy.types.Scene
+    view_layer : bpy.types.ViewLayer
+
+    Returns
+    -------
+    dict of str to str
+        By the objects' names; all in one unit, with as many decimals.
+    """
+    units = Units.of(scene.unit_settings)
+    key = handlers.generation(), view_layer.name, units
+    cached = _masses.get(scene)
+    if cached is None or cached[0] != key:
+        bodies = {obj.name: body for obj in view_layer.objects if (body := shown_body(obj, scene)) is not None}
+        texts = units.texts("mass", [body.mass for body in bodies.values()])
+        cached = _masses[scene] = (key, dict(zip(bodies, texts)))
     return cached[1]
 
 

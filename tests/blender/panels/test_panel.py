@@ -469,7 +469,7 @@ def test_numbers_are_whole_in_the_narrowest_sidebar(monkeypatch):
         monkeypatch.setattr(rows, "bpy", SimpleNamespace(context=context))
         layout, factors = Layout(), []
         monkeypatch.setattr(Layout, "split", lambda self, factor, **_: factors.append(factor) or self._sub())
-        rows.texts(layout, "Volume", "0.182213 m³", "0.18221349", "m³")
+        rows.text(layout, "Volume", "0.182213 m³", "0.18221349", "m³")
         rows.direction(layout, "2", (-0.0, -0.98765432, 0.1566))
         return layout.record, factors
 
@@ -477,8 +477,8 @@ def test_numbers_are_whole_in_the_narrowest_sidebar(monkeypatch):
         record, shared = shown(width)
         assert labels(record) == ["Volume", "0.182213 m³", "2", "0.0000", "−0.9877", "0.1566"]
         assert shared == [rows.LABEL_SHARE, rows.INDEX_LABEL_SHARE]
-    record, shared = shown(120)  # the unit beside the label
-    assert labels(record)[:2] == ["Volume m³", "0.182213"]
+    record, shared = shown(120)  # the unit goes with the label
+    assert labels(record)[:3] == ["Volume", "m³", "0.182213"]
     record, shared = shown(184)
     assert labels(record) == ["Volume", "0.182213 m³", "2 x", "0.0000", "2 y", "−0.9877", "2 z", "0.1566"]
     assert shared == [rows.SHORT_LABEL_SHARE] * 3  # the volume has a row of its own

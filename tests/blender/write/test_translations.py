@@ -83,14 +83,15 @@ def registered():
 
 def written():
     """Labels and templates in the source of the panels."""
-    named = {"filled", "value", "heading", "localized", "_labeled_row"}
+    named = {"filled", "value", "quantities", "table", "text", "title", "heading", "localized", "_labeled_row"}
     for path in (ROOT / "panels").rglob("*.py"):
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
             if isinstance(node, ast.Call):
                 function = getattr(node.func, "attr", getattr(node.func, "id", ""))
-                texts = [keyword.value for keyword in node.keywords if keyword.arg in ("text", "heading")]
+                texts = [keyword.value for keyword in node.keywords if keyword.arg in ("text", "heading", "short")]
                 texts += node.args if function in named else []
-                yield from (text.value for text in texts if isinstance(text, ast.Constant))
+                inner = (part for text in texts for part in ast.walk(text))
+                yield from (part.value for part in inner if isinstance(part, ast.Constant))
 
 
 def words(texts):
@@ -194,6 +195,9 @@ def test_names_and_numbers_are_drawn_as_they_are(monkeypatch):
     material = bpy.data.materials.new("Volume")
     obj.data.materials.append(material)
     obj.body_moments.density_from = "MATERIALS"
+    from body_moments.panels import rows
+
+    monkeypatch.setattr(rows, "localized", "‹{:s}›".format)
     record = drawn(closed=("body_moments_tensor",))  # whose labels are letters, put together
-    assert ("label", "Volume", False) in record and ("label", "Volume", True) in record
+    assert ("label", "Volume", False) in record and ("label", "‹Volume›", False) in record
     assert {entry[1] for entry in record if entry[0] == "label" and entry[2]} <= constants("panels")

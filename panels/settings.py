@@ -1,0 +1,43 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Settings in a panel: beside their labels, or below them where the region is narrow."""
+
+from __future__ import annotations
+
+import bpy
+from bpy.types import PropertyGroup, UILayout
+
+from ..operators.write.translations import localized
+from . import rows
+
+VALUE_SHARE = 0.6  # of a row, beside the label
+BUTTON_MARGIN = "m"  # a letter as wide as what a button has around its text
+
+
+def setting(layout: UILayout, data: PropertyGroup, name: str, text: str = "", expand: bool = False) -> None:
+    """Draw a setting with its label.
+
+    Parameters
+    ----------
+    layout : bpy.types.UILayout
+        A column.
+    data : bpy.types.PropertyGroup
+    name : str
+        Of the setting.
+    text : str
+        The label, by default the setting's own.
+    expand : bool
+        Whether choices stand beside each other, where there is room for their names.
+    """
+    definition = data.bl_rna.properties[name]
+    options = {"text": text} if text else {}
+    narrow = rows.is_narrow(bpy.context)
+    if narrow and definition.type != "BOOLEAN":
+        rows.title(layout, text or definition.name)
+        options = {"text": ""}
+    row = layout.row()
+    row.use_property_split = not narrow
+    if expand:
+        names = [localized(item.name) for item in definition.enum_items]
+        expand = rows.fits(1.0 if narrow else VALUE_SHARE, *(one + BUTTON_MARGIN for one in names))
+    row.prop(data, name, expand=expand, **options)
