@@ -13,7 +13,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..moments.affine_maps import multiply_by_linear_form, to_trailing_axis, transform_by_horner
+from ..moments.affine_maps import absolute_moments, multiply_by_linear_form, to_trailing_axis, transform_by_horner
 from ..moments.images import MAPS_PER_BLOCK
 from ..moments.moments import Measure, Moments, U, measure_scale_factors
 from ..moments.monomials import monomial_count, monomials, order_from_count, product_indices
@@ -61,7 +61,7 @@ def polynomial_mass_of_images(
             * U
             * ((np.abs(turn[:, :, part]) * extent).sum(axis=1) + np.abs(shift[:, part]) + np.abs(origin)[:, None])
         )
-        weighed, weighed_error, weighed_input = _mass_functional(moments, order, terms, forms, misplacement)
+        weighed, weighed_error, weighed_input, largest = _mass_functional(moments, order, terms, forms, misplacement)
         maps, offset = linear[:, :, part], origins[:, part] - center[:, None]
         weight, weight_error, anisotropy = measure_scale_factors(moments.measure, maps)
         weight_error = weight_error + (len(matrices) + 6 * order + 8) * U * weight
@@ -74,14 +74,18 @@ def polynomial_mass_of_images(
             rounding[raised] += monomials(order)[raised, axis, None] * tolerance[axis] * weight * size[: len(raised)]
         moved = transform_by_horner(weighed_input, order, *reach)
         error += rounding.sum(axis=1)
-        inputs += (weight * (moved + anisotropy * (size + moved))).sum(axis=1)
+        inputs += (weight * moved).sum(axis=1)
+        if anisotropy.any():  # a face at a time, some more and some less
+            largest = transform_by_horner(largest, order, reach[0], reach[1] + tolerance)
+            inputs += (weight * anisotropy * largest).sum(axis=1)
     return Moments(raw, center, Measure.MASS, error, inputs)
 
 
 def _mass_functional(
     moments: Moments, order: int, terms: Terms, forms: tuple[NDArray, NDArray], misplacement: NDArray
-) -> tuple[NDArray, NDArray, NDArray]:
-    """(K, k) each: G, the bound of its rounding, and what becomes of `moments.input_error`.
+) -> tuple[NDArray, NDArray, NDArray, NDArray]:
+    """(K, k) each: G, the bound of its rounding, what becomes of `moments.input_error`, and what bounds the
+    integrals of the same functions' magnitudes.
 
     forms: (3, 3, k) and (3, k), the density's coordinates; misplacement: (3, k) what their constants may be off by.
     """
@@ -100,7 +104,9 @@ def _mass_functional(
         }
         if slope:
             error += misplacement[axis] * _apply_polynomial(size, order, slope, reach)
-    return value, error, _apply_polynomial(moments.input_error, order, absolute, reach)
+    largest = absolute_moments(moments.raw, moments.order) + moments.rounding_error + moments.input_error
+    inputs, largest = (_apply_polynomial(one, order, absolute, reach) for one in (moments.input_error, largest))
+    return value, error, inputs, largest
 
 
 def _apply_polynomial(values: NDArray, order: int, terms: Terms, forms: tuple[NDArray, NDArray]) -> NDArray[np.float64]:

@@ -29,6 +29,7 @@ from .monomials import (
 # float32 entries alone may have made it: such a matrix cannot be distinguished from one that flattens.
 SINGULAR_RTOL = 4.0 * float(np.finfo(np.float32).eps)
 SIMILARITY_RTOL = 1e-5  # a float32 rotation matrix is a similarity to about 1e-7; a real shear is far above this
+HIGHEST_ODD = 3.0  # times what the degrees below would have if all were as far away as their mean: 1.3 of a bar
 
 
 def to_trailing_axis(matrices: NDArray) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -181,6 +182,31 @@ def are_singular(linear: NDArray) -> NDArray[np.bool_]:
         x[0] * (y[1] * z[2] - z[1] * y[2]) + y[0] * (z[1] * x[2] - x[1] * z[2]) + z[0] * (x[1] * y[2] - y[1] * x[2])
     )
     return np.abs(volume) <= SINGULAR_RTOL
+
+
+def absolute_moments(raw: NDArray, order: int) -> NDArray[np.float64]:
+    """(..., K) at least ∫ |x^p y^q z^r| of functionals (..., K) with no negative density, from their own moments.
+
+    Of an even degree n that is the largest of ∫ x^n, ∫ y^n, ∫ z^n (arithmetic and geometric mean), of an odd one the
+    root of the product of its neighbors (Cauchy and Schwarz). The highest odd degree has no upper neighbor: there it is
+    an estimate, from those below (to first order alone nothing but the moment itself).
+    """
+    out = np.abs(raw)
+    largest = [
+        out[..., [monomial_index(n, 0, 0), monomial_index(0, n, 0), monomial_index(0, 0, n)]].max(axis=-1)
+        for n in range(order + 1)
+    ]
+    for n in range(1, order + 1, 2):
+        if n < order:
+            largest[n] = np.sqrt(largest[n - 1]) * np.sqrt(largest[n + 1])
+        elif n > 1:
+            with np.errstate(invalid="ignore", divide="ignore"):
+                reach = np.sqrt(largest[n - 1] / largest[n - 3])
+            largest[n] = HIGHEST_ODD * largest[n - 1] * np.where(np.isfinite(reach), reach, 0.0)
+    for n in range(1, order + 1):
+        part = slice(monomial_count(n - 1), monomial_count(n))
+        out[..., part] = np.maximum(out[..., part], largest[n][..., None])
+    return out
 
 
 def are_similarities(linear: NDArray) -> NDArray[np.bool_]:

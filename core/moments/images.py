@@ -9,7 +9,7 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .affine_maps import transform_by_horner
+from .affine_maps import absolute_moments, transform_by_horner
 from .moments import Moments, U, image, measure_scale_factors
 from .monomials import monomial_count, monomials
 
@@ -111,5 +111,6 @@ def _image_error_bounds(
     rounding += carried(weight_error, reach, size)[0]
     rounding[1:] += np.arange(1, order + 1) * carried(weight * tolerance, reach + tolerance, size)[0][:-1]
     if uneven.any():
-        mapped_input += carried(weight * uneven, reach, size + inputs)[0]
+        absolute = np.maximum.reduceat(absolute_moments(moments.raw, order), starts) + error + inputs
+        mapped_input += carried(weight * uneven, reach, absolute)[0]
     return rounding[degree], mapped_input[degree]

@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..numerics.arrays import PerBody
-from .affine_maps import SIMILARITY_RTOL, anisotropy, apply_linear, apply_translation
+from .affine_maps import SIMILARITY_RTOL, absolute_moments, anisotropy, apply_linear, apply_translation
 from .monomials import monomial_count, monomial_index, monomials, order_from_count, product_indices
 
 U = np.finfo(np.float64).eps / 2.0  # unit roundoff
@@ -351,19 +351,18 @@ def image(moments: Moments, matrices: NDArray, center: NDArray) -> Moments:
     )
     weight_error = weight_error + (1 + 6 * order + 8) * U * weight
     away = np.abs(offset)
-    values = np.stack(
-        [moments.raw, moments.rounding_error, moments.input_error, np.abs(moments.raw) + moments.rounding_error],
-        axis=-2,
-    )
-    shifted = apply_translation(
-        apply_linear(values, order, linear), order, np.stack([offset, away, away, away + tolerance], axis=-2)
-    )
+    rows = [moments.raw, moments.rounding_error, moments.input_error, np.abs(moments.raw) + moments.rounding_error]
+    shifts = [offset, away, away, away + tolerance]
+    if uneven.any():
+        rows.append(absolute_moments(moments.raw, order) + moments.rounding_error + moments.input_error)
+        shifts.append(away + tolerance)
+    shifted = apply_translation(apply_linear(np.stack(rows, axis=-2), order, linear), order, np.stack(shifts, axis=-2))
     mapped, error, mapped_input, size = [shifted[..., i, :] for i in range(4)]
     rounding = weight * error + (weight_error + (4.0 * order + 50.0) * U * weight) * size
     for axis, raised in enumerate(product_indices(order) if order else ()):
         moved = monomials(order)[raised, axis] * tolerance * weight * size[..., : len(raised)]
         rounding[..., raised] += moved
-    moved_input = weight * (mapped_input + uneven * (size + mapped_input))
+    moved_input = weight * (mapped_input + uneven * shifted[..., -1, :])  # a face at a time, some more and some less
     return Moments(weight * mapped, center, moments.measure, rounding, moved_input)
 
 
@@ -383,4 +382,5 @@ def measure_scale_factors(measure: Measure, linear: NDArray) -> tuple[NDArray, N
     if np.any(uneven > SIMILARITY_RTOL):
         raise ValueError("not a similarity")
     power = 1 if measure == Measure.LENGTH else 2
-    return np.cbrt(det) ** power, 8 * U * np.cbrt(permanent) ** power, uneven
+    # AᵀA = s²(1 + E): a face of normal n grows by ½ (tr E / 3 - n·En) more than det^⅔, an edge along n by as much less.
+    return np.cbrt(det) ** power, 8 * U * np.cbrt(permanent) ** power, uneven * (0.5 + uneven)

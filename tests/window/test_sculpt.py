@@ -14,7 +14,7 @@ bpy.ops.object.body_moments_live()
 bpy.ops.object.mode_set(mode="SCULPT")
 """
 SESSION = "__import__('sys').modules['bl_ext.user_default.body_moments.operators.session.{}']"
-LIVE, STALENESS = SESSION.format("live"), SESSION.format("staleness")
+LIVE, STALENESS, RESULTS = (SESSION.format(name) for name in ("live", "staleness", "results"))
 SPHERE = "bpy.context.object"
 VOLUME = f"{LIVE}.current_numbers({SPHERE}).measurement.volume"
 TRUTH = f"import bmesh\nb = bmesh.new()\nb.from_mesh({SPHERE}.data)\nresult = b.calc_volume()\nb.free()"
@@ -40,4 +40,34 @@ def test_numbers_follow_a_stroke_when_it_stops(window):
     assert window.get(VOLUME) == pytest.approx(truth, rel=1e-6)
     assert window.ask(f"result = {STALENESS}.stale_reason({SPHERE}, bpy.context.scene)") == "stale_geometry"
     window.ask("bpy.ops.object.mode_set(mode='OBJECT')")
+    assert "Traceback" not in window.output()
+
+
+def test_dynamic_topology_is_refused_as_its_mesh_cannot_be_seen(window):
+    """The mesh that is drawn is then Sculpt Mode's own: numbers of the object's mesh are not those of what is seen."""
+    window.ask(SCENE)
+    window.open_tab("Moments")
+    window.ask("bpy.ops.sculpt.dynamic_topology_toggle()")
+    window.wait(f"{SPHERE}.use_dynamic_topology_sculpting")
+    x, y, width, height = window.region("WINDOW")
+    x, y = x + width / 2, y + height / 2
+    window.move(x - 60, y)
+    window.get("True")
+    window._xdotool("mousedown", 1)
+    for step in range(8):
+        window.move(x - 60 + 15 * step, y + 8 * step)
+        window.get("True")
+    window._xdotool("mouseup", 1)
+    window.wait(f"{LIVE}.current_numbers({SPHERE}).refusal is not None")
+    assert window.get(f"{LIVE}.current_numbers({SPHERE}).refusal.code") == "dynamic_topology"
+    window.press("object.body_moments_measure")
+    window.wait(f"{RESULTS}.failure({SPHERE}) is not None")
+    assert "Dyntopo" in window.get(f"str({RESULTS}.failure({SPHERE}))")
+    window.redraw()
+    window.picture("sculpt-dyntopo")
+    window.ask("bpy.ops.object.mode_set(mode='OBJECT')")
+    truth = window.ask(TRUTH)
+    window.press("object.body_moments_measure")
+    window.wait(f"{STALENESS}.stale_reason({SPHERE}, bpy.context.scene) is None")
+    assert window.get(VOLUME) == pytest.approx(truth, rel=1e-6)
     assert "Traceback" not in window.output()
