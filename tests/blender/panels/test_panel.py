@@ -149,6 +149,21 @@ def test_a_refusal_beside_stored_numbers_does_not_deny_them():
     assert "Not Measured Again" in found and "Not Measured" not in found and "Exact" in found
 
 
+def test_what_measure_and_live_refuse_for_the_same_reason_is_not_shown_twice():
+    obj = add(mesh_body())
+    bpy.ops.object.body_moments_measure()
+    obj.body_moments.density_from, obj.body_moments.density_polynomial = "POLYNOMIAL", "-1"
+    bpy.ops.object.body_moments_live()
+    from body_moments.operators.session import live, results
+
+    sentence = str(live.current_numbers(obj).refusal)
+    assert sentence in " ".join(labels(drawn()))
+    bpy.ops.object.body_moments_measure()
+    assert " ".join(labels(drawn())).count(sentence) == 1
+    assert str(results.failure(obj)) == sentence
+    bpy.ops.object.body_moments_live()
+
+
 def test_a_refusal_is_not_held_against_other_settings():
     obj = add(mesh_body())
     settings = obj.body_moments
