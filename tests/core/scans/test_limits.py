@@ -17,6 +17,7 @@ import pytest
 from body_moments.core.scans.formats import read_scan
 from body_moments.core.scans.limits import Limits
 from body_moments.core.scans.numpy_files import read_raw
+from body_moments.core.scans.scan import shape_of
 from body_moments.core.verdict.finding import FileError, MeasureError
 from body_moments.tests.core.scan_files import nifti, nrrd, written
 
@@ -235,3 +236,29 @@ def test_a_header_names_no_samples_outside_of_its_folder(tmp_path):
         assert (found.code, found.values["file"]) == ("nrrd_data_file_outside", str(name))
         assert "--allow-outside" in str(found)
         assert np.array_equal(read_scan(header(name), Limits(allow_outside=True)).samples, VALUES)
+
+
+@pytest.mark.parametrize(
+    "sizes, code",
+    [
+        ((1 << 40, 1, 1), None),
+        ((1, 1 << 20, 1 << 28, 1, 1), None),
+        ((1 << 16, 1 << 16, 1 << 16), None),
+        ((1, (1 << 40) + 1, 1), "scan_size"),
+        ((1 << 17, 1 << 16, 1 << 16), "scan_size"),
+        ((1 << 16, 1 << 17, 1 << 16), "scan_size"),
+        ((1 << 16, 1 << 16, 1 << 17), "scan_size"),
+        ((3, 0, 3), "scan_size"),
+        ((3, 3), "scan_dimensions"),
+        ((3, 3, 3, 1, 2), "scan_dimensions"),
+        ((), "scan_dimensions"),
+    ],
+)
+def test_three_sizes_and_their_product_are_numbers_that_memory_can_have(sizes, code):
+    if code is None:
+        assert shape_of(sizes) == sizes[:3]
+    else:
+        with pytest.raises(FileError) as caught:
+            shape_of(sizes)
+        assert caught.value.finding.code == code
+        assert caught.value.finding.values.get("dimensions") == {(3, 3): 2, (): 0, (3, 3, 3, 1, 2): 5}.get(sizes)
