@@ -55,6 +55,8 @@ on_load: list[Callable[[], None]] = []  # after all caches were emptied
 on_save: list[Callable[[], None]] = []
 
 _generation = 0
+_moves_from = 0  # the generation after which objects have moved, and nothing else has changed
+_moved: set[int] = set()  # their session uids
 
 
 def generation() -> int:
@@ -68,10 +70,27 @@ def generation() -> int:
     return _generation
 
 
+def moved_since(generation: int) -> set[int] | None:
+    """Return the objects that have moved since a generation, where nothing else has changed since then.
+
+    Parameters
+    ----------
+    generation : int
+
+    Returns
+    -------
+    set of int or None
+        Session uids of these objects, and perhaps of some that had moved before; None where there were other changes.
+    """
+    return _moved if generation >= _moves_from else None
+
+
 def count_change() -> None:
     """Count a change that Blender does not report, such as of what is noted about an object."""
-    global _generation
+    global _generation, _moves_from
     _generation += 1
+    _moves_from = _generation
+    _moved.clear()
 
 
 def subscribe(subscribers: list[Callable[..., None]], function: Callable[..., None]) -> None:
@@ -140,9 +159,18 @@ def _on_frame(scene: Scene, depsgraph: Depsgraph | None = None) -> None:
 
 
 def _note_update(scene: Scene, depsgraph: Depsgraph | None, frame_changed: bool) -> None:
-    count_change()
-    if depsgraph is not None and depsgraph.mode == "VIEWPORT":
-        _call(on_update, _updates(scene, depsgraph, frame_changed))
+    global _generation
+    if depsgraph is None or depsgraph.mode != "VIEWPORT":
+        count_change()
+        return
+    updates = _updates(scene, depsgraph, frame_changed)
+    others = frame_changed or updates.reshaped or updates.others or updates.collections
+    if others or depsgraph.id_type_updated("SCENE"):
+        count_change()
+    else:
+        _generation += 1
+        _moved.update(updates.moved)
+    _call(on_update, updates)
 
 
 @persistent

@@ -90,6 +90,26 @@ def shown_body(obj: Object, scene: Scene = None) -> ShownBody | None:
     return cached[1]
 
 
+def changes_alone(obj: Object) -> bool:
+    """Return whether what is shown of an object changes with no move of another object that leaves its geometry.
+
+    Parameters
+    ----------
+    obj : bpy.types.Object
+        An original object.
+
+    Returns
+    -------
+    bool
+    """
+    return obj.type == "MESH" and not (
+        live.is_live(obj)
+        or obj.body_moments.density_from in BY_OTHERS
+        or obj.is_instancer
+        or any(modifier.type == "NODES" for modifier in obj.modifiers)
+    )
+
+
 def _shown_now(obj: Object, scene: Scene) -> ShownBody | None:
     if live.is_live(obj) or obj.body_moments.density_from in BY_OTHERS:
         return _computed(obj, scene)

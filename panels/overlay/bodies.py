@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from ...core.numerics.float32 import shortest_decimal
 from ...operators.session import live, posed, results
-from ...operators.session.shown import shown_body, shown_bone
+from ...operators.session.shown import changes_alone, shown_body, shown_bone
 from . import appearance as look
 
 
@@ -41,6 +41,39 @@ class Bodies:
     def __len__(self) -> int:
         return len(self.centers)
 
+    def chosen(self, mask: NDArray[np.bool_]) -> Bodies:
+        """Those where a mask is true."""
+        return Bodies(self.centers[mask], self.axes[mask], self.gyration[mask], self.verdicts[mask])
+
+    def differ_from(self, others: Bodies) -> NDArray[np.bool_]:
+        """Which of them are not as those of as many others."""
+        changed = self.verdicts != others.verdicts
+        for own, other in ((self.centers, others.centers), (self.axes, others.axes), (self.gyration, others.gyration)):
+            changed |= (own != other).reshape(len(self), own[0].size if len(self) else 1).any(axis=1)
+        return changed
+
+
+@dataclass(frozen=True, eq=False)
+class Collected:
+    """What is shown of the objects, and of which.
+
+    Attributes
+    ----------
+    bodies : Bodies
+    names : list of str
+        Of the bodies' objects; none where some bodies are of something else.
+    alone : dict of int to int
+        Session uids of objects whose numbers change with no move of another object, and their places.
+    """
+
+    bodies: Bodies
+    names: list[str]
+    alone: dict[int, int]
+
+
+NO_BODIES = Bodies(np.zeros((0, 3)), np.zeros((0, 3, 3)), np.zeros((0, 3)), np.zeros(0, np.intp))
+NOTHING = Collected(NO_BODIES, [], {})
+
 
 def drawn_objects(context: Context, show_all: bool) -> Iterator[Object]:
     """The objects whose numbers are drawn in a view: visible and, if not all, selected. In Pose Mode an armature stands
@@ -52,15 +85,18 @@ def drawn_objects(context: Context, show_all: bool) -> Iterator[Object]:
             yield obj
 
 
-def collect(context: Context) -> Bodies:
+def collect(context: Context) -> Collected:
     """Gather what is shown of the objects, of the selected pose bones, and of the selection as one body where that is
     switched on."""
     scene = context.scene
     settings = scene.body_moments.overlay
-    bodies = []
+    bodies, names, alone = [], [], {}
     for obj in drawn_objects(context, settings.show_all):
-        body = shown_body(obj)
+        body = shown_body(obj, scene)
         if body is not None:
+            if changes_alone(obj):
+                alone[obj.session_uid] = len(bodies)
+            names.append(obj.name)
             bodies.append((body.center, body.axes, body.gyration, look.VERDICTS.index(body.verdict)))
     for bone in context.selected_pose_bones or ():
         body = shown_bone(bone, scene)
@@ -75,5 +111,25 @@ def collect(context: Context) -> Bodies:
                 (body.center / unit, body.principal.axes, body.radii_of_gyration / unit, look.VERDICTS.index("sum"))
             )
     if not bodies:
-        return Bodies(np.zeros((0, 3)), np.zeros((0, 3, 3)), np.zeros((0, 3)), np.zeros(0, np.intp))
-    return Bodies(*(np.array(values) for values in zip(*bodies)))
+        return NOTHING
+    is_of_objects = len(names) == len(bodies)
+    collected = Bodies(*(np.array(values) for values in zip(*bodies)))
+    return Collected(collected, names if is_of_objects else [], alone)
+
+
+def collect_moved(context: Context, before: Collected, moved: set[int]) -> Collected | None:
+    """Gather what is shown after some objects have moved; None where that takes all of `collect`."""
+    if not before.names:
+        return None
+    places = {before.alone[uid] for uid in moved if uid in before.alone}
+    places.update(set(range(len(before.names))).difference(before.alone.values()))
+    old = before.bodies
+    bodies = Bodies(old.centers.copy(), old.axes.copy(), old.gyration.copy(), old.verdicts.copy())
+    for place in places:
+        obj = context.view_layer.objects.get(before.names[place])
+        body = None if obj is None else shown_body(obj, context.scene)
+        if body is None:
+            return None
+        bodies.centers[place], bodies.axes[place], bodies.gyration[place] = body.center, body.axes, body.gyration
+        bodies.verdicts[place] = look.VERDICTS.index(body.verdict)
+    return Collected(bodies, before.names, before.alone)

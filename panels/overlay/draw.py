@@ -5,7 +5,7 @@
 Lines and discs are drawn twice, so that one sees how deep they lie: through everything, lines faint and discs without
 their white quadrants, and then in full where nothing is in front of them. The nearest come last. What is drawn depends
 on the session's generation and the settings, where discs are on the view also: as long as these stay, a redraw makes no
-array.
+array. While some bodies move, the batches of all others stay.
 """
 
 from __future__ import annotations
@@ -26,8 +26,8 @@ from ...operators.session import handlers
 from ...operators.settings.overlay import BodyMomentsOverlaySettings
 from . import appearance as look
 from . import lines
-from .bodies import Bodies, collect
-from .details import objects_details
+from .bodies import NOTHING, Bodies, Collected, collect, collect_moved
+from .details import Detail, objects_details
 from .view import View
 
 MAX_REGIONS = 8  # of which batches are kept
@@ -37,15 +37,29 @@ Batch = gpu.types.GPUBatch
 
 
 @dataclass(eq=False)
-class _Drawn:
-    """What was made for a region, and what it was made for."""
+class _Layer:
+    """The batches of some of the bodies."""
 
-    key: tuple = ()
-    view_key: tuple = ()
-    bodies: Bodies | None = None
+    bodies: Bodies
     lines: tuple[Batch, ...] = ()  # faint, full
     fills: tuple[Batch, ...] = ()
     discs: tuple[Batch, ...] = ()  # hidden, seen
+    view_key: tuple = ()  # that the discs were made for
+
+    @property
+    def is_empty(self) -> bool:
+        return not (self.lines or self.fills or len(self.bodies))
+
+
+@dataclass(eq=False)
+class _Drawn:
+    """What was made for a region, and what it was made for."""
+
+    generation: int = -1
+    key: tuple = ()
+    collected: Collected = NOTHING
+    moving: NDArray[np.bool_] = field(default_factory=lambda: np.zeros(0, bool))  # which are in the second layer
+    layers: tuple[_Layer, ...] = ()  # what rests; what moves, and what is drawn of single objects
 
 
 @dataclass(eq=False)
@@ -67,18 +81,20 @@ def draw() -> None:
     if not settings.show:
         return
     drawn = _drawn(context)
-    key = _key(context)
-    if drawn.key != key:
-        _make(drawn, context)
-        drawn.key, drawn.view_key = key, ()
-    if not (drawn.lines or drawn.fills or len(drawn.bodies)):
+    key, generation = _key(context), handlers.generation()
+    if drawn.key != key or drawn.generation != generation:
+        _make(drawn, context, has_same_key=drawn.key == key)
+        drawn.key, drawn.generation = key, generation
+    layers = [layer for layer in drawn.layers if not layer.is_empty]
+    if not layers:
         return
     view_key = gpu.matrix.get_model_view_matrix(), gpu.matrix.get_projection_matrix(), gpu.state.viewport_get()[2:]
-    if drawn.view_key != view_key:
-        drawn.discs = _discs(drawn.bodies, _view(*view_key), settings.show_axes)
-        drawn.view_key = view_key
+    for layer in layers:
+        if layer.view_key != view_key:
+            layer.discs = _discs(layer.bodies, _view(*view_key), settings.show_axes)
+            layer.view_key = view_key
     with _restored_state():
-        _draw_batches(drawn, view_key[2])
+        _draw_batches(layers, view_key[2])
 
 
 def _drawn(context: Context) -> _Drawn:
@@ -91,10 +107,9 @@ def _drawn(context: Context) -> _Drawn:
 
 
 def _key(context: Context) -> tuple:
-    """What all that is drawn depends on, beside the view."""
+    """What all that is drawn depends on, beside the view and the session's generation."""
     settings = context.scene.body_moments.overlay
     return (
-        handlers.generation(),
         context.scene.session_uid,
         context.view_layer.name,
         context.space_data.local_view is not None,
@@ -115,14 +130,33 @@ def _view(view: Matrix, projection: Matrix, size: tuple[int, int]) -> View:
 # ---------------------------------------------------------------- What is drawn
 
 
-def _make(drawn: _Drawn, context: Context) -> None:
+def _make(drawn: _Drawn, context: Context, has_same_key: bool) -> None:
+    """Make anew what has changed. Bodies that move are in a layer of their own, so that the others' batches stay."""
     settings = context.scene.body_moments.overlay
-    drawn.bodies = bodies = collect(context)
+    before, collected = drawn.collected.bodies, None
+    moved = handlers.moved_since(drawn.generation)
+    if has_same_key and moved is not None and not settings.show_sum:
+        collected = collect_moved(context, drawn.collected, moved)
+    collected = collected or collect(context)
+    bodies = collected.bodies
+    moving, rests = np.zeros(len(bodies), bool), False
+    if has_same_key and len(before) == len(bodies):
+        changed = bodies.differ_from(before)
+        rests = not (changed & ~drawn.moving).any()
+        moving = drawn.moving if rests else changed
+    resting = drawn.layers[0] if rests else _layer(bodies.chosen(~moving), settings, [])
     details = list(objects_details(context, settings))
-    drawn.lines = _line_batches(
-        [*lines.body_lines(bodies, settings), *(detail.segments for detail in details if len(detail.segments[0]))]
+    drawn.collected, drawn.moving = collected, moving
+    drawn.layers = resting, _layer(bodies.chosen(moving), settings, details)
+
+
+def _layer(bodies: Bodies, settings: BodyMomentsOverlaySettings, details: list[Detail]) -> _Layer:
+    segments = [detail.segments for detail in details if len(detail.segments[0])]
+    return _Layer(
+        bodies,
+        _line_batches([*lines.body_lines(bodies, settings), *segments]),
+        _fill_batches([detail.triangles for detail in details if len(detail.triangles[0])]),
     )
-    drawn.fills = _fill_batches([detail.triangles for detail in details if len(detail.triangles[0])])
 
 
 def _fill_batches(parts: list[tuple[NDArray, NDArray]]) -> tuple[Batch, ...]:
@@ -183,14 +217,17 @@ def _restored_state() -> Iterator[None]:
         state.line_width_set(width)
 
 
-def _draw_batches(drawn: _Drawn, size: tuple[int, int]) -> None:
+def _draw_batches(layers: list[_Layer], size: tuple[int, int]) -> None:
     scale = _scale()
+    flat = gpu.shader.from_builtin("FLAT_COLOR")
     gpu.state.depth_test_set("NONE")
-    for batch in drawn.fills:
-        _draw_batch(batch, gpu.shader.from_builtin("FLAT_COLOR"))
+    for layer in layers:
+        for batch in layer.fills:
+            _draw_batch(batch, flat)
     uniform = gpu.shader.from_builtin("POLYLINE_UNIFORM_COLOR")
     colored = gpu.shader.from_builtin("POLYLINE_FLAT_COLOR")
-    for batch, depth, opacity in zip(drawn.lines, ("NONE", "LESS_EQUAL"), (look.BEHIND, 1.0)):
+    both = [layer.lines for layer in layers if layer.lines]
+    for batches, depth, opacity in zip(zip(*both), ("NONE", "LESS_EQUAL"), (look.BEHIND, 1.0)):
         gpu.state.depth_test_set(depth)
         for shader, width in ((uniform, look.LINE + 2.0 * look.OUTLINE), (colored, look.LINE)):
             shader.bind()
@@ -198,10 +235,13 @@ def _draw_batches(drawn: _Drawn, size: tuple[int, int]) -> None:
             shader.uniform_float("lineWidth", scale * width)
             if shader is uniform:
                 shader.uniform_float("color", (*look.DARK[:3], 0.6 * opacity))
-            _draw_batch(batch, shader)
-    for batch, depth in zip(drawn.discs, ("NONE", "LESS_EQUAL")):
+            for batch in batches:
+                _draw_batch(batch, shader)
+    both = [layer.discs for layer in layers if layer.discs]
+    for batches, depth in zip(zip(*both), ("NONE", "LESS_EQUAL")):
         gpu.state.depth_test_set(depth)
-        _draw_batch(batch, gpu.shader.from_builtin("FLAT_COLOR"))
+        for batch in batches:
+            _draw_batch(batch, flat)
 
 
 def _draw_batch(batch: Batch, shader: gpu.types.GPUShader) -> None:

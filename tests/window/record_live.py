@@ -67,6 +67,8 @@ def record(blender: str, output: Path) -> None:
 def drag(window: harness.Window) -> list:
     """Grab the tower's top along X, and take a picture after each step of the mouse."""
     window.ask(f"import addon_utils\naddon_utils.enable('bl_ext.user_default.body_moments', default_set=True)\n{SCENE}")
+    window.point_at_view()
+    window.type("Escape")  # the splash screen
     window.open_tab("Moments")
     window.point_at_view()
     x, y, width, height = window.region("WINDOW")

@@ -146,3 +146,31 @@ def test_discs_are_made_where_they_are_seen_and_named_where_axes_are_long(view):
         assert triangles.min() == 0 and triangles.max() < len(points)
         assert np.isfinite(points).all()
         assert np.abs(view.pixels(points.astype(float)) - view.size / 2.0).max() < view.size.max() + 500.0
+
+
+def test_only_what_has_moved_is_looked_at_again(scene, monkeypatch):
+    from body_moments.operators.session import handlers
+    from body_moments.panels.overlay import bodies
+
+    parts = [objects.add(objects.mesh_body(), name) for name in ("First", "Second", "Third")]
+    bpy.ops.object.select_all(action="SELECT")
+    bpy.ops.object.body_moments_measure()
+    bpy.context.view_layer.update()
+    monkeypatch.setattr(bodies, "drawn_objects", lambda *_: parts)  # there is no viewport
+    before, generation = bodies.collect(bpy.context), handlers.generation()
+    assert len(before.bodies) == len(before.alone) == 3
+    parts[1].location, parts[1].rotation_euler = (1.0, -2.0, 3.0), (0.1, 0.2, 0.3)
+    bpy.context.view_layer.update()
+    moved = handlers.moved_since(generation)
+    assert moved == {parts[1].session_uid} and handlers.generation() > generation
+    after, whole = bodies.collect_moved(bpy.context, before, moved), bodies.collect(bpy.context)
+    assert not after.bodies.differ_from(whole.bodies).any()
+    assert after.bodies.differ_from(before.bodies).tolist() == [False, True, False]
+    assert before.bodies.differ_from(before.bodies).any() == np.False_
+    parts[0].data.vertices[0].co.z -= 0.5
+    parts[0].data.update()
+    bpy.context.view_layer.update()
+    assert handlers.moved_since(generation) is None and handlers.moved_since(handlers.generation()) == set()
+    parts[2].body_moments.kind = "SHELL"
+    bpy.context.view_layer.update()
+    assert handlers.moved_since(generation) is None
