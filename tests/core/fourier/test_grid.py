@@ -8,8 +8,8 @@ from functools import partial
 import numpy as np
 import pytest
 from body_moments.core.fourier import grid as fourier_grid
-from body_moments.core.fourier.grid import GridTransform, _sample_indices
-from body_moments.core.fourier.nufft import Spreading, aliasing
+from body_moments.core.fourier.grid import GridTransform, _kernel_width, _sample_indices
+from body_moments.core.fourier.nufft import WIDTHS, Spreading, aliasing
 from body_moments.core.fourier.transform import run_to_completion, solid_transform, surface_transform
 from body_moments.core.fourier.wave_vectors import FrequencyGrid
 from body_moments.core.numerics.quadrature import triangle_rule
@@ -175,3 +175,20 @@ def test_compared_are_the_ends_of_axes_and_diagonals():
         for step in (-grid.half, -1, 1):
             assert (found == np.clip(step * np.array(way), -grid.half, 8 - grid.half)).all(axis=1).any()
     assert len(found) > 30 and len(np.unique(found, axis=0)) == len(found)
+
+
+@pytest.mark.parametrize("half", [4, 20])
+@pytest.mark.parametrize("tolerance", [1e-2, 1e-4, 1e-6])
+def test_the_kernel_is_the_least_wide_one_whose_error_is_allowed(half, tolerance):
+    """By the wave vector the error of each is smaller, and a narrower kernel does."""
+    for divided in (False, True):
+        by = np.arange(1.0, half + 1.0) if divided else np.ones(half)
+        width = _kernel_width(half, tolerance, divided)
+        worst = {
+            one: max(3.0 * aliasing(half, one)[: k + 1].max() / by[k - 1] for k in range(1, half + 1))
+            for one in range(min(WIDTHS), width + 1)
+            if one in WIDTHS
+        }
+        assert worst.pop(width) <= tolerance and all(one > tolerance for one in worst.values())
+    with pytest.raises(ValueError, match="tolerance"):
+        _kernel_width(half, 1e-30, True)

@@ -311,6 +311,7 @@ def test_names_of_edges_that_do_not_fit_the_vertices_are_not_used():
     twice = edges.copy()
     twice[np.flatnonzero(edges == inner)[0]] = edges.max() + 1  # one edge by two names
     wrong = [np.roll(edges, 1), edges * 0, edges - 1, twice, edges[:-1], edges.astype(np.uint64) - np.uint64(1)]
+    wrong += [edges - (1 << 30), edges + (1 << 30)]
     for other in wrong:
         assert edges_from_mesh(replace(surface, corner_edges=other), triangles) is None
     assert edges_from_mesh(replace(surface, corner_edges=edges.astype(np.uint64)), triangles) is not None

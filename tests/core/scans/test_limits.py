@@ -14,6 +14,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from body_moments.core.scans import scan
 from body_moments.core.scans.formats import read_scan
 from body_moments.core.scans.limits import Limits
 from body_moments.core.scans.numpy_files import read_raw
@@ -262,3 +263,15 @@ def test_three_sizes_and_their_product_are_numbers_that_memory_can_have(sizes, c
             shape_of(sizes)
         assert caught.value.finding.code == code
         assert caught.value.finding.values.get("dimensions") == {(3, 3): 2, (): 0, (3, 3, 3, 1, 2): 5}.get(sizes)
+
+
+@pytest.mark.parametrize("skip", [0, 1, 7, 15, 16, 17, 40, 64])
+def test_samples_behind_many_blocks_of_other_bytes_are_unpacked(tmp_path, monkeypatch, skip):
+    monkeypatch.setattr(scan, "BLOCK", 8)
+    samples = np.arange(24, dtype="<u2").reshape(2, 3, 4)
+    path = tmp_path / "a.gz"
+    path.write_bytes(b"head" + gzip.compress(bytes(range(skip)) + samples.tobytes("F")))
+    found = scan.unpack_samples(path, 4, np.dtype("<u2"), (2, 3, 4), skip, Limits())
+    assert np.array_equal(found, samples)
+    with pytest.raises(FileError):
+        scan.unpack_samples(path, 4, np.dtype("<u2"), (2, 3, 4), skip + 1, Limits())

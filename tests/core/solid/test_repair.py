@@ -185,6 +185,19 @@ def test_what_is_inside_out_is_turned_and_its_volume_is_positive(part, turned, a
     assert close(oriented.volume.total, volume, rel=1e-14) and volume > 0.0
 
 
+def test_closed_parts_are_those_that_hang_together():
+    sizes = [1.0, 2.0, 3.0]
+    cubes = [(CUBE[0] * size + 10.0 * number, CUBE[1]) for number, size in enumerate(sizes)]
+    for count in (1, 2, 3):
+        *_, oriented = staged(joined(*cubes[:count]))
+        parts = oriented.closed_parts()
+        a, b, c = (parts.points[parts.triangles[:, k]] for k in range(3))
+        volumes = np.bincount(parts.part, np.linalg.det(np.stack([a, b, c], axis=1))) / 6.0
+        assert parts.number == count and close(np.sort(volumes), np.array(sizes[:count]) ** 3, 1e-12)
+        assert close(np.bincount(parts.part, parts.areas()), 6.0 * np.cbrt(volumes) ** 2, 1e-12)
+        assert close(parts.areas(2.0 * np.eye(3)), 4.0 * parts.areas(), 1e-12)
+
+
 PROVED = SelfIntersection(Intersection.EXCLUDED)
 
 
