@@ -63,23 +63,23 @@ class Hull:
 
         Notes
         -----
-        Gilbert's algorithm (SIAM J. Control 4, 1966) with steps away from bad vertices.
+        Wolfe's algorithm (Math. Programming 11, 1976): the point nearest to that of the hull of at most four points,
+        which are changed until a plane through their nearest one has all others behind it.
         """
         shifted = self.points - point
-        nearest = shifted[0]
+        chosen, shares = [int(np.argmin((shifted**2).sum(axis=1)))], np.ones(1)
         bound = 0.0
         for _ in range(MAX_STEPS):
+            nearest = shares @ shifted[chosen]
             length = float(np.linalg.norm(nearest))
             if length <= 1e-12 * self.size:
                 return 0.0
             heights = shifted @ nearest
-            support = shifted[int(np.argmin(heights))]
-            bound = max(bound, float(heights.min()) / length)
-            step = nearest - support
-            square = float(step @ step)
-            if length - heights.min() / length <= 1e-9 * self.size or square == 0.0:
+            lowest = int(np.argmin(heights))
+            bound = max(bound, float(heights[lowest]) / length)
+            if lowest in chosen or length - heights[lowest] / length <= 1e-9 * self.size:
                 break
-            nearest = nearest - min(1.0, float(nearest @ step) / square) * step
+            chosen, shares = _nearest_shares(shifted, [*chosen, lowest], np.append(shares, 0.0))
         return bound
 
     def spread_limit(self, center: NDArray, directions: NDArray) -> NDArray[np.float64]:
@@ -128,6 +128,26 @@ def impossible(stated: StatedInertial, hull: Hull | None) -> list[Finding]:
         return [finding("inertial_triangle", moments=moments.tolist(), excess=excess)]
     findings = [finding("inertial_triangle_slightly", excess=excess)] if excess > 1e-12 else []
     return findings if hull is None else findings + _outside(stated, hull)
+
+
+def _nearest_shares(points: NDArray, chosen: list[int], shares: NDArray) -> tuple[list[int], NDArray[np.float64]]:
+    """Those of the chosen points, and their shares, that make the point of their hull nearest to zero."""
+    while True:
+        corners = points[chosen]
+        # of the plane through them: the shares that add up to one and leave nothing along it
+        along = (corners[1:] - corners[0]).T
+        rest = np.linalg.lstsq(along, -corners[0], rcond=None)[0]
+        wanted = np.append(1.0 - rest.sum(), rest)
+        if (wanted > 0.0).all():
+            return chosen, wanted
+        falls = wanted <= 0.0
+        way = float((shares[falls] / np.maximum(shares[falls] - wanted[falls], np.finfo(float).tiny)).min())
+        shares = shares + min(way, 1.0) * (wanted - shares)
+        kept = shares > 1e-14
+        if kept.all():
+            kept[int(np.argmin(np.where(falls, shares, np.inf)))] = False
+        chosen = [one for one, keep in zip(chosen, kept) if keep]
+        shares = shares[kept] / shares[kept].sum()
 
 
 def _outside(stated: StatedInertial, hull: Hull) -> list[Finding]:

@@ -20,6 +20,8 @@ NAMES = {
 PATTERNS = [
     (r".*", r".*\*= -1\.0", r".*/= -1\.0", "times -1 is by -1"),
     (r".*", r".*\bsort\(.*kind=.stable.*", r"((?!kind=).)*", "the order of equal ones, of which any may be first"),
+    (r".*triangle_kernel.py PhaseMeans._by_edges", r"np\.divide\(total.*", r".*", "where a value is stored"),
+    (r".*offset/walls.py OffsetSolid.moments", r"inward\*\*degree / degree", r".*", "a looser bound"),
     (r".*", r".*copy=False.*", r"((?!copy=).)*", "a copy"),
     (r".*", r".* > MAX_\w+", r".* >= MAX_\w+", "a limit of so many or one fewer"),
     (r"core/(polyhedron/any_order|moments/|plane/).*", r"1e-9", r"1\.0000000000000002e-06", "a looser bound"),

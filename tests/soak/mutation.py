@@ -38,7 +38,12 @@ TESTS = {  # of a package, or of all in a part
     "core/mesh": ("core", "blender/bodies/test_many.py"),
     "core/solid": ("core", "blender/bodies/test_many.py"),
     "core/shape": ("core", "blender/actions/shape"),
-    "core/robots": ("blender/bodies/test_audit.py", "blender/read/test_robots.py", "blender/actions/export"),
+    "core/robots": (
+        "core/robots",
+        "blender/bodies/test_audit.py",
+        "blender/read/test_robots.py",
+        "blender/actions/export",
+    ),
     "operators": ("blender",),
     "panels": ("blender",),
 }

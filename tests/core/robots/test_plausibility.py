@@ -1,0 +1,108 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What no body has is found, from both sides of each limit; what a body has is never complained of."""
+
+import numpy as np
+import pytest
+from body_moments.core.robots.plausibility import Hull, impossible
+from body_moments.core.robots.stated import StatedInertial
+
+from tests.close import close
+from tests.core import bodies
+
+CUBE = np.array([[x, y, z] for x in (-1.0, 1.0) for y in (-1.0, 1.0) for z in (-1.0, 1.0)])
+
+
+def codes(mass, center, tensor, hull=None, **more):
+    tensor = np.diag(tensor) if np.ndim(tensor) == 1 else np.array(tensor)
+    return [found.code for found in impossible(StatedInertial(mass, np.array(center, float), tensor, **more), hull)]
+
+
+@pytest.mark.parametrize("size", [1e-4, 1.0, 1e5])
+@pytest.mark.parametrize("sides", [(1.0, 1.0, 1.0), (1.0, 0.5, 0.1)])
+def test_the_distance_from_a_box_is_that_of_its_faces_edges_and_corners(size, sides):
+    turn, draw = bodies.rotation(2), np.random.default_rng(1)
+    hull = Hull(size * CUBE * sides @ turn.T)
+    assert close(hull.size, np.linalg.norm(np.ptp(hull.points, axis=0)), 1e-15)
+    for point in draw.normal(size=(60, 3)) * 2.0:
+        truth = np.linalg.norm(np.maximum(np.abs(point) - sides, 0.0))
+        found = hull.distance(size * turn @ point) / size
+        assert abs(found - truth) <= 1e-9 * (truth + 1.0) and (truth > 0.0 or found == 0.0)
+
+
+def test_variance_is_at_most_the_product_of_the_ways_to_both_sides():
+    hull = Hull(CUBE * (3.0, 2.0, 1.0))
+    found = hull.spread_limit(np.array([1.0, -0.5, 0.0]), np.eye(3))
+    assert close(found, [2.0 * 4.0, 2.5 * 1.5, 1.0], 1e-15)
+    assert (hull.spread_limit(np.array([4.0, 0.0, 0.0]), np.eye(3)) == [0.0, 4.0, 1.0]).all()
+
+
+@pytest.mark.parametrize("wrong", [np.nan, np.inf])
+def test_numbers_that_are_none_come_first(wrong):
+    assert codes(wrong, (0, 0, 0), (1, 1, 1)) == codes(1.0, (0, wrong, 0), (1, 1, 1)) == ["inertial_not_finite"]
+    if np.isnan(wrong):
+        assert codes(-1.0, (0, 0, 0), (1, 1, wrong)) == ["inertial_not_finite"]
+
+
+@pytest.mark.parametrize("scale", [1e-12, 1.0, 1e9])
+def test_masses_and_moments_are_positive_and_no_moment_exceeds_the_sum_of_the_others(scale):
+    assert codes(0.0, (0, 0, 0), (1, 1, 1)) == codes(-2.0, (0, 0, 0), (1, 1, 1)) == ["inertial_mass_not_positive"]
+    for tensor, said in (
+        ((1.0, 1.0, 1.0), []),
+        ((1.0, 1.0, 2.0), []),
+        ((1.0, 1.0, 2.0 + 1e-9), ["inertial_triangle_slightly"]),
+        ((1.0, 1.0, 2.0 * 1.0009), ["inertial_triangle_slightly"]),
+        ((1.0, 1.0, 2.0 * 1.0011), ["inertial_triangle"]),
+        ((0.0, 1.0, 1.0), ["inertial_not_positive"]),
+        ((-0.1, 1.0, 1.0), ["inertial_not_positive"]),
+        ((0.0, 0.0, 0.0), ["inertial_not_positive"]),
+    ):
+        for turn in (np.eye(3), bodies.rotation(5)):
+            tensor = np.array(tensor)
+            if turn[0, 0] != 1.0 and not tensor.all():
+                continue  # zero to rounding
+            assert codes(scale, (0, 0, 0), scale * np.diag(tensor), rotation=turn) == said
+    (found,) = impossible(StatedInertial(1.0, np.zeros(3), np.diag([1.0, 1.0, 3.0])), None)
+    assert found.values["moments"] == [1.0, 1.0, 3.0] and close(found.values["excess"], 0.5, 1e-12)
+    (found,) = impossible(StatedInertial(1.0, np.zeros(3), np.diag([-0.5, 1.0, 3.0])), None)
+    assert found.values["moment"] == -0.5
+
+
+@pytest.mark.parametrize("size", [1e-3, 1.0, 1e3])
+@pytest.mark.parametrize("turn", [np.eye(3), bodies.rotation(8)])
+def test_the_center_lies_in_the_hull_and_the_mass_spreads_no_further(size, turn):
+    hull, mass = Hull(size * CUBE @ turn.T), 3.0
+    solid = mass * size**2 * np.full(3, 2.0 / 3.0)
+
+    def said(center, tensor):
+        return codes(mass, size * turn @ center, turn @ np.diag(tensor) @ turn.T, hull)
+
+    assert said(np.array([1.0, 0.0, 0.0]) * 0.5, solid * 0.5) == []
+    step = hull.size / size * 1e-3
+    assert said(np.array([1.0 + 0.8 * step, 0, 0]), solid * 1e-6) == []
+    assert said(np.array([1.0 + 1.2 * step, 0, 0]), solid * 1e-6) == ["inertial_center_outside"]
+    assert said(np.zeros(3), solid) == []
+    corners = mass * size**2 * np.full(3, 2.0)  # all mass in the corners: variance 1 along each axis, which is the most
+    assert said(np.zeros(3), corners) == []
+    assert said(np.zeros(3), corners * 1.1) == ["inertial_spread_outside"]
+    long = mass * size**2 * np.array([0.02, 1.1, 1.1])
+    (found,) = impossible(StatedInertial(mass, np.zeros(3), turn @ np.diag(long) @ turn.T), hull)
+    assert found.code == "inertial_spread_outside" and close(found.values["factor"], 1.09, 0.01)
+    assert abs(np.array(found.values["direction"]) @ turn[:, 0]) > 0.99
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_the_distance_from_scattered_points_is_no_more_than_that_of_the_nearest(seed):
+    """Of a ball it is that of the ball, but for the gaps between its points."""
+    draw = np.random.default_rng(seed)
+    points = draw.normal(size=(4000, 3))
+    points /= np.linalg.norm(points, axis=1)[:, None]
+    hull = Hull(points * [1.0, 1.0, (1.0, 1e-3, 0.0, 5.0)[seed]])
+    for point in draw.normal(size=(20, 3)) * [2.0, 2.0, (2.0, 2e-3, 1e-3, 9.0)[seed]]:
+        found = hull.distance(point)
+        assert found <= (1.0 + 1e-12) * np.linalg.norm(hull.points - point, axis=1).min()
+        if seed == 0:
+            assert abs(found - max(np.linalg.norm(point) - 1.0, 0.0)) < 0.01
+    corner = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 0.0]])
+    assert close(Hull(corner).distance(np.array([0.25, 0.25, -0.5])), 0.5, 1e-12)
+    assert close(Hull(corner[1:2]).distance(np.zeros(3)), 1.0, 1e-12)
