@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import argparse
 import importlib.util
+import io
 import os
 import platform
 import statistics
@@ -148,13 +149,18 @@ def beside(name: str) -> ModuleType:
     return module
 
 
-def hide_reports() -> None:
-    """Let Blender's own lines go nowhere, between whose reports no table could be read; ours go where they went.
+class Tables(io.TextIOWrapper):
+    """An output without Blender's reports, between whose lines no table could be read."""
 
-    Not around each call: what Blender prints into a pipe or a file waits in a buffer, and comes out later.
-    """
+    def write(self, text: str) -> int:
+        """Write what is no report: the bpy module prints those through Python."""
+        return len(text) if text.startswith(("Info: ", "Warning: ")) else super().write(text)
+
+
+def hide_reports() -> None:
+    """Print tables only, and let what Blender itself prints go nowhere: in a pipe or a file it would come out later."""
     sys.stdout.flush()
-    sys.stdout = open(os.dup(1), "w", encoding=sys.stdout.encoding, buffering=1)  # noqa: SIM115
+    sys.stdout = Tables(os.fdopen(os.dup(1), "wb"), encoding=sys.stdout.encoding, line_buffering=True)
     nowhere = os.open(os.devnull, os.O_WRONLY)
     os.dup2(nowhere, 1)
     os.close(nowhere)

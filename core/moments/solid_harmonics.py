@@ -23,19 +23,24 @@ Multiplets = dict[tuple[int, int], NDArray[np.complex128]]
 
 
 def harmonic_moments(raw: NDArray, order: int) -> Multiplets:
-    """{(n, l): (2l+1,)} ∫ r^(n-l) conj(r^l Y_lm) for m = -l..l and every l ≤ n ≤ order with n-l even.
+    """{(n, l): (2l+1, …)} ∫ r^(n-l) conj(r^l Y_lm) for m = -l..l and every l ≤ n ≤ order with n-l even.
 
-    raw: moments to that order about the point that the harmonics are about.
+    raw: (K, …) moments to that order about the point that the harmonics are about.
     """
     result = {}
     for j in range(order // 2 + 1):
         for l in range(order - 2 * j + 1):
             block = raw[monomial_count(l - 1) : monomial_count(l)]
-            half = np.add.reduce(_solid(l).conj() * block, axis=1)  # m = 0..l
+            half = np.add.reduce(along_first(_solid(l).conj(), block) * block, axis=1)  # m = 0..l
             result[l + 2 * j, l] = with_negative_orders(half)
         if order - 2 * j >= 2:
             raw = raw[_square_product_indices(order - 2 * j)].sum(axis=0)  # ∫ r² f for each monomial f two orders lower
     return result
+
+
+def along_first(table: NDArray, values: NDArray) -> NDArray:
+    """A table with an axis more for each one of the values but the first: to be multiplied by them."""
+    return table.reshape(*table.shape, *[1] * (values.ndim - 1))
 
 
 def with_negative_orders(half: NDArray[np.complex128]) -> NDArray[np.complex128]:
@@ -45,12 +50,13 @@ def with_negative_orders(half: NDArray[np.complex128]) -> NDArray[np.complex128]
     return np.concatenate([half[:0:-1].conj() * sign, half])
 
 
-def couple(a: NDArray, b: NDArray, c: NDArray) -> float:
-    """The scalar made of three multiplets: Σ (l l' l''; m m' m'') a_m b_m' c_m''. A reflection changes its sign where
-    l + l' + l'' is odd."""
+def couple(a: NDArray, b: NDArray, c: NDArray) -> NDArray[np.float64]:
+    """(…) the scalar made of three multiplets (2l+1, …): Σ (l l' l''; m m' m'') a_m b_m' c_m''. A reflection changes
+    its sign where l + l' + l'' is odd."""
     l, k, n = ((len(multiplet) - 1) // 2 for multiplet in (a, b, c))
-    value = np.einsum("ijk,i,j,k->", _three_j(l, k, n), a, b, c)
-    return float(value.imag if (l + k + n) % 2 else value.real)
+    symbols, (i, j, m) = _nonzero_three_j(l, k, n)
+    value = np.add.reduce(along_first(symbols, a) * a[i] * b[j] * c[m])
+    return value.imag if (l + k + n) % 2 else value.real
 
 
 @lru_cache
@@ -87,6 +93,12 @@ def _square_product_indices(order: int) -> NDArray[np.int64]:
 
 
 @lru_cache(maxsize=256)
+def _nonzero_three_j(a: int, b: int, c: int) -> tuple[NDArray[np.float64], tuple[NDArray[np.intp], ...]]:
+    """Those of Wigner's 3j symbols that are not zero, and where they stand."""
+    table = _three_j(a, b, c)
+    return table[table != 0.0], np.nonzero(table)
+
+
 def _three_j(a: int, b: int, c: int) -> NDArray[np.float64]:
     """(2a+1, 2b+1, 2c+1) Wigner's 3j symbols, by Racah's sum."""
     table = np.zeros((2 * a + 1, 2 * b + 1, 2 * c + 1))

@@ -25,7 +25,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..moments.moments import Measure, Moments, monomials
-from ..moments.solid_harmonics import couple, harmonic_moments
+from ..moments.solid_harmonics import along_first, couple, harmonic_moments
+from ..numerics.arrays import PerBody
 from ..verdict.finding import FileError
 from . import flat_couplings
 from .zernike import (
@@ -188,21 +189,60 @@ def signature(moments: Moments, radius: float, zernike: Multiplets | None = None
     >>> round(signature(volume, radius).size, 6)
     0.33541
     """
-    total, order = moments.total, min(moments.order, MAX_ORDER_BY_MOMENTS)
-    size = sqrt(moments.second().trace() / total)
-    degree = monomials(moments.order).sum(axis=1)
+    size = sqrt(moments.second().trace() / moments.total)
+    return Signature(size, *_numbers(moments.raw, moments, size, radius, zernike))
+
+
+def signatures(moments: Moments, radius: NDArray[np.float64]) -> list[Signature]:
+    """Return the signatures of a stack of shapes: as `signature` of each, to rounding.
+
+    Parameters
+    ----------
+    moments : Moments
+        With a leading axis.
+    radius : (n,) array
+        Of the balls.
+
+    Returns
+    -------
+    list of Signature
+
+    Examples
+    --------
+    >>> from body_moments.core import Surface, polyhedron_moments
+    >>> from body_moments.core.moments.moments import stack_moments
+    >>> from body_moments.core.shape.signature import signatures
+    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    >>> volume = polyhedron_moments(surface, 12)[0].about_center()
+    >>> [round(found.size, 6) for found in signatures(stack_moments([volume, volume]), np.array([0.9, 0.9]))]
+    [0.33541, 0.33541]
+    """
+    raw = np.ascontiguousarray(moments.raw.T)
+    size = np.sqrt(np.trace(moments.second(), axis1=-2, axis2=-1) / raw[0])
+    *arrays, error = _numbers(raw, moments, size, radius)
+    of_each = [np.ascontiguousarray(array.T) for array in arrays]
+    return [Signature(*numbers) for numbers in zip(size.tolist(), *of_each, error.tolist())]
+
+
+def _numbers(
+    raw: NDArray, moments: Moments, size: PerBody, radius: PerBody, zernike: Multiplets | None = None
+) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], PerBody]:
+    """Invariants, descriptors, power, chirality and error of a signature, with a last axis where there are several
+    bodies. raw: the moments, (K, …)."""
+    total, order = raw[0], min(moments.order, MAX_ORDER_BY_MOMENTS)
+    degree = along_first(monomials(moments.order).sum(axis=1), raw)
     low = len(monomials(INVARIANT_ORDER))
-    harmonic = harmonic_moments((moments.raw / size**degree / total)[:low] * sqrt(4.0 * pi), INVARIANT_ORDER)
+    harmonic = harmonic_moments((raw / size**degree / total)[:low] * sqrt(4.0 * pi), INVARIANT_ORDER)
     error = 0.0
     if zernike is None:
         dimension = 3 if moments.measure != Measure.AREA else 2
-        scaled = moments.raw / radius ** (degree + dimension)
+        scaled = raw / radius ** (degree + dimension)
         zernike, error = zernike_moments(scaled, order), descriptor_error(scaled, order)
-    power = np.empty(0)
+    power = np.empty((0, *raw.shape[1:]))
     if moments.measure == Measure.VOLUME:
         volume = zernike[0, 0].real[0] * 4.0 * pi / 3.0
         power = radial_power(zernike, FREQUENCIES)[0] / volume**2
-    return Signature(size, _invariants(harmonic), descriptors(zernike), power, _chirality(harmonic), error)
+    return _invariants(harmonic), descriptors(zernike), power, _chirality(harmonic), error
 
 
 def similarity(a: Signature, b: Signature) -> Likeness:
@@ -259,7 +299,7 @@ def _relative_difference(a: NDArray, b: NDArray) -> float:
 
 def _invariants(harmonic: Multiplets) -> NDArray[np.float64]:
     scalars = [harmonic[n, 0].real[0] for n in (4, 6)]
-    products = [np.vdot(harmonic[a], harmonic[b]).real for a, b in _pairs()]
+    products = [np.add.reduce((harmonic[a].conj() * harmonic[b]).real) for a, b in _pairs()]
     triples = [couple(*(harmonic[key] for key in triple)) for triple in _even_triples()]
     return np.array(scalars + products + triples)
 

@@ -29,7 +29,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..moments.moments import U
-from ..moments.solid_harmonics import Multiplets, harmonic_moments, with_negative_orders
+from ..moments.solid_harmonics import Multiplets, along_first, harmonic_moments, with_negative_orders
 from ..numerics.quadrature import triangle_rule
 
 MAX_ORDER_BY_MOMENTS = 20  # the highest order that raw moments in float64 give
@@ -40,7 +40,8 @@ QUADRATURE_RTOL = 1e-13  # of a triangle's integral, as its quadrature is chosen
 
 
 def zernike_moments(raw: NDArray, order: int) -> Multiplets:
-    """{(n, l): (2l+1,)} Ω_nlm, m = -l..l, of a body in the unit ball about the origin, from its raw moments there."""
+    """{(n, l): (2l+1, …)} Ω_nlm, m = -l..l, of a body in the unit ball about the origin, from its raw moments there,
+    (K, …)."""
     harmonic = harmonic_moments(raw, order)
     return {
         (n, l): sqrt(3.0 / (4.0 * pi))
@@ -49,17 +50,17 @@ def zernike_moments(raw: NDArray, order: int) -> Multiplets:
     }
 
 
-def descriptor_error(raw: NDArray, order: int) -> float:
-    """An estimate of the error of the descriptors that raw moments accurate to a few roundings give: what changes when
-    each moment is moved by such an amount, at random but always the same."""
-    moved = raw * (1.0 + 8.0 * U * np.random.default_rng(0).uniform(-1.0, 1.0, len(raw)))
+def descriptor_error(raw: NDArray, order: int) -> NDArray[np.float64]:
+    """(…) an estimate of the error of the descriptors that raw moments (K, …) accurate to a few roundings give: what
+    changes when each moment is moved by such an amount, at random but always the same."""
+    moved = raw * along_first(1.0 + 8.0 * U * np.random.default_rng(0).uniform(-1.0, 1.0, len(raw)), raw)
     before, after = (descriptors(zernike_moments(raw_moments, order)) for raw_moments in (raw, moved))
-    return float(np.abs(after - before).max())
+    return np.abs(after - before).max(axis=0)
 
 
 def descriptors(moments: Multiplets) -> NDArray[np.float64]:
-    """‖Ω_nl‖ in the order of `degrees`."""
-    return np.array([np.linalg.norm(multiplet) for _, multiplet in sorted(moments.items())], np.float64)
+    """(D, …) ‖Ω_nl‖ in the order of `degrees`."""
+    return np.array([np.linalg.norm(multiplet, axis=0) for _, multiplet in sorted(moments.items())], np.float64)
 
 
 def degrees(order: int) -> list[tuple[int, int]]:
@@ -146,27 +147,27 @@ def _jacobi(beta: float, x: NDArray) -> Iterator[NDArray[np.float64]]:
 
 
 def radial_power(moments: Multiplets, wave_numbers: NDArray) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """The mean of |F(q)|² over all directions of q, F(q) = ∫ exp(-i q·x) dV, and a bound of what the orders that are
-    left out may change.
+    """(k, …) the mean of |F(q)|² over all directions of q, F(q) = ∫ exp(-i q·x) dV, and a bound of what the orders that
+    are left out may change.
 
-    moments: of a body in the unit ball. wave_numbers: (k,) |q|, in units of the ball's inverse radius.
+    moments: of a body in the unit ball, (2l+1, …). wave_numbers: (k,) |q|, in units of the ball's inverse radius.
     """
-    order = max(n for n, _ in moments)
+    order, first = max(n for n, _ in moments), moments[0, 0]
     bessel = _spherical_bessel(np.asarray(wave_numbers, np.float64), order + 40)  # j_{n+1}(q)/q
-    power = np.zeros(bessel.shape[1])
+    power = np.zeros((bessel.shape[1], *first.shape[1:]))
     for l in range(order + 1):
         amplitude = sum(
-            (-1.0) ** ((n - l) // 2) * sqrt(2 * n + 3) * bessel[n] * moments[n, l][:, None]
+            (-1.0) ** ((n - l) // 2) * sqrt(2 * n + 3) * along_first(bessel[n], first) * moments[n, l][:, None]
             for n in range(l, order + 1, 2)
         )
         power += (np.abs(amplitude) ** 2).sum(axis=0)
     # Parseval: the sum of all |Ω|² is 3/4π times the volume, and by Cauchy and Schwarz the rest of each amplitude is
     # at most the norms' product.
-    volume = float(moments[0, 0].real[0]) * 4.0 * pi / 3.0
-    known = sum(float((np.abs(multiplet) ** 2).sum()) for multiplet in moments.values())
-    missing = max(3.0 / (4.0 * pi) * volume - known, 0.0)
+    volume = first.real[0] * 4.0 * pi / 3.0
+    known = sum((np.abs(multiplet) ** 2).sum(axis=0) for multiplet in moments.values())
+    missing = np.maximum(3.0 / (4.0 * pi) * volume - known, 0.0)
     n = np.arange(order + 1, len(bessel))[:, None]
-    tail = ((2 * n + 3) * bessel[order + 1 :] ** 2).sum(axis=0) * missing
+    tail = along_first(((2 * n + 3) * bessel[order + 1 :] ** 2).sum(axis=0), first) * missing
     scale = (4.0 * pi) ** 2 / 3.0
     return scale * power, scale * (2.0 * np.sqrt(power * tail) + tail)
 

@@ -7,9 +7,10 @@ It has no volume and no thickness; a shell is a sheet, a body that may be turned
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cached_property, partial
+from typing import TypeVar
 
 import bpy
 import numpy as np
@@ -171,18 +172,31 @@ def flat_shape_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, unit: f
     return shape
 
 
+BodyShape = TypeVar("BodyShape")
+
+
 def comparable_shape_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, flat: bool = False) -> Shape | FlatShape:
     """Return an object's shape: of its body, or where it has none of what is flat.
 
     flat: whether it is to be compared with a flat shape, and a sheet is looked at as one too. Raises MeasureError.
     """
+    return body_or_flat(obj, depsgraph, partial(surface_shape_of, depsgraph=depsgraph), flat)
+
+
+def body_or_flat(
+    obj: bpy.types.Object,
+    depsgraph: bpy.types.Depsgraph,
+    of_body: Callable[[bpy.types.Object], BodyShape],
+    flat: bool = False,
+) -> BodyShape | FlatShape:
+    """As `comparable_shape_of`, by a function that finds the shape of an object's body, or raises MeasureError."""
     try:
         if flat and obj.type in SECTION_TYPES:
             return flat_shape_of(obj, depsgraph)
     except MeasureError:
         pass
     try:
-        return surface_shape_of(obj, depsgraph)
+        return of_body(obj)
     except MeasureError as refusal:
         if flat or obj.type not in SECTION_TYPES or refusal.finding.code not in NO_BODY:
             raise

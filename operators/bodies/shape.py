@@ -35,7 +35,7 @@ from ...core.verdict.finding import ReadError
 from ...core.verdict.method import Source, Verdict
 from ..settings.options import MeasureOptions
 from .body import Body, with_input_error
-from .measure_object import THREADS, measure_body
+from .measure_object import THREADS, Measured, measure_body
 
 # of the size: between them single precision mistakes the distances of thin triangles
 EXACT_DISTANCE, NEAR_DISTANCE = 1e-5, 1e-2
@@ -203,9 +203,17 @@ class NoShapeError(ReadError):
         self.measurement = measurement
 
 
+SURFACE_OPTIONS = MeasureOptions(threads=THREADS, axes=False, pose=True)  # for what only a surface's shape is asked of
+
+
 def surface_shape_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> Shape:
     """As `shape_of`, of bodies with polygons only, in threads."""
-    shape = shape_of(obj, depsgraph, MeasureOptions(threads=THREADS, axes=False))
+    return surface_shape(measure_body(obj, depsgraph, SURFACE_OPTIONS), SURFACE_OPTIONS)
+
+
+def surface_shape(measured: Measured, options: MeasureOptions) -> Shape:
+    """The shape of what was measured, which has to have polygons."""
+    shape = shape_of_measured(measured, options)
     if not shape.has_surface:
         raise NoShapeError("signature_needs_polygons", shape.measurement)
     return shape
@@ -213,7 +221,12 @@ def surface_shape_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> S
 
 def shape_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, options: MeasureOptions | None = None) -> Shape:
     """Measure an object for its shape. Raises MeasureError, and of these NoShapeError where it has none."""
-    measured = measure_body(obj, depsgraph, replace(options or MeasureOptions(), pose=True))
+    options = replace(options or MeasureOptions(), pose=True)
+    return shape_of_measured(measure_body(obj, depsgraph, options), options)
+
+
+def shape_of_measured(measured: Measured, options: MeasureOptions) -> Shape:
+    """The shape of what was measured with these options. Raises NoShapeError where it has none."""
     measurement, body = measured.measurement, measured.body
     if body.mass is not None and not body.has_surface:
         raise NoShapeError("shape_of_grid", measurement)
@@ -221,7 +234,7 @@ def shape_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, options: Mea
         raise NoShapeError("shape_of_wire_or_wall", measurement)
     if measurement.method.verdict == Verdict.OPEN:
         raise NoShapeError("shape_of_open_surface", measurement)
-    shape = Shape(measurement, body, options.threads if options else 1)
+    shape = Shape(measurement, body, options.threads)
     if np.finfo(np.float64).eps * np.abs(shape.center).max() > EXACT_DISTANCE * shape.size:
         raise NoShapeError("shape_far_from_origin", measurement)
     return shape

@@ -53,6 +53,7 @@ benchmark.hide_reports()
 print("row 1")
 ctypes.CDLL(None).puts(b"Info: Measured") if os.name != "nt" else os.write(1, b"Info: Measured")
 os.write(1, b"Info: Measured")
+sys.stdout.write("Info: Measured 1 of 1 objects\\n")
 print("row 2")
 """
     command = [sys.executable, "-c", code, str(TESTS / "benchmark.py")]

@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Generator, Iterator
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 import bpy
@@ -21,8 +22,9 @@ from ....core.shape.library import UNDECIDED_HANDEDNESS, Entry, Similarity, clas
 from ....core.shape.registration import MAX_FIT_RTOL, RigidMatch
 from ....core.shape.signature import Likeness, Signature, similarity
 from ....core.verdict.finding import FileError, Finding, MeasureError, finding, system_reason
-from ...bodies.flat_shape import FlatShape, comparable_shape_of, distance_from
-from ...bodies.shape import register_surfaces
+from ...bodies.flat_shape import FlatShape, body_or_flat, comparable_shape_of, distance_from
+from ...bodies.shape import register_surfaces, surface_shape_of
+from ...bodies.stack_signature import signed_in_turn
 from ...read import measurable_objects
 from ...session import outcome
 from ...write import reports
@@ -155,13 +157,20 @@ class OBJECT_OT_body_moments_find_similar(ModalSteps, _SearchMixin, Operator):
         wanted = self.wanted
         if wanted is None:
             return
-        active_shape, skin = self.shape, None
+        active_shape, skin, depsgraph = self.shape, None, context.evaluated_depsgraph_get()
+        flat = isinstance(active_shape, FlatShape)
+        of_body = (
+            partial(surface_shape_of, depsgraph=depsgraph)
+            if flat
+            else signed_in_turn(self._others, depsgraph, DESCRIPTOR_ORDER)
+        )
 
         def compare(obj: Object) -> Iterator[float]:
             nonlocal skin
-            shape = comparable_shape_of(obj, context.evaluated_depsgraph_get(), isinstance(active_shape, FlatShape))
+            shape = body_or_flat(obj, depsgraph, of_body, flat)
             yield 0.3
-            entry = Entry(obj.name_full, "", shape.signature(DESCRIPTOR_ORDER))
+            signature = shape if isinstance(shape, Signature) else shape.signature(DESCRIPTOR_ORDER)
+            entry = Entry(obj.name_full, "", signature)
             likeness = similarity(wanted, entry.signature)
             if classify(likeness) in UNDECIDED_HANDEDNESS:
                 yield 0.6
@@ -169,6 +178,8 @@ class OBJECT_OT_body_moments_find_similar(ModalSteps, _SearchMixin, Operator):
                     skin = distance_from(active_shape)
                     for _ in skin.build():
                         yield 0.6
+                if isinstance(shape, Signature):
+                    shape = surface_shape_of(obj, depsgraph)
                 skin_compared = distance_from(shape)
                 yield from (0.6 + 0.3 * share for share in skin_compared.build())
                 self._mirror_images[entry] = _is_mirror_image(

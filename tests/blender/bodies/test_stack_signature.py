@@ -1,0 +1,81 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The signatures of objects that are measured together are those of each by itself."""
+
+import numpy as np
+import pytest
+
+bpy = pytest.importorskip("bpy")
+from body_moments.core.shape.signature import Signature, similarity
+from body_moments.core.verdict.finding import MeasureError
+from body_moments.operators.bodies import stack_signature
+from body_moments.operators.bodies.shape import surface_shape_of
+from body_moments.operators.bodies.stack_signature import signed_in_turn
+
+from tests.blender.bodies.test_many import KINDS, shards
+from tests.close import close
+
+pytestmark = pytest.mark.usefixtures("scene")
+ORDER = 12
+# By itself a body is measured as its matrix of float32 numbers maps it, which turns and scales it to rounding.
+MATRIX_RTOL = 2e-6
+
+
+def refusal_or(function, *arguments):
+    """What a function returns, or the code of what it raises."""
+    try:
+        return function(*arguments)
+    except MeasureError as error:
+        return error.finding.code
+
+
+@pytest.mark.parametrize("unit", [1.0, 1e-3])
+def test_signatures_found_together_are_those_found_alone(unit):
+    bpy.context.scene.unit_settings.scale_length = unit
+    objects = shards()
+    depsgraph = bpy.context.evaluated_depsgraph_get()
+    signed = signed_in_turn(objects, depsgraph, ORDER)
+    together, mirrored = 0, 0
+    for obj in objects:
+        found, alone = refusal_or(signed, obj), refusal_or(surface_shape_of, obj, depsgraph)
+        if isinstance(alone, str) or isinstance(found, str):
+            assert found == alone, obj.name
+            continue
+        wanted = alone.signature(ORDER)
+        if not isinstance(found, Signature):  # measured by itself
+            found = found.signature(ORDER)
+        else:
+            together += 1
+            mirrored += obj.matrix_world.determinant() < 0.0
+        assert close(found.size, wanted.size, MATRIX_RTOL), obj.name
+        near = MATRIX_RTOL * np.abs(wanted.zernike).max()
+        assert np.abs(found.zernike - wanted.zernike).max() < near, obj.name
+        assert np.abs(found.fourier - wanted.fourier).max() < MATRIX_RTOL
+        for name in ("invariants", "chirality"):
+            one, other = getattr(found, name), getattr(wanted, name)
+            assert np.abs(one - other).max() < MATRIX_RTOL * max(1.0, np.abs(other).max()), obj.name
+        likeness = similarity(wanted, found)
+        assert likeness.distance() < MATRIX_RTOL and likeness.is_mirror_image in (False, None), obj.name
+    assert together > len(objects) / 2 and mirrored > len(KINDS) / 2
+
+
+def test_an_object_that_shows_the_mesh_of_another_shares_its_signature(monkeypatch):
+    asked = []
+    found = stack_signature.signatures
+    monkeypatch.setattr(
+        stack_signature, "signatures", lambda volume, radius: asked.append(len(radius)) or found(volume, radius)
+    )
+    mesh = bpy.data.meshes.new("Wedge")
+    mesh.from_pydata(
+        [(0, 0, 0), (1, 0.2, 0), (0.3, 2, 0.1), (0.2, 0.4, 3)], [], [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
+    )
+    wedges = [bpy.data.objects.new("Wedge", mesh) for _ in range(6)]
+    for i, wedge in enumerate(wedges):
+        bpy.context.scene.collection.objects.link(wedge)
+        wedge.scale = (1 + i, 1 + i, -1 - i if i % 2 else 1 + i)
+    bpy.context.view_layer.update()
+    signed = signed_in_turn(wedges, bpy.context.evaluated_depsgraph_get(), ORDER)
+    signatures = [signed(wedge) for wedge in wedges]
+    assert asked == [1]
+    assert close([found.size / signatures[0].size for found in signatures], np.arange(1.0, 7.0), 1e-6)
+    assert [np.sign(found.chirality @ signatures[0].chirality) for found in signatures] == [1, -1, 1, -1, 1, -1]
