@@ -32,7 +32,8 @@ from ..write.documents import FORMATS, ROBOT_FORMATS, failed_document
 from ..write.file_lock import Busy, beside, locked
 from ..write.terminal import PROGRAM, print_message
 from . import interruption, output, own_results, targets
-from .arguments import DEFAULT_TIMEOUT, as_record, fail, of_numbers
+from .arguments import as_record, fail, of_numbers
+from .measure_parser import DEFAULT_TIMEOUT
 
 _ROOT = (__package__ or "").removesuffix(".operators.command")
 _STEP = 0.2  # seconds
