@@ -9,8 +9,8 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.edges import Edges, find_edges
-from ..mesh.surface import normals
+from ..mesh.edges import Edges, face_of_each, find_edges
+from ..mesh.surface import Surface, normals
 from ..mesh.welding import same_vertices_groups
 from ..numerics.graph import connected_components
 from ..verdict.finding import Finding, finding
@@ -53,6 +53,18 @@ def drop_duplicate_faces(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
         return mesh
     mesh = replace(mesh.with_rows(np.flatnonzero(~left_out)), topology_changed=True)
     return mesh.with_state(edges=find_edges(mesh.triangles))
+
+
+def copied_faces(surface: Surface) -> NDArray[np.integer]:
+    """(k,) the mesh faces on the same vertices as an earlier one, sorted.
+
+    Two faces on the same vertices are closed by their edges, so neither proof nor repair has to look for them; of a
+    solid they bound nothing, but a sheet has their area twice.
+    """
+    quad_faces, triangle_faces = face_of_each(surface)
+    triangles = np.concatenate([surface.quads[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3), surface.triangles])
+    face = np.concatenate([np.repeat(quad_faces, 2), triangle_faces])
+    return np.unique(face[same_vertices_groups(triangles, face) != face])
 
 
 def is_duplicated(group: NDArray[np.integer], face: NDArray[np.integer]) -> NDArray[np.bool_]:

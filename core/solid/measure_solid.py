@@ -12,8 +12,13 @@ reference point, and called open.
 
 from __future__ import annotations
 
+from dataclasses import replace
+
+import numpy as np
+
 from ..mesh.surface import Surface
 from ..verdict.method import Verdict
+from .duplicate_faces import copied_faces
 from .orientation import OrientedSolid, orient_components
 from .repair import repair_surface
 from .self_intersection import find_self_intersection
@@ -70,5 +75,13 @@ def measure_solid(surface: Surface, *, shell: bool = False, threads: int = 1) ->
 
 
 def _judge(checked: CheckedSurface, given: GivenIntegrals, oriented: OrientedSolid, shell: bool) -> SolidIntegrals:
-    """The verdict; a sheet may go through itself."""
-    return judge(checked, given, oriented, None if shell else find_self_intersection(checked, given, oriented))
+    """The verdict. A sheet may go through itself, and every copy of a face has its area."""
+    if not shell:
+        return judge(checked, given, oriented, find_self_intersection(checked, given, oriented))
+    solid = judge(checked, given, oriented, None)
+    found = solid.health.defective_elements
+    copies = np.union1d(found.duplicate_faces, copied_faces(checked.surface))
+    if len(copies) == len(found.duplicate_faces):
+        return solid
+    defects = replace(found, duplicate_faces=copies)
+    return replace(solid, health=replace(solid.health, duplicate_faces=len(copies), defective_elements=defects))

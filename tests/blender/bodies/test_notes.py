@@ -49,6 +49,18 @@ def test_duplicate_faces_of_shells(side, ending):
 
 
 @SIDES
+@pytest.mark.parametrize("corners", [(0, 1, 2, 3), (3, 2, 1, 0), (2, 3, 0, 1), (0, 1, 2)])
+def test_a_face_twice_over_the_same_vertices_of_a_shell(side, ending, corners):
+    """Each of the two is the other's neighbor at every edge: by its edges alone the mesh is closed."""
+    points = [(3, 0, 0), (3 + side, 0, 0), (3 + side, side, 0), (3, side, 0)]
+    part = add(UNIT, {"points": points, "faces": [tuple(sorted(corners)), corners]})
+    part.body_moments.kind = "SHELL"
+    found = measure(part)
+    assert said(found)["duplicate_faces_of_shell" + ending] == {"count": 1}
+    assert found.health.duplicate_faces == 1
+
+
+@SIDES
 @pytest.mark.parametrize("copies", [1, 2])
 def test_components_of_several_materials(side, ending, copies):
     bits = [small(side, (3 + i, 0, 0)) for i in range(copies)]
