@@ -252,3 +252,10 @@ def test_flaws_of_random_regions_are_those_that_winding_numbers_show(size):
         found = find_defects(points, edges)
         assert (found.overlapping or found.crossings > 0) == seen[-1]
     assert 20 < sum(seen) < 80
+
+
+@pytest.mark.parametrize("way", [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)])
+def test_edges_that_enclose_nothing_have_no_defects(way):
+    points = np.outer([0.0, 1.0, 3.0], way) + 5.0
+    found = find_defects(points, np.array([[0, 1], [1, 2], [2, 0]]))
+    assert not found.crossings and not found.too_many_pairs

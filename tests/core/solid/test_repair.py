@@ -198,6 +198,13 @@ def test_closed_parts_are_those_that_hang_together():
         assert close(parts.areas(2.0 * np.eye(3)), 4.0 * parts.areas(), 1e-12)
 
 
+@pytest.mark.parametrize("height, is_solid", [(1e-3, True), (1e-9, True), (1e-12, True), (2e-13, True), (1e-15, False)])
+def test_a_closed_plate_is_a_solid_unless_rounding_alone_can_have_left_its_volume(height, is_solid):
+    *_, oriented = staged((CUBE[0] * [1.0, 1.0, height], CUBE[1]))
+    assert oriented.is_solid == is_solid
+    assert not is_solid or close(oriented.volume.total, height, 1e-3)
+
+
 PROVED = SelfIntersection(Intersection.EXCLUDED)
 
 
