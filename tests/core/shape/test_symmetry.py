@@ -36,6 +36,13 @@ def test_what_is_round_to_sixth_order_gets_the_folds_that_its_corners_have(name)
     assert on_geometry(image, found).group == exact
 
 
+@pytest.mark.parametrize("power", [-20, 20])
+def test_the_folds_of_corners_have_no_unit(power):
+    part = shapes.prism(12)
+    small = np.ldexp(part[0], power), part[1]
+    assert on_geometry(small, symmetry(moments(small, 6)), np.ldexp(1e-6, power)).group == "D12h"
+
+
 def test_with_a_tolerance_above_its_facets_a_prism_is_round():
     part = shapes.prism(80)
     found = symmetry(moments(part, 6))
