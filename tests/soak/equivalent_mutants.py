@@ -30,6 +30,9 @@ PATTERNS = [
     (r".*polyhedron/third_order.py integrate", r"room.*|count.*", r".*", "how much is computed at a time"),
     (r".*nurbs/patch_topology.py _overlapping_sides", r"0", r"1", "each of the two runs as the other does"),
     (r".*density/threshold.py threshold_body", r"2", r"3", "a reference point near the middle"),
+    (r"panels/.*", r".*\balign=True.*", r"((?!align=).)*", "whether the corners between two rows are round"),
+    (r"panels/bones.py BonesPanel.draw", r"True", r"False", "whether the corners between two rows are round"),
+    (r"panels/rows.py DEFAULT_WIDTH", r"\d+", r"\d+", "a pixel of a panel whose width is not known"),
     (r".*cad/iges.py _Reader._pieces", r"1", r"2", "how soon a boundary of more pieces than any has is given up"),
 ]
 # functions that make bounds of errors, where a constant factor twice as large gives a bound still

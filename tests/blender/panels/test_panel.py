@@ -718,3 +718,12 @@ def largest(obj):
     from body_moments.operators.session import walls
 
     return walls.max_thickness(obj)
+
+
+def test_the_list_names_objects_without_numbers():
+    from body_moments.panels.selection import BODY_MOMENTS_UL_measured
+
+    obj = add(mesh_body(), "Not yet")
+    layout = Layout()
+    BODY_MOMENTS_UL_measured.draw_item(None, bpy.context, layout, None, obj, 0, None, "", 0)
+    assert labels(layout.record) == ["Not yet"]

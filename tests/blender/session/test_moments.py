@@ -269,3 +269,30 @@ def test_moments_of_what_undo_took_back_are_out_of_date(box):
     bpy.context.view_layer.update()
     assert moments_table.computed_moments(obj).volume.total == pytest.approx(48.0)
     assert moments_table.stale_reason(obj, bpy.context.scene) == "stale_geometry"
+
+
+@pytest.mark.parametrize(
+    ("of", "about", "units"),
+    [
+        ("VOLUME", "ORIGIN", ["m³", "m⁴", "m⁵", "m¹³"]),
+        ("SURFACE", "CENTER", ["m²", "m³", "m⁴", "m¹²"]),
+        ("MASS", "REFERENCE", ["kg", "kg·m", "kg·m²", "kg·m¹⁰"]),
+        ("MASS", "NORMALIZED", ["", "", "", ""]),
+        ("VOLUME", "INVARIANT", ["", "", "", ""]),
+    ],
+)
+def test_units_of_all_degrees(of, about, units):
+    from body_moments.operators.session import moments as moments_table
+
+    assert [moments_table.unit(of, about, degree) for degree in (0, 1, 2, 10)] == units
+
+
+@pytest.mark.parametrize(
+    ("of", "words"), [("VOLUME", "scaled to a volume of 1"), ("MASS", "scaled to a mass and a radius of gyration of 1")]
+)
+def test_the_comment_of_normalized_moments_names_their_scale(box, of, words):
+    from body_moments.operators.session import moments as moments_table
+
+    compute()
+    text = moments_table.as_csv(moments_table.computed_moments(box), of, "NORMALIZED", "OBJECT")
+    assert words in text.splitlines()[0]

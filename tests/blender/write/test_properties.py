@@ -94,3 +94,13 @@ def test_a_library_override_is_refused_and_left_as_it_is(tmp_path):
         with pytest.raises(EditRefusedError) as refused:
             properties.store(obj, numbers)
         assert refused.value.finding.code == code and "body_mass" not in obj
+
+
+@pytest.mark.parametrize("source", ["OBJECT", "POLYNOMIAL"])
+def test_where_a_density_that_varies_comes_from_is_stored(source):
+    box = files.add_box()
+    if source == "POLYNOMIAL":
+        box.body_moments.density_from, box.body_moments.density_polynomial = source, "1000 + z"
+    found = measured(box)
+    properties.store(box, found)
+    assert box.get("body_density_from") == (None if source == "OBJECT" else str(found.density_from))
