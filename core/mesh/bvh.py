@@ -11,6 +11,7 @@ once, in bounded pieces of work.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -82,7 +83,7 @@ def radix_argsort(values: NDArray[np.integer]) -> NDArray[np.intp]:
 class Bvh:
     """One bounding-volume tree for each wanted shell: perfect binary trees over triangles in Morton order.
 
-    vertex_columns: (3, n) the vertices about `origin`; ids: (m, 3) the vertices of the sorted triangles; bottom, top:
+    vertex_columns: (3, n) the vertices about `origin`; ids: (3, m) the vertices of the sorted triangles; bottom, top:
     (3, m) their boxes.
     root: (c,) the root of each shell's tree. A node's first child is `child`, -1 for leaves; the second one follows.
     A leaf holds triangles `first` to `last`. low, high: (n, 3) boxes; of an empty node they are inverted.
@@ -117,7 +118,7 @@ class Bvh:
                 code[triangle_rows] |= spread_bits(cell.astype(np.int64)) << k
         order = radix_argsort(code)
         order = order[radix_argsort(component[order])]
-        self.ids, component = ids[order], component[order]
+        self.ids, component = ids[order].T.astype(np.intp, order="C"), component[order]
         self.bottom, self.top = low[:, order], high[:, order]
         return component
 
@@ -155,8 +156,15 @@ class Bvh:
             self.high[node] = np.maximum(self.high[child], self.high[child + 1])
 
     def corners(self, triangle: NDArray[np.intp]) -> NDArray[np.float64]:
-        """(3, k, 3) the corners of sorted triangles, about `origin`."""
-        return np.stack([column[self.ids[triangle].T] for column in self.vertex_columns], axis=-1)
+        """(3, 3, k) the coordinates, about `origin`, of the corners of sorted triangles."""
+        return self.vertex_columns.take(self.ids.take(triangle, axis=1), axis=1)
+
+    @cached_property
+    def _shadows(self) -> NDArray[np.float64]:
+        """(5, n) the heights of the nodes' boxes, and the least and largest of what `_across` is in them."""
+        (*low, bottom), (*high, top) = self.low.T, self.high.T
+        sides = [(below - slope * top, above - slope * bottom) for below, above, slope in zip(low, high, RAY_SLOPES)]
+        return np.stack([top, *sides[0], *sides[1]])
 
     def winding_numbers(
         self, query_points: NDArray[np.float64], component: NDArray[np.intp], tolerance: float
@@ -165,10 +173,8 @@ class Bvh:
         the place is nearer than `tolerance` to the surface along the ray, or where the work ran out."""
         winding = np.zeros(len(query_points), np.intp)
         sure = np.ones(len(query_points), bool)
-        u, v = (
-            query_points[:, 0] - RAY_SLOPES[0] * query_points[:, 2],
-            query_points[:, 1] - RAY_SLOPES[1] * query_points[:, 2],
-        )
+        query = np.ascontiguousarray(query_points.T)
+        height, (u, v) = query[2] - tolerance, _across(query)
         pieces = _batches(np.arange(len(query_points)), self.root[component])
         work = 0
         while pieces:
@@ -178,44 +184,43 @@ class Bvh:
                 for rest, _ in [*pieces, (place, node)]:
                     sure[rest] = False
                 break
-            low, high = self.low[node], self.high[node]
-            hit = high[:, 2] >= query_points[place, 2] - tolerance
-            for k, (at, slope) in enumerate(((u, RAY_SLOPES[0]), (v, RAY_SLOPES[1]))):
-                hit &= (low[:, k] - slope * high[:, 2] <= at[place]) & (high[:, k] - slope * low[:, 2] >= at[place])
+            top, left, right, front, back = self._shadows.take(node, axis=1)
+            x, y = u.take(place), v.take(place)
+            hit = (top >= height.take(place)) & (left <= x) & (right >= x) & (front <= y) & (back >= y)
             place, node = place[hit], node[hit]
-            child = self.child[node]
+            child = self.child.take(node)
             leaf = child < 0
             if leaf.any():
                 for at, leaves in _batches(place[leaf], node[leaf], size=PAIRS_PER_BATCH // TRIANGLES_PER_LEAF):
-                    self._count_crossings(query_points, at, leaves, tolerance, winding, sure)
+                    self._count_crossings(query, at, leaves, tolerance, winding, sure)
             place, child = place[~leaf], child[~leaf]
             pieces += _batches(np.concatenate([place, place]), np.concatenate([child, child + 1]))
         return winding, sure
 
     def _count_crossings(
-        self, query_points: NDArray, place: NDArray, leaf: NDArray, tolerance: float, winding: NDArray, sure: NDArray
+        self, query: NDArray, place: NDArray, leaf: NDArray, tolerance: float, winding: NDArray, sure: NDArray
     ) -> None:
-        """Add the crossings of the rays with the triangles of leaves."""
-        size = self.last[leaf] - self.first[leaf]
-        triangle = np.repeat(self.first[leaf], size) + segment_ranges(size)
-        place = np.repeat(place, size)
-        corner = self.corners(triangle) - query_points[place]
-        u = corner[..., 0] - RAY_SLOPES[0] * corner[..., 2]
-        v = corner[..., 1] - RAY_SLOPES[1] * corner[..., 2]
-        ids = self.ids[triangle]
-        edge, positive = np.empty((3, len(triangle))), np.empty((3, len(triangle)), bool)
+        """Add the crossings of the rays with the triangles of leaves. query: (3, k) where the rays start."""
+        first = self.first.take(leaf)
+        size = self.last.take(leaf) - first
+        triangle, place = np.repeat(first, size) + segment_ranges(size), np.repeat(place, size)
+        corner = self.corners(triangle)
+        corner -= query.take(place, axis=1)[:, None]
+        u, v = _across(corner)
+        ids = self.ids.take(triangle, axis=1)
+        edge, positive = np.empty(ids.shape), np.empty(ids.shape, bool)
         for k in range(3):
             i, j = (k + 1) % 3, (k + 2) % 3
             # Judged from the edge's lower vertex, so that both its triangles see one number; zero counts as positive.
-            back = ids[:, i] > ids[:, j]
+            back = ids[i] > ids[j]
             area = np.where(back, u[j] * v[i] - u[i] * v[j], u[i] * v[j] - u[j] * v[i])
             edge[k] = np.where(back, -area, area)
             positive[k] = (area >= 0.0) ^ back
-        struck = (positive[0] == positive[1]) & (positive[1] == positive[2])
-        place, edge, positive, corner = place[struck], edge[:, struck], positive[0, struck], corner[:, struck]
+        struck = np.flatnonzero((positive[0] == positive[1]) & (positive[1] == positive[2]))
+        place, edge, positive, heights = place[struck], edge[:, struck], positive[0, struck], corner[2][:, struck]
         total = edge.sum(axis=0)
         flat = total == 0.0
-        height = np.einsum("kj,kj->j", edge, corner[..., 2]) / np.where(flat, 1.0, total)
+        height = np.einsum("kj,kj->j", edge, heights) / np.where(flat, 1.0, total)
         sure[place[flat | (np.abs(height) <= tolerance)]] = False
         above = height > 0.0
         np.add.at(winding, place[above], np.where(positive[above], 1, -1))
@@ -243,7 +248,7 @@ class Bvh:
                 size = self.last[node[leaf]] - self.first[node[leaf]]
                 triangle = np.repeat(self.first[node[leaf]], size) + segment_ranges(size)
                 at = np.repeat(place[leaf], size)
-                corners = self.corners(triangle).transpose(1, 0, 2)
+                corners = self.corners(triangle).transpose(2, 1, 0)
                 np.minimum.at(nearest, at, triangle_distances(query_points[at], corners))
             place, child = place[~leaf], child[~leaf]
             pieces += _batches(np.concatenate([place, place]), np.concatenate([child, child + 1]))
@@ -305,10 +310,10 @@ def _intersect_leaves(
         meet &= (low[first] <= high[second]) & (low[second] <= high[first])
     first, second, pair = first[meet], second[meet], pair[meet]
     if vertex is not None:
-        mine, theirs = vertex[tree.ids[first].T], vertex[tree.ids[second].T]
+        mine, theirs = vertex[tree.ids[:, first]], vertex[tree.ids[:, second]]
         apart = np.logical_and.reduce([x != y for x in mine for y in theirs])
         first, second, pair = first[apart], second[apart], pair[apart]
-    corner, plane = tree.corners(first), tree.corners(second)
+    corner, plane = (tree.corners(triangle).transpose(1, 2, 0) for triangle in (first, second))
     for _ in range(2):
         intersects[pair[_edges_cross_triangles(corner, plane, tolerance)]] = True
         corner, plane = plane, corner
@@ -343,6 +348,11 @@ def _edges_cross_triangles(
         over = [np.abs(rise + part * (fall - rise)) for part in (first, last)]  # of what is over the partner, both ends
         depth = np.maximum(depth, np.minimum.reduce([within, *over]))
     return at[depth > tolerance]
+
+
+def _across(places: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Where the rays through places, (3, ...), meet the plane z = 0."""
+    return places[0] - RAY_SLOPES[0] * places[2], places[1] - RAY_SLOPES[1] * places[2]
 
 
 def _batches(*arrays: NDArray, size: int = PAIRS_PER_BATCH) -> list[tuple[NDArray, ...]]:

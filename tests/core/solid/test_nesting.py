@@ -238,4 +238,4 @@ def test_a_part_without_extent_beside_others_is_no_trouble():
     """Its box has no size by which to order what is in it."""
     points, triangles = joined(OUTER, INNER, (np.zeros((3, 3)), np.array([[0, 1, 2]])))
     shells = sort_components(points, triangles, np.repeat([0, 1, 2], [12, 12, 1]), 3)
-    assert len(Bvh(points, shells, np.ones(3, bool)).ids) == 25
+    assert len(Bvh(points, shells, np.ones(3, bool)).ids.T) == 25
