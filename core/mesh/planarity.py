@@ -21,7 +21,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from ..numerics.arrays import segment_ranges, segment_starts
+from ..numerics.arrays import segment_ranges, segment_starts, sums_by_index
 from ..numerics.vectors import cross, dot
 from .edges import face_of_each
 from .surface import Surface
@@ -125,7 +125,7 @@ class PlanarityAccumulator:
             if surface.quad_faces is not None:
                 degenerate = surface.quad_faces[degenerate]
             non_planar_count, seen_volume = merged.non_planar_count + np.count_nonzero(volumes), merged.volume_ambiguity
-            total_volume = np.add.reduce(volumes)
+            total_volume = _sum_in_order(volumes)
         if len(surface.triangles):
             undecided_rows = _merge_blocks(self.triangles, len(surface.triangles)).undecided
             undecided_rows = undecided_rows[self._classify_rows(surface.triangles[undecided_rows], TRIANGLE)[1]]
@@ -137,7 +137,7 @@ class PlanarityAccumulator:
                 polygon, corners = self._polygon_tetrahedra(pieces)
                 volumes, _ = self._classify_rows(corners, QUAD)
                 non_planar_count += len(np.unique(polygon[volumes > 0.0]))
-                total_volume += np.add.reduce(volumes)
+                total_volume += _sum_in_order(volumes)
             degenerate = np.concatenate([degenerate, undecided_rows])
         volume_ambiguity = (seen_volume + float(np.ldexp(total_volume, 3 * self.exponent))) / 6.0
         return Planarity(int(non_planar_count), volume_ambiguity, np.sort(degenerate))
@@ -255,6 +255,11 @@ def _tetrahedra(
     row = np.repeat(np.arange(len(sizes)), steps)
     at = begin[row] + 2 + segment_ranges(steps)
     return row, np.stack([ring[begin[row]], ring[begin[row] + 1], ring[at], ring[at + 1]], axis=1)
+
+
+def _sum_in_order(volumes: NDArray[np.float64]) -> float:
+    """The sum, one after the other, as a stack's is: `np.add.reduce` would add in another order."""
+    return float(sums_by_index(np.zeros(len(volumes), np.intp), volumes, 1)[0])
 
 
 def _merge_blocks(blocks: dict[int, _PlanarityPartial], count: int) -> _PlanarityPartial:

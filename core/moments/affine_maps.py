@@ -16,6 +16,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
+from ..numerics.arrays import segment_ranges, segment_starts
 from .monomials import (
     count_of_degree,
     monomial_count,
@@ -133,11 +134,19 @@ def _raise_polynomials(table: NDArray, degree: int, forms: NDArray) -> NDArray[n
 
 
 @lru_cache
-def _cube_layout(order: int) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
-    """(K,) where each monomial stands in a flat table of all exponents up to `order`, and (n, n) the binomials."""
-    p, q, r = monomials(order).T
-    n = order + 1
-    return (p * n + q) * n + r, np.array([[float(math.comb(i, j)) for j in range(n)] for i in range(n)])
+def _terms(order: int) -> list[tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.float64], NDArray[np.intp]]]:
+    """The terms of all monomials, one after the other, once one of x, y, z is moved by t: (k,) the old monomial of each
+    term, the power of t, and the binomial; and (K,) where each monomial's terms begin."""
+    powers, tables = monomials(order), []
+    for axis in range(3):
+        count = powers[:, axis] + 1
+        target = np.repeat(np.arange(len(powers)), count)
+        old, raised = powers[target], powers[target, axis]
+        old[:, axis] = segment_ranges(count)
+        sources = monomial_index(*old.T)
+        binomials = np.array([float(math.comb(n, k)) for n, k in zip(raised.tolist(), old[:, axis].tolist())])
+        tables.append((sources, raised - old[:, axis], binomials, segment_starts(count)))
+    return tables
 
 
 def apply_translation(values: NDArray, order: int, offsets: NDArray) -> NDArray[np.float64]:
@@ -148,24 +157,16 @@ def apply_translation(values: NDArray, order: int, offsets: NDArray) -> NDArray[
         if moved.any():
             values[moved] = apply_translation(values[moved], order, offsets[moved])
         return values
-    lead, n = values.shape[:-1], order + 1
+    lead = values.shape[:-1]
     values, offsets = values.reshape(-1, values.shape[-1]), offsets.reshape(-1, 3)
-    positions, binomials = _cube_layout(order)
-    lag = np.subtract.outer(np.arange(n), np.arange(n))
-    for axis in range(3):
-        powers = np.multiply.accumulate(
-            np.concatenate([np.ones((len(values), 1)), np.repeat(offsets[:, axis, None], order, axis=1)], axis=1),
-            axis=1,
-        )
-        table = binomials * powers[:, np.maximum(lag, 0)]
-        cube = np.zeros((len(values), n**3))
-        cube[:, positions] = values  # what stands above `order` is no moment, and must not come back
-        cube = cube.reshape(-1, n, n, n).swapaxes(axis + 1, 1)
-        total = np.zeros(cube.shape)
+    for axis, (sources, lags, binomials, starts) in enumerate(_terms(order)):
+        powers = np.ones((len(values), order + 1))
+        powers[:, 1:] = offsets[:, axis, None]
+        powers = np.multiply.accumulate(powers, axis=1)
         with np.errstate(over="ignore", invalid="ignore"):
-            for i in range(n):  # one after the other, so that a stack's sums are those of each
-                total[:, i:] += table[:, i:, i, None, None] * cube[:, i, None]
-        values = total.swapaxes(1, axis + 1).reshape(len(values), -1)[:, positions]
+            terms = binomials * powers.take(lags, axis=1)
+            terms *= values.take(sources, axis=1)
+            values = np.add.reduceat(terms, starts, axis=1)
     return values.reshape(*lead, -1)
 
 

@@ -16,15 +16,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..mesh.surface_stack import Connections, SurfaceStack, TriangleStack
+from ..mesh.welding import may_have_neighbor
 from ..moments.moments import Moments, U, sum_moments
 from ..numerics.arrays import segment_starts
 from ..polyhedron.third_order import MAX_SMALL_TRIANGLES
 from ..polyhedron.third_order_small import small_moments
 from .boundary_loops import BoundaryLoops, find_loops, join_sides
 from .repaired_mesh import has_distinct_vertices
-
-# Points that are nearer to each other are so along it, too; no plane or axis of a usual body is across it.
-DIRECTION = 0.5477, 0.3163, 0.7746
 
 
 @dataclass(frozen=True, eq=False)
@@ -114,15 +112,17 @@ def cap_stack(
     owner, total = stack.point_owners, len(stack.points)
     leaving, arriving = np.bincount(start, minlength=total), np.bincount(stop, minlength=total)
     can &= np.logical_and.reduceat((leaving <= 1) & (leaving == arriving), stack.first_point)
-    can[_owners_of_near(stack.points[start], owner[start], tolerance)] = False
-    chosen = np.flatnonzero(can[owner])
-    can[_owners_of_near(stack.points[chosen], owner[chosen], np.zeros(len(can)))] = False
+    for chosen, reach in ((start, tolerance), (np.flatnonzero(can[owner]), np.zeros(len(can)))):
+        of = owner[chosen]
+        can[of[may_have_neighbor(stack.points[chosen], reach[of], of)]] = False
     onto = np.full(total, -1)
     onto[start] = stop
     following = stack.triangles[:, [1, 2, 0]]
     is_side = onto[stack.triangles] == following
     found = np.add.reduceat(np.add.reduce(is_side, axis=1, dtype=np.intp), stack.first_triangle)
-    can &= found == np.bincount(owner[start], minlength=len(can))  # diagonals may run along boundaries
+    sides = np.flatnonzero(np.repeat(can, 3 * stack.triangle_counts))
+    key = np.sort(stack.triangles.ravel()[sides] * total + following.ravel()[sides])
+    can[owner[key[1:][key[1:] == key[:-1]] // total]] = False  # diagonals may run along edges
     can &= found + stack.triangle_counts <= MAX_SMALL_TRIANGLES
     can &= np.logical_and.reduceat(has_distinct_vertices(stack.triangles), stack.first_triangle)
     side = np.flatnonzero(is_side)
@@ -139,16 +139,6 @@ def cap_stack(
             return _capped(stack, part, can, tolerance, (side // 3, start, stop), loops, of_loop)
         can[of_loop[bad]] = False
     return None
-
-
-def _owners_of_near(points: NDArray, owner: NDArray[np.intp], tolerance: NDArray) -> NDArray[np.intp]:
-    """The owners of points that may be as near to each other as its tolerance; certainly those of all that are."""
-    x, y, z = points.T.astype(np.float64)
-    along = x * DIRECTION[0] + y * DIRECTION[1] + z * DIRECTION[2]
-    order = np.lexsort((along, owner))
-    along, owner = along[order], owner[order]
-    near = (owner[1:] == owner[:-1]) & (np.diff(along) <= 1.01 * tolerance[owner[1:]])
-    return owner[1:][near]
 
 
 def _numbered_by_triangles(part: NDArray[np.intp]) -> NDArray[np.intp]:

@@ -189,7 +189,7 @@ class _Collector:
         content = surface.points.tobytes(), corners.tobytes(), surface.quads.tobytes()
         if content in self._by_content:
             return self._by_content[content]
-        if not np.isfinite(surface.box).all():
+        if not np.isfinite(surface.points).all():
             return None
         shape = self._by_content[content] = Shape(surface, len(mesh.polygons))
         self.shapes.append(shape)
