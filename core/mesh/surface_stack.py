@@ -11,7 +11,6 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from ..numerics.arrays import segment_starts
 from ..numerics.graph import connected_components
 from .surface import Surface, flipped_quads, indices_in_range
 
@@ -224,7 +223,7 @@ class SurfaceStack(TriangleStack):
         has_above, has_below = above >= 0, below >= 0
         linked = has_above & has_below
         above, below = above[linked], below[linked]
-        first_edge = segment_starts(self.edge_counts)
+        first_edge = np.cumsum(self.edge_counts) - self.edge_counts
         pairs = np.add.reduceat(linked, first_edge, dtype=np.intp)
         single = np.add.reduceat(has_above ^ has_below, first_edge, dtype=np.intp)
         oriented = fits & (2 * pairs + single == self.corner_counts)

@@ -25,8 +25,7 @@ from ..polyhedron.third_order import MAX_SMALL_TRIANGLES, MAX_UNSCALED_REACH
 from ..polyhedron.third_order_small import NEXT_AXIS, PREVIOUS_AXIS, small_moments
 from ..verdict.finding import Finding
 from ..verdict.health import NO_FACES, DefectiveElements, Intersection, MeshReport
-from ..verdict.method import Verdict
-from ..verdict.tolerances import MAX_COORDINATE, MIN_SIZE, WELDING_RTOL
+from ..verdict.tolerances import CLOSED_SHEET_VOLUME_RTOL, MAX_COORDINATE, MIN_SIZE, WELDING_RTOL
 from .capped_stack import StackCaps, cap_stack
 from .orientation import zero_volume
 from .self_intersection import MAX_UNSURE_LINES, measure_excess
@@ -53,6 +52,7 @@ class SolidStack:
     planarity : StackPlanarity
     intersection : (n,) array of Intersection
     component_counts : (n,) int
+    is_capped : (n,) bool
     caps : StackCaps, optional
         None where nothing was capped.
     triangles : TriangleStack
@@ -66,12 +66,9 @@ class SolidStack:
     planarity: StackPlanarity
     intersection: NDArray[np.object_]
     component_counts: NDArray[np.intp]
+    is_capped: NDArray[np.bool_]
     caps: StackCaps | None
     triangles: TriangleStack
-
-    def verdict(self, i: int) -> Verdict:
-        """How a measured one closes."""
-        return Verdict.EXACT if self.caps is None or not self.caps.is_capped[i] else Verdict.CAPPED
 
     def health(self, i: int) -> MeshReport:
         """What the surface of a measured one is like."""
@@ -83,7 +80,7 @@ class SolidStack:
             volume_spread=float(flat.volume_ambiguity[i]),
             self_intersection=self.intersection[i],
         )
-        if self.caps is None or not self.caps.is_capped[i]:
+        if self.caps is None or not self.is_capped[i]:
             return report
         edges = self.caps.edges_of(i)
         return replace(
@@ -97,7 +94,7 @@ class SolidStack:
     def findings(self, i: int) -> tuple[Finding, ...]:
         """What is to be reported of a measured one."""
         flat, found = self.planarity, []
-        if self.caps is not None and self.caps.is_capped[i]:
+        if self.caps is not None and self.is_capped[i]:
             share, total = self._cap_share(self.caps, i), float(self.volume.raw[i, 0])
             found.append(cap_finding(self.caps.edges_of(i), self.caps.counts[i], share, float(self.size[i]), total))
         if flat.volume_ambiguity[i]:
@@ -184,7 +181,9 @@ def measure_stack(surfaces: Sequence[Surface]) -> SolidStack:
     if caps is not None:
         capped, triangles, part, volume = caps.is_capped, caps.triangles, caps.part, caps.add_to(volume)
     is_measured = usable & (links.is_closed | capped)
-    none = np.maximum(zero_volume(size, area.raw[:, 0], capped, error), volume.rounding_error[:, 0])
+    none = np.maximum(CLOSED_SHEET_VOLUME_RTOL * size * area.raw[:, 0], volume.rounding_error[:, 0])
+    if caps is not None:
+        none = np.maximum(none, zero_volume(size, area.raw[:, 0], capped, error))
     is_measured &= volume.raw[:, 0] > none
     rows = np.flatnonzero(is_measured)
     is_measured[rows] = _are_physical(volume.at(rows), low[rows], high[rows], size[rows])
@@ -202,7 +201,9 @@ def measure_stack(surfaces: Sequence[Surface]) -> SolidStack:
         chosen = triangles.owned(rows)[1]
         intersection[rows] = _looked_for(triangles.some(rows), tolerance[rows], _renumbered(part[chosen]))
         is_measured[rows] = intersection[rows] == Intersection.NOT_FOUND
-    return SolidStack(is_measured, volume, area, size, planarity, intersection, links.component_counts, caps, triangles)
+    return SolidStack(
+        is_measured, volume, area, size, planarity, intersection, links.component_counts, capped, caps, triangles
+    )
 
 
 def _renumbered(labels: NDArray[np.intp]) -> NDArray[np.intp]:

@@ -109,7 +109,7 @@ def measure_shapes(shapes: list[Shape]) -> tuple[Moments, Moments] | None:
         volumes, areas = [solids.volume], [solids.area]
         for i in np.flatnonzero(solids.is_measured).tolist():
             small[i].row, small[i].solids, small[i].findings = i, solids, solids.findings(i)
-            small[i].method = METHODS[solids.verdict(i)]
+            small[i].method = METHODS[Verdict.CAPPED if solids.is_capped[i] else Verdict.EXACT]
     others = []
     for shape in shapes:
         if shape.solids is None:

@@ -1,0 +1,202 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Small solids measured together are those measured alone, to the bit, however they are broken."""
+
+import numpy as np
+import pytest
+from body_moments.core.mesh.surface import Surface
+from body_moments.core.mesh.welding import first_at_near_position, may_have_neighbor
+from body_moments.core.moments.affine_maps import apply_translation
+from body_moments.core.moments.monomials import monomial_count, monomials
+from body_moments.core.solid.measure_solid import measure_solid
+from body_moments.core.solid.solid_stack import can_be_stacked, measure_stack, small_moments_to_order
+from body_moments.core.verdict.method import Verdict
+
+from tests.core.bodies import mesh
+
+CORNERS = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], float)
+SIDES = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
+
+
+def prism(n, height):
+    angle = np.arange(n) * 2.0 * np.pi / n
+    points = np.concatenate([np.stack([np.cos(angle), np.sin(angle), np.full(n, z)], axis=1) for z in (0, height)])
+    sides = [[i, (i + 1) % n, n + (i + 1) % n, n + i] for i in range(n)]
+    return points, [list(range(n - 1, -1, -1)), list(range(n, 2 * n)), *sides]
+
+
+def lattice(n, m, noise, rng):
+    """A torus of quads."""
+    i, j = np.divmod(np.arange(n * m), m)
+    u, v = i * 2.0 * np.pi / n, j * 2.0 * np.pi / m
+    points = np.stack([(1 + 0.4 * np.cos(v)) * np.cos(u), (1 + 0.4 * np.cos(v)) * np.sin(u), 0.4 * np.sin(v)], axis=1)
+    corners = [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)]
+    faces = np.stack([a % n * m + b % m for a, b in corners], axis=1)
+    return points + noise * rng.normal(size=points.shape), faces.tolist()
+
+
+def whole(rng):
+    kind = rng.integers(4)
+    if kind == 0:
+        return CORNERS * rng.uniform(0.5, 2, 3), SIDES
+    if kind == 1:
+        return prism(int(rng.integers(3, 20)), rng.uniform(0.01, 3.0))
+    if kind == 2:
+        return lattice(*map(int, rng.integers(3, 9, 2)), 0.02 * rng.integers(2), rng)
+    return CORNERS + rng.uniform(-0.2, 0.2, (8, 3)), SIDES
+
+
+def broken(rng):
+    """A body with up to three faults."""
+    points, faces = whole(rng)
+    points, faces = points.copy(), [list(face) for face in faces]
+    for fault in rng.integers(0, 11, rng.integers(0, 4)):
+        face = int(rng.integers(len(faces)))
+        if fault < 4 and len(faces) > 2:
+            faces.pop(face)
+        elif fault == 4:
+            faces[face].reverse()
+        elif fault == 5:
+            faces.append(list(faces[face]))
+        elif fault == 6:  # a corner of its own, at the same place or near it
+            corner = int(rng.integers(len(faces[face])))
+            away = rng.normal(size=3) * 10.0 ** rng.uniform(-9, -3) * rng.integers(2)
+            points = np.concatenate([points, points[faces[face][corner]] + away[None]])
+            faces[face][corner] = len(points) - 1
+        elif fault == 7:  # two vertices become one
+            one, other = rng.integers(len(points), size=2).tolist()
+            faces = [[one if corner == other else corner for corner in each] for each in faces]
+            faces = [each for each in faces if len(set(each)) == len(each)]
+        elif fault == 8:
+            points[rng.integers(len(points))] += rng.normal(size=3) * rng.choice([1e-8, 1e-6, 1e-3, 0.3, 2.0])
+        elif fault == 9:
+            points = points * rng.choice([1e-6, 1e5]) + rng.normal(size=3)
+        else:
+            points[:, rng.integers(3)] *= 10.0 ** rng.uniform(-9, 0)
+        if not faces:
+            return whole(rng)
+    used, numbers = np.unique(np.concatenate(faces), return_inverse=True)
+    if rng.integers(10):  # else vertices of no face stay
+        rows = np.split(numbers.ravel(), np.cumsum([len(face) for face in faces])[:-1])
+        points, faces = points[used], [row.tolist() for row in rows]
+    return points, faces
+
+
+def body(rng):
+    parts = [broken(rng) for _ in range(1 + 2 * (rng.integers(3) == 0))]
+    apart = 6.0 * rng.integers(2)
+    first = np.cumsum([0, *(len(points) for points, _ in parts)])
+    points = np.concatenate([points + [apart * k, 0, 0] for k, (points, _) in enumerate(parts)])
+    faces = [[corner + int(start) for corner in face] for start, (_, own) in zip(first, parts) for face in own]
+    return mesh(points, faces, np.float32)
+
+
+def assert_alike(stack, i, surface):
+    alone, together = measure_solid(surface), stack.health(i)
+    assert alone.method is (Verdict.CAPPED if stack.is_capped[i] else Verdict.EXACT)
+    for one, other in ((alone.volume, stack.volume.at(i)), (alone.area, stack.area.at(i))):
+        for name in ("raw", "about", "rounding_error", "input_error"):
+            assert np.array_equal(getattr(one, name), getattr(other, name)), name
+    assert alone.health.as_record() == together.as_record()
+    one, other = alone.health.defective_elements, together.defective_elements
+    assert np.array_equal(one.boundary_edges, other.boundary_edges)
+    findings = [
+        [(found.code, found.values, np.asarray(found.elements).tolist()) for found in several]
+        for several in (alone.findings, stack.findings(i))
+    ]
+    assert findings[0] == findings[1]
+    higher = small_moments_to_order([alone], 6), stack.to_order(np.array([i]), 6)
+    assert np.array_equal(higher[0].raw, higher[1].raw) and np.array_equal(
+        higher[0].rounding_error, higher[1].rounding_error
+    )
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_whatever_is_measured_together_is_what_it_is_alone(seed):
+    rng = np.random.default_rng(seed)
+    surfaces = [surface for surface in (body(rng) for _ in range(250)) if can_be_stacked(surface)]
+    stack = measure_stack(surfaces)
+    measured = np.flatnonzero(stack.is_measured)
+    assert 20 < np.count_nonzero(stack.is_capped[measured]) < len(measured) - 20
+    for i in measured.tolist():
+        assert_alike(stack, i, surfaces[i])
+
+
+def open_box(points=CORNERS, faces=SIDES[:5]):
+    return mesh(points, [list(face) for face in faces], np.float32)
+
+
+def pinched():
+    """Two holes that share a vertex."""
+    points, faces = lattice(6, 6, 0.0, np.random.default_rng(0))
+    return mesh(points, [face for k, face in enumerate(faces) if k not in (0, 7)], np.float32)
+
+
+def cracked(width):
+    """The corner of one side of a box without lid, in another place."""
+    faces = [list(face) for face in SIDES[:5]]
+    faces[0][faces[0].index(0)] = 8
+    return open_box(np.concatenate([CORNERS, CORNERS[:1] - width]), faces)
+
+
+NOT_TOGETHER = {
+    "holes that share a vertex": pinched,
+    "vertices that a repair welds": lambda: cracked(3e-7),
+    "vertices at one place": lambda: cracked(0.0),
+    "a face that runs against the others": lambda: open_box(faces=[*SIDES[:4], SIDES[4][::-1]]),
+    "a face twice": lambda: open_box(faces=[*SIDES[:5], SIDES[4]]),
+    "inside out": lambda: open_box(faces=[side[::-1] for side in SIDES[:5]]),
+    "flat": lambda: open_box(CORNERS * [1, 1, 1e-9]),
+}
+
+
+@pytest.mark.parametrize("name", NOT_TOGETHER)
+def test_what_needs_more_than_caps_is_left_to_be_repaired(name):
+    whole_one = open_box()
+    stack = measure_stack([whole_one, NOT_TOGETHER[name](), whole_one])
+    assert stack.is_measured.tolist() == [True, False, True]
+    for i in (0, 2):
+        assert_alike(stack, i, whole_one)
+
+
+def test_a_diagonal_along_an_edge_is_left_to_be_repaired():
+    """The repair counts it with the edge's own sides."""
+    points = np.array([[0, 0, 0], [2, 0, 0.5], [2, 2, 0], [0, 2, 0.5], [1, 1, 2], [1, 1, 0.1]], float)
+    faces = [[3, 2, 1, 0], [0, 1, 4], [1, 2, 4], [3, 0, 4], [0, 2, 5], [2, 0, 4]]
+    surface = mesh(points, faces, np.float32)
+    cuts = surface.all_triangles()[0]
+    sides = np.stack([cuts, np.roll(cuts, -1, axis=1)], axis=2).reshape(-1, 2).tolist()
+    stack = measure_stack([surface])
+    assert len(sides) > len({tuple(side) for side in sides}) and not stack.is_measured[0]
+
+
+def test_only_points_that_stand_alone_have_no_neighbor():
+    rng = np.random.default_rng(5)
+    points = rng.uniform(-1, 1, (200, 3))
+    twins = points[:20] + 1e-4 * rng.normal(size=(20, 3)) / np.sqrt(3.0)
+    reach = np.linalg.norm(twins - points[:20], axis=1).max()
+    together = np.concatenate([points, twins])
+    may = may_have_neighbor(together, reach)
+    assert may[:20].all() and may[200:].all() and may.sum() < 100
+    owner = np.repeat([0, 1], [200, 20])
+    assert not may_have_neighbor(together, np.full(220, reach), owner)[200:].any()
+    first = first_at_near_position(together, np.full(220, reach))
+    assert first[200:].tolist() == list(range(20)) and first[:200].tolist() == list(range(200))
+
+
+@pytest.mark.parametrize("order", [3, 6, 9])
+def test_a_point_mass_is_moved_by_the_binomial_theorem(order):
+    rng = np.random.default_rng(order)
+    place, offset = rng.uniform(0.5, 2, (5, 3)), rng.uniform(0.5, 2, (5, 3))
+    offset[1] = 0.0
+    powers = monomials(order)
+    values, moved = (np.prod(where[:, None] ** powers, axis=2) for where in (place, place + offset))
+    found = apply_translation(values, order, offset)
+    assert values.shape == (5, monomial_count(order)) and np.array_equal(found[1], values[1])
+    assert (np.abs(found - moved) <= 1e-14 * order * moved).all()
+    for i in range(5):
+        assert np.array_equal(found[i], apply_translation(values[i], order, offset[i]))
+
+
+def test_an_empty_mesh_has_no_place_in_a_stack():
+    assert not can_be_stacked(Surface(np.zeros((0, 3), np.float32), np.zeros((0, 3), int)))
