@@ -162,8 +162,9 @@ class BoundaryLoops:
     planar_area: NDArray[np.float64]
     out_of_plane: NDArray[np.float64]
 
-    def has_area(self, tolerance: float) -> NDArray[np.bool_]:
-        """(l,) which loops are holes; the others are narrower than `tolerance` (length) and much longer than wide."""
+    def has_area(self, tolerance: float | NDArray[np.float64]) -> NDArray[np.bool_]:
+        """(l,) which loops are holes; the others are narrower than `tolerance` (length, of all or of each) and much
+        longer than wide."""
         return self.cone_area > self.perimeter * np.minimum(tolerance, MAX_GAP_ASPECT * self.perimeter)
 
 

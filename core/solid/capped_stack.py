@@ -193,7 +193,7 @@ def _capped(
         triangles,
         np.insert(part, after, cap_part),
         cap_counts,
-        np.stack(counts, axis=1),
+        np.stack(counts, axis=1).astype(np.float64),
         edges,
         np.bincount(body, minlength=count),
     )
