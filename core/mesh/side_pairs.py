@@ -101,7 +101,7 @@ def _pair(
     for number, start, stop in blocks():
         partner[_range(number)] = table.at(table.places(stop, start, factor))
     flat = faces.ravel()
-    rest = [(np.empty(0, np.int32), flat[:0], flat[:0])]
+    rest: list[tuple[NDArray[np.integer], ...]] = [(np.empty(0, np.int32), flat[:0], flat[:0])]
     for number, start, stop in blocks():
         apart = np.flatnonzero(partner.take(partner[_range(number)], mode="wrap") != number)
         if not len(apart):
