@@ -250,8 +250,7 @@ def _propagate_errors(moments: Moments, density: NDArray) -> tuple[dict[str, Per
     off[0] += U * raw[..., 0]
     bounds = np.abs(density) * off, np.where(is_bounded, center, np.inf), np.where(is_bounded, inertia, np.inf)
     columns = bounds if raw.ndim > 1 else [bound.tolist() for bound in bounds]
-    names: tuple[str, ...] = ("mass", "center", "inertia")
-    rounding, moved = (dict(zip(names, each)) for each in zip(*columns))
+    rounding, moved = (dict[str, PerBody](zip(("mass", "center", "inertia"), each)) for each in zip(*columns))
     return rounding, moved
 
 
