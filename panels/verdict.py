@@ -69,7 +69,7 @@ def verdict(layout: UILayout, context: Context, obj: Object, measured: bool) -> 
         code = LIVE[live.lag(obj)]
         rows.message(column, context, finding(code, milliseconds=1e3 * now.seconds), icon="REC")
         return
-    if now is not None and now.refusal != results.failure(obj):
+    if now is not None and now.refusal is not None and now.refusal != results.failure(obj):
         rows.message(column, context, now.refusal)
     rows.stale_row(column, context, staleness.stale_reason(obj, context.scene))
 
