@@ -1723,6 +1723,7 @@ MESSAGES: dict[str, Message] = {
     "orientation_created": _note("Created the transform orientation “{name}”"),
     "node_group_added": _note("Added the node group “{group}”"),
     "node_marker_added": _note("Added the node group “{group}” and the marker “{object}”"),
+    "node_marker_is_of_solid": _note("nodes take the object as a solid of one density"),
     "no_reversed_faces": _note("no faces were measured as reversed"),
     "faces_reversed": _note("Reversed {count} face", "Reversed {count} faces"),
     "material_set": _note("Set {count} object to {material}", "Set {count} objects to {material}"),

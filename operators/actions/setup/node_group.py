@@ -4,7 +4,8 @@
 add-on is not installed.
 
 Over the triangles (a, b, c), with corners relative to the middle of the bounding box, the volume is Σ a·(b×c) / 6 and
-the center of mass Σ a·(b×c) (a + b + c) / 4 over Σ a·(b×c). Nodes compute in single precision: five to six digits.
+the center of mass Σ a·(b×c) (a + b + c) / 4 over Σ a·(b×c). Both sums change their sign together in a mirrored object
+or one turned inside out: the volume is the magnitude. Nodes compute in single precision: five to six digits.
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ import bpy
 from bpy.props import BoolProperty
 from bpy.types import Context, GeometryNodeTree, Node, NodeSocket, Object, Operator
 
+from ....core.numerics.float32 import shortest_decimal
 from ....core.verdict.finding import finding
 from ...read import measurable
 from ...settings.density import object_density
@@ -22,7 +24,7 @@ from ...write import reports
 
 GROUP_NAME, MARKER_NAME = "Center of Mass", "Center of Mass Marker"
 KEY = "body_moments_nodes"  # ID property of our groups: the version of their nodes
-VERSION = 1
+VERSION = 2
 COLUMN = 180  # distance of two nodes
 MARKER_SHARE = 0.04  # radius of the marker beside the object's largest side
 
@@ -55,7 +57,11 @@ class OBJECT_OT_body_moments_add_nodes(Operator):
         obj = context.object
         if self.marker and obj is not None and measurable(obj):
             made = _add_marker(context, obj, group)
-            reports.report(self, finding("node_marker_added", group=group.name, object=made.name))
+            found = [finding("node_marker_added", group=group.name, object=made.name)]
+            settings = obj.body_moments
+            if (settings.kind, settings.mass_from, settings.density_from) != ("SOLID", "DENSITY", "VALUE"):
+                found.append(finding("node_marker_is_of_solid"))
+            reports.report(self, *found)
         else:
             reports.report(self, finding("node_group_added", group=group.name))
         return {"FINISHED"}
@@ -104,6 +110,7 @@ def center_of_mass_group() -> GeometryNodeTree:
     interface.new_socket("Geometry", in_out="INPUT", socket_type="NodeSocketGeometry")
     density = interface.new_socket("Density", in_out="INPUT", socket_type="NodeSocketFloat")
     density.default_value, density.min_value = 1000.0, 0.0
+    density.description = "Mass per cubic unit of the geometry"
     interface.new_socket("Center", in_out="OUTPUT", socket_type="NodeSocketVector")
     interface.new_socket("Volume", in_out="OUTPUT", socket_type="NodeSocketFloat")
     interface.new_socket("Mass", in_out="OUTPUT", socket_type="NodeSocketFloat")
@@ -144,8 +151,10 @@ def _build(make: _Builder) -> None:
     make.link(sixfold, inverse.inputs[1])
     relative = make.vector("SCALE", 11, 2, moment, scale=inverse.outputs["Value"])
     center = make.vector("ADD", 11.5, 2, relative.outputs["Vector"], middle.outputs["Vector"])
+    magnitude = make.node("ShaderNodeMath", 10.5, 0.5, operation="ABSOLUTE")
+    make.link(sixfold, magnitude.inputs[0])
     volume = make.node("ShaderNodeMath", 11, 0.5, operation="DIVIDE")
-    make.link(sixfold, volume.inputs[0])
+    make.link(magnitude.outputs["Value"], volume.inputs[0])
     volume.inputs[1].default_value = 6.0
     mass = make.node("ShaderNodeMath", 11.5, 0.5, operation="MULTIPLY")
     make.link(volume.outputs["Value"], mass.inputs[0])
@@ -180,7 +189,8 @@ def _add_marker(context: Context, obj: Object, group: GeometryNodeTree) -> Objec
     source = make.node("GeometryNodeObjectInfo", 1, transform_space="RELATIVE")
     source.inputs["Object"].default_value = obj
     nodes = make.node("GeometryNodeGroup", 2, node_tree=group)
-    nodes.inputs["Density"].default_value = object_density(obj.body_moments, context.scene)
+    unit = shortest_decimal(context.scene.unit_settings.scale_length)
+    nodes.inputs["Density"].default_value = object_density(obj.body_moments, context.scene) * unit**3
     make.link(source.outputs["Geometry"], nodes.inputs["Geometry"])
     ball = make.node("GeometryNodeMeshIcoSphere", 2, 1)
     ball.inputs["Radius"].default_value = MARKER_SHARE * max(obj.dimensions)

@@ -82,6 +82,7 @@ MESSAGES = {
     "orientation_created": ("Transformationsorientierung „{name}“ angelegt",),
     "node_group_added": ("Knotengruppe „{group}“ hinzugefügt",),
     "node_marker_added": ("Knotengruppe „{group}“ und Markierung „{object}“ hinzugefügt",),
+    "node_marker_is_of_solid": ("Knoten nehmen das Objekt als Körper einer Dichte",),
     "no_reversed_faces": ("keine Flächen wurden umgedreht gemessen",),
     "faces_reversed": ("{count} Fläche umgedreht", "{count} Flächen umgedreht"),
     "material_set": ("{count} Objekt auf {material} gesetzt", "{count} Objekte auf {material} gesetzt"),
