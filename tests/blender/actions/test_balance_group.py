@@ -125,6 +125,25 @@ def test_the_center_of_a_character_is_that_of_its_parts(scene):
         assert np.abs(center - truth.center).max() <= 1e-12 * 10.0
 
 
+def test_the_path_of_a_character_is_the_sum_of_its_parts(scene, monkeypatch):
+    """As it is before keys round it to single precision."""
+    from body_moments.core.inertia.mass_properties import combine
+    from body_moments.operators.session import balance_groups
+
+    rig, meshes = character()
+    kept, store = [], balance_groups.store
+    monkeypatch.setattr(balance_groups, "store", lambda *values: (kept.append(values[1]), store(*values)))
+    scene.frame_start, scene.frame_end = 1, 12
+    objects.only(rig)
+    assert bpy.ops.object.body_moments_balance_group() == {"FINISHED"}
+    (path,) = kept
+    size = np.ptp(path.centers, axis=0).max()
+    for frame, center in zip(path.frames, path.centers):
+        scene.frame_set(int(frame))
+        truth = combine([objects.measured(obj).mass_moments for obj in meshes])
+        assert np.abs(center - truth.center).max() <= 1e-12 * size
+
+
 def test_an_armature_stands_for_its_meshes(scene):
     rig, meshes = character()
     scene.frame_start, scene.frame_end = 1, 12
