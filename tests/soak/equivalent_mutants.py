@@ -19,11 +19,11 @@ NAMES = {
 # places ("module function"), and the mutant's text before and after it: the reason
 PATTERNS = [
     (r".*", r".*\*= -1\.0", r".*/= -1\.0", "times -1 is by -1"),
-    (r".*", r".*\bsort\(.*kind=.stable.*", r"((?!kind=).)*", "the order of equal ones, of which any may be first"),
+    (r".*", r".*sort\(.*kind=.stable.*", r"((?!kind=).)*", "the order of equal ones, of which any may be first"),
     (r".*triangle_kernel.py PhaseMeans._by_edges", r"np\.divide\(total.*", r".*", "where a value is stored"),
     (r".*offset/walls.py OffsetSolid.moments", r"inward\*\*degree / degree", r".*", "a looser bound"),
     (r".*", r".*copy=False.*", r"((?!copy=).)*", "a copy"),
-    (r".*", r".* > MAX_\w+", r".* >= MAX_\w+", "a limit of so many or one fewer"),
+    (r".*", r".* > MAX_\w+", r"\(.* >= MAX_\w+\)", "a limit of so many or one fewer"),
     (r"core/(polyhedron/any_order|moments/|plane/).*", r"1e-9", r"1\.0000000000000002e-06", "a looser bound"),
     (r".*statics/gradient.py .*", r"4", r"5", "of orders 0, 1 and 2 there are 1, 4 and 10 moments"),
     (r".*triangle_kernel.py _morton_code", r".*", r".*", "the order in which triangles are summed"),
@@ -33,7 +33,7 @@ PATTERNS = [
     (r"panels/.*", r".*\balign=True.*", r"((?!align=).)*", "whether the corners between two rows are round"),
     (r"panels/bones.py BonesPanel.draw", r"True", r"False", "whether the corners between two rows are round"),
     (r"panels/rows.py DEFAULT_WIDTH", r"\d+", r"\d+", "a pixel of a panel whose width is not known"),
-    (r".*cad/iges.py _Reader._pieces", r"1", r"2", "how soon a boundary of more pieces than any has is given up"),
+    (r".*cad/iges.py _Reader._pieces", r"[01]", r"[12]", "how soon a boundary of more pieces than any has is given up"),
 ]
 # functions that make bounds of errors, where a constant factor twice as large gives a bound still
 LOOSER = {

@@ -50,6 +50,8 @@ TESTS = {  # of a package, or of all in a part
 READERS = {  # tests that read the source, by what they look for in it
     re.compile(r"(finding|\w+Error|self\._damaged)\("): "tests/core/verdict/test_finding.py::"
     "test_every_value_that_a_message_needs_is_given",
+    re.compile(r"(True|False|\d[\d.]*(e-?\d+)?)$"): "tests/core/test_public_names.py::"
+    "test_what_is_left_out_in_a_call_means_what_it_meant",
 }
 LEFT_OUT = ("test_random_sessions.py",)  # what takes as long as it is given
 MISSED = ("passed", "no test")
@@ -286,8 +288,12 @@ class Project:
             names = names.union(*(tests for (path, _), tests in self.tests_of.items() if path == mutant.path))
         else:
             names |= self.tests_of.get((mutant.path, mutant.line), set())
+        files = {name.partition("::")[0] for name in names}
+        # of what is cached, the lines run in the first of a file's tests alone
+        others = {name for name in self.seconds if name.partition("::")[0] in files} - names
         chosen, total = [], 0.0
-        for name in sorted(names, key=lambda name: (near not in name, self.seconds[name], name)):
+        order = {name: (name in others, near not in name, self.seconds[name], name) for name in names | others}
+        for name in sorted(order, key=order.__getitem__):
             total += self.seconds[name]
             if total > MAX_SECONDS and chosen:
                 break
