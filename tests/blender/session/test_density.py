@@ -8,7 +8,9 @@ import pytest
 
 pytest.importorskip("bpy")
 import bpy
-from body_moments.operators.session import staleness
+from body_moments.operators.session import results, staleness
+from body_moments.operators.session.shown import shown_body
+from body_moments.operators.session.trust import Trust
 from body_moments.operators.write import properties
 
 from tests.blender.objects import add, measured, mesh_body, only
@@ -185,16 +187,36 @@ def test_a_density_that_varies_is_measured_again():
     assert reason(obj) is None
 
 
-def test_an_animated_density_puts_the_numbers_out_of_date():
-    obj = add(mesh_body())
-    measure(obj)
-    for frame, density in ((1, 1000.0), (11, 3000.0)):
-        obj.body_moments.density = density
-        obj.keyframe_insert("body_moments.density", frame=frame)
-    bpy.context.scene.frame_set(1)
+def by_keyframes(obj, name, values):
+    for frame, value in enumerate(values, start=1):
+        setattr(obj.body_moments, name, value)
+        obj.keyframe_insert("body_moments." + name, frame=frame)
+
+
+def by_driver(obj, name, values):
+    curve = obj.driver_add("body_moments." + name)
+    curve.driver.expression = "{!r} if frame < 2 else {!r}".format(*values)
+
+
+@pytest.mark.parametrize("change", [by_keyframes, by_driver])
+@pytest.mark.parametrize("mass_from, name", [("DENSITY", "density"), ("MASS", "mass")])
+def test_an_animated_or_driven_setting_puts_the_numbers_out_of_date(mass_from, name, change):
+    scene, obj, other = bpy.context.scene, add(mesh_body()), add(mesh_body(), "Other")
+    obj.body_moments.mass_from = mass_from
+    scene.frame_set(1)
+    change(obj, name, (1000.0, 3000.0))
+    scene.frame_set(1)
+    measure(obj, other)
     before = stored(obj)
-    bpy.context.scene.frame_set(6)
-    assert obj.body_moments.density > 1000.5 and reason(obj) == "stale_settings" and stored(obj) == before
+    scene.frame_set(2)
+    assert close(getattr(obj.body_moments, name), 3000.0, 1e-7)
+    assert reason(obj) == "stale_settings" and stored(obj) == before
+    assert shown_body(obj, scene).verdict == Trust.OUT_OF_DATE  # in the list and the panel
+    assert results.total(bpy.context).stale == (obj.name,)
+    other.body_moments.density = 2.0  # what is set beside it is followed as ever
+    assert reason(other) is None and reason(obj) == "stale_settings" and stored(obj) == before
+    scene.frame_set(1)
+    assert reason(obj) is None and shown_body(obj, scene).verdict == Trust.EXACT
 
 
 def test_zero_and_unheard_of_densities_leave_the_numbers():
