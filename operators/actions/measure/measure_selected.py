@@ -86,12 +86,11 @@ class OBJECT_OT_body_moments_measure(ModalSteps, bpy.types.Operator):
     def _begin(self, context: bpy.types.Context) -> int:
         """Start with the selected objects, in edit mode those being edited; how many there are."""
         copy_defaults(context.scene)
-        objects = list(context.selected_objects)
+        self._objects = objects = list(context.selected_objects)
         for obj in objects:
             self._change_settings(obj)
         self._results: list[tuple[bpy.types.Object, Measured | Stacked]] = []
-        self._refusals: list[tuple[bpy.types.Object, Finding]] = []
-        self._failures: list[Finding] = []
+        self._refusals: dict[bpy.types.Object, Finding] = {}
         self._steps = self._measure(objects, context.evaluated_depsgraph_get())
         return len(objects)
 
@@ -113,7 +112,7 @@ class OBJECT_OT_body_moments_measure(ModalSteps, bpy.types.Operator):
         for together in measure_many(objects, depsgraph):
             for obj, found in together:
                 if isinstance(found, Exception):
-                    self._refusals.append((obj, internal_error.finding_of(found)))
+                    self._refusals[obj] = internal_error.finding_of(found)
                 else:
                     self._results.append((obj, _with_default_density(obj, found, depsgraph.scene)))
             done += len(together)
@@ -121,16 +120,16 @@ class OBJECT_OT_body_moments_measure(ModalSteps, bpy.types.Operator):
 
     def _finish(self, context: bpy.types.Context) -> set[str]:
         """Nothing is stored before everything is measured, so that a canceled run leaves nothing behind."""
-        for obj, refusal in self._refusals:
-            self._failures.append(reports.failure(obj.name_full, refusal))
-            results.remember_failure(obj, refusal)
-        stored = []
+        stored, refusals = [], self._refusals.copy()
         for obj, refusal in results.store_many(self._results, context.scene):
             results.remember_failure(obj, None)
             if refusal is None:
                 stored.append(obj)
             else:
-                self._failures.append(reports.failure(obj.name_full, refusal))
+                refusals[obj] = refusal
+        for obj, refusal in self._refusals.items():
+            results.remember_failure(obj, refusal)
+        self._failures = [reports.failure(obj.name_full, refusals[obj]) for obj in self._objects if obj in refusals]
         shapes = {obj: found.shape_digest for obj, found in self._results if isinstance(found, Stacked)}
         mark_up_to_date(context, stored, shapes)
         self._report(len(stored))

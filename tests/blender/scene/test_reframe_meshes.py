@@ -170,3 +170,25 @@ def test_an_error_halfway_puts_all_back_and_each_is_tried_by_itself(operator, wh
     after_all = seen(objects)
     for obj in objects:
         assert np.abs(after_all[obj.name][0] - before[obj.name][0]).max() < 1e-3
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_changes_are_alike_as_all_pairs_say(seed):
+    rng = np.random.default_rng(seed)
+    count = int(rng.integers(1, 60))
+    kinds = rng.normal(size=(rng.integers(1, 8), 4, 4)) * 10.0 ** rng.uniform(-6, 6)
+    kinds[:, :3, 3] *= 10.0 ** rng.uniform(-3, 8)
+    reach, within = np.exp(rng.normal(size=(2, count)))
+    within *= 10.0 ** rng.uniform(-11, 1)
+    changes = kinds[rng.integers(len(kinds), size=count)]
+    if seed % 2:
+        changes += rng.normal(size=changes.shape) * within.mean() * 10.0 ** rng.uniform(-3, 1)
+    else:  # one entry, about as far as is allowed
+        changes[:, 0, 0] += rng.uniform(-1, 1, count) * within / reach
+    groups, left = [], list(range(count))
+    while left:
+        off = np.abs(changes[left] - changes[left[0]])
+        far = off[:, :3, :3].sum(axis=(1, 2)) * reach[left[0]] + off[:, :3, 3].max(axis=1)
+        groups.append([i for i, distance in zip(left, far) if distance <= within[left[0]] or i == left[0]])
+        left = [i for i in left if i not in groups[-1]]
+    assert reframe_meshes._alike(changes, reach, within.tolist()) == groups
