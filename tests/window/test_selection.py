@@ -1,9 +1,11 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The list of measured objects in the window: a click on a line selects, buttons copy and save, Live follows a drag."""
+"""The list of measured objects in the window: a click on a line selects, one on a column sorts, buttons copy and save,
+Live follows a drag."""
 
 import csv
 import io
+import json
 
 import pytest
 
@@ -38,6 +40,24 @@ for name in ("inertia", "density", "apply", "stability", "assembly", "advanced")
 """
 SELECTED = "sorted(obj.name for obj in bpy.context.selected_objects)"
 LINE_HEIGHT = 20  # pixels
+# Names in the order of their letters; by mass, C before B before A; B is repaired.
+THREE = (
+    SCENE.replace("Small", "A").replace("Open", "B").replace("Large", "C")
+    + """
+for cls in bpy.types.Panel.__subclasses__():
+    if cls.__name__ == "VIEW3D_PT_body_moments":
+        cls.draw = lambda self, context: None  # the rows above the list, which differ from object to object
+"""
+)
+FIRST_LINE, LINE_STEP = 172, 20.7  # pixels, the first above the button under the list, with its filters open
+FILTERS = {  # how far from the left of the sidebar and above that button
+    "opened": (31, 27),
+    "Name": (58, 31),
+    "Mass": (133, 31),
+    "Verdict": (209, 31),
+    "warnings first": (217, 54),
+    "reversed": (242, 54),
+}
 
 
 @pytest.fixture(scope="module")
@@ -96,3 +116,95 @@ def test_live_follows_a_drag_in_the_list_and_the_panel(listed):
     window.wait(f"abs({volume} - 27.0) < 1e-4")
     window.ask("bpy.ops.object.mode_set(mode='OBJECT')")
     assert window.get("bpy.data.objects['Large']['body_volume']") == pytest.approx(27.0, rel=1e-6)
+
+
+def center(window, operator):
+    """The middle of a button."""
+    x, y = window.place(operator)
+    inside = [down for down in range(-20, 21, 2) if window._button_at(x, y + down) == operator]
+    return x, y + (inside[0] + inside[-1]) / 2
+
+
+def click_filter(window, name, button):
+    right, above = FILTERS[name]
+    window.click(window.region("UI")[0] + right, button[1] + above)
+    window.redraw()
+
+
+def lines(window, button):
+    """The objects that clicks on the lines select, from top to bottom."""
+    found = []
+    for number in range(3):
+        window.click(button[0], button[1] + FIRST_LINE - number * LINE_STEP)
+        window.redraw()
+        (selected,) = window.get(SELECTED)
+        assert window.get("bpy.context.view_layer.objects.active.name") == selected
+        found.append(selected)
+    return "".join(found)
+
+
+@pytest.fixture(scope="module")
+def three(listed):
+    listed.ask(THREE)
+    listed.point_at_view()
+    listed.redraw()
+    return listed
+
+
+def test_columns_sort_and_warnings_come_first_on_request(three):
+    window, button_name = three, "object.body_moments_copy_csv"
+    window.ask("bpy.ops.object.select_all(action='DESELECT')\nbpy.data.objects['A'].select_set(True)")
+    window.redraw()
+    button = center(window, button_name)
+    click_filter(window, "opened", button)
+    window.buttons.clear()
+    button = center(window, button_name)
+    assert lines(window, button) == "ABC"
+    for column, order in (("Mass", "CBA"), ("Verdict", "BAC"), ("Name", "ABC")):
+        click_filter(window, column, button)
+        assert lines(window, button) == order, column
+        window.picture("list-by-" + column.lower())
+    click_filter(window, "reversed", button)
+    assert lines(window, button) == "CBA"
+    click_filter(window, "reversed", button)
+    window.ask("bpy.data.objects['C'].data.vertices[0].co.x -= 1.0\nbpy.data.objects['C'].data.update()")
+    window.redraw()
+    assert lines(window, button) == "ABC"
+    click_filter(window, "warnings first", button)
+    assert lines(window, button) == "CAB"
+    window.ask("bpy.ops.object.select_all(action='SELECT')")
+    window.redraw()
+    window.picture("list-warnings-first")
+    total = "__import__('sys').modules['bl_ext.user_default.body_moments.operators.session.results'].total(bpy.context)"
+    assert window.get(f"[{total}.count, {total}.stale, {total}.doubtful]") == [3, ["C"], []]
+
+
+@pytest.mark.parametrize("ending", ["csv", "json"])
+def test_the_numbers_are_saved_through_the_file_browser(three, ending, tmp_path):
+    window, path = three, tmp_path / f"numbers.{ending}"
+    window.ask(
+        "bpy.context.preferences.view.filebrowser_display_type = 'SCREEN'\nbpy.ops.object.select_all(action='SELECT')"
+    )
+    window.redraw()
+    window.press("object.body_moments_save_numbers")
+    window.wait("area.type == 'FILE_BROWSER' and area.spaces.active.params is not None")
+    window.ask(
+        f"params = area.spaces.active.params\nparams.directory = {str(tmp_path).encode()!r}\n"
+        f"params.filename = {path.name!r}"
+    )
+    window.redraw()
+    window.picture("list-save")
+    window.move(800, 500)
+    window.key("Return")
+    window.wait("area.type == 'VIEW_3D'")
+    window.wait(f"__import__('pathlib').Path({str(path)!r}).is_file()")
+    text = path.read_text(encoding="utf-8")
+    masses = {name: window.get(f"bpy.data.objects[{name!r}]['body_mass']") for name in "ABC"}
+    if ending == "csv":
+        saved = {row["name"]: float(row["mass"]) for row in csv.DictReader(io.StringIO(text))}
+    else:
+        document = json.loads(text)
+        saved = {entry["name"]: entry["mass"] for entry in document["objects"]}
+        assert document["total"]["mass"] == pytest.approx(sum(masses.values()), rel=1e-12)
+    assert saved == masses
+    assert "Traceback" not in window.output()
