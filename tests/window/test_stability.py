@@ -18,6 +18,11 @@ bpy.utils.register_class(panel)
 """
 SESSION = f"import sys\nstability = sys.modules['{PACKAGE}.operators.session.stability']\n"
 SUPPORT = SESSION + f"found = stability.support({CUBE})\nresult = [found.stands, found.margin, found.height]"
+STEP_ARROW = 286, 168  # pixels right of and below the pointer where F9 was pressed: the arrow at the end of the Step
+KEYS = (
+    "len(bpy.data.objects['Balance'].animation_data.action.layers[0].strips[0].channelbags[0].fcurves[0]"
+    ".keyframe_points)"
+)
 EMPTIES = "[obj.name for obj in bpy.context.scene.objects if 'body_balance_group' in obj]"
 
 
@@ -68,6 +73,27 @@ def test_a_balance_group_is_followed_after_its_dialog(window):
     window.wait(f"not {EMPTIES}")
     window.key("ctrl+shift+z")
     window.wait(EMPTIES)
+
+
+def test_its_redo_panel_changes_the_steps_of_the_path(window):
+    """Blender executes the same operator again, which had been modal."""
+    window.key("ctrl+z")
+    window.wait(f"not {EMPTIES}")
+    window.press("object.body_moments_balance_group")
+    window.key("Return")
+    window.wait(EMPTIES)
+    window.wait("bpy.context.scene.frame_current == 4")
+    assert window.get(KEYS) == 30
+    window.redraw()
+    window.move(500, 500)
+    window.key("F9")
+    window.redraw()
+    window.click(500 + STEP_ARROW[0], 500 - STEP_ARROW[1])
+    window.wait(f"{EMPTIES} and {KEYS} == 15")
+    window.redraw()
+    window.picture("balance-redo")
+    window.key("Escape")
+    assert "Traceback" not in window.output()
 
 
 def test_esc_ends_it_and_nothing_is_changed(window):

@@ -41,8 +41,8 @@ class OBJECT_OT_body_moments_balance_group(ModalSteps, Operator):
     bl_options = {"REGISTER", "UNDO"}
     PROGRESS = finding("progress_balance")
     CANCELED = finding("canceled_balance")
-    _assembly = None  # the collection, where its mass is given
-    _is_interactive = False  # whether it was called from the window, and not from a script
+    _assembly: Member | None = None  # the collection, where its mass is given
+    _is_interactive = False  # whether its dialog has just been confirmed; not in a script, nor from the redo panel
 
     collection: StringProperty(
         name="Collection",
@@ -112,10 +112,12 @@ class OBJECT_OT_body_moments_balance_group(ModalSteps, Operator):
             selection.report(self, reports.refusal(error))
             return {"CANCELLED"}
         if self._is_interactive:
+            self._is_interactive = False  # the redo panel executes this instance again, which must not become modal
             return self.start_modal(context, len(frames))
         return self.run_all_steps(context, len(frames))
 
     def _begin(self, context: Context) -> range:
+        self._assembly = None
         self._objects = self._members(context)
         self._feet = (
             [obj for obj in self._collection(self.contacts).all_objects if measurable(obj)] if self.contacts else []
