@@ -120,7 +120,8 @@ class OBJECT_OT_body_moments_measure(ModalSteps, bpy.types.Operator):
 
     def _finish(self, context: bpy.types.Context) -> set[str]:
         """Nothing is stored before everything is measured, so that a canceled run leaves nothing behind."""
-        stored, refusals = [], self._refusals.copy()
+        stored: list[bpy.types.Object] = []
+        refusals: dict[bpy.types.Object, Finding | Exception] = {**self._refusals}
         for obj, refusal in results.store_many(self._results, context.scene):
             results.remember_failure(obj, None)
             if refusal is None:
