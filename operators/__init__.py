@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Thin operators, one subject a file, and what they read Blender with and write to it.
+"""What stands between Blender and the core: operators, what reads objects, what writes results, the command line.
 
 Modules are imported when the add-on is registered: the command line uses some of them without
 registering any.

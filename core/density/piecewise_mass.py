@@ -3,7 +3,7 @@
 """Mass moments where each triangle has its own density: of solids by part, of sheets by face or by vertex.
 
 The moments of a triangle a, b, c have the generating function 1 / ((1 - a·t) (1 - b·t) (1 - c·t)) (Sheynin and Tuzikov,
-Pattern Recognition 34, 2001). With h_α its coefficients and n = |α|,
+Pattern Recognition Letters 22, 2001). With h_α its coefficients and n = |α|,
 
     ∫ x^α over the cone on it from the reference point = det α! h_α / (n+3)!
     ∫ x^α over the triangle itself                     = 2 area α! h_α / (n+2)!
@@ -80,7 +80,7 @@ def solid_mass_moments(points: NDArray, triangles: NDArray, density: NDArray, li
 
     Notes
     -----
-    Sheynin and Tuzikov, Pattern Recognition 34, 2001; see the module.
+    Sheynin and Tuzikov, Pattern Recognition Letters 22, 2001; see the module.
 
     Examples
     --------

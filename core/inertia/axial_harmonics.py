@@ -27,7 +27,7 @@ from ..numerics.vectors import cross, dot
 from .canonical_frame import MAX_ORDER, NOISE_LEVEL, EquivalentFrames, _lexicographic_maximum
 
 MAX_AXIAL_ORDER = 30
-MAX_TILT = 1e-2  # of an axis: about one that leans by more, the harmonics of a body are any
+MAX_TILT = 1e-2  # of an axis: about one that leans by more, the harmonics say nothing of the body
 TRIANGLES_PER_BLOCK = 1 << 13
 
 

@@ -20,7 +20,7 @@ from ..moments.moments import Moments
 from ..moments.monomials import monomial_count, monomial_index, monomials
 from ..verdict.finding import MeasureError
 from .canonical_frame import FLAT_EXTENT_RTOL, NOISE_GROWTH
-from .second_order import EQUAL_AXES, HALF_TURN_SIGNS, SYMMETRIES, SecondOrderFrames
+from .third_moment_frames import EQUAL_AXES, HALF_TURN_SIGNS, SYMMETRIES, ThirdMomentFrames
 
 THIRD = monomial_count(2)  # where the moments of third order begin
 # by whether p, q and r are odd: 0 where half turns change no sign, else which of p, q and r differs from the two others
@@ -29,28 +29,28 @@ ODD_KIND = np.array([[[0, 3], [2, 1]], [[1, 2], [3, 0]]])
 HALF_TURN_PARITY = np.array([[1.0, 1.0, -1.0, -1.0], [1.0, -1.0, 1.0, -1.0], [1.0, -1.0, -1.0, 1.0]])
 
 
-def choose_half_turns(moments: Moments, fixed: SecondOrderFrames, bodies: NDArray[np.intp]) -> NDArray[np.bool_]:
+def choose_half_turns(moments: Moments, fixed: ThirdMomentFrames, bodies: NDArray[np.intp]) -> NDArray[np.bool_]:
     """Choose, for bodies without axes of equal moments, the half turns of their axes that `canonical_frames` chooses.
 
     Parameters
     ----------
     moments : Moments
         Of n bodies, to sixth order.
-    fixed : SecondOrderFrames
+    fixed : ThirdMomentFrames
     bodies : (n,) int
         Which of those they are.
 
     Returns
     -------
     (n, 4) bool
-        Of `second_order.HALF_TURN_SIGNS`.
+        Of `third_moment_frames.HALF_TURN_SIGNS`.
     """
     values, least, _ = _along_axes(moments, fixed, bodies)
     return _choose(values, least, fixed.allowed[bodies])
 
 
 def choose_about_axis(
-    moments: Moments, fixed: SecondOrderFrames, bodies: NDArray[np.intp]
+    moments: Moments, fixed: ThirdMomentFrames, bodies: NDArray[np.intp]
 ) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
     """Choose, for bodies with two axes of equal moments, the half turns that `canonical_frames` chooses where no moment
     fixes the directions of these axes.
@@ -114,7 +114,7 @@ def _order_of(values: NDArray) -> int:
 
 
 def _along_axes(
-    moments: Moments, fixed: SecondOrderFrames, bodies: NDArray[np.intp]
+    moments: Moments, fixed: ThirdMomentFrames, bodies: NDArray[np.intp]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
     """(n, columns) the normalized central moments of third to the highest order along the axes, and what of them is
     noise; (n, K) the central moments along the axes by the total."""

@@ -7,14 +7,14 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .second_order import IS_FIXED, SecondOrderFrames
+from .third_moment_frames import IS_FIXED, ThirdMomentFrames
 
 # traces closer than the one are equal whatever the noise, than the other never
 EQUAL_TRACE_ATOL, MAX_TRACE_AMBIGUITY = 1e-6, 0.1
 MIN_ALIGNED_COSINE = 0.999  # of an axis that a shape's own second moments fix, and that of a copy of it
 
 
-def align_frames(frames: NDArray, fixed: SecondOrderFrames, bodies: NDArray[np.intp]) -> NDArray[np.float64]:
+def align_frames(frames: NDArray, fixed: ThirdMomentFrames, bodies: NDArray[np.intp]) -> NDArray[np.float64]:
     """(m, k, 3, 3) frames with those of their axes that the bodies' second moments fix along these."""
     along = np.einsum("mai,mkai->mki", fixed.axes[bodies], frames)
     near = fixed.axes[bodies][:, None] * np.sign(along)[:, :, None]

@@ -19,7 +19,7 @@ from ..moments.moments import SECOND_MOMENT_INDEX, Measure, Moments, U, monomial
 from ..numerics.arrays import PerBody
 from ..verdict.finding import MeasureError
 from .principal_frame import OwnMoments, PrincipalFrame, principal_frame, principal_frames
-from .second_order import SecondOrderFrames
+from .third_moment_frames import ThirdMomentFrames
 
 IDENTITY_3 = np.eye(3)
 
@@ -103,7 +103,7 @@ class MassProperties:
         moments: Moments,
         density: NDArray,
         preferred_axes: NDArray,
-        fixed: SecondOrderFrames,
+        fixed: ThirdMomentFrames,
         higher: Callable[[NDArray[np.intp]], OwnMoments] | None = None,
     ) -> MassProperties:
         """Derive the mass properties of a stack of bodies, as `from_moments` does those of one.

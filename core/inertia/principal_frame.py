@@ -4,9 +4,9 @@
 
 The axes are the eigenvectors of the central second moments, largest first, so that axis 1 is the long axis (least
 inertia). Their signs follow Zhang and Chen (ICIP 2001, eq. 11): central third moments positive. Their rule fails on
-every body with a mirror plane, where M_300 is noise, so it is made robust (see `second_order`). What equal moments or a
-want of skewness leave, moments to sixth order decide (see `canonical_frame`). What is still free is the body's own
-freedom: there the frame nearest to the axes that the caller prefers is taken, and `finding` says so.
+every body with a mirror plane, where M_300 is noise, so it is made robust (see `third_moment_frames`). What equal
+moments or a want of skewness leave, moments to sixth order decide (see `canonical_frame`). What is still free is the
+body's own freedom: there the frame nearest to the axes that the caller prefers is taken, and `finding` says so.
 
 Moments to sixth order may be given in coordinates of the body's own, with the rotation from there: then bodies that are
 copies of each other, turned and scaled, have the same axes, and share the search for them.
@@ -30,8 +30,8 @@ from ..verdict.finding import MeasureError, finding
 from .canonical_frame import NOISE_LEVEL, EquivalentFrames, canonical_frames
 from .canonical_stack import choose_about_axis, choose_half_turns
 from .frame_choice import align_frames, complete_free_axes, nearest_frames
-from .second_order import EQUAL_AXES, HALF_TURN_SIGNS, SYMMETRIES, SecondOrderFrames, second_order_frames
 from .shared_search import shared_frames
+from .third_moment_frames import EQUAL_AXES, HALF_TURN_SIGNS, SYMMETRIES, ThirdMomentFrames, third_moment_frames
 
 NO_VALUES = np.empty(0)
 SIGN_BITS = np.array([1, 2, 4, 8])  # of the HALF_TURN_SIGNS that are allowed
@@ -174,14 +174,14 @@ def principal_frame(
         found = higher()
         return found if isinstance(found, OwnMoments) else OwnMoments(found.at(None), np.zeros(1, np.intp))
 
-    fixed = second_order_frames(moments.at(None), (lambda _which: refine().at(None)) if refine else None)
+    fixed = third_moment_frames(moments.at(None), (lambda _which: refine().at(None)) if refine else None)
     if not fixed.is_body[0]:
         raise MeasureError("negative_inertia")
     return principal_frames(fixed, preferred_axes[None], None if higher is None else higher_of_all).at(0)
 
 
 def principal_frames(
-    fixed: SecondOrderFrames,
+    fixed: ThirdMomentFrames,
     preferred_axes: NDArray,
     higher: Callable[[NDArray[np.intp]], OwnMoments] | None = None,
 ) -> PrincipalFrame:
@@ -189,7 +189,7 @@ def principal_frames(
 
     Parameters
     ----------
-    fixed : SecondOrderFrames
+    fixed : ThirdMomentFrames
         Of the n bodies.
     preferred_axes : (n, 3, 3) array
     higher : callable, optional
@@ -243,11 +243,11 @@ def principal_frames(
     )
 
 
-def _frames_of_shapes(fixed: SecondOrderFrames, left: NDArray[np.intp], known: OwnMoments) -> list[EquivalentFrames]:
+def _frames_of_shapes(fixed: ThirdMomentFrames, left: NDArray[np.intp], known: OwnMoments) -> list[EquivalentFrames]:
     """For each of the shapes the frames in which it is the same, in its own coordinates."""
     which = left
     if known.rotation is not None:
-        fixed, which = second_order_frames(known.moments), np.arange(len(known.moments.raw))
+        fixed, which = third_moment_frames(known.moments), np.arange(len(known.moments.raw))
     results: list[Any] = [None] * len(which)  # each is found below
 
     def keep(shapes: NDArray[np.intp], allowed: NDArray[np.bool_]) -> None:
@@ -298,8 +298,8 @@ def equivalent_frames(moments: Moments, noise: float = NOISE_LEVEL) -> Equivalen
     return canonical_frames(moments, fixed.spread(0), fixed.frames(0))
 
 
-def _of_one_body(moments: Moments, noise_factor: float = 1.0) -> SecondOrderFrames:
-    fixed = second_order_frames(moments.at(None), None, noise_factor)
+def _of_one_body(moments: Moments, noise_factor: float = 1.0) -> ThirdMomentFrames:
+    fixed = third_moment_frames(moments.at(None), None, noise_factor)
     if not fixed.is_body[0]:
         raise MeasureError("negative_inertia")
     return fixed

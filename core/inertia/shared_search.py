@@ -31,10 +31,10 @@ from .canonical_frame import (
     SecondMomentAxes,
     canonical_frames,
 )
-from .second_order import EQUAL_AXES, HALF_TURN_SIGNS, SYMMETRIES, SecondOrderFrames
+from .third_moment_frames import EQUAL_AXES, HALF_TURN_SIGNS, SYMMETRIES, ThirdMomentFrames
 
 GRID = 1e-6  # of normalized moments, times NOISE_GROWTH: a tenth of NOISE_LEVEL
-LEAST_BOUND = 2.0**-30  # bounds below this are that, others are rounded up to three binary digits: copies have the same
+LEAST_BOUND = 2.0**-30  # instead of smaller bounds; others are rounded up to three binary digits: copies have the same
 MAX_KNOWN = 1024  # problems that are remembered
 MAX_TAIL = 4.0  # times NOISE_GROWTH: in larger moments, as of spikes, rounding turns axes by more than noise
 MAX_CORRECTION = 1e-4  # frames that a refinement turns by more are looked for by themselves
@@ -48,14 +48,14 @@ BELOW_THIRD = np.where((POWERS[:THIRD] % 2 == 0).all(axis=1), 1.0, 0.0)  # of a 
 FIXED_AXIS = {"prolate": 0, "oblate": 2}
 
 
-def shared_frames(moments: Moments, fixed: SecondOrderFrames, bodies: NDArray[np.intp]) -> list[EquivalentFrames]:
+def shared_frames(moments: Moments, fixed: ThirdMomentFrames, bodies: NDArray[np.intp]) -> list[EquivalentFrames]:
     """Find what `canonical_frames` finds, for bodies with two or three equal second moments.
 
     Parameters
     ----------
     moments : Moments
         Of n bodies, to order MAX_ORDER.
-    fixed : SecondOrderFrames
+    fixed : ThirdMomentFrames
     bodies : (n,) int
         Which of those they are.
 
@@ -86,7 +86,7 @@ def shared_frames(moments: Moments, fixed: SecondOrderFrames, bodies: NDArray[np
 
 
 def _frames_alike(
-    moments: Moments, fixed: SecondOrderFrames, bodies: NDArray[np.intp], name: str
+    moments: Moments, fixed: ThirdMomentFrames, bodies: NDArray[np.intp], name: str
 ) -> list[EquivalentFrames | None]:
     """Of bodies of one symmetry; None for those that have to be looked at by themselves."""
     axis = FIXED_AXIS.get(name)
@@ -146,14 +146,14 @@ def _bases(fixed: NDArray, axis: int) -> NDArray[np.float64]:
     return basis
 
 
-def _ways(fixed: SecondOrderFrames, bodies: NDArray[np.intp], axis: int) -> NDArray[np.intp]:
+def _ways(fixed: ThirdMomentFrames, bodies: NDArray[np.intp], axis: int) -> NDArray[np.intp]:
     """(n,) which ways the fixed axis of bodies may point, as `_search` takes them."""
     allowed, ahead = fixed.allowed[bodies], HALF_TURN_SIGNS[:, axis] > 0.0
     return np.asarray(allowed[:, ahead].any(axis=1) + 2 * allowed[:, ~ahead].any(axis=1), np.intp)
 
 
 def _whitened(
-    moments: Moments, fixed: SecondOrderFrames, bodies: NDArray[np.intp], basis: NDArray, name: str
+    moments: Moments, fixed: ThirdMomentFrames, bodies: NDArray[np.intp], basis: NDArray, name: str
 ) -> tuple[NDArray, NDArray, NDArray]:
     """(n, K) the central moments by the total along (n, 3, 3) axes, in units of the extents there; (n, degrees) bounds
     of them for each degree; (n, 3) the extents."""

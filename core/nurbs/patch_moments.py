@@ -36,9 +36,8 @@ VOLUME_RTOL = 4e-15  # of the largest that the moment could be: what rounding le
 AREA_RTOL = 1e-11
 # times what two rules differ by that have not begun to agree, when no more points are to be spent
 UNCONVERGED_FACTOR = 8.0
-# a cell's largest weight by its smallest, beyond which rules may differ by less than both miss, or
+# a cell's largest weight by its smallest, beyond which rules may differ by less than both miss, or miss the same
 MAX_WEIGHT_RATIOS = 1e2, 1e6
-# miss the same
 # times what two rules differ by: where a patch folds back, its area has kinks, and both may be off alike
 FOLD_FACTOR = 8.0
 MIN_REVERSED_NORMAL = 1e-9  # a normal that points against its neighbor by less than this is rounding

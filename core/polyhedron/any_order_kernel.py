@@ -59,7 +59,7 @@ class Sums:
 
     sums: (weights, K) Σ over faces of determinant S_α, and of doubled area S_α. chunks: (3 + 3 + weights + c-1, m), of
     each chunk of FACES_PER_CHUNK faces the largest and the least coordinates, Σ |weight|
-        and the squares of its longest edges from the first corner.
+    and the squares of its longest edges from the first corner.
     half_ulp: (3,) of the coordinates.
     """
 

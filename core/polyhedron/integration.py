@@ -127,7 +127,7 @@ def polyhedron_moments(
 
     Notes
     -----
-    Sheynin and Tuzikov (Pattern Recognition 34, 2001), as a recursion over the monomials.
+    Sheynin and Tuzikov (Pattern Recognition Letters 22, 2001), as a recursion over the monomials.
 
     Examples
     --------
@@ -158,8 +158,8 @@ def polyhedron_moments(
     if not allow_open:
         stream = _summed(stream, boundary)
     if highest <= THIRD:
-        shell = area_order is not None and area_order >= min(order, 1)
-        options = {"area": area_order is not None, "shell": shell, "exact": exact and order == THIRD}
+        area_moments = area_order is not None and area_order >= min(order, 1)
+        options = {"area": area_order is not None, "area_moments": area_moments, "exact": exact and order == THIRD}
         volume, area = _sum_to_third_order(stream, threads, about, progress, planarity=planarity, **options)
         # Bounds are not negative, and an area's have one power of the reach less.
         if not isfinite(np.add.reduce(volume.rounding_error[: monomial_count(highest)])):

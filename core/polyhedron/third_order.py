@@ -81,12 +81,12 @@ def integrate(
     threads: int,
     *,
     area: bool,
-    shell: bool,
+    area_moments: bool,
     exact: bool,
     about: NDArray | None = None,
     planarity: PlanarityAccumulator | None = None,
 ) -> tuple[Moments, Moments]:
-    """The volume's moments to third order; and the area where `area`, its moments to third order where `shell`.
+    """The volume's moments to third order; and the area where `area`, its moments to third order where `area_moments`.
 
     exact: the third order to rounding whatever the size of the mesh. about: (3,), by default the center of the bounding
     box. planarity: is shown the faces, where that costs little.
@@ -102,7 +102,7 @@ def integrate(
     reach = np.maximum(high - center, center - low) * (1.0 + 4.0 * U)
     largest = max(reach.tolist())
     if largest and not 1.0 / MAX_UNSCALED_REACH < largest < MAX_UNSCALED_REACH:
-        return _measure_rescaled(surface, int(np.log2(largest)), threads, about, area, shell, exact)
+        return _measure_rescaled(surface, int(np.log2(largest)), threads, about, area, area_moments, exact)
     exact = exact or count <= MAX_TRIANGLES_EXACT_THIRD
     if count <= MAX_SMALL_TRIANGLES:
         for faces in (surface.triangles, surface.quads):
@@ -117,7 +117,7 @@ def integrate(
             reach[None],
             surface.coordinate_error[None],
             area=area,
-            shell=shell,
+            area_moments=area_moments,
         )
         if planarity is not None:
             planarity.cones = float(cones[0, 0]), float(cones[0, 1])
@@ -127,7 +127,7 @@ def integrate(
     size = max(2, min(MAX_TRIANGLES_PER_BLOCK, room // (2 * each), count) // 2 * 2)
     threads = max(1, min(threads, count // MIN_TRIANGLES_PER_THREAD, room // (each * size)))
     job = _Integration(
-        points, center, reach, surface.coordinate_error, count, area, shell, exact, planarity, size, threads
+        points, center, reach, surface.coordinate_error, count, area, area_moments, exact, planarity, size, threads
     )
     return job.moments(combine_blocks(job.block_sums(job.blocks(surface))))
 
@@ -153,7 +153,7 @@ def box_center(low: NDArray, high: NDArray, dtype: np.dtype) -> NDArray[np.float
 
 
 def _measure_rescaled(
-    surface: Surface, exponent: int, threads: int, about: NDArray | None, area: bool, shell: bool, exact: bool
+    surface: Surface, exponent: int, threads: int, about: NDArray | None, area: bool, area_moments: bool, exact: bool
 ) -> tuple[Moments, Moments]:
     """The moments by way of a body of about unit size: 2^exponent times smaller, which rounds nothing."""
     triangles, faces = surface.all_triangles()
@@ -161,7 +161,7 @@ def _measure_rescaled(
     small = Surface(points, triangles, triangle_faces=faces, displacement=np.ldexp(surface.coordinate_error, -exponent))
     results = []
     about = None if about is None else np.ldexp(about, -exponent)
-    for moments in integrate(small, threads, about=about, area=area, shell=shell, exact=exact):
+    for moments in integrate(small, threads, about=about, area=area, area_moments=area_moments, exact=exact):
         powers = exponent * (DEGREE[: len(moments.raw)] + (3 if moments.measure == Measure.VOLUME else 2))
         with np.errstate(over="ignore"):  # the caller refuses what becomes infinite
             results.append(
@@ -187,7 +187,7 @@ class _Integration:
     half_ulp: NDArray[np.float64]
     count: int
     area: bool
-    shell: bool
+    area_moments: bool
     exact: bool
     planarity: PlanarityAccumulator | None
     size: int
@@ -230,7 +230,9 @@ class _Integration:
 
     def _run_queue(self, queue: Iterator[tuple[int, _Block]]) -> list[tuple[int, list[BlockResult], list[NDArray]]]:
         """Of each block that is taken from the queue: its number, what it adds, and quads that were left out."""
-        faces = BlockAccumulator(self.points, self.center, area=self.area, shell=self.shell, exact=self.exact)
+        faces = BlockAccumulator(
+            self.points, self.center, area=self.area, area_moments=self.area_moments, exact=self.exact
+        )
         parts = []
         for number, block in queue:
             faces.results, faces.flipped = [], []
@@ -265,7 +267,7 @@ class _Integration:
         volume = Moments(raw, self.center, Measure.VOLUME, error, inputs[0])
         if not self.area:
             return volume, Moments(np.zeros(1), self.center, Measure.AREA)
-        raw = sums.areas / (DIVISORS / AREA_FACTORS) if self.shell else np.array([sizes[1] / 2.0])
+        raw = sums.areas / (DIVISORS / AREA_FACTORS) if self.area_moments else np.array([sizes[1] / 2.0])
         count = len(raw)
         error = rounding[1, :count] / 2.0 + 8.0 * U * np.abs(raw)
         return volume, Moments(raw, self.center, Measure.AREA, error, inputs[1, :count])

@@ -102,7 +102,7 @@ class _BlockCalls:
         *,
         center: NDArray,
         area: bool,
-        shell: bool,
+        area_moments: bool,
         exact: bool,
     ):
         fans, k = count - 2, chunks * width
@@ -149,7 +149,7 @@ class _BlockCalls:
         self.prepare = _local_calls(sides, base, tips, local, heavy[:, :1]) if exact else []
         self.prepare.append(partial(np.add, corners[:, 0], corners[:, 2], middle))
         self.moments = []
-        for weights in self.weights[: 1 + shell]:
+        for weights in self.weights[: 1 + area_moments]:
             calls = _weighted_calls(corners, weights, weighted, table)
             sums = [
                 partial(np.add.reduce, table, axis=1),
@@ -169,12 +169,14 @@ class BlockAccumulator:
     """The loop body for blocks of faces. results: what each block so far has added.
 
     points: (n, 3) contiguous float32 or float64. center: (3,) the reference point. area: whether doubled areas are
-    wanted, shell: also their moments. exact: whether the third order is.
+    wanted, area_moments: also their moments. exact: whether the third order is.
     """
 
-    def __init__(self, points: NDArray, center: NDArray, *, area: bool, shell: bool, exact: bool):
+    def __init__(self, points: NDArray, center: NDArray, *, area: bool, area_moments: bool, exact: bool):
         self.points, self.area, self.exact = points, area, exact
-        self.workspace = Workspace(partial(_BlockCalls, center=center, area=area, shell=shell, exact=exact))
+        self.workspace = Workspace(
+            partial(_BlockCalls, center=center, area=area, area_moments=area_moments, exact=exact)
+        )
         self.flipped: list[NDArray] = []
         self.results: list[BlockResult] = []
 

@@ -48,7 +48,7 @@ def small_moments(
     half_ulp: NDArray[np.float64],
     *,
     area: bool,
-    shell: bool,
+    area_moments: bool,
 ) -> tuple[Moments, Moments, NDArray[np.float64]]:
     """Return the volume's moments of n bodies and their areas, stacked; and (n, 2) what the cones over the faces of
     each add up to where all count as positive, and signed.
@@ -66,7 +66,7 @@ def small_moments(
         What bounds the distances of its points from there, and how far storing them may have moved them.
     area : bool
         Whether areas are wanted; else they are zero, and the volume's `input_error` is the larger.
-    shell : bool
+    area_moments : bool
         Whether the area's moments are wanted to third order too.
     """
     ends, sums = np.cumsum(counts), []
@@ -80,7 +80,7 @@ def small_moments(
                 counts[first:last],
                 center[first:last],
                 area,
-                shell,
+                area_moments,
             )
         )
         first = last
@@ -90,14 +90,14 @@ def small_moments(
     volume = Moments(raw, center, Measure.VOLUME, rounding[0] / CONE_DIVISORS + 8.0 * U * np.abs(raw), inputs[0])
     if not area:
         return volume, Moments(np.zeros((len(counts), 1)), center, Measure.AREA), cones
-    raw = of_area / (DIVISORS / AREA_FACTORS) if shell else sizes[:, 1:] / 2.0
+    raw = of_area / (DIVISORS / AREA_FACTORS) if area_moments else sizes[:, 1:] / 2.0
     kept = raw.shape[1]
     error = rounding[1, :, :kept] / 2.0 + 8.0 * U * np.abs(raw)
     return volume, Moments(raw, center, Measure.AREA, error, inputs[1, :, :kept]), cones
 
 
 def _segment_sums(
-    corners: NDArray, counts: NDArray[np.integer], center: NDArray, area: bool, shell: bool
+    corners: NDArray, counts: NDArray[np.integer], center: NDArray, area: bool, area_moments: bool
 ) -> tuple[NDArray, ...]:
     """What some bodies add. corners: (3, 3, t) x, y, z of the corners a, b, c of their triangles.
 
@@ -131,7 +131,7 @@ def _segment_sums(
     largest = np.maximum.reduceat(np.abs(edges), starts, axis=2)
     return (
         np.add.reduceat(sums * det, starts, axis=1).T,
-        np.add.reduceat(sums * sizes[1], starts, axis=1).T if shell else np.empty((len(counts), 0)),
+        np.add.reduceat(sums * sizes[1], starts, axis=1).T if area_moments else np.empty((len(counts), 0)),
         largest[:, 0].T,
         largest[:, 1].T,
         np.add.reduceat(sizes, starts, axis=1).T,

@@ -52,11 +52,6 @@ class Symmetry:
     tolerance: float | None = None
 
     @property
-    def has_no_rotation(self) -> bool:
-        """Whether no rotation takes the body to itself."""
-        return not len(self.revolution_axes) and int((np.linalg.det(self.operations) > 0.0).sum()) == 1
-
-    @property
     def group(self) -> str:
         """The Schoenflies symbol."""
         if len(self.revolution_axes) == 3:

@@ -70,7 +70,7 @@ class StackCaps:
             np.maximum(high - center, center - low) * (1.0 + 4.0 * U),
             stack.coordinate_error,
             area=True,
-            shell=False,
+            area_moments=False,
         )
         total = sum_moments([volume.at(rows), caps])
         changed = {name: getattr(volume, name).copy() for name in ("raw", "rounding_error", "input_error")}

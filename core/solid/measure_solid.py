@@ -38,7 +38,8 @@ def measure_solid(surface: Surface, *, shell: bool = False, threads: int = 1) ->
     surface : Surface
         Any polygons; closed or not.
     shell : bool
-        Whether the area's moments are wanted to order 3; else to order 0.
+        Whether it is the surface that has the mass: then the area's moments are found to order 3, else to order 0,
+        and what only spoils a volume, self-intersection, is not looked for.
     threads : int
         For the sums over faces, and for the proof of closedness.
 

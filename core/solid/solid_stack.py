@@ -167,7 +167,7 @@ def measure_stack(surfaces: Sequence[Surface]) -> SolidStack:
         reach,
         stack.coordinate_error,
         area=True,
-        shell=False,
+        area_moments=False,
     )
     planarity, links = stack_planarity(stack), stack.connections()
     size, farthest = np.sqrt(np.add.reduce((high - low) ** 2, axis=1)), reach.max(axis=1)

@@ -39,11 +39,6 @@ class Element:
     rows: int
     properties: tuple[Property, ...]
 
-    @property
-    def is_ragged(self) -> bool:
-        """Whether rows hold lists."""
-        return any(one.counter for one in self.properties)
-
     def index(self, name: str) -> int:
         """Return where a property stands. Raises ValueError."""
         return [one.name for one in self.properties].index(name)

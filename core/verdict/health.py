@@ -42,7 +42,7 @@ class DefectiveElements:
 
 @dataclass(frozen=True, eq=False)
 class MeshReport:
-    """The input, before anything was repaired.
+    """The input, before anything was repaired, and what was done to it.
 
     closed: in space: equal positions are one, and gaps without area are none.
     welded: whether positions had to be welded to judge.

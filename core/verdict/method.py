@@ -18,7 +18,7 @@ class Verdict(StrEnum):
     (True, False)
     """
 
-    OPEN = "open"  # not closed, and not to be closed: the numbers depend on the reference point
+    OPEN = "open"  # bounds no certain volume: not to be closed, flat, or mostly within itself
     CAPPED = "capped"  # closed by caps over its holes
     REORIENTED = "reoriented"  # closed after faces were flipped
     EXACT = "exact"  # closed as it is

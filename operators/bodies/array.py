@@ -27,7 +27,7 @@ from .threshold import MAX_SAMPLES, TRILINEAR, ThresholdGrid, threshold_grid_bod
 
 @dataclass(frozen=True)
 class ArrayOptions:
-    """spacing, origin: (x, y, z) in place of the file's own; unit_scale: metres per unit where the file has none;
+    """spacing, origin: (x, y, z) in place of the file's own; unit_scale: meters per unit where the file has none;
     density_scale: kg/m³ where a sample is 1; threshold: the body where values are at least that, None for all;
     limits: of what the file may ask for; positions: files of the samples' positions by axis, in units of unit_scale."""
 

@@ -145,7 +145,7 @@ def assemble(root: Member, results: Results, depsgraph: Depsgraph, options: Meas
 
 
 def member_body(member: Member, results: Results, unit: float) -> MemberBody:
-    """Return what a member comes to. unit: metres per Blender unit."""
+    """Return what a member comes to. unit: meters per Blender unit."""
     parts = tuple(member_body(part, results, unit) for part in member.members)
     if member.kind in (MemberKind.OBJECT, MemberKind.POINT):
         own = MemberBody(member) if member.left_out is not None else _object_body(member, results[member.data])

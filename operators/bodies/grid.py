@@ -33,7 +33,7 @@ MEASURED_AS = frozenset({"solid", "shell", "wire"})  # the others to be refused
 
 @dataclass(frozen=True, eq=False)
 class GridBody(Body):
-    """Samples at matrix @ (i, j, k, 1), in metres, that stand for slope · sample + intercept.
+    """Samples at matrix @ (i, j, k, 1), in meters, that stand for slope · sample + intercept.
 
     Attributes
     ----------
@@ -120,7 +120,7 @@ def body(reading: VolumeReading, request: Request) -> Body:
 def grid_body(
     reading: VolumeReading, options: GridOptions, unit: float, threads: int = 1, order: int = KNOWN_ORDER
 ) -> Body:
-    """The body of one grid. unit: metres per Blender unit. order: to which the mass is wanted. MeasureError where there
+    """The body of one grid. unit: meters per Blender unit. order: to which the mass is wanted. MeasureError where there
     is none."""
     if options.threshold is not None:
         options.needs_even_samples(reading.grid)
@@ -177,7 +177,7 @@ def density_body(
     order: int = KNOWN_ORDER,
     positions: Positions = EVEN,
 ) -> GridBody:
-    """The body of samples at matrix @ (i, j, k, 1), in metres, that stand for slope · sample + intercept.
+    """The body of samples at matrix @ (i, j, k, 1), in meters, that stand for slope · sample + intercept.
 
     background: a value that counts as empty. progress: called with how many samples are about to be read. order: to
     which the mass is wanted. positions: where samples stand along an axis, in place of 0, 1, 2, …

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The mass moments of a body whose density is not one number: by material, by polynomial, by vertex.
+"""The mass moments of a body whose density is not one number: by material, polynomial, vertex or volume.
 
 Each surface is weighed once in its own coordinates and mapped to its places, as `mesh_body` does with volumes.
 """

@@ -76,7 +76,7 @@ def body(reading: Reading, request: Request) -> Body:
 def mesh_body(reading: Reading, unit: float, *, shell: bool, union: bool, threads: int) -> MeshBody:
     """What an object's surfaces bound, or with `shell` the sheets that they are.
 
-    unit: metres per Blender unit. union: shells that overlap are united first. MeasureError where there is nothing to
+    unit: meters per Blender unit. union: shells that overlap are united first. MeasureError where there is nothing to
     measure.
     """
     if shell:

@@ -151,7 +151,7 @@ def nurbs_body(
 ) -> Body:
     """What an object's surfaces bound where some of them are B-spline patches, or the sheets that they are.
 
-    unit: metres per Blender unit. wall: of a shell, as in `MeasureOptions`; None for solids. thickness: m. union:
+    unit: meters per Blender unit. wall: of a shell, as in `MeasureOptions`; None for solids. thickness: m. union:
     shells that overlap are united, for which polygons are needed. compare: also measure what the display mesh would
     have given. MeasureError where there is nothing to measure.
     """

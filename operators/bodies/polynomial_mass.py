@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The mass moments of a body whose density is a polynomial, and whether that is negative somewhere in it.
 
-The density's coordinates are metres along the world's axes, or along each surface's own: then it is carried along by
+The density's coordinates are meters along the world's axes, or along each surface's own: then it is carried along by
 the object, and by each instance, turned and mirrored as it is.
 """
 
@@ -35,7 +35,7 @@ MAX_CHECKED_INSTANCES = 50  # different places whose points are looked at one by
 
 @dataclass(frozen=True, eq=False)
 class _Piece:
-    """A surface in its places: maps to the world and to the density's coordinates, (k, 4, 4) each, in metres. about:
+    """A surface in its places: maps to the world and to the density's coordinates, (k, 4, 4) each, in meters. about:
     the point that an open one is closed to."""
 
     surface: Surface
@@ -96,7 +96,7 @@ def _solid_pieces(reading: Reading, body: MeshBody, in_world: bool, unit: float)
 
 
 def _to_local(matrices: NDArray) -> NDArray[np.float64]:
-    """(k, 4, 4) from world coordinates, in metres, to those along the axes of what stands there."""
+    """(k, 4, 4) from world coordinates, in meters, to those along the axes of what stands there."""
     axes = polar_rotation(matrices)[0].transpose(0, 2, 1)
     to_own = np.tile(np.eye(4), (len(matrices), 1, 1))
     to_own[:, :3, :3] = axes

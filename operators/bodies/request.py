@@ -56,7 +56,7 @@ class Request:
         unit: float | None = None,
         opened: ExitStack | None = None,
     ) -> Request:
-        """Return what is asked of an object. unit: metres per Blender unit, by default the scene's."""
+        """Return what is asked of an object. unit: meters per Blender unit, by default the scene's."""
         unit = unit or given.unit_scale or shortest_decimal(depsgraph.scene.unit_settings.scale_length)
         return cls(
             with_object_settings(given, obj, unit, _scene(depsgraph)),

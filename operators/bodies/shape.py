@@ -252,7 +252,7 @@ class Registered(Protocol):
 
 
 class SurfaceDistance:
-    """A shape's surface, to hold points against, once it is grown. Lengths in metres, world axes; Blender's tree of
+    """A shape's surface, to hold points against, once it is grown. Lengths in meters, world axes; Blender's tree of
     triangles keeps them as float32, so about the center and by its size."""
 
     def __init__(self, shape: Registered):

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from ...core.inertia.canonical_frame import MAX_ORDER
 from ...core.inertia.mass_properties import MassProperties
 from ...core.inertia.principal_frame import OwnMoments
-from ...core.inertia.second_order import second_order_frames
+from ...core.inertia.third_moment_frames import third_moment_frames
 from ...core.measurement import DENSITY_FROM_MASS, DENSITY_FROM_VALUE, Measurement
 from ...core.mesh.surface import Surface
 from ...core.moments.affine_maps import are_similarities, are_singular
@@ -323,10 +323,10 @@ def measure_members(members: list[Member], shapes: list[Shape], unit: float, axe
     certain = (volume.raw[:, 0] > volume.rounding_error[:, 0]) & (density > 0.0) & (density < np.inf)
     rows = np.flatnonzero(certain)
     with np.errstate(all="ignore"):  # bodies beyond the range of numbers are refused by themselves
-        fixed = second_order_frames(volume.at(rows))
+        fixed = third_moment_frames(volume.at(rows))
         if not fixed.is_body.all():
             rows = rows[fixed.is_body]
-            fixed = second_order_frames(volume.at(rows))
+            fixed = third_moment_frames(volume.at(rows))
     if not len(rows):
         return None
     if len(rows) < len(members):  # the others are refused by themselves

@@ -103,6 +103,6 @@ def _signatures(
     places /= np.repeat(scale, [len(own) for own in points])[:, None]
     reach, nothing = np.maximum.reduceat(np.abs(places), starts), np.zeros((len(rows), 3))
     joined = np.concatenate(triangles)
-    volume = small_moments(places, joined, counts, nothing, reach, nothing, area=False, shell=False)[0]
+    volume = small_moments(places, joined, counts, nothing, reach, nothing, area=False, area_moments=False)[0]
     volume = extend_small_moments(volume, order, places, joined, counts, reach)
     return signatures(volume, radius / scale), scale

@@ -35,7 +35,7 @@ class ThresholdGrid:
     name : str
     values : (nx, ny, nz) array
     matrix : (4, 4) array
-        The value (i, j, k) stands at matrix @ (i, j, k, 1), in metres.
+        The value (i, j, k) stands at matrix @ (i, j, k, 1), in meters.
     background : float, optional
         What is beyond the grid; None where nothing is known of it.
     value : callable, optional
@@ -98,7 +98,7 @@ class ThresholdGridBody(Body):
 
 
 def threshold_grid(reading: VolumeReading, unit: float) -> ThresholdGrid:
-    """Return the values of a grid as one array. unit: metres per Blender unit.
+    """Return the values of a grid as one array. unit: meters per Blender unit.
 
     Raises
     ------

@@ -54,7 +54,7 @@ def filled_by_volume(body: MeshBody, request: Request, order: int) -> MeshBody:
 def voxel_filled_body(
     body: MeshBody, reading: VolumeReading, options: GridOptions, unit: float, name: str, order: int = KNOWN_ORDER
 ) -> MeshBody:
-    """The body with the mass that the grid gives its inside, to an order. unit: metres per Blender unit.
+    """The body with the mass that the grid gives its inside, to an order. unit: meters per Blender unit.
 
     name: of the object, which MeasureErrors are about that are not about the grid alone.
     """

@@ -121,7 +121,7 @@ def said_of(result: Finding, source: str, whole: str) -> Finding:
 
 
 def to_si(matrices: NDArray, unit: float) -> NDArray[np.float64]:
-    """(k, 4, 4) world matrices to SI. unit: metres per Blender unit."""
+    """(k, 4, 4) world matrices to SI. unit: meters per Blender unit."""
     scaled = np.array(matrices, np.float64)
     scaled[:, :3] *= unit
     return scaled

@@ -50,7 +50,7 @@ _pending: list[tuple[Object, Scene]] = []  # whose exact numbers are due
 
 
 def cache_grid(obj: Object, measured: Measured, unit: float) -> None:
-    """Remember the grid that an object was measured with. unit: metres per Blender unit."""
+    """Remember the grid that an object was measured with. unit: meters per Blender unit."""
     mark, reading, body = marks.Mark(*measured.measurement.fingerprint.split(":")), measured.reading, measured.body
     assert isinstance(reading, VolumeReading) and isinstance(body, ThresholdGridBody)
     _cache[obj] = _CachedGrid(reading, body.grid, {mark.geometry}, mark.transform, unit)

@@ -35,7 +35,7 @@ class GivenPart:
 
     @classmethod
     def of(cls, settings: PropertyGroup, unit: float) -> GivenPart:
-        """Return what the settings give. unit: metres per Blender unit."""
+        """Return what the settings give. unit: meters per Blender unit."""
         center = inertia = None
         if settings.use_center:
             center = _decimals(settings.given_center) * unit

@@ -2041,7 +2041,7 @@ METHODS = {
     "grid exact": ("Exact, from a Grid", "Voxel values are taken as they are"),
     "reoriented": ("Reoriented", "Closed after flipped faces were reversed"),
     "capped": ("Capped", "The surface is open; its holes were capped"),
-    "open": ("Open", "The numbers depend on the reference point"),
+    "open": ("Open", "Open or through itself: it bounds no certain volume"),
     "shell": ("Shell", "The mass is in the surface"),
     "wall": ("Wall", "The mass is in a wall of real thickness"),
     "union": ("Union", "Overlapping components were united by Blender's exact Boolean, accurate to 7 digits"),
@@ -2060,7 +2060,7 @@ def method_key(method: Method | None, walled: bool) -> str:
     return str(method) if str(method) in METHODS else method.verdict.value
 
 
-# Counts of the health record, as `report_text` and Select Defects name them: one, several.
+# Counts of the health record, as the text report and Select Faults name them: one, several.
 HEALTH = {
     "boundary_edges": ("boundary edge", "boundary edges"),
     "non_manifold_edges": ("non-manifold edge", "non-manifold edges"),

@@ -18,6 +18,7 @@ from pathlib import Path
 
 import bpy
 import numpy as np
+from body_moments.operators.write import documents
 
 CORNERS = ((0, 0, 0), (1, 0, 0), (0, 2, 0), (0, 0, 3))
 FACES = ((0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3))
@@ -32,7 +33,7 @@ MODEL = MODEL.format(
     "".join("<vertex x='{}' y='{}' z='{}'/>".format(*corner) for corner in CORNERS),
     "".join("<triangle v1='{}' v2='{}' v3='{}'/>".format(*face) for face in FACES),
 )
-STATUSES = {"ok", "error", "crashed", "timeout", "memory", "unsupported_version", "missing"}
+STATUSES = {*documents.STATUSES}
 CRASHES = Path(__file__).with_name("crash_corpus")
 TEXT = {".obj", ".gltf", ".usda", ".nrrd"}  # damaged by words rather than by bits
 

@@ -12,9 +12,8 @@ from ...session import assembly as stored_assembly
 from ...write import properties, reports
 from ...write.messages import of_severity
 from .. import selection
-from ..modal import ModalSteps, redraw
+from ..modal import MAX_OBJECTS_WITHOUT_REDRAW, ModalSteps, redraw
 
-MAX_OBJECTS_WITHOUT_REDRAW = 4  # up to so many objects are measured before the window is drawn again
 TARGET = EnumProperty(
     name="Assembly",
     description="What is measured as one body",

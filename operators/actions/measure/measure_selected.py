@@ -22,11 +22,10 @@ from ...settings.density import is_density_unset, unset_density
 from ...settings.preferences import MATERIAL_ITEMS, copy_defaults
 from ...write import reports
 from ...write.messages import of_severity
-from ..modal import ModalSteps, redraw
+from ..modal import MAX_OBJECTS_WITHOUT_REDRAW, ModalSteps, redraw
 
 DENSITY_KEPT = finding("density_default_kept")
 AS_SET = "AS_SET"
-MAX_OBJECTS_WITHOUT_REDRAW = 4  # up to so many objects are measured before the window is drawn again
 
 
 class OBJECT_OT_body_moments_measure(ModalSteps, bpy.types.Operator):

@@ -17,7 +17,7 @@ from bpy.types import Context, Menu, Object, Operator
 from numpy.typing import NDArray
 
 from ....core.inertia.mass_properties import combine
-from ....core.inertia.second_order import EQUAL_AXES
+from ....core.inertia.third_moment_frames import EQUAL_AXES
 from ....core.numerics.float32 import shortest_decimal
 from ....core.verdict.finding import EditRefusedError, Finding, finding
 from ....core.verdict.method import Verdict

@@ -20,7 +20,7 @@ from bpy.types import Context, Object, Operator
 from numpy.typing import NDArray
 
 from ....core.inertia.principal_frame import zhang_chen_frame
-from ....core.inertia.second_order import EQUAL_AXES
+from ....core.inertia.third_moment_frames import EQUAL_AXES
 from ....core.numerics.float32 import shortest_decimal
 from ....core.verdict import internal_error
 from ....core.verdict.finding import EditRefusedError, Finding, finding

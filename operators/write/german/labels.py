@@ -18,7 +18,7 @@ TEXTS = {
     "Capped": "Mit Deckeln",
     "The surface is open; its holes were capped": "Die Oberfläche ist offen; ihre Löcher wurden geschlossen",
     "Open": "Offen",
-    "The numbers depend on the reference point": "Die Zahlen hängen vom Bezugspunkt ab",
+    "Open or through itself: it bounds no certain volume": "Offen oder durch sich selbst: kein sicheres Volumen",
     "Shell": "Schale",
     "The mass is in the surface": "Die Masse liegt in der Oberfläche",
     "Wall": "Wand",

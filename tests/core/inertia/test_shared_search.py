@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from body_moments.core.inertia import canonical_frame, shared_search
 from body_moments.core.inertia.canonical_frame import canonical_frames
-from body_moments.core.inertia.second_order import second_order_frames
 from body_moments.core.inertia.shared_search import shared_frames
+from body_moments.core.inertia.third_moment_frames import third_moment_frames
 from body_moments.core.moments.moments import stack_moments
 
 from tests.core import bodies, shapes
@@ -44,7 +44,7 @@ def same_frames(found, expected):
 @pytest.mark.parametrize("noise", [0.0, 1e-7])
 def test_shared_frames_are_those_of_each_body_by_itself(name, noise):
     stack = copies(parts()[name], noise=noise)
-    fixed = second_order_frames(stack)
+    fixed = third_moment_frames(stack)
     which = np.flatnonzero(fixed.symmetry > 0)
     found = shared_frames(stack.at(which), fixed, which)
     for body, shared in zip(which.tolist(), found):
@@ -61,7 +61,7 @@ def test_copies_that_lie_alike_are_hardly_searched_again_and_each_has_its_own_ax
     searched = shared_search.canonical_frames
     monkeypatch.setattr(shared_search, "canonical_frames", lambda *args: searches.append(args) or searched(*args))
     stack = copies(bodies.moved(bodies.box((-1, -1, -1), (1, 1, 1)), turn), 40, turned=False, noise=3e-8)
-    fixed = second_order_frames(stack)
+    fixed = third_moment_frames(stack)
     found = shared_frames(stack, fixed, np.arange(40))
     assert 1 <= len(searches) <= most
     for frames in found:
@@ -72,7 +72,7 @@ def test_copies_that_lie_alike_are_hardly_searched_again_and_each_has_its_own_ax
 
 def test_what_was_measured_before_changes_nothing():
     stack = copies(shapes.SYMMETRIC["cube"][0], 6, noise=1e-7)
-    fixed = second_order_frames(stack)
+    fixed = third_moment_frames(stack)
     together = shared_frames(stack, fixed, np.arange(6))
     for i in range(6):
         shared_search._search.cache_clear()
@@ -84,7 +84,7 @@ def test_what_was_measured_before_changes_nothing():
 def test_a_body_beyond_the_range_of_numbers_is_refused(scale):
     points, triangles = bodies.box((-1, -1, -1), (1, 1, 1))
     stack = stack_moments([moments((points * size, triangles), 6) for size in (1.0, scale)])
-    fixed = second_order_frames(stack)
+    fixed = third_moment_frames(stack)
     with refused("moments_overflow", order=6):
         shared_frames(stack, fixed, np.array([0, 1]))
 
@@ -102,7 +102,7 @@ def test_a_body_of_a_core_and_far_pieces_has_the_axes_that_it_has_by_itself(smal
     whole = np.concatenate([center + size * np.asarray(points) for center, size in zip(centers, sizes)])
     faces = np.concatenate([np.asarray(triangles) + i * len(points) for i in range(7)])
     stack = stack_moments([moments((whole @ bodies.rotation(3).T, faces), 6)])
-    fixed = second_order_frames(stack)
+    fixed = third_moment_frames(stack)
     shared = shared_frames(stack, fixed, np.array([0]))[0]
     alone = canonical_frames(stack.at(0), fixed.spread(0), fixed.frames(0))
     assert len(alone.frames) == 24 and same_frames(shared.frames, alone.frames)

@@ -7,7 +7,7 @@ import pytest
 from body_moments.core.inertia.canonical_stack import choose_about_axis
 from body_moments.core.inertia.mass_properties import MassProperties
 from body_moments.core.inertia.principal_frame import OwnMoments, principal_frame
-from body_moments.core.inertia.second_order import second_order_frames
+from body_moments.core.inertia.third_moment_frames import third_moment_frames
 from body_moments.core.moments.images import sum_of_images
 from body_moments.core.moments.moments import Measure, stack_moments
 from body_moments.core.moments.symmetric_tensors import invert_through_point
@@ -70,7 +70,7 @@ def test_frames_of_a_stack_are_those_of_each():
         third,
         density,
         preferred,
-        second_order_frames(third),
+        third_moment_frames(third),
         lambda which: OwnMoments(sixth.at(which), np.arange(len(which))),
     )
     for i, part in enumerate(parts):
@@ -100,7 +100,7 @@ def test_copies_share_the_axes_of_their_shape(name):
     def higher(which):
         return OwnMoments(known.moments, known.shape[which], known.rotation[which])
 
-    stack = MassProperties.of_stack(third, np.ones(6), rotation, second_order_frames(third), higher).principal
+    stack = MassProperties.of_stack(third, np.ones(6), rotation, third_moment_frames(third), higher).principal
     for i, matrix in enumerate(matrices):
         alone = principal_frame(third.at(i), rotation[i], higher=lambda matrix=matrix: shape.transform(matrix))
         assert stack.finding[i] == alone.finding and stack.symmetry[i] == alone.symmetry
@@ -116,5 +116,5 @@ def test_prisms_to_six_sides_have_directions_about_their_axes_and_others_have_no
     """E[(x + i y)^n] of an n-gon is the first harmonic that is not zero."""
     parts = [moments(shapes.prism(n, height), 6) for n in range(3, 9)]
     parts = stack_moments([part.transform(matrix) for part, matrix in zip(parts, placed(len(parts)))])
-    is_round, allowed = choose_about_axis(parts, second_order_frames(parts.truncate(3)), np.arange(6))
+    is_round, allowed = choose_about_axis(parts, third_moment_frames(parts.truncate(3)), np.arange(6))
     assert is_round.tolist() == [False] * 4 + [True] * 2 and allowed[4:].any(axis=1).all()

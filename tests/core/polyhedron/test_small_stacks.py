@@ -32,7 +32,7 @@ def stacked(size, offset):
 def test_a_stack_is_each_body_to_the_bit(size, offset):
     parts, points, triangles, counts, center, reach = stacked(size, offset)
     volume, area, cones = small_moments(
-        points, triangles, counts, center, reach, np.zeros((5, 3)), area=True, shell=True
+        points, triangles, counts, center, reach, np.zeros((5, 3)), area=True, area_moments=True
     )
     for i, (own, faces) in enumerate(parts):
         alone = polyhedron_moments(Surface(own, faces), area_order=3)
@@ -45,7 +45,9 @@ def test_a_stack_is_each_body_to_the_bit(size, offset):
 @pytest.mark.parametrize(("size", "offset"), PLACES)
 def test_higher_orders_are_exact_within_their_bounds(size, offset):
     parts, points, triangles, counts, center, reach = stacked(size, offset)
-    volume, _, _ = small_moments(points, triangles, counts, center, reach, np.zeros((5, 3)), area=True, shell=False)
+    volume, _, _ = small_moments(
+        points, triangles, counts, center, reach, np.zeros((5, 3)), area=True, area_moments=False
+    )
     sixth = extend_small_moments(volume, 6, points, triangles, counts, reach)
     for i, (own, faces) in enumerate(parts):
         alone = polyhedron_moments(Surface(own, faces), 6, about=center[i])[0]

@@ -463,7 +463,7 @@ def test_quads_are_cut_as_blender_cuts_them(path, seed, scale):
 def test_quads_so_small_that_the_rule_underflows_are_decided_in_float32(scale):
     points = (np.random.default_rng(1).standard_normal((40000, 3)) * scale).astype(np.float32)
     quads = np.arange(len(points)).reshape(-1, 4)
-    loop = blocks.BlockAccumulator(points, np.zeros(3), area=True, shell=False, exact=False)
+    loop = blocks.BlockAccumulator(points, np.zeros(3), area=True, area_moments=False, exact=False)
     loop.add_faces(quads.T, quads=True)
     turned = np.roll(quads[flipped_quads(points, quads)], -1, axis=1)
     np.testing.assert_array_equal(np.concatenate(loop.flipped, axis=1), turned.T)

@@ -34,7 +34,7 @@ IS_FIXED = np.array([[axis not in EQUAL_AXES[name] for axis in range(3)] for nam
 
 
 @dataclass(frozen=True, eq=False)
-class SecondOrderFrames:
+class ThirdMomentFrames:
     """What second and third moments fix of the frames of n bodies.
 
     Attributes
@@ -85,9 +85,9 @@ class SecondOrderFrames:
         return self.axes[i] * HALF_TURN_SIGNS[self.allowed[i], None]
 
 
-def second_order_frames(
+def third_moment_frames(
     moments: Moments, refine: Callable[[NDArray[np.intp]], Moments] | None = None, noise_factor: float = 1.0
-) -> SecondOrderFrames:
+) -> ThirdMomentFrames:
     """Find what second and third moments fix.
 
     Parameters
@@ -149,7 +149,7 @@ def second_order_frames(
     is_scored = fixed & is_clear.any(axis=2)
     scores = np.where(is_scored, np.take_along_axis(third, first, axis=2)[:, :, 0], 0.0)
     inertia = (spread[:, [1, 0, 0]] + spread[:, [2, 2, 1]]) * (scale * total)[:, None]
-    return SecondOrderFrames(
+    return ThirdMomentFrames(
         is_body,
         inertia,
         axes,
