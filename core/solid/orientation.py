@@ -223,9 +223,9 @@ def _oriented_surface(
         return surface
     if proven:
         quads, triangles = surface.quads.copy(), surface.triangles.copy()
-        flipped_rows = flipped[: 2 * len(quads) : 2]
+        flipped_rows = flipped[len(triangles) :: 2]
         quads[flipped_rows] = quads[flipped_rows][:, [0, 3, 2, 1]]  # the first corner stays, and with it the diagonal
-        flipped_rows = flipped[2 * len(quads) :]
+        flipped_rows = flipped[: len(triangles)]
         triangles[flipped_rows] = triangles[flipped_rows][:, ::-1]
         return replace(surface, quads=quads, triangles=triangles)
     triangles = mesh.triangles

@@ -11,7 +11,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.edges import closed_side_faces, face_of_each
+from ..mesh.edges import closed_side_faces
 from ..mesh.planarity import Planarity, PlanarityAccumulator
 from ..mesh.side_pairs import faces_across_sides
 from ..mesh.surface import Surface, indices_in_range
@@ -176,9 +176,7 @@ def prove_closed(surface: Surface) -> RepairedMesh | None:
     component, component_count = found
     triangles, face = surface.triangles[:0], component[:0]
     if component_count > 1:
-        quad_faces, triangle_faces = face_of_each(surface)
-        triangles = np.concatenate([surface.quads[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3), surface.triangles])
-        face = np.concatenate([np.repeat(quad_faces, 2), triangle_faces])
+        triangles, face = surface.all_triangles()
     return RepairedMesh(
         surface.points,
         triangles,

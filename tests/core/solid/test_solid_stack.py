@@ -170,6 +170,25 @@ def test_a_diagonal_along_an_edge_is_left_to_be_repaired():
     assert len(sides) > len({tuple(side) for side in sides}) and not stack.is_measured[0]
 
 
+def test_components_of_warped_quads_are_compared_as_they_are_drawn():
+    """Along the other diagonals they may have no volume, or one of the other sign."""
+    rng, turned = np.random.default_rng(0), 0
+    sides = [*SIDES[:5], [1, 5, 7], [1, 7, 3]]
+    faces = [[corner + start for corner in side] for start in (0, 8) for side in sides]
+    for _ in range(60):
+        warped = CORNERS * [1, 1, 0.2] + rng.normal(size=(8, 3)) * 0.5
+        points = np.concatenate([3 * CORNERS, warped + [20, 0, 0]])
+        surface = mesh(points, faces, np.float32)
+        cuts = surface.all_triangles()[0]
+        drawn, cut = measure_solid(surface), measure_solid(mesh(points, cuts.tolist(), np.float32))
+        assert drawn.method is cut.method and drawn.volume.total == pytest.approx(cut.volume.total, rel=1e-12)
+        assert {found.code for found in cut.findings} == {
+            found.code for found in drawn.findings if not found.code.startswith("non_planar")
+        }
+        turned += drawn.health.inverted_components
+    assert 10 < turned < 50
+
+
 def test_only_points_that_stand_alone_have_no_neighbor():
     rng = np.random.default_rng(5)
     points = rng.uniform(-1, 1, (200, 3))
