@@ -41,7 +41,7 @@ class OBJECT_OT_body_moments_balance_group(ModalSteps, Operator):
     bl_options = {"REGISTER", "UNDO"}
     PROGRESS = finding("progress_balance")
     CANCELED = finding("canceled_balance")
-    _assembly: Member | None = None  # the collection, where its mass is given
+    _assembly: bpy.types.Collection | None = None  # the collection, where its mass is given
     _is_interactive = False  # whether its dialog has just been confirmed; not in a script, nor from the redo panel
 
     collection: StringProperty(
