@@ -82,7 +82,7 @@ def state():
     found = {
         "objects": {obj.name: of_object(obj) for obj in bpy.data.objects},
         "collections": {
-            one.name: [str(sorted(one.items())), list(one.instance_offset)]
+            one.name: [{key: str(plain(value)) for key, value in one.items()}, list(one.instance_offset)]
             for one in [*bpy.data.collections, scene.collection]
         },
         "materials": {one.name: settings_of(one.body_moments) for one in bpy.data.materials},
