@@ -19,11 +19,11 @@ from numpy.typing import NDArray
 from ..mesh.bvh import SortedComponents, sort_components
 from ..moments.moments import Moments, monomials, sum_moments
 from ..solid.nesting import ComponentRelations, classify_pairs
-from ..solid.orientation import ComponentComparison
+from ..solid.orientation import ComponentComparison, zero_volume
 from ..verdict.finding import Finding, MeasureError, finding
 from ..verdict.health import MeshReport
 from ..verdict.method import Verdict
-from ..verdict.tolerances import CLOSED_SHEET_VOLUME_RTOL, FLAT_CAP_VOLUME_RTOL, NEGLIGIBLE, WELDING_RTOL
+from ..verdict.tolerances import NEGLIGIBLE, WELDING_RTOL
 from .patch import Patch
 from .patch_moments import area_moments, area_slope, control_box, patches_center, sheet_moments, volume_moments
 from .patch_topology import PatchTopology, find_topology
@@ -228,9 +228,8 @@ def _judge_parts(
     for loop in topology.loops:
         if not loop.zero_area:
             caps[topology.component[loop.patch]] += (loop.is_planar, not loop.is_planar, loop.area)
-    threshold = np.where(caps.any(axis=1), FLAT_CAP_VOLUME_RTOL * size + 4.0 * stored, CLOSED_SHEET_VOLUME_RTOL * size)
     total = np.array([moments.total for moments, _ in measured])
-    solid = ~topology.unclosable & (np.abs(total) > threshold * area)
+    solid = ~topology.unclosable & (np.abs(total) > zero_volume(size, area, caps.any(axis=1), stored))
     comparison = _compare_parts(parts, total, solid, max(WELDING_RTOL * size, 4.0 * stored))
     flipped = solid & (total < 0.0) if comparison is None else comparison.flipped
     return _PatchVerdict(solid, flipped, solid if solid.any() else topology.unclosable, caps, comparison)

@@ -167,6 +167,23 @@ class BoundaryLoops:
         longer than wide."""
         return self.cone_area > self.perimeter * np.minimum(tolerance, MAX_GAP_ASPECT * self.perimeter)
 
+    def of_each(self, of_side: NDArray) -> NDArray:
+        """(l,) what the first side of each loop has, of what sides have, (r,)."""
+        values = np.empty(len(self.perimeter), of_side.dtype)
+        values[self.of_side[::-1]] = of_side[::-1]  # of equal indices the last is kept
+        return values
+
+    def caps(self, tolerance: float | NDArray[np.float64]) -> tuple[NDArray[np.bool_], NDArray[np.bool_], NDArray]:
+        """(l,) of the cone over each loop: whether it is a flat cap, whether a curved one, and the area of the cap.
+        tolerance: as for `has_area`."""
+        level = self.out_of_plane <= tolerance
+        return level, ~level, np.where(level, self.planar_area, self.cone_area)
+
+    def apexes(self, start: NDArray[np.integer], centroid: NDArray[np.integer]) -> NDArray[np.integer]:
+        """(l,) the vertices of the cones' tips: the centroids, but over three sides, where the start of the first makes
+        it one triangle. start: (r,) of each side; centroid: (l,) the vertex that each centroid would be."""
+        return np.where(np.bincount(self.of_side) == 3, self.of_each(start), centroid)
+
 
 def find_loops(
     begin: NDArray[np.float64], end: NDArray[np.float64], links: tuple[NDArray, NDArray, NDArray]

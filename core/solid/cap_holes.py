@@ -23,16 +23,11 @@ def cap_holes(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     component = mesh.component[owner]
     meet = [component * len(mesh.points) + vertex for vertex in (start, stop)]
     loops = find_loops(begin, end, join_sides(begin, end, *meet, directed=True))
-    of_loop = np.empty(len(loops.perimeter), np.intp)
-    of_loop[loops.of_side] = component
+    of_loop = loops.of_each(component)
     is_open = mesh.open.copy()
     is_open[of_loop[~loops.complete]] = True
-    # In the points' own type: a cap's apex then carries the same coordinate error as every vertex. A cap over three
-    # sides needs none.
-    apex = len(mesh.points) + np.arange(len(loops.perimeter))
-    first = np.empty(len(apex), np.intp)
-    first[loops.of_side[::-1]] = start[::-1]
-    apex = np.where(np.bincount(loops.of_side) == 3, first, apex)[loops.of_side]
+    apex = loops.apexes(start, len(mesh.points) + np.arange(len(of_loop)))[loops.of_side]
+    # In the points' own type: a cap's apex then carries the same coordinate error as every vertex.
     return replace(
         mesh,
         points=np.concatenate([mesh.points, loops.centroid.astype(mesh.points.dtype)]),
@@ -49,7 +44,5 @@ def _count_caps(
     """(c, 3) of each component how many flat caps and curved caps it has, and their area. of_loop: (l,) the component
     of each loop; is_open: (c,)."""
     hole = loops.has_area(tolerance) & ~is_open[of_loop]
-    level = loops.out_of_plane <= tolerance
-    columns = level, ~level, np.where(level, loops.planar_area, loops.cone_area)
-    counts = [np.bincount(of_loop, column * hole, minlength=len(is_open)) for column in columns]
+    counts = [np.bincount(of_loop, column * hole, minlength=len(is_open)) for column in loops.caps(tolerance)]
     return np.stack(counts, axis=1).astype(np.float64, copy=False)

@@ -21,7 +21,7 @@ from ..moments.moments import Moments, U, sum_moments
 from ..numerics.arrays import segment_starts
 from ..polyhedron.third_order import MAX_SMALL_TRIANGLES
 from ..polyhedron.third_order_small import small_moments
-from .boundary_loops import BoundaryLoops, find_loops, join_sides
+from .boundary_loops import BoundaryLoops, find_loops, join_sides, side_ends
 from .repaired_mesh import has_distinct_vertices
 
 
@@ -56,12 +56,11 @@ class StackCaps:
 
     def add_to(self, volume: Moments) -> Moments:
         """The volumes of the surfaces with those of their caps, about the same points."""
-        rows, stack = np.flatnonzero(self.is_capped), self.triangles.some(np.flatnonzero(self.is_capped))
-        counts, center = self.cap_counts[rows], volume.about[rows]
+        rows = np.flatnonzero(self.is_capped)
+        stack, counts, center = self.triangles.some(rows), self.cap_counts[rows], volume.about[rows]
         low, high = stack.box
-        is_cap = np.arange(len(stack.triangles)) >= np.repeat(
-            np.cumsum(stack.triangle_counts) - counts, stack.triangle_counts
-        )
+        first_cap = stack.first_triangle + stack.triangle_counts - counts
+        is_cap = np.arange(len(stack.triangles)) >= np.repeat(first_cap, stack.triangle_counts)
         caps, _, _ = small_moments(
             stack.points,
             stack.triangles[is_cap],
@@ -117,22 +116,21 @@ def cap_stack(
         can[of[may_have_neighbor(stack.points[chosen], reach[of], of)]] = False
     onto = np.full(total, -1)
     onto[start] = stop
-    following = stack.triangles[:, [1, 2, 0]]
-    is_side = onto[stack.triangles] == following
-    found = np.add.reduceat(np.add.reduce(is_side, axis=1, dtype=np.intp), stack.first_triangle)
-    sides = np.flatnonzero(np.repeat(can, 3 * stack.triangle_counts))
-    key = np.sort(stack.triangles.ravel()[sides] * total + following.ravel()[sides])
+    begins, ends = side_ends(stack.triangles, np.arange(stack.triangles.size))
+    is_side = onto[begins] == ends
+    found = np.add.reduceat(is_side, 3 * stack.first_triangle, dtype=np.intp)
+    sides = np.repeat(can, 3 * stack.triangle_counts)
+    key = np.sort(begins[sides] * total + ends[sides])
     can[owner[key[1:][key[1:] == key[:-1]] // total]] = False  # diagonals may run along edges
     can &= found + stack.triangle_counts <= MAX_SMALL_TRIANGLES
     can &= np.logical_and.reduceat(has_distinct_vertices(stack.triangles), stack.first_triangle)
     side = np.flatnonzero(is_side)
     while can.any():
-        side = side[can[owner[stack.triangles.ravel()[side]]]]
-        start, stop = stack.triangles.ravel()[side], following.ravel()[side]
+        side = side[can[owner[begins[side]]]]
+        start, stop = begins[side], ends[side]
         begin, end = stack.points[start].astype(np.float64), stack.points[stop].astype(np.float64)
         loops = find_loops(begin, end, join_sides(begin, end, start, stop, directed=True))
-        of_loop = np.empty(len(loops.perimeter), np.intp)
-        of_loop[loops.of_side] = owner[start]
+        of_loop = loops.of_each(owner[start])
         bad = ~loops.complete | ~loops.has_area(tolerance[of_loop])
         if not bad.any():
             part = _numbered_by_triangles(links.component[stack.triangle_faces])
@@ -162,11 +160,10 @@ def _capped(
     count, body = len(stack), stack.point_owners[start]
     loop_counts = np.bincount(of_loop, minlength=count)
     shift = segment_starts(loop_counts)
-    first = np.empty(len(of_loop), np.intp)
-    first[loops.of_side[::-1]] = start[::-1]
+    start_moved, stop_moved = start + shift[body], stop + shift[body]
     ends = stack.first_point + stack.point_counts
-    apex = np.where(np.bincount(loops.of_side) == 3, first + shift[of_loop], ends[of_loop] + np.arange(len(of_loop)))
-    caps = np.stack([stop + shift[body], start + shift[body], apex[loops.of_side]], axis=1)
+    apex = loops.apexes(start_moved, ends[of_loop] + np.arange(len(of_loop)))
+    caps = np.stack([stop_moved, start_moved, apex[loops.of_side]], axis=1)
     kept = has_distinct_vertices(caps)
     caps, cap_body, cap_part = caps[kept], body[kept], part[triangle[kept]]
     cap_counts, after = np.bincount(cap_body, minlength=count), (stack.first_triangle + stack.triangle_counts)[cap_body]
@@ -177,14 +174,12 @@ def _capped(
         stack.point_counts + loop_counts,
         stack.triangle_counts + cap_counts,
     )
-    level = loops.out_of_plane <= tolerance[of_loop]
-    of_part = np.empty(len(of_loop), np.intp)
-    of_part[loops.of_side] = part[triangle]
+    of_part = loops.of_each(part[triangle])
     part_owner = np.zeros(int(part.max()) + 1, np.intp)
     part_owner[part] = np.repeat(np.arange(count), stack.triangle_counts)
-    columns = level, ~level, np.where(level, loops.planar_area, loops.cone_area)
-    counts = [
-        np.bincount(part_owner, np.bincount(of_part, column, len(part_owner)), minlength=count) for column in columns
+    counts = [  # part by part, as of one body
+        np.bincount(part_owner, np.bincount(of_part, column, len(part_owner)), minlength=count)
+        for column in loops.caps(tolerance[of_loop])
     ]
     low, high = np.minimum(start, stop) - stack.first_point[body], np.maximum(start, stop) - stack.first_point[body]
     edges = np.stack([low, high], axis=1)[np.lexsort((high, low, body))]

@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.edges import Edges, face_of_each, find_edges
+from ..mesh.edges import Edges, find_edges
 from ..mesh.surface import Surface, normals
 from ..mesh.welding import same_vertices_groups
 from ..numerics.graph import connected_components
@@ -61,9 +61,7 @@ def copied_faces(surface: Surface) -> NDArray[np.integer]:
     Two faces on the same vertices are closed by their edges, so neither proof nor repair has to look for them; of a
     solid they bound nothing, but a sheet has their area twice.
     """
-    quad_faces, triangle_faces = face_of_each(surface)
-    triangles = np.concatenate([surface.quads[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3), surface.triangles])
-    face = np.concatenate([np.repeat(quad_faces, 2), triangle_faces])
+    triangles, face = surface.all_triangles()
     return np.unique(face[same_vertices_groups(triangles, face) != face])
 
 
