@@ -18,6 +18,7 @@ from ..numerics.graph import connected_components
 
 # Points that are near to each other are so along it, too; planes and axes of usual bodies are not across it.
 DIRECTION = 0.5477, 0.3163, 0.7746
+REACH_MARGIN = 1.01  # for what rounding does to places along it, and to its own length
 CELL_DIAGONAL = 3.5  # tolerances, two to a side: farther apart than any two points of one cell
 WELD_LIMIT_RTOL = 1e-3  # of the smallest triangle at a vertex: nothing larger is ever closed up
 
@@ -37,7 +38,7 @@ def may_have_neighbor(
     order = along.argsort() if owner is None else np.lexsort((along, owner))
     along = along[order]
     reach = reach[order[1:]] if isinstance(reach, np.ndarray) else reach
-    near = np.flatnonzero(along[1:] - along[:-1] <= 1.01 * reach)
+    near = np.flatnonzero(along[1:] - along[:-1] <= REACH_MARGIN * reach)
     if owner is not None:
         near = near[owner[order[near]] == owner[order[near + 1]]]
     result = np.zeros(len(points), bool)

@@ -56,7 +56,7 @@ def closes(points: ArrayLike, simplices: ArrayLike, signs: ArrayLike | None = No
     >>> closes(triangle, [[0, 1], [1, 2], [2, 0]]), closes(triangle, [[0, 1], [1, 2]])
     (True, False)
     """
-    corners, parity = _sorted_corners(points, simplices, signs)
+    _, corners, parity = _sorted_corners(points, simplices, signs)
     ridges = np.concatenate([np.delete(corners, k, axis=1) for k in range(corners.shape[1])])
     uses = np.concatenate([parity * (-1.0) ** k for k in range(corners.shape[1])])
     _, which = np.unique(ridges, axis=0, return_inverse=True)
@@ -86,27 +86,20 @@ def outer_facets(points: ArrayLike, simplices: ArrayLike, signs: ArrayLike | Non
     >>> len(facets), len(outer_facets(square, facets, signs))
     (6, 4)
     """
-    corners, parity = _sorted_corners(points, simplices, signs)
+    facets, corners, parity = _sorted_corners(points, simplices, signs)
     _, first, which = np.unique(corners, axis=0, return_index=True, return_inverse=True)
     uses = np.abs(np.bincount(which.reshape(-1), parity, len(first))).astype(np.intp)
-    return np.asarray(simplices)[_has_extent(points, simplices)][np.repeat(first, uses)]
-
-
-def _places(points: ArrayLike, simplices: ArrayLike) -> NDArray[np.intp]:
-    """(k, n) the corners by their places: points at the same one are one."""
-    _, place = np.unique(np.asarray(points, np.float64) + 0.0, axis=0, return_inverse=True)
-    return place.reshape(-1)[np.asarray(simplices)]
-
-
-def _has_extent(points: ArrayLike, simplices: ArrayLike) -> NDArray[np.bool_]:
-    return np.asarray((np.diff(np.sort(_places(points, simplices), axis=1), axis=1) > 0).all(axis=1))
+    return facets[np.repeat(first, uses)]
 
 
 def _sorted_corners(
     points: ArrayLike, simplices: ArrayLike, signs: ArrayLike | None
-) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
-    """The places of the corners of all facets that have an extent, sorted, and 1 or -1, by which way they stand."""
-    corners = _places(points, simplices)
+) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.float64]]:
+    """All facets that have an extent, the places of their corners, sorted, and 1 or -1, by which way they stand. Points
+    at the same place are one."""
+    simplices = np.asarray(simplices)
+    _, place = np.unique(np.asarray(points, np.float64) + 0.0, axis=0, return_inverse=True)
+    corners = place.reshape(-1)[simplices]
     signs = np.ones(len(corners)) if signs is None else np.asarray(signs, np.float64)
     order = np.argsort(corners, axis=1, kind="stable")
     parity = signs.copy()
@@ -115,4 +108,4 @@ def _sorted_corners(
             parity[order[:, first] > order[:, second]] *= -1.0
     corners = np.take_along_axis(corners, order, axis=1)
     solid = (np.diff(corners, axis=1) > 0).all(axis=1)  # the others have no extent
-    return corners[solid], parity[solid]
+    return simplices[solid], corners[solid], parity[solid]
