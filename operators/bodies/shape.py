@@ -41,6 +41,7 @@ from .measure_object import THREADS, Measured, measure_body
 EXACT_DISTANCE, NEAR_DISTANCE = 1e-5, 1e-2
 SURFACE_SAMPLES = 1500  # points of a surface that are held against another one
 POINTS_PER_BATCH = 64  # points whose distances are found at once
+SURFACE_OPTIONS = MeasureOptions(threads=THREADS, axes=False, pose=True)  # of what is measured for its surface's shape
 
 
 @dataclass(frozen=True)
@@ -203,17 +204,14 @@ class NoShapeError(ReadError):
         self.measurement = measurement
 
 
-SURFACE_OPTIONS = MeasureOptions(threads=THREADS, axes=False, pose=True)  # for what only a surface's shape is asked of
-
-
 def surface_shape_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> Shape:
     """As `shape_of`, of bodies with polygons only, in threads."""
-    return surface_shape(measure_body(obj, depsgraph, SURFACE_OPTIONS), SURFACE_OPTIONS)
+    return surface_shape(measure_body(obj, depsgraph, SURFACE_OPTIONS))
 
 
-def surface_shape(measured: Measured, options: MeasureOptions) -> Shape:
-    """The shape of what was measured, which has to have polygons."""
-    shape = shape_of_measured(measured, options)
+def surface_shape(measured: Measured) -> Shape:
+    """The shape of what was measured with SURFACE_OPTIONS, which has to have polygons."""
+    shape = _shape_of_measured(measured, SURFACE_OPTIONS.threads)
     if not shape.has_surface:
         raise NoShapeError("signature_needs_polygons", shape.measurement)
     return shape
@@ -222,11 +220,11 @@ def surface_shape(measured: Measured, options: MeasureOptions) -> Shape:
 def shape_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, options: MeasureOptions | None = None) -> Shape:
     """Measure an object for its shape. Raises MeasureError, and of these NoShapeError where it has none."""
     options = replace(options or MeasureOptions(), pose=True)
-    return shape_of_measured(measure_body(obj, depsgraph, options), options)
+    return _shape_of_measured(measure_body(obj, depsgraph, options), options.threads)
 
 
-def shape_of_measured(measured: Measured, options: MeasureOptions) -> Shape:
-    """The shape of what was measured with these options. Raises NoShapeError where it has none."""
+def _shape_of_measured(measured: Measured, threads: int) -> Shape:
+    """The shape of what was measured for it. Raises NoShapeError where it has none."""
     measurement, body = measured.measurement, measured.body
     if body.mass is not None and not body.has_surface:
         raise NoShapeError("shape_of_grid", measurement)
@@ -234,7 +232,7 @@ def shape_of_measured(measured: Measured, options: MeasureOptions) -> Shape:
         raise NoShapeError("shape_of_wire_or_wall", measurement)
     if measurement.method.verdict == Verdict.OPEN:
         raise NoShapeError("shape_of_open_surface", measurement)
-    shape = Shape(measurement, body, options.threads)
+    shape = Shape(measurement, body, threads)
     if np.finfo(np.float64).eps * np.abs(shape.center).max() > EXACT_DISTANCE * shape.size:
         raise NoShapeError("shape_far_from_origin", measurement)
     return shape

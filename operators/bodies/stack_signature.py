@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from ...core.mesh.surface_stack import TriangleStack
 from ...core.moments.affine_maps import are_similarities
+from ...core.numerics.arrays import segment_starts
 from ...core.polyhedron.any_order_small import extend_small_moments
 from ...core.polyhedron.third_order_small import small_moments
 from ...core.shape.signature import Signature, signatures
@@ -39,7 +40,7 @@ def signed_in_turn(
     def signed(obj: bpy.types.Object) -> Signature | Shape:
         outcome = measured(obj)
         if not isinstance(outcome, Stacked):
-            return surface_shape(outcome, SURFACE_OPTIONS)
+            return surface_shape(outcome)
         if outcome.stack not in known:
             known.clear()
             known[outcome.stack] = stack_signatures(outcome.stack, order)
@@ -96,11 +97,12 @@ def _signatures(
         points.append(own)
         triangles.append(corners[:, ::-1] if np.linalg.det(linear) < 0.0 else corners)
         first += len(own)
-    counts, starts = stack.triangle_counts[rows], np.cumsum([0, *map(len, points[:-1])])
+    counts, point_counts = stack.triangle_counts[rows], stack.point_counts[rows]
+    starts = segment_starts(point_counts)
     places = np.concatenate(points)
     radius = np.sqrt(np.maximum.reduceat((places * places).sum(axis=1), starts))
     scale = 2.0 ** np.frexp(radius)[1]  # a power of two rounds nothing; high powers of a length exceed the numbers
-    places /= np.repeat(scale, [len(own) for own in points])[:, None]
+    places /= np.repeat(scale, point_counts)[:, None]
     reach, nothing = np.maximum.reduceat(np.abs(places), starts), np.zeros((len(rows), 3))
     joined = np.concatenate(triangles)
     volume = small_moments(places, joined, counts, nothing, reach, nothing, area=False, area_moments=False)[0]
