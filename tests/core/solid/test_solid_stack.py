@@ -5,9 +5,6 @@
 import numpy as np
 import pytest
 from body_moments.core.mesh.surface import Surface
-from body_moments.core.mesh.welding import first_at_near_position, may_have_neighbor
-from body_moments.core.moments.affine_maps import apply_translation
-from body_moments.core.moments.monomials import monomial_count, monomials
 from body_moments.core.solid.measure_solid import measure_solid
 from body_moments.core.solid.solid_stack import can_be_stacked, measure_stack, small_moments_to_order
 from body_moments.core.verdict.method import Verdict
@@ -187,34 +184,6 @@ def test_components_of_warped_quads_are_compared_as_they_are_drawn():
         }
         turned += drawn.health.inverted_components
     assert 10 < turned < 50
-
-
-def test_only_points_that_stand_alone_have_no_neighbor():
-    rng = np.random.default_rng(5)
-    points = rng.uniform(-1, 1, (200, 3))
-    twins = points[:20] + 1e-4 * rng.normal(size=(20, 3)) / np.sqrt(3.0)
-    reach = np.linalg.norm(twins - points[:20], axis=1).max()
-    together = np.concatenate([points, twins])
-    may = may_have_neighbor(together, reach)
-    assert may[:20].all() and may[200:].all() and may.sum() < 100
-    owner = np.repeat([0, 1], [200, 20])
-    assert not may_have_neighbor(together, np.full(220, reach), owner)[200:].any()
-    first = first_at_near_position(together, np.full(220, reach))
-    assert first[200:].tolist() == list(range(20)) and first[:200].tolist() == list(range(200))
-
-
-@pytest.mark.parametrize("order", [3, 6, 9])
-def test_a_point_mass_is_moved_by_the_binomial_theorem(order):
-    rng = np.random.default_rng(order)
-    place, offset = rng.uniform(0.5, 2, (5, 3)), rng.uniform(0.5, 2, (5, 3))
-    offset[1] = 0.0
-    powers = monomials(order)
-    values, moved = (np.prod(where[:, None] ** powers, axis=2) for where in (place, place + offset))
-    found = apply_translation(values, order, offset)
-    assert values.shape == (5, monomial_count(order)) and np.array_equal(found[1], values[1])
-    assert (np.abs(found - moved) <= 1e-14 * order * moved).all()
-    for i in range(5):
-        assert np.array_equal(found[i], apply_translation(values[i], order, offset[i]))
 
 
 def test_an_empty_mesh_has_no_place_in_a_stack():
