@@ -7,14 +7,8 @@ chain, and the volume does not depend on a reference point. Where a mesh names t
 scatter proves the common case (each edge once each way) without sorting anything: the corners fill as many slots as
 there are corners, two for each edge, one for the side that runs to a higher vertex and one for that to a lower.
 
-Connected parts are found by hooking: every node takes its lowest neighbor as its parent where that is lower, which
-cannot make a cycle, paths are halved by pointer jumping, the trees are contracted and the rest is done again (after
-Shiloach and Vishkin, "An O(log n) parallel connectivity algorithm", J. Algorithms 3, 1982). A node that a round leaves
-alone has a lower neighbor after it: two rounds at least halve the trees that are not yet whole parts. With any lower
-neighbor in place of the lowest, a star could take as many rounds as it has links.
-
-Orientation is the same on the double cover: each face becomes two nodes, one for each orientation; a part is orientable
-where its two covers stay apart.
+Orientation is a question of connected parts on the double cover: each face becomes two nodes, one for each orientation;
+a part is orientable where its two covers stay apart.
 """
 
 from __future__ import annotations
