@@ -1652,7 +1652,6 @@ MESSAGES: dict[str, Message] = {
     ),
     "no_export_file": _error("No file is named. Choose one."),
     "file_not_written": _error("The file cannot be written: {error}"),
-    "panel_assembly_not_measured": _note("Not measured. Press Measure Assembly"),
     # ------------------------------------------------------------------ Stored results: out of date
     "stale_member": _warning("A member changed, or was measured anew"),
     "stale_members": _warning("Members were added, removed or moved, or given masses changed"),

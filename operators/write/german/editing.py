@@ -307,5 +307,4 @@ MESSAGES = {
     ),
     "no_export_file": ("Keine Datei genannt. Eine wählen.",),
     "file_not_written": ("Die Datei lässt sich nicht schreiben: {error}",),
-    "panel_assembly_not_measured": ("Nicht gemessen. Baugruppe messen drücken",),
 }
