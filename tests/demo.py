@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The demo's body, its picture and its report; `python tests/project.py demo` calls this.
 
-    demo.py build BODY.blend                       a bracket with holes, in millimetres
+    demo.py build BODY.blend                       a bracket with holes, in millimeters
     demo.py picture BODY.blend RECORD.json PNG     the bracket with its centre and principal axes
     demo.py report RECORD.json                     the record as a person reads it (no Blender)
 
@@ -16,7 +16,7 @@ import os
 import sys
 from pathlib import Path
 
-# millimetres
+# millimeters
 LENGTH, WIDTH, HEIGHT, THICKNESS = 80.0, 60.0, 50.0, 8.0
 RIB_LEG, RIB_THICKNESS = 30.0, 6.0
 SIDES = 64  # of the prisms that are the holes

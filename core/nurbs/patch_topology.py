@@ -312,17 +312,17 @@ def _orient_patches(
     count: int, left: NDArray, right: NDArray, misoriented: NDArray
 ) -> tuple[NDArray[np.bool_], NDArray[np.intp]]:
     """Which patches must turn to face as the first of their component, and those that cannot."""
-    neighbours: list[list[tuple[int, bool]]] = [[] for _ in range(count)]
+    neighbors: list[list[tuple[int, bool]]] = [[] for _ in range(count)]
     for i, j, flip in zip(left.tolist(), right.tolist(), misoriented.tolist()):
-        neighbours[i].append((j, flip))
-        neighbours[j].append((i, flip))
+        neighbors[i].append((j, flip))
+        neighbors[j].append((i, flip))
     flipped, visited, conflict = np.zeros(count, bool), np.zeros(count, bool), []
     for first in range(count):
         pending = [] if visited[first] else [first]
         visited[first] = True
         while pending:
             i = pending.pop()
-            for j, flip in neighbours[i]:
+            for j, flip in neighbors[i]:
                 if not visited[j]:
                     flipped[j], visited[j] = flipped[i] ^ flip, True
                     pending.append(j)

@@ -96,7 +96,7 @@ def join_sides(
 
 
 def _candidate_pairs(order: NDArray, first: NDArray, degree: NDArray) -> tuple[NDArray, NDArray]:
-    """Pairs of ends that meet at a vertex: all of them, or where that would be too many, neighbours in `order`."""
+    """Pairs of ends that meet at a vertex: all of them, or where that would be too many, neighbors in `order`."""
     pairs = degree * (degree - 1) // 2
     if pairs.sum() > MAX_END_PAIRS:
         within = np.concatenate([np.ones(len(order) - 1, bool), [False]])

@@ -147,7 +147,7 @@ def surfaces_intersect(
     tolerance: float,
 ) -> bool:
     """Whether surfaces go through each other, or through themselves, by more than the tolerance, as far as is found
-    within bounds of time. Triangles that share a vertex are neighbours and do not count.
+    within bounds of time. Triangles that share a vertex are neighbors and do not count.
 
     triangles: (m, 3), component: (m,) the surface that each belongs to, ascending; pairs: (k, 2) of surfaces; vertex:
     (n,) which vertex a point is.

@@ -47,7 +47,7 @@ class _Piece:
 def polynomial_mass_result(
     reading: Reading, body: MeshBody, density: DensityField, *, unit: float, shell: bool, threads: int, order: int
 ) -> tuple[list[Moments], list[Finding]]:
-    """The mass moments of all parts to an order (of a shell for a thickness of one metre), and the findings.
+    """The mass moments of all parts to an order (of a shell for a thickness of one meter), and the findings.
 
     ReadError where the density is negative.
     """

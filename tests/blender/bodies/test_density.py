@@ -410,7 +410,7 @@ def boxes_mass(low, high, density):
     ],
 )
 def test_coordinates_are_the_objects_own_or_the_worlds(frame, scale, place):
-    """Own coordinates are metres along the axes as they are drawn: scaled they are not, mirrored they are."""
+    """Own coordinates are meters along the axes as they are drawn: scaled they are not, mirrored they are."""
     obj = by_polynomial(add(box((0, 0, 1), (1, 2, 3)), location=place, scale=scale), "5 + z**2", frame)
     found = measure(obj).mass_properties
     size, sign = np.abs(scale), np.sign(scale[2])
@@ -442,7 +442,7 @@ def test_a_sheared_object_says_which_axes_are_meant():
     assert "sheared_density_axes" in said(found)
 
 
-def test_coordinates_are_in_metres_at_every_unit_scale():
+def test_coordinates_are_in_meters_at_every_unit_scale():
     bpy.context.scene.unit_settings.scale_length = 0.01
     found = measure(by_polynomial(add(box((0, 0, 0), (100, 100, 200))), "1000 + 20*z"))
     assert found.mass_properties.mass == pytest.approx(2.0 * 1020.0, rel=1e-12)

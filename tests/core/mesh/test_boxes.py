@@ -20,7 +20,7 @@ def test_boxes_meet_where_comparing_all_says_so(seed, piece, monkeypatch):
     count = rng.integers(1, 25)
     centers, extents = rng.uniform(0.0, 10.0, (count, 3)), rng.uniform(0.0, 1.2, (count, 3))
     centers[::2] = np.round(centers[::2])
-    extents[1::3] = 0.5  # neighbours that touch
+    extents[1::3] = 0.5  # neighbors that touch
     extents[::4, rng.integers(3)] = 0.0  # flat ones
     shrunk = extents * (1.0 - 1e-6)
     low, high = centers - shrunk, centers + shrunk

@@ -221,7 +221,7 @@ def test_winding_numbers_are_whole_inside_and_outside_and_half_on_an_edge():
     assert winding_numbers(points, directed_edges(loops), at) == pytest.approx([1, 0, 0, 0.5, 0.5], abs=1e-12)
 
 
-def test_the_boundary_of_triangles_is_what_no_neighbour_shares():
+def test_the_boundary_of_triangles_is_what_no_neighbor_shares():
     quads = np.array([[0, 1, 4], [0, 4, 3], [1, 2, 5], [1, 5, 4]])
     found = {tuple(edge) for edge in boundary_edges(quads, 6).tolist()}
     assert found == {(0, 1), (1, 2), (2, 5), (5, 4), (4, 3), (3, 0)}

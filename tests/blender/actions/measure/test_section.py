@@ -352,7 +352,7 @@ def test_modifiers_count_in_object_mode_and_are_said_to_be_left_out_in_edit_mode
     assert section.area == 4 and said(findings) == {"section_without_modifiers": {"modifiers": ["Array"]}}
 
 
-def test_faces_with_a_hole_between_them_and_unwelded_neighbours_have_the_right_outline():
+def test_faces_with_a_hole_between_them_and_unwelded_neighbors_have_the_right_outline():
     ring = [square(x, y, 1) for x in range(3) for y in range(3) if (x, y) != (1, 1)]
     section, _, _ = section_of(add(flat_mesh(*ring)))
     assert section.area == 8 and section.perimeter == 16
