@@ -56,7 +56,7 @@ class BODY_MOMENTS_UL_measured(UIList):
         if not rows.is_narrow(context):
             cell = row.row(align=True)
             cell.alignment = "RIGHT"
-            cell.label(text=listed_masses(context.scene, context.view_layer)[obj.name], translate=False)
+            cell.label(text=listed_masses(context.scene, context.view_layer)[obj.session_uid], translate=False)
 
     def draw_filter(self, _context, layout) -> None:
         row = layout.row(align=True)

@@ -27,7 +27,7 @@ class SortBy(StrEnum):
     VERDICT = "VERDICT"  # the least trustworthy first
 
 
-_masses: SessionCache[tuple[tuple, dict[str, str]]] = SessionCache()  # of scenes, and what each was asked for
+_masses: SessionCache[tuple[tuple, dict[int, str]]] = SessionCache()  # of scenes, and what each was asked for
 _listings: SessionCache[tuple[tuple, Listing]] = SessionCache()  # of scenes, and what each was asked for
 
 
@@ -56,7 +56,7 @@ def listing(scene: Scene, view_layer: ViewLayer, name: str, sort_by: SortBy, war
     return cached[1]
 
 
-def listed_masses(scene: Scene, view_layer: ViewLayer) -> dict[str, str]:
+def listed_masses(scene: Scene, view_layer: ViewLayer) -> dict[int, str]:
     """Format the masses of a view layer's measured objects as one column.
 
     Parameters
@@ -66,14 +66,14 @@ def listed_masses(scene: Scene, view_layer: ViewLayer) -> dict[str, str]:
 
     Returns
     -------
-    dict of str to str
-        By the objects' names; all in one unit, with as many decimals.
+    dict of int to str
+        By session uids; all in one unit, with as many decimals.
     """
     units = Units.of(scene.unit_settings)
     key = handlers.generation(), view_layer.name, units
     cached = _masses.get(scene)
     if cached is None or cached[0] != key:
-        bodies = {obj.name: body for obj in view_layer.objects if (body := shown_body(obj, scene)) is not None}
+        bodies = {obj.session_uid: body for obj in view_layer.objects if (body := shown_body(obj, scene)) is not None}
         texts = units.texts("mass", [body.mass for body in bodies.values()])
         cached = _masses[scene] = (key, dict(zip(bodies, texts)))
     return cached[1]

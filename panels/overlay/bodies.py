@@ -60,14 +60,14 @@ class Collected:
     Attributes
     ----------
     bodies : Bodies
-    names : list of str
-        Of the bodies' objects; none where some bodies are of something else.
+    objects : list of (int, str)
+        Session uids and names of the bodies' objects; none where some bodies are of something else.
     alone : dict of int to int
         Session uids of objects whose numbers change with no move of another object, and their places.
     """
 
     bodies: Bodies
-    names: list[str]
+    objects: list[tuple[int, str]]
     alone: dict[int, int]
 
 
@@ -90,13 +90,13 @@ def collect(context: Context) -> Collected:
     switched on."""
     scene = context.scene
     settings = scene.body_moments.overlay
-    bodies, names, alone = [], [], {}
+    bodies, objects, alone = [], [], {}
     for obj in drawn_objects(context, settings.show_all):
         body = shown_body(obj, scene)
         if body is not None:
             if changes_alone(obj):
                 alone[obj.session_uid] = len(bodies)
-            names.append(obj.name)
+            objects.append((obj.session_uid, obj.name))
             bodies.append((body.center, body.axes, body.gyration, look.VERDICTS.index(body.verdict)))
     for bone in context.selected_pose_bones or ():
         body = shown_bone(bone, scene)
@@ -112,24 +112,25 @@ def collect(context: Context) -> Collected:
             )
     if not bodies:
         return NOTHING
-    is_of_objects = len(names) == len(bodies)
+    is_of_objects = len(objects) == len(bodies)
     collected = Bodies(*(np.array(values) for values in zip(*bodies)))
-    return Collected(collected, names if is_of_objects else [], alone)
+    return Collected(collected, objects if is_of_objects else [], alone)
 
 
 def collect_moved(context: Context, before: Collected, moved: set[int]) -> Collected | None:
     """Gather what is shown after some objects have moved; None where that takes all of `collect`."""
-    if not before.names:
+    if not before.objects:
         return None
     places = {before.alone[uid] for uid in moved if uid in before.alone}
-    places.update(set(range(len(before.names))).difference(before.alone.values()))
+    places.update(set(range(len(before.objects))).difference(before.alone.values()))
     old = before.bodies
     bodies = Bodies(old.centers.copy(), old.axes.copy(), old.gyration.copy(), old.verdicts.copy())
     for place in places:
-        obj = context.view_layer.objects.get(before.names[place])
-        body = None if obj is None else shown_body(obj, context.scene)
+        uid, name = before.objects[place]
+        obj = context.view_layer.objects.get(name)  # or another one that is linked under the same name
+        body = None if obj is None or obj.session_uid != uid else shown_body(obj, context.scene)
         if body is None:
             return None
         bodies.centers[place], bodies.axes[place], bodies.gyration[place] = body.center, body.axes, body.gyration
         bodies.verdicts[place] = look.VERDICTS.index(body.verdict)
-    return Collected(bodies, before.names, before.alone)
+    return Collected(bodies, before.objects, before.alone)

@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the overlay draws, as arrays: where it is, how large, in which form. tests/window looks at its pixels."""
 
+from dataclasses import replace
+
 import bpy
 import numpy as np
 import pytest
@@ -167,6 +169,9 @@ def test_only_what_has_moved_is_looked_at_again(scene, monkeypatch):
     assert not after.bodies.differ_from(whole.bodies).any()
     assert after.bodies.differ_from(before.bodies).tolist() == [False, True, False]
     assert before.bodies.differ_from(before.bodies).any() == np.False_
+    of_others = [(obj.session_uid, parts[1].name) for obj in parts]  # as linked objects may have
+    assert bodies.collect_moved(bpy.context, replace(before, objects=of_others), moved) is not None
+    assert bodies.collect_moved(bpy.context, replace(before, objects=of_others), {parts[0].session_uid}) is None
     parts[0].data.vertices[0].co.z -= 0.5
     parts[0].data.update()
     bpy.context.view_layer.update()

@@ -11,7 +11,7 @@ import pytest
 pytest.importorskip("bpy")
 import bpy
 from body_moments.operators.session import results
-from body_moments.operators.session.listing import SortBy, listing
+from body_moments.operators.session.listing import SortBy, listed_masses, listing
 
 from tests.blender.objects import add, mesh_body, only, strip_mesh
 from tests.close import close
@@ -54,6 +54,23 @@ def test_measured_objects_are_listed_and_sorted():
     light.body_moments.density = 1e6
     bpy.context.view_layer.update()
     assert shown(SortBy.MASS)[0] == "b light"
+
+
+def test_a_linked_object_of_the_same_name_has_its_own_mass(tmp_path):
+    light, heavy, strip = four()
+    path = str(tmp_path / "library.blend")
+    light.name, heavy.name = "other", "b light"
+    bpy.data.libraries.write(path, {heavy})
+    heavy.name, light.name = "C heavy", "b light"
+    with bpy.data.libraries.load(path, link=True) as (_source, target):
+        target.objects = ["b light"]
+    (linked,) = target.objects
+    bpy.context.scene.collection.objects.link(linked)
+    bpy.context.view_layer.update()
+    assert linked.name == light.name and linked["body_mass"] == heavy["body_mass"] != light["body_mass"]
+    masses = listed_masses(bpy.context.scene, bpy.context.view_layer)
+    assert masses.keys() == {obj.session_uid for obj in (light, heavy, strip, linked)}
+    assert masses[linked.session_uid] == masses[heavy.session_uid] != masses[light.session_uid]
 
 
 def test_a_click_selects_that_object_alone():
