@@ -52,12 +52,12 @@ def parse(argv: list[str]) -> argparse.Namespace:
     options = parser.parse_intermixed_args(argv)
     if options.repair is not None:
         if not options.repair.is_dir():
-            parser.error(str(finding("usage_repair_folder", path=str(options.repair))))
+            parser.error(finding("usage_repair_folder", path=str(options.repair)))
         here = os.path.realpath(options.repair)
         if any(os.path.realpath(path.parent) == here for path in options.files):
-            parser.error(str(finding("usage_repair_same", path=str(options.repair))))
-    targets.check_places(options)
-    targets.files_to_replace(options, options.files)
+            parser.error(finding("usage_repair_same", path=str(options.repair)))
+    targets.check_places(options, parser.error)
+    targets.files_to_replace(options, options.files, parser.error)
     return options
 
 

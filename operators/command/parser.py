@@ -20,5 +20,5 @@ class Parser(argparse.ArgumentParser):
     def print_help(self, file: object = None) -> NoReturn:
         raise HelpRequested(self.format_help())
 
-    def error(self, message: str) -> NoReturn:
-        super().error(visible(message))
+    def error(self, message: object) -> NoReturn:
+        super().error(visible(str(message)))

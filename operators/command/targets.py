@@ -8,28 +8,32 @@ from __future__ import annotations
 
 import os
 from argparse import Namespace
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from contextlib import suppress
 from pathlib import Path
+from typing import NoReturn
 
 from ...core.verdict.finding import finding, system_reason
 from . import output, own_results
-from .arguments import TARGETS, fail
+from .arguments import TARGETS
+from .arguments import fail as fail_measure
+
+Fail = Callable[[object], NoReturn]  # of a command: ends with the reason and its usage
 
 
-def check_places(options: Namespace) -> None:
+def check_places(options: Namespace, fail: Fail = fail_measure) -> None:
     """End with a message where no file can be written."""
     for option in TARGETS:
         target = getattr(options, option, None)
         if target is None or output.is_stdout(target):
             continue
         try:
-            _check_place(option, target)
+            _check_place(option, target, fail)
         except OSError as error:  # a name that is too long, a folder that may not be entered
             fail(finding("usage_path", path=str(error.filename), error=system_reason(error)))
 
 
-def _check_place(option: str, target: Path) -> None:
+def _check_place(option: str, target: Path, fail: Fail) -> None:
     if not target.parent.is_dir():
         fail(finding("usage_folder_missing", option=option, folder=str(target.parent)))
     if target.is_dir():
@@ -41,7 +45,9 @@ def _check_place(option: str, target: Path) -> None:
         fail(finding("usage_folder_read_only", option=option, folder=str(folder)))
 
 
-def files_to_replace(options: Namespace, read: Iterable[str | Path]) -> list[tuple[Path, str]]:
+def files_to_replace(
+    options: Namespace, read: Iterable[str | Path], fail: Fail = fail_measure
+) -> list[tuple[Path, str]]:
     """The targets that are there and are no results of ours, each with its option. Ends with a message where one is
     among the files that are `read`, or somebody else's and not empty, without --force. `options.forced`: those that
     --force is about.
@@ -73,4 +79,4 @@ def check_dependencies(replaced: list[tuple[Path, str]], read: Iterable[str | Pa
     for path in read:
         for target, option in replaced:
             if os.path.exists(path) and target.samefile(path):
-                fail(finding("usage_overwrites_dependency", option=option, path=str(target)))
+                fail_measure(finding("usage_overwrites_dependency", option=option, path=str(target)))

@@ -91,7 +91,8 @@ def test_no_file_of_a_user_is_replaced_without_being_asked_to(tmp_path, capfd):
     notes.write_text("mine", encoding="utf-8")
     for target in (notes, path, tmp_path, tmp_path / "none" / "a.json"):
         assert batch.main(["audit", str(path), "--output", str(target)], channel=1) == 2
-        assert "--output" in capfd.readouterr().err
+        error = capfd.readouterr().err
+        assert "--output" in error and error.startswith("usage: body_moments audit")
     assert batch.main(["audit", str(path), "--output", str(path), "--force"], channel=1) == 2
     assert notes.read_text(encoding="utf-8") == "mine" and WRONG in path.read_text(encoding="utf-8")
     report = tmp_path / "report"
