@@ -2059,7 +2059,7 @@ def method_key(method: Method | None, walled: bool) -> str:
     return str(method) if str(method) in METHODS else method.verdict.value
 
 
-# Counts of the health record, as the text report and Select Faults name them: one, several.
+# Counts of the health record, as the text report and Select Defects name them: one, several.
 HEALTH = {
     "boundary_edges": ("boundary edge", "boundary edges"),
     "non_manifold_edges": ("non-manifold edge", "non-manifold edges"),

@@ -97,7 +97,7 @@ TEXTS = {
     "Similar": "Ähnliche",
     "Masses...": "Massen...",
     "Cursor": "Cursor",
-    "Copy Settings": "Angleichen",
+    "Copy Settings": "Übertragen",
     "Save...": "Speichern...",
     "Fourier...": "Fourier...",
     "Resting Poses": "Ruhelagen",

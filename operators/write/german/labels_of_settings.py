@@ -178,7 +178,7 @@ TEXTS = {
     "Copy": "Kopieren",
     "About Axis": "Um Achse",
     "Radius of Gyration": "Trägheitsradius",
-    "Distance of Center": "Abstand der Mitte",
+    "Distance of Center": "Abstand des Mittelpunkts",
     "Add Rigid Body with Mass": "Starrkörper mit Masse hinzufügen",
     "Add Empty": "Empty hinzufügen",
     "Transform Orientation": "Transformationsorientierung",
