@@ -20,9 +20,8 @@ VOLUME = f"{LIVE}.current_numbers({SPHERE}).measurement.volume"
 TRUTH = f"import bmesh\nb = bmesh.new()\nb.from_mesh({SPHERE}.data)\nresult = b.calc_volume()\nb.free()"
 
 
-def test_numbers_follow_a_stroke_when_it_stops(window):
-    window.ask(SCENE)
-    before = window.get(VOLUME)
+def stroke(window):
+    """Draw across the sphere; how far the numbers lag before the button is released."""
     x, y, width, height = window.region("WINDOW")
     x, y = x + width / 2, y + height / 2
     window.move(x - 60, y)
@@ -33,7 +32,13 @@ def test_numbers_follow_a_stroke_when_it_stops(window):
         window.get("True")
     lag = window.get(f"str({LIVE}.lag({SPHERE}))")
     window._xdotool("mouseup", 1)
-    assert lag == "behind"
+    return lag
+
+
+def test_numbers_follow_a_stroke_when_it_stops(window):
+    window.ask(SCENE)
+    before = window.get(VOLUME)
+    assert stroke(window) == "behind"
     window.wait(f"not {LIVE}.lag({SPHERE}) and {VOLUME} != {before!r}")
     truth = window.ask(TRUTH)
     assert abs(truth / before - 1.0) > 1e-5
@@ -49,15 +54,7 @@ def test_dynamic_topology_is_refused_as_its_mesh_cannot_be_seen(window):
     window.open_tab("Moments")
     window.ask("bpy.ops.sculpt.dynamic_topology_toggle()")
     window.wait(f"{SPHERE}.use_dynamic_topology_sculpting")
-    x, y, width, height = window.region("WINDOW")
-    x, y = x + width / 2, y + height / 2
-    window.move(x - 60, y)
-    window.get("True")
-    window._xdotool("mousedown", 1)
-    for step in range(8):
-        window.move(x - 60 + 15 * step, y + 8 * step)
-        window.get("True")
-    window._xdotool("mouseup", 1)
+    stroke(window)
     window.wait(f"{LIVE}.current_numbers({SPHERE}).refusal is not None")
     assert window.get(f"{LIVE}.current_numbers({SPHERE}).refusal.code") == "dynamic_topology"
     window.press("object.body_moments_measure")
