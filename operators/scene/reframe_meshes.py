@@ -12,6 +12,7 @@ error comes.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import ExitStack
 from dataclasses import dataclass, field
 
 import bpy
@@ -235,21 +236,27 @@ def _transform_meshes(meshes: Sequence[Mesh], changes: NDArray) -> None:
     for axis in range(3):
         moved += changes[owner, :3, axis] * points[:, axis, None].astype(np.float64)
     moved_points = moved.astype(np.float32)
-    written = 0
-    try:
+    with ExitStack() as put_back:
         for mesh, start, end, change, is_flipped in zip(meshes, ends, ends[1:], changes, flips.tolist()):
-            _write_points(mesh, change, moved_points[start:end], is_flipped)
-            written += 1
-    except BaseException:
-        for i in range(written):
-            _write_points(meshes[i], np.linalg.inv(changes[i]), points[ends[i] : ends[i + 1]], bool(flips[i]))
-        raise
+            put_back.callback(mesh.update)
+            put_back.callback(_set_points, mesh, points[start:end])
+            _change_mesh(mesh, change, moved_points[start:end], is_flipped, put_back)
+        put_back.pop_all()
 
 
-def _write_points(mesh: Mesh, change: NDArray, points: NDArray[np.float32], is_flipped: bool) -> None:
+def _change_mesh(
+    mesh: Mesh, change: NDArray, points: NDArray[np.float32], is_flipped: bool, put_back: ExitStack
+) -> None:
+    """Give a mesh the points that a change takes its own to. put_back: gets what undoes all but the points."""
     if mesh.has_custom_normals:
         mesh.transform(Matrix(change))  # turns them, too
-    mesh.attributes["position"].data.foreach_set("vector", points.reshape(-1))
+        put_back.callback(mesh.transform, Matrix(np.linalg.inv(change)))
+    _set_points(mesh, points)
     if is_flipped:
         mesh.flip_normals()
+        put_back.callback(mesh.flip_normals)
     mesh.update()
+
+
+def _set_points(mesh: Mesh, points: NDArray[np.float32]) -> None:
+    mesh.attributes["position"].data.foreach_set("vector", points.reshape(-1))

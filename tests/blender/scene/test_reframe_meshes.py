@@ -132,24 +132,36 @@ def test_linked_meshes_are_copied_where_they_have_to_be():
 
 @pytest.mark.parametrize("operator", OPERATORS)
 @pytest.mark.parametrize(
-    ("where", "after"), [("data_change", 0), ("data_change", 1), ("_transform_meshes", 0), ("_write_points", 2)]
+    ("where", "after", "late"),
+    [
+        ("data_change", 0, False),
+        ("data_change", 1, False),
+        ("_transform_meshes", 0, False),
+        ("_change_mesh", 2, False),
+        *[("_change_mesh", after, True) for after in range(3)],
+        ("_set_points", 1, True),
+    ],
 )
-def test_an_error_halfway_puts_all_back_and_each_is_tried_by_itself(operator, where, after, monkeypatch):
+def test_an_error_halfway_puts_all_back_and_each_is_tried_by_itself(operator, where, after, late, monkeypatch):
+    """late: after what was called has done its work."""
     objects, states, calls = parts(), [], []
     real, together = getattr(reframe_meshes, where), reframe_meshes.reframe_own_meshes
 
     def failing(*args):
         calls.append(args)
-        if len(calls) == after + 1:
+        planted = len(calls) == after + 1
+        if not planted or late:
+            done = real(*args)
+        if planted:
             raise TypeError("planted")
-        return real(*args)
+        return done
 
     def state():
         bpy.context.view_layer.update()
         return [
             (obj.data, *obj.location, *obj.rotation_euler, *obj.scale)
             + tuple(value for vertex in obj.data.vertices for value in vertex.co)
-            + tuple(index for face in obj.data.polygons for index in sorted(face.vertices))
+            + tuple(index for face in obj.data.polygons for index in face.vertices)
             for obj in objects
         ], len(bpy.data.meshes)
 
@@ -192,3 +204,40 @@ def test_changes_are_alike_as_all_pairs_say(seed):
         groups.append([i for i, distance in zip(left, far) if distance <= within[left[0]] or i == left[0]])
         left = [i for i in left if i not in groups[-1]]
     assert reframe_meshes._alike(changes, reach, within.tolist()) == groups
+
+
+@pytest.mark.parametrize("with_normals", [False, True])
+def test_a_mesh_whose_change_ends_in_an_error_is_as_before(with_normals, monkeypatch):
+    """And those before it: points, winding and custom normals."""
+    meshes = [each.data for each in parts()[::3]]
+    changes = np.tile(np.eye(4), (len(meshes), 1, 1))
+    changes[:, :3, :3] = np.array([[0.0, -1.5, 0.0], [1.5, 0.0, 0.0], [0.0, 0.0, 1.5]])
+    changes[::2, 2] *= -1.0
+    changes[:, :3, 3] = 1.0, 2.0, 3.0
+    if with_normals:
+        for mesh in meshes:
+            free = mesh.attributes.new("custom_normal", "FLOAT_VECTOR", "POINT").data
+            free.foreach_set("vector", np.tile([0.6, 0.0, 0.8], len(free)))
+
+    def state():
+        return [
+            (
+                np.array([vertex.co for vertex in mesh.vertices]),
+                np.array([normal.vector for normal in mesh.corner_normals]),
+                [tuple(face.vertices) for face in mesh.polygons],
+            )
+            for mesh in meshes
+        ]
+
+    def failing(mesh, *args):
+        real(mesh, *args)
+        if mesh == meshes[-1]:
+            raise TypeError("planted")
+
+    before, real = state(), reframe_meshes._change_mesh
+    monkeypatch.setattr(reframe_meshes, "_change_mesh", failing)
+    with pytest.raises(TypeError, match="planted"):
+        reframe_meshes._transform_meshes(meshes, changes)
+    for (points, normals, faces), (now, normals_now, faces_now) in zip(before, state()):
+        assert np.array_equal(points, now) and faces == faces_now
+        assert np.abs(normals - normals_now).max() < 1e-6
