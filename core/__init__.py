@@ -13,7 +13,7 @@ Every body becomes raw moments about a stated point (`Moments`), and everything 
     signature, solid_transform               numbers that identify a shape; the Fourier transform
     Finding, MeasureError                    what was noticed or decided; what was refused, and why
 
-The packages, each with its own public names in its `__init__` (imports run from the first row to the last):
+The packages, each with its own public names in its `__init__` (none imports one that stands below it):
 
     numerics     vectors, compensated sums, rotations, quadrature, B-splines, graphs, segments of arrays
     verdict      findings and refusals, method, health of a mesh, tolerances
@@ -24,9 +24,12 @@ The packages, each with its own public names in its `__init__` (imports run from
     polyhedron   integrals over triangles and quads: to third order, to any order, in n dimensions (Sheynin and Tuzikov)
     shape        symmetry, signature, Zernike descriptors (Novotni and Klein 2003), registration, libraries
     scans        NRRD, NIfTI, numpy's and raw files
+    robots       links, joints and inertials; what geometry allows an inertial to be
     solid        whether a surface bounds a solid; holes capped, faces flipped, shells nested; its moments
     plane        polygons with holes, section properties
     fourier      Fourier transforms in closed form, and on large grids to a tolerance (Barnett et al. 2019)
+    rigs         the bone that each face goes with; skinned bodies cut into closed pieces
+    streams      meshes in .stl and .ply files, read in blocks
     density      materials, polynomials, piecewise densities, grids and trivariate splines (Soldea et al., 4 and 5)
     nurbs        B-spline curves and patches (Soldea, Elber and Rivlin, sections 2, 3), Blender's knots
     offset       walls of real thickness

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from .inertia.mass_properties import MassProperties
 from .moments.moments import Measure, Moments
 from .verdict.finding import Finding, finding
-from .verdict.health import MeshReport
+from .verdict.health import MeshHealth
 from .verdict.method import Method
 
 # where a density came from that is the same everywhere
@@ -54,7 +54,7 @@ class Measurement:
     volume_moments: Moments | None
     area_moments: Moments
     mass_moments: tuple[Moments, float]
-    health: MeshReport
+    health: MeshHealth
     findings: tuple[Finding, ...]
     rotation: NDArray[np.float64]
     location: NDArray[np.float64]

@@ -2,8 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What stands between Blender and the core: operators, what reads objects, what writes results, the command line.
 
-Modules are imported when the add-on is registered: the command line uses some of them without
-registering any.
+Modules are imported when the add-on is registered: the command line uses some of them without registering any.
 """
 
 from contextlib import ExitStack
@@ -17,17 +16,15 @@ PARTS = (
     "settings.assembly",
     "settings.reference",
     "settings.bone",
-    *(
-        "session.handlers",
-        "session.updates",
-        "session.density",
-        "session.walls",
-        "session.threshold",
-        "session.live",
-        "session.assembly",
-        "session.rig",
-        "session.outcome",
-    ),
+    "session.handlers",
+    "session.updates",
+    "session.density",
+    "session.walls",
+    "session.threshold",
+    "session.live",
+    "session.assembly",
+    "session.rig",
+    "session.outcome",
     *(
         "actions.setup." + name
         for name in (

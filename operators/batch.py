@@ -22,6 +22,11 @@ import traceback
 from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
+from typing import TYPE_CHECKING, cast
+
+if TYPE_CHECKING:
+    from importlib.abc import Loader
+    from importlib.machinery import ModuleSpec
 
 PACKAGE = "body_moments"  # the add-on's name when this file is run as a script
 ALL_MEASURED, SOME_FAILED, WRONG_USAGE, INTERRUPTED, INTERNAL_ERROR = 0, 1, 2, 3, 70
@@ -153,11 +158,11 @@ def _simplex(argv: list[str], channel: int, _file_needed: bool) -> int:
     return ALL_MEASURED if output.written([text], None, channel) else SOME_FAILED
 
 
-def _gather(argv: list[str], channel: int, file_needed: bool) -> int:
+def _gather(argv: list[str], channel: int, _file_needed: bool) -> int:
     """Prepare and gather the results of many files."""
     from .command import gather
 
-    return gather.run(argv, channel, file_needed)
+    return gather.run(argv, channel)
 
 
 _GATHER = ("manifest", "merge", "to-csv", "summary", "compare", "report")
@@ -230,23 +235,20 @@ def _run() -> int:
     output = importlib.import_module(PACKAGE + ".operators.command.output")
     channel = output.claim_stdout()  # first of all: importing bpy may print
     words = sys.argv
-    bpy = sys.modules.get("bpy")
-    in_blender = bpy is not None and not bpy.app.module
+    in_blender = "bpy" in sys.modules  # of a Python that has the module nothing has imported it yet
     if in_blender:  # it leaves to a script what follows "--"
-        words = words[words.index("--") :] if "--" in words else words[:1]
+        words = words[words.index("--") :] if "--" in words else []
     batch = importlib.import_module(PACKAGE + ".operators.batch")
     return batch.main(words[1:], channel=channel, file_needed=not in_blender)
 
 
 def _load_package() -> None:
     """Make the add-on's folder the package PACKAGE, whatever it is called."""
-    root = Path(__file__).resolve().parent.parent
-    spec = importlib.util.spec_from_file_location(PACKAGE, root / "__init__.py", submodule_search_locations=[str(root)])
-    if spec is None or spec.loader is None:
-        raise ImportError(str(root))
+    place = Path(__file__).resolve().parent.parent / "__init__.py"
+    spec = cast("ModuleSpec", importlib.util.spec_from_file_location(PACKAGE, place))
     package = importlib.util.module_from_spec(spec)
     sys.modules[PACKAGE] = package
-    spec.loader.exec_module(package)
+    cast("Loader", spec.loader).exec_module(package)
 
 
 if __name__ == "__main__":

@@ -15,7 +15,7 @@ from . import rows
 from .numbers import PRINCIPAL_LABELS
 from .places import in_both_places
 
-EQUAL_MOMENTS_RTOL = 1e-6  # moments closer than this, relatively, are shown as equal
+ERROR_OF_A_DIFFERENCE = 6.0  # of principal moments: each is off by at most 3 times what an entry of the tensor is
 EQUAL_MOMENTS = {  # by whether 1 and 2, and 2 and 3, are equal
     (True, True): "panel_equal_moments_all",
     (True, False): "panel_equal_moments_12",
@@ -49,7 +49,8 @@ class InertiaPanel:
         rows.heading(column, "Principal Axes", "", shown.body.principal.axes.T)
         for label, axis in zip(PRINCIPAL_LABELS, shown.body.principal.axes.T):
             rows.direction(column, label, axis)
-        code = EQUAL_MOMENTS.get(tuple((np.diff(moments) <= EQUAL_MOMENTS_RTOL * moments[2]).tolist()))
+        error = shown.error_bound["inertia"] + shown.error_bound["input"]["inertia"]
+        code = EQUAL_MOMENTS.get(tuple((np.diff(moments) <= ERROR_OF_A_DIFFERENCE * error).tolist()))
         if code:
             rows.message(column, context, finding(code))
         column = layout.column(align=True)

@@ -92,6 +92,9 @@ from tests import may_skip
 def pytest_addoption(parser):
     parser.addoption("--result-file", help="write the outcome of the run there as JSON")
     parser.addoption("--seed", type=int, help="run files, and tests within a file, in the random order of this seed")
+    parser.addoption(
+        "--rewrite", action="store_true", help="keep what the fixture `kept` is given instead of comparing"
+    )
 
 
 def pytest_collection_modifyitems(config, items):

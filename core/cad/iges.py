@@ -36,8 +36,8 @@ REFUSED = {
     **{416: "External Reference", 430: "Solid Instance", 510: "Face", 514: "Shell"},
 }
 NAMES = {SURFACE: "Rational B-Spline Surface", TRIMMED: "Trimmed Surface", INSTANCE: "Subfigure Instance", **REFUSED}
-# Where the parameters of those that stand on others have the pointers to these: the first, and behind the last.
-REFERENCES = {TRIMMED: (0, 1), 140: (4, 5), 143: (1, 2), 430: (0, 1), 510: (0, 1)}
+# Which parameter of those that stand on another one points to it.
+REFERENCES = {TRIMMED: 0, 140: 4, 143: 1, 430: 0, 510: 0}
 CURVES = {100, 102, 104, 106, 110, 112, 116, 126, 130}  # and points: they bound nothing
 PARAMETER_CURVE = 142
 
@@ -81,8 +81,7 @@ class _Reader:
                 if entry.type == DEFINITION:
                     yield from self._members(fields)
                 else:
-                    first, end = REFERENCES[entry.type]
-                    yield from integers(fields[first:end], end - first)
+                    yield from integers(fields[REFERENCES[entry.type] :], 1)
             except ValueError:
                 continue  # refused where it is placed
 
@@ -121,17 +120,15 @@ class _Reader:
         matrix = above @ self._matrix(entry) @ local @ self._matrix(definition)
         patches = []
         for member in self._members(self._text.fields(definition)):
-            one = self._entries.get(member)
-            if one is None:
-                raise ValueError("no such entity")
+            one = self._entries[member]
             if one.type in NAMES and not one.hidden:
                 patches += self._place(one, matrix, (*path, pointer))
         return patches
 
-    def _entry(self, pointer: int, *types: int) -> Entry:
-        entry = self._entries.get(pointer)
-        if entry is None or entry.type not in types:
-            raise ValueError("no such entity")
+    def _entry(self, pointer: int, kind: int) -> Entry:
+        entry = self._entries[pointer]
+        if entry.type != kind:
+            raise ValueError("another entity")
         return entry
 
     def _matrix(self, entry: Entry) -> NDArray[np.float64]:
@@ -164,9 +161,7 @@ class _Reader:
     def _trimmed(self, entry: Entry, above: NDArray) -> list[Patch]:
         fields = self._text.fields(entry)
         pointer, has_outer, holes = integers(fields, 3)
-        base = self._entries.get(pointer)
-        if base is None:
-            raise ValueError("no such entity")
+        base = self._entries[pointer]
         if base.type != SURFACE:
             raise SurfaceRefusedError("surface_of_unsupported", base=NAMES.get(base.type, str(base.type)))
         spline = _Spline(self._text.fields(base))

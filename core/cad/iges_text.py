@@ -87,12 +87,9 @@ class IgesText:
 def _lines(text: str) -> list[str]:
     """Lines of 80 columns, with or without line breaks between them."""
     # Not splitlines: of Latin-1 it also cuts at \x85, which is half of an “Å” in UTF-8.
-    lines = re.split(r"\r\n|\r|\n", text) if re.search(r"[\r\n]", text[: LINE + 2]) else _cut(text)
+    cut = [text[start : start + LINE] for start in range(0, len(text), LINE)]
+    lines = re.split(r"\r\n|\r|\n", text) if re.search(r"[\r\n]", text[: LINE + 2]) else cut
     return [line for line in lines if line.strip("\0 \x1a")]
-
-
-def _cut(text: str) -> list[str]:
-    return [text[start : start + LINE] for start in range(0, len(text), LINE)]
 
 
 def _damaged(code: str, **values: object) -> FileError:

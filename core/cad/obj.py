@@ -83,7 +83,8 @@ class _Reader:
             elif word == "o":
                 body = " ".join(rest) or body
             elif word == "cstype":
-                rational, kind = "rat" in rest[:1], (rest or [""])[-1]
+                *first, kind = rest or [""]
+                rational = first == ["rat"]
             elif word == "deg":
                 degrees = rest
             elif word == "surf":

@@ -103,7 +103,7 @@ class Refusals:
             self.add(error.code, kind, name, **error.values)
         except MeasureError as error:  # of its control points
             self.add("surface_points", kind, name, cause=error.finding)
-        except (ValueError, OverflowError, IndexError):
+        except (ValueError, OverflowError, LookupError):
             self.add("surface_damaged", kind, name)
         return []
 

@@ -41,16 +41,15 @@ def part_densities(parts: ClosedParts, faces: NDArray[np.float64], linear: NDArr
     np.minimum.at(first, part, face)
     np.minimum.at(least, part, faces[face])
     np.maximum.at(most, part, faces[face])
+    there = first < np.iinfo(np.int64).max
+    least, most = np.where(there, least, 0.0), np.where(there, most, 0.0)
     total = np.asarray(np.bincount(part, area, minlength=parts.number), np.float64)
     sums = np.bincount(part, area * faces[face], minlength=parts.number)
-    with np.errstate(invalid="ignore"):
-        mean = np.divide(sums, total, out=(least + most) / 2.0, where=total > 0.0)
-    there = first < np.iinfo(np.int64).max
-    differs = there & (most > least)
-    of_mesh = np.where(there, np.where(differs, np.clip(mean, least, most), least), 0.0)
+    mean = np.divide(sums, total, out=(least + most) / 2.0, where=total > 0.0)
+    differs = most > least
+    of_mesh = np.where(differs, np.clip(mean, least, most), least)
     cavity = parts.host_part != np.arange(parts.number)
     density = of_mesh[parts.host_part]
-    least, most = np.where(there, least, 0.0), np.where(there, most, 0.0)
     return PartDensities(
         density,
         differs & ~cavity,

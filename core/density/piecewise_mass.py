@@ -17,7 +17,6 @@ table adds no more than 9 roundings for each order and each corner to sums whose
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import replace
 from functools import lru_cache
 from math import factorial
@@ -135,6 +134,7 @@ def _accumulate(
 ) -> tuple[NDArray[np.float64], float, NDArray[np.float64]]:
     """(K,) Σ weight h; Σ |weight| ρ; and (3,) Σ ρ τ, where weights are ρ det or, of sheets, ρ times doubled areas."""
     order, step = like.order, _block_size(like.order)
+    series = _complete_homogeneous if density.ndim == 1 else _with_linear_density
     block_sums, sizes, tau = [np.zeros(monomial_count(order))], 0.0, np.zeros(3)
     columns = [np.ascontiguousarray(column, np.float64) for column in points.T]
     for start in range(0, len(triangles), step):
@@ -150,28 +150,21 @@ def _accumulate(
         weight = (normal * place[:, 0]).sum(axis=0) if solid else np.sqrt((normal * normal).sum(axis=0))
         sizes += float(np.abs(weight) @ mean)
         tau += [float((np.abs(plus) + np.abs(minus)) @ mean) for plus, minus in products]
-        if block_density.ndim == 1:
-            block_sums.append(
-                np.array([np.add.reduce(row * weight) for row in _complete_homogeneous(place, block_density, order)])
-            )
-        else:
-            block_sums.append(
-                np.array([np.add.reduce(row * weight) for row in _with_linear_density(place, block_density.T, order)])
-            )
+        block_sums.append(np.add.reduce(series(place, block_density.T, order) * weight, axis=1))
     return np.add.reduce(np.array(block_sums)), sizes, tau
 
 
-def _complete_homogeneous(corners: NDArray, density: NDArray, order: int) -> Iterator[NDArray]:
-    """ρ h_α of each triangle, one α after the other. corners: (3 axes, 3 corners, k)."""
+def _complete_homogeneous(corners: NDArray, density: NDArray, order: int) -> NDArray[np.float64]:
+    """(K, k) ρ h_α of each triangle. corners: (3 axes, 3 corners, k)."""
     table = np.zeros((monomial_count(order), corners.shape[2]))
     table[0] = density
     for corner in range(3):
         _multiply_by_geometric_series(table, corners[:, corner], order)
-    yield from table
+    return table
 
 
-def _with_linear_density(corners: NDArray, density: NDArray, order: int) -> Iterator[NDArray]:
-    """h_(α,1) of each triangle, one α after the other. density: (3 corners, k)."""
+def _with_linear_density(corners: NDArray, density: NDArray, order: int) -> NDArray[np.float64]:
+    """(K, k) h_(α,1) of each triangle. density: (3 corners, k)."""
     table, linear = np.zeros((2, monomial_count(order), corners.shape[2]))
     table[0] = 1.0
     for corner in range(3):
@@ -179,7 +172,7 @@ def _with_linear_density(corners: NDArray, density: NDArray, order: int) -> Iter
         linear += table * density[corner]
         # 1/(1 - v·t - ρ s): the part linear in s is that of before plus ρ times the whole, then divided by (1 - v·t).
         _multiply_by_geometric_series(linear, corners[:, corner], order)
-    yield from linear
+    return linear
 
 
 def _multiply_by_geometric_series(table: NDArray, vertex: NDArray, order: int) -> None:

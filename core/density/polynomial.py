@@ -24,6 +24,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..moments.moments import U
 from ..moments.monomials import monomial_count, monomial_index, monomials, order_from_count
+from ..numerics.arrays import power_table
 from ..verdict.finding import MeasureError
 
 MAX_DEGREE = 17  # mass moments to order 3 then need those of the body to order 20
@@ -113,10 +114,7 @@ class Polynomial:
         coefficients, result = self.coefficients(), np.zeros(len(points))
         for start in range(0, len(points), POINTS_PER_BLOCK):
             part = points[start : start + POINTS_PER_BLOCK].T
-            powers = [[np.ones(part.shape[1])] for _ in range(3)]
-            for axis, row in zip(powers, part):
-                for _ in range(self.degree):
-                    axis.append(axis[-1] * row)
+            powers = [power_table(row, self.degree) for row in part]
             for (p, q, r), value in zip(monomials(self.degree), coefficients):
                 if value:
                     result[start : start + POINTS_PER_BLOCK] += value * powers[0][p] * powers[1][q] * powers[2][r]

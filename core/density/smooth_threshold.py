@@ -132,5 +132,5 @@ def _combine(body: ThresholdBody, other: ThresholdBody, share: float | None) -> 
             return replace(fine, rounding_error=fine.rounding_error + np.abs(difference))
         return replace(fine, raw=fine.raw + share * difference)
 
-    mass = None if body.mass is None or other.mass is None else combined(body.mass, other.mass)
-    return replace(body, volume=combined(body.volume, other.volume), area=combined(body.area, other.area), mass=mass)
+    names = [name for name in ("volume", "area", "mass") if getattr(body, name) is not None]
+    return replace(body, **{name: combined(getattr(body, name), getattr(other, name)) for name in names})

@@ -279,11 +279,11 @@ def _moments_about(
     coefficients: NDArray | Blocks, axes: tuple[SplineAxis, ...], order: int, value: Callable | None, about: NDArray
 ) -> Moments:
     """The moments about a point, with their bounds."""
-    turn = np.arange(3)
+    axis_order = np.arange(3)
     if not callable(coefficients):  # the first contraction runs along what is contiguous
-        turn = np.argsort([-abs(stride) for stride in coefficients.strides], kind="stable")
-        coefficients = coefficients.transpose(turn)
-    tables = [axes[i].table(order, about[i]) for i in turn]
+        axis_order = np.argsort([-abs(stride) for stride in coefficients.strides], kind="stable")
+        coefficients = coefficients.transpose(axis_order)
+    tables = [axes[i].table(order, about[i]) for i in axis_order]
     total, size = np.zeros((2, order + 1, order + 1, order + 1))
     blocks, longest = 0, 0
     for part, block in _pieces(coefficients):
@@ -292,35 +292,35 @@ def _moments_about(
         if value is not None:
             block = value(block)
         factors = [table[:, first : first + length] for table, first, length in zip(tables, part, block.shape)]
-        added = _contract(block, factors)
+        added = contract(block, factors)
         total += added
-        size += added if block.min() >= 0.0 else _contract(np.abs(block), factors)
+        size += added if block.min() >= 0.0 else contract(np.abs(block), factors)
         blocks, longest = blocks + 1, max(longest, sum(block.shape))
     if not np.isfinite(total).all():
         raise MeasureError("density_non_finite")
-    p, q, r = monomials(order)[:, turn].T
-    bounds = [_absolute_from_even(axes[i], order, about[i]) for i in turn]
+    p, q, r = monomials(order)[:, axis_order].T
+    bounds = [_absolute_from_even(axes[i], order, about[i]) for i in axis_order]
     size = np.einsum("ax,by,cz,xyz->abc", *bounds, size)
     units = sum(axis.rounding_counts(order) for axis in axes) + longest + blocks + 8
     return Moments(total[p, q, r], about, Measure.MASS, 1.01 * units * U * size[p, q, r])
 
 
 def _pieces(coefficients: NDArray | Blocks) -> Iterator[tuple[tuple[int, int, int], NDArray]]:
-    """Blocks of at most about BLOCK coefficients, and where they begin."""
+    """Blocks of at most about COEFFICIENTS_PER_BLOCK, and where they begin."""
     if callable(coefficients):
         for (x, y, z), array in coefficients():
             for (i, j, k), piece in _pieces(array):
                 yield (x + i, y + j, z + k), piece
         return
     nx, ny, nz = coefficients.shape
-    columns = max(1, min(ny, COEFFICIENTS_PER_BLOCK // max(nz, 1)))
-    planes = max(1, COEFFICIENTS_PER_BLOCK // max(ny * nz, 1))
+    columns = max(1, COEFFICIENTS_PER_BLOCK // nz)
+    planes = max(1, COEFFICIENTS_PER_BLOCK // (ny * nz))
     for i in range(0, nx, planes):
         for j in range(0, ny, columns):
             yield (i, j, 0), coefficients[i : i + planes, j : j + columns]
 
 
-def _contract(block: NDArray, factors: list[NDArray]) -> NDArray[np.float64]:
+def contract(block: NDArray, factors: list[NDArray]) -> NDArray[np.float64]:
     """(n, n, n) Σ block_ijk X[p,i] Y[q,j] Z[r,k]."""
     partial = np.stack([np.einsum("ijk,k->ij", block, row) for row in factors[2]])
     return np.einsum("rqi,pi->pqr", np.einsum("rij,qj->rqi", partial, factors[1]), factors[0])

@@ -23,8 +23,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..moments.moments import Measure, Moments, U, monomials
+from ..numerics.arrays import power_table
 from ..numerics.quadrature import gauss_legendre
 from ..verdict.finding import MeasureError
+from .spline_grid import contract
 from .threshold_cells import TURNS, Cells, Columns, amounts_of, compare_rules, interpolate
 
 RULES = ((3, 5), (8, 12))  # points of the two rules that are compared, along x and along y; then the same with more
@@ -232,9 +234,7 @@ class _Sums:
 
     def _contract(self, block: NDArray, factors: list[NDArray]) -> NDArray[np.float64]:
         """(K,) Σ block_ijk X[p,i] Y[q,j] Z[r,k]."""
-        partial = np.stack([np.einsum("ijk,k->ij", block, row) for row in factors[2]])
-        table = np.einsum("rqi,pi->pqr", np.einsum("rij,qj->rqi", partial, factors[1]), factors[0])
-        return table[tuple(self.powers.T)]
+        return contract(block, factors)[tuple(self.powers.T)]
 
     def add_cut_cells(self, cells: Cells, threshold: float) -> None:
         """Add what is inside of cells that the surface passes through."""
@@ -272,8 +272,9 @@ class _Sums:
                 columns, estimates = compare_rules(left, turn, rules[:1] if self.preview else rules, self.metric)
                 good = (estimates[0] <= allowed) & (estimates[1] <= AREA_TOLERANCE * self.face)
                 self._add_columns(columns, good, left, turn, threshold)
-                self._add_estimate(left[good], threshold, *estimates[:, good])
-                self._add_sizes(left[good], threshold, amounts_of(columns, left)[1, good])
+                kept = left[good]
+                self._add_largest("estimate", kept, threshold, *estimates[:, good])
+                self._add_largest("size", kept, threshold, kept.size**3, amounts_of(columns, left)[1, good])
                 left = left[~good]
             rest.append(left)
         return Cells.join(rest)
@@ -286,10 +287,10 @@ class _Sums:
         z0 = first[:, turn[2]]
         low, high, level = (z0 + size * of[kept] for of in (columns.low, columns.high, columns.level))
         floor = columns.weight[kept] * size**2
-        xs, ys = (_power_table(values, self.order) for values in place)
-        ends = zip(_power_table(high, self.order + 1)[1:], _power_table(low, self.order + 1)[1:])
+        xs, ys = (power_table(values, self.order) for values in place)
+        ends = zip(power_table(high, self.order + 1)[1:], power_table(low, self.order + 1)[1:])
         inside = [(upper - lower) / (r + 1) for r, (upper, lower) in enumerate(ends)]
-        levels = _power_table(level, self.order)
+        levels = power_table(level, self.order)
         levels = [columns.slope[kept] * power for power in levels]
         across = {}
         for number, (p, q, r) in enumerate(self.powers[:, turn].tolist()):
@@ -321,7 +322,7 @@ class _Sums:
             self._add_points(floor * size * height * weight * density, points, turn)
 
     def _add_points(self, masses: NDArray, points: list[NDArray], turn: tuple) -> None:
-        tables = [_power_table(values, self.order) for values in points]
+        tables = [power_table(values, self.order) for values in points]
         for number, powers in enumerate(self.powers[:, turn].tolist()):
             term = masses * tables[0][powers[0]] * tables[1][powers[1]] * tables[2][powers[2]]
             self.mass[number] += term.sum()
@@ -336,7 +337,7 @@ class _Sums:
             u, v, w = nodes[list(place)]
             points = list((cells.origin + cells.size[:, None] * np.array([u, v, w])).T)
             volumes = weights[list(place)].prod() * cells.size**3
-            tables = [_power_table(values, self.order) for values in points]
+            tables = [power_table(values, self.order) for values in points]
             for number, (p, q, r) in enumerate(self.powers.tolist()):
                 term = volumes * tables[0][p] * tables[1][q] * tables[2][r]
                 self.volume[number] += term.sum()
@@ -348,34 +349,26 @@ class _Sums:
     def _give_up(self, cells: Cells, threshold: float) -> None:
         """Count half of what is left, and all of it as the estimate of the error."""
         center = cells.origin + cells.size[:, None] / 2.0
-        tables = [_power_table(values, self.order) for values in center.T]
+        tables = [power_table(values, self.order) for values in center.T]
         for number, (p, q, r) in enumerate(self.powers.tolist()):
             self.volume[number] += (cells.size**3 / 2.0 * tables[0][p] * tables[1][q] * tables[2][r]).sum()
             if self.with_density:
                 self.mass[number] += (
                     threshold * cells.size**3 / 2.0 * tables[0][p] * tables[1][q] * tables[2][r]
                 ).sum()
-        self._add_estimate(cells, threshold, cells.size**3, 6.0 * self.face * cells.size**2)
+        self._add_largest("estimate", cells, threshold, cells.size**3, 6.0 * self.face * cells.size**2)
 
-    def _add_estimate(self, cells: Cells, threshold: float, volumes: NDArray, areas: NDArray) -> None:
-        """Note by how much volume and area of each cell may be off."""
-        for total, values in self._largest(cells, threshold, volumes, areas, "estimate"):
-            total += values
+    def _add_largest(self, name: str, cells: Cells, threshold: float, volumes: NDArray, areas: NDArray) -> None:
+        """Add to the totals of that name what the moments of so much volume, area and mass in each cell can be.
 
-    def _add_sizes(self, cells: Cells, threshold: float, areas: NDArray) -> None:
-        """Note what the terms of each cell may sum up to in absolute value."""
-        for total, values in self._largest(cells, threshold, cells.size**3, areas, "size"):
-            total += values
-
-    def _largest(
-        self, cells: Cells, threshold: float, volumes: NDArray, areas: NDArray, name: str
-    ) -> Iterator[tuple[NDArray, NDArray]]:
-        """Of volume, area and mass in each cell, the totals of that name and what their moments can add up to."""
-        reach = _power_table((np.abs(cells.origin) + cells.size[:, None]).T, self.order)
+        name: "estimate", of how far they may be off, or "size", of what their terms add up to in absolute value.
+        """
+        reach = power_table((np.abs(cells.origin) + cells.size[:, None]).T, self.order)
         density = abs(threshold) + np.abs(cells.corners).max(axis=(1, 2, 3), initial=0.0)
         largest = np.stack([reach[p][0] * reach[q][1] * reach[r][2] for p, q, r in self.powers.tolist()])
         for measure, amounts in (("volume", volumes), ("area", areas), ("mass", volumes * density)):
-            yield getattr(self, measure + "_" + name), np.einsum("ki,i->k", largest, amounts)
+            total = getattr(self, measure + "_" + name)
+            total += np.einsum("ki,i->k", largest, amounts)
 
 
 def _interval_moments(first: NDArray, order: int) -> NDArray[np.float64]:
@@ -383,10 +376,3 @@ def _interval_moments(first: NDArray, order: int) -> NDArray[np.float64]:
     nodes, weights = gauss_legendre(order // 2 + 1)
     points = first[:, None] + nodes
     return np.stack([(points**power) @ weights for power in range(order + 1)])
-
-
-def _power_table(values: NDArray, order: int) -> list[NDArray]:
-    powers = [np.ones_like(values)]
-    for _ in range(order):
-        powers.append(powers[-1] * values)
-    return powers

@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..moments.moments import Measure, Moments, U, monomials
-from ..numerics.arrays import batches
+from ..numerics.arrays import batches, power_table
 from ..numerics.quadrature import triangle_rule
 from ..verdict.finding import MeasureError
 
@@ -92,7 +92,7 @@ def inside_moments(triangles: ArrayLike, densities: NDArray, order: int = 3) -> 
             columns = [
                 sums + voxel_density * (z ** (r + 1) - corner ** (r + 1)) / (r + 1) for r, sums in enumerate(filled)
             ]
-            xs, ys = _powers(x, order), _powers(y, order)
+            xs, ys = power_table(x, order), power_table(y, order)
             for n, (p, q, r) in enumerate(exponents.tolist()):
                 term = double * weight * xs[p] * ys[q] * columns[r]
                 total[n] += term.sum()
@@ -100,13 +100,6 @@ def inside_moments(triangles: ArrayLike, densities: NDArray, order: int = 3) -> 
         terms = max(terms, len(pieces))
     units = 40 + 4 * order + int(shape[2]) + int(math.log2(terms + 1))
     return Moments(total, about, Measure.MASS, units * U * size), volume
-
-
-def _powers(x: NDArray, order: int) -> list[NDArray]:
-    powers = [np.ones_like(x)]
-    for _ in range(order):
-        powers.append(powers[-1] * x)
-    return powers
 
 
 def _sums_below(densities: NDArray, center: float, order: int) -> list[NDArray[np.float64]]:
@@ -132,7 +125,7 @@ def _batches(triangles: NDArray, shape: NDArray) -> Iterator[slice]:
 def _cut_at_voxels(triangles: NDArray, shape: NDArray) -> NDArray[np.float64]:
     """(m, 3, 3) the triangles cut along every plane between voxels, and along the sides of the grid."""
     for axis in range(3):
-        done = []
+        done = [triangles[:0]]
         while len(triangles):
             low, high = triangles[:, :, axis].min(axis=1), triangles[:, :, axis].max(axis=1)
             first = np.maximum(np.floor(low) + 1.0, 0.0)  # the planes strictly between
@@ -141,14 +134,12 @@ def _cut_at_voxels(triangles: NDArray, shape: NDArray) -> NDArray[np.float64]:
             done.append(triangles[~across])
             plane = np.floor((first + last) / 2.0)[across]
             triangles = _split_triangles(triangles[across], axis, plane)
-        triangles = np.concatenate(done) if done else triangles
+        triangles = np.concatenate(done)
     return triangles
 
 
 def _split_triangles(triangles: NDArray, axis: int, plane: NDArray) -> NDArray[np.float64]:
     """Each triangle, which its plane passes through, as the three that it is cut into; less where a corner is on it."""
-    if not len(triangles):
-        return triangles
     side = triangles[:, :, axis] > plane[:, None]
     alone = np.where(side.sum(axis=1) == 1, side.argmax(axis=1), (~side).argmax(axis=1))
     index = np.arange(len(triangles))

@@ -26,7 +26,7 @@ from numpy.typing import ArrayLike, NDArray
 from ..mesh.surface import Surface
 from ..moments.moments import Measure, U
 from ..numerics.compensated import phase_factors, two_sum
-from ..polyhedron import polyhedron_moments
+from ..polyhedron.integration import polyhedron_moments
 from ..verdict.finding import MeasureError
 from .spectrum import Spectrum
 from .triangle_kernel import PAIRS_PER_BLOCK, TRIANGLES_PER_BLOCK, PhaseMeans, SortedTriangles

@@ -27,6 +27,7 @@ from ..mesh.surface import Surface, indices_in_range
 from ..numerics.arrays import spread_bits
 from ..numerics.compensated import compensated_normals
 from ..verdict.finding import MeasureError
+from ..verdict.tolerances import MAX_COORDINATE, MIN_SIZE
 from .wave_vectors import GridWaves, ListWaves
 
 TRIANGLES_PER_BLOCK = 128  # triangles
@@ -36,7 +37,6 @@ MAX_SERIES_DIAMETER = 3.0  # the largest |q| diameter for which all of a block i
 MAX_SERIES_SQUARE = 1.0  # Σ d² below which a pair is
 MORTON_CELLS = 1023  # along an axis, to sort triangles in space
 TINY = 1e-300
-MAX_COORDINATE, MIN_SIZE = 1e50, 1e-60  # lengths as of a solid that can be measured
 
 
 class SortedTriangles:

@@ -35,8 +35,9 @@ MAX_EQUAL_SHARE = 0.25  # of what distinguishes directions: at most that much co
 START_DIRECTIONS = 240  # directions from which extreme ones are looked for
 MAX_START_GAP = 0.18  # from any direction to the nearest of them
 ASCENT_STEPS = 16  # from there to a maximum, most of them for those that are hardly curved
-# before which of them directions closer than this, which go to one maximum, are merged; a step that is none
-STEPS_TO_MERGE, MERGED_DIRECTIONS, ARRIVED = (3, 4, 5, 6, 8), 1e-4, 1e-15
+STEPS_BEFORE_MERGE = 3
+MERGED_DIRECTIONS = 1e-4  # after these steps, directions closer than this, which go to one maximum, are merged
+ARRIVED = 1e-15  # a step that is none
 MAX_ISOLATED_DIRECTIONS = 40  # more directions than these are a circle of them, or all
 
 
@@ -231,7 +232,7 @@ def _maximize_on_sphere(tensor: NDArray, degree: int, span: float, within: float
     points = points[height >= height.max() - within - (degree * MAX_START_GAP) ** 2 / 4.0 * span]
     uphill = np.zeros_like(points)
     for step in range(ASCENT_STEPS):
-        if step in STEPS_TO_MERGE:
+        if step >= STEPS_BEFORE_MERGE:
             points = distinct_arrays(points, MERGED_DIRECTIONS)
         contracted_twice = _contract(tensor, degree - 2, points)
         contracted_once = degree * np.einsum("nij,nj->ni", contracted_twice, points)

@@ -52,7 +52,7 @@ def complete_free_axes(frames: NDArray, free: tuple[int, ...], preferred_axes: N
     opposite = np.linalg.norm(wish, axis=-1) < 1e-6
     if opposite.any():
         cosines = np.abs(np.einsum("...a,...ai->...i", fixed, preferred_axes))
-        nearest = np.take_along_axis(preferred_axes, cosines.argmin(axis=-1)[..., None, None], axis=-1)[..., 0]
+        nearest = np.take_along_axis(preferred_axes, cosines.argmin(axis=-1)[..., None, None], -1)[..., 0]
         wish = np.where(opposite[..., None], _across(nearest, fixed), wish)
     completed[..., first] = wish / np.linalg.norm(wish, axis=-1, keepdims=True)
     completed[..., second] = np.cross(fixed, completed[..., first])
@@ -80,7 +80,7 @@ def nearest_frames(candidates: NDArray, preferred_axes: NDArray, tilt: ArrayLike
     near = turns > turns.max(axis=1, keepdims=True) - equal
     size = np.abs(local)
     row = (size > size.max(axis=2, keepdims=True) - equal[..., None, None]).argmax(axis=2)[:, :, None]
-    is_along = np.take_along_axis(local, row, axis=2)[:, :, 0] > 0.0
+    is_along = np.take_along_axis(local, row, 2)[:, :, 0] > 0.0
     rank = np.where(near, is_along @ np.array([4, 2, 1]), -1)
     near = rank == rank.max(axis=1, keepdims=True)
     for entry in np.moveaxis(local.reshape(*local.shape[:2], 9), 2, 0):  # what is left may still be several frames

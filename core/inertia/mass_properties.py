@@ -190,7 +190,7 @@ class MassProperties:
         arm = self.center - origin
         return replace(
             self,
-            center=inverse @ arm if arm.ndim == 1 else (inverse @ arm[..., None])[..., 0],
+            center=(inverse @ arm[..., None])[..., 0],
             inertia=(inertia + inertia.swapaxes(-1, -2)) / 2.0,
             principal=self.principal.rotate(inverse),
         )
@@ -226,6 +226,20 @@ def combine(bodies: Sequence[tuple[Moments, float]], preferred_axes: NDArray | N
     """
     weighed = [replace(moments, measure=Measure.MASS) * density for moments, density in bodies]
     return MassProperties.from_moments(sum_moments(weighed), preferred_axes=preferred_axes)
+
+
+def are_physical(volume: Moments, low: NDArray, high: NDArray, size: float | NDArray[np.float64]) -> NDArray[np.bool_]:
+    """(n,) whether bodies within these boxes, (n, 3) and (n, 3), can have these moments: their centers are inside, and
+    their second central moments are those of a positive mass. Where a surface intersects itself, they need not be."""
+    total = volume.raw[:, 0]
+    mean = volume.raw[:, 1:4] / total[:, None]
+    second = volume.raw[:, SECOND_MOMENT_INDEX] / total[:, None, None] - mean[:, :, None] * mean[:, None, :]
+    most = np.abs(second).max(axis=(1, 2))
+    rounding = 8.0 * (volume.rounding_error[:, 4:10].max(axis=1) / total + np.finfo(float).eps * most)
+    tolerance = (1e-6 * size + volume.rounding_error[:, 1:4].max(axis=1) / total)[:, None]
+    center = volume.about + mean
+    inside = ((low - tolerance <= center) & (center <= high + tolerance)).all(axis=1)
+    return inside & (np.linalg.eigvalsh(second)[:, 0] >= -rounding)
 
 
 def _propagate_errors(moments: Moments, density: NDArray) -> tuple[dict[str, PerBody], dict[str, PerBody]]:

@@ -104,21 +104,23 @@ class Reference:
         inertia = self.axes.T @ tensor @ self.axes
         distance = float(np.linalg.norm(arm))
         rounded = 2.0 * U * float(np.abs(properties.center).sum() + np.abs(self.origin).sum())
-        size = float(np.linalg.norm(properties.inertia)) + np.sqrt(2.0) * properties.mass * distance**2
+        size = float(np.linalg.norm(properties.inertia) + np.sqrt(2.0) * properties.mass * distance**2)
         bounds = []
         for delta, own in ((properties.rounding_error, rounded), (properties.input_error, 0.0)):
-            center = delta["center"] + own
+            center = float(delta["center"] + own)
             bounds.append(
                 {
                     "mass": delta["mass"],
                     "center": center,
-                    "inertia": delta["inertia"]
-                    + np.sqrt(2.0) * distance**2 * delta["mass"]
-                    + properties.mass * (6.0 * distance * center + 2.0 * center**2),
+                    "inertia": float(
+                        delta["inertia"]
+                        + np.sqrt(2.0) * distance**2 * delta["mass"]
+                        + properties.mass * (6.0 * distance * center + 2.0 * center**2)
+                    ),
                 }
             )
-        bounds[0]["center"] += 8.0 * U * distance
-        bounds[0]["inertia"] += 40.0 * U * size
+        bounds[0]["center"] += float(8.0 * U * distance)
+        bounds[0]["inertia"] += float(40.0 * U * size)
         return ReferredInertia(
             self, properties.mass, self.axes.T @ arm, (inertia + inertia.T) / 2.0, bounds[0], bounds[1]
         )
@@ -160,16 +162,16 @@ class Reference:
         bounds = []
         for delta in (shifted.rounding_error, shifted.input_error):
             spread = delta[SECOND_MOMENT_INDEX]
-            least = total - delta[0] if total > delta[0] else total
+            least, shift = total - delta[0], float(np.linalg.norm(delta[1:4] + np.abs(center) * delta[0]))
             bounds.append(
                 {
                     "mass": float(delta[0]),
-                    "center": float(np.linalg.norm((delta[1:4] + np.abs(center) * delta[0]) / least)),
+                    "center": shift / least if least > 0.0 else np.inf,
                     "inertia": float(np.linalg.norm(spread.trace() * IDENTITY_3 + spread)),
                 }
             )
-        bounds[0]["center"] += 2.0 * U * float(np.linalg.norm(center))
-        bounds[0]["inertia"] += 4.0 * U * float(np.linalg.norm(second))
+        bounds[0]["center"] += float(2.0 * U * np.linalg.norm(center))
+        bounds[0]["inertia"] += float(4.0 * U * np.linalg.norm(second))
         return ReferredInertia(self, total, center, second.trace() * IDENTITY_3 - second, bounds[0], bounds[1])
 
 

@@ -147,7 +147,7 @@ def third_moment_frames(
     is_clear = np.abs(third) > noise + error
     first = is_clear.argmax(axis=2)[:, :, None]  # zero where none of them is more than noise
     is_scored = fixed & is_clear.any(axis=2)
-    scores = np.where(is_scored, np.take_along_axis(third, first, axis=2)[:, :, 0], 0.0)
+    scores = np.where(is_scored, np.take_along_axis(third, first, 2)[:, :, 0], 0.0)
     inertia = (spread[:, [1, 0, 0]] + spread[:, [2, 2, 1]]) * (scale * total)[:, None]
     return ThirdMomentFrames(
         is_body,
@@ -171,9 +171,9 @@ def _are_decided(size: NDArray, error: NDArray, noise: NDArray, fixed: NDArray[n
     below = size + error <= noise
     decided = (clear[:, :, 0] | (clear | below).all(axis=2) | ~fixed).all(axis=1)
     first = clear.argmax(axis=2)[:, :, None]
-    size, error = (np.take_along_axis(values, first, axis=2)[:, :, 0] for values in (size, error))
+    size, error = (np.take_along_axis(values, first, 2)[:, :, 0] for values in (size, error))
     last = np.argsort(size, axis=1)[:, :2]  # of three scores, which one is the last
-    size, error = np.take_along_axis(size, last, axis=1), np.take_along_axis(error, last, axis=1)
+    size, error = np.take_along_axis(size, last, 1), np.take_along_axis(error, last, 1)
     apart = size[:, 1] - size[:, 0] > 2.0 * error.sum(axis=1)
     return decided & (apart | ~(fixed & clear.any(axis=2)).all(axis=1))
 

@@ -28,9 +28,9 @@ MAX_BOX_PAIRS = 10_000_000  # pairs of boxes looked at
 
 @dataclass(frozen=True, eq=False)
 class SortedComponents:
-    """Triangles sorted by shell, and the measures of each shell.
+    """Triangles sorted by component, and the measures of each component.
 
-    triangles: (m, 3); component: (m,) ascending; start: (c + 1,) where each shell begins.
+    triangles: (m, 3); component: (m,) ascending; start: (c + 1,) where each component begins.
     low, high: (c, 3) boxes; volume: (c,) signed; area: (c,).
     """
 
@@ -46,7 +46,7 @@ class SortedComponents:
 def sort_components(
     points: NDArray[np.floating], triangles: NDArray[np.integer], component: NDArray[np.intp], number: int
 ) -> SortedComponents:
-    """Sort triangles by shell and measure each shell about a point of its own."""
+    """Sort triangles by component and measure each component about a point of its own."""
     if np.any(component[1:] < component[:-1]):
         order = radix_argsort(component)
         triangles, component = triangles[order], component[order]
@@ -81,11 +81,11 @@ def radix_argsort(values: NDArray[np.integer]) -> NDArray[np.intp]:
 
 
 class Bvh:
-    """One bounding-volume tree for each wanted shell: perfect binary trees over triangles in Morton order.
+    """One bounding-volume tree for each wanted component: perfect binary trees over triangles in Morton order.
 
     vertex_columns: (3, n) the vertices about `origin`; ids: (3, m) the vertices of the sorted triangles; bottom, top:
     (3, m) their boxes.
-    root: (c,) the root of each shell's tree. A node's first child is `child`, -1 for leaves; the second one follows.
+    root: (c,) that of each component's tree. A node's first child is `child`, -1 for leaves; the second one follows.
     A leaf holds triangles `first` to `last`. low, high: (n, 3) boxes; of an empty node they are inverted.
     """
 
@@ -95,8 +95,8 @@ class Bvh:
         self._build_nodes(self._sort(components, selected), selected)
 
     def _sort(self, components: SortedComponents, selected: NDArray[np.bool_]) -> NDArray[np.intp]:
-        """`ids`, `bottom` and `top`: the triangles of the wanted shells, shell by shell, each in Morton order. Returns
-        (m,) the shell of each."""
+        """`ids`, `bottom` and `top`: the triangles of the wanted components, one after the other, each in Morton order.
+        Returns (m,) the component of each."""
         ids, component = components.triangles, components.component
         if not selected.all():
             triangle_rows = np.flatnonzero(selected[component])
@@ -169,7 +169,7 @@ class Bvh:
     def winding_numbers(
         self, query_points: NDArray[np.float64], component: NDArray[np.intp], tolerance: float
     ) -> tuple[NDArray[np.intp], NDArray[np.bool_]]:
-        """(k,) the winding number of a shell around each place (about `origin`), and whether it is sure: not where
+        """(k,) the winding number of a component around each place (about `origin`), and whether it is sure: not where
         the place is nearer than `tolerance` to the surface along the ray, or where the work ran out."""
         winding = np.zeros(len(query_points), np.intp)
         sure = np.ones(len(query_points), bool)
@@ -189,7 +189,7 @@ class Bvh:
             hit = (top >= height.take(place)) & (left <= x) & (right >= x) & (front <= y) & (back >= y)
             place, node = place[hit], node[hit]
             child = self.child.take(node)
-            leaf = child < 0
+            leaf = child == -1
             if leaf.any():
                 for at, leaves in _batches(place[leaf], node[leaf], size=PAIRS_PER_BATCH // TRIANGLES_PER_LEAF):
                     self._count_crossings(query, at, leaves, tolerance, winding, sure)
@@ -226,7 +226,7 @@ class Bvh:
         np.add.at(winding, place[above], np.where(positive[above], 1, -1))
 
     def distances(self, query_points: NDArray[np.float64], component: NDArray[np.intp]) -> NDArray[np.float64]:
-        """(k,) the distance of each place (about `origin`) from a shell's surface.
+        """(k,) the distance of each place (about `origin`) from a component's surface.
 
         Level by level: what is certainly farther away than the farthest corner of some other box is left out.
         """
@@ -243,7 +243,7 @@ class Bvh:
             near = occupied & (least <= nearest[place])
             place, node = place[near], node[near]
             child = self.child[node]
-            leaf = child < 0
+            leaf = child == -1
             if leaf.any():
                 size = self.last[node[leaf]] - self.first[node[leaf]]
                 triangle = np.repeat(self.first[node[leaf]], size) + segment_ranges(size)
@@ -258,11 +258,10 @@ class Bvh:
 def intersecting_pairs(
     tree: Bvh, first: NDArray, second: NDArray, tolerance: float, vertex: NDArray | None = None
 ) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
-    """For each pair of shells whether an edge of one goes through a triangle of the other by more than the tolerance,
-    and whether the work ran out before that was known.
+    """For each pair of components whether an edge of one goes through a triangle of the other by more than the
+    tolerance, and whether the work ran out before that was known.
 
-    first, second: (k,) shells. vertex: (n,) which vertex a point is; triangles that share one are not held against each
-    other.
+    first, second: (k,) components. vertex: (n,) which vertex a point is; triangles that share one are not compared.
     """
     intersects, unfinished = np.zeros((2, len(first)), bool)
     pieces = _batches(np.arange(len(first)), tree.root[first], tree.root[second])
@@ -279,7 +278,7 @@ def intersecting_pairs(
         meet = np.all(np.minimum(tree.high[a], tree.high[b]) - np.maximum(tree.low[a], tree.low[b]) >= 0.0, axis=1)
         pair, a, b = pair[meet], a[meet], b[meet]
         child_a, child_b = tree.child[a], tree.child[b]
-        both = (child_a < 0) & (child_b < 0)
+        both = (child_a == -1) & (child_b == -1)
         if both.any():
             for of, left, right in _batches(
                 pair[both], a[both], b[both], size=PAIRS_PER_BATCH // TRIANGLES_PER_LEAF**2
@@ -288,7 +287,7 @@ def intersecting_pairs(
             pair, a, b, child_a, child_b = (x[~both] for x in (pair, a, b, child_a, child_b))
         # The larger box is opened; a leaf never is.
         extent = (tree.high[a] - tree.low[a]).max(axis=1) >= (tree.high[b] - tree.low[b]).max(axis=1)
-        left = (child_b < 0) | (extent & (child_a >= 0))
+        left = (child_b == -1) | (extent & (child_a != -1))
         pieces += _batches(
             np.concatenate([pair[left], pair[left], pair[~left], pair[~left]]),
             np.concatenate([child_a[left], child_a[left] + 1, a[~left], a[~left]]),

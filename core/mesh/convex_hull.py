@@ -20,7 +20,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..numerics.arrays import segment_ranges
+from ..numerics.arrays import batches, segment_ranges
 from ..numerics.vectors import cross
 from ..verdict.finding import MeasureError
 
@@ -115,11 +115,10 @@ def convex_hull(points: ArrayLike, tolerance: float = 1e-8, max_corners: int | N
     2
     """
     points = np.asarray(points, np.float64)
-    low = points.min(axis=0, initial=np.inf) if len(points) else np.zeros(3)
     extent = float(np.ptp(points, axis=0).max()) if len(points) else 0.0
     if not extent > 0.0:
         raise MeasureError("hull_without_extent")
-    grid = np.rint((points - low) / extent * 2.0**GRID_BITS).astype(np.int64)
+    grid = np.rint((points - points.min(axis=0)) / extent * 2.0**GRID_BITS).astype(np.int64)
     step = tolerance * 2.0**GRID_BITS
     corners = _first_corners(grid.astype(np.float64), max(step, 1.0))
     if len(corners) == 2:
@@ -202,21 +201,16 @@ class _GrowingHull:
         """For each point the face that it is highest above, of the `counts` faces from the face `firsts` on; without
         the points that are above none."""
         parts = []
-        ends = np.cumsum(counts)
-        start = 0
-        while start < len(points):
-            done = ends[start - 1] if start else 0
-            stop = max(start + 1, int(np.searchsorted(ends, done + PAIRS_PER_BLOCK)))
-            number = counts[start:stop]
-            faces = np.repeat(firsts[start:stop], number) + segment_ranges(number)
-            height = self._heights(np.repeat(points[start:stop], number), faces) / self.lengths[faces]
+        for block in batches(counts, PAIRS_PER_BLOCK):
+            number = counts[block]
+            faces = np.repeat(firsts[block], number) + segment_ranges(number)
+            height = self._heights(np.repeat(points[block], number), faces) / self.lengths[faces]
             segments = np.cumsum(number) - number
             highest = np.maximum.reduceat(height, segments)
             place = np.flatnonzero(height == np.repeat(highest, number))
             place = place[np.searchsorted(place, segments)]
             above = highest > self.step
-            parts.append((points[start:stop][above], faces[place[above]], highest[above]))
-            start = stop
+            parts.append((points[block][above], faces[place[above]], highest[above]))
         if not parts:
             return np.zeros(0, np.intp), np.zeros(0, np.intp), np.zeros(0)
         points, faces, height = (np.concatenate(arrays) for arrays in zip(*parts))
@@ -233,7 +227,7 @@ class _GrowingHull:
         order = np.lexsort((self.reach[self.outside[place]], self.seen[place]))
         seen = self.seen[place[order]]
         place = place[order[np.append(seen[1:] != seen[:-1], True)]]
-        place = place[np.argsort(-self.height[place], kind="stable")]  # the first one is never left out
+        place = place[np.lexsort((self.seen[place], -self.height[place]))]  # the first one is never left out
         apexes = self.outside[place]
         visible, horizon = self._visible_faces(apexes, self.seen[place])
         keeps = self._independent(len(apexes), visible, horizon)
@@ -266,10 +260,8 @@ class _GrowingHull:
         beyond = self.neighbors[horizon[:, 1], horizon[:, 2]]
         seen_by = np.full(len(self.corners), count)
         np.minimum.at(seen_by, visible[:, 1], visible[:, 0])
-        touched_by = seen_by.copy()
-        np.minimum.at(touched_by, beyond, horizon[:, 0])
         keeps = np.ones(count, bool)
-        keeps[visible[touched_by[visible[:, 1]] < visible[:, 0], 0]] = False
+        keeps[visible[seen_by[visible[:, 1]] < visible[:, 0], 0]] = False
         keeps[horizon[seen_by[beyond] < horizon[:, 0], 0]] = False
         return keeps
 
@@ -300,7 +292,7 @@ class _GrowingHull:
         owner = np.zeros(size, np.intp)
         owner[visible[:, 1]] = visible[:, 0]
         stays = ~removed[self.seen]
-        cones = np.bincount(apex, minlength=len(apexes))
+        cones = np.bincount(apex)
         firsts = size - int(np.count_nonzero(removed)) + np.cumsum(cones) - cones
         loose = owner[self.seen[~stays]]
         points, seen, height = self._highest(self.outside[~stays], cones[loose], firsts[loose])

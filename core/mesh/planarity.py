@@ -36,12 +36,12 @@ QUAD, TRIANGLE = ((2, 0), (3, 1), (1, 0)), ((1, 0), (2, 0))  # corners (i, j) wh
 
 @dataclass(frozen=True, eq=False)
 class Planarity:
-    """non_planar_count: how many faces are not; volume_ambiguity: the volume that the choice of their diagonals can
+    """non_planar_count: how many faces are not; volume_spread: the volume that the choice of their diagonals can
     change;
     degenerate_faces: (k,) the faces that have none."""
 
     non_planar_count: int
-    volume_ambiguity: float
+    volume_spread: float
     degenerate_faces: NDArray[np.integer]
 
 
@@ -52,7 +52,7 @@ class _PlanarityPartial:
 
     count: int
     non_planar_count: int
-    volume_ambiguity: float
+    volume_spread: float
     undecided: NDArray[np.intp]
 
 
@@ -124,7 +124,7 @@ class PlanarityAccumulator:
             degenerate = merged.undecided[narrow]
             if surface.quad_faces is not None:
                 degenerate = surface.quad_faces[degenerate]
-            non_planar_count, seen_volume = merged.non_planar_count + np.count_nonzero(volumes), merged.volume_ambiguity
+            non_planar_count, seen_volume = merged.non_planar_count + np.count_nonzero(volumes), merged.volume_spread
             total_volume = _sum_in_order(volumes)
         if len(surface.triangles):
             undecided_rows = _merge_blocks(self.triangles, len(surface.triangles)).undecided
@@ -139,8 +139,8 @@ class PlanarityAccumulator:
                 non_planar_count += len(np.unique(polygon[volumes > 0.0]))
                 total_volume += _sum_in_order(volumes)
             degenerate = np.concatenate([degenerate, undecided_rows])
-        volume_ambiguity = (seen_volume + float(np.ldexp(total_volume, 3 * self.exponent))) / 6.0
-        return Planarity(int(non_planar_count), volume_ambiguity, np.sort(degenerate))
+        volume_spread = (seen_volume + float(np.ldexp(total_volume, 3 * self.exponent))) / 6.0
+        return Planarity(int(non_planar_count), volume_spread, np.sort(degenerate))
 
     def _classify_rows(self, corners: NDArray, pairs: tuple) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
         return _classify_rows(self.surface.points, corners, pairs, self.error, self.exponent)
@@ -167,14 +167,14 @@ class StackPlanarity:
     Attributes
     ----------
     non_planar_counts : (n,) int
-    volume_ambiguity : (n,) array
+    volume_spread : (n,) array
         As in `Planarity`, of each.
     has_degenerate : (n,) bool
         Whether it has faces without area.
     """
 
     non_planar_counts: NDArray[np.intp]
-    volume_ambiguity: NDArray[np.float64]
+    volume_spread: NDArray[np.float64]
     has_degenerate: NDArray[np.bool_]
 
 
@@ -270,7 +270,7 @@ def _merge_blocks(blocks: dict[int, _PlanarityPartial], count: int) -> _Planarit
     return _PlanarityPartial(
         count,
         sum([block.non_planar_count for block in partials]),
-        sum([block.volume_ambiguity for block in partials]),
+        sum([block.volume_spread for block in partials]),
         np.concatenate([NO_FACES, *[block.undecided for block in partials]]),
     )
 

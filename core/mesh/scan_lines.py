@@ -62,8 +62,8 @@ class LineGrids:
     @classmethod
     def over_boxes(cls, low: NDArray, high: NDArray, lines: NDArray[np.integer]) -> LineGrids:
         """Make grids of about so many lines, (b,), over boxes, (b, 3)."""
-        axes = np.argsort(low - high, axis=1, kind="stable")
-        extent, center = (np.take_along_axis(sides, axes, axis=1) for sides in (high - low, (low + high) / 2.0))
+        axes = np.argsort(low - high, axis=1)
+        extent, center = (np.take_along_axis(sides, axes, 1) for sides in (high - low, (low + high) / 2.0))
         width = extent[:, :2] + LINE_SLOPES * extent[:, 2:]
         width = np.maximum(width, 1e-6 * width.max(axis=1, keepdims=True) + np.finfo(float).tiny)
         rows = np.clip(np.rint(np.sqrt(lines * width[:, 0] / width[:, 1])), 1, lines)
@@ -87,7 +87,7 @@ class LineGrids:
             places = points.T[self.axes[0]].astype(np.float64)
             center, cell, origin = self.center.T, self.cell.T, self.origin.T
         else:
-            places = np.take_along_axis(points, self.axes[body], axis=1).T.astype(np.float64)
+            places = np.take_along_axis(points, self.axes[body], 1).T.astype(np.float64)
             center, cell, origin = self.center[body].T, self.cell[body].T, self.origin[body].T
         places -= center
         along = places[2]

@@ -14,13 +14,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import lru_cache
-from math import comb
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .moments import Moments, U
 from .monomials import monomial_index
+from .solid_harmonics import circular_coefficients
 
 SUPERSCRIPTS = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
 SUM_ROUNDINGS = 8  # u, beside one for each term, that a sum of a few products may be off by
@@ -100,14 +100,9 @@ def _expansions(order: int) -> list[tuple[tuple[int, int], NDArray[np.int64], ND
     expansions = []
     for n in range(order + 1):
         for q in range(n // 2 + 1):
-            p = n - q
-            factors = [0] * (n + 1)  # of i^k x^(n-k) y^k
-            for i in range(p + 1):
-                for j in range(q + 1):
-                    factors[i + j] += comb(p, i) * comb(q, j) * (-1) ** j
-            kept = [k for k in range(n + 1) if factors[k]]
-            positions = np.array([int(monomial_index(n - k, k, 0)) for k in kept])
-            expansions.append(((p, q), positions, np.array([factors[k] * (1, 1j, -1, -1j)[k % 4] for k in kept])))
+            factors = np.array(circular_coefficients(n - q, q))
+            (kept,) = np.nonzero(factors)
+            expansions.append(((n - q, q), monomial_index(n - kept, kept, 0 * kept), factors[kept]))
     return expansions
 
 

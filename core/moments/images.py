@@ -9,7 +9,7 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .affine_maps import absolute_moments, transform_by_horner
+from .affine_maps import absolute_moments, to_trailing_axis, transform_by_horner
 from .moments import Moments, U, image, measure_scale_factors
 from .monomials import monomial_count, monomials
 
@@ -46,15 +46,12 @@ def sum_of_images(moments: Moments, matrices: NDArray, about: ArrayLike | None =
     matrices = np.asarray(matrices, np.float64)
     if matrices.ndim != 3 or matrices.shape[1:] != (4, 4) or not len(matrices) or not np.isfinite(matrices).all():
         raise ValueError("matrices not finite (4, 4)")
-    if len(matrices) == 1:
-        linear, point = matrices[0, :3, :3], moments.about
-        center = linear[:, 0] * point[0] + linear[:, 1] * point[1] + linear[:, 2] * point[2] + matrices[0, :3, 3]
-        return image(moments, matrices[0], center if about is None else np.asarray(about, np.float64))
-    affine = np.ascontiguousarray(matrices[:, :3].transpose(1, 2, 0))
-    linear, offsets = affine[:, :3], affine[:, 3]
+    linear, offsets = to_trailing_axis(matrices)
     point, order = moments.about[:, None], moments.order
     origins = linear[:, 0] * point[0] + linear[:, 1] * point[1] + linear[:, 2] * point[2] + offsets
     center: NDArray[np.float64] = origins.mean(axis=1) if about is None else np.asarray(about, np.float64)
+    if len(matrices) == 1:
+        return image(moments, matrices[0], center)
     raw, error, extra = np.zeros((3, len(moments.raw)))
     block = max(MAPS_PER_BLOCK * 20 // len(moments.raw), 16)
     for start in range(0, len(matrices), block):

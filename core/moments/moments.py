@@ -22,7 +22,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..numerics.arrays import PerBody
 from .affine_maps import SIMILARITY_RTOL, absolute_moments, anisotropy, apply_linear, apply_translation
-from .monomials import monomial_count, monomial_index, monomials, order_from_count, product_indices
+from .monomials import monomial_count, monomial_index, monomials, order_from_count, product_indices, tensor_index
 
 U = np.finfo(np.float64).eps / 2.0  # unit roundoff
 FLOAT32_HALF_ULP = 2.0**-24  # of float32, relatively
@@ -30,15 +30,7 @@ FLOAT32_HALF_ULP = 2.0**-24  # of float32, relatively
 PAIRWISE_SUM_ROUNDINGS = 64
 
 
-SECOND_MOMENT_INDEX = np.array(
-    [[monomial_index(*(np.eye(3, dtype=int)[[i, j]].sum(axis=0))) for j in range(3)] for i in range(3)]
-)
-THIRD_MOMENT_INDEX = np.array(
-    [
-        [[monomial_index(*(np.eye(3, dtype=int)[[i, j, k]].sum(axis=0))) for k in range(3)] for j in range(3)]
-        for i in range(3)
-    ]
-)
+SECOND_MOMENT_INDEX, THIRD_MOMENT_INDEX = tensor_index(2), tensor_index(3)
 
 
 class Measure(StrEnum):

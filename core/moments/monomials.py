@@ -112,3 +112,12 @@ def product_indices(order: int) -> tuple[NDArray[np.int64], ...]:
     """For each monomial below `order`, where its product with x, with y and with z stands."""
     lower = monomials(order - 1)
     return tuple(np.array([monomial_index(*(row + unit)) for row in lower]) for unit in np.eye(3, dtype=int))
+
+
+@lru_cache
+def tensor_index(degree: int) -> NDArray[np.int64]:
+    """(3, ..., 3) where in `Moments.raw` the entries of the symmetric tensor of a degree stand; read-only."""
+    axes = np.indices((3,) * degree)
+    table = monomial_index(*((axes == axis).sum(axis=0) for axis in range(3)))
+    table.flags.writeable = False
+    return table

@@ -70,14 +70,14 @@ def _solid(l: int) -> NDArray[np.complex128]:
             factor = (
                 (-1.0) ** (k + m) / 2.0 ** (2 * k + m) / (factorial(k + m) * factorial(k) * factorial(l - m - 2 * k))
             )
-            for i, value in enumerate(_circular_coefficients(k + m, k)):
+            for i, value in enumerate(circular_coefficients(k + m, k)):
                 table[m, monomial_index(2 * k + m - i, i, l - m - 2 * k) - start] += norm * factor * value
     table.flags.writeable = False
     return table
 
 
 @lru_cache(maxsize=1024)
-def _circular_coefficients(plus: int, minus: int) -> tuple[complex, ...]:
+def circular_coefficients(plus: int, minus: int) -> tuple[complex, ...]:
     """The coefficients of x^(n-i) y^i, i = 0..n, in (x+iy)^plus (x-iy)^minus."""
     plus_powers = [comb(plus, i) * 1j ** (i % 4) for i in range(plus + 1)]
     minus_powers = [comb(minus, i) * (-1j) ** (i % 4) for i in range(minus + 1)]

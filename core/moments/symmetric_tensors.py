@@ -10,7 +10,8 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from .moments import Moments, monomial_index, monomials
+from .moments import Moments, monomials
+from .monomials import tensor_index
 
 
 def distinct_arrays(arrays: NDArray, within: float) -> NDArray[np.float64]:
@@ -45,18 +46,6 @@ def _rotate_tensor(tensor: NDArray, frames: NDArray) -> NDArray[np.float64]:
 
 
 @lru_cache
-def tensor_index(degree: int) -> NDArray[np.int64]:
-    """(3, ..., 3) where in `Moments.raw` the entries of the symmetric tensor of a degree stand; read-only."""
-    axes = np.indices((3,) * degree)
-    table = monomial_index(*((axes == axis).sum(axis=0) for axis in range(3)))
-    table.flags.writeable = False
-    return table
-
-
-@lru_cache
 def _tensor_positions(degree: int) -> NDArray[np.int64]:
     """For each monomial of a degree, in storage order, where the flattened tensor has it."""
-    flat = tensor_index(degree).ravel()
-    return np.array(
-        [np.argmax(flat == i) for i in range(monomial_index(degree, 0, 0), monomial_index(0, 0, degree) + 1)]
-    )
+    return np.unique(tensor_index(degree), return_index=True)[1]

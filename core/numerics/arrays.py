@@ -39,6 +39,14 @@ def sums_by_index(indices: NDArray[np.integer], weights: NDArray, count: int = 0
     return cast("NDArray[np.float64]", np.bincount(indices, weights, count))
 
 
+def power_table(values: NDArray[np.float64], order: int) -> list[NDArray[np.float64]]:
+    """The powers of some values from 0 to an order."""
+    powers = [np.ones_like(values)]
+    for _ in range(order):
+        powers.append(powers[-1] * values)
+    return powers
+
+
 def batches(weights: NDArray, size: float) -> Iterator[slice]:
     """Slices of consecutive items whose weights add up to about `size`, of at least one item each."""
     total, start = np.cumsum(weights), 0
@@ -73,7 +81,7 @@ def first_occurrence(*columns: NDArray) -> NDArray[np.intp]:
     for column in bits_of[1:]:
         key = hash_uint64(key) + column
     key = hash_uint64(key)
-    first = np.arange(len(key), dtype=np.int32 if len(key) < 1 << 31 else np.int64)
+    first = np.arange(len(key), dtype=np.min_scalar_type(-len(key)))
     rest = first.copy()
     while len(rest):
         bits = int(2 * len(rest)).bit_length()

@@ -163,10 +163,7 @@ class SplineSpace:
             values[..., :-1] += ratio * (after - t[..., None])
             lower.append(values)
         by_derivative = [lower[-1]]
-        for derivative in range(1, highest + 1):
-            if derivative >= self.order:
-                by_derivative.append(np.zeros_like(lower[-1]))
-                continue
+        for derivative in range(1, min(highest + 1, self.order)):
             values = lower[self.order - derivative - 1]
             for order in range(self.order - derivative + 1, self.order + 1):
                 before, after = self._adjacent_knots(near, order)
@@ -175,7 +172,7 @@ class SplineSpace:
                 values[..., 1:] = ratio
                 values[..., :-1] -= ratio
             by_derivative.append(values)
-        return by_derivative
+        return by_derivative + [np.zeros_like(lower[-1]) for _ in range(self.order, highest + 1)]
 
     def _adjacent_knots(self, near: NDArray, order: int) -> tuple[NDArray, NDArray]:
         """The first and the last knot of the order - 1 functions, one order lower, that act in a span."""

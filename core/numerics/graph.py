@@ -46,7 +46,7 @@ def connected_components(count: int, a: NDArray[np.integer], b: NDArray[np.integ
     label, number = None, count
     while True:
         blocks = [slice(start, start + EDGES_PER_BLOCK) for start in range(0, len(a), EDGES_PER_BLOCK)]
-        parent = np.arange(number, dtype=np.int32 if number < 1 << 31 else np.int64)
+        parent = np.arange(number, dtype=np.min_scalar_type(-number))
         for block in blocks:
             np.minimum.at(
                 parent,

@@ -10,6 +10,7 @@ points. So Blender's flags *Bézier* and *Endpoint* describe the same surface.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -71,10 +72,7 @@ def bezier_patches(patch: Patch, domain: tuple[tuple[float, float] | None, tuple
 
 
 def _bezier_space(count: int, order: int) -> SplineSpace:
-    space = blender_space(count, order, cyclic=False, bezier=True, endpoint=True)
-    if space is None:
-        raise ValueError("order below 2")
-    return space
+    return cast("SplineSpace", blender_space(count, order, cyclic=False, bezier=True, endpoint=True))
 
 
 def _pieces(space: SplineSpace, part: tuple[float, float] | None) -> Iterator[NDArray[np.float64]]:

@@ -333,12 +333,8 @@ def integrate_adaptively(
             differ += kinks
             good = differ + steep <= tolerance * np.maximum(fine[k], whole / count)
             if last or good.all():
-                converged &= not last or bool(good.all())
-                lost += (
-                    thickness * float(_undersampled_areas(part[~good], MAX_WEIGHT_RATIOS[0]).sum())
-                    if last and at_stake
-                    else 0.0
-                )
+                converged &= bool(good.all())
+                lost += thickness * float(_undersampled_areas(part[~good], MAX_WEIGHT_RATIOS[0]).sum())
                 values += np.add.reduce(fine[:k], axis=1)
                 estimate += float(np.add.reduce(differ)) + (UNCONVERGED_FACTOR - 1.0) * float(
                     np.add.reduce(differ[~good])

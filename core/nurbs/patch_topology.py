@@ -183,7 +183,7 @@ def _pair_sides(
     sides, then a patch by itself to what it fits as it faces, then whatever fits as it faces: so no patch is turned
     that need not be. Of equal ones the sharpest angle comes first, patches that lie on each other after all others.
     """
-    times = np.bincount(np.array([side for _, i, j, _ in coincident for side in (i, j)], np.intp), minlength=len(owner))
+    times = np.bincount(np.array([side for _, i, j, _ in coincident for side in (i, j)], np.intp))
     part, odd, size = list(range(len(owner))), [False] * len(owner), [1] * len(owner)
 
     def root(patch: int) -> tuple[int, bool]:
@@ -250,7 +250,7 @@ def _close_pairs(keys: NDArray, limit: float) -> tuple[NDArray[np.intp], NDArray
     keys = keys - keys[0]
     slope = 1.0 / np.sqrt(np.arange(2.0, 2.0 + keys.shape[1]))
     line = (keys * slope).sum(axis=1)
-    order = np.argsort(line, kind="stable")
+    order = np.argsort(line)
     line = line[order]
     count = np.searchsorted(line, line + (limit * slope.sum() + 1e-12 * np.abs(line).max()), side="right")
     count -= np.arange(1, len(line) + 1)

@@ -21,7 +21,7 @@ from ..moments.moments import Moments, monomials, sum_moments
 from ..solid.nesting import ComponentRelations, classify_pairs
 from ..solid.orientation import ComponentComparison, zero_volume
 from ..verdict.finding import Finding, MeasureError, finding
-from ..verdict.health import MeshReport
+from ..verdict.health import MeshHealth
 from ..verdict.method import Verdict
 from ..verdict.tolerances import NEGLIGIBLE, WELDING_RTOL
 from .patch import Patch
@@ -42,7 +42,7 @@ class PatchIntegrals:
         Of the body; its error is an estimate.
     area : Moments
         Of the patches, without caps; an estimate.
-    health : MeshReport
+    health : MeshHealth
         What the input is like.
     method : Verdict
         EXACT, CAPPED, REORIENTED or OPEN.
@@ -58,7 +58,7 @@ class PatchIntegrals:
 
     volume: Moments
     area: Moments
-    health: MeshReport
+    health: MeshHealth
     method: Verdict
     findings: tuple[Finding, ...]
     patches: tuple[Patch, ...]
@@ -257,8 +257,8 @@ def _method(is_open: bool, verdict: _PatchVerdict, misoriented: int) -> Verdict:
     return Verdict.REORIENTED if misoriented or verdict.flipped.any() else Verdict.EXACT
 
 
-def _health(topology: PatchTopology, verdict: _PatchVerdict, area: float) -> MeshReport:
-    report = MeshReport(
+def _health(topology: PatchTopology, verdict: _PatchVerdict, area: float) -> MeshHealth:
+    report = MeshHealth(
         closed=not (topology.unclosable.any() or verdict.caps.any()),
         boundary_edges=topology.open_sides,
         non_manifold_edges=topology.non_manifold_sides,
@@ -314,6 +314,39 @@ def measure_sheet(
     area = replace(area, input_error=_input_error(area, stored, 0.0, area_slope(patches) + area.total / reach, reach))
     sheet = replace(sheet, input_error=_input_error(sheet, stored, 0.0, 2.0 * sheet.total / reach, reach))
     return sheet, area, fine and converged
+
+
+def stored_area_moments(
+    patches: Sequence[Patch], order: int, about: NDArray[np.float64] | None = None, *, stored: float
+) -> Moments:
+    """Return the area moments of patches with the bounds of what storing their control points may have changed.
+
+    Parameters
+    ----------
+    patches : sequence of Patch
+    order : int
+    about : (3,) array, optional
+        A point in the box of the control points, by default its center.
+    stored : float
+        As for `measure_patches`.
+
+    Returns
+    -------
+    Moments
+    """
+    area = area_moments(patches, order, about)[0]
+    reach = patches_size(patches) + 4.0 * stored
+    return replace(area, input_error=_input_error(area, stored, 0.0, area_slope(patches) + area.total / reach, reach))
+
+
+def with_known_input_error(moments: Moments, known: Moments) -> Moments:
+    """Return moments of another order with the bounds of those that are known about the same point.
+
+    Of degree 0 that bound is the volume, or area, that is swept; from a degree to the next it grows by the reach.
+    """
+    swept, further = known.input_error[:2].tolist()
+    reach = further / swept if swept > 0.0 else 0.0
+    return replace(moments, input_error=swept * reach ** monomials(moments.order).sum(axis=1))
 
 
 def patches_size(patches: Sequence[Patch]) -> float:

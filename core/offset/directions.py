@@ -133,8 +133,7 @@ def _smooth_in_plane(points: NDArray, triangles: NDArray, vectors: NDArray, free
     Vertices of a boundary stay. Any outcome gives a valid wall: stopping early only makes it fold at a smaller
     thickness."""
     edges = find_edges(triangles)
-    boundary = edges.boundary_sides()
-    free[triangles.ravel()[boundary]] = free[np.roll(triangles, -1, axis=1).ravel()[boundary]] = 0.0
+    free[triangles.ravel()[edges.boundary_sides()]] = 0.0  # closed loops: each end of a side is a start
     able = np.einsum("nii->n", free) > 0.5
     triangles = triangles[able[triangles].any(axis=1)]
     if not len(triangles):
@@ -179,7 +178,7 @@ def _smooth_in_plane(points: NDArray, triangles: NDArray, vectors: NDArray, free
 
 def _group_maximum(values: NDArray, group: NDArray, count: int) -> NDArray[np.float64]:
     """(count,) the largest of the (k,) values in each group, zero where there is none."""
-    order = np.argsort(values, kind="stable")
+    order = np.argsort(values)
     maximum = np.zeros(count)
     maximum[group[order]] = values[order]  # of equal indices the last is kept
     return maximum

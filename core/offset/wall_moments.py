@@ -19,7 +19,7 @@ from ..mesh.surface import Surface
 from ..moments.moments import Measure, Moments, U, monomials
 from ..numerics.quadrature import gauss_legendre
 from ..numerics.vectors import cross
-from ..polyhedron import polyhedron_moments
+from ..polyhedron.integration import polyhedron_moments
 from .walls import ORDER, OffsetSolid
 
 NODES_PER_BLOCK = 1 << 14
@@ -85,7 +85,7 @@ def wall_moments(wall: OffsetSolid, inward: float, outward: float, order: int) -
 def _strip_moments(corners: NDArray[np.float64], about: NDArray[np.float64], order: int) -> Moments:
     """The moments of the cones from the origin on bilinear patches, (4, k, 3) about it: Gauss's rule is exact."""
     table = monomials(order)
-    raw, size = np.zeros((2, len(table)))
+    sums = np.zeros((2, len(table)))
     nodes, weights = gauss_legendre((order + 4) // 2)
     u, w = (grid.ravel() for grid in np.meshgrid(nodes, nodes, indexing="ij"))
     weight = np.multiply.outer(weights, weights).ravel()
@@ -106,15 +106,14 @@ def _strip_moments(corners: NDArray[np.float64], about: NDArray[np.float64], ord
             + np.abs(tangent)[[2, 0, 1]] * np.abs(other)[[1, 2, 0]]
         )
         flux_size = np.einsum("in,in->n", reach, mixed)
-        all_weights = np.tile(weight, block.shape[1])
+        fluxes = np.stack([flux, flux_size]) * np.tile(weight, block.shape[1])
         factors = np.stack([place, reach])
         powers = np.ones((order + 1, 2, 3, place.shape[1]))
         for power in range(order):
             powers[power + 1] = powers[power] * factors
         for number, (p, q, r) in enumerate(table.tolist()):
-            value, value_size = powers[p, :, 0] * powers[q, :, 1] * powers[r, :, 2] * all_weights
-            raw[number] += value @ flux
-            size[number] += value_size @ flux_size
-    degree = table.sum(axis=1)
-    units = (8.0 * degree + 64.0 + corners.shape[1] * len(weight) / step) * U
-    return Moments(raw / (degree + 3.0), about, Measure.VOLUME, units * size / (degree + 3.0))
+            values = powers[p, :, 0] * powers[q, :, 1] * powers[r, :, 2]
+            sums[:, number] += np.add.reduce(values * fluxes, axis=1)
+    raw, size = sums / (table.sum(axis=1) + 3.0)
+    units = (8.0 * table.sum(axis=1) + 64.0 + corners.shape[1] * len(weight) / step) * U
+    return Moments(raw, about, Measure.VOLUME, units * size)

@@ -28,6 +28,7 @@ from ..mesh.welding import first_at_equal_position
 from ..moments.moments import PAIRWISE_SUM_ROUNDINGS, Measure, Moments, U, monomial_count, monomial_index, monomials
 from ..numerics.graph import connected_components
 from ..numerics.vectors import cross
+from ..solid.boundary_loops import vertex_pairs
 from ..solid.nesting import classify_pairs, self_overlaps, surfaces_intersect
 from ..verdict.finding import MeasureError
 from .directions import UNEVEN_RTOL, blocks, offset_directions
@@ -267,9 +268,9 @@ def offset_solid(surface: Surface) -> OffsetSolid:
         tested.append(prisms.jacobians())
     jacobian, jacobian_error, double = (np.concatenate(column, axis=-1) for column in zip(*tested))
     solid = directions.has_normal
-    lost = float(double[~solid].sum()) / (float(double.sum()) or 1.0)
-    if stored and lost > MAX_UNORIENTED_SHARE:
-        raise MeasureError("wall_precision_lost", share=lost)
+    lost, total = float(double[~solid].sum()), float(double.sum())
+    if stored and lost > MAX_UNORIENTED_SHARE * total:
+        raise MeasureError("wall_precision_lost", share=lost / total)
     rest = np.flatnonzero(solid)
     outward, inward = (
         first_positive_root(jacobian[:, :, solid] * signs[:, None, None], jacobian_error[:, solid])
@@ -278,7 +279,7 @@ def offset_solid(surface: Surface) -> OffsetSolid:
     height = jacobian[0, :, solid] / double[solid, None]
     uneven = np.abs(height - 1.0) > UNEVEN_RTOL
     error, moved = _propagate_error(bounds, reach, len(tested), stored)
-    slides = directions.tangential_error.max(axis=1, initial=0.0) + directions.normal_error.max(axis=1, initial=0.0)
+    slides = directions.tangential_error.max(axis=1) + directions.normal_error.max(axis=1)
     swept[0] += _swept_by_strips(points, vectors, triangles, rounded, slides[0] + 2.0 * slid)
     swept[1] += _swept_by_strips(points, vectors, triangles, stored, slides[1])
     return OffsetSolid(
@@ -315,18 +316,13 @@ def _weld_equal(surface: Surface) -> tuple[NDArray[np.float64], NDArray[np.integ
     edges = find_edges(triangles)
     crowded = edges.count > 2
     if crowded.any():
-        pairs = used[_vertex_pairs(triangles, edges.first[crowded])]
+        pairs = used[vertex_pairs(triangles, edges.first[crowded])]
         raise MeasureError("wall_non_manifold", elements=pairs, count=len(pairs))
     misoriented = (edges.count == 2) & (edges.signed_use_count(np.zeros(len(triangles), bool)) != 0.0)
     if misoriented.any():
-        pairs = used[_vertex_pairs(triangles, edges.first[misoriented])]
+        pairs = used[vertex_pairs(triangles, edges.first[misoriented])]
         raise MeasureError("wall_inconsistent_faces", elements=pairs, count=len(pairs))
     return surface.points[used].astype(np.float64), triangles
-
-
-def _vertex_pairs(triangles: NDArray, sides: NDArray) -> NDArray[np.integer]:
-    """(k, 2) the vertices of triangle sides, the lower first."""
-    return np.sort(np.stack([triangles.ravel()[sides], np.roll(triangles, -1, axis=1).ravel()[sides]], axis=1), axis=1)
 
 
 class _Prisms:

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from ..numerics.bspline import SplineSpace
 from ..numerics.quadrature import gauss_legendre
+from .sheynin_tuzikov_2001 import exponents_to
 
 MAX_ENTRIES = 2_000_000
 
@@ -83,24 +84,12 @@ def phi_moments(points: NDArray, tensors: tuple[NDArray, ...]) -> dict[tuple[int
     2.0
     """
     x, y, z = points.reshape(-1, 3).T
-    flux = [np.einsum("ij...,i,j->...", tensor, x, y) for tensor in tensors]
-    moments = {(0, 0, 0): float(z @ flux[0])}
-    if len(flux) > 1:
-        moments[1, 0, 0], moments[0, 1, 0] = float(x @ flux[1] @ z), float(y @ flux[1] @ z)
-        moments[0, 0, 1] = float(z @ flux[1] @ z) / 2.0
-    if len(flux) > 2:
-
-        def second(a: NDArray, b: NDArray, part: float) -> float:
-            return float(np.einsum("abc,a,b,c->", flux[2], a, b, z)) * part
-
-        moments |= {
-            (2, 0, 0): second(x, x, 1.0),
-            (1, 1, 0): second(x, y, 1.0),
-            (1, 0, 1): second(x, z, 0.5),
-            (0, 2, 0): second(y, y, 1.0),
-            (0, 1, 1): second(y, z, 0.5),
-            (0, 0, 2): second(z, z, 1.0 / 3.0),
-        }
+    moments = {}
+    for p, q, r in exponents_to(len(tensors) - 1):
+        product = tensors[p + q + r]
+        for coordinate in (x, y, *[x] * p, *[y] * q, *[z] * (r + 1)):
+            product = np.tensordot(coordinate, product, 1)
+        moments[p, q, r] = float(product) / (r + 1)
     return moments
 
 

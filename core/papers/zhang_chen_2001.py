@@ -13,7 +13,7 @@ from Dirichlet's integral over the shape's barycentric coordinates λ, of which
 one term for each choice of a corner for every factor of the monomial.
 
 A reference: d^n terms for order n. Generic over the number type, exact in `fractions.Fraction`. The pose that the paper
-derives from the moments (eq. 11) is in `pose`.
+derives from the moments (eq. 11) is in `pose`. Its Fourier transform is measured by `core/fourier/transform.py`.
 """
 
 from __future__ import annotations

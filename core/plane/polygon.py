@@ -85,7 +85,7 @@ def area_moments(points: ArrayLike, edges: ArrayLike, order: int, about: ArrayLi
     (1.0, 1.0)
     """
     points, edges = np.asarray(points), np.asarray(edges)
-    ends = [np.bincount(edges[:, i], minlength=len(points)) for i in (0, 1)] if len(edges) else [np.zeros(1)] * 2
+    ends = [np.bincount(edges[:, i], minlength=len(points)) for i in (0, 1)]
     loose = int(np.count_nonzero(ends[0] != ends[1]))
     if loose:
         raise MeasureError("outline_open", count=loose)
@@ -174,7 +174,7 @@ def boundary_edges(faces: NDArray, count: int) -> NDArray[np.intp]:
     low, high = ahead.min(axis=1), ahead.max(axis=1)
     ahead, low, high = (values[low != high] for values in (ahead, low, high))
     keys, which = np.unique(low * count + high, return_inverse=True)
-    net = np.bincount(which.ravel(), np.where(ahead[:, 0] == low, 1.0, -1.0), minlength=len(keys)).astype(np.int64)
+    net = np.bincount(which.ravel(), np.where(ahead[:, 0] == low, 1.0, -1.0)).astype(np.int64)
     edges = np.stack([keys // count, keys % count], axis=1) if len(keys) else np.empty((0, 2), np.int64)
     edges = np.where(net[:, None] < 0, edges[:, ::-1], edges)
     return np.repeat(edges, np.abs(net), axis=0).astype(np.intp)
@@ -220,7 +220,7 @@ def find_defects(points: NDArray, edges: NDArray, error: float = 0.0) -> Outline
     touch = TOUCH_RTOL * float(points[edges.ravel()].max()) + 4.0 * error
     crossings, shared, lost = _crossing_pairs(points, edges, touch)
     left, right = _side_windings(points, edges, touch)
-    negative = bool((left < 0).any() or (right < 0).any())
+    negative = bool((right < 0).any())
     return OutlineDefects(crossings, lost, negative or bool((left < right).any() or (left > 1).any()), negative, shared)
 
 
@@ -265,7 +265,7 @@ def _steep_side_windings(points: NDArray, edges: NDArray, chosen: NDArray, touch
     share = min(1.0, float((high - low).mean()) / height + RAYS_PER_BLOCK / len(edges))
     chosen = chosen[:: max(1, int(len(chosen) * len(edges) * max(share, 1.0 / RAYS_PER_BLOCK) / MAX_EDGE_PAIRS))]
     middle = (start[chosen] + end[chosen]) / 2.0
-    chosen = chosen[np.argsort(middle[:, 1], kind="stable")]
+    chosen = chosen[np.argsort(middle[:, 1])]
     middle = (start[chosen] + end[chosen]) / 2.0
     rays_per_block = max(1, min(RAYS_PER_BLOCK, PAIRS_PER_BLOCK // len(edges)))
     left, right = np.zeros((2, len(chosen)), np.int64)
@@ -310,7 +310,7 @@ def _crossing_pairs(points: NDArray, edges: NDArray, touch: float) -> tuple[int,
     edge = np.repeat(np.arange(len(edges)), wide * tall)
     within = segment_ranges(wide * tall)
     key = (low[edge, 0] + within // tall[edge]) * (2 * GRID_CELLS) + low[edge, 1] + within % tall[edge]
-    order = np.argsort(key, kind="stable")
+    order = np.argsort(key)
     edge, key = edge[order], key[order]
     active, crossings, opposed, compared_count = np.arange(len(edge)), [], {}, 0
     for step in range(1, len(edge)):

@@ -20,9 +20,9 @@ from numpy.typing import NDArray
 from ..mesh.surface import normals
 from ..mesh.welding import first_at_equal_position
 from ..moments.moments import U
-from ..polyhedron.n_dimensions import SimplexMoments
 from ..verdict.finding import MeasureError
-from .polygon import area_moments, boundary_edges, outline_areas, outline_moments
+from .polygon import boundary_edges, outline_areas, outline_moments
+from .region_moments import plane_positions, region_moments
 
 # of a region's size: points farther off their plane are not planar; an area is off by the square of this
 PLANAR_RTOL = 1e-5
@@ -249,7 +249,9 @@ def region(
 
 def projection_rounding(plane: Plane, points: NDArray, flat: NDArray) -> float:
     """How far rounding may have moved a coordinate of (n, 3) points that were projected to (n, 2) flat ones."""
-    return 16.0 * U * float(np.abs(points).max(initial=0.0) + np.abs(plane.origin).max() + np.abs(flat).max())
+    return (
+        16.0 * U * float(np.abs(points).max(initial=0.0) + np.abs(plane.origin).max() + np.abs(flat).max(initial=0.0))
+    )
 
 
 def measure_section(plane: Plane, points: NDArray, edges: NDArray, error: float = 0.0, shared: float = 0.0) -> Section:
@@ -286,25 +288,21 @@ def measure_section(plane: Plane, points: NDArray, edges: NDArray, error: float 
     (2.0, [1.0, 0.5, 0.0], [2.0, 8.0, 0.0])
     """
     flat = plane.project(points)
-    used = flat[edges.ravel()] if len(edges) else np.zeros((1, 2))
-    about = used.min(axis=0) / 2.0 + used.max(axis=0) / 2.0
+    used = flat[edges.ravel()]
     rounded = projection_rounding(plane, points, used)
-    first = area_moments(flat, edges, 1, about)
-    moved = _displacement_bounds(flat, edges, about, rounded)[:3] + first.rounding_error
-    if not first.raw[0] > moved[0]:
+    moments = region_moments(flat, edges, 2, rounded=rounded, stored=error)
+    if not moments.total > 0.0:
         raise MeasureError("section_encloses_nothing")
-    about = about + first.raw[1:] / first.raw[0]
-    moments = area_moments(flat, edges, 2, about)  # about the centroid as far as floats go: nothing cancels
+    about, positions = moments.about[:2], plane_positions(2)
+    raw = moments.raw[positions]
     length = outline_moments(flat, edges)
-    bounds = []
-    for step, rounding in ((rounded, moments.rounding_error), (error, np.zeros(6))):
-        bounds.append(_bounds(moments, _displacement_bounds(flat, edges, about, step) + rounding))
+    bounds = [_bounds(raw, about, delta[positions]) for delta in (moments.rounding_error, moments.input_error)]
     # of 2 len(edges) shared pieces at most, each taken twice
     ends = EDGE_GROWTH * len(edges) * (5.0 if shared else 1.0)
     bounds[0]["perimeter"] = float(length.rounding_error[0]) * (3.0 if shared else 1.0) + ends * rounded
     bounds[1]["perimeter"] = ends * error
-    area, shift = float(moments.raw[0]), moments.raw[1:3] / moments.raw[0]
-    second = moments.raw[[5, 3, 4]] - area * np.array([shift[1] ** 2, shift[0] ** 2, shift[0] * shift[1]])
+    area, shift = moments.total, raw[1:3] / raw[0]
+    second = raw[[5, 3, 4]] - area * np.array([shift[1] ** 2, shift[0] ** 2, shift[0] * shift[1]])
     second[:2] = np.maximum(second[:2], 0.0)
     sizes = outline_areas(flat, edges)
     centroid = about + shift
@@ -325,34 +323,13 @@ def measure_section(plane: Plane, points: NDArray, edges: NDArray, error: float 
     return replace(section, reach=reach)
 
 
-def _displacement_bounds(points: NDArray, edges: NDArray, about: NDArray, step: float) -> NDArray[np.float64]:
-    """(6,) what the moments to second order may change by where every point moves by `step` along each axis.
-
-    Between its old and its new place an edge sweeps over at most its length times the distance it moves.
-    """
-    a, b = (points[edges[:, i]] - about for i in (0, 1))
-    way = step * np.sqrt(2.0)
-    swept = way * (np.hypot(*(b - a).T) + 2.0 * way)
-    x, y = np.maximum(np.abs(a), np.abs(b)).T + way
-    return np.array(
-        [
-            swept.sum(),
-            (swept * x).sum(),
-            (swept * y).sum(),
-            (swept * x * x).sum(),
-            (swept * x * y).sum(),
-            (swept * y * y).sum(),
-        ]
-    ) * (1.0 + 1e-9)
-
-
-def _bounds(moments: SimplexMoments, delta: NDArray) -> dict[str, float]:
-    """What moments about the centroid, off by `delta`, make of area, centroid and second moments."""
-    area, shift = moments.raw[0], np.abs(moments.raw[1:3]) / moments.raw[0]
+def _bounds(raw: NDArray, about: NDArray, delta: NDArray) -> dict[str, float]:
+    """What (6,) moments about the centroid, off by `delta`, make of area, centroid and second moments."""
+    area, shift = raw[0], np.abs(raw[1:3]) / raw[0]
     if not area > 2.0 * delta[0]:  # then nothing bounds a quotient
         return {"area": float(delta[0]), "centroid": float("inf"), "second": float("inf")}
     drift = (delta[1:3] + shift * delta[0]) / (area - delta[0])
-    tolerance = 4.0 * U * (np.abs(moments.about) + shift)
+    tolerance = 4.0 * U * (np.abs(about) + shift)
     second = delta[3:].max() + (area + delta[0]) * (drift + shift).max() ** 2
-    second += 4.0 * U * np.abs(moments.raw[3:]).max()
+    second += 4.0 * U * np.abs(raw[3:]).max()
     return {"area": float(delta[0]), "centroid": float(np.hypot(*(drift + tolerance))), "second": float(second)}

@@ -64,7 +64,7 @@ def area_of_images(surface: Surface, linear: NDArray) -> Moments:
     total = float(sum(sums)) / 2.0
     # A normal is off by 4 u of its terms, a cofactor by 2 u of its; then three products and their sum.
     rounded = (9.0 * np.abs(cofactors) + 2.0 * (np.abs(plus) + np.abs(minus))).sum(axis=(0, 1)) @ size / 2.0
-    h, edges = surface.coordinate_error, np.abs(first).sum(axis=1) + np.abs(second).sum(axis=1)
+    h, edges = surface.coordinate_error, np.abs(np.concatenate([first, second], axis=1)).sum(axis=1)
     moved = [
         2.0 * (edges[j] * h[k] + edges[k] * h[j]) + 8.0 * h[j] * h[k] * len(triangles)
         for j, k in ((1, 2), (2, 0), (0, 1))

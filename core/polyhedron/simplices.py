@@ -101,11 +101,11 @@ def _sorted_corners(
     _, place = np.unique(np.asarray(points, np.float64) + 0.0, axis=0, return_inverse=True)
     corners = place.reshape(-1)[simplices]
     signs = np.ones(len(corners)) if signs is None else np.asarray(signs, np.float64)
-    order = np.argsort(corners, axis=1, kind="stable")
+    order = np.argsort(corners, axis=1)
     parity = signs.copy()
     for first in range(order.shape[1]):
         for second in range(first + 1, order.shape[1]):
             parity[order[:, first] > order[:, second]] *= -1.0
-    corners = np.take_along_axis(corners, order, axis=1)
+    corners = np.take_along_axis(corners, order, 1)
     solid = (np.diff(corners, axis=1) > 0).all(axis=1)  # the others have no extent
     return simplices[solid], corners[solid], parity[solid]

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from ..mesh.surface import Surface
 from ..moments.moments import Moments
 from ..numerics.graph import connected_components
-from ..polyhedron import polyhedron_moments
+from ..polyhedron.integration import polyhedron_moments
 
 NO_BONE = -1
 
@@ -53,7 +53,7 @@ class BonePiece:
 
     def moments(self, order: int = 3) -> Moments:
         """Return the moments of its volume, in the surface's coordinates."""
-        return polyhedron_moments(self.surface, order, exact=True, allow_open=True)[0]
+        return polyhedron_moments(self.surface, order, exact=True)[0]
 
 
 def bone_pieces(
@@ -94,7 +94,7 @@ def bone_pieces(
     points = np.concatenate([points, apexes])
     order = np.argsort(labels, kind="stable")
     bones, starts = np.unique(labels[order], return_index=True)
-    faces = np.bincount(bone, minlength=int(bones.max(initial=-1)) + 1)
+    faces = np.bincount(bone)
     pieces = []
     for one, rows in zip(bones.tolist(), np.split(order, starts[1:])):
         used, local = np.unique(corners[rows], return_inverse=True)
@@ -129,8 +129,8 @@ def bones_of_caps(
     """
     result = np.where(is_cap, NO_BONE, bone)
     side_start, side_stop = triangles.ravel(), np.roll(triangles, -1, axis=1).ravel()
-    number = int(triangles.max(initial=-1)) + 1
-    key = np.minimum(side_start, side_stop).astype(np.int64) * number + np.maximum(side_start, side_stop)
+    sides = np.minimum(side_start, side_stop), np.maximum(side_start, side_stop)
+    key = np.ravel_multi_index(sides, (int(triangles.max(initial=0)) + 1,) * 2)
     edge = np.unique(key, return_inverse=True)[1].reshape(-1, 3)
     while (result == NO_BONE).any():
         known = result != NO_BONE
@@ -138,7 +138,7 @@ def bones_of_caps(
         of_edge[edge[known].ravel()] = np.repeat(result[known], 3)
         found = of_edge[edge[~known]].max(axis=1)
         if (found == NO_BONE).all():  # what touches nothing goes with the bone of most faces
-            found[:] = np.bincount(bone[~is_cap]).argmax() if (~is_cap).any() else 0
+            found[:] = np.bincount(bone[~is_cap], minlength=1).argmax()
         result[~known] = found
     return result
 
@@ -150,13 +150,13 @@ def _cut_edges(
     often as it is left over."""
     start = triangles.ravel().astype(np.int64)
     stop = np.roll(triangles, -1, axis=1).ravel().astype(np.int64)
-    key = (np.repeat(bone, 3).astype(np.int64) * count + np.minimum(start, stop)) * count + np.maximum(start, stop)
+    shape = int(bone.max(initial=0)) + 1, count, count
+    key = np.ravel_multi_index((np.repeat(bone, 3), np.minimum(start, stop), np.maximum(start, stop)), shape)
     edges, place = np.unique(key, return_inverse=True)
-    left = np.bincount(place.ravel(), np.where(start < stop, 1.0, -1.0), minlength=len(edges)).astype(np.intp)
-    edges = np.repeat(edges, np.abs(left))
+    left = np.bincount(place, np.where(start < stop, 1.0, -1.0)).astype(np.intp)
+    owner, low, high = np.unravel_index(np.repeat(edges, np.abs(left)), shape)
     forward = np.repeat(left, np.abs(left)) > 0
-    low, high = edges // count % count, edges % count
-    return edges // count // count, np.where(forward, low, high), np.where(forward, high, low)
+    return owner, np.where(forward, low, high), np.where(forward, high, low)
 
 
 def _apexes(
@@ -166,15 +166,14 @@ def _apexes(
     if not len(start):
         return np.zeros(0, np.intp), np.zeros((0, 3))
     vertices, ends = np.unique(np.concatenate([start, stop]), return_inverse=True)
-    first, last = ends.ravel().reshape(2, -1)
-    component, number = connected_components(len(vertices), first, last)
-    cut = component[first]
+    first, last = ends.reshape(2, -1)
+    cut = connected_components(len(vertices), first, last)[0][first]
     # each edge once, however many bones it is between
     edges = np.unique(np.stack([np.minimum(start, stop), np.maximum(start, stop), cut], axis=1), axis=0)
     begin, end = points[edges[:, 0]], points[edges[:, 1]]
     origin = points[vertices].mean(axis=0)  # far from the world's origin, digits would be lost
-    length = np.linalg.norm(end - begin, axis=1)
-    weight = np.bincount(edges[:, 2], length, minlength=number)
+    length = np.maximum(np.linalg.norm(end - begin, axis=1), np.finfo(float).tiny)
+    weight = np.bincount(edges[:, 2], length)
     middle = (begin - origin + (end - origin)) / 2.0
-    sums = np.stack([np.bincount(edges[:, 2], length * middle[:, k], minlength=number) for k in range(3)], axis=1)
-    return cut, origin + sums / np.where(weight > 0.0, weight, 1.0)[:, None]
+    sums = np.stack([np.bincount(edges[:, 2], length * middle[:, k]) for k in range(3)], axis=1)
+    return cut, origin + sums / weight[:, None]

@@ -13,6 +13,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..numerics.arrays import sums_by_index
+
 TIE_RTOL = 1e-5  # weights are float32, and a mirrored face adds them up in another order
 NEAR_RTOL = 1e-5  # of a distance: as float32 coordinates leave it
 PAIRS_PER_BLOCK = 1 << 20  # faces times bones whose distances are in memory at a time
@@ -43,8 +45,6 @@ class VertexWeights:
 
     def normalized(self) -> NDArray[np.float64]:
         """Return (w,) the weights by the sum of those on their vertex, as an armature deforms."""
-        if not len(self.vertex):
-            return np.zeros(0)
         weight = np.asarray(self.weight, np.float64)
         total = np.bincount(self.vertex, weight)[self.vertex]
         return np.divide(weight, total, out=np.zeros_like(weight), where=total > 0.0)
@@ -95,16 +95,13 @@ def dominant_bones(
     center = np.stack([np.bincount(faces, points[corners, k]) / np.maximum(size, 1) for k in range(3)], axis=1)
     face, bone, score = _scores(faces, corners, weights, number)
     result = np.full(len(size), -1)
-    if len(face):
-        starts = np.flatnonzero(np.r_[True, face[1:] != face[:-1]])
-        best = np.maximum.reduceat(score, starts)
-        leading = score >= (1.0 - TIE_RTOL) * best[np.repeat(np.arange(len(starts)), np.diff(np.r_[starts, len(face)]))]
-        face, bone = face[leading], bone[leading]
-        result[face] = bone
-        rivals = np.flatnonzero(np.bincount(face)[face] > 1)
-        if len(rivals):
-            away = _distances(center[face[rivals]], bones[bone[rivals]])
-            result[face[rivals]] = _nearest(face[rivals], bone[rivals], away)
+    starts, sizes = np.unique(face, return_index=True, return_counts=True)[1:]
+    leading = score >= (1.0 - TIE_RTOL) * np.repeat(np.maximum.reduceat(score, starts), sizes)
+    face, bone = face[leading], bone[leading]
+    result[face] = bone
+    rivals = np.bincount(face)[face] > 1
+    face, bone = face[rivals], bone[rivals]
+    result[face] = _nearest(face, bone, _distances(center[face], bones[bone]))
     left = np.flatnonzero((result < 0) & (size > 0))
     block = max(PAIRS_PER_BLOCK // number, 1)
     for start in range(0, len(left), block):
@@ -125,16 +122,15 @@ def _scores(
     entry = np.arange(len(owner)) - np.repeat(np.cumsum(repeats) - repeats, repeats) + first[corners][owner]
     key = faces[owner].astype(np.int64) * number + weights.bone[entry]
     pairs, place = np.unique(key, return_inverse=True)
-    score = np.bincount(place.ravel(), weights.normalized()[entry], minlength=len(pairs))
+    score = sums_by_index(place, weights.normalized()[entry])
     positive = score > 0.0
     face, bone = np.divmod(pairs[positive].astype(np.intp), number)
-    return face, bone, score[positive].astype(np.float64)
+    return face, bone, score[positive]
 
 
 def _nearest(face: NDArray[np.integer], bone: NDArray[np.integer], away: NDArray[np.float64]) -> NDArray[np.integer]:
     """(k,) for each row the bone of its face that is nearest, of equally near ones the first. Rows are by face."""
-    starts = np.flatnonzero(np.r_[True, face[1:] != face[:-1]])
-    sizes = np.diff(np.r_[starts, len(face)])
+    starts, sizes = np.unique(face, return_index=True, return_counts=True)[1:]
     least = np.repeat(np.minimum.reduceat(away, starts), sizes)
     near = away <= least * (1.0 + NEAR_RTOL)
     first = np.minimum.reduceat(np.where(near, np.arange(len(face)), len(face)), starts)

@@ -159,8 +159,8 @@ def _outside(stated: StatedInertial, hull: Hull) -> list[Finding]:
     directions = np.concatenate([np.linalg.eigh(second)[1].T, _sphere(DIRECTIONS)])
     variance = np.einsum("ki,ij,kj->k", directions, second, directions)
     # The center may be off by its own tolerance.
-    tolerance = SPREAD_RTOL * hull.spread_limit(stated.center, directions) + CENTER_RTOL * hull.size**2
     limit = hull.spread_limit(stated.center, directions)
+    tolerance = SPREAD_RTOL * limit + CENTER_RTOL * hull.size**2
     worst = int(np.argmax((variance - limit) / (limit + tolerance)))
     if variance[worst] > limit[worst] + tolerance[worst]:
         factor = float(variance[worst] / max(limit[worst], tolerance[worst]))

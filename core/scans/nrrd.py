@@ -51,12 +51,6 @@ TYPES = {
 _HEADER_END = re.compile(rb"\r?\n\r?\n")
 
 
-def read_nrrd(path: Path, limits: Limits) -> Scan:
-    """The scan, mapped where it is raw."""
-    fields, start = read_header(path, limits)
-    return _nrrd(path, fields, start, limits)
-
-
 def read_header(path: Path, limits: Limits) -> tuple[dict[str, str], int | None]:
     """The fields by their names in lower case, and where the samples begin; None where the file ends before. FileError
     where it is no NRRD file, or the header has no end within the limit."""
@@ -87,7 +81,10 @@ def data_file(fields: dict[str, str]) -> str | None:
     return fields.get("data file", fields.get("datafile"))
 
 
-def _nrrd(path: Path, fields: dict[str, str], start: int | None, limits: Limits) -> Scan:
+def read_nrrd(path: Path, limits: Limits) -> Scan:
+    """The scan, mapped where it is raw."""
+    fields, start = read_header(path, limits)
+
     def needed(name: str) -> str:
         if name not in fields:
             raise FileError("nrrd_field_missing", field=name)

@@ -34,30 +34,23 @@ def map_array(path: Path) -> NDArray:
     cannot be opened."""
     with open(path, "rb") as file:
         start = file.read(12)
-    try:
+    with _damage(path, "damage_array"):
         _check_array_header(start)
         array = np.lib.format.open_memmap(path, mode="r")
-    except MemoryError:
-        raise
-    except Exception as error:  # of a damaged header NumPy evaluates what it finds, and may raise anything
-        raise damaged(path, "damage_array") from error
     check_length(path, path.stat().st_size - array.offset, array.nbytes)
     return array
 
 
 def read_npz(path: Path, limits: Limits) -> Scan:
     """The array called “density”, else the first of three dimensions; of the others the headers alone are read."""
-    array = None
     with _archive(path, limits) as (archive, shapes):
         volumes = [name for name, shape in shapes.items() if len(shape) == 3]
-        name = "density" if "density" in volumes else volumes[0] if volumes else None
-        if name:
-            array = _unpack(archive, path, name, limits)
-    if not name or array is None:
-        raise FileError("no_3d_array")
-    others = [volume for volume in volumes if volume != name]
-    findings = (finding("arrays_left_out", array=name, arrays=others),) if others else ()
-    return Scan(real_samples(array), np.eye(4), findings=findings)
+        if not volumes:
+            raise FileError("no_3d_array")
+        name = "density" if "density" in volumes else volumes[0]
+        others = [volume for volume in volumes if volume != name]
+        findings = (finding("arrays_left_out", array=name, arrays=others),) if others else ()
+        return Scan(real_samples(_unpack(archive, path, name, limits)), np.eye(4), findings=findings)
 
 
 def read_arrays(path: Path, names: Sequence[str], limits: Limits) -> dict[str, NDArray]:
@@ -70,7 +63,7 @@ def read_arrays(path: Path, names: Sequence[str], limits: Limits) -> dict[str, N
 @contextmanager
 def _archive(path: Path, limits: Limits) -> Iterator[tuple[zipfile.ZipFile, dict[str, tuple[int, ...]]]]:
     """An archive and the shapes of its arrays, by name. What is raised meanwhile becomes a FileError."""
-    with open(path, "rb") as file, _damage(path), zipfile.ZipFile(file) as archive:
+    with open(path, "rb") as file, _damage(path, "damage_arrays"), zipfile.ZipFile(file) as archive:
         entries = archive.infolist()
         limits.check(path, "entries", len(entries))
         if any(ENTRY in entry.comment + entry.extra for entry in entries):
@@ -80,16 +73,16 @@ def _archive(path: Path, limits: Limits) -> Iterator[tuple[zipfile.ZipFile, dict
 
 
 @contextmanager
-def _damage(path: Path) -> Iterator[None]:
-    """Make a FileError of whatever unpacking raises."""
+def _damage(path: Path, code: str) -> Iterator[None]:
+    """Make a FileError of whatever reading an array raises."""
     try:
         yield
     except (MemoryError, FileError):
         raise
     except zipfile.BadZipFile as error:
         raise damaged(path, "damage_archive", error=str(error).rstrip(".")) from error
-    except Exception as error:  # as above
-        raise damaged(path, "damage_arrays") from error
+    except Exception as error:  # of a damaged header NumPy evaluates what it finds, and may raise anything
+        raise damaged(path, code) from error
 
 
 def _unpack(archive: zipfile.ZipFile, path: Path, name: str, limits: Limits) -> NDArray:

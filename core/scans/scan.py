@@ -120,23 +120,21 @@ def unpack_samples(
 
     They are read to the end of the file, for the checksum stands behind them; see `gzip_blocks`."""
     byte_count = dtype.itemsize * math.prod(shape)
+    total = skip + byte_count
     if skip < 0:
         raise FileError("nrrd_skip_from_end")
-    if skip + byte_count > MAX_GZIP_RATIO * path.stat().st_size:
+    if total > MAX_GZIP_RATIO * path.stat().st_size:
         raise damaged(path, "damage_too_small", samples=list(shape))
-    limits.check(path, "unpacked_bytes", skip + byte_count)
-    samples = np.empty(byte_count, np.uint8)
-    begin = -skip  # where a block stands among the samples
+    limits.check(path, "unpacked_bytes", total)
+    unpacked, done = np.empty(total, np.uint8), 0
     for block in gzip_blocks(path, start):
-        end = begin + len(block)
-        if end > 0 and begin < byte_count:
-            first, last = max(begin, 0), min(end, byte_count)
-            samples[first:last] = np.frombuffer(block, np.uint8, last - first, first - begin)
-        begin = end
-        if begin > byte_count:  # a small file may hold a thousand times its size
+        part = np.frombuffer(block, np.uint8)[: total - done]
+        unpacked[done : done + len(part)] = part
+        done += len(block)
+        if done > total:  # a small file may hold a thousand times its size
             break
-    check_length(path, max(0, begin), byte_count)
-    return samples.view(dtype).reshape(shape, order="F")
+    check_length(path, max(0, done - skip), byte_count)
+    return unpacked[skip:].view(dtype).reshape(shape, order="F")
 
 
 def gzip_blocks(path: Path, start: int) -> Iterator[bytes]:

@@ -115,11 +115,10 @@ def flat_symmetry(zernike: NDArray, order: int, points: NDArray, axes: NDArray, 
 def holds_by_outline(points: NDArray, distance: Distance, tolerance: float) -> Holds:
     """Whether the images of (n, 3) points, about the centroid in the plane's axes, are within the tolerance of the
     outline. distance: of (k, 3) such points from it."""
-    outermost = np.argsort(-(points * points).sum(axis=1), kind="stable")  # there a turn moves most
-    first = np.concatenate([outermost[: FIRST_SAMPLES // 2], outermost[:: max(1, 2 * len(points) // FIRST_SAMPLES)]])
+    some = points[:: 1 + len(points) // FIRST_SAMPLES]
 
     def holds(operation: NDArray) -> bool:
-        return all((distance(points[part] @ operation.T) <= tolerance).all() for part in (first, slice(None)))
+        return all((distance(part @ operation.T) <= tolerance).all() for part in (some, points))
 
     return holds
 
@@ -171,7 +170,7 @@ def _best_angles(source: NDArray, target: NDArray) -> NDArray[np.float64]:
     angles = 2.0 * np.pi / ANGLES * np.arange(ANGLES)
     overlap = derivative(angles, 0)
     peaks = np.flatnonzero((overlap >= np.roll(overlap, 1)) & (overlap >= np.roll(overlap, -1)))
-    peaks = peaks[np.argsort(-overlap[peaks], kind="stable")][:MAX_CANDIDATES]
+    peaks = peaks[np.argsort(-overlap[peaks])][:MAX_CANDIDATES]
     angles = angles[peaks]
     for _ in range(NEWTON_STEPS):
         slope, bend = derivative(angles, 1), derivative(angles, 2)

@@ -25,7 +25,7 @@ from ..moments.symmetric_tensors import distinct_arrays, invert_through_point
 
 EQUAL_OPERATION_ATOL = 1e-6  # matrices of one operation are equal to this
 MAX_AXIS_ORDER = 128  # the highest order of an axis that is looked for
-FIRST_SAMPLES = 64  # points that are looked at first: most of what does not hold fails there
+FIRST_SAMPLES = 64  # points at most that are looked at first: most of what does not hold fails there
 
 Distance = Callable[[NDArray], NDArray]
 
@@ -144,18 +144,10 @@ def confirm(candidate: Symmetry, center: NDArray, points: NDArray, distance: Dis
     (k,). tolerance: how far a point's image may lie from it.
     """
     points = points - center
-    # The outermost points first: there a turn moves most.
-    points = points[np.argsort(-(points * points).sum(axis=1), kind="stable")]
-    points = np.concatenate(
-        [points[: FIRST_SAMPLES // 2], points[FIRST_SAMPLES // 2 :: max(1, len(points) // FIRST_SAMPLES)], points]
-    )
+    some = points[:: 1 + len(points) // FIRST_SAMPLES]
 
     def holds(operation: NDArray) -> bool:
-        return all(
-            (distance(part @ operation.T + center) <= tolerance).all()
-            for part in (points[:FIRST_SAMPLES], points[FIRST_SAMPLES:])
-            if len(part)
-        )
+        return all((distance(part @ operation.T + center) <= tolerance).all() for part in (some, points))
 
     if len(candidate.revolution_axes) == 3:
         turns = [_axis_rotation(axis, 1.0) for axis in np.concatenate([np.eye(3), np.ones((1, 3)) / 3.0**0.5])]
@@ -191,12 +183,12 @@ def _around_axis(points: NDArray, axis: NDArray, holds: Callable[[NDArray], bool
     flat = points - np.outer(points @ axis, axis)
     radius = np.linalg.norm(flat, axis=1)
     outer = np.unique(np.round(flat[radius > (1.0 - 1e-4) * radius.max()] / radius.max(), 5), axis=0)
-    start = outer[0]
+    x = outer[0] - axis * (axis @ outer[0])
+    x /= np.linalg.norm(x)
+    across = np.stack([np.cross(axis, x), x])
     for corner in outer[: 2 * MAX_AXIS_ORDER]:
-        middle = start + corner if np.linalg.norm(start + corner) > 1e-3 else np.cross(axis, start)
-        middle = middle - axis * (axis @ middle)
-        middle /= np.linalg.norm(middle)
-        side = np.cross(axis, middle)
+        half = np.arctan2(*(across @ corner)) / 2.0
+        side, middle = np.array([[np.cos(half), -np.sin(half)], [np.sin(half), np.cos(half)]]) @ across
         flips = [
             operation
             for operation in (np.eye(3) - 2.0 * np.outer(side, side), 2.0 * np.outer(middle, middle) - np.eye(3))

@@ -34,7 +34,7 @@ def vertex_pairs(triangles: NDArray[np.integer], sides: NDArray[np.integer]) -> 
     return np.sort(np.stack(side_ends(triangles, sides), axis=1), axis=1)
 
 
-def as_vertex_pairs(triangles: NDArray[np.integer], sides: NDArray[np.integer]) -> NDArray[np.intp]:
+def distinct_vertex_pairs(triangles: NDArray[np.integer], sides: NDArray[np.integer]) -> NDArray[np.intp]:
     """(k, 2) sides as pairs of vertices, the lower first, sorted, each once."""
     return unique_pairs(vertex_pairs(triangles, sides))
 
@@ -108,8 +108,6 @@ def _candidate_pairs(order: NDArray, first: NDArray, degree: NDArray) -> tuple[N
     k = segment_ranges(pairs)
     # The k-th pair (i, j), i < j, of the strict upper triangle read by columns.
     j = ((1.0 + np.sqrt(1.0 + 8.0 * k)) / 2.0).astype(np.intp)
-    j -= j * (j - 1) // 2 > k
-    j += j * (j + 1) // 2 <= k
     i = k - j * (j - 1) // 2
     return order[first[row] + i], order[first[row] + j]
 
@@ -167,17 +165,17 @@ class BoundaryLoops:
         longer than wide."""
         return self.cone_area > self.perimeter * np.minimum(tolerance, MAX_GAP_ASPECT * self.perimeter)
 
-    def of_each(self, of_side: NDArray) -> NDArray:
-        """(l,) what the first side of each loop has, of what sides have, (r,)."""
-        values = np.empty(len(self.perimeter), of_side.dtype)
-        values[self.of_side[::-1]] = of_side[::-1]  # of equal indices the last is kept
+    def of_each(self, side_values: NDArray) -> NDArray:
+        """(l,) the value of the first side of each loop. side_values: (r,)."""
+        values = np.empty(len(self.perimeter), side_values.dtype)
+        values[self.of_side[::-1]] = side_values[::-1]  # of equal indices the last is kept
         return values
 
     def caps(self, tolerance: float | NDArray[np.float64]) -> tuple[NDArray[np.bool_], NDArray[np.bool_], NDArray]:
         """(l,) of the cone over each loop: whether it is a flat cap, whether a curved one, and the area of the cap.
         tolerance: as for `has_area`."""
-        level = self.out_of_plane <= tolerance
-        return level, ~level, np.where(level, self.planar_area, self.cone_area)
+        is_flat = self.out_of_plane <= tolerance
+        return is_flat, ~is_flat, np.where(is_flat, self.planar_area, self.cone_area)
 
     def apexes(self, start: NDArray[np.integer], centroid: NDArray[np.integer]) -> NDArray[np.integer]:
         """(l,) the vertices of the cones' tips: the centroids, but over three sides, where the start of the first makes

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The last steps of a repair: gaps without area close, the faces of each part agree, and holes are capped.
+"""The last steps of a repair but `cap_holes`: the faces of each part agree, and gaps without area close.
 
 Sides are numbered as in `Edges`: 3t + i runs from corner i of triangle t to the next one, the triangles as given.
 """
@@ -16,7 +16,7 @@ from ..mesh.edges import Edges, consistent_orientation, find_edges, group_compon
 from ..mesh.surface import normals
 from ..numerics.graph import connected_components
 from ..verdict.finding import Finding, finding
-from .boundary_loops import as_vertex_pairs, find_loops, join_sides, side_ends
+from .boundary_loops import distinct_vertex_pairs, find_loops, join_sides, side_ends
 from .repaired_mesh import NO_INDICES, FoldedLoops, RepairedMesh, ZeroAreaLoops
 from .shared_walls import wall_links
 
@@ -61,7 +61,7 @@ def orient_faces(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     is_open[component[twisted]] = True
     report = replace(mesh.report, components=number)
     if misoriented.any():
-        sides = as_vertex_pairs(mesh.state.given, np.concatenate([first[misoriented], second[misoriented]]))
+        sides = distinct_vertex_pairs(mesh.state.given, np.concatenate([first[misoriented], second[misoriented]]))
         elements = replace(report.defective_elements, inconsistent_edges=sides)
         report = replace(report, inconsistent_edges=int(np.count_nonzero(misoriented)), defective_elements=elements)
     return replace(
@@ -115,12 +115,12 @@ def close_gaps(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     number = folded.number + len(np.unique(gaps.loop[~closed_already[gaps.sides]]))
     if number:
         sides = np.concatenate([gaps.sides, np.flatnonzero(closed_already)])
-        mesh = mesh.with_findings(finding("t_junctions", as_vertex_pairs(given, sides), count=number))
+        mesh = mesh.with_findings(finding("t_junctions", distinct_vertex_pairs(given, sides), count=number))
     boundary = edges.first[(edges.count == 1) & ~_edges_along(mesh)]
     boundary = boundary[~closed_already[boundary]]
     if len(boundary):
         mesh = mesh.with_report(
-            boundary_edges=len(boundary), elements={"boundary_edges": as_vertex_pairs(given, boundary)}
+            boundary_edges=len(boundary), elements={"boundary_edges": distinct_vertex_pairs(given, boundary)}
         )
 
     boundary = mesh.state.component_edges.boundary_sides()
@@ -194,8 +194,6 @@ def _find_folded_loops(
     loops = find_loops(begin, end, join_sides(begin, end, *meet, directed=True))
     closes = unclosable.copy()
     closes[component[(~loops.complete | loops.has_area(tolerance))[loops.of_side]]] = False
-    apex = np.empty(len(loops.perimeter), np.intp)
-    apex[loops.of_side[::-1]] = start[::-1]
-    caps = np.stack([stop, start, apex[loops.of_side]], axis=1)
+    caps = np.stack([stop, start, loops.of_each(start)[loops.of_side]], axis=1)
     taken = closes[component]
     return FoldedLoops(closes, side[taken], caps[taken], len(np.unique(loops.of_side[taken])))

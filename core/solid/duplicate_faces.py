@@ -12,10 +12,11 @@ from numpy.typing import NDArray
 from ..mesh.edges import Edges, find_edges
 from ..mesh.surface import Surface, normals
 from ..mesh.welding import same_vertices_groups
+from ..numerics.arrays import first_occurrence
 from ..numerics.graph import connected_components
 from ..verdict.finding import Finding, finding
 from ..verdict.tolerances import NEGLIGIBLE
-from .boundary_loops import as_vertex_pairs
+from .boundary_loops import distinct_vertex_pairs
 from .repaired_mesh import RepairedMesh
 
 
@@ -33,7 +34,7 @@ def drop_duplicate_faces(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     sides = _non_manifold_sides(edges, face)
     mesh = mesh.with_report(
         non_manifold_edges=len(np.unique(edges.of_side[sides])),
-        elements={"non_manifold_edges": as_vertex_pairs(mesh.state.given, sides)},
+        elements={"non_manifold_edges": distinct_vertex_pairs(mesh.state.given, sides)},
     )
     group = same_vertices_groups(mesh.triangles, face)
     later = group != face
@@ -86,7 +87,7 @@ def _regions_of_one_layer(
     vote = np.where(single_count % 2 == 1, 1, -1) * (single_count > 0)
     votes = np.bincount(region[owner], vote, minlength=number)
     has_neighbors = np.bincount(region[owner], single_count > 0, minlength=number) > 0
-    parallel = np.bincount(region, agree * later, minlength=number)
+    parallel = np.bincount(region, agree * later)
     single = np.bincount(edges.of_side, np.repeat(copied & ~later, 3))[edge] % 2 == 1
     closed = np.bincount(region[owner], single, minlength=number) == 0
     return np.where(has_neighbors, votes > 0, (parallel > 0) | closed)[region]
@@ -118,6 +119,5 @@ def _non_manifold_sides(edges: Edges, face: NDArray[np.integer]) -> NDArray[np.i
     """The sides on edges with more than two triangles. A polygon's own diagonal, which it has on both sides, is none
     of its edges. face: (m,) the mesh face of each triangle."""
     sides = np.flatnonzero((edges.count > 2)[edges.of_side])
-    key = edges.of_side[sides] * (int(face.max()) + 1) + face[sides // 3]
-    _, place, times = np.unique(key, return_inverse=True, return_counts=True)
-    return sides[times[place] == 1]
+    first = first_occurrence(edges.of_side[sides], face[sides // 3].astype(np.intp))
+    return sides[np.bincount(first)[first] == 1]

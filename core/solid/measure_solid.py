@@ -18,12 +18,12 @@ import numpy as np
 
 from ..mesh.surface import Surface
 from ..verdict.method import Verdict
+from .closedness import CheckedSurface, GivenIntegrals, check_surface, integrate_and_prove
 from .duplicate_faces import copied_faces
 from .orientation import OrientedSolid, orient_components
 from .repair import repair_surface
 from .self_intersection import find_self_intersection
 from .solid_verdict import SolidIntegrals, judge
-from .triage import CheckedSurface, GivenIntegrals, check_surface, integrate_and_prove
 
 MAX_WELDED_SHARE = 0.1  # of the volume: where welding may change that much, what it closes is no gap left by rounding
 

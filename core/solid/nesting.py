@@ -203,7 +203,7 @@ def orient_nested_components(
     inner, outer = relations.containers()
     depth = np.bincount(inner, minlength=number)
     parent = _innermost_container(relations, number)
-    order = np.argsort(depth[inner], kind="stable")
+    order = np.argsort(depth[inner])
     inner, outer = inner[order], outer[order]
     around = np.zeros(number)
     for level in np.unique(depth[candidates]):
@@ -238,8 +238,8 @@ def _innermost_container(relations: ComponentRelations, number: int) -> NDArray[
     inner, outer = relations.containers()
     depth = np.bincount(inner, minlength=number)
     parent = np.full(number, -1)
-    order = np.argsort(depth[outer], kind="stable")
-    parent[inner[order]] = outer[order]  # the last one, the deepest, is kept
+    order = np.lexsort((outer, depth[outer]))
+    parent[inner[order]] = outer[order]  # the last one, the deepest, of equally deep ones that of the highest number
     return parent
 
 

@@ -13,13 +13,13 @@ from ..mesh.bvh import SortedComponents, sort_components
 from ..mesh.surface import Surface
 from ..moments.moments import Moments, sum_moments
 from ..numerics.arrays import PerBody
-from ..polyhedron import polyhedron_moments
-from ..verdict.health import MeshReport
+from ..polyhedron.integration import polyhedron_moments
+from ..verdict.health import MeshHealth
 from ..verdict.tolerances import CLOSED_SHEET_VOLUME_RTOL, FLAT_CAP_VOLUME_RTOL
 from .closed_parts import ClosedParts
+from .closedness import CheckedSurface, GivenIntegrals
 from .nesting import ComponentRelations, cavity_host, classify_pairs, orient_nested_components
 from .repaired_mesh import RepairedMesh
-from .triage import CheckedSurface, GivenIntegrals
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,7 +78,7 @@ class ComponentComparison:
             relations.undecided_pairs,
         )
 
-    def add_to(self, report: MeshReport) -> MeshReport:
+    def add_to(self, report: MeshHealth) -> MeshHealth:
         """Return the report with the components counted that lie in others, or overlap."""
         return replace(
             report,

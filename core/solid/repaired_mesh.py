@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from ..mesh.edges import Edges
 from ..verdict.finding import Finding
-from ..verdict.health import MeshReport
+from ..verdict.health import MeshHealth
 from .boundary_loops import side_ends
 
 NO_EDGES = np.empty((0, 2), np.intp)
@@ -135,7 +135,7 @@ class RepairedMesh:
         Components that cannot be closed.
     caps : (number, 3) float
         Of each component how many flat caps and curved caps it has, and their area (unit²).
-    report : MeshReport
+    report : MeshHealth
         What the input is like, as far as the steps have seen it. Its edges are pairs of the surface's vertices.
     topology_changed : bool
         Whether the triangles, apart from their direction and from caps, are not simply the input's.
@@ -157,7 +157,7 @@ class RepairedMesh:
     number: int
     open: NDArray[np.bool_]
     caps: NDArray[np.float64]
-    report: MeshReport
+    report: MeshHealth
     topology_changed: bool = False
     max_displacement: float = 0.0
     capped_edges: NDArray[np.intp] = field(default_factory=NO_EDGES.view)

@@ -26,8 +26,8 @@ from ..moments.moments import SECOND_MOMENT_INDEX
 from ..numerics.arrays import sums_by_index
 from ..numerics.vectors import cross, dot
 from ..verdict.health import Intersection
+from .closedness import CheckedSurface, GivenIntegrals, same_sign
 from .orientation import OrientedSolid
-from .triage import CheckedSurface, GivenIntegrals, same_sign
 
 MAX_UNSURE_LINES = 0.05  # of the lines: where more do not enter as often as they leave, the rest says nothing
 FACES_LOOKED_AT_FIRST = 1024

@@ -51,9 +51,8 @@ def wall_links(
     if not layer.any():
         return NO_LINKS
     sides = np.flatnonzero((edges.count == 4)[edges.of_side])
-    sides = sides[np.argsort(edges.of_side[sides], kind="stable")].reshape(-1, 4)
-    order = np.argsort(layer[sides // 3], axis=1, kind="stable")  # single faces, then the first layer, then the other
-    sides = np.take_along_axis(sides, order, axis=1)
+    # by edge: single faces, then the first layer, then the other
+    sides = sides[np.lexsort((layer[sides // 3], edges.of_side[sides]))].reshape(-1, 4)
     rank = layer[sides // 3]
     within = sides[(rank == [1, 1, 2, 2]).all(axis=1)]
     border = sides[(rank == [0, 0, 1, 2]).all(axis=1)]
@@ -124,7 +123,7 @@ def _layers(
     candidate = np.flatnonzero(flat & (np.bincount(piece, layer > 0, number) == 0) & (border != 0))
     _, kind, times = np.unique(border[candidate], return_inverse=True, return_counts=True)
     candidate, kind = candidate[times[kind] == 2], kind[times[kind] == 2]
-    order = np.argsort(kind, kind="stable").reshape(-1, 2)
+    order = np.argsort(kind).reshape(-1, 2)
     first, other = candidate[order[:, 0]], candidate[order[:, 1]]
     piece_layer, partner = np.zeros(number, np.intp), np.arange(number)
     piece_layer[first], piece_layer[other], partner[other] = 1, 2, first

@@ -10,27 +10,28 @@ What is certain here is what `measure_solid` would call exact or capped, with th
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..inertia.mass_properties import are_physical
 from ..mesh.planarity import Planarity, StackPlanarity, stack_planarity
 from ..mesh.scan_lines import LineGrids, find_crossings, line_counts
 from ..mesh.surface import Surface
 from ..mesh.surface_stack import SurfaceStack, TriangleStack
-from ..moments.moments import SECOND_MOMENT_INDEX, Moments, U, stack_moments
+from ..moments.moments import Moments, U, stack_moments
 from ..polyhedron.any_order_small import extend_small_moments
 from ..polyhedron.third_order import MAX_SMALL_TRIANGLES, MAX_UNSCALED_REACH
 from ..polyhedron.third_order_small import NEXT_AXIS, PREVIOUS_AXIS, small_moments
 from ..verdict.finding import Finding
-from ..verdict.health import NO_FACES, DefectiveElements, Intersection, MeshReport
+from ..verdict.health import NO_FACES, DefectiveElements, Intersection, MeshHealth
 from ..verdict.tolerances import CLOSED_SHEET_VOLUME_RTOL, MAX_COORDINATE, MIN_SIZE, WELDING_RTOL
 from .capped_stack import StackCaps, cap_stack
+from .closedness import SUM_ROUNDING
 from .orientation import zero_volume
 from .self_intersection import MAX_UNSURE_LINES, measure_excess
 from .solid_verdict import SolidIntegrals, cap_finding, shape_findings
-from .triage import SUM_ROUNDING
 
 MAX_COMPONENTS = 16  # of one body: each is compared with each
 CLEAR_VOLUME = 4.0  # times what counts as none: a component of less is looked at by itself
@@ -52,11 +53,8 @@ class SolidStack:
     planarity : StackPlanarity
     intersection : (n,) array of Intersection
     component_counts : (n,) int
-    is_capped : (n,) bool
-    caps : StackCaps, optional
-        None where nothing was capped.
-    triangles : TriangleStack
-        What bounds them, with caps.
+    caps : StackCaps
+        With what bounds the bodies.
     """
 
     is_measured: NDArray[np.bool_]
@@ -66,48 +64,39 @@ class SolidStack:
     planarity: StackPlanarity
     intersection: NDArray[np.object_]
     component_counts: NDArray[np.intp]
-    is_capped: NDArray[np.bool_]
-    caps: StackCaps | None
-    triangles: TriangleStack
+    caps: StackCaps
 
-    def health(self, i: int) -> MeshReport:
+    def health(self, i: int) -> MeshHealth:
         """What the surface of a measured one is like."""
-        flat = self.planarity
-        report = MeshReport(
-            closed=True,
+        flat, edges = self.planarity, self.caps.edges_of(i)
+        return MeshHealth(
+            closed=not len(edges),
+            boundary_edges=len(edges),
             components=int(self.component_counts[i]),
             non_planar_faces=int(flat.non_planar_counts[i]),
-            volume_spread=float(flat.volume_ambiguity[i]),
+            volume_spread=float(flat.volume_spread[i]),
+            cap_area_share=self._cap_share(i),
             self_intersection=self.intersection[i],
-        )
-        if self.caps is None or not self.is_capped[i]:
-            return report
-        edges = self.caps.edges_of(i)
-        return replace(
-            report,
-            closed=False,
-            boundary_edges=len(edges),
-            cap_area_share=self._cap_share(self.caps, i),
             defective_elements=DefectiveElements(boundary_edges=edges),
         )
 
     def findings(self, i: int) -> tuple[Finding, ...]:
         """What is to be reported of a measured one."""
         flat, found = self.planarity, []
-        if self.caps is not None and self.is_capped[i]:
-            share, total = self._cap_share(self.caps, i), float(self.volume.raw[i, 0])
+        if self.caps.is_capped[i]:
+            share, total = self._cap_share(i), float(self.volume.raw[i, 0])
             found.append(cap_finding(self.caps.edges_of(i), self.caps.counts[i], share, float(self.size[i]), total))
-        if flat.volume_ambiguity[i]:
-            planarity = Planarity(int(flat.non_planar_counts[i]), float(flat.volume_ambiguity[i]), NO_FACES)
+        if flat.volume_spread[i]:
+            planarity = Planarity(int(flat.non_planar_counts[i]), float(flat.volume_spread[i]), NO_FACES)
             found += shape_findings(True, planarity, self.volume.at(i))
         return tuple(found)
 
-    def _cap_share(self, caps: StackCaps, i: int) -> float:
-        return float(caps.counts[i, 2] / self.area.raw[i, 0])
+    def _cap_share(self, i: int) -> float:
+        return float(self.caps.counts[i, 2] / self.area.raw[i, 0])
 
     def to_order(self, rows: NDArray[np.intp], order: int) -> Moments:
         """The volumes of some, in ascending order, to a higher order than third."""
-        stack, volume = self.triangles.some(rows), self.volume.at(rows)
+        stack, volume = self.caps.triangles.some(rows), self.volume.at(rows)
         low, high = stack.box
         reach = np.maximum(high - volume.about, volume.about - low) * (1.0 + 4.0 * U) + stack.coordinate_error
         return extend_small_moments(volume, order, stack.points, stack.triangles, stack.triangle_counts, reach)
@@ -176,17 +165,18 @@ def measure_stack(surfaces: Sequence[Surface]) -> SolidStack:
     usable &= np.maximum(size, np.maximum(np.abs(low), np.abs(high)).max(axis=1)) < MAX_COORDINATE
     error = np.sqrt(np.add.reduce(stack.coordinate_error**2, axis=1))
     tolerance = np.maximum(WELDING_RTOL * size, 4.0 * error)
-    caps = cap_stack(stack, links, usable, tolerance) if links.is_open.any() else None
-    capped, triangles, part = np.zeros(len(stack), bool), stack, links.component[stack.triangle_faces]
-    if caps is not None:
-        capped, triangles, part, volume = caps.is_capped, caps.triangles, caps.part, caps.add_to(volume)
+    none, part = np.zeros(len(stack), np.intp), links.component[stack.triangle_faces]
+    caps = StackCaps(none > 0, stack, part, none, np.zeros((len(none), 3)), np.empty((0, 2), np.intp), none)
+    if links.is_open.any() and (made := cap_stack(stack, links, usable, tolerance)) is not None:
+        caps, volume = made, made.add_to(volume)
+    capped, triangles, part = caps.is_capped, caps.triangles, caps.part
     is_measured = usable & (links.is_closed | capped)
-    none = np.maximum(CLOSED_SHEET_VOLUME_RTOL * size * area.raw[:, 0], volume.rounding_error[:, 0])
-    if caps is not None:
-        none = np.maximum(none, zero_volume(size, area.raw[:, 0], capped, error))
-    is_measured &= volume.raw[:, 0] > none
+    least = np.maximum(CLOSED_SHEET_VOLUME_RTOL * size * area.raw[:, 0], volume.rounding_error[:, 0])
+    if capped.any():
+        least = np.maximum(least, zero_volume(size, area.raw[:, 0], capped, error))
+    is_measured &= volume.raw[:, 0] > least
     rows = np.flatnonzero(is_measured)
-    is_measured[rows] = _are_physical(volume.at(rows), low[rows], high[rows], size[rows])
+    is_measured[rows] = are_physical(volume.at(rows), low[rows], high[rows], size[rows])
     several = np.flatnonzero(is_measured & (links.component_counts > 1))
     if len(several):
         is_measured[several] = _stand_apart(triangles, part, several, links.component_counts, tolerance, capped, error)
@@ -201,9 +191,7 @@ def measure_stack(surfaces: Sequence[Surface]) -> SolidStack:
         chosen = triangles.owned(rows)[1]
         intersection[rows] = _looked_for(triangles.some(rows), tolerance[rows], _renumbered(part[chosen]))
         is_measured[rows] = intersection[rows] == Intersection.NOT_FOUND
-    return SolidStack(
-        is_measured, volume, area, size, planarity, intersection, links.component_counts, capped, caps, triangles
-    )
+    return SolidStack(is_measured, volume, area, size, planarity, intersection, links.component_counts, caps)
 
 
 def _renumbered(labels: NDArray[np.intp]) -> NDArray[np.intp]:
@@ -230,7 +218,7 @@ def _stand_apart(
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     volume = np.bincount(part, np.add.reduce(corners[:, 0] * normals, axis=1)) / 6.0
     area = np.bincount(part, np.sqrt(np.add.reduce(normals * normals, axis=1))) / 2.0
-    order = part.argsort(kind="stable")
+    order = part.argsort()
     starts = np.searchsorted(part[order], np.arange(len(body)))
     low = np.minimum.reduceat(corners.min(axis=1)[order], starts)
     high = np.maximum.reduceat(corners.max(axis=1)[order], starts)
@@ -268,16 +256,3 @@ def _looked_for(stack: TriangleStack, tolerance: NDArray, part: NDArray[np.intp]
     state = np.where(excess.volume > 0.0, Intersection.FOUND, Intersection.NOT_FOUND).astype(object)
     state[excess.unsure > MAX_UNSURE_LINES] = Intersection.NOT_CHECKED
     return state
-
-
-def _are_physical(volume: Moments, low: NDArray, high: NDArray, size: NDArray) -> NDArray[np.bool_]:
-    """(n,) whether bodies within these boxes can have these moments, as `solid_verdict` asks of one."""
-    total = volume.raw[:, 0]
-    mean = volume.raw[:, 1:4] / total[:, None]
-    second = volume.raw[:, SECOND_MOMENT_INDEX] / total[:, None, None] - mean[:, :, None] * mean[:, None, :]
-    most = np.abs(second).max(axis=(1, 2))
-    rounding = 8.0 * (volume.rounding_error[:, 4:10].max(axis=1) / total + np.finfo(float).eps * most)
-    tolerance = (1e-6 * size + volume.rounding_error[:, 1:4].max(axis=1) / total)[:, None]
-    center = volume.about + mean
-    inside = ((low - tolerance <= center) & (center <= high + tolerance)).all(axis=1)
-    return inside & (np.linalg.eigvalsh(second)[:, 0] >= -rounding)

@@ -9,20 +9,21 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..inertia.mass_properties import are_physical
 from ..mesh.planarity import Planarity
 from ..mesh.surface import Surface
-from ..moments.moments import SECOND_MOMENT_INDEX, Moments
+from ..moments.moments import Moments
 from ..numerics.arrays import unique_pairs
-from ..polyhedron import polyhedron_moments
+from ..polyhedron.integration import polyhedron_moments
 from ..verdict.finding import Finding, finding
-from ..verdict.health import NO_FACES, DefectiveElements, Intersection, MeshReport
+from ..verdict.health import NO_FACES, DefectiveElements, Intersection, MeshHealth
 from ..verdict.method import Verdict
 from ..verdict.tolerances import NEGLIGIBLE
 from .closed_parts import ClosedParts
+from .closedness import CheckedSurface, GivenIntegrals
 from .orientation import ComponentComparison, OrientedSolid
 from .repaired_mesh import RepairedMesh
 from .self_intersection import SelfIntersection
-from .triage import CheckedSurface, GivenIntegrals
 
 MIN_REPORTED_AMBIGUITY = 1e-6  # of the volume: below, nobody needs to know
 
@@ -43,7 +44,7 @@ class SolidIntegrals:
         To order 3, about the body's reference point.
     area : Moments
         Of the input's faces, without caps.
-    health : MeshReport
+    health : MeshHealth
         What the input is like.
     method : Verdict
         EXACT, CAPPED, REORIENTED or OPEN.
@@ -67,7 +68,7 @@ class SolidIntegrals:
 
     volume: Moments
     area: Moments
-    health: MeshReport
+    health: MeshHealth
     method: Verdict
     findings: tuple[Finding, ...]
     oriented: OrientedSolid
@@ -149,7 +150,10 @@ def judge(
     flipped, inverted = NO_FACES, np.flatnonzero(oriented.turned)
     if len(mesh.face) and (mesh.flipped.any() or len(inverted)):
         flipped, inverted = _flipped_faces(mesh, oriented.turned)
-    self_intersecting = oriented.is_solid and not has_open and not _is_physical(volume, checked)
+    self_intersecting = oriented.is_solid and not has_open and volume.total > 0.0
+    if self_intersecting:
+        low, high = checked.surface.box
+        self_intersecting = not are_physical(volume.at(None), low[None], high[None], checked.size)[0]
     caps = mesh.caps[oriented.solid].sum(axis=0)
     cap_share = float(caps[2] / given.area.total) if given.area.total > 0.0 else 0.0
     if has_open or not oriented.is_solid or self_intersecting:
@@ -188,26 +192,8 @@ def _flipped_faces(mesh: RepairedMesh, turned: NDArray[np.bool_]) -> tuple[NDArr
     """The mesh faces that were turned within their components, and the components that were turned as a whole."""
     of_mesh = mesh.face >= 0
     flipped, component = (mesh.flipped ^ turned[mesh.component])[of_mesh], mesh.component[of_mesh]
-    whole = np.bincount(component, ~flipped, minlength=mesh.number) == 0
+    whole = np.bincount(component, ~flipped) == 0
     return np.unique(mesh.face[of_mesh][flipped & ~whole[component]]), np.flatnonzero(whole)
-
-
-def _is_physical(volume: Moments, checked: CheckedSurface) -> bool:
-    """Whether a body within the points' bounding box can have these moments: its center is inside, and its second
-    central moments are those of a positive mass. Where a surface intersects itself, they need not be."""
-    total = volume.raw[0]
-    if not total > 0.0:
-        return True  # an open surface's sum, which is reported as such
-    mean = volume.raw[1:4] / total
-    second = volume.raw[SECOND_MOMENT_INDEX] / total - np.outer(mean, mean)
-    rounding = 8.0 * (
-        volume.rounding_error[SECOND_MOMENT_INDEX].max() / total + np.finfo(float).eps * np.abs(second).max()
-    )
-    tolerance = 1e-6 * checked.size + volume.rounding_error[1:4].max() / total
-    center = volume.about + mean
-    low, high = checked.surface.box
-    inside = bool((low - tolerance <= center).all() and (center <= high + tolerance).all())
-    return bool(inside and np.linalg.eigvalsh(second)[0] >= -rounding)
 
 
 def _health(
@@ -217,7 +203,7 @@ def _health(
     flipped: NDArray[np.integer],
     inverted_count: int,
     cap_share: float,
-) -> MeshReport:
+) -> MeshHealth:
     """The report of the repair, completed, with edges in the input's vertices."""
     report, vertices = oriented.mesh.report, checked.vertices
     defects = report.defective_elements
@@ -231,7 +217,7 @@ def _health(
         inverted_components=inverted_count,
         degenerate_faces=len(planarity.degenerate_faces),
         non_planar_faces=planarity.non_planar_count,
-        volume_spread=planarity.volume_ambiguity,
+        volume_spread=planarity.volume_spread,
         cap_area_share=cap_share,
         defective_elements=DefectiveElements(
             flipped, *edges, duplicate_faces=defects.duplicate_faces, degenerate_faces=planarity.degenerate_faces
@@ -321,7 +307,7 @@ def _component_findings(
 def _all_but_largest(mesh: RepairedMesh, which: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """Some components but for the one with the largest area: what they share is in the others."""
     rows = which[mesh.component]
-    areas = np.bincount(mesh.component[rows], _areas(mesh, rows), minlength=mesh.number)
+    areas = np.bincount(mesh.component[rows], _areas(mesh, rows))
     others = which.copy()
     others[np.argmax(areas)] = False
     return others
@@ -340,7 +326,7 @@ def shape_findings(is_solid: bool, planarity: Planarity, volume: Moments) -> lis
     if not is_solid:
         return [finding("flat_surface")]
     total = volume.total
-    if not planarity.volume_ambiguity > MIN_REPORTED_AMBIGUITY * total > 0.0:
+    if not planarity.volume_spread > MIN_REPORTED_AMBIGUITY * total > 0.0:
         return []
-    share = float(planarity.volume_ambiguity / total)
+    share = float(planarity.volume_spread / total)
     return [finding("non_planar_faces_slightly" if share < NEGLIGIBLE else "non_planar_faces", share=share)]

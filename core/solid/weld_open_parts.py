@@ -16,7 +16,7 @@ from ..mesh.edges import Edges, edges_from_mesh, find_edges
 from ..mesh.surface import Surface
 from ..mesh.welding import first_at_equal_position, first_at_near_position, same_vertices_groups, vertex_tolerance
 from ..numerics.graph import connected_components
-from ..verdict.health import MeshReport
+from ..verdict.health import MeshHealth
 from .boundary_loops import side_ends
 from .duplicate_faces import is_duplicated
 from .repaired_mesh import UNKNOWN, OpenParts, RepairedMesh, RepairState, has_distinct_vertices
@@ -47,7 +47,7 @@ def split_into_triangles(surface: Surface) -> RepairedMesh:
         number=0,
         open=np.zeros(0, bool),
         caps=np.zeros((0, 3)),
-        report=MeshReport(closed=False, components=0),
+        report=MeshHealth(closed=False, components=0),
         state=RepairState(triangles, edges or UNKNOWN, open_parts=open_parts),
     )
 
@@ -126,7 +126,7 @@ def _find_open_parts(
         single = np.zeros(len(rows), bool)
         whole_face = face[rows[whole]]
         single[whole] = ~is_duplicated(same_vertices_groups(triangles[rows[whole]], whole_face), whole_face)
-        is_open |= np.bincount(part, single, minlength=number) == 0
+        is_open |= np.bincount(part, single) == 0
     return edges, OpenParts(rows[is_open[part]], vertices, bool(is_open.all()))
 
 

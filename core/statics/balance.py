@@ -24,9 +24,9 @@ from numpy.typing import NDArray
 
 from ..mesh.surface import Surface, normals
 from ..moments.moments import Moments, U
-from ..numerics.arrays import sums_by_index
+from ..numerics.arrays import first_occurrence, sums_by_index
 from ..offset.walls import first_positive_root
-from ..polyhedron import polyhedron_moments
+from ..polyhedron.integration import polyhedron_moments
 from ..verdict.finding import MeasureError
 from .gradient import Gradient, area_gradient, volume_gradient
 
@@ -276,7 +276,7 @@ class _Fans:
             [sums_by_index(self.owner, points[self.vertex, k] * self.share, number) for k in range(3)], axis=1
         )
         whole = np.bincount(faces, minlength=number)[faces] == 1
-        boundary, owners = _face_boundaries(triangles[~whole], faces[~whole], self.count)
+        boundary, owners = _face_boundaries(triangles[~whole], faces[~whole])
         fan = np.concatenate([triangles[whole], np.concatenate([boundary, self.count + owners[:, None]], axis=1)])
         owners = np.concatenate([faces[whole], owners])
         self.points = np.concatenate([points, middles])
@@ -295,7 +295,7 @@ class _Fans:
         else:
             surface = Surface(self.points, self.fan)
             gradient = volume_gradient(surface, center, order=1).by_vertex[:, 1:4]
-            total = polyhedron_moments(surface, area_order=0, allow_open=True)[0].total
+            total = polyhedron_moments(surface, area_order=0)[0].total
         gradient /= total
         vertex_gradient, middle = gradient[: self.count].reshape(-1, 9), gradient[self.count :].reshape(-1, 9)
         for column, shared in zip(vertex_gradient.T, middle.T):
@@ -303,12 +303,11 @@ class _Fans:
         return vertex_gradient.reshape(-1, 3, 3)
 
 
-def _face_boundaries(triangles: NDArray, faces: NDArray, count: int) -> tuple[NDArray[np.integer], NDArray[np.integer]]:
+def _face_boundaries(triangles: NDArray, faces: NDArray) -> tuple[NDArray[np.integer], NDArray[np.integer]]:
     """(k, 2) the sides of triangles that no other triangle of the same face runs along the other way, and (k,) the face
     of each."""
     start, stop = triangles.ravel().astype(np.int64), np.roll(triangles, -1, axis=1).ravel().astype(np.int64)
     owner = np.repeat(faces, 3).astype(np.int64)
-    edge = np.unique(np.minimum(start, stop) * count + np.maximum(start, stop), return_inverse=True)[1].ravel()
-    _, key, uses = np.unique(owner * (int(edge.max(initial=0)) + 1) + edge, return_inverse=True, return_counts=True)
-    on_boundary = uses[key.ravel()] == 1
+    first = first_occurrence(np.minimum(start, stop), np.maximum(start, stop), owner)
+    on_boundary = np.bincount(first)[first] == 1
     return np.stack([start[on_boundary], stop[on_boundary]], axis=1), owner[on_boundary]

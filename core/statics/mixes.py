@@ -97,7 +97,7 @@ def fit_mixes(surface: Surface, offsets: ArrayLike) -> Mixes:
     """
     triangles, _ = surface.all_triangles()
     points, offsets = surface.points.astype(np.float64), np.asarray(offsets, np.float64)
-    about = (points.min(axis=0) + points.max(axis=0)) / 2.0
+    about = np.mean(surface.box, axis=0)
     exponents = np.array(
         [powers for powers in product(range(DEGREE + 1), repeat=len(offsets)) if sum(powers) <= DEGREE]
     )

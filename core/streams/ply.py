@@ -31,10 +31,7 @@ class PlyFile:
         with open(path, "rb") as file:
             start = file.read(MAX_HEADER)
         try:
-            header = parse_header(start) if start.startswith(b"ply") else None
-            if header is None:
-                raise self._damaged("damage_ply_header")
-            self._header = header
+            self._header = header = parse_header(start)
             for element in header.elements:
                 if element.rows * _least_bytes(element, header.order) > path.stat().st_size:
                     raise self._damaged("damage_ply_rows", name=element.name, count=element.rows)
@@ -110,7 +107,7 @@ class PlyFile:
                 try:
                     for block in reader.rows(element):
                         if element is wanted:
-                            yield block.columns
+                            yield block
                 except RowsError as error:
                     raise self._damaged("damage_ply_rows", name=element.name, count=element.rows) from error
                 if element is wanted:

@@ -53,12 +53,12 @@ class Header:
     start: int
 
 
-def parse_header(data: bytes) -> Header | None:
-    """Return the header at the start of a file, None where there is none that is complete. Raises ValueError, KeyError
-    or IndexError where it makes no sense."""
-    end = END.search(data[:MAX_HEADER])
-    if end is None:
-        return None
+def parse_header(data: bytes) -> Header:
+    """Return the header at the start of a file. Raises ValueError, KeyError or IndexError where there is none, or it
+    makes no sense."""
+    end = END.search(data)
+    if end is None or not data.startswith(b"ply"):
+        raise ValueError("no header")
     order = ""
     elements: list[tuple[str, int, list[Property]]] = []
     for line in data[: end.start()].decode("latin-1").splitlines():

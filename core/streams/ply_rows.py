@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Iterator, Sequence
-from typing import BinaryIO, NamedTuple
+from typing import BinaryIO
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,12 +24,6 @@ class RowsError(Exception):
     """The file ends before its rows do, or one of its numbers is none."""
 
 
-class Block(NamedTuple):
-    """Rows of one length. columns: of each property, (n,) numbers, or (n, k) lists."""
-
-    columns: list[NDArray]
-
-
 class RowReader:
     """Reads element after element. order: "" for text, "<" or ">"."""
 
@@ -38,8 +32,9 @@ class RowReader:
         self._buffer: NDArray = np.zeros(0, np.uint8 if order else NUMBERS)
         self._text = b""
 
-    def rows(self, element: Element) -> Iterator[Block]:
-        """Yield the rows of the next element, all of which must be taken."""
+    def rows(self, element: Element) -> Iterator[list[NDArray]]:
+        """Yield the rows of the next element, all of which must be taken, in blocks of one length: of each property,
+        (n,) numbers, or (n, k) lists."""
         left = element.rows if element.properties else 0
         while left:
             lengths = self._lengths(element.properties)
@@ -50,13 +45,13 @@ class RowReader:
                 same &= table["n{}".format(number)] == length
             count = len(table) if same.all() else int(np.argmin(same))
             if count < min(FEW_ROWS, left):
-                for block, taken in self._single_rows(element, min(left, SINGLE_ROWS)):
-                    left -= taken
+                for block in self._single_rows(element, min(left, SINGLE_ROWS)):
+                    left -= len(block[0])
                     yield block
                 continue
             self._buffer = self._buffer[count * row.itemsize // self._buffer.itemsize :]
             left -= count
-            yield Block([table["p{}".format(number)][:count] for number in range(len(element.properties))])
+            yield [table["p{}".format(number)][:count] for number in range(len(element.properties))]
 
     def _lengths(self, properties: Sequence[Property]) -> dict[int, int]:
         """How long the lists of the next row are, all of which is in the buffer then."""
@@ -86,8 +81,8 @@ class RowReader:
         count = min(left, len(self._buffer) * unit // row.itemsize)
         return np.frombuffer(self._buffer, row, count)
 
-    def _single_rows(self, element: Element, rows: int) -> Iterator[tuple[Block, int]]:
-        """Rows of any lengths, joined to blocks of one length each, and how many rows each block has."""
+    def _single_rows(self, element: Element, rows: int) -> Iterator[list[NDArray]]:
+        """Rows of any lengths, joined to blocks of one length each."""
         by_lengths: dict[tuple[int, ...], list[bytes]] = {}
         types: dict[tuple[int, ...], np.dtype] = {}
         for _ in range(rows):
@@ -100,7 +95,7 @@ class RowReader:
             self._buffer = self._buffer[size:]
         for key, found in by_lengths.items():
             table = np.frombuffer(b"".join(found), types[key])
-            yield Block([table["p{}".format(number)] for number in range(len(element.properties))]), len(found)
+            yield [table["p{}".format(number)] for number in range(len(element.properties))]
 
     def _size(self, kind: str) -> int:
         """Of a number, in what the buffer holds."""

@@ -28,7 +28,7 @@ class DefectiveElements:
     """Where the faults are, in the input mesh's own numbers, sorted: faces (k,), edges (k, 2) as vertex pairs.
 
     flipped_faces: turned to agree with the rest of their part (not those of a part that is inside out as a whole).
-    boundary_edges, non_manifold_edges, inconsistent_edges: as counted in `MeshReport`, but each with all the mesh's
+    boundary_edges, non_manifold_edges, inconsistent_edges: as counted in `MeshHealth`, but each with all the mesh's
     edges that lie there. duplicate_faces: the later copies. degenerate_faces: those without area.
     """
 
@@ -41,7 +41,7 @@ class DefectiveElements:
 
 
 @dataclass(frozen=True, eq=False)
-class MeshReport:
+class MeshHealth:
     """The input, before anything was repaired, and what was done to it.
 
     closed: in space: equal positions are one, and gaps without area are none.

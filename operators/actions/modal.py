@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Long work in steps: between two of them the window lives and shows how far it is, and Esc ends it."""
+"""Long work in steps: between two of them Blender handles events and shows the progress, and Esc cancels."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ from bpy.types import Context, Event
 from ...core.verdict.finding import Finding
 from ..write import reports
 
-# seconds of work between two looks at the window's events; as many as what the window does in between takes, where
-# drawing it is dear
+# seconds of work between two of the window's events: as long as the window takes in between, within these limits, so
+# that half of the time is work where a scene is slow to draw
 STEP_SECONDS, MAX_STEP_SECONDS = 0.1, 1.0
 
 MAX_OBJECTS_WITHOUT_REDRAW = 4  # up to so many objects are measured before the window is drawn again
@@ -57,7 +57,7 @@ class ModalSteps:
     PROGRESS: Finding
     CANCELED: Finding
     _steps: Generator[float, None, None]
-    _left = 0.0  # when the window was last left to itself
+    _returned_at = 0.0  # when the last step gave control back to the window
 
     def _finish(self, context: Context) -> set[str]:
         raise NotImplementedError
@@ -77,7 +77,7 @@ class ModalSteps:
         manager.modal_handler_add(self)
         manager.progress_begin(0, count)
         self._show_progress(context, 0)
-        self._left = perf_counter()
+        self._returned_at = perf_counter()
         return {"RUNNING_MODAL"}
 
     def modal(self, context: Context, event: Event) -> set[str]:
@@ -89,11 +89,11 @@ class ModalSteps:
             return {"RUNNING_MODAL"}
         try:
             now = perf_counter()
-            until = now + max(STEP_SECONDS, min(now - self._left, MAX_STEP_SECONDS))
+            until = now + max(STEP_SECONDS, min(now - self._returned_at, MAX_STEP_SECONDS))
             for done in self._steps:
                 if perf_counter() >= until:
                     self._show_progress(context, done)
-                    self._left = perf_counter()
+                    self._returned_at = perf_counter()
                     return {"RUNNING_MODAL"}
         except BaseException:
             self._stop_modal(context)

@@ -24,7 +24,7 @@ from ...core.numerics.rotations import polar_rotation
 from ...core.polyhedron import polyhedron_moments
 from ...core.solid.measure_solid import SolidIntegrals
 from ...core.verdict.finding import Finding, ReadError
-from ...core.verdict.health import MeshReport
+from ...core.verdict.health import MeshHealth
 from ...core.verdict.method import Method, Verdict
 from .instances import area_of_instances
 
@@ -70,7 +70,7 @@ class Body:
 
     volume: Moments
     area: Moments
-    health: MeshReport
+    health: MeshHealth
     method: Method
     findings: tuple[Finding, ...]
     mass: Moments | None = None

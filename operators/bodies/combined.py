@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ...core.measurement import Measurement
 from ...core.moments.moments import Measure, Moments, monomial_count
 from ...core.verdict.finding import Finding, finding
-from ...core.verdict.health import MeshReport
+from ...core.verdict.health import MeshHealth
 from ...core.verdict.method import Method, Verdict
 from .body import KNOWN_ORDER
 from .given import properties_of
@@ -33,7 +33,7 @@ def combined_measurement(
     findings: Sequence[Finding],
     method: Method = Method(Verdict.ASSEMBLY),  # noqa: B008 frozen
     density_from: Finding = finding("density_from_members"),  # noqa: B008 frozen
-    health: MeshReport | None = None,
+    health: MeshHealth | None = None,
 ) -> Measurement:
     """Return the results of bodies whose mass moments have been added.
 
@@ -71,7 +71,7 @@ def combined_measurement(
         volume_moments=Moments(np.r_[volume[0], nothing], mass.about, Measure.VOLUME),
         area_moments=Moments(np.r_[area[0], nothing], mass.about, Measure.AREA),
         mass_moments=(mass, 1.0),
-        health=health or MeshReport(closed=False, components=0),
+        health=health or MeshHealth(closed=False, components=0),
         findings=tuple(findings),
         rotation=rotation,
         location=location,

@@ -19,7 +19,7 @@ from ...core.measurement import DENSITY_FROM_MASS, Measurement
 from ...core.moments.moments import SECOND_MOMENT_INDEX, Measure, Moments, U, monomial_count
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import Finding, ReadError, finding
-from ...core.verdict.health import MeshReport
+from ...core.verdict.health import MeshHealth
 from ...core.verdict.method import Method, Verdict
 from ..read import Reading
 from ..read.fingerprint import effective_hash, fingerprint, matrix_hash
@@ -147,7 +147,7 @@ def point_measurement(reading: Reading, request: Request) -> tuple[Measurement, 
     own = shortest_decimal(settings.mass) if options.mass is None else options.mass  # no density gives it one
     mass, findings = given_moments(own, given, rotation, location, None)
     volume, area = (Moments(np.zeros(COUNT), mass.about, measure) for measure in (Measure.VOLUME, Measure.AREA))
-    body = Body(volume, area, MeshReport(closed=False, components=0), Method(Verdict.GIVEN), tuple(findings), mass=mass)
+    body = Body(volume, area, MeshHealth(closed=False, components=0), Method(Verdict.GIVEN), tuple(findings), mass=mass)
     properties = properties_of(mass, rotation)
     bounds = {"volume": 0.0, "area": 0.0}
     rounding, moved = properties.rounding_error, properties.input_error

@@ -16,10 +16,10 @@ from ...core.density.spline_grid import Blocks, grid_moments
 from ...core.moments.moments import Measure, Moments
 from ...core.scans.positions import AXES, EVEN, Positions
 from ...core.verdict.finding import Finding, ReadError, finding
-from ...core.verdict.health import MeshReport
+from ...core.verdict.health import MeshHealth
 from ...core.verdict.method import Method, Source, Verdict
 from ..read import Part, Reading
-from ..read.quiet import paused
+from ..read.tracking import tracking_paused
 from ..read.volume import VolumeReading, volume_reading
 from ..settings.digest import density_key, grid_key
 from ..settings.grid import GridOptions
@@ -97,7 +97,7 @@ def read(request: Request) -> VolumeReading | None:
     if obj.type != "VOLUME" and "NODES" not in [modifier.type for modifier in obj.modifiers]:
         return None
     with ExitStack() as opened:
-        opened.enter_context(paused())
+        opened.enter_context(tracking_paused())
         reading = opened.enter_context(volume_reading(obj, request.depsgraph, obj.body_moments.grid))
         if reading is None:
             return None
@@ -203,7 +203,7 @@ def density_body(
     return GridBody(
         volume,
         Moments(np.zeros(1), volume.about, Measure.AREA),
-        MeshReport(closed=True),
+        MeshHealth(closed=True),
         Method(Verdict.EXACT, Source.GRID),
         findings,
         mass=mass,

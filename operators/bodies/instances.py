@@ -16,10 +16,10 @@ from ...core.moments.affine_maps import are_similarities, distinct_linear_parts,
 from ...core.moments.images import sum_of_images
 from ...core.moments.moments import Moments
 from ...core.polyhedron.sheared_areas import area_of_images
-from ...core.solid.places import PlaceComparison
+from ...core.solid.instance_overlaps import PlaceComparison
 from ...core.solid.solid_verdict import SolidIntegrals
 from ...core.verdict.finding import Finding, finding
-from ...core.verdict.health import DefectiveElements, Intersection, MeshReport
+from ...core.verdict.health import DefectiveElements, Intersection, MeshHealth
 from ..read import Reading
 
 
@@ -79,7 +79,7 @@ def overlap_findings(reading: Reading, solids: Sequence[SolidIntegrals], compari
     return findings
 
 
-def with_overlaps(health: MeshReport, comparison: PlaceComparison) -> MeshReport:
+def with_overlaps(health: MeshHealth, comparison: PlaceComparison) -> MeshHealth:
     """The health with the components that are in others, or overlap others, in another place."""
     return replace(
         health,
@@ -139,7 +139,7 @@ def group_by_similarity(surface: Surface, matrices: NDArray) -> Iterator[tuple[S
         yield surface.transform(linear), translation_matrices(matrices[rest[members], :3, 3]), rest[members]
 
 
-def merge_health(healths: Iterable[tuple[MeshReport, int, float]]) -> MeshReport:
+def merge_health(healths: Iterable[tuple[MeshHealth, int, float]]) -> MeshHealth:
     """One verdict for all parts, each with the number of its instances and the area of all of them: counts add; faults
     are named where there is one part only."""
     healths = list(healths)
@@ -157,7 +157,7 @@ def merge_health(healths: Iterable[tuple[MeshReport, int, float]]) -> MeshReport
         if area > 0.0
         else 0.0,
     }
-    for field in fields(MeshReport):
+    for field in fields(MeshHealth):
         if field.name not in total:
             total[field.name] = sum(getattr(h, field.name) * k for h, k, _ in healths)
-    return MeshReport(**total)
+    return MeshHealth(**total)

@@ -22,7 +22,7 @@ from ..settings.density import object_density
 from ..settings.options import AS_SET, MeasureOptions
 from .measure_object import Measured, measure_body
 from .measurement import MAX_FACES_HIGH_ORDER
-from .stack import Member, Shape, Stacked, measure_members
+from .stack import MeshShape, Stacked, StackMember, measure_members
 
 MAX_OBJECTS_PER_STACK = 512
 MAX_FACES_PER_STACK = 40_000
@@ -48,7 +48,7 @@ def measure_many(
     list of (bpy.types.Object, Measured or Stacked or Exception)
         The next ones, in their order: what was measured, or why it was not.
     """
-    pending: list[tuple[bpy.types.Object, Member | None]] = []
+    pending: list[tuple[bpy.types.Object, StackMember | None]] = []
     collector = _Collector(depsgraph, options)
     for obj in objects:
         pending.append((obj, collector.add(obj)))
@@ -85,7 +85,7 @@ def measured_in_turn(
 
 
 def _outcomes(
-    pending: list[tuple[bpy.types.Object, Member | None]], collector: _Collector
+    pending: list[tuple[bpy.types.Object, StackMember | None]], collector: _Collector
 ) -> Iterator[list[tuple[bpy.types.Object, Outcome]]]:
     """What came of those that were collected: of stacked ones together, of others one by one."""
     stacked = collector.measure()
@@ -113,25 +113,25 @@ class _Collector:
     def __init__(self, depsgraph: bpy.types.Depsgraph, options: MeasureOptions):
         self.depsgraph, self.options, self.scene = depsgraph, options, depsgraph.scene
         self.unit = options.unit_scale or shortest_decimal(self.scene.unit_settings.scale_length)
-        self.members: list[Member] = []
-        self.shapes: list[Shape] = []
+        self.members: list[StackMember] = []
+        self.shapes: list[MeshShape] = []
         self.faces = 0
-        self._by_mesh: dict[bpy.types.Mesh, Shape | None] = {}
-        self._by_content: dict[tuple[bytes, ...], Shape] = {}
+        self._by_mesh: dict[bpy.types.Mesh, MeshShape | None] = {}
+        self._by_content: dict[tuple[bytes, ...], MeshShape] = {}
         self._settings: dict[tuple[float | None, float | None], str] = {}
 
     @property
     def is_full(self) -> bool:
         return len(self.members) >= MAX_OBJECTS_PER_STACK or self.faces >= MAX_FACES_PER_STACK
 
-    def add(self, obj: bpy.types.Object) -> Member | None:
+    def add(self, obj: bpy.types.Object) -> StackMember | None:
         """The object as one of the stack; None where it cannot be, or reading it fails: by itself it fails again."""
         try:
             return self._member(obj)
         except Exception:
             return None
 
-    def _member(self, obj: bpy.types.Object) -> Member | None:
+    def _member(self, obj: bpy.types.Object) -> StackMember | None:
         weight = self._weight(obj)
         mesh = None if weight is None else plain_mesh(obj, self.depsgraph)
         if weight is None or mesh is None:
@@ -145,7 +145,7 @@ class _Collector:
         density, mass, settings = weight
         matrix = obj.evaluated_get(self.depsgraph).matrix_world
         location, turn, _scale = matrix.decompose()
-        member = Member(
+        member = StackMember(
             len(self.members),
             obj,
             shape,
@@ -180,7 +180,7 @@ class _Collector:
         digest = self._settings[density, mass]
         return nothing if density is None else density, nothing if mass is None else mass, digest
 
-    def _read(self, mesh: bpy.types.Mesh) -> Shape | None:
+    def _read(self, mesh: bpy.types.Mesh) -> MeshShape | None:
         """The shape of a mesh; None where it has to be measured by itself."""
         if not len(mesh.polygons) or len(mesh.polygons) > MAX_FACES_HIGH_ORDER:
             return None
@@ -191,7 +191,7 @@ class _Collector:
             return self._by_content[content]
         if not np.isfinite(surface.points).all():
             return None
-        shape = self._by_content[content] = Shape(surface, len(mesh.polygons))
+        shape = self._by_content[content] = MeshShape(surface, len(mesh.polygons))
         self.shapes.append(shape)
         self.faces += len(surface.triangles) + len(surface.quads)
         return shape

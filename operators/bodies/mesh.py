@@ -15,10 +15,10 @@ from ...core.moments.affine_maps import are_similarities
 from ...core.moments.images import sum_of_images
 from ...core.moments.moments import Moments, sum_moments
 from ...core.polyhedron import polyhedron_moments
+from ...core.solid.instance_overlaps import compare_places
 from ...core.solid.measure_solid import SolidIntegrals, measure_solid
-from ...core.solid.places import compare_places
 from ...core.verdict.finding import Finding, ReadError, finding
-from ...core.verdict.health import MeshReport
+from ...core.verdict.health import MeshHealth
 from ...core.verdict.method import Method, Verdict, least_trusted
 from ...core.verdict.tolerances import NEGLIGIBLE
 from ..read import Part, Reading, shows_flat_region
@@ -37,8 +37,8 @@ from .instances import (
     singular_reason,
     with_overlaps,
 )
-from .mass import weigh
 from .request import Request
+from .varying_density import weigh
 from .wall import find_walls
 
 MEASURED_AS = frozenset({"solid", "shell"})
@@ -177,7 +177,7 @@ def _area(threads: int) -> Callable[[Surface], Moments]:
 def _single_surface_body(
     volume: Moments,
     area: Moments,
-    health: MeshReport,
+    health: MeshHealth,
     verdict: Verdict,
     findings: Iterable[Finding],
     solid: SolidIntegrals,

@@ -23,7 +23,13 @@ from ...core.moments.moments import Measure, Moments, monomial_count, sum_moment
 from ...core.nurbs.creases import sharpest_crease
 from ...core.nurbs.patch import Patch
 from ...core.nurbs.patch_moments import area_moments, volume_moments
-from ...core.nurbs.solid import PatchIntegrals, measure_patches, measure_sheet
+from ...core.nurbs.solid import (
+    PatchIntegrals,
+    measure_patches,
+    measure_sheet,
+    stored_area_moments,
+    with_known_input_error,
+)
 from ...core.verdict.finding import Finding, MeasureError, ReadError, finding
 from ...core.verdict.method import Method, Source, Verdict, least_trusted
 from ..read import Part, Reading
@@ -76,7 +82,7 @@ class PatchBody(Body):
         areas = []
         for part, measure, matrices in self.pieces if area else ():
             of_part = area_moments(_patches(part), order, measure.area.about)[0]
-            areas.extend(_image_areas(part, of_part, matrices))
+            areas.extend(_image_areas(part, with_known_input_error(of_part, measure.area), matrices))
         if self.polygons is not None:
             volume, faces = self.polygons.moments(order, area)
             volumes.append(volume)
@@ -102,7 +108,7 @@ class PatchSheetBody(Body):
         """Return that there is no volume, and the area's moments."""
         areas = []
         for part in self.parts:
-            of_part = area_moments(_patches(part), order)[0]
+            of_part = stored_area_moments(_patches(part), order, stored=_stored(part))
             areas.extend(_image_areas(part, of_part, to_si(part.matrices, self.unit)))
         if self.polygons is not None:
             faces = self.polygons.moments(order, True)[1]
@@ -230,7 +236,7 @@ def _moments_to_order(measure: PatchIntegrals, order: int) -> Moments:
     """The volume's moments to another order; those of an open body, or of none, to the one that is known."""
     if measure.method == Verdict.OPEN:
         raise ReadError("open_patches_order")
-    return volume_moments(measure.patches, order, measure.volume.about)[0]
+    return with_known_input_error(volume_moments(measure.patches, order, measure.volume.about)[0], measure.volume)
 
 
 def _image_areas(part: Part, area: Moments, matrices: NDArray) -> Iterator[Moments]:
@@ -238,8 +244,9 @@ def _image_areas(part: Part, area: Moments, matrices: NDArray) -> Iterator[Momen
     even = are_similarities(matrices[:, :3, :3])
     if even.any():
         yield sum_of_images(area, matrices[even])
+    stored = _stored(part) * float(np.linalg.norm(matrices[:, :3, :3], 2, axis=(1, 2)).max())
     for patches, translations_of_image in _distinct_images(_patches(part), matrices[~even]):
-        yield sum_of_images(area_moments(patches, area.order)[0], translations_of_image)
+        yield sum_of_images(stored_area_moments(patches, area.order, stored=stored), translations_of_image)
 
 
 def _sheet_body(reading: Reading, unit: float, wall: str, thickness: float, threads: int) -> Body:

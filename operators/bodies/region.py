@@ -15,7 +15,7 @@ from ...core.nurbs.curve import Curve
 from ...core.nurbs.curve_moments import length_moments, plane_moments
 from ...core.nurbs.planar_region import planar_region
 from ...core.verdict.finding import MeasureError, finding
-from ...core.verdict.health import MeshReport
+from ...core.verdict.health import MeshHealth
 from ...core.verdict.method import Method, Source, Verdict
 from ..read import Reading, read_lines, shows_flat_region
 from .body import Body
@@ -93,7 +93,7 @@ def body(reading: RegionReading, request: Request) -> Body:
     return RegionBody(
         Moments(np.zeros_like(area.raw), area.about, Measure.VOLUME),
         area,
-        MeshReport(closed=False, components=len(curves)),
+        MeshHealth(closed=False, components=len(curves)),
         Method(Verdict.SHELL, Source.NURBS),
         (),
         estimated=True,

@@ -34,7 +34,7 @@ from ...core.solid.solid_stack import (
     small_moments_to_order,
 )
 from ...core.verdict.finding import Finding, MeasureError
-from ...core.verdict.health import DefectiveElements, MeshReport
+from ...core.verdict.health import DefectiveElements, MeshHealth
 from ...core.verdict.method import Method, Verdict
 from ..read.fingerprint import fingerprint, surface_digest, transform_keys
 from ..settings.accepted import accepted_codes, with_acceptance
@@ -44,7 +44,7 @@ METHODS = {verdict: Method(verdict) for verdict in Verdict}
 
 
 @dataclass(eq=False)
-class Shape:
+class MeshShape:
     """A mesh in its own coordinates, and how it was measured.
 
     Attributes
@@ -69,7 +69,7 @@ class Shape:
     findings: tuple[Finding, ...] = ()
 
     @property
-    def health(self) -> MeshReport:
+    def health(self) -> MeshHealth:
         """What the mesh is like."""
         if self.solids is not None:
             return self.solids.health(self.row)
@@ -98,7 +98,7 @@ class Shape:
         return with_known(found[0], solid.volume)
 
 
-def measure_shapes(shapes: list[Shape]) -> tuple[Moments, Moments] | None:
+def measure_shapes(shapes: list[MeshShape]) -> tuple[Moments, Moments] | None:
     """Measure shapes in their own coordinates: volumes to third order and areas, stacked by row. One that cannot be
     measured has no row; None where none can be."""
     small = [shape for shape in shapes if can_be_stacked(shape.surface)]
@@ -109,7 +109,7 @@ def measure_shapes(shapes: list[Shape]) -> tuple[Moments, Moments] | None:
         volumes, areas = [solids.volume], [solids.area]
         for i in np.flatnonzero(solids.is_measured).tolist():
             small[i].row, small[i].solids, small[i].findings = i, solids, solids.findings(i)
-            small[i].method = METHODS[Verdict.CAPPED if solids.is_capped[i] else Verdict.EXACT]
+            small[i].method = METHODS[Verdict.CAPPED if solids.caps.is_capped[i] else Verdict.EXACT]
     others = []
     for shape in shapes:
         if shape.solids is None:
@@ -133,7 +133,7 @@ def _joined(stacks: list[Moments]) -> Moments:
 
 
 @dataclass(frozen=True, eq=False)
-class Member:
+class StackMember:
     """An object that may join a stack.
 
     Attributes
@@ -152,7 +152,7 @@ class Member:
 
     number: int
     obj: bpy.types.Object
-    shape: Shape
+    shape: MeshShape
     density: float
     mass: float
     settings: str
@@ -167,7 +167,7 @@ class MeasuredStack:
 
     Attributes
     ----------
-    members : list of Member
+    members : list of StackMember
     from_mass : (n,) bool
         Whether the density follows from a given mass.
     density : (n,) array
@@ -183,7 +183,7 @@ class MeasuredStack:
     findings : list of tuple of Finding
     """
 
-    members: list[Member]
+    members: list[StackMember]
     from_mass: NDArray[np.bool_]
     density: NDArray[np.float64]
     volume: Moments
@@ -296,7 +296,9 @@ class Stacked:
         return self.stack.members[self.index].shape.digest
 
 
-def measure_members(members: list[Member], shapes: list[Shape], unit: float, axes: bool = True) -> MeasuredStack | None:
+def measure_members(
+    members: list[StackMember], shapes: list[MeshShape], unit: float, axes: bool = True
+) -> MeasuredStack | None:
     """Measure objects together: those whose shapes can be measured and whose numbers are certain; None where there are
     none. unit: meters per Blender unit. axes: as in `MeasureOptions`."""
     measured = measure_shapes(shapes)
@@ -373,13 +375,13 @@ def measure_members(members: list[Member], shapes: list[Shape], unit: float, axe
     )
 
 
-def _findings(member: Member) -> tuple[Finding, ...]:
+def _findings(member: StackMember) -> tuple[Finding, ...]:
     """Of the member's shape, those marked that were accepted for the object."""
     found = member.shape.findings
     return with_acceptance(found, accepted_codes(member.obj)) if found else ()
 
 
-def _chosen(members: list[Member], which: NDArray) -> list[Member]:
+def _chosen(members: list[StackMember], which: NDArray) -> list[StackMember]:
     return [members[i] for i in (np.flatnonzero(which) if which.dtype == bool else which).tolist()]
 
 
@@ -390,7 +392,7 @@ def _placed(moments: Moments, matrices: NDArray) -> Moments:
     return image(moments, matrices, center + matrices[:, :3, 3])
 
 
-def _areas(area: Moments, matrices: NDArray, members: list[Member]) -> Moments:
+def _areas(area: Moments, matrices: NDArray, members: list[StackMember]) -> Moments:
     """The areas of the images, of uneven ones from the mapped surfaces."""
     even = are_similarities(matrices[:, :3, :3])
     if even.all():

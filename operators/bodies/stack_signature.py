@@ -72,7 +72,7 @@ def stack_signatures(stack: MeasuredStack, order: int) -> list[Signature | None]
         of_member[i] = body_of[key]
     volume = solids.volume.at(np.array(rows))
     centers = volume.about + volume.raw[:, 1:4] / volume.raw[:, :1]
-    of_bodies, scale = _signatures(solids.triangles, np.array(rows), np.array(maps), centers, order)
+    of_bodies, scale = _signatures(solids.caps.triangles, np.array(rows), np.array(maps), centers, order)
     reach = np.finfo(np.float64).eps * np.abs(stack.mass_properties.center).max(axis=1)
     for i, body in of_member.items():
         own = of_bodies[body]

@@ -15,7 +15,7 @@ from ...core.moments.moments import Moments
 from ...core.streams import StreamIntegrals, measure_stream, open_mesh_file
 from ...core.streams.mesh_file import MeshFile
 from ...core.verdict.finding import Finding, ReadError, finding
-from ...core.verdict.health import MeshReport
+from ...core.verdict.health import MeshHealth
 from ...core.verdict.method import Method, Verdict
 from ..settings.options import MeasureOptions, ResolvedOptions
 from .bare_file import about_file, bare_reading
@@ -27,7 +27,7 @@ DEFAULT_DENSITY = 1000.0  # kg/m³
 COUNTED = "boundary_edges", "non_manifold_edges", "inconsistent_edges", "components"
 
 
-class StreamReport(MeshReport):
+class StreamHealth(MeshHealth):
     """Whether a mesh is closed, and nothing else: no edge was kept."""
 
     def as_record(self) -> dict:
@@ -93,7 +93,7 @@ def measure_mesh_file(
         body = StreamBody(
             volume,
             area,
-            StreamReport(closed=found.closed),
+            StreamHealth(closed=found.closed),
             Method(_verdict(found)),
             (*findings, *_findings(found, kind)),
             face_count=found.face_count,  # of many faces the axes come from third order, without reading them again

@@ -15,7 +15,7 @@ from ...core.density.smooth_threshold import smooth_threshold_body
 from ...core.density.threshold import ThresholdBody, threshold_body
 from ...core.moments.moments import Moments
 from ...core.verdict.finding import Finding, ReadError, finding
-from ...core.verdict.health import MeshReport
+from ...core.verdict.health import MeshHealth
 from ...core.verdict.method import Method, Source, Verdict
 from ..read.volume import VolumeReading
 from ..settings.grid import GridOptions
@@ -149,7 +149,7 @@ def threshold_grid_body(
     return ThresholdGridBody(
         above.volume,
         above.area,
-        MeshReport(closed=not above.clipped),
+        MeshHealth(closed=not above.clipped),
         Method(Verdict.EXACT, Source.GRID),
         _findings(grid, options, above),
         mass=mass,

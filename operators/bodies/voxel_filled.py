@@ -9,18 +9,17 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.density.voxel_fill import MAX_VOXELS as MOST_VOXELS
-from ...core.density.voxel_fill import inside_moments
+from ...core.density.voxel_fill import MAX_VOXELS, inside_moments
 from ...core.moments.moments import Measure, Moments
 from ...core.solid.measure_solid import SolidIntegrals
 from ...core.verdict.finding import MeasureError, ReadError, finding
 from ...core.verdict.method import Method, Source, Verdict
 from ...core.verdict.tolerances import NEGLIGIBLE
-from ..read.quiet import paused
-from ..read.reading import said_of
+from ..read.reading import attribute_to_source
+from ..read.tracking import tracking_paused
 from ..read.volume import VolumeReading, volume_reading
 from ..settings.grid import GridOptions
-from .body import KNOWN_ORDER, MAX_MASS_MOMENT, MeshBody
+from .body import MAX_MASS_MOMENT, MeshBody
 from .request import Request
 
 MAX_OUTSIDE_SHARE = 1e-9  # of the volume: below this, rounding
@@ -37,7 +36,7 @@ def filled_by_volume(body: MeshBody, request: Request, order: int) -> MeshBody:
     name, source = request.obj.name, request.obj.body_moments.density_volume
     grid = GridOptions.of(source.body_moments)
     try:
-        with paused(), volume_reading(source, request.depsgraph, grid.grid) as volume:
+        with tracking_paused(), volume_reading(source, request.depsgraph, grid.grid) as volume:
             if volume is None:
                 raise ReadError("object_without_grid")
             filled = voxel_filled_body(body, volume, grid, request.unit, name, order)
@@ -52,44 +51,43 @@ def filled_by_volume(body: MeshBody, request: Request, order: int) -> MeshBody:
 
 
 def voxel_filled_body(
-    body: MeshBody, reading: VolumeReading, options: GridOptions, unit: float, name: str, order: int = KNOWN_ORDER
+    body: MeshBody, reading: VolumeReading, options: GridOptions, unit: float, name: str, order: int
 ) -> MeshBody:
     """The body with the mass that the grid gives its inside, to an order. unit: meters per Blender unit.
 
     name: of the object, which MeasureErrors are about that are not about the grid alone.
     """
-    whose = {"grid": reading.grid, "object": reading.name}
+    names = {"grid": reading.grid, "object": reading.name}
     options.needs_even_samples(reading.grid)
     if body.method.verdict == Verdict.OPEN:
         raise ReadError("open_surface_of_grid", subject=name)
     if reading.level_set:
-        raise ReadError("density_grid_is_level_set", subject=name, **whose)
-    first = np.eye(4)
-    first[:3, 3] = reading.low - 0.5  # from corners of voxels, not from their centers
-    matrix = np.diag([unit, unit, unit, 1.0]) @ reading.matrix @ reading.to_object @ first
+        raise ReadError("density_grid_is_level_set", subject=name, **names)
+    shift = np.eye(4)
+    shift[:3, 3] = reading.low - 0.5  # from corners of voxels, not from their centers
+    matrix = np.diag([unit, unit, unit, 1.0]) @ reading.matrix @ reading.to_object @ shift
     if min(reading.shape) < 1 or not abs(np.linalg.det(matrix[:3, :3])) > 0.0:
-        raise ReadError("density_grid_empty", subject=name, **whose)
+        raise ReadError("density_grid_empty", subject=name, **names)
     inverse = np.linalg.inv(matrix)
     triangles = np.concatenate(
         [_corners(solid, inverse @ place) for solid, matrices in body.solids for place in matrices]
     )
     low = np.clip(np.floor(triangles.min(axis=(0, 1))), 0, np.array(reading.shape) - 1).astype(np.int64)
     high = np.clip(np.ceil(triangles.max(axis=(0, 1))), low + 1, reading.shape).astype(np.int64)
-    if np.prod((high - low).astype(float)) > MOST_VOXELS:
-        raise ReadError("density_grid_too_fine", subject=name, **whose, samples=(high - low).tolist())
+    if np.prod((high - low).astype(float)) > MAX_VOXELS:
+        raise ReadError("density_grid_too_fine", subject=name, **names, samples=(high - low).tolist())
     moments, volume = inside_moments(triangles - low, _box_densities(reading, options, low, high), order)
     volume *= abs(np.linalg.det(matrix[:3, :3]))
-    first = np.eye(4)
-    first[:3, 3] = low
-    mass = replace(replace(moments, measure=Measure.VOLUME).transform(matrix @ first), measure=Measure.MASS)
+    shift[:3, 3] = low
+    mass = replace(replace(moments, measure=Measure.VOLUME).transform(matrix @ shift), measure=Measure.MASS)
     mass = replace(mass, input_error=_input_error(body, mass))
     if not np.abs(mass.raw).max() < MAX_MASS_MOMENT:
         raise ReadError("mass_overflow")
     if not mass.total > mass.rounding_error[0]:
-        raise ReadError("density_grid_elsewhere", subject=name, **whose)
+        raise ReadError("density_grid_elsewhere", subject=name, **names)
     meaning = replace(options, spline_order=1).meaning()
     findings = [
-        finding("grid_density_of", **whose, cause=meaning.as_record()),
+        finding("grid_density_of", **names, cause=meaning.as_record()),
         *options.empty_background_note(reading.background),
     ]
     outside = float(1.0 - volume / body.volume.total)
@@ -100,7 +98,11 @@ def voxel_filled_body(
         mass=mass,
         method=Method(body.method.verdict, Source.GRID),
         estimated=True,
-        findings=(*body.findings, *findings, *(said_of(result, reading.name, name) for result in reading.findings)),
+        findings=(
+            *body.findings,
+            *findings,
+            *(attribute_to_source(result, reading.name, name) for result in reading.findings),
+        ),
     )
 
 
@@ -112,14 +114,14 @@ def _corners(solid: SolidIntegrals, matrix: NDArray) -> NDArray[np.float64]:
 
 def _box_densities(reading: VolumeReading, options: GridOptions, low: NDArray, high: NDArray) -> NDArray[np.float64]:
     """The densities of the voxels from `low` to `high`."""
-    weigh = options.to_densities(reading.background)
+    to_densities = options.to_densities(reading.background)
     densities = np.zeros(high - low)
     for start, block in reading.blocks():
         start = np.array(start)
         begin, end = np.maximum(start, low), np.minimum(start + block.shape, high)
         if (begin < end).all():
             in_block = tuple(slice(a, b) for a, b in zip(begin - start, end - start))
-            densities[tuple(slice(a, b) for a, b in zip(begin - low, end - low))] = weigh(
+            densities[tuple(slice(a, b) for a, b in zip(begin - low, end - low))] = to_densities(
                 block[in_block].astype(np.float64)
             )
     return densities

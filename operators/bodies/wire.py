@@ -14,7 +14,7 @@ from ...core.moments.moments import FLOAT32_HALF_ULP, Measure, Moments, U, monom
 from ...core.nurbs.curve import Curve
 from ...core.nurbs.curve_moments import length_moments
 from ...core.verdict.finding import ReadError
-from ...core.verdict.health import MeshReport
+from ...core.verdict.health import MeshHealth
 from ...core.verdict.method import Method, Verdict
 from ..read import Reading, read_lines
 from .body import Body
@@ -62,7 +62,7 @@ def body(reading: Reading, request: Request) -> Body:
     return WireBody(
         nothing,
         Moments(nothing.raw, length.about, Measure.AREA),
-        MeshReport(closed=all(_is_closed(curve, reach) for curve in curves), components=len(curves)),
+        MeshHealth(closed=all(_is_closed(curve, reach) for curve in curves), components=len(curves)),
         Method(Verdict.WIRE),
         (),
         length=replace(length, input_error=moved),

@@ -88,7 +88,7 @@ def _documents(path: Path) -> Iterator[tuple[dict[str, Any], dict[str, Any]]]:
             yield entry if "status" in entry else {**entry, "status": "error" if entry["errors"] else "ok"}, about
 
 
-def run(argv: list[str], channel: int, _file_needed: bool) -> int:
+def run(argv: list[str], channel: int) -> int:
     """Do one of the commands, and return the exit code."""
     options = _parse(argv)
     try:
@@ -161,18 +161,6 @@ def _as_seen_from(folder: Path, path: str) -> str:
     return str(Path(path).absolute())
 
 
-def _merge(options: argparse.Namespace) -> tuple[Iterable[str], bool]:
-    return to_json_lines(_results(options)), False
-
-
-def _to_csv(options: argparse.Namespace) -> tuple[Iterable[str], bool]:
-    return to_csv(_results(options)), False
-
-
-def _report(options: argparse.Namespace) -> tuple[Iterable[str], bool]:
-    return to_html(_results(options)), False
-
-
 def _summary(options: argparse.Namespace) -> tuple[Iterable[str], bool]:
     """Counts by status and method, the slowest, the widest bounds, findings by code."""
     statuses: Counter[str] = Counter()
@@ -230,11 +218,11 @@ def _counted(counts: Counter[str]) -> str:
 
 _COMMANDS: dict[str, Callable[[argparse.Namespace], tuple[Iterable[str], bool]]] = {
     "manifest": _manifest,
-    "merge": _merge,
-    "to-csv": _to_csv,
+    "merge": lambda options: (to_json_lines(_results(options)), False),
+    "to-csv": lambda options: (to_csv(_results(options)), False),
     "summary": _summary,
     "compare": _compare,
-    "report": _report,
+    "report": lambda options: (to_html(_results(options)), False),
 }
 _DESCRIPTIONS = {
     "manifest": "Lists the files in folders that can be measured, for `measure --manifest LIST --range A:B`.",

@@ -27,12 +27,25 @@ def command(text: str) -> str:
     return text
 
 
+def _float(text: str) -> float:
+    """NaN for what is no number."""
+    try:
+        return float(text)
+    except ValueError:
+        return math.nan
+
+
+def _int(text: str) -> int:
+    """-1 for what is no whole number."""
+    try:
+        return int(text)
+    except ValueError:
+        return -1
+
+
 def positive(text: str) -> float:
     """A positive number."""
-    try:
-        value = float(text)
-    except ValueError:
-        value = math.nan
+    value = _float(text)
     if not (0.0 < value < math.inf):
         raise _refuse("usage_not_positive", text=text)
     return value
@@ -40,10 +53,7 @@ def positive(text: str) -> float:
 
 def number(text: str) -> float:
     """A finite number."""
-    try:
-        value = float(text)
-    except ValueError:
-        value = math.nan
+    value = _float(text)
     if not math.isfinite(value):
         raise _refuse("usage_not_number", text=text)
     return value
@@ -58,10 +68,7 @@ def count(text: str) -> int:
 
 def triple(text: str) -> tuple[float, ...]:
     """Three finite numbers."""
-    try:
-        values = tuple(float(word) for word in text.split(","))
-    except ValueError:
-        values = ()
+    values = tuple(map(_float, text.split(",")))
     if len(values) != 3 or not all(map(math.isfinite, values)):
         raise _refuse("usage_not_triple", text=text)
     return values
@@ -92,10 +99,7 @@ def spline_order(text: str) -> int:
 
 def order(text: str) -> int:
     """The order of moments."""
-    try:
-        value = int(text)
-    except ValueError:
-        value = -1
+    value = _int(text)
     if value < 0:
         raise _refuse("usage_order", text=text, limit=MAX_ORDER)
     if value > MAX_ORDER:
@@ -105,10 +109,7 @@ def order(text: str) -> int:
 
 def frequencies(text: str) -> int:
     """How many frequencies a grid has along an axis."""
-    try:
-        value = int(text)
-    except ValueError:
-        value = 0
+    value = _int(text)
     if not 2 <= value <= MAX_GRID:
         raise _refuse("usage_frequency_count", text=text, limit=MAX_GRID)
     return value

@@ -24,8 +24,8 @@ from ...core.verdict import internal_error
 from ...core.verdict.finding import FileError, Finding, MeasureError, finding, system_reason
 from ..bodies.measure_object import THREADS, Measured
 from ..bodies.stack import Stacked
-from ..read.quiet import paused
 from ..read.total_caveats import boolean_operands, open_body_caveats, total_caveats
+from ..read.tracking import tracking_paused
 from ..session.staleness import mark_up_to_date
 from ..settings import properties as settings
 from ..settings.density import unset_density
@@ -319,7 +319,7 @@ class Run:
         for label, obj, one in measured:
             try:
                 store(obj, one)
-                with paused():  # what is stored is already that of these settings
+                with tracking_paused():  # what is stored is already that of these settings
                     settings.apply_options(obj.body_moments, wanted, bpy.context.scene)
             except MeasureError as refusal:
                 yield failure(label, refusal.finding)

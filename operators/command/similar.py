@@ -8,9 +8,10 @@ import argparse
 from pathlib import Path
 
 from ...core.shape.library import Entry, classify, rank, read_library
-from ...core.verdict.finding import QueryError, finding, system_reason
+from ...core.verdict.finding import QueryError, system_reason
 from ..write.messages import SIMILARITY
 from ..write.terminal import print_message, visible
+from .option_types import count
 from .parser import Parser
 
 _COLUMNS = "{:>12} {:>10}  {:<27} {}\n"
@@ -36,14 +37,8 @@ def parse(argv: list[str]) -> argparse.Namespace:
     )
     parser.add_argument("--any-size", action="store_true", help="copies of another size are as near")
     parser.add_argument("--any-hand", action="store_true", help="mirror images are as near")
-    parser.add_argument("--count", type=_count, default=10, metavar="N", help="how many are printed (10)")
+    parser.add_argument("--count", type=count, default=10, metavar="N", help="how many are printed (10)")
     return parser.parse_args(argv)
-
-
-def _count(text: str) -> int:
-    if not text.isdecimal() or not int(text):
-        raise argparse.ArgumentTypeError(str(finding("usage_not_positive", text=text)))
-    return int(text)
 
 
 def answer(options: argparse.Namespace) -> tuple[str, int]:

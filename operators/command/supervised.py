@@ -26,7 +26,7 @@ from ...core.verdict.finding import Finding, MeasureError, finding, system_reaso
 from ..supervisor import listing, processes
 from ..supervisor.journal import Journal, is_journal, state
 from ..supervisor.lifeline import end_with_window
-from ..supervisor.pool import ChildError, Limits, Outcome, Pool, SetupError
+from ..supervisor.pool import ChildError, Limits, Pool, SetupError, TaskOutcome
 from ..supervisor.progress import Progress
 from ..write.documents import FORMATS, ROBOT_FORMATS, failed_document
 from ..write.file_lock import Busy, beside, locked
@@ -36,7 +36,6 @@ from .arguments import as_record, fail, of_numbers
 from .measure_parser import DEFAULT_TIMEOUT
 
 _ROOT = (__package__ or "").removesuffix(".operators.command")
-_STEP = 0.2  # seconds
 _OLD = ".old"
 
 
@@ -62,10 +61,10 @@ def measure(options: Namespace, channel: int, opened: str | None) -> int:
                     targets.check_dependencies(replaced, run.dependencies())
                 return run.measure(channel)
             except SetupError as error:
-                sys.stderr.write(error.text)
+                sys.stderr.write(str(error))
                 raise SystemExit(2) from error
             except ChildError as error:
-                print_message(finding("children_failed", reason=error.reason))
+                print_message(finding("children_failed", reason=str(error)))
                 return 2
             except KeyboardInterrupt:
                 if places.journal_is_kept:
@@ -177,7 +176,7 @@ class _Supervised:
         with self._pool("reads") as pool:
             pool.add(self.tasks)
             while not pool.is_done:
-                for outcome in pool.step(_STEP):
+                for outcome in pool.step():
                     yield from outcome.head.get("reads", ())
 
     def _pool(self, verb: str = "measure") -> Pool:
@@ -214,14 +213,14 @@ class _Supervised:
             pool.add(missing)
         progress = Progress(len(self.tasks), self.done)
         while not pool.is_done:
-            for outcome in pool.step(_STEP):
+            for outcome in pool.step():
                 status, reason, text = self._recorded(outcome, blender)
                 key = {"path": outcome.task, **outcome.head.get("state", state(outcome.task)), **common}
                 reads = outcome.head.get("reads")
                 journal.append(key, status, outcome.attempts, outcome.seconds, limits, text, reads)
                 self.done += 1
                 progress.add(status)
-                self._tell(progress, outcome, reason)
+                self._report(progress, outcome, reason)
             for file, note in pool.notes:
                 progress.clear()
                 print_message(file, note)
@@ -229,7 +228,7 @@ class _Supervised:
             progress.show()
         progress.finish()
 
-    def _recorded(self, outcome: Outcome, blender: str) -> tuple[str, Finding | None, bytes]:
+    def _recorded(self, outcome: TaskOutcome, blender: str) -> tuple[str, Finding | None, bytes]:
         """The status of a file, why there was no answer where there was none, and its document, also then."""
         if outcome.status == "answered":
             with suppress(ValueError, KeyError, TypeError):
@@ -245,7 +244,7 @@ class _Supervised:
         document = failed_document(outcome.task, str(reason), outcome.status, **values)
         return outcome.status, reason, json.dumps(document).encode()
 
-    def _tell(self, progress: Progress, outcome: Outcome, reason: Finding | None) -> None:
+    def _report(self, progress: Progress, outcome: TaskOutcome, reason: Finding | None) -> None:
         """Pass on what was said of a file; where a child failed at it, all that this child has printed."""
         faults = outcome.head.get("faults", 0)
         self._faults += faults

@@ -15,7 +15,7 @@ from ...core.verdict.finding import Finding, finding
 from .curves import is_round
 from .deformation import spline_modifiers
 from .instances import InstanceCollector, shows_itself, visible_objects
-from .reading import said_of
+from .reading import attribute_to_source
 from .splines import nonpositive_weights
 from .visibility import blends_keys, edit_modifiers, hidden_reason, instanced_by_parent, measurable, metaball_families
 
@@ -61,7 +61,7 @@ def reading_findings(obj, gathered: InstanceCollector, depsgraph) -> Iterator[Fi
         yield finding("instanced_by_parent", parent=obj.parent.name)
     for evaluated, splines in gathered.splines.items():
         for result in _spline_findings(evaluated, splines):
-            yield said_of(result, evaluated.original.name, obj.name)
+            yield attribute_to_source(result, evaluated.original.name, obj.name)
     if obj.type == "META":
         family_members = _family(obj, depsgraph)[1:]
         if family_members:
@@ -72,7 +72,7 @@ def reading_findings(obj, gathered: InstanceCollector, depsgraph) -> Iterator[Fi
     exact = {evaluated.original for evaluated, splines in gathered.splines.items() if splines}
     for source in (obj, *[source for source in gathered.sources if source != obj]):
         for result in _render_findings(source, depsgraph.scene, source in exact):
-            yield said_of(result, source.name, obj.name)
+            yield attribute_to_source(result, source.name, obj.name)
     if gathered.collections:
         yield from _member_findings(gathered.collections)
     if obj.modifiers:
@@ -130,9 +130,9 @@ def _polygons(obj, drawn) -> Iterator[Finding]:
     """What polygons stand for, of curves, text and metaballs."""
     for source in drawn:
         if source.type == "META":
-            yield said_of(finding("surface_drawn_as_polygons"), source.name, obj.name)
+            yield attribute_to_source(finding("surface_drawn_as_polygons"), source.name, obj.name)
         elif source.type in {"CURVE", "FONT"} and is_round(source):
-            yield said_of(finding("curves_drawn_as_polygons"), source.name, obj.name)
+            yield attribute_to_source(finding("curves_drawn_as_polygons"), source.name, obj.name)
 
 
 def _mode_findings(obj) -> Iterator[Finding]:

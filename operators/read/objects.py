@@ -18,7 +18,7 @@ from .curves import read_curves
 from .decisions import reading_findings, why_empty
 from .deformation import is_deformed
 from .instances import InstanceCollector
-from .reading import Part, Reading, float64_matrix, said_of
+from .reading import Part, Reading, attribute_to_source, float64_matrix
 from .splines import nonpositive_weights, spline_reading
 from .visibility import evaluated_geometry, require_kind, why_not_evaluated
 
@@ -109,4 +109,4 @@ def _require_finite(obj, part: Part) -> None:
     points = surface.points
     misplaced = np.flatnonzero(~np.isfinite(points).all(axis=1))
     found = finding("non_finite_vertices", misplaced, count=len(misplaced), total=len(points))
-    raise ReadError(said_of(found, part.source_object_name, obj.name), subject=obj.name)
+    raise ReadError(attribute_to_source(found, part.source_object_name, obj.name), subject=obj.name)

@@ -114,7 +114,7 @@ class Reading:
         )
 
 
-def said_of(result: Finding, source: str, whole: str) -> Finding:
+def attribute_to_source(result: Finding, source: str, whole: str) -> Finding:
     """A finding about a surface of the object `whole`: with the name of the surface's own object where that is another
     one."""
     return result if source in ("", whole) else result.of_sources([source])

@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 from ...core.numerics.rotations import rotation_matrix
 from ...core.rigs import VertexWeights
 from ...core.verdict.finding import EditRefusedError, ReadError
-from .quiet import paused
 from .reading import Part, float64_matrix
+from .tracking import tracking_paused
 from .visibility import evaluated_geometry, measurable
 
 
@@ -72,7 +72,7 @@ def rest_pose(context: Context, armature: Object) -> Iterator[Depsgraph]:
     """
     data = armature.data
     before = data.pose_position
-    with paused():
+    with tracking_paused():
         try:
             data.pose_position = "REST"
         except (AttributeError, RuntimeError) as error:

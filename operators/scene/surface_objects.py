@@ -20,8 +20,8 @@ from numpy.typing import NDArray
 from ...core.cad.surfaces import SurfaceBody
 from ...core.nurbs.patch import Patch
 
-FAR = 16.0  # sizes from the origin at which float32 would lose more than a digit
-LEAST = 3  # points along v with which Blender lofts
+MAX_DISTANCE = 16.0  # from the origin, in sizes: farther away float32 would lose more than a digit
+MIN_LOFTED_POINTS = 3  # along v: with fewer Blender does not loft
 
 
 def surface_object(name: str, patches: Sequence[Patch], factor: float = 1.0) -> tuple[Object, float]:
@@ -55,33 +55,33 @@ def surface_data(name: str, patches: Sequence[Patch], factor: float) -> tuple[Cu
     high = factor * np.max([patch.points.max(axis=(0, 1)) for patch in patches], axis=0)
     size, distance = float((high - low).max()), float(np.abs([low, high]).max())
     origin = np.zeros(3, np.float32)
-    if distance > FAR * size > 0.0:
+    if distance > MAX_DISTANCE * size > 0.0:
         origin = ((low + high) / 2.0).astype(np.float32)
-    rows = [_stored(patch, factor, origin.astype(np.float64)) for patch in patches]
+    stored = [_stored(patch, factor, origin.astype(np.float64)) for patch in patches]
     data = _grids(name, [patch.points.shape[:2] for patch in patches])
-    for spline, patch, (row, _) in zip(data.splines, patches, rows):
-        _fill(spline, patch, row)
-    return data, max(moved for _, moved in rows) / (size or 1.0), origin
+    for spline, patch, (values, _) in zip(data.splines, patches, stored):
+        _fill(spline, patch, values)
+    return data, max(moved for _, moved in stored) / (size or 1.0), origin
 
 
 def _stored(patch: Patch, factor: float, origin: NDArray) -> tuple[NDArray[np.float32], float]:
     """(n, 4) control points and weights as Blender has them, and by how much the surface moves at most."""
     points = factor * patch.points - origin
-    row = np.ones((*points.shape[:2], 4), np.float32)
-    row[..., :3] = points
-    moved = float(np.linalg.norm(row[..., :3] - points, axis=2).max())
+    values = np.ones((*points.shape[:2], 4), np.float32)
+    values[..., :3] = points
+    moved = float(np.linalg.norm(values[..., :3] - points, axis=2).max())
     if patch.weights is not None:
         weights = patch.weights / patch.weights.max()
-        row[..., 3] = weights
+        values[..., 3] = weights
         # The point is a mean of control points; its weights change by at most twice this share.
-        share = float(np.abs(row[..., 3] / weights - 1.0).max())
+        share = float(np.abs(values[..., 3] / weights - 1.0).max())
         spread = points - points[0, 0]
         moved += 4.0 * share * float(np.linalg.norm(spread, axis=2).max())
-    return row.reshape(-1, 4), moved
+    return values.reshape(-1, 4), moved
 
 
-def _fill(spline, patch: Patch, row: NDArray[np.float32]) -> None:
-    spline.points.foreach_set("co", row.ravel())
+def _fill(spline, patch: Patch, values: NDArray[np.float32]) -> None:
+    spline.points.foreach_set("co", values.ravel())
     spline.order_v, spline.order_u = (space.order for space in patch.spaces)
     spline.use_cyclic_u = spline.use_cyclic_v = False
     spline.use_bezier_u = spline.use_bezier_v = True
@@ -91,7 +91,7 @@ def _fill(spline, patch: Patch, row: NDArray[np.float32]) -> None:
 
 def _grids(name: str, shapes: Sequence[tuple[int, int]]) -> Curve:
     """Surface data with a spline of (count_v, count_u) points for each shape, in order."""
-    with _workshop() as scene:
+    with _temporary_scene() as scene:
         models = {shape: _grid(scene, shape) for shape in dict.fromkeys(shapes)}
         objects = [bpy.data.objects.new(name, models[shape]) for shape in shapes]
         for obj in objects:
@@ -111,7 +111,7 @@ def _grids(name: str, shapes: Sequence[tuple[int, int]]) -> Curve:
 
 
 @contextmanager
-def _workshop() -> Iterator[Scene]:
+def _temporary_scene() -> Iterator[Scene]:
     scene = bpy.data.scenes.new("Body Moments Import")
     try:
         yield scene
@@ -137,7 +137,7 @@ def _active(scene: Scene, obj: Object, selected: Sequence[Object]) -> Iterator[N
 
 def _grid(scene: Scene, shape: tuple[int, int]) -> Curve:
     """Surface data with one spline of (count_v, count_u) points."""
-    rows, columns = max(shape[0], LEAST), shape[1]
+    rows, columns = max(shape[0], MIN_LOFTED_POINTS), shape[1]
     data = bpy.data.curves.new("Body Moments Import", "SURFACE")
     for column in range(columns):
         spline = data.splines.new("NURBS")
@@ -152,9 +152,9 @@ def _grid(scene: Scene, shape: tuple[int, int]) -> Curve:
         bpy.ops.object.mode_set(mode="EDIT")
         bpy.ops.curve.make_segment()
         if rows > shape[0]:
-            last = np.zeros((rows, columns), np.bool_)
-            last[shape[0] :] = True
-            data.splines[0].points.foreach_set("select", last.ravel())
+            surplus = np.zeros((rows, columns), np.bool_)
+            surplus[shape[0] :] = True
+            data.splines[0].points.foreach_set("select", surplus.ravel())
             bpy.ops.curve.delete(type="VERT")
         bpy.ops.object.mode_set(mode="OBJECT")
     bpy.data.objects.remove(obj)

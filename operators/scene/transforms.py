@@ -100,8 +100,9 @@ def _rotation(obj: Object) -> Matrix3:
     if mode == "AXIS_ANGLE":
         angle, *axis = obj.rotation_axis_angle
         length = np.linalg.norm(axis)
-        axis = np.divide(axis, length) if length > 0.0 else np.array([0.0, 1.0, 0.0])
-        return rotation_matrix([cos(angle / 2.0), *(sin(angle / 2.0) * axis)])
+        if length == 0.0:
+            return np.eye(3)  # as Blender takes it
+        return rotation_matrix([cos(angle / 2.0), *(sin(angle / 2.0) * np.divide(axis, length))])
     return euler_matrix(np.array(obj.rotation_euler), mode)
 
 

@@ -10,16 +10,18 @@ update function, leaves the results out of date.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import isfinite
 
 from bpy.types import Context, Object, PropertyGroup, Scene
 
+from ...core.measurement import Measurement
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import EditRefusedError, Finding, finding
 from ..read.fingerprint import VERSION, given_density, settings_hash, settings_hash_with
-from ..read.quiet import paused
+from ..read.tracking import tracking_paused
 from ..settings import hooks
-from ..settings.density import default_density
+from ..settings.density import default_density, unset_density
 from ..write import properties
 from . import marks, reference, staleness
 
@@ -30,6 +32,12 @@ DEFAULTS = {  # what is noted where nobody has set a density, by the setting
 OF_DEFAULT_DENSITY = frozenset(
     {"density_defaulted", "linear_density_defaulted", *(note.code for note in DEFAULTS.values())}
 )
+
+
+def noted(obj: Object, measurement: Measurement, scene: Scene) -> Measurement:
+    """Return an object's measurement, with a note where nobody has set its density."""
+    unset = unset_density(obj, measurement, scene)
+    return measurement if unset is None else replace(measurement, findings=(*measurement.findings, DEFAULTS[unset]))
 
 
 def follow_density(obj: Object, scene: Scene) -> None:
@@ -102,7 +110,7 @@ def _findings(obj: Object, scene: Scene) -> list[Finding]:
 
 
 def _on_density(settings: PropertyGroup, context: Context) -> None:
-    if isinstance(settings.id_data, Object) and context.scene is not None and not paused.depth:
+    if isinstance(settings.id_data, Object) and context.scene is not None and not tracking_paused.depth:
         follow_density(settings.id_data, context.scene)
 
 

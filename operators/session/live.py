@@ -3,11 +3,11 @@
 """Numbers of objects that follow their edits while Live is on: shown, never stored.
 
 Nothing is written to any data. An object that moves is not measured again: its numbers are mapped to where it is. One
-that deforms while it is played or posed gets volume and center at once, in a light pass over its faces (outline.py),
-as far as the budget of a redraw lasts. Full numbers come from a timer, never from a handler: at once where they take
-no longer than the budget, else when neither updates nor frames come any more. Until then the numbers lag, and say so.
-B-spline patches are tracked (core/nurbs/tracked_solid.py). Seconds are those of this thread: what others do on a busy
-machine makes no number lag.
+that deforms while it is played or posed gets volume and center at once, in a light pass over its faces
+(moving_surface.py), as far as the budget of a redraw lasts. Full numbers come from a timer, never from a handler: at
+once where they take no longer than the budget, else when neither updates nor frames come any more. Until then the
+numbers lag, and say so. B-spline patches are tracked (core/nurbs/tracked_solid.py). Seconds are those of this thread:
+what others do on a busy machine makes no number lag.
 
 Which objects have Live on is kept in memory too: a property of the object would make Blender report an edit of its
 geometry when it is switched.
@@ -45,7 +45,7 @@ from ..settings.preferences import preferences
 from ..write.properties import StoredProperties
 from . import handlers, updates
 from .cache import SessionCache
-from .outline import Outline
+from .moving_surface import MovingSurface
 
 BUDGET = 0.01  # s a redraw, where there are no preferences
 MAX_PASS = 5.0  # budgets that the only pass of a redraw may take
@@ -78,8 +78,8 @@ class _Followed:
     """An object with Live on.
 
     matrix, transform: where it was when it was measured, and the key of what its numbers depend on of that. number: the
-    last update then. tracked: its body, where that is followed rather than measured each time. outline: its faces,
-    where a light pass can follow them; outlined: volume and center in its own coordinates after the last such pass.
+    last update then. tracked: its body, where that is followed rather than measured each time. surface: its faces,
+    where a light pass can follow them; first_order: volume and center in its own coordinates after the last such pass.
     is_pending: whether it was evaluated anew since it was measured.
     """
 
@@ -88,8 +88,8 @@ class _Followed:
     transform: str = ""
     number: int = 0
     tracked: TrackedSolid | None = None
-    outline: Outline | None = None
-    outlined: tuple[float, NDArray[np.float64]] | None = None
+    surface: MovingSurface | None = None
+    first_order: tuple[float, NDArray[np.float64]] | None = None
     pass_seconds: float = 0.0
     shows_others: bool = False
     is_pending: bool = False
@@ -121,7 +121,7 @@ def lag(obj: Object) -> Lag:
     followed = _followed.get(obj)
     if followed is None or not followed.is_pending:
         return Lag.NONE
-    return Lag.BEHIND if followed.outlined is None else Lag.FIRST_ORDER
+    return Lag.BEHIND if followed.first_order is None else Lag.FIRST_ORDER
 
 
 def is_stale(obj: Object, scene: Scene) -> bool:
@@ -152,7 +152,7 @@ def current_properties(obj: Object, scene: Scene) -> StoredProperties | None:
     shown = StoredProperties(
         measured.density, measured.volume, measured.area, measured.in_object_frame(), measured.error_bound
     )
-    if followed.outlined is None and has_transform(obj, followed.transform):
+    if followed.first_order is None and has_transform(obj, followed.transform):
         return shown
     return _mapped(obj, followed, measured, shown, shortest_decimal(scene.unit_settings.scale_length))
 
@@ -169,11 +169,11 @@ def _mapped(
         return shown
     stretch = abs(np.linalg.det(linear))
     center = measured.mass_properties.center / unit
-    if followed.outlined is None:
+    if followed.first_order is None:
         volume = measured.volume * stretch
         center = now[:3, :3] @ np.linalg.solve(followed.matrix[:3, :3], center - followed.matrix[:3, 3]) + now[:3, 3]
     else:
-        volume, center = followed.outlined
+        volume, center = followed.first_order
         volume = volume * abs(np.linalg.det(now[:3, :3])) * unit**3
         center = now[:3, :3] @ center + now[:3, 3]
     if measured.kind != "solid" or not volume > 0.0 or not np.isfinite(linear).all():
@@ -197,7 +197,7 @@ def update(obj: Object, depsgraph: Depsgraph) -> LiveResult:
     followed, start = _followed[obj], time.thread_time()
     measurement, refusal = None, None
     try:
-        measurement, followed.outline = _measure(obj, followed, depsgraph)
+        measurement, followed.surface = _measure(obj, followed, depsgraph)
     except MeasureError as error:
         refusal = error.finding
     except Exception as error:
@@ -206,7 +206,7 @@ def update(obj: Object, depsgraph: Depsgraph) -> LiveResult:
     result = LiveResult(measurement, refusal, time.thread_time() - start, settings_hash(obj, depsgraph.scene))
     followed.result = result
     followed.matrix, followed.transform = float64_matrix(obj.matrix_world), transform_key(obj)
-    followed.outlined, followed.is_pending, followed.number = None, False, updates.count()
+    followed.first_order, followed.is_pending, followed.number = None, False, updates.count()
     handlers.count_change()
     return result
 
@@ -224,7 +224,7 @@ def stop(obj: Object) -> None:
     handlers.count_change()
 
 
-def _measure(obj: Object, followed: _Followed, depsgraph: Depsgraph) -> tuple[Measurement, Outline | None]:
+def _measure(obj: Object, followed: _Followed, depsgraph: Depsgraph) -> tuple[Measurement, MovingSurface | None]:
     plain = MeasureOptions(compare=False)
     request = Request.of(obj, depsgraph, plain)
     options, unit = request.options, request.unit
@@ -232,7 +232,7 @@ def _measure(obj: Object, followed: _Followed, depsgraph: Depsgraph) -> tuple[Me
     reading = read_patches(obj, depsgraph) if can_track and obj.type == "SURFACE" else None
     if reading is None or reading.all_singular:
         measured = measure_body(obj, depsgraph, plain)
-        return measured.measurement, Outline.of(measured)
+        return measured.measurement, MovingSurface.of(measured)
     (part,) = reading.parts
     splines = part.splines
     assert splines is not None
@@ -294,11 +294,11 @@ def _follow_at_once(events: handlers.Updates, changed: set[int]) -> None:
     for obj in sorted(objects, key=lambda obj: _followed[obj].pass_seconds):
         followed, start = _followed[obj], time.thread_time()
         allowed = MAX_PASS * _budget() if is_first else budget
-        if followed.outline is None or followed.pass_seconds > allowed:
-            followed.outlined = None
+        if followed.surface is None or followed.pass_seconds > allowed:
+            followed.first_order = None
             followed.pass_seconds *= RETRY  # a busy moment is not for ever
             continue
-        followed.outlined = followed.outline.follow(obj, events.depsgraph)
+        followed.first_order = followed.surface.follow(obj, events.depsgraph)
         followed.pass_seconds = time.thread_time() - start
         budget, is_first = budget - followed.pass_seconds, False
 

@@ -15,7 +15,7 @@ from . import handlers
 
 
 @dataclass(frozen=True, eq=False)
-class Outcome:
+class ActionOutcome:
     """What is to be read of one action.
 
     Attributes
@@ -33,7 +33,7 @@ class Outcome:
     objects: tuple[str, ...]
 
 
-_last: Outcome | None = None
+_last: ActionOutcome | None = None
 
 
 def remember(action: str, findings: Iterable[Finding]) -> None:
@@ -49,7 +49,7 @@ def remember(action: str, findings: Iterable[Finding]) -> None:
     global _last
     kept = of_severity(findings, Severity.ERROR, Severity.WARNING)
     objects = dict.fromkeys(name for finding in kept for name in _objects_of(finding))
-    _last = Outcome(action, tuple(kept), tuple(objects)) if kept else None
+    _last = ActionOutcome(action, tuple(kept), tuple(objects)) if kept else None
 
 
 def _objects_of(finding: Finding) -> list[str]:
@@ -59,7 +59,7 @@ def _objects_of(finding: Finding) -> list[str]:
     return [name for name in names if isinstance(name, str)]
 
 
-def last() -> Outcome | None:
+def last() -> ActionOutcome | None:
     """Return what the last action refused or warned of, None where that was nothing."""
     return _last
 

@@ -19,6 +19,7 @@ import bpy
 import numpy as np
 from bpy.types import Context, Object, Scene
 from mathutils import Matrix
+from numpy.typing import NDArray
 
 from ...core.inertia.mass_properties import MassProperties, combine
 from ...core.numerics.float32 import shortest_decimal
@@ -32,8 +33,9 @@ from ..bodies.wall import WallBody
 from ..read.fingerprint import settings_hash
 from ..read.rig import skinned_objects
 from ..read.total_caveats import open_body_caveats, total_caveats
+from ..settings.density import is_density_unset
 from ..write import properties
-from . import faults, handlers, live, posed, reference, staleness, threshold, trust, updates, walls
+from . import density, faults, handlers, live, posed, reference, staleness, threshold, trust, updates, walls
 from .cache import SessionCache
 
 
@@ -59,9 +61,11 @@ _worlds: SessionCache[tuple[tuple, properties.StoredProperties | None]] = Sessio
 _totals: SessionCache[tuple[tuple, Total]] = SessionCache()  # a scene's last one, after what was computed for it
 
 
-def store(obj: Object, measured: Measured, scene: Scene) -> None:
+def store(obj: Object, measured: Measured | Stacked, scene: Scene) -> None:
     """Write what was measured on the object, and remember what its sliders need. EditRefusedError where the object
     cannot hold results."""
+    measured = _with_default_density(obj, measured, scene)
+    assert isinstance(measured, Measured)
     staleness.note_edits(obj)
     about = reference.stored_choice(obj)
     properties.store(obj, measured.measurement)
@@ -77,6 +81,7 @@ def store_many(
     measured: Sequence[tuple[Object, Measured | Stacked]], scene: Scene
 ) -> Iterator[tuple[Object, Exception | None]]:
     """As `store` on many objects; with each of them why it cannot hold results, or None."""
+    measured = [(obj, _with_default_density(obj, each, scene)) for obj, each in measured]
     for stack, run in groupby(measured, key=lambda item: getattr(item[1], "stack", None)):
         items: list[tuple[Object, Any]] = list(run)
         if stack is None:
@@ -89,6 +94,19 @@ def store_many(
                     yield obj, None
         else:
             yield from _store_stack(stack, [each.index for _, each in items], scene)
+
+
+def _with_default_density(obj: Object, measured: Measured | Stacked, scene: Scene) -> Measured | Stacked:
+    """What was measured of an object, with a note where nobody has set its density and nothing says so yet."""
+    is_stacked = isinstance(measured, Stacked)
+    if is_stacked and not (measured.has_density and is_density_unset(obj.body_moments, scene)):
+        return measured
+    if density.OF_DEFAULT_DENSITY.intersection([found.code for found in measured.findings]):
+        return measured
+    if is_stacked:
+        measured.add_finding(density.DEFAULTS["density"])
+        return measured
+    return replace(measured, measurement=density.noted(obj, measured.measurement, scene))
 
 
 def _store_stack(stack: MeasuredStack, which: list[int], scene: Scene) -> Iterator[tuple[Object, Exception | None]]:
@@ -187,10 +205,27 @@ def _of_meshes(armature: Object, scene: Scene) -> properties.StoredProperties | 
     if not parts:
         return None
     body = _summed([part.body for part in parts])
-    volume = sum([part.volume for part in parts])
-    return properties.StoredProperties(
-        body.mass / volume if volume else 0.0, volume, sum([part.area for part in parts]), body, parts[0].error_bound
-    )
+    volume, area = sum([part.volume for part in parts]), sum([part.area for part in parts])
+    bound = _bound_of_sum(parts, body.center, [part.error_bound for part in parts])
+    bound["input"] = _bound_of_sum(parts, body.center, [part.error_bound["input"] for part in parts])
+    return properties.StoredProperties(body.mass / volume if volume else 0.0, volume, area, body, bound)
+
+
+def _bound_of_sum(parts: Sequence[properties.StoredProperties], center: NDArray, bounds: Sequence[dict]) -> dict:
+    """By how much the sum of bodies may be off where each is off by its bounds."""
+    volume, area, center_error, inertia = np.array(
+        [[bound[name] for name in properties.BOUND_KEYS] for bound in bounds], np.float64
+    ).T
+    mass = np.array([part.body.mass for part in parts])
+    arm = np.linalg.norm([part.body.center - center for part in parts], axis=1)
+    sizes = np.array([(part.volume, part.area) for part in parts]).T  # a shell without thickness has its mass by area
+    share = np.where(sizes[0] > 0.0, volume, area) / np.maximum(np.where(sizes[0] > 0.0, *sizes), np.finfo(float).tiny)
+    own = mass * (1.0 + share)
+    center_of_sum = float((own * center_error + share * mass * arm).sum() / mass.sum())
+    reach = arm + center_error + center_of_sum
+    inertia_of_sum = inertia + own * (reach * reach - arm * arm) + share * mass * arm * arm
+    values = volume.sum(), area.sum(), center_of_sum, inertia_of_sum.sum()
+    return dict(zip(properties.BOUND_KEYS, map(float, values)))
 
 
 def are_meshes_measured(armature: Object, scene: Scene) -> bool:

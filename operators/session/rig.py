@@ -18,8 +18,8 @@ from ...core.verdict import internal_error
 from ...core.verdict.finding import Finding
 from ..bodies.rig import Rig, rig_hash, rig_objects
 from ..read.fingerprint import VERSION
-from ..read.quiet import paused
 from ..read.rig import skinned_objects
+from ..read.tracking import tracking_paused
 from ..settings import hooks
 from ..write import properties
 from . import handlers, marks, staleness
@@ -97,7 +97,7 @@ def _note_updates(updates: handlers.Updates) -> None:
     if not _watched:
         handlers.unsubscribe(handlers.on_update, _note_updates)
         return
-    if paused.depth:
+    if tracking_paused.depth:
         return
     touched = {*updates.reshaped, *updates.moved, *updates.others}
     for uid in _watched.keys() & updates.reshaped:

@@ -32,7 +32,7 @@ from bpy.types import Context, Depsgraph, Object, Scene
 
 from ...core.verdict.method import Verdict
 from ..read.fingerprint import VERSION, has_transform, matrix_hash, scale_hash, settings_hash, shape_digest
-from ..read.quiet import paused
+from ..read.tracking import tracking_paused
 from ..write import properties
 from . import handlers, marks, updates
 from .cache import SessionCache
@@ -84,7 +84,7 @@ def mark_fingerprints(context: Context, stored: Iterable[tuple[Object, str]]) ->
     stored : iterable of (bpy.types.Object, str)
         The objects, and the marks of what was stored with them.
     """
-    with paused():
+    with tracking_paused():
         depsgraph = context.evaluated_depsgraph_get()
     for obj, mark in stored:
         note_edits(obj)

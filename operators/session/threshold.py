@@ -26,7 +26,7 @@ from ..settings import hooks
 from ..settings.digest import grid_key
 from ..settings.grid import GridOptions
 from ..write import properties
-from . import marks, staleness
+from . import density, marks, staleness
 from .cache import SessionCache
 
 MAX_CACHED_OBJECTS = 2  # a grid may have gigabytes
@@ -97,7 +97,7 @@ def _store(obj: Object, scene: Scene, cached: _CachedGrid, grid: ThresholdGrid, 
         measurement = measurement_of(cached.reading, replace(body, density_key=grid_key(obj)), request)
     except MeasureError:  # the panel says that the numbers are out of date, and Measure why there are none
         return False
-    properties.store(obj, measurement)
+    properties.store(obj, density.noted(obj, measurement, scene))
     cached.geometries.add(marks.Mark(*measurement.fingerprint.split(":")).geometry)
     return True
 

@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 import bpy
 from bpy.types import ID, Context, Depsgraph, Object, PropertyGroup
 
-from ..read.quiet import paused
+from ..read.tracking import tracking_paused
 from ..settings import hooks
 from . import handlers
 
@@ -200,7 +200,7 @@ def depsgraph_of(stamp: Stamp) -> Depsgraph | None:
 
 def _note_updates(updates: handlers.Updates) -> None:
     global _count, _undo_pending, _set_since
-    if paused.depth:
+    if tracking_paused.depth:
         return
     undone, _undo_pending = _undo_pending, False
     changed_settings, _set_since = _set_since, set()

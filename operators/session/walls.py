@@ -22,7 +22,7 @@ from ..bodies.wall import WallBody, Walls
 from ..read import Reading
 from ..settings import hooks
 from ..write import properties
-from . import marks, staleness
+from . import density, marks, staleness
 from .cache import SessionCache
 
 MAX_CACHED_OBJECTS = 64  # objects
@@ -94,7 +94,7 @@ def on_wall_setting(settings: PropertyGroup, context: Context) -> None:
         measurement = measurement_of(cached.reading, body, request)
     except MeasureError:  # the panel shows how thick it may be
         return
-    properties.store(obj, measurement)
+    properties.store(obj, density.noted(obj, measurement, scene))
     staleness.mark_object(obj)
 
 

@@ -76,7 +76,7 @@ class GridOptions:
             known = all_known.get(axis)
             if known is not None and not 0 <= begin <= begin + count <= len(known):
                 raise ReadError("positions_of_other_samples", grid=grid, axis=axis, count=len(known))
-            rows.append(None if known is None else known)
+            rows.append(known)
         x, y, z = rows
         return x, y, z
 

@@ -33,12 +33,10 @@ def expand(names: Iterable[str]) -> Iterator[str]:
         if not os.path.isdir(name):
             yield name
             continue
-        count = 0
-        for path in _walk(name):
-            count += 1
-            yield path
-        if not count:
+        found = [*_walk(name)]
+        if not found:
             raise QueryError("folder_without_files", folder=name)
+        yield from found
 
 
 def _walk(top: str) -> Iterator[str]:

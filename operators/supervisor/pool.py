@@ -28,24 +28,17 @@ START_LIMIT = 300.0  # seconds in which a child must be ready
 MAX_FAILED_STARTS = 5  # in a row
 _WATCH = 0.05 if sys.platform.startswith("linux") else 1.0  # seconds between looks at the memory of children
 _GROWTH_PERIOD = 16  # files of a child between looks at its growth
+_STEP = 0.2  # seconds that are waited for what children answer
 _END = 10.0  # seconds in which a child must end that has nothing more to do
 _LOG_TAIL = 1 << 16  # bytes of what a child has said
 
 
 class ChildError(Exception):
-    """No child can be started: `reason` is what it said."""
-
-    def __init__(self, reason: str) -> None:
-        super().__init__(reason)
-        self.reason = reason
+    """No child can be started, with what it said."""
 
 
 class SetupError(Exception):
-    """Children refuse what was asked of them: `text` is their message, which is complete."""
-
-    def __init__(self, text: str) -> None:
-        super().__init__(text)
-        self.text = text
+    """Children refuse what was asked of them, with their message, which is complete."""
 
 
 @dataclass(frozen=True)
@@ -57,7 +50,7 @@ class Limits:
 
 
 @dataclass
-class Outcome:
+class TaskOutcome:
     """What became of a task.
 
     status: "answered", "crashed", "timeout" or "memory". head, data: the answer. how: the signal or exit code of a
@@ -76,18 +69,18 @@ class Outcome:
 
 @dataclass(eq=False)
 class _Child:
-    """A process. task: what it is at work on. base: its memory when it was ready. measured: how many files it was
-    given. doomed: why it was ended by us.
+    """A process. started: when it was, or its task. deadline: when it must be ready, or done. task: what it is at work
+    on. base: its memory when it was ready. measured: how many files it was given. doomed: why it was ended by us.
     """
 
     process: subprocess.Popen[bytes]
     kept: int | None
     folder: Path
     log: Path
+    started: float
     deadline: float
     ready: bool = False
     task: str | None = None
-    started: float = 0.0
     base: int = 0
     measured: int = 0
     doomed: str = ""
@@ -131,6 +124,7 @@ class Pool:
         self._ending: list[tuple[_Child, float]] = []
         self._events: queue.SimpleQueue[tuple[_Child, dict[str, Any] | None, bytes]] = queue.SimpleQueue()
         self._readers = ThreadPoolExecutor(max_workers=4 * count + 8)
+        self._early: list[TaskOutcome] = []  # what has ended before anybody has asked
         self._started = self._failed_starts = 0
         self._watched = 0.0
         self.about: dict[str, Any] = {}  # what the children say of themselves when they are ready
@@ -155,36 +149,37 @@ class Pool:
     @property
     def is_done(self) -> bool:
         """Whether nothing is left to do."""
-        return not self._tasks and not self._again and all(child.task is None for child in self._children)
+        waiting = self._tasks or self._again or self._early
+        return not waiting and all(child.task is None for child in self._children)
 
     def wait_until_ready(self) -> None:
         """Start the children and wait for the first. Raises ChildError and SetupError."""
         while not self.about:
-            self.step(1.0)
+            self._early = self.step()
 
-    def step(self, wait: float) -> list[Outcome]:
-        """Give tasks to whoever has none, and return what has ended, waiting so many seconds for that.
+    def step(self) -> list[TaskOutcome]:
+        """Give tasks to whoever has none, and return what has ended, waiting a moment for that.
 
         Raises ChildError and SetupError.
         """
         self._refill()
-        outcomes: list[Outcome] = []
+        outcomes, self._early = self._early, []
         with suppress(queue.Empty):
-            event = self._events.get(timeout=self._pause(wait)) if wait else self._events.get_nowait()
+            event = self._events.get(timeout=self._pause())
             while True:
                 outcomes += self._receive(*event)
                 event = self._events.get_nowait()
         self._watch()
         return outcomes
 
-    def _pause(self, wait: float) -> float:
+    def _pause(self) -> float:
         now = time.monotonic()
-        deadlines = [child.deadline - now for child in self._children if not child.doomed]
+        deadlines = [child.deadline - now for child in self._children]
         watch = [_WATCH] if self._limits.memory and any(child.task is not None for child in self._children) else []
-        return max(0.001, min([wait, *deadlines, *watch]))
+        return max(0.001, min([_STEP, *deadlines, *watch]))
 
     def _refill(self) -> None:
-        idle = [child for child in self._children if child.task is None and not child.doomed]
+        idle = [child for child in self._children if child.task is None]
         fresh = sum(not child.measured for child in idle)
         missing = max(len(self._tasks) + len(self._again) - len(idle), len(self._again) - fresh)
         if not self.about:
@@ -203,7 +198,8 @@ class Pool:
             process, kept = processes.start(self._command, name, log)
         except OSError as error:
             raise ChildError("{}: {}".format(self._command[0], error.strerror or error)) from error
-        child = _Child(process, kept, name, log, time.monotonic() + START_LIMIT)
+        now = time.monotonic()
+        child = _Child(process, kept, name, log, now, now + START_LIMIT)
         self._children.append(child)
         self._readers.submit(self._read, child)
         self._send(child, {**self._setup, "seconds": self._limits.seconds})
@@ -229,7 +225,7 @@ class Pool:
             child.process.kill()  # what has lost its mind is as good as dead
         self._events.put((child, None, b""))
 
-    def _receive(self, child: _Child, head: dict[str, Any] | None, data: bytes) -> list[Outcome]:
+    def _receive(self, child: _Child, head: dict[str, Any] | None, data: bytes) -> list[TaskOutcome]:
         if child not in self._children:
             return []
         if head is None:
@@ -257,7 +253,7 @@ class Pool:
             self._retire(child)
         else:
             self._give(child)
-        return [Outcome(task, "answered", attempts + 1, seconds, head, data, said=said)]
+        return [TaskOutcome(task, "answered", attempts + 1, seconds, head, data, said=said)]
 
     def _give(self, child: _Child) -> None:
         """The next task, where there is one."""
@@ -282,7 +278,7 @@ class Pool:
             child.requests.close()
         self._ending.append((child, time.monotonic() + _END))
 
-    def _ended(self, child: _Child) -> list[Outcome]:
+    def _ended(self, child: _Child) -> list[TaskOutcome]:
         processes.kill([child.process])  # and whatever it has left behind
         self._children.remove(child)
         said = self._said(child)
@@ -302,28 +298,29 @@ class Pool:
             return []
         self._attempts.pop(child.task, None)
         how = processes.how_it_ended(child.process.returncode)
-        return [Outcome(child.task, child.doomed or "crashed", attempts, seconds, how=how, said=said)]
+        return [TaskOutcome(child.task, child.doomed or "crashed", attempts, seconds, how=how, said=said)]
 
     def _watch(self) -> None:
         """End children that are late or too large, and those that have nothing more to do and do not end."""
         now = time.monotonic()
         for child in self._children:
-            if now >= child.deadline and not child.doomed:
-                child.doomed = "timeout"
-                processes.kill([child.process], gently=True)
+            if now >= child.deadline:
+                self._doom(child, "timeout", gently=True)
         if self._limits.memory and now >= self._watched + _WATCH:
             self._watched = now
             for child in self._children:
-                at_work = child.task is not None and not child.doomed
-                if at_work and (processes.memory_of(child.process.pid) or 0) > self._limits.memory:
-                    child.doomed = "memory"
-                    processes.kill([child.process])
+                if child.task is not None and (processes.memory_of(child.process.pid) or 0) > self._limits.memory:
+                    self._doom(child, "memory")
         for child, limit in [*self._ending]:
             if now >= limit:
                 processes.kill([child.process])
             if child.process.poll() is not None:
                 self._ending.remove((child, limit))
                 self._close(child)
+
+    def _doom(self, child: _Child, why: str, *, gently: bool = False) -> None:
+        child.doomed, child.deadline = why, float("inf")
+        processes.kill([child.process], gently=gently)
 
     def _said(self, child: _Child) -> str:
         """The end of what a child has written on its standard error about its file."""

@@ -27,10 +27,8 @@ TENSOR = (("xx", 0, 0), ("yy", 1, 1), ("zz", 2, 2), ("xy", 0, 1), ("xz", 0, 2), 
 SPECTRUM_ARRAYS = ("q", "F", "error", "input", "method", "frame")
 FLAT_SPECTRUM_ARRAYS = ("axes", "origin")  # and of a flat shape, of its plane in the world
 
-# An innermost list of numbers that json.dumps has spread over lines. No text can hold a line break,
-# so none matches.
+# An innermost list of numbers that json.dumps has spread over lines. No text can hold a line break, so none matches.
 _NUMBER_ROWS = re.compile(r"\[\n\s+((?:[-+.\deE]+|null)(?:,\n\s+(?:[-+.\deE]+|null))*)\n\s*\]")
-
 
 # What begins a formula, as OWASP lists it, or an apostrophe that does not stand for one.
 _FORMULA = re.compile(r"['\t\r\n]|\s*[=+\-@\uff1d\uff0b\uff0d\uff20]")
@@ -47,9 +45,9 @@ def document(
     frame: str = "world",
     status: str | None = None,
 ) -> dict[str, Any]:
-    """What one file gave. The objects are sorted by name; `file` is None for a scene that was never
-    saved. errors, left_out: names and reasons, of what could not be measured and of what was not to be. status: one of
-    `STATUSES`, by default what the errors say.
+    """What one file gave. The objects are sorted by name; `file` is None for a scene that was never saved. errors,
+    left_out: names and reasons, of what could not be measured and of what was not to be. status: one of `STATUSES`, by
+    default what the errors say.
     """
     errors = list(errors)
     if frame != "world":
@@ -77,9 +75,7 @@ def failed_document(file: str, reason: str, status: str, *, blender: str | None,
 
 
 def to_json(documents: Iterable[dict[str, Any]]) -> Iterator[str]:
-    """One document as itself, several as an array, indented for a reader with each row of numbers
-    on one line.
-    """
+    """One document as itself, several as an array, indented for a reader with each row of numbers on one line."""
     waiting, several = "", False
     for number, entry in enumerate(documents):
         text = json.dumps(entry, indent=2, ensure_ascii=False, allow_nan=False)
@@ -155,7 +151,7 @@ def _flat_columns(entry: dict[str, Any]) -> dict[str, Any]:
     """The record of a flat shape as one flat row."""
     row = {name: entry[name] for name in ("name", "type", "area")} | {"kind": "flat"}
     row |= _nested("error_bound", entry["error_bound"])
-    row |= {f"center_of_mass_{axis}": value for axis, value in zip("xyz", entry["centroid"], strict=True)}
+    row |= {f"center_of_mass_{axis}": value for axis, value in zip("xyz", entry["centroid"])}
     powers = entry.get("moments", {}).get("area", {})
     row |= {f"area_moment_{key.replace(',', '_')}": value for key, value in powers.items()}
     return row | _signature_columns(entry) | _finding_columns(entry)
@@ -164,7 +160,7 @@ def _flat_columns(entry: dict[str, Any]) -> dict[str, Any]:
 def _columns(entry: dict[str, Any]) -> dict[str, Any]:
     """A record as one flat row; what a list or a table holds gets a column each."""
     row = {name: entry[name] for name in (*_COLUMNS, *_OPTIONAL_COLUMNS) if name in entry}
-    row |= {f"center_of_mass_{axis}": value for axis, value in zip("xyz", entry["center_of_mass"], strict=True)}
+    row |= {f"center_of_mass_{axis}": value for axis, value in zip("xyz", entry["center_of_mass"])}
     row |= {f"inertia_{name}": entry["inertia"][i][j] for name, i, j in TENSOR}
     for number in range(3):
         row[f"principal_moment_{number + 1}"] = entry["principal_moments"][number]

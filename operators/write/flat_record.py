@@ -113,4 +113,4 @@ def _point(
 def _by_powers(values: NDArray[np.float64], order: int) -> dict[str, float]:
     """Numbers by the exponents of x and y, as "p,q"."""
     powers, positions = multi_indices(2, order).tolist(), plane_positions(order)
-    return {"{},{}".format(p, q): value for (p, q), value in zip(powers, values[positions].tolist(), strict=True)}
+    return {"{},{}".format(p, q): value for (p, q), value in zip(powers, values[positions].tolist())}

@@ -378,7 +378,7 @@ MESSAGES: dict[str, Message] = {
     "non_finite_transform": _error(
         "The transform is not finite. Reset location, rotation and scale, of the parents too."
     ),
-    "not_rendered": _note("Not rendered. Use --all to measure it."),
+    "not_rendered": _note("Not rendered. Turn on the camera icon in the Outliner, or use --all."),
     "boolean_operand": _note("Only an operand of Boolean modifiers. Use --all to measure it."),
     "solid_operand_measured": _warning(
         "Measured as a part, but cuts or joins “{object}” by a Boolean modifier. Display it as wire or bounds, or turn "
@@ -1879,7 +1879,7 @@ MESSAGES: dict[str, Message] = {
         "them to avoid it."
     ),
     "robot_ellipsoid_as_box": _note(
-        "URDF has no ellipsoid. The box of equal mass and inertia stands in its place: {links}."
+        "The format has no ellipsoid. The box of equal mass and inertia stands in its place: {links}."
     ),
     "urdf_effort_unknown": _note(
         "Set effort and velocity of the joint to its motor's. They are placeholders: {joints}.",

@@ -202,4 +202,4 @@ def _about(point: NDArray[np.float64], moments: Moments, measurement: Measuremen
 def _by_powers(values: NDArray[np.float64]) -> dict[str, float]:
     """Numbers by the exponents of their monomials, as "p,q,r"."""
     powers = monomials(order_from_count(len(values))).tolist()
-    return {",".join(map(str, exponents)): value for exponents, value in zip(powers, values.tolist(), strict=True)}
+    return {",".join(map(str, exponents)): value for exponents, value in zip(powers, values.tolist())}

@@ -19,6 +19,7 @@ from ...core.plane.section import Plane, Section
 from ...core.verdict.finding import Finding, Severity
 from .messages import sentence, severity
 from .properties import findings_in, findings_text, warning_lines
+from .units import rounded_up
 
 KEY = "body_section"
 BOUND_KEYS = ("area", "perimeter", "centroid", "second")
@@ -178,7 +179,7 @@ def _lines(name: str, stored_section: StoredSection, outdated: Finding | None) -
         yield _line(
             label,
             "area {:.1e} m², perimeter {:.1e} m, centroid {:.1e} m, second moments {:.1e} m⁴".format(
-                *(bound[name] for name in BOUND_KEYS)
+                *(rounded_up(bound[name]) for name in BOUND_KEYS)
             ),
         )
     for finding in stored_section.findings:

@@ -32,17 +32,8 @@ def save(
     what rounding and storing coordinates as float32 may have changed, method and frame. check: as in `whole_file`.
     plane: of a flat shape, whose q is (M, 2), `FLAT_SPECTRUM_ARRAYS`. Raises OSError."""
     with whole_file(path, check) as file:
-        np.savez(
-            file,
-            **dict(
-                zip(
-                    SPECTRUM_ARRAYS,
-                    (spectrum.q, spectrum.values, spectrum.error, spectrum.input_error, spectrum.method, frame),
-                    strict=True,
-                )
-            ),
-            **(plane or {}),
-        )
+        arrays = spectrum.q, spectrum.values, spectrum.error, spectrum.input_error, spectrum.method, frame
+        np.savez(file, **dict(zip(SPECTRUM_ARRAYS, arrays)), **(plane or {}))
 
 
 def picture(name: str, values: NDArray[np.complex128], count: int, dimension: int = 3) -> bpy.types.Image:

@@ -1,11 +1,9 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A report that a person reads, in the order that CAD dialogs use: verdict, mass, volume, center,
-principal axes, tensor.
+"""A report that a person reads, in the order of CAD dialogs: verdict, mass, volume, center, principal axes, tensor.
 
-It is made from a document (`documents.document`) alone, so that whatever JSON says can be said
-in words, and from the results that are stored on objects by way of a document too. What a document
-lacks is left out.
+It is made from a document (`documents.document`) alone, and for results that are stored on objects a document is made
+first: so it can say all that JSON says. What a document lacks is left out.
 """
 
 from __future__ import annotations
@@ -25,6 +23,7 @@ from .documents import TENSOR, document
 from .messages import HEALTH, METHODS, method_key
 from .record import described, plain
 from .terminal import visible
+from .units import rounded_up
 
 BOUNDS = {"volume": "m³", "area": "m²", "center_of_mass": "m", "inertia": "kg·m²"}
 DIGITS = 7  # as many as float32 coordinates carry
@@ -69,23 +68,24 @@ def stored_document(
     return document(entries, total, errors, file=file, blender=blender, frame=frame)
 
 
-def text(document: dict[str, Any]) -> str:
+def text(file_document: dict[str, Any]) -> str:
     """A document as plain text, with its units and conventions stated."""
-    lines = ["Mass properties, SI units, {} frame".format(document["frame"])]
-    if document["file"]:
-        lines.append("File: {}".format(document["file"]))
-    for entry in document["objects"]:
-        lines += ["", entry["name"], *_body(entry, document["frame"])]
-    if len(document["objects"]) > 1:
-        heading = "Total of {} objects, world frame".format(len(document["objects"]))
-        lines += ["", heading, *_body(document["total"], "world")]
-    if document["left_out"]:
+    lines = ["Mass properties, SI units, {} frame".format(file_document["frame"])]
+    if file_document["file"]:
+        lines.append("File: {}".format(file_document["file"]))
+    for entry in file_document["objects"]:
+        lines += ["", entry["name"], *_body(entry, file_document["frame"])]
+    if len(file_document["objects"]) > 1:
+        heading = "Total of {} objects, world frame".format(len(file_document["objects"]))
+        lines += ["", heading, *_body(file_document["total"], "world")]
+    if file_document["left_out"]:
         lines += ["", "Left out"]
-        lines += ["{}{}: {}".format(INDENT, entry["name"], entry["reason"]) for entry in document["left_out"]]
-    if document["errors"]:
+        lines += ["{}{}: {}".format(INDENT, entry["name"], entry["reason"]) for entry in file_document["left_out"]]
+    if file_document["errors"]:
         lines += ["", "Not measured"]
         lines += [
-            "{}{}: {}".format(INDENT, failure["name"] or "File", failure["reason"]) for failure in document["errors"]
+            "{}{}: {}".format(INDENT, failure["name"] or "File", failure["reason"])
+            for failure in file_document["errors"]
         ]
     return "".join(visible(line) + "\n" for line in lines)
 
@@ -120,7 +120,7 @@ def _body(entry: dict[str, Any], frame: str) -> Iterable[str]:
         )
     if entry["center_of_mass"] is None or entry["inertia"] is None:
         return
-    size = abs(entry["volume"] or 0.0) ** (1.0 / 3.0)
+    size = entry.get("length") or abs(entry["volume"] or 0.0) ** (1.0 / 3.0)
     yield _line("Center of mass", _vector(entry["center_of_mass"], size), "m, {} frame".format(frame))
     yield from _principal(entry)
     yield from _tensor(entry["inertia"], frame)
@@ -167,7 +167,7 @@ def _bounds(bounds: dict[str, Any]) -> Iterable[str]:
         ("float32 coordinates", bounds.get("input", {})),
     ):
         parts = [
-            "{} {:.1e} {}".format(name.replace("_", " "), values[name], unit)
+            "{} {:.1e} {}".format(name.replace("_", " "), rounded_up(values[name]), unit)
             for name, unit in BOUNDS.items()
             if values.get(name) is not None
         ]
@@ -188,9 +188,7 @@ def _vector(values: Sequence[float | None], size: float = 0.0) -> str:
 
 
 def _clean(values: Sequence[float | None], size: float = 0.0) -> list[float | None]:
-    """The values with 0.0 for what is rounding beside the largest of them, or beside the body's
-    size.
-    """
+    """The values with 0.0 for what is rounding beside the largest of them, or beside the body's size."""
     largest = max([size, *(abs(value) for value in values if value is not None)])
     return [0.0 if value is not None and abs(value) <= ZERO_DISPLAY_RTOL * largest else value for value in values]
 

@@ -50,7 +50,7 @@ def thumbnail(
     if areas.sum() > 0.0:
         _draw(image, corners, normals, areas)
     start = (np.asarray(center, np.float64) @ _VIEW - middle) * scale
-    for axis, color in zip(np.asarray(axes, np.float64).T @ _VIEW, _AXES, strict=True):
+    for axis, color in zip(np.asarray(axes, np.float64).T @ _VIEW, _AXES):
         steps = np.linspace(-1.0, 1.0, 2 * SIZE)[:, None] * axis * 0.42 * SIZE + start
         for right, up in ((0, 0), (1, 0), (0, 1)):
             _put(image, steps + (right, up, 0), np.array([*color, 255], np.uint8))

@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from decimal import ROUND_CEILING, Context
 from math import isfinite
 
 from ...core.density.density_units import DENSITY_UNITS, FOOT, POUND, density_unit
@@ -71,6 +72,7 @@ SI_UNITS = {
     "area_moment": "m⁴",
 }
 DIGITS = 6
+UPWARD = Context(prec=2, rounding=ROUND_CEILING)
 GROUPS = {"SPACE": "\u2009", "COMMA": ",", "NONE": ""}  # what stands between groups of three digits
 MIN_GROUPED = 5  # integers of fewer digits are read at a glance
 MIN_EXPONENT, MAX_EXPONENT = -5, 10  # beyond these, powers of ten are shown
@@ -112,9 +114,9 @@ class Units:
         return ["{:s} {:s}".format(text, name).rstrip() for text in column(shown, self.digits, self.grouping)]
 
     def bound(self, quantity: str, bound: float, beside: float) -> str:
-        """An SI error bound, to two digits in the unit of the value that it belongs to: "± 4.5e-15 m³"."""
+        """An SI error bound, to two digits, upward, in the unit of its value: "± 4.5e-15 m³"."""
         factor, name = self.unit(quantity, abs(beside))
-        return "± {:s} {:s}".format(number(bound / factor, 2, self.grouping), name).rstrip()
+        return "± {:s} {:s}".format(number(rounded_up(bound / factor), 2, self.grouping), name).rstrip()
 
     def unit(self, quantity: str, value: float) -> tuple[float, str]:
         """(SI value of one unit, its name) to show an SI `value` in."""
@@ -168,6 +170,11 @@ def _fitting_unit(units: Sequence[tuple[float, str]], value: float, base: tuple[
     return units[-1]
 
 
+def rounded_up(bound: float) -> float:
+    """To two digits, no less than it was: a bound that is rounded down is none."""
+    return float(UPWARD.create_decimal(repr(float(bound))))
+
+
 def number(value: float, digits: int = DIGITS, grouping: str = "SPACE") -> str:
     """A number as a person reads it: so many significant digits, no trailing zeros, powers of ten
     only where needed.
@@ -204,7 +211,7 @@ def column(values: Sequence[float], digits: int = DIGITS, grouping: str = "SPACE
     while "." in texts[0] and all(text.endswith("0") for text in texts):
         texts = [text[:-1].removesuffix(".") for text in texts]
     suffix = "e{:d}".format(power).replace("-", "−") if power else ""
-    return [text + suffix for text in texts]
+    return [text + suffix if isfinite(value) else text for text, value in zip(texts, values)]
 
 
 def _plain_number(value: float, decimals: int, separator: str) -> str:

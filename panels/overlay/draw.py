@@ -151,16 +151,13 @@ def _make(drawn: _Drawn, context: Context, has_same_key: bool) -> None:
 
 
 def _layer(bodies: Bodies, settings: BodyMomentsOverlaySettings, details: list[Detail]) -> _Layer:
-    segments = [detail.segments for detail in details if len(detail.segments[0])]
-    return _Layer(
-        bodies,
-        _line_batches([*lines.body_lines(bodies, settings), *segments]),
-        _fill_batches([detail.triangles for detail in details if len(detail.triangles[0])]),
-    )
+    segments = [*lines.body_lines(bodies, settings), *(detail.segments for detail in details)]
+    return _Layer(bodies, _line_batches(segments), _fill_batches([detail.triangles for detail in details]))
 
 
 def _fill_batches(parts: list[tuple[NDArray, NDArray]]) -> tuple[Batch, ...]:
     """parts: (k, 3, 3) triangles and (k, 4) colors."""
+    parts = [(triangles, colors) for triangles, colors in parts if len(triangles)]
     if not parts:
         return ()
     points = np.concatenate([triangles for triangles, _ in parts]).reshape(-1, 3).astype(np.float32)
@@ -200,12 +197,7 @@ def _discs(bodies: Bodies, view: View, with_digits: bool) -> tuple[Batch, ...]:
 def _restored_state() -> Iterator[None]:
     """Put the GPU's state back, whatever happens in here."""
     state = gpu.state
-    blend, depth, mask, width = (
-        state.blend_get(),
-        state.depth_test_get(),
-        state.depth_mask_get(),
-        state.line_width_get(),
-    )
+    blend, depth, mask = state.blend_get(), state.depth_test_get(), state.depth_mask_get()
     try:
         state.blend_set("ALPHA")
         state.depth_mask_set(False)
@@ -214,7 +206,6 @@ def _restored_state() -> Iterator[None]:
         state.blend_set(blend)
         state.depth_test_set(depth)
         state.depth_mask_set(mask)
-        state.line_width_set(width)
 
 
 def _draw_batches(layers: list[_Layer], size: tuple[int, int]) -> None:

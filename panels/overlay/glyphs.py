@@ -41,7 +41,7 @@ class Glyphs:
     triangles: NDArray[np.int32]
 
 
-Shape = tuple[NDArray, NDArray, NDArray]  # corners, (k, 2, 4) colors, triangles of one glyph
+GlyphShape = tuple[NDArray, NDArray, NDArray]  # corners, (k, 2, 4) colors, triangles of one glyph
 
 # digits in units of half their height
 DIGITS = (
@@ -75,7 +75,7 @@ def _stroke(path: NDArray, width: float) -> Part:
     return quads.reshape(-1, 2), (first + np.array([[0, 1, 2], [0, 2, 3]], np.int32)).reshape(-1, 3)
 
 
-def _colored(*layers: tuple[Part, NDArray, float]) -> Shape:
+def _colored(*layers: tuple[Part, NDArray, float]) -> GlyphShape:
     """Parts with their color, and with how much of it is left where something is in front of them."""
     starts = np.cumsum([0, *(len(corners) for (corners, _), _, _ in layers)])
     colors = [np.stack([color * (1.0, 1.0, 1.0, hidden), color]) for _, color, hidden in layers]
@@ -98,7 +98,7 @@ def _frame(verdict: int) -> list[NDArray[np.float64]]:
     return [_arc(look.FRAME)]
 
 
-def _disc(verdict: int) -> Shape:
+def _disc(verdict: int) -> GlyphShape:
     color = look.COLORS[verdict]
     lines = _frame(verdict)
     quarter = SEGMENTS // 4
@@ -113,7 +113,7 @@ def _disc(verdict: int) -> Shape:
     )
 
 
-def _digit(points: Sequence[tuple[float, float]]) -> Shape:
+def _digit(points: Sequence[tuple[float, float]]) -> GlyphShape:
     path = np.array(points) * look.DIGIT
     return _colored(
         (_stroke(path, look.STROKE + 2.0 * look.OUTLINE), look.DARK, 1.0),
@@ -121,7 +121,7 @@ def _digit(points: Sequence[tuple[float, float]]) -> Shape:
     )
 
 
-def _stack(shapes: Sequence[Shape]) -> Glyphs:
+def _stack(shapes: Sequence[GlyphShape]) -> Glyphs:
     def filled(arrays: Sequence[NDArray]) -> NDArray:
         size = max(map(len, arrays))
         return np.stack([np.pad(array, ((0, size - len(array)), *[(0, 0)] * (array.ndim - 1))) for array in arrays])

@@ -56,4 +56,4 @@ def ellipsoid_lines(centers: NDArray, axes: NDArray, gyration: NDArray) -> NDArr
     for axis in range(3):
         circles[axis, :, axis - 1], circles[axis, :, axis - 2] = np.cos(CIRCLE), np.sin(CIRCLE)
     points = centers[:, None, None] + np.einsum("nij,ckj,nj->ncki", axes, circles, half)
-    return np.stack([points[:, :, :-1], points[:, :, 1:]], axis=3).reshape(len(centers), -1, 2, 3)
+    return np.stack([points[:, :, :-1], points[:, :, 1:]], axis=3).reshape(len(centers), 3 * (len(CIRCLE) - 1), 2, 3)

@@ -58,6 +58,13 @@ def test_every_face_is_small_sorted_and_true(package):
     assert set(names) <= set(dir(FACES[package]))
 
 
+def test_a_name_is_there_when_it_is_first_used():
+    core = FACES[""]
+    for name in core.__all__:
+        vars(core).pop(name, None)
+        assert getattr(core, name) is vars(core)[name] is not None
+
+
 @documented
 def test_a_public_name_is_documented(name):
     thing = inspect.unwrap(DOCUMENTED[name])

@@ -123,8 +123,13 @@ def _measured(folder: Path, run: str, options, files) -> dict[str, object]:
     )
     if done.returncode not in (0, 1) or not output.is_file():
         raise RuntimeError("{}: exit code {}\n{}".format(run, done.returncode, done.stderr[-4000:]))
+    return entries(run, files, output.read_text(encoding="utf-8"))
+
+
+def entries(run: str, files: list[Path], text: str) -> dict[str, object]:
+    """Those of the documents of some files, one a line."""
     table = {}
-    for path, line in zip(files, output.read_text(encoding="utf-8").splitlines(), strict=True):
+    for path, line in zip(files, text.splitlines(), strict=True):
         document = json.loads(line)
         place = "{}/{}".format(run, path.name)
         for record in document["objects"]:

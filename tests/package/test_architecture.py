@@ -8,7 +8,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent.parent
 
 # Each package may import those of the rows above its own and itself; those of one row do not know each other, but for
-# the two rows that say so.
+# those of one row of the core.
 CORE = (
     ("numerics", "verdict"),
     ("moments",),
@@ -27,6 +27,7 @@ OPERATORS = (
     ("actions", "command"),
     ("batch",),
 )
+MAY_KNOW_EACH_OTHER = ("mesh", "inertia", "papers")
 WITHOUT_WRITE = ("settings", "read", "bodies", "scene")  # what only makes findings and numbers
 # Blender is imported when it is needed: the package can be imported without it, and a script has to be ready first.
 LATE = {"__init__.py", "operators/batch.py", "panels/__init__.py"}
@@ -89,7 +90,7 @@ def complaints() -> list[str]:
             source, destination = rank(order, module[1]), rank(order, target[1])
             if destination > source:
                 result.append(place + ": up")
-            elif destination == source and module[1] != target[1] and source != 2:
+            elif destination == source and module[1] != target[1] and module[1] not in MAY_KNOW_EACH_OTHER:
                 result.append(place + ": sideways")
             if part == "operators" and module[1] in WITHOUT_WRITE and target[1] == "write":
                 result.append(place + ": only what shows or stores may write")

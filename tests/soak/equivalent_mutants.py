@@ -17,6 +17,10 @@ CONSTANT = r"True|False|\d[\d.]*(e-?\d+)?"
 NAMES = {
     r"_PER_(BLOCK|BATCH|CHUNK|SLAB|TASK|THREAD|STACK)$|^_?BLOCK|_BLOCK$|_ROWS$|_IN_CACHE$|^SAMPLES$": "how much is "
     "computed or read at a time",
+    r"^(FIRST_SAMPLES|GRID_CELLS)$": "in which order things are compared, of which all are",
+    r"^LINE_SLOPES$": "which lines are looked along",
+    r"^HASH_FACTORS$": "which of two colliding numbers comes first",
+    r"^STEPS_BEFORE_MERGE$": "from when on directions that go to one maximum are followed as one",
     r"^MAX_CACHED_|_SCRATCH_": "how much is remembered",
     r"^DIRECT_COST$": "how time is estimated",
     r"^NO_BONE$": "a mark, of which any negative number is one",
@@ -24,14 +28,23 @@ NAMES = {
 # places ("module function"), and the mutant's text before and after it: the reason
 PATTERNS = [
     (r".*", r".*\*= -1\.0", r".*/= -1\.0", "times -1 is by -1"),
+    (r".*", r"([\w.]+) @ \1", r".*", "nothing is changed"),
+    (r".*", r".* \* HALF_TURN_SIGNS\[.*", r"\(.* / HALF_TURN_SIGNS\[.*", "times -1 is by -1"),
     (
-        r"(?!.*(radix_argsort|SurfaceStack.of)$).*",  # where the order of equal ones is what is wanted
+        r"(core/(fourier|density|rigs)|operators|panels)/.*",
         r"[\w.]*argsort\(.*kind=.stable.\)",
         r"\([\w.]*argsort\(((?!kind=).)*\)\)",
         "the order of equal ones, of which any may be first",
     ),
     (r".*triangle_kernel.py PhaseMeans._by_edges", r"np\.divide\(total.*", r".*", "where a value is stored"),
     (r".*offset/walls.py OffsetSolid.moments", r"inward\*\*degree / degree", r".*", "a looser bound"),
+    (r".*", r".*\.take\(.*, mode=.clip.\)", r"\(.*\.take\(((?!mode=).)*\)\)", "every index is one of the array's"),
+    (
+        r".*density/threshold.py _Sums._add_(masses|boxes)",
+        r"\(self.order \+ 1\) // 2",
+        r"\(\(self.order \+ 1\) \* 2\)",
+        "a rule of more points is as exact",
+    ),
     (r".*", r".*\.astype\([^()]*copy=False\)", r"\(.*\.astype\([\w.]+\)\)", "a copy"),
     (
         r".*",
@@ -40,18 +53,32 @@ PATTERNS = [
         "how much is computed or kept at a time",
     ),
     (
-        r".*(any_order.py .*|any_order_kernel.py absolute_sums|plane/region_moments.py BOUND_ROUNDING"
-        r"|plane/section.py _displacement_bounds)",
+        r".*(any_order.py .*|any_order_kernel.py absolute_sums|plane/region_moments.py BOUND_ROUNDING)",
         r"1e-9",
         r"1\.0000000000000002e-06",
         "a looser bound",
     ),
     (r".*triangle_kernel.py _morton_code", r"(?!return).*", r".*", "the order in which triangles are summed"),
+    (r".*any_order.py _CompensatedSum.add", r"columns \* .*", r".*", "how much is computed at a time"),
     (
         r".*polyhedron/third_order.py integrate",
         r"room //.*|count (//|<= MAX_SMALL).*",
         r".*",
         "how much is computed at a time",
+    ),
+    (
+        r".*shape/(symmetry.py confirm|flat_pose.py holds_by_outline)",
+        r".*// FIRST_SAMPLES",
+        r".*",
+        "which are looked at first",
+    ),
+    (r".*solid/self_intersection.py SelfIntersection.effect", r"0\.0", r"1\.0", "read only where something was found"),
+    (r".*nurbs/incremental.py .*_evaluate", r"False", r"True", "read only where rules are compared"),
+    (
+        r".*mesh/planarity.py PlanarityAccumulator.degenerate_limit",
+        r"2\.0 \* .*",
+        r"\(2\.0 / .*",
+        "how many are looked at one by one",
     ),
     (r".*nurbs/patch_topology.py _overlapping_sides", r"0", r"1", "each of the two runs as the other does"),
     (
@@ -64,8 +91,13 @@ PATTERNS = [
 ]
 # places of constants, and what stands ahead of them in their line: the reason
 CONSTANTS = [
+    (r".*", r"\breshape\(([^()]|\([^()]*\))*-", "numpy finds out a length from any negative number"),
     (r"panels/.*", r"\balign=", "whether the corners between two rows are round"),
     (r".*cad/iges.py _Reader._pieces", r"_pieces_left (-=|<) ", "how soon a boundary of too many pieces is given up"),
+    (r".*mesh/side_pairs.py _paired_by_sorting", r"high << np.uint64\(", "of vertices there are fewer than 2^30"),
+    (r".*solid/nesting.py _interior_samples", r"weight = .*", "which places are tried"),
+    (r".*mesh/bvh.py intersecting_pairs", r"work = ", "how soon looking is given up"),
+    (r".*shape/(symmetry.py confirm|flat_pose.py holds_by_outline)", r"points\[:: ", "which are looked at first"),
     (r".*density/threshold.py threshold_body", r"// ", "a reference point near the middle"),
     (r".*statics/gradient.py .*", r"kinds > ", "of orders 0, 1 and 2 there are 1, 4 and 10 moments"),
     (r".*canonical_frame.py _extreme_directions", r"(noise = |max\()", "a looser bound"),
@@ -81,11 +113,11 @@ LOOSER = {
 # (module, function, before, after): the reason
 EQUIVALENT: dict[tuple[str, str, str, str], str] = {
     (
-        "core/density/smooth_threshold.py",
-        "_combine",
-        "body.mass is None or other.mass is None",
-        "(other.mass is None)",
-    ): "both have a mass, or neither",
+        "core/numerics/compensated.py",
+        "SPLITTER",
+        "2.0**27 + 1.0",
+        "(2.0 ** 27 - 1.0)",
+    ): "one splits numbers into two of 26 bits as the other does",
 }
 
 

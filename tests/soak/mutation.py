@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Mutants of the product: how many of a sample from each package the tests find.
 
-First each test file runs once, and the lines that its tests run are noted (kept in .envs/soak/lines while neither the
-file nor the modules that it runs change). Then mutants are drawn, round after round one of each package. Each is
-written into a copy of the project, and the tests that run its line pass there, the quickest first, until one fails.
+First each test file runs once, and the lines that its tests run are noted (kept in .envs/soak/lines while the file does
+not change; where a module does, the lines follow its text, and new ones have the tests of those around them). Then
+mutants are drawn, round after round one of each package. Each is written into a copy of the project, and the tests that
+run its line pass there, the quickest first, until one fails.
 
 A mutant counts as found when a test fails, does not end, or dies. Those that no test could find are in
 tests/soak/equivalent_mutants.py, with reasons, and are not drawn. `mutation:core/mesh,core/solid` draws from these
@@ -25,26 +26,30 @@ import tempfile
 import time
 from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator
+from difflib import SequenceMatcher
+from functools import cache
 from pathlib import Path
+from unittest import mock
 
+from tests.corpus import runs, scenes, shapes
 from tests.soak import equivalent_mutants, mutants
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 PROCESS = Path(__file__).resolve().parent / "mutation_process"
 KEPT = ROOT / ".envs" / "soak" / "lines"
 FOUND = ROOT / ".envs" / "soak" / "found.json"
+CORPUS = "soak/mutation_process/corpus/test_runs.py"
+MANY = "blender/bodies/test_many.py"
 TESTS = {  # of a package, or of all in a part
-    "core": ("core",),
-    "core/mesh": ("core", "blender/bodies/test_many.py"),
-    "core/solid": ("core", "blender/bodies/test_many.py"),
-    "core/shape": ("core", "blender/actions/shape"),
+    "core": ("core", CORPUS, MANY),
+    "core/shape": ("core", CORPUS, MANY, "blender/actions/shape"),
     "core/robots": (
         "core/robots",
         "blender/bodies/test_audit.py",
         "blender/read/test_robots.py",
         "blender/actions/export",
     ),
-    "operators": ("blender",),
+    "operators": ("blender", CORPUS),
     "panels": ("blender",),
 }
 READERS = {  # tests that read the source, by what they look for in it
@@ -57,7 +62,7 @@ LEFT_OUT = ("test_random_sessions.py",)  # what takes as long as it is given
 MISSED = ("passed", "no test")
 LEAST = 0.95  # of each package's mutants
 LEAST_DRAWN = 20  # below this, a share says nothing
-MAX_SECONDS = 10.0  # of the tests of one mutant
+MAX_SECONDS = 10.0  # of the tests of one mutant, and again of the corpus
 
 
 def run(budget_seconds: float, seed: int, *packages: str) -> str:
@@ -81,6 +86,7 @@ def run(budget_seconds: float, seed: int, *packages: str) -> str:
     AssertionError
         With the same, where less than `LEAST` of a package were found.
     """
+    os.environ["BODY_MOMENTS_CORPUS"] = str(corpus_plan())
     with Project() as project:
         decks = {name: deck for name, deck in all_mutants(ROOT).items() if name in (packages or {name})}
         tests = {test for name in decks for test in TESTS.get(name, TESTS[name.partition("/")[0]])}
@@ -94,6 +100,25 @@ def run(budget_seconds: float, seed: int, *packages: str) -> str:
         text = report(project.results)
         assert not too_few(project.results), text
     return text
+
+
+def corpus_plan() -> Path:
+    """The corpus' command lines as JSON, [(run, words, file), ...]; its files are made once while their makers stay."""
+    sources = [Path(module.__file__).read_bytes() for module in (runs, scenes, shapes)]
+    folder = KEPT.parent / "corpus-{}".format(hashlib.sha256(b"".join(sources)).hexdigest()[:16])
+    plan = folder / "plan.json"
+    if not plan.is_file():
+        folder.mkdir(parents=True, exist_ok=True)
+        asked = []
+
+        def note(_folder: Path, run: str, options: tuple, files: list[Path]) -> dict:
+            asked.extend((run, [str(word) for word in options], str(path)) for path in files)
+            return {}
+
+        with mock.patch.object(runs, "_measured", note), mock.patch.object(runs, "_transforms", lambda _folder: {}):
+            runs.collect(folder)
+        plan.write_text(json.dumps(asked), encoding="utf-8")
+    return plan
 
 
 def package_of(path: str) -> str:
@@ -212,25 +237,52 @@ class Project:
     def _note_file(self, file: str) -> None:
         self.texts[file] = (self.root / file).read_text(encoding="utf-8")
         kept = self.kept / (file.replace("/", ".") + ".json")
-        notes = json.loads(kept.read_text(encoding="utf-8")) if kept.is_file() else {"tests": {}}
-        if notes.get("stamp") != self._stamp(file, notes):
+        notes = json.loads(kept.read_text(encoding="utf-8")) if kept.is_file() else {}
+        if notes.get("modules", {}).get(file) != self._digest(file).hex():
             found = self.folder / "lines.json"
             found.unlink(missing_ok=True)
             answer = self.ask([[file, None]], 3600.0, found)
             tests = json.loads(found.read_text(encoding="utf-8")) if found.is_file() else {}
-            notes = {"outcome": answer["outcome"], "tests": tests}
-            kept.write_text(json.dumps({**notes, "stamp": self._stamp(file, notes)}), encoding="utf-8")
+            names = {file}.union(*(note["lines"] for note in tests.values()))
+            notes = {
+                "outcome": answer["outcome"],
+                "tests": tests,
+                "modules": {name: self._keep_text(name) for name in sorted(names)},
+            }
+            kept.write_text(json.dumps(notes), encoding="utf-8")
         for name, note in notes["tests"].items():
             if note["ok"]:
                 self.seconds[name] = note["seconds"]
                 for path, lines in note["lines"].items():
-                    for line in lines:
+                    following = self._following_lines(path, notes["modules"][path])
+                    for line in {now for before in lines for now in following.get(before, ())}:
                         self.tests_of[path, line].add(name)
 
-    def _stamp(self, file: str, notes: dict) -> str:
-        """Of a test file and the modules that it ran."""
-        names = {file}.union(*(note["lines"] for note in notes["tests"].values()))
-        return hashlib.sha256(b"".join(map(self._digest, sorted(names)))).hexdigest()
+    def _keep_text(self, name: str) -> str:
+        """Its digest, under which it is kept."""
+        digest = self._digest(name).hex()
+        kept = self.kept.parent / "texts" / digest
+        if digest and not kept.is_file():
+            kept.parent.mkdir(exist_ok=True)
+            shutil.copyfile(self.root / name, kept)
+        return digest
+
+    @cache  # noqa: B019 one project a process
+    def _following_lines(self, path: str, digest: str) -> dict[int, list[int]]:
+        """For each line of a module as it was those that have its tests now: itself, and new ones in or beside it."""
+        old_file, new_file = self.kept.parent / "texts" / digest, self.root / path
+        if not digest or not new_file.is_file():
+            return {}
+        old, new = (file.read_text(encoding="utf-8").splitlines() for file in (old_file, new_file))
+        following = defaultdict(list)
+        for kind, old_start, old_end, new_start, new_end in SequenceMatcher(None, old, new, False).get_opcodes():
+            if kind == "equal":
+                for offset in range(old_end - old_start):
+                    following[old_start + offset + 1].append(new_start + offset + 1)
+            else:
+                for line in range(old_start, old_end + 2):
+                    following[line] += range(new_start + 1, new_end + 1)
+        return dict(following)
 
     def _digest(self, name: str) -> bytes:
         path = self.root / name
@@ -291,14 +343,20 @@ class Project:
         files = {name.partition("::")[0] for name in names}
         # of what is cached, the lines run in the first of a file's tests alone
         others = {name for name in self.seconds if name.partition("::")[0] in files} - names
-        chosen, total = [], 0.0
         order = {name: (name in others, near not in name, self.seconds[name], name) for name in names | others}
-        for name in sorted(order, key=order.__getitem__):
-            total += self.seconds[name]
-            if total > MAX_SECONDS and chosen:
+        sorted_names = sorted(order, key=order.__getitem__)
+        return [*self._quick(name for name in sorted_names if CORPUS not in name)] + [
+            *self._quick(name for name in sorted_names if CORPUS in name and name in names)
+        ]
+
+    def _quick(self, names: Iterable[str]) -> Iterator[str]:
+        """The first ones, for as long as a mutant has; at least one."""
+        total = 0.0
+        for name in names:
+            if total and total + self.seconds[name] > MAX_SECONDS:
                 break
-            chosen.append(name)
-        return chosen
+            total += self.seconds[name]
+            yield name
 
 
 def _answer(process: subprocess.Popen, job: dict) -> dict:

@@ -22,6 +22,21 @@ bpy.ops.wm.save_as_mainfile(filepath=sys.argv[-1])
 """
 
 
+@pytest.hookimpl(wrapper=True)
+def pytest_collection_modifyitems(items):
+    """A file is one session of a person: of a test that is selected, those before it in its file run too."""
+    everything = list(items)
+    yield
+    selected = {item.path: item for item in items}  # the last one of each file
+    ahead, done = set(), set()
+    for item in everything:
+        if item.path.is_relative_to(ROOT / "tests" / "window") and item.path in selected and item.path not in done:
+            ahead.add(item)
+            done |= {item.path} if item is selected[item.path] else set()
+    kept = ahead.union(items)
+    items[:] = [item for item in everything if item in kept]
+
+
 @pytest.fixture(scope="session")
 def blender() -> str:
     """The command of a real Blender."""

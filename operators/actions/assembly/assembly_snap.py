@@ -15,7 +15,7 @@ from ....core.verdict.finding import EditRefusedError, Finding, MeasureError, fi
 from ....core.verdict.method import Verdict
 from ...bodies.assembly import Assembly
 from ...read.assembly import Root
-from ...read.quiet import paused
+from ...read.tracking import tracking_paused
 from ...scene.transforms import TransformChannels, require_editable, world
 from ...session import assembly as stored_assembly
 from ...write import properties, reports
@@ -82,11 +82,12 @@ class OBJECT_OT_body_moments_assembly_empty(_SnapToAssembly, Operator):
 
     def _place(self, context: Context, assembly: Assembly) -> list[Finding]:
         root, body = assembly.root.member.data, assembly.measurement.mass_properties
-        empty = next((obj for obj in context.scene.objects if obj.get(FRAME_OF) == root), None)
+        owner = context.scene if root == context.scene.collection else root  # which nothing else can point to
+        empty = next((obj for obj in context.scene.objects if obj.get(FRAME_OF) == owner), None)
         if empty is None:
             empty = bpy.data.objects.new("{:s} Principal Frame".format(root.name), None)
             empty.empty_display_type, empty.show_in_front, empty.rotation_mode = "ARROWS", True, "QUATERNION"
-            empty[FRAME_OF] = root
+            empty[FRAME_OF] = owner
             context.scene.collection.objects.link(empty)
         require_editable(empty)
         frame = np.eye(4)
@@ -130,7 +131,7 @@ def _move_parent(context: Context, empty: Object, center: NDArray) -> None:
     was = world(empty)
     size = float(np.abs([place[:3, 3] - center for place in places.values()]).max(initial=0.0))
     tolerance = 4e-6 * max(size, float(np.abs(center).max()), 1e-9)
-    with paused():
+    with tracking_paused():
         try:
             target = was.copy()
             target[:3, 3] = center

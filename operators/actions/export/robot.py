@@ -45,7 +45,7 @@ GEOMETRY = (
 
 
 class RobotExport(ExportHelper):
-    """What the exporters share. FORMAT: of `WRITERS`, or "gltf". WRITES_MESHES: whether beside the file."""
+    """What the exporters share. FORMAT: of `WRITERS`. WRITES_MESHES: whether beside the file."""
 
     FORMAT, WRITES_MESHES = "", True
     bl_options = {"REGISTER", "PRESET"}
@@ -260,7 +260,7 @@ def _file_handler(exporter: type[RobotExport], label: str) -> type[FileHandler]:
     return type(name, (FileHandler,), members)
 
 
-FILE_HANDLERS = tuple(_file_handler(exporter, label) for exporter, label in zip(EXPORTERS, LABELS, strict=True))
+FILE_HANDLERS = tuple(_file_handler(exporter, label) for exporter, label in zip(EXPORTERS, LABELS))
 
 
 class TOPBAR_MT_body_moments_export(Menu):
@@ -270,7 +270,7 @@ class TOPBAR_MT_body_moments_export(Menu):
     bl_label = "Mass Properties"
 
     def draw(self, _context: Context) -> None:
-        for exporter, label in zip(EXPORTERS, LABELS, strict=True):
+        for exporter, label in zip(EXPORTERS, LABELS):
             text = "{} ({})".format(label, exporter.filename_ext)
             self.layout.operator(exporter.bl_idname, text=text, translate=False)
         self.layout.separator()

@@ -5,7 +5,6 @@
 from __future__ import annotations
 
 from collections.abc import Generator
-from dataclasses import replace
 
 import bpy
 from bpy.props import EnumProperty
@@ -18,13 +17,11 @@ from ...bodies.measure_object import Measured
 from ...bodies.stack import Stacked
 from ...session import outcome, results
 from ...session.staleness import mark_up_to_date
-from ...settings.density import is_density_unset, unset_density
 from ...settings.preferences import MATERIAL_ITEMS, copy_defaults
 from ...write import reports
 from ...write.messages import of_severity
 from ..modal import MAX_OBJECTS_WITHOUT_REDRAW, ModalSteps, redraw
 
-DENSITY_KEPT = finding("density_default_kept")
 AS_SET = "AS_SET"
 
 
@@ -113,7 +110,7 @@ class OBJECT_OT_body_moments_measure(ModalSteps, bpy.types.Operator):
                 if isinstance(found, Exception):
                     self._refusals[obj] = internal_error.finding_of(found)
                 else:
-                    self._results.append((obj, _with_default_density(obj, found, depsgraph.scene)))
+                    self._results.append((obj, found))
             done += len(together)
             yield done
 
@@ -152,22 +149,6 @@ class OBJECT_OT_body_moments_measure(ModalSteps, bpy.types.Operator):
             done.append(finding("with_warnings", count=len(names), objects=names))
         outcome.remember(self.bl_label, [*self._failures, *warnings] if tried > 1 else self._failures[1:])
         reports.report(self, *done, *(reports.first(self._failures) if self._failures else ()))
-
-
-def _with_default_density(
-    obj: bpy.types.Object, measured: Measured | Stacked, scene: bpy.types.Scene
-) -> Measured | Stacked:
-    """With a note where nobody has set the density."""
-    if isinstance(measured, Stacked):
-        if measured.has_density and is_density_unset(obj.body_moments, scene):
-            measured.add_finding(DENSITY_KEPT)
-        return measured
-    unset = unset_density(obj, measured.measurement, scene)
-    if unset is None:
-        return measured
-    kept = DENSITY_KEPT if unset == "density" else finding("linear_density_default_kept")
-    findings = (*measured.measurement.findings, kept)
-    return replace(measured, measurement=replace(measured.measurement, findings=findings))
 
 
 CLASSES = (OBJECT_OT_body_moments_measure,)

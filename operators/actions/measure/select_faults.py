@@ -16,7 +16,7 @@ from ....core.measurement import Measurement
 from ....core.verdict.finding import EditRefusedError, finding
 from ....core.verdict.health import DefectiveElements
 from ...bodies.measure_object import measure_object
-from ...session import staleness
+from ...session import density, staleness
 from ...write import properties, reports
 from .. import selection
 
@@ -101,7 +101,7 @@ class OBJECT_OT_body_moments_select_faults(Operator):
 
         def store(obj: Object) -> bool:
             staleness.note_edits(obj)
-            properties.store(obj, measurements[obj])
+            properties.store(obj, density.noted(obj, measurements[obj], context.scene))
             wrong = {kind: found for kind, found in _defects_by_kind(measurements[obj]).items() if kind in self.kinds}
             if wrong:
                 faults[obj] = wrong

@@ -17,8 +17,8 @@ from mathutils import Matrix, Vector
 from ....core.numerics.float32 import shortest_decimal
 from ....core.verdict.finding import MeasureError, finding
 from ...bodies.rig import BonePart, Rig, measure_rig
-from ...read.quiet import paused
 from ...read.rig import require_armature
+from ...read.tracking import tracking_paused
 from ...write import reports
 from .. import selection
 from ..modal import redraw
@@ -45,7 +45,7 @@ class OBJECT_OT_body_moments_rig_center(Operator):
     def execute(self, context: Context) -> set[str]:
         try:
             rig = measure_rig(context, require_armature(context.object))
-            with paused():
+            with tracking_paused():
                 _add_center(context, rig)
         except MeasureError as error:
             selection.report(self, reports.refusal(error))

@@ -14,8 +14,8 @@ from ....core.mesh.surface import join_surfaces
 from ....core.numerics.float32 import shortest_decimal
 from ....core.verdict.finding import EditRefusedError, MeasureError, finding
 from ...bodies.rig import BonePart, Rig, measure_rig
-from ...read.quiet import paused
 from ...read.rig import require_armature
+from ...read.tracking import tracking_paused
 from ...write import reports
 from .. import selection
 from ..joints import add_joint
@@ -48,7 +48,7 @@ class OBJECT_OT_body_moments_physics_rig(Operator):
             light = [part.name for part in parts if part.mass.total < MIN_MASS]
             if light:
                 raise EditRefusedError("physics_rig_too_light", subject=rig.armature.name, names=light, limit=MIN_MASS)
-            with paused():
+            with tracking_paused():
                 bodies, joints = _create(context, rig, parts)
         except MeasureError as error:
             selection.report(self, reports.refusal(error))

@@ -24,7 +24,7 @@ from ....core.verdict.method import Verdict
 from ...bodies.many import measured_in_turn
 from ...bodies.measure_object import Measured as MeasuredBody
 from ...bodies.stack import Stacked
-from ...read.quiet import paused
+from ...read.tracking import tracking_paused
 from ...scene import reframe
 from ...scene.transforms import require_storable_data, world
 from ...session import assembly, results, staleness
@@ -150,7 +150,7 @@ class OBJECT_OT_body_moments_rigid_bodies(Operator):
         _, failures = selection.apply_to_all(list(by_obj), measure)
         context.view_layer.update()
         with assembly.kept_up_to_date(context):
-            with paused():  # Blender reports a rigid body as a change of the shape
+            with tracking_paused():  # Blender reports a rigid body as a change of the shape
                 failures += self._place(context, measured)
                 new, refused = self._add(context, measured)
                 failures += refused

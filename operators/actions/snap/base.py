@@ -28,7 +28,7 @@ from ....core.verdict.method import Verdict
 from ...bodies.many import measure_many, measured_in_turn
 from ...bodies.measure_object import Measured, measure_body
 from ...bodies.stack import Stacked
-from ...read.quiet import paused
+from ...read.tracking import tracking_paused
 from ...scene import reframe
 from ...session import assembly, results, staleness
 from ...settings.options import MeasureOptions
@@ -198,7 +198,7 @@ def reframe_objects(
     plans, failures = plans_of(objects)
     known: dict[Object, Measured | Stacked] = {}
     with assembly.kept_up_to_date(context):
-        with paused(), progress(len(plans)) as step:
+        with tracking_paused(), progress(len(plans)) as step:
             changed, refused = reframe.reframe(context, plans, step)
             failures += [reports.failure(obj.name_full, refusal) for obj, refusal in refused]
             if not move_only:  # without its scale Blender cuts what is not flat into other triangles: another body

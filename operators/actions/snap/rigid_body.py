@@ -14,7 +14,7 @@ from bpy.types import Context, Event, Object, Operator
 
 from ....core.numerics.float32 import shortest_decimal
 from ....core.verdict.finding import EditRefusedError, Finding, finding
-from ...read.quiet import paused
+from ...read.tracking import tracking_paused
 from ...scene import reframe
 from ...scene.transforms import require_storable_data, world
 from ...write import reports
@@ -88,7 +88,7 @@ class OBJECT_OT_body_moments_set_rigid_body_mass(ModalSteps, Operator):
 
     def _finish(self, context: Context) -> set[str]:
         bodies, failures = self._bodies, self._failures
-        with paused():  # Blender reports a rigid body as a change of the shape
+        with tracking_paused():  # Blender reports a rigid body as a change of the shape
             new = [body.obj for body in bodies if body.obj.rigid_body is None]
             failures += _add_rigid_bodies(context, new)
             changed = {obj for obj in new if obj.rigid_body is not None}

@@ -29,7 +29,7 @@ from ....core.verdict.finding import EditRefusedError, Finding, MeasureError, fi
 from ....core.verdict.method import Method, Verdict
 from ...bodies.measure_object import measure_object
 from ...read import Part, read_object
-from ...read.quiet import paused
+from ...read.tracking import tracking_paused
 from ...scene.transforms import FLOAT32
 from ...write import reports
 from .. import selection
@@ -126,7 +126,7 @@ class OBJECT_OT_body_moments_sculpt_balance(Operator):
         )
         try:
             mesh = _EditedMesh(obj) if obj.mode == "EDIT" else _GroupedMesh(obj, self.group)
-            with paused():  # what is tried and restored is not an edit
+            with tracking_paused():  # what is tried and restored is not an edit
                 findings = _balance_mesh(context, obj, mesh, balance_target, unit)
             obj.data.update_tag()  # for others that show the mesh it is one
         except MeasureError as error:

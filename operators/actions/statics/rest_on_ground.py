@@ -96,8 +96,8 @@ class OBJECT_OT_body_moments_rest_on_ground(Operator):
         measured: list[Object] = []
         findings.extend(check_stability(context, obj, measured))
         staleness.mark_up_to_date(context, measured)
-        poses = stability.poses(obj, context.scene)
-        if poses is None:
+        poses, body = stability.poses(obj, context.scene), shown_body(obj, context.scene)
+        if poses is None or body is None:  # its stored numbers are damaged
             raise EditRefusedError("no_stable_pose")
         if isinstance(poses, Finding):
             raise EditRefusedError(poses.code, **poses.values)
@@ -106,9 +106,6 @@ class OBJECT_OT_body_moments_rest_on_ground(Operator):
         normals = poses.normals @ rotation.T
         place = (self.pose - 1) % len(normals) if self.pose else int((normals @ down).argmax())
         turn = shortest_turn(normals[place], down)
-        body = shown_body(obj, context.scene)
-        if body is None:
-            raise EditRefusedError("no_stable_pose")
         size = float(body.gyration.max())
         target = world(obj)
         target[:3, :3] = turn @ target[:3, :3]

@@ -12,6 +12,7 @@ from ....core.verdict.method import Verdict
 from ...bodies.hull import MAX_CORNERS
 from ...bodies.measure_object import measure_body
 from ...session import results, stability, staleness
+from ...write import properties
 from .. import selection
 from ..modal import redraw
 
@@ -55,7 +56,7 @@ def check_stability(context: Context, obj: Object, measured: list[Object]) -> li
     """Remember the hull of an object, and measure it where its numbers are out of date; it is then added to
     `measured`. Returns what is to be said about it. MeasureError where it has no certain center or no surface."""
     depsgraph = context.evaluated_depsgraph_get()
-    if "body_mass" not in obj or staleness.stale_reason(obj, context.scene):
+    if properties.numbers(obj) is None or staleness.stale_reason(obj, context.scene):
         result = measure_body(obj, depsgraph)
         if result.measurement.method.verdict == Verdict.OPEN:
             raise EditRefusedError("open_object")

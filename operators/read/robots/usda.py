@@ -8,7 +8,7 @@ What this reads is one layer: prims, their metadata and attributes. Layers that 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -187,7 +187,7 @@ def _description(text: str, data: bytes) -> Description:
     scales = {"length": _scale(metadata, "metersPerUnit", 0.01), "mass": _scale(metadata, "kilogramsPerUnit", 1.0)}
     links: list[StatedLink] = []
     for root in roots:
-        _visit(root, np.eye(4), root.name, scales["length"], links, text)
+        _visit(root, np.eye(4), root.name, scales, links, text)
     return Description(roots[0].name if roots else "", "usd", tuple(links), data, scales)
 
 
@@ -196,19 +196,22 @@ def _scale(metadata: str, name: str, default: float) -> float:
     return float(match[1]) if match else default
 
 
-def _visit(prim: Prim, above: NDArray, path: str, unit: float, links: list[StatedLink], text: str) -> None:
-    matrix = above @ _matrix(prim)
+def _visit(
+    prim: Prim, above: NDArray, path: str, scales: Mapping[str, float], links: list[StatedLink], text: str
+) -> None:
+    matrix = _placed(prim, above)
     if "PhysicsRigidBodyAPI" in prim.metadata or "PhysicsMassAPI" in prim.metadata:
-        links.append(_link(prim, matrix, path, unit, text))
+        links.append(_link(prim, matrix, path, scales, text))
     for child in prim.children:
-        _visit(child, matrix, path + "/" + child.name, unit, links, text)
+        _visit(child, matrix, path + "/" + child.name, scales, links, text)
 
 
-def _matrix(prim: Prim) -> NDArray[np.float64]:
-    """(4, 4) of what its operations do, column vectors."""
-    order = re.findall(r'"(!?[\w:]+!?[\w:]*)"', prim.values.get("xformOpOrder", ""))
-    matrix = np.eye(4)
-    for name in order:
+def _placed(prim: Prim, above: NDArray) -> NDArray[np.float64]:
+    """(4, 4) of what its operations and those above it do, column vectors."""
+    matrix = above
+    for inverse, name in re.findall(r'"(!\w+!)?([\w:]*)"', prim.values.get("xformOpOrder", "")):
+        if inverse == "!resetXformStack!":
+            matrix = np.eye(4)
         values = prim.numbers(name)
         if values is None:
             continue
@@ -227,11 +230,11 @@ def _matrix(prim: Prim) -> NDArray[np.float64]:
                 turn[i, i] = turn[j, j] = np.cos(angle)
                 turn[i, j], turn[j, i] = -np.sin(angle), np.sin(angle)
                 step = turn @ step
-        matrix = matrix @ step
-    return matrix
+        matrix = matrix @ (np.linalg.inv(step) if inverse else step)
+    return np.asarray(matrix, np.float64)
 
 
-def _link(prim: Prim, matrix: NDArray, path: str, unit: float, text: str) -> StatedLink:
+def _link(prim: Prim, matrix: NDArray, path: str, scales: Mapping[str, float], text: str) -> StatedLink:
     """A body in the axes of its prim, in meters; its own scale is a part of its shapes and its center."""
     findings: list[Finding] = []
     turn = polar_rotation(matrix[None])[0][0]
@@ -242,16 +245,16 @@ def _link(prim: Prim, matrix: NDArray, path: str, unit: float, text: str) -> Sta
     to_link[:3, :3], to_link[:3, 3] = turn.T, -turn.T @ frame.position
     inertial = None
     try:
-        inertial = _inertial(prim, to_link @ matrix, unit)
+        inertial = _inertial(prim, to_link @ matrix, scales)
     except ValueError as error:
         findings.append(finding("description_number", text=str(error)))
     shapes: list[StatedShape] = []
-    _collect(prim, to_link @ matrix, unit, shapes)
+    _collect(prim, matrix, to_link, scales["length"], shapes)
     span = len(text[: prim.start].encode()), len(text[: prim.end].encode())
     return StatedLink(path, inertial, tuple(shapes), span, False, tuple(findings), to_link @ matrix)
 
 
-def _inertial(prim: Prim, local: NDArray, unit: float) -> StatedInertial | None:
+def _inertial(prim: Prim, local: NDArray, scales: Mapping[str, float]) -> StatedInertial | None:
     mass = prim.vector("physics:mass", (0.0,))
     diagonal = prim.vector("physics:diagonalInertia", (0.0, 0.0, 0.0))
     if not mass[0] or not diagonal.any():
@@ -259,19 +262,20 @@ def _inertial(prim: Prim, local: NDArray, unit: float) -> StatedInertial | None:
     center = prim.vector("physics:centerOfMass", (0.0, 0.0, 0.0))
     axes = prim.vector("physics:principalAxes", (1.0, 0.0, 0.0, 0.0))
     axes = axes if axes.any() else np.array([1.0, 0.0, 0.0, 0.0])
+    unit, kilograms = scales["length"], scales["mass"]
     placed = (local[:3, :3] @ center + local[:3, 3]) * unit
-    tensor = np.diag(diagonal) * unit**2
-    return StatedInertial(float(mass[0]), placed, tensor, rotation_matrix(axes), None, tuple(axes.tolist()))
+    tensor = np.diag(diagonal) * unit**2 * kilograms
+    return StatedInertial(float(mass[0]) * kilograms, placed, tensor, rotation_matrix(axes), None, tuple(axes.tolist()))
 
 
-def _collect(prim: Prim, matrix: NDArray, unit: float, shapes: list[StatedShape]) -> None:
-    """The geometry of a body: what is below it, up to the next body."""
-    shape = _shape(prim, matrix, unit)
+def _collect(prim: Prim, matrix: NDArray, to_link: NDArray, unit: float, shapes: list[StatedShape]) -> None:
+    """The geometry of a body: what is below it, up to the next body. matrix: the prim's in the world."""
+    shape = _shape(prim, to_link @ matrix, unit)
     if shape is not None:
         shapes.append(shape)
     for child in prim.children:
         if "PhysicsRigidBodyAPI" not in child.metadata:
-            _collect(child, matrix @ _matrix(child), unit, shapes)
+            _collect(child, _placed(child, matrix), to_link, unit, shapes)
 
 
 def _shape(prim: Prim, matrix: NDArray, unit: float) -> StatedShape | None:

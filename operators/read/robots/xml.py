@@ -81,8 +81,10 @@ class _Builder:
         self.open.append(node)
 
     def _end(self, _tag: str) -> None:
-        node = self.open.pop()
-        node.end = _end_of_tag(self.data, self.parser.CurrentByteIndex)
+        node, end = self.open.pop(), self.parser.CurrentByteIndex
+        # of <a/> that is behind it, of others at </a>
+        is_empty = self.data[end - 2 : end] == b"/>" and end == _end_of_tag(self.data, node.start)
+        node.end = end if is_empty else _end_of_tag(self.data, end)
 
     def _text(self, text: str) -> None:
         if self.open:

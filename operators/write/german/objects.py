@@ -74,7 +74,7 @@ MESSAGES = {
     "non_finite_transform": (
         "Die Transformation ist nicht endlich. Position, Rotation und Skalierung zurücksetzen, auch die der Eltern.",
     ),
-    "not_rendered": ("Nicht gerendert. --all verwenden, um es zu messen.",),
+    "not_rendered": ("Nicht gerendert. Das Kamerasymbol im Outliner einschalten oder --all verwenden.",),
     "boolean_operand": ("Nur ein Operand von Boolean-Modifikatoren. --all verwenden, um es zu messen.",),
     "edit_mode_modifiers": ("Im Bearbeitungsmodus mit den Modifikatoren gelesen: {modifiers}.",),
     "edit_mode_shape_keys": ("Im Bearbeitungsmodus mit Formschlüsseln gelesen.",),

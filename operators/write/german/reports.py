@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""German messages about reports, panels, stability and robots."""
+"""German messages about reports, panels and stability."""
 
 # Codes of messages → German, and for several where the English has such a text
 MESSAGES = {
@@ -226,67 +226,6 @@ MESSAGES = {
     "balance_group_inside": ("Er liegt bei {count} von {total} Bildern über dem Standpolygon",),
     "panel_stability_unknown": ("Die Standfestigkeit wurde nicht berechnet.",),
     "panel_stability_stale": ("Die Geometrie hat sich geändert. Prüfen Sie noch einmal.",),
-    "robot_links_left_out": (
-        "{count} Objekt ohne Masse ist kein Glied: {links}.",
-        "{count} Objekte ohne Masse sind keine Glieder: {links}.",
-    ),
-    "robot_without_links": ("Es gibt kein Glied. Objekte mit Masse messen.",),
-    "robot_without_bones": ("Es gibt kein Glied. Eine Armatur mit dem, was sie bewegt, auswählen.",),
-    "robot_base_added": (
-        "{count} Objekte haben kein Elternobjekt. Sie sind an einem zusätzlichen Glied ohne Masse fest, {name}. Sie "
-        "an eines davon hängen, um das zu vermeiden.",
-    ),
-    "robot_ellipsoid_as_box": (
-        "URDF hat kein Ellipsoid. An seiner Stelle steht der Quader von gleicher Masse und Trägheit: {links}.",
-    ),
-    "urdf_effort_unknown": (
-        "Kraft und Geschwindigkeit des Gelenks auf die seines Motors setzen. Es sind Platzhalter: {joints}.",
-        "Kraft und Geschwindigkeit von {count} Gelenken auf die ihrer Motoren setzen. Es sind Platzhalter: {joints}.",
-    ),
-    "sdf_limits_lost": (
-        "SDF kennt keine Grenzen eines Gelenks um mehrere Achsen. Es bewegt sich frei: {joints}.",
-        "SDF kennt keine Grenzen von Gelenken um mehrere Achsen. {count} bewegen sich frei: {joints}.",
-    ),
-    "left_out_of_robot": ("{count} von {total} Objekten sind keine Glieder: {causes}",),
-    "robot_exported": ("{count} Glied nach {file} exportiert.", "{count} Glieder nach {file} exportiert."),
-    "robot_scaled": (
-        "Leser sind sich über skalierte Körper uneins. Die Skalierung von {links} anwenden (Objekt > Anwenden > "
-        "Skalierung).",
-    ),
-    "robot_sheared": (
-        "Körper dürfen nicht geschert sein. Die Skalierung der Eltern von {links} anwenden (Objekt > Anwenden > "
-        "Skalierung).",
-    ),
-    "robot_names_alike": ("Blender gibt {names} in USD einen Namen. Eines umbenennen.",),
-    "gltf_node_missing": (
-        "{count} Glied hat in der Datei keinen eigenen Knoten: {links}.",
-        "{count} Glieder haben in der Datei keine eigenen Knoten: {links}.",
-    ),
-    "gltf_unit_scale": (
-        "Blender schreibt seine Einheiten als Meter nach glTF. Mittelpunkt und Trägheit stehen darin, mit {scale:g} "
-        "m je Einheit.",
-    ),
-    "gltf_unreadable": ("Blenders Exporter hat keine glTF-Datei geschrieben.",),
-    "robot_geometry_not_written": ("Blenders Exporter ist gescheitert: {error}.",),
-    "robot_not_written": ("Die Datei lässt sich nicht schreiben: {error}.",),
-    "robot_copied": ("Inertial von {count} Glied kopiert.", "Inertials von {count} Gliedern kopiert."),
-    "primitives_added": ("{count} Form hinzugefügt", "{count} Formen hinzugefügt"),
-    "primitive_has_parent": (
-        "Es hat ein Elternobjekt oder ist verknüpft. Das Elternobjekt lösen, um es zu simulieren.",
-    ),
-    "robot_meshes_written": ("{count} Netz nach {folder} geschrieben.", "{count} Netze nach {folder} geschrieben."),
-    "mjcf_inertia_too_small": (
-        "MuJoCo weist einen bewegten Körper mit einer Masse oder einem Hauptmoment unter {limit:g} kg oder kg·m² "
-        "zurück: {links}, mit {least:.3g}. boundmass und boundinertia des Compilers setzen, ihn an seinem "
-        "Elternobjekt festmachen oder in größeren Einheiten modellieren.",
-        "MuJoCo weist bewegte Körper mit einer Masse oder einem Hauptmoment unter {limit:g} kg oder kg·m² zurück: "
-        "{count} davon, {links}, bis hinab zu {least:.3g}. boundmass und boundinertia des Compilers setzen, sie an "
-        "ihren Elternobjekten festmachen oder in größeren Einheiten modellieren.",
-    ),
-    "usd_inertia_too_small": (
-        "Die Trägheit von {links} ist zu klein für die einfache Genauigkeit von PhysicsMassAPI. newton:inertia "
-        "lesen oder eine Stage in kleineren Einheiten verwenden.",
-    ),
     "defect_boundary_edges": ("{count} Randkante", "{count} Randkanten"),
     "defect_non_manifold_edges": (
         "{count} Kante mit mehr als zwei Flächen",

@@ -14,6 +14,7 @@ from ..messages import sentence
 from . import gltf_robot, mjcf, sdf, urdf, usd
 
 WRITERS: dict[str, ModuleType] = {"urdf": urdf, "sdf": sdf, "mjcf": mjcf, "usd": usd, "gltf": gltf_robot}
+OF_INERTIALS = {"mjcf_inertia_too_small", "usd_inertia_too_small"}  # all else is said of geometry and joints
 EMBEDDING = ("usd", "gltf")  # what holds meshes itself; the others name files of them
 
 
@@ -31,7 +32,8 @@ def robot_text(
     surface by its name, for formats that hold meshes themselves; without it they have none.
     """
     writer = WRITERS[format_name]
-    findings = [*findings, *writer.check(robot)]
+    said = [one for one in writer.check(robot) if one.code in OF_INERTIALS or not inertial_only]
+    findings = [*findings, *said]
     options = {"surface_of": surface_of} if format_name in EMBEDDING else {}
     text = writer.write(robot, list(map(sentence, findings)), inertial_only=inertial_only, **options)
     return text, findings

@@ -38,7 +38,7 @@ def repaired_copy(description: Description, repairs: Sequence[tuple[StatedLink, 
     places = [(link.span, link, inertial) for link, inertial in repairs if link.span is not None]
     for (start, end), link, inertial in sorted(places, key=lambda place: place[0], reverse=True):
         old = data[start:end]
-        new = _FORMATS[description.format](link, inertial, description, old.decode("utf-8", "surrogateescape"))
+        new = _INERTIAL_WRITERS[description.format](link, inertial, description, old.decode("utf-8", "surrogateescape"))
         before = data[:start].rpartition(b"\n")[2]
         indent = before if not before.strip() else b""
         if description.format != "usd":
@@ -73,18 +73,22 @@ def _sdf(_link: StatedLink, inertial: StatedInertial, _description: Description,
 
 
 def _mjcf(_link: StatedLink, inertial: StatedInertial, _description: Description, _old: str) -> str:
-    pair = principal_pair(inertial)
+    principal = with_principal_axes(inertial)
     return '<inertial pos="{}" quat="{}" mass="{}" diaginertia="{}"/>'.format(
-        numbers(inertial.center), numbers(quaternion(pair.axes)), number(inertial.mass), numbers(pair.moments)
+        numbers(principal.center),
+        numbers(quaternion(principal.axes)),
+        number(principal.mass),
+        numbers(principal.moments),
     )
 
 
 def _usd(link: StatedLink, inertial: StatedInertial, description: Description, old: str) -> str:
     """The attributes in the place of the old ones, before anything below."""
-    unit, local = description.scales["length"], np.eye(4) if link.local is None else link.local
-    pair = principal_pair(inertial)
-    center = np.linalg.solve(local[:3, :3], inertial.center / unit - local[:3, 3])
-    placed = Inertial(pair.mass, np.asarray(center * unit, np.float64), pair.inertia, pair.moments, pair.axes)
+    unit, mass = description.scales["length"], description.scales["mass"]
+    local = np.eye(4) if link.local is None else link.local
+    principal = with_principal_axes(inertial)
+    center = np.asarray(np.linalg.solve(local[:3, :3], inertial.center / unit - local[:3, 3]) * unit, np.float64)
+    placed = Inertial(principal.mass / mass, center, principal.inertia / mass, principal.moments / mass, principal.axes)
     below = re.search(r"\n[ \t]*(?:def|over|class)\b", old)
     split = below.start() if below else len(old)
     own, rest = old[:split], old[split:]
@@ -94,7 +98,7 @@ def _usd(link: StatedLink, inertial: StatedInertial, description: Description, o
     return lines + _USD_ATTRIBUTE.sub("", own) + rest
 
 
-def principal_pair(inertial: StatedInertial) -> Inertial:
+def with_principal_axes(inertial: StatedInertial) -> Inertial:
     """Return an inertial with its principal moments and axes, none of them above the sum of the others."""
     tensor = (inertial.inertia + inertial.inertia.T) / 2.0
     moments, axes = np.linalg.eigh(tensor)
@@ -103,4 +107,4 @@ def principal_pair(inertial: StatedInertial) -> Inertial:
     return Inertial(inertial.mass, inertial.center, tensor, moments, axes)
 
 
-_FORMATS = {"urdf": _urdf, "sdf": _sdf, "mjcf": _mjcf, "usd": _usd}
+_INERTIAL_WRITERS = {"urdf": _urdf, "sdf": _sdf, "mjcf": _mjcf, "usd": _usd}

@@ -13,7 +13,7 @@ from body_moments.core.mesh.surface import Surface
 from body_moments.core.numerics.rotations import rotation_matrix
 from body_moments.core.robots.model import Inertial, Link, Pose, Robot, Shape
 from body_moments.core.verdict.finding import FileError, Severity
-from body_moments.operators.bodies.audit import Auditor
+from body_moments.operators.bodies.audit import Auditor, _primitive
 from body_moments.operators.read.robots.descriptions import read_description
 from body_moments.operators.read.robots.paths import Roots
 from body_moments.operators.write.messages import severity
@@ -411,3 +411,42 @@ def test_published_descriptions_are_judged_as_by_hand(tmp_path):
     assert note.code == "audit_not_uniform" and near(note.values["factor"], 5 / 3, 1e-3) and ball.repaired is None
     for found in (base, rod):
         assert [one.code for one in found.findings][0] == "inertial_spread_outside" and found.repaired is not None
+
+
+@pytest.mark.parametrize(
+    "kind, size",
+    [("box", (1, 2, 3)), ("sphere", (2,)), ("ellipsoid", (1, 2, 3)), ("cylinder", (2, 3)), ("capsule", (2, 3))],
+)
+def test_primitives_have_the_moments_of_their_slices_and_hulls_that_just_hold_them(kind, size):
+    """Slices across z are ellipses or rectangles, whose moments Gauss' rule adds up exactly; directions all around."""
+    if kind in ("cylinder", "capsule"):
+        (radius, length), cap = size, size[0] if kind == "capsule" else 0.0
+        pieces, across = (
+            [(-length / 2 - cap, -length / 2), (-length / 2, length / 2), (length / 2, length / 2 + cap)],
+            None,
+        )
+        square = lambda z: radius**2 - np.maximum(np.abs(z) - length / 2, 0.0) ** 2  # noqa: E731
+    else:
+        axes = np.array(size * 3 if kind == "sphere" else size, float) / (2.0 if kind == "box" else 1.0)
+        pieces, across = [(-axes[2], axes[2])], axes[:2]
+        square = lambda z: 1.0 if kind == "box" else 1.0 - (z / axes[2]) ** 2  # noqa: E731
+    total = np.zeros(4)
+    for low, high in pieces:
+        nodes, weights = np.polynomial.legendre.leggauss(8)
+        for node, weight in zip((low + high) / 2 + nodes * (high - low) / 2, weights * (high - low) / 2):
+            a, b = np.sqrt(square(node)) * (np.ones(2) if across is None else across)
+            area, share = (4 * a * b, 1 / 3) if kind == "box" else (math.pi * a * b, 1 / 4)
+            total += weight * area * np.array([1.0, share * a * a, share * b * b, node**2])
+    piece = _primitive(Shape(kind, tuple(map(float, size))))
+    assert near([piece.moments.raw[0], *(piece.moments[2 * np.eye(3, dtype=int)[k]] for k in range(3))], total, 1e-12)
+    assert near(piece.moments.raw[1:4], 0.0) and not piece.moments.about.any()
+    directions = np.random.default_rng(1).normal(size=(500, 3))
+    directions /= np.linalg.norm(directions, axis=1)[:, None]
+    if kind in ("cylinder", "capsule"):
+        flat = np.hypot(*directions[:, :2].T)
+        reach = length / 2 * np.abs(directions[:, 2]) + radius * (1.0 if kind == "capsule" else flat)
+    else:
+        scaled = directions * axes
+        reach = np.abs(scaled).sum(axis=1) if kind == "box" else np.linalg.norm(scaled, axis=1)
+    share = (piece.points @ directions.T).max(axis=0) / reach
+    assert share.min() >= 1.0 - 1e-12 and share.max() <= (1.0 + 1e-12 if kind == "box" else 1.0101)

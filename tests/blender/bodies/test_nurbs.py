@@ -8,10 +8,11 @@ import body_moments
 import bpy
 import numpy as np
 import pytest
+from body_moments.core.moments.monomials import monomials
 from body_moments.core.nurbs.blender_knots import blender_space, display_parameters, display_table
 from body_moments.core.nurbs.patch import Patch
 from body_moments.core.verdict.method import Method, Source, Verdict
-from body_moments.operators.bodies.measure_object import measure_object
+from body_moments.operators.bodies.measure_object import measure_body, measure_object
 from body_moments.operators.session import handlers, live
 from body_moments.operators.settings.options import MeasureOptions
 from body_moments.operators.write.record import record
@@ -199,6 +200,34 @@ def test_moments_of_higher_order_are_exact_too():
     sixth = found.volume_moments.about_point(np.zeros(3))[6, 0, 0]
     assert sixth == pytest.approx(4.0 * np.pi / 63.0, rel=2e-6)
     assert found.area_moments.about_point(np.zeros(3))[0, 4, 0] == pytest.approx(4.0 * np.pi / 5.0, rel=2e-6)
+
+
+@pytest.mark.parametrize("order", [3, 5])
+@pytest.mark.parametrize("kind", ["SOLID", "SHELL"])
+@pytest.mark.parametrize("scale", [(1, 1, 1), (2, -2, 2), (1, 2, 3), (-1, 0.5, 4)])
+def test_what_float32_may_have_moved_bounds_moments_of_any_order_under_any_scale(order, kind, scale):
+    """A body grown by a thousandth changes by what control points that are moved as far would change at most."""
+    obj = primitive("sphere")
+    obj.body_moments.kind, obj.scale = kind, scale
+    growth = 1.001
+
+    def moments(by):
+        obj.scale = by * np.array(scale)
+        bpy.context.view_layer.update()
+        body = measure_body(obj, bpy.context.evaluated_depsgraph_get())
+        volume, area = body.body.moments(order, True)
+        (part,) = body.reading.parts
+        farthest = max(np.linalg.norm(patch.points, axis=2).max() for patch in part.splines.patches)
+        return [area] if kind == "SHELL" else [volume, area], (growth - 1.0) * farthest / part.splines.stored
+
+    (before, moved), (after, _) = moments(1.0), moments(growth)
+    for was, now in zip(before, after):
+        degree = monomials(order).sum(axis=1)
+        change = np.abs(now.about_point(was.about).raw - was.raw)
+        allowed = moved * was.input_error * growth ** (degree + 3)
+        noise = 1e-9 * np.abs(was.total) * np.max(np.abs(scale)) ** degree
+        assert (change <= allowed + noise).all()
+        assert change[0] >= 0.02 * allowed[0]
 
 
 def test_shape_keys_move_the_surface():
@@ -525,3 +554,51 @@ def test_a_hook_under_a_flattened_object_leaves_the_display_mesh():
     modifier.object = add(None, "Target", select=False)
     modifier.vertex_indices_set(list(range(8)))
     assert str(measured(obj).method) == "shell"
+
+
+def test_patches_and_polygons_in_one_object_are_the_sum_of_both():
+    """A ball of patches and a box of polygons, twice: turned, and flattened to nothing; solid, sheet and any order."""
+    ball = primitive("sphere")
+    bpy.ops.mesh.primitive_cube_add(size=2.0, location=(6, 0, 0))
+    box = bpy.context.object
+    parts = bpy.data.collections.new("Parts")
+    for obj in (ball, box):
+        parts.objects.link(obj)
+        bpy.context.scene.collection.objects.unlink(obj)
+    empty = bpy.data.objects.new("Both", None)
+    empty.instance_type, empty.instance_collection = "COLLECTION", parts
+    bpy.context.scene.collection.objects.link(empty)
+    empty.rotation_euler, empty.location, empty.scale = (0.3, 0.4, 0.5), (1, 2, 3), (2, 2, 2)
+    bpy.context.view_layer.update()
+    depsgraph = bpy.context.evaluated_depsgraph_get()
+    solid = measure_object(empty, depsgraph, MeasureOptions(order=6, surface=True, density=1.0))
+    volume, area = 8.0 * (BALL + 8.0), 4.0 * (4.0 * np.pi + 24.0)
+    assert close(solid.volume, volume, 1e-6) and close(solid.area, area, 1e-6)
+    assert solid.method.source == Source.POLYGONS and solid.health.components == 2
+    matrix = np.array(empty.matrix_world, float)
+    center = matrix[:3, :3] @ (np.array([6.0, 0, 0]) * 8.0 / (BALL + 8.0)) + matrix[:3, 3]
+    assert np.abs(solid.mass_properties.center - center).max() < 1e-5
+    moments, surfaces = solid.volume_moments.about_point(matrix[:3, 3]), solid.area_moments.about_point(matrix[:3, 3])
+    axis = matrix[:3, 0] / 2.0  # along which the box lies: ∫ t^n dV of both
+    for n in (1, 4, 6):
+        of_ball = 2.0 * np.pi * (1 / (n + 1) - 1 / (n + 3)) if n % 2 == 0 else 0.0
+        of_box = 4.0 * (7.0 ** (n + 1) - 5.0 ** (n + 1)) / (n + 1)
+        powers = [(i, j, n - i - j) for i in range(n + 1) for j in range(n + 1 - i)]
+        count = [np.prod(np.arange(1, n + 1)) / np.prod([np.prod(np.arange(1, k + 1)) for k in p]) for p in powers]
+        along = sum(c * moments[p] * np.prod(axis**p) for c, p in zip(count, powers))
+        assert close(along, 2.0 ** (n + 3) * (of_ball + of_box), 1e-5)
+        of_ball = 4.0 * np.pi / (n + 1) if n % 2 == 0 else 0.0
+        of_box = 16.0 * (7.0 ** (n + 1) - 5.0 ** (n + 1)) / (2 * (n + 1)) + 4.0 * (7.0**n + 5.0**n)
+        along = sum(c * surfaces[p] * np.prod(axis**p) for c, p in zip(count, powers))
+        assert close(along, 2.0 ** (n + 2) * (of_ball + of_box), 1e-5)
+    sheet = MeasureOptions(kind="shell", thickness=0.01, density=1.0, order=4)
+    thin = measure_object(empty, depsgraph, sheet)
+    assert close(thin.area, area, 1e-6) and close(thin.volume, 0.01 * area, 1e-6)
+    assert np.abs(thin.area_moments.raw - solid.area_moments.about_point(thin.area_moments.about).raw[:35]).max() < 1e-4
+    for wall in ("inward", "outward", "centered"):
+        with refused("wall_of_mixed_surfaces", "Both"):
+            measure_object(empty, depsgraph, MeasureOptions(kind="shell", wall=wall, thickness=0.01))
+    empty.scale = (1, 1, 0)
+    bpy.context.view_layer.update()
+    with refused("zero_scale", "Both"):
+        measured(empty)

@@ -99,23 +99,15 @@ def test_an_override_is_given_nothing_that_its_file_would_lose(overridden, opera
 
 
 def test_the_panel_says_that_settings_of_an_override_are_not_kept(overridden):
-    from tests.blender.panels.test_panel import drawn, labels
+    from tests.blender.panels.drawing import labels, shown
 
-    assert str(finding("panel_override")) in " ".join(labels(drawn()))
+    assert str(finding("panel_override")) in " ".join(labels(shown()))
 
 
 def test_the_density_of_a_linked_material_cannot_be_set_by_its_local_namesake(tmp_path):
     from body_moments.panels.material_menus import density_row
 
-    from tests.blender.panels.test_panel import Layout
-
-    class Row(Layout):
-        rows = []
-
-        def row(self, **_options):
-            made = Row(self.record, self.closed)
-            Row.rows.append(made)
-            return made
+    from tests.blender.panels.drawing import Layout
 
     bpy.data.materials.new("Stahl").use_fake_user = True
     bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "a.blend"))
@@ -124,6 +116,6 @@ def test_the_density_of_a_linked_material_cannot_be_set_by_its_local_namesake(tm
     with bpy.data.libraries.load(str(tmp_path / "a.blend"), link=True) as (_, names):
         names.materials = ["Stahl"]
     for material, enabled in ((local, True), (names.materials[0], False)):
-        Row.rows.clear()
-        density_row(Row(), bpy.context.scene, material)
-        assert Row.rows[0].enabled is enabled
+        layout = Layout()
+        density_row(layout, bpy.context.scene, material)
+        assert ".enabled = {!r}".format(enabled) in layout.text()

@@ -11,7 +11,7 @@ pytest.importorskip("bpy")
 import body_moments
 import bpy
 from body_moments.core.verdict.finding import finding
-from body_moments.operators.read.quiet import paused
+from body_moments.operators.read.tracking import tracking_paused
 from body_moments.operators.session import handlers, live, results, staleness, walls
 from body_moments.operators.session import moments as moments_table
 from body_moments.operators.session import updates as ledger
@@ -168,7 +168,7 @@ def test_what_was_updated_is_passed_on_once_and_as_original_data(monkeypatch):
     assert collection.session_uid in seen[-1].collections
     monkeypatch.setattr(handlers, "on_update", [ledger._note_updates, quiet.append])
     changes = ledger.last_change_of_geometry(shaped)
-    with paused():
+    with tracking_paused():
         shaped.data.update()
         bpy.context.view_layer.update()
     assert ledger.last_change_of_geometry(shaped) == changes and quiet[-1].reshaped == [shaped.session_uid]

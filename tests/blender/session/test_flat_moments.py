@@ -13,7 +13,7 @@ from body_moments.core.verdict.finding import MeasureError, finding
 
 from tests.blender.flat_objects import sheet, text
 from tests.blender.objects import add, mesh_body, only
-from tests.blender.panels.test_panel import labels
+from tests.blender.panels.drawing import labels
 from tests.blender.session.test_moments import compute, drawn, settings
 from tests.close import close
 

@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Live numbers are those of what is shown: after a move without measuring, while it deforms, and in full afterwards."""
 
+import itertools
+from dataclasses import replace
 from math import isclose
 
 import numpy as np
@@ -239,6 +241,28 @@ def armature_with(*meshes):
     return armature
 
 
+def assert_bounds_hold(shown, parts):
+    """Each body moved, grown and turned by as much as its bounds allow stays within those of the sum; hardly less."""
+    allowed = shown.error_bound["input"]
+    bounds = [part.error_bound["input"] for part in parts]
+    assert allowed["volume"] == sum(bound["volume"] for bound in bounds)
+    assert allowed["area"] == sum(bound["area"] for bound in bounds)
+    largest = {"center_of_mass": 0.0, "inertia": 0.0}
+    for signs in itertools.product((-1.0, 1.0), repeat=len(parts)):
+        changed = []
+        for part, bound, sign in zip(parts, bounds, signs):
+            body = part.body
+            mass = body.mass * (1.0 + sign * bound["volume"] / part.volume)
+            away = sign * bound["center_of_mass"] * (body.center - shown.body.center)
+            center = body.center + away / np.linalg.norm(body.center - shown.body.center)
+            changed.append(replace(body, mass=mass, center=center, inertia=body.inertia + sign * bound["inertia"]))
+        whole = results._summed(changed)
+        largest["center_of_mass"] = max(largest["center_of_mass"], np.linalg.norm(whole.center - shown.body.center))
+        largest["inertia"] = max(largest["inertia"], np.abs(whole.inertia - shown.body.inertia).max())
+    for name, off in largest.items():
+        assert 0.1 * allowed[name] < off <= allowed[name], name
+
+
 def test_in_pose_mode_the_armature_stands_for_its_meshes(monkeypatch):
     meshes = [add(mesh_body(), "A"), add(mesh_body(), "B", (4, 0, 0))]
     armature, other = armature_with(*meshes), add(mesh_body(), "Other", (0, 9, 0))
@@ -260,6 +284,7 @@ def test_in_pose_mode_the_armature_stands_for_its_meshes(monkeypatch):
         assert np.linalg.norm(shown.body.center - center) <= 1e-6 * np.linalg.norm(center)
         assert np.linalg.norm(shown_body(armature).center - center) <= 1e-6 * np.linalg.norm(center)
         assert results.total(bpy.context).count == 2
+        assert_bounds_hold(shown, [results.in_world(mesh, bpy.context.scene) for mesh in meshes])
     bpy.ops.object.body_moments_live()
     assert not any(live.is_live(obj) for obj in meshes)
     bpy.ops.object.mode_set(mode="OBJECT")

@@ -12,7 +12,7 @@ from body_moments.core.verdict.finding import MeasureError, finding
 
 from tests.blender import batch_files as files
 from tests.blender.command.test_options import box_moment
-from tests.blender.panels.test_panel import Layout, copied, labels
+from tests.blender.panels.drawing import Layout, copied, labels
 from tests.close import close
 
 pytestmark = pytest.mark.usefixtures("scene")

@@ -440,13 +440,13 @@ def test_numbers_that_a_person_has_overwritten_break_nothing(key, value):
     from body_moments.core.verdict.finding import finding
     from body_moments.operators.write import text_report
 
-    from tests.blender.panels.test_panel import drawn
+    from tests.blender.panels.drawing import shown
 
     good, obj = add(mesh_body(), "Good"), add(mesh_body())
     measure(obj, good)
     obj[key] = value
     update()
-    drawn()
+    shown()
     text = text_report.report_text(bpy.context, [obj, good])
     assert (str(finding("no_stored_results")) in text) == (key in ("body_mass", "body_volume", "body_inertia"))
 

@@ -19,7 +19,7 @@ from body_moments.core.density.materials import BY_NAME, MATERIALS
 from body_moments.operators.write import messages, translations
 
 from tests.blender.objects import add, mesh_body
-from tests.blender.panels.test_panel import drawn, labels
+from tests.blender.panels.drawing import labels, shown
 
 ROOT = Path(__file__).resolve().parent.parent.parent.parent
 
@@ -177,14 +177,14 @@ def test_the_panel_speaks_german_and_what_is_stored_english():
     obj = add(mesh)
     obj.body_moments.material = "Copper"
     bpy.ops.object.body_moments_measure()
-    shown = " ".join(labels(drawn()))
-    assert "Mit Deckeln" in shown and "Die Oberfläche ist offen; ihre Löcher wurden geschlossen" in shown
-    assert "Warnungen (1) Löcher geschlossen: 1 (1 eben" in shown and "Holes" not in shown
+    text = " ".join(labels(shown()))
+    assert "Mit Deckeln" in text and "Die Oberfläche ist offen; ihre Löcher wurden geschlossen" in text
+    assert "Warnungen (1) Löcher geschlossen: 1 (1 eben" in text and "Holes" not in text
     assert obj["body_method"] == "capped" and obj["body_warnings"].startswith("Holes capped: 1")
     assert json.loads(obj["body_findings"])[0]["code"] == "holes_capped"
     obj.scale.x = 3.0
     bpy.context.view_layer.update()
-    assert "Veraltet: Transformation geändert" in " ".join(labels(drawn()))
+    assert "Veraltet: Transformation geändert" in " ".join(labels(shown()))
 
 
 @pytest.mark.usefixtures("scene")
@@ -198,6 +198,6 @@ def test_names_and_numbers_are_drawn_as_they_are(monkeypatch):
     from body_moments.panels import rows
 
     monkeypatch.setattr(rows, "localized", "‹{:s}›".format)
-    record = drawn(closed=("body_moments_tensor",))  # whose labels are letters, put together
+    record = shown(closed=("body_moments_tensor",))  # whose labels are letters, put together
     assert ("label", "Volume", False) in record and ("label", "‹Volume›", False) in record
     assert {entry[1] for entry in record if entry[0] == "label" and entry[2]} <= constants("panels")

@@ -13,7 +13,7 @@ from body_moments.core.numerics.bspline import SplineSpace, clamped_space
 from body_moments.core.nurbs.patch import Patch
 from body_moments.core.nurbs.solid import measure_patches
 from body_moments.core.scans.limits import Limits
-from body_moments.core.verdict.finding import FileError
+from body_moments.core.verdict.finding import FileError, finding
 from body_moments.tests.close import close
 from body_moments.tests.core.exact_splines import flux_moment, sphere, torus
 from body_moments.tests.core.iges_files import IgesFile, surface_fields, unrolled
@@ -414,3 +414,98 @@ def test_all_surfaces_of_the_specification_are_refused_by_name(tmp_path):
     refused = read_surfaces(file.write(tmp_path / "a.igs")).refused
     assert [found.values["kind"] for found in refused] == kinds
     assert {found.code for found in refused} == {"surface_type_unsupported"}
+
+
+def test_what_follows_the_parameters_of_a_surface_is_not_read_and_none_may_be_missing(tmp_path):
+    fields = surface_fields(unrolled(sphere()))
+    file = IgesFile()
+    file.add(128, [*fields, "5Htrail", 0, 0])
+    file.add(128, fields[:-1], label="SHORT")
+    read = read_surfaces(file.write(tmp_path / "a.igs"))
+    assert close(volume(read).total, BALL, 1e-14) and refused(read) == {"surface_damaged": ["SHORT"]}
+
+
+def test_what_points_nowhere_is_damage(tmp_path):
+    """A subfigure, its member, a trimmed surface and a transformation that are not there, or something else."""
+    file = IgesFile()
+    ball = file.surface(unrolled(sphere()))
+    far = file.add(308, [0, "1HA", 1, 99], status="00000200")
+    for fields in ([99, 0.0, 0.0, 0.0], [far, 0.0, 0.0, 0.0], [ball, 0.0, 0.0, 0.0]):
+        file.add(408, fields, label="PLACE")
+    file.add(144, [99, 0, 0, 0], label="TRIM")
+    file.surface(unrolled(sphere()), matrix=99, label="FAR")
+    file.surface(unrolled(sphere()), matrix=ball, label="OTHER")
+    read = read_surfaces(file.write(tmp_path / "a.igs"))
+    assert [(found.code, found.values["names"]) for found in read.refused] == [
+        ("surface_damaged", ["PLACE"] * 3),
+        ("surface_damaged", ["TRIM"]),
+        ("surface_damaged", ["FAR", "OTHER"]),
+    ]
+    assert len(read.bodies[0].patches) == 1
+
+
+@pytest.mark.parametrize(
+    "old, new, said",
+    [
+        ("1H,,1H;,", "1H,,1H,,", "global"),
+        ("1H,,1H;,", "1H,x1H;,", "global"),
+        ("1H,,1H;,", "1H,,1H;x", "global"),
+        ("1H,,1H;,", "1H;,1H;,", "global"),
+        ("1H,,1H;,", "1H,,1H!,", "global"),
+        (",1.0,6,", ",one,6,", "global"),
+        (",1.0,6,", ",-1.0,6,", "global"),
+        (",1.0,6,", ",1e-320,6,", "global"),
+        (",1.0,6,", ",1e400,6,", "global"),
+        (",1.0,6,", ",1.0,6.5,", "global"),
+        (",1.0,6,", ",1.0,12,", "unit"),
+        (",1.0,6,", ",0.0,6,", 1.0),
+        (",1.0,6,", ",,,", 0.0254),
+        (",1.0,6,", ",1.0,0,", 0.0254),
+        ("1H,,1H;,", ",,", 1.0),
+        ("1H,,1H;,", "1H,,,", 1.0),
+        ("     128       1", "     12x       1", "directory"),
+    ],
+)
+def test_a_global_section_or_directory_is_read_or_refused(tmp_path, old, new, said):
+    file = IgesFile()
+    file.surface(unrolled(sphere()))
+    lines, path = file.text().splitlines(), tmp_path / "a.igs"
+    section = "D" if said == "directory" else "G"
+    text = "".join(line[:72] for line in lines if line[72] == section)
+    assert text.count(old) == 1
+    text = text.replace(old, new)
+    changed = ["{:<72}{}{:>7}".format(text[at : at + 72], section, 1) for at in range(0, len(text), 72)]
+    first = next(number for number, line in enumerate(lines) if line[72] == section)
+    rest = [line for line in lines if line[72] != section]
+    path.write_text("\n".join([*rest[:first], *changed, *rest[first:]]))
+    if isinstance(said, float):
+        assert read_surfaces(path).unit == said
+        return
+    global_section, directory = finding("iges_global_section"), finding("iges_directory", number=1)
+    assert (
+        refusal(path)
+        == {
+            "global": finding("iges_damaged", cause=global_section.as_record()),
+            "directory": finding("iges_damaged", cause=directory.as_record()),
+            "unit": finding("iges_unit", unit="M"),
+        }[said]
+    )
+
+
+@pytest.mark.parametrize("kind, at", [(140, 4), (143, 1), (430, 0), (510, 0), (144, 0)])
+def test_a_surface_that_others_stand_on_is_none_by_itself(tmp_path, kind, at):
+    file = IgesFile()
+    ball = file.surface(unrolled(sphere()))
+    file.add(kind, [0.5] * at + [ball] + [0.5] * 4)
+    code = "surface_damaged" if kind == 144 else "surface_type_unsupported"
+    assert [cause["code"] for cause in refusal(file.write(tmp_path / "a.igs")).values["causes"]] == [code]
+    file.surface(unrolled(sphere()), label="OTHER")
+    assert len(read_surfaces(file.write(tmp_path / "a.igs")).bodies[0].patches) == 1
+
+
+def test_units_are_those_of_the_specification():
+    sizes = [0.0254, 1e-3, 0.3048, 1609.344, 1.0, 1e3, 2.54e-5, 1e-6, 1e-2, 2.54e-8]
+    assert {1: sizes[0], **dict(zip((2, 4, 5, 6, 7, 8, 9, 10, 11), sizes[1:]))} == UNITS
+    assert (
+        dict(zip(("IN", "MM", "FT", "MI", "M", "KM", "MIL", "UM", "CM", "UIN"), sizes)) | {"INCH": 0.0254} == UNIT_NAMES
+    )

@@ -13,7 +13,7 @@ from body_moments.core.numerics.bspline import SplineSpace, clamped_space
 from body_moments.core.nurbs.bezier_form import bezier_patches
 from body_moments.core.nurbs.patch import Patch
 from body_moments.core.nurbs.solid import measure_patches
-from body_moments.core.verdict.finding import FileError
+from body_moments.core.verdict.finding import FileError, finding
 from body_moments.tests.close import close
 from body_moments.tests.core.exact_splines import sphere, torus
 from body_moments.tests.core.iges_files import obj_text, unrolled
@@ -119,6 +119,33 @@ def test_a_seventh_order_and_weights_that_are_not_positive(tmp_path):
     bad = [line.rsplit(" ", 1)[0] + " -1" if line.startswith("v ") else line for line in BALL_TEXT.splitlines()]
     assert cause(tmp_path, "\n".join(bad)) == "surface_points"
     assert cause(tmp_path, BALL_TEXT.replace("v 1.0", "v inf")) == "surface_points"
+
+
+def test_surfaces_are_counted_and_refused_one_by_one(tmp_path):
+    first, second, third, fourth = obj_text([unrolled(sphere())] * 4).split("cstype")[1:]
+    vertices = obj_text([unrolled(sphere())] * 4).partition("cstype")[0]
+    second, third = second.replace("deg 2 2", "deg 2 9"), third.replace("bspline", "taylor")
+    found = read(tmp_path, "cstype".join([vertices, first, second, third, fourth]))
+    assert len(found.bodies[0].patches) == 2 and found.notes == ()
+    assert found.refused == (
+        finding("surface_order", kind="surf", count=1, names=["surf 2"], order=10, limit=6),
+        finding("surface_of_unsupported", kind="surf", count=1, names=["surf 3"], base="taylor"),
+    )
+
+
+@pytest.mark.parametrize("weight, is_kept", [("1e-29", True), ("1e-31", False)])
+def test_weights_that_float32_cannot_hold_are_refused(tmp_path, weight, is_kept):
+    at = BALL_TEXT.index("\nv ", 20)
+    line = BALL_TEXT[at + 1 :].partition("\n")[0]
+    text = BALL_TEXT.replace(line, line.rpartition(" ")[0] + " " + weight, 1)
+    if is_kept:
+        assert read(tmp_path, text).refused == ()
+        return
+    with pytest.raises(FileError) as caught:
+        read(tmp_path, text)
+    (found,) = caught.value.finding.values["causes"]
+    assert found["code"] == "surface_points"
+    assert found["values"]["cause"] == finding("non_positive_weights").as_record()
 
 
 @pytest.mark.parametrize(

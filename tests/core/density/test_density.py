@@ -10,7 +10,7 @@ from body_moments.core.density import spline_grid as density
 from body_moments.core.density.spline_grid import TrivariateSpline, density_moments, grid_moments
 from body_moments.core.density.spline_tables import SplineAxis
 from body_moments.core.inertia.mass_properties import MassProperties
-from body_moments.core.moments.moments import monomials
+from body_moments.core.moments.moments import U, monomials
 from body_moments.tests.core.trivariate import exact_moments
 
 from tests.close import close
@@ -71,6 +71,14 @@ def test_moments_to_order_20_of_grids_are_those_of_fractions(order, signed):
             assert bound <= (1e-11 if sum(powers) < 4 else 1e-2) * float(truth)  # (|t| + w)^l is far from sharp
 
 
+@pytest.mark.parametrize("spline_order, order", [(1, 3), (2, 0), (4, 6)])
+def test_the_bound_counts_the_roundings_of_tables_and_sums(spline_order, order):
+    found = grid_moments(np.ones((3, 4, 5)), (3, 4, 5), np.eye(4), spline_order, order)
+    units = 1.01 * (3 * (2 * (spline_order + 1) + 3 * order + 6) + 3 + 4 + 5 + 1 + 8)
+    of_map = (8.0 + 9.0 + 6.0 * order) + (4.0 * order + 50.0)
+    assert close(found.rounding_error[0], (units + of_map) * U * 60.0, rel=1e-9)
+
+
 def test_bounds_are_not_wild():
     coefficients, axes = spline((4, 4, 4))
     moments = density_moments(coefficients, axes, 2)
@@ -112,14 +120,14 @@ def test_a_memory_map_is_measured_slab_by_slab(tmp_path, monkeypatch):
     expected = grid_moments(values, values.shape, np.eye(4))
     monkeypatch.setattr(density, "COEFFICIENTS_PER_BLOCK", 600)
     largest = 0
-    contract = density._contract
+    contract = density.contract
 
     def watched(block, factors):
         nonlocal largest
         largest = max(largest, block.size)
         return contract(block, factors)
 
-    monkeypatch.setattr(density, "_contract", watched)
+    monkeypatch.setattr(density, "contract", watched)
     found = grid_moments(mapped, values.shape, np.eye(4))
     assert largest <= 600
     assert (np.abs(found.raw - expected.raw) <= found.rounding_error + expected.rounding_error).all()

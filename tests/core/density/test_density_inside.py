@@ -85,6 +85,14 @@ def test_boxes_are_exact(low, high):
     assert close(volume, np.prod(inner), rel=1e-13)
 
 
+@pytest.mark.parametrize("order", [1, 4])
+def test_the_bound_counts_the_roundings_of_a_column_and_of_a_sum(order):
+    """Of a box that is the grid the upper face alone adds anything, cut into some hundred pieces."""
+    found, _ = inside_moments(box((0, 0, 0), (4, 5, 6)), np.full((4, 5, 6), 3.0), order)
+    rest = found.rounding_error[0] / (2.0**-53 * 360.0) - (40 + 4 * order + 6)
+    assert min(abs(rest - n) for n in (4, 5, 6, 7)) < 1e-6
+
+
 def blob(seed=0, count=24):
     """A closed star-shaped surface around (3, 3, 3), not aligned with anything."""
     rng = np.random.default_rng(seed)
@@ -111,6 +119,22 @@ def test_a_uniform_density_is_the_solid(monkeypatch, pieces):
     assert volume == pytest.approx(solid.total, rel=1e-12)
     assert (np.abs(found.raw - expected.raw) <= found.rounding_error + 1e-12 * np.abs(expected.raw).max()).all()
     assert found.total == pytest.approx(2.5 * solid.total, rel=1e-12)
+
+
+def test_batches_have_about_as_many_pieces_as_they_may(monkeypatch):
+    """Of triangles across one axis as well as across all, large ones and small ones."""
+    sizes, cut = [], density_inside._cut_at_voxels
+    monkeypatch.setattr(density_inside, "PIECES_PER_BATCH", 2000)
+    monkeypatch.setattr(
+        density_inside, "_cut_at_voxels", lambda *given: sizes.append(len(pieces := cut(*given))) or pieces
+    )
+    long = [box((0.1, 0.1, 0.1), np.roll((60.3, 0.7, 0.6), axis)) for axis in range(3)]
+    flat = [box((0.1, 0.1, 0.1), np.roll((0.6, 30.3, 30.7), axis)) for axis in range(3)]
+    for bodies_of, count in ((long, 60), (flat, 3), ([blob() * 4.0], 1)):
+        for body in bodies_of:
+            sizes.clear()
+            inside_moments(np.tile(body, (count, 1, 1)), np.ones((64, 64, 64)), 0)
+            assert max(sizes) < 9000 and (len(sizes) == 1 or np.mean(sizes[:-1]) > 400), sizes
 
 
 def test_densities_add():

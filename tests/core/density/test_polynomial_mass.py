@@ -13,8 +13,7 @@ from body_moments.core.inertia.mass_properties import MassProperties
 from body_moments.core.mesh.winding import winding_number
 from body_moments.core.moments.images import sum_of_images
 from body_moments.core.moments.moments import Moments
-from body_moments.core.numerics.rotations import polar_rotation
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from tests.close import close
@@ -132,6 +131,7 @@ def test_a_density_in_world_coordinates_stays_where_it_is_when_the_body_moves(na
     st.lists(st.integers(-24, 24), min_size=9, max_size=9),
     st.lists(st.integers(-(2**12), 2**12), min_size=3, max_size=3),
 )
+@example([1e3 / (k + 3) for k in range(165)], [8, 0, 0, 0, 8, 0, 0, 0, 8], [0, 0, 0])
 def test_the_bound_holds_for_any_density_and_any_map(coefficients, linear, offset):
     """Maps of eighths and a body of quarters: images need no rounding, and the truth is rational."""
     matrix = np.eye(4)
@@ -161,19 +161,6 @@ def test_a_density_in_own_coordinates_moves_turns_and_mirrors_with_the_body(name
     degree = np.repeat([0, 1, 2, 3], [1, 3, 6, 10])
     scale = np.abs(expected.raw[0]) * np.abs(np.array(scaled)).max() ** degree
     assert (np.abs(found.raw - expected.raw) <= 3e-13 * scale).all()
-
-
-def test_own_axes_are_those_that_are_drawn():
-    rotation = bodies.rotation(3)
-    maps = np.tile(np.eye(4), (3, 1, 1))
-    maps[0, :3, :3] = rotation @ np.diag([2.0, 3.0, 0.5])
-    maps[1, :3, :3] = rotation @ np.diag([-1.0, 1.0, 1.0])
-    maps[2, :3, :3] = rotation @ np.array([[1.0, 0.5, 0], [0, 1, 0], [0, 0, 1]])
-    axes, sheared = polar_rotation(maps)
-    assert np.allclose(axes[0], rotation, atol=1e-14)
-    assert np.allclose(axes[1], rotation @ np.diag([-1.0, 1.0, 1.0]), atol=1e-14)
-    assert np.allclose(axes[2].T @ axes[2], np.eye(3), atol=1e-14)
-    assert sheared.tolist() == [False, False, True]
 
 
 def test_many_images_are_the_sum_of_each_and_a_constant_is_a_factor():

@@ -10,7 +10,7 @@ from body_moments.core.density import SplineAxis, grid_moments
 from body_moments.core.moments.moments import monomials
 from body_moments.core.scans import read_positions
 from body_moments.core.scans.positions import place_samples, read_all_positions
-from body_moments.core.verdict.finding import FileError
+from body_moments.core.verdict.finding import FileError, finding
 from body_moments.tests.close import close
 
 SHAPE = (3, 4, 5)
@@ -172,30 +172,45 @@ def test_positions_follow_the_axes_directions():
     assert np.array_equal(matrix @ (1, 0, 0, 1), [-2.0, 9.0, -0.5, 1.0])
 
 
+def test_positions_along_all_axes_or_none():
+    rng = np.random.default_rng(4)
+    matrix = np.eye(4)
+    matrix[:3] = rng.normal(size=(3, 4))
+    rows = tuple(np.cumsum(rng.uniform(0.1, 1.0, count)) for count in SHAPE)
+    placed, relative = place_samples(matrix, rows, 0.25)
+    directions = matrix[:3, :3] / np.linalg.norm(matrix[:3, :3], axis=0)
+    for place in np.ndindex(SHAPE):
+        found = placed @ [*(row[i] for row, i in zip(relative, place)), 1.0]
+        truth = directions @ [0.25 * row[i] for row, i in zip(rows, place)]
+        assert np.abs(found[:3] - truth).max() <= 1e-14
+    same, none = place_samples(matrix, (None, None, None), 0.25)
+    assert (same == matrix).all() and same is not matrix and none == (None, None, None)
+
+
 def saved(tmp_path, array, name="z.npy"):
     np.save(tmp_path / name, array)
     return tmp_path / name
 
 
 @pytest.mark.parametrize(
-    "array, code",
+    "array, code, values",
     [
-        (np.array([0.0, 1.0, 1.0]), "positions_not_ascending"),
-        (np.array([0.0, 2.0, 1.0]), "positions_not_ascending"),
-        (np.array([0.0, np.nan, 1.0]), "positions_non_finite"),
-        (np.array([0.0, 1.0, np.inf]), "positions_non_finite"),
-        (np.array([0.0, 1.0]), "positions_count"),
-        (np.zeros((3, 1)), "positions_not_a_row"),
-        (np.array(["0", "1", "2"]), "positions_not_a_row"),
-        (np.array([0.0, 1.0, 2j]), "positions_not_a_row"),
-        (np.array([0, 1, 2], object), "file_damaged"),
+        (np.array([0.0, 1.0, 1.0]), "positions_not_ascending", {"axis": "z", "place": 2}),
+        (np.array([0.0, -2.0, 1.0]), "positions_not_ascending", {"axis": "z", "place": 1}),
+        (np.array([0.0, np.nan, np.nan]), "positions_non_finite", {"axis": "z", "place": 1}),
+        (np.array([0.0, 1.0, np.inf]), "positions_non_finite", {"axis": "z", "place": 2}),
+        (np.array([0.0, 1.0]), "positions_count", {"axis": "z", "count": 2, "samples": 3}),
+        (np.zeros((3, 1)), "positions_not_a_row", {"axis": "z", "type": "float64", "dimensions": 2}),
+        (np.array(["0", "1", "2"]), "positions_not_a_row", {"axis": "z", "type": "<U1", "dimensions": 1}),
+        (np.array([0.0, 1.0, 2j]), "positions_not_a_row", {"axis": "z", "type": "complex128", "dimensions": 1}),
+        (np.array([0, 1, 2], object), "file_damaged", {"cause": {"code": "damage_array", "values": {}}}),
     ],
 )
-def test_wrong_files_are_refused(tmp_path, array, code):
+def test_wrong_files_are_refused(tmp_path, array, code, values):
     path = saved(tmp_path, array)
     with pytest.raises(FileError) as caught:
         read_positions(path, "z", 3)
-    assert caught.value.finding.code == code and caught.value.reason.endswith(".")
+    assert caught.value.finding == finding(code, file="z.npy", **values) and caught.value.reason.endswith(".")
 
 
 def test_missing_text_and_damaged_files_are_refused(tmp_path):

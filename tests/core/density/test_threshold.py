@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from body_moments.core.density import threshold
 from body_moments.core.density.threshold import threshold_body
-from body_moments.core.moments.moments import monomials
+from body_moments.core.moments.moments import U, monomials
 from body_moments.core.verdict.finding import MeasureError
 
 from tests.close import close
@@ -239,6 +239,13 @@ def test_a_preview_is_near_and_claims_nothing():
     exact, preview = (threshold_body(samples, 0.05, order=1, preview=quick) for quick in (False, True))
     assert close(preview.volume.total, exact.volume.total, rel=1e-6)
     assert abs(preview.volume.total - exact.volume.total) > 0.0
+
+
+@pytest.mark.parametrize("order", [1, 3, 6])
+def test_the_bound_counts_the_roundings_of_whole_cells_and_of_the_map(order):
+    found = threshold_body(np.full((4, 5, 6), 2.0), 1.0, order).volume
+    units = 60.0 + 8.0 * order + math.log2(1.0 + 3 + 4 + 5) + (8.0 + 9.0 + 6.0 * order) + (4.0 * order + 50.0)
+    assert close(found.total, 60.0, rel=1e-14) and close(found.rounding_error[0], units * U * 60.0, rel=1e-9)
 
 
 def test_nothing_inside_everything_inside_and_bad_samples():

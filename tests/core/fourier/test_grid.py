@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Large grids to a tolerance: the fast transform against sums and closed forms, everywhere on the grid."""
 
-import math
 from functools import partial
 
 import numpy as np
@@ -15,7 +14,6 @@ from body_moments.core.fourier.wave_vectors import FrequencyGrid
 from body_moments.core.numerics.quadrature import triangle_rule
 from body_moments.core.polyhedron import integration
 
-from tests.close import close
 from tests.core import bodies
 from tests.core.findings import refused
 
@@ -85,6 +83,7 @@ def test_a_grid_is_right_to_the_tolerance_at_every_frequency(name):
         error = np.abs(found.values - exact.values)
         assert error.max() <= tolerance * volume
         assert (error <= 2.0 * found.error).all()  # an estimate, by some of them
+        assert found.error.max() <= 3.1 * tolerance * volume
 
 
 def test_the_share_that_is_done_grows_from_the_start_to_the_end_and_all_work_is_in_the_steps(monkeypatch):
@@ -136,17 +135,6 @@ def test_what_cannot_be_reached_is_refused():
 def test_grids_that_are_none_are_refused(count, largest):
     with refused("frequency_count", "frequency_range"):
         FrequencyGrid(count, largest)
-
-
-@pytest.mark.parametrize("n", range(1, 25))
-def test_the_rules_on_triangles_are_exact_to_their_degree(n):
-    places, weights = triangle_rule(n)
-    assert (places > 0.0).all() and (weights > 0.0).all()
-    assert places.sum(axis=0) == pytest.approx(1.0)
-    for p in range(2 * n):
-        for q in (0, (2 * n - 1 - p) // 2, 2 * n - 1 - p):
-            true = math.factorial(p) * math.factorial(q) / math.factorial(p + q + 2)
-            assert close((weights * places[1] ** p * places[2] ** q).sum(), true, rel=1e-12)
 
 
 def test_the_bound_of_the_points_holds():

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from body_moments.core.fourier import instances as fourier_body
 from body_moments.core.fourier.instances import BodyTransform
-from body_moments.core.fourier.transform import run_to_completion, solid_transform, surface_transform
+from body_moments.core.fourier.transform import Transform, run_to_completion, solid_transform, surface_transform
 from body_moments.core.fourier.wave_vectors import FrequencyGrid
 
 from tests.close import close
@@ -81,8 +81,12 @@ def test_what_storing_as_float32_may_have_changed_counts_every_copy():
 
 
 def test_steps_tell_how_much_is_done():
-    shares = list(BodyTransform([(bodies.surface(PART), MAPS)], Q, "volume", 1.0).steps())
-    assert shares == sorted(shares) and shares[-1] == 1.0
+    box = bodies.surface(bodies.box())
+    shares = list(BodyTransform([(box, MAPS[:2]), (bodies.surface(PART), MAPS[:1])], Q, "volume", 1.0).steps())
+    triangles = len(PART[1]) + 12.0
+    steps = [list(Transform(surface, Q, "volume").steps()) for surface in (box, bodies.surface(PART))]
+    first, last = [share * 12.0 for share in steps[0]], [12.0 + share * len(PART[1]) for share in steps[1]]
+    assert close(shares, np.array([*first, 12.0, 12.0, *last, triangles]) / triangles, rel=1e-15)
 
 
 def test_nothing_is_refused():

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from body_moments.core.inertia.canonical_frame import CLEAR_HARMONIC
 from body_moments.core.inertia.principal_frame import (
     equivalent_frames,
     nearest_frame,
@@ -19,6 +20,7 @@ from body_moments.core.moments.symmetric_tensors import invert_through_point
 from body_moments.core.polyhedron import polyhedron_moments
 from body_moments.core.solid.measure_solid import measure_solid
 
+from tests.close import close
 from tests.core import bodies, shapes
 from tests.core.findings import refused
 from tests.core.recursion import moments
@@ -236,3 +238,43 @@ def test_noise_of_storage_never_flips_a_frame_that_nearly_equal_moments_hardly_f
         )
         found.append(turn.T @ frame.axes)
     assert np.abs(np.array(found) - found[0]).max() < 0.2
+
+
+def cloud(*parts):
+    """The moments to sixth order of points with weights: (weight, (n, 3) points) each, the weight that of all n."""
+    raw = sum(weight * np.prod(points[:, None] ** monomials(6), axis=2).mean(axis=0) for weight, points in parts)
+    return Moments(raw, np.zeros(3))
+
+
+@pytest.mark.parametrize("share, degree", [(0.98, 6), (1.04, 4)])
+def test_of_degrees_whose_moments_differ_clearly_with_the_direction_the_first_decides(share, degree):
+    """Of a cube's corners with that weight E[(u·x)⁴] differs by 4/3 of it; an icosahedron's differ from sixth order
+    on."""
+    cube = bodies.box((-1, -1, -1), (1, 1, 1))[0] / 3.0**0.5 @ bodies.rotation(9).T
+    icosahedron = shapes.ICOSAHEDRON[0] / np.linalg.norm(shapes.ICOSAHEDRON[0][0])
+    found = equivalent_frames(cloud((1.0, icosahedron), (share * 0.75 * CLEAR_HARMONIC, cube)))
+    assert found.rule.extreme == degree
+
+
+@pytest.mark.parametrize(
+    "share, harmonic", [(0.49, (6, 6, 0)), (0.51, (5, 3, 0)), (0.98, (5, 3, 0)), (1.02, (3, 3, 0))]
+)
+def test_about_an_axis_the_first_clear_harmonic_decides(share, harmonic):
+    """Of a triangle's corners with that weight E[(x+iy)³] and E[(x+iy)³ (x²+y²)] are the weight; a hexagon has none."""
+    angle = np.pi / 3.0 * np.arange(6)
+    ring = np.stack([np.cos(angle), np.sin(angle), 0.0 * angle], axis=1)
+    hexagon, triangle = (np.concatenate([flat - [0, 0, 2.0], flat + [0, 0, 2.0]]) for flat in (ring, ring[::2]))
+    weight = share * CLEAR_HARMONIC * 0.5**1.5
+    turn = bodies.rotation(3)
+    found = equivalent_frames(cloud((1.0 - weight, hexagon @ turn.T), (weight, triangle @ turn.T)))
+    assert found.rule.harmonic == harmonic
+
+
+def test_where_a_plate_is_thinner_only_the_moments_across_it_are_more_of_noise():
+    noise = []
+    for thickness in (1e-2, 1e-4):
+        plate = bodies.joined(bodies.box((0, 0, 0), (3, 1, thickness)), bodies.box((0, 1, 0), (1, 4, thickness)))
+        body = measure_solid(Surface(plate[0].astype(np.float32), plate[1]))
+        noise.append(equivalent_frames(polyhedron_moments(body.repaired_surface, 6)[0]).noise)
+    across = monomials(6)[10:, 2] > 0
+    assert (noise[1] > 20.0 * noise[0])[across].all() and close(noise[1][~across], noise[0][~across], rel=0.01)

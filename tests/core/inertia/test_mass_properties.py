@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from body_moments.core.inertia.mass_properties import MassProperties, combine
 from body_moments.core.mesh.surface import Surface
-from body_moments.core.moments.moments import Moments, monomials, sum_moments
+from body_moments.core.moments.moments import SECOND_MOMENT_INDEX, Moments, monomials, sum_moments
 from body_moments.core.solid.measure_solid import measure_solid
 
 from tests.close import close
@@ -33,6 +33,12 @@ def test_an_l_prism_has_the_closed_form_and_the_sign_of_its_product():
     assert close(body.center, (1.1, 1.1, 0.5), rel=1e-15)
     assert np.allclose(body.inertia, [[121 / 30, 1.8, 0], [1.8, 121 / 30, 0], [0, 0, 217 / 30]], rtol=1e-14, atol=1e-14)
     assert close(body.principal.moments, (67 / 30, 175 / 30, 217 / 30), rel=1e-14)
+
+
+def test_its_bounds_are_python_s_own_numbers():
+    """For JSON, ID properties and whoever prints them."""
+    body = MassProperties.from_moments(L_PRISM, 1.0)
+    assert {type(value) for bound in (body.rounding_error, body.input_error) for value in bound.values()} == {float}
 
 
 def test_density_scales_mass_and_inertia_and_leaves_the_center():
@@ -147,3 +153,28 @@ def test_too_low_an_order_and_a_density_that_is_none_are_refused():
     for density in (-1.0, float("nan"), float("inf")):
         with pytest.raises(ValueError, match="density"):
             MassProperties.from_moments(box((0, 0, 0), (1, 1, 1)), density)
+
+
+def test_bounds_are_what_the_worst_signs_make_to_first_order():
+    raw, density = box((0.5, -1.0, 2.0), (1.5, 1.5, 4.0)).raw, 3.0
+    delta = np.random.default_rng(5).uniform(1e-9, 2e-9, 20)
+
+    def worst(function):
+        return sum(np.abs(function(raw + step) - function(raw - step)) / 2.0 for step in np.diag(delta))
+
+    second = worst(lambda raw: raw[SECOND_MOMENT_INDEX] - np.outer(raw[1:4], raw[1:4]) / raw[0])
+    expected = (
+        delta[0] * density,
+        np.linalg.norm(worst(lambda raw: raw[1:4] / raw[0])),
+        density * np.linalg.norm(second.trace() * np.eye(3) + second),
+    )
+    found = MassProperties.from_moments(Moments(raw, np.zeros(3), input_error=delta), density)
+    assert close(list(found.input_error.values()), expected, rel=1e-6)
+
+
+@pytest.mark.parametrize("share, bounded", [(0.499, True), (0.501, False)])
+def test_a_mass_that_may_be_none_bounds_no_center(share, bounded):
+    off = np.zeros(20)
+    off[0] = share * L_PRISM.raw[0]
+    found = MassProperties.from_moments(Moments(L_PRISM.raw, np.zeros(3), input_error=off)).input_error
+    assert [np.isfinite(found[name]) for name in ("mass", "center", "inertia")] == [True, bounded, bounded]

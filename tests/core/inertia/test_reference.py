@@ -96,3 +96,11 @@ def test_an_axis_through_two_points():
     for second in ((1, 1, 1), (1 + 1e-7, 1, 1), (np.nan, 0, 0)):
         with pytest.raises(QueryError):
             Reference.through_points((1, 1, 1), second)
+
+
+@pytest.mark.parametrize("share, bound", [(0.9, 18.0), (1.0, np.inf), (1.1, np.inf)])
+def test_moments_that_may_be_those_of_nothing_bound_no_center(share, bound):
+    off = np.zeros(10)
+    off[0] = share
+    point = Moments(np.r_[1.0, np.zeros(9)], np.array([0.6, 0.8, 0.0]), input_error=off)
+    assert Reference(np.zeros(3)).refer_moments(point).input_error["center"] == pytest.approx(bound)

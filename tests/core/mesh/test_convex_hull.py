@@ -166,3 +166,14 @@ def test_small_clouds_in_degenerate_places_have_closed_hulls():
 def test_the_tolerance_is_of_the_extent(height, corners):
     points = 7.0 * np.concatenate([lattice(2), [[0.4, 0.6, 1.0 + height]]])
     assert len(convex_hull(points, tolerance=1e-3).points) == corners
+
+
+def test_a_hull_is_the_same_however_a_processor_sorts_what_is_equal(monkeypatch):
+    points, sort = lattice(4), np.argsort
+
+    def argsort(values, kind=None):
+        return sort(values, kind="stable") if kind else len(values) - 1 - sort(values[::-1], kind="stable")
+
+    wanted = convex_hull(points).triangles
+    monkeypatch.setattr(np, "argsort", argsort)
+    np.testing.assert_array_equal(convex_hull(points).triangles, wanted)

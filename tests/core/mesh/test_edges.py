@@ -163,6 +163,18 @@ def test_a_closed_mesh_is_proven_closed_by_its_own_corners(points, faces):
         assert set(pair) == expected
 
 
+@pytest.mark.parametrize("name, part", [("triangles", sphere(1)), ("quads", grid_torus())])
+def test_a_mesh_of_one_kind_needs_no_faces_to_be_proven_closed(name, part):
+    whole = mesh(part[0], part[1].tolist())
+    plain = Surface(
+        whole.points,
+        corner_vertices=whole.corner_vertices,
+        corner_edges=whole.corner_edges,
+        **{name: part[1].astype(np.int32)},
+    )
+    np.testing.assert_array_equal(closed_side_faces(plain), closed_side_faces(whole))
+
+
 def test_one_hole_or_one_flipped_face_or_one_copy_spoils_the_proof():
     points, faces = mixed_mesh()
     for k in range(len(faces)):
@@ -323,3 +335,10 @@ def polygons():
     """A prism over a pentagon, without one of its sides."""
     points = [(x, y, z) for z in (0, 1) for x, y in ((0, 0), (2, 0), (3, 1), (1, 2), (0, 1))]
     return points, [(4, 3, 2, 1, 0), (5, 6, 7, 8, 9), *((i, i + 1, i + 6, i + 5) for i in range(4))]
+
+
+@pytest.mark.parametrize("number", [6, 7])
+def test_faces_that_the_mesh_does_not_have_name_no_edges(number):
+    whole = mesh(CORNERS, SIDES.tolist())
+    surface = replace(whole, quad_faces=np.array([0, 1, 2, 3, 4, number], np.int32))
+    assert edges_from_mesh(surface, surface.all_triangles()[0]) is None

@@ -82,7 +82,7 @@ def told(surface, seen, threads=1):
         assert sum(block.count for block in witness.quads.values()) == len(surface.quads)
         assert sum(block.count for block in witness.triangles.values()) == len(surface.triangles)
     found = witness.planarity()
-    return found.non_planar_count, found.volume_ambiguity, found.degenerate_faces.tolist(), error
+    return found.non_planar_count, found.volume_spread, found.degenerate_faces.tolist(), error
 
 
 @pytest.mark.parametrize("dtype", [np.float32, np.float64])
@@ -128,7 +128,7 @@ def test_in_a_large_mesh_a_face_without_area_has_its_own_number_and_polygons_the
     plain = PlanarityAccumulator(surface, error).planarity()
     found = measure_solid(surface).health
     assert (found.non_planar_faces, found.defective_elements.degenerate_faces.tolist()) == (plain.non_planar_count, [])
-    assert close(found.volume_spread, plain.volume_ambiguity, rel=1e-13)
+    assert close(found.volume_spread, plain.volume_spread, rel=1e-13)
     flat = points.copy()
     flat[d] = points[a]
     assert measure_solid(replace(surface, points=flat)).health.defective_elements.degenerate_faces.tolist() == [701]
@@ -142,4 +142,4 @@ def test_sizes_beyond_the_range_of_the_sums_do_not_matter(scale):
         polyhedron_moments(witness.surface, area_order=0, planarity=witness)
     plain, scaled = plain.planarity(), scaled.planarity()
     assert scaled.non_planar_count == plain.non_planar_count > 200
-    assert close(scaled.volume_ambiguity, plain.volume_ambiguity * scale**3, rel=1e-12)
+    assert close(scaled.volume_spread, plain.volume_spread * scale**3, rel=1e-12)

@@ -256,6 +256,17 @@ def test_what_is_measured_is_one_of_four_and_reads_as_its_name():
         Moments(np.ones(1), np.zeros(3), "weight")
 
 
+def test_masses_are_normalized_by_their_gyration_as_volumes_are():
+    body = floats(box_moments((-1, 0, 1), (2, 1, 4)))
+    mass = Moments(body.raw, body.about, Measure.MASS, body.rounding_error, body.input_error)
+    found, truth = normalize(mass, "gyration"), normalize(body, "gyration")
+    assert (found.raw == truth.raw).all() and found.measure == truth.measure == Measure.MASS
+    assert normalize(body).measure == Measure.VOLUME
+    for lengths in (mass, Moments(body.raw, body.about, Measure.LENGTH)):
+        with pytest.raises(ValueError, match="gyration"):
+            normalize(lengths)
+
+
 def test_areas_are_normalized_to_an_area_of_one():
     body = Moments(np.array([4.0, 0, 0, 0, 8.0, 0, 0, 2.0, 0, 0]), np.zeros(3), "area")
     assert normalize(body).raw[4] == pytest.approx(8.0 / 4.0**2)
@@ -375,3 +386,35 @@ def test_bounds_of_sums_of_images_say_something(size, count):
     volume = 6.0 * np.abs(np.linalg.det(matrices[:, :3, :3])).sum()
     reach = np.linalg.norm(matrices[:, :3, :3], axis=(1, 2)).max() * 4.0 + np.ptp(matrices[:, :3, 3], axis=0).max()
     assert (total.rounding_error <= (400.0 + 4.0 * count) * U * volume * reach ** monomials(ORDER).sum(axis=1)).all()
+
+
+@pytest.mark.parametrize("of, power", [("volume", 3), ("length", 1), ("mass", 0)])
+@pytest.mark.parametrize("spread", [0.0, 5.0])
+def test_bounds_of_sums_of_images_are_the_sums_of_what_forms_carry(of, power, spread):
+    """Σ binomial(n, j) stretch^j reach^(n-j) of the largest of degree j; one form less for an offset that is off."""
+    rng, order, count = np.random.default_rng(3), 4, 5
+    degree = monomials(order).sum(axis=1)
+    raw, about = rng.uniform(0.5, 1.0, len(degree)), np.array([30.0, -20.0, 10.0])
+    body = Moments(raw, about, of, 1e-15 * raw, 1e-9 * raw)
+    scale, maps = 1.5, np.tile(np.eye(4), (count, 1, 1))
+    maps[:, :3, :3] = [[[0, -scale, 0], [scale, 0, 0], [0, 0, scale]]]
+    maps[:, :3, 3] = about - maps[:, :3, :3] @ about + spread * rng.normal(size=(count, 3))
+    found = sum_of_images(body, maps, about)
+    top = [np.array([row[degree == n].max() for n in range(order + 1)]) for row in (1e-15 * raw, 1e-9 * raw, raw)]
+    rounding, inputs = np.zeros((2, order + 1))
+    weight = scale**power
+    for linear, offset in zip(maps[:, :3, :3], maps[:, :3, 3]):
+        reach = np.abs(linear @ about + offset - about).max()
+        tolerance = 6.0 * U * (np.abs(offset).max() + 30.0 + scale * 30.0)
+        uncertain = (8.0 * weight if power else 0.0) * U + (count + 6 * order + 8) * U * weight
+
+        def forms(n, of_degree, away):
+            return sum(math.comb(n, j) * scale**j * away ** (n - j) * of_degree[j] for j in range(n + 1))
+
+        for n in range(order + 1):
+            size = top[2] + top[0]
+            rounding[n] += weight * forms(n, top[0], reach) + uncertain * forms(n, size, reach)
+            rounding[n] += n * tolerance * weight * forms(n - 1, size, reach + tolerance) if n else 0.0
+            inputs[n] += weight * forms(n, top[1], reach)
+    assert close(found.rounding_error, rounding[degree], rel=1e-9)
+    assert close(found.input_error, inputs[degree], rel=1e-9)

@@ -3,7 +3,16 @@
 """Small things that are done with arrays."""
 
 import numpy as np
-from body_moments.core.numerics.arrays import segment_ranges, segment_starts, spread_bits, sums_by_index
+from body_moments.core.numerics.arrays import (
+    GOLDEN_RATIO_64,
+    hash_uint64,
+    power_table,
+    segment_ranges,
+    segment_starts,
+    spread_bits,
+    sums_by_index,
+    unique_pairs,
+)
 
 
 def test_each_of_ten_bits_goes_three_places_further():
@@ -23,3 +32,29 @@ def test_sums_by_index_are_as_many_as_are_asked_for():
     weights = np.array([0.5, 1.0, 0.25])
     assert sums_by_index(np.array([2, 0, 2]), weights).tolist() == [1.0, 0.0, 0.75]
     assert sums_by_index(np.array([2, 0, 2]), weights, 5).tolist() == [1.0, 0.0, 0.75, 0.0, 0.0]
+
+
+def test_hashes_are_what_splitmix64_gives_after_the_seed_1234567():
+    states = np.uint64(1234567) + np.arange(5, dtype=np.uint64) * GOLDEN_RATIO_64
+    published = (
+        6457827717110365317,
+        3203168211198807973,
+        9817491932198370423,
+        4593380528125082431,
+        16408922859458223821,
+    )
+    assert hash_uint64(states).tolist() == list(published)
+
+
+def test_pairs_are_each_once_and_sorted():
+    pairs = np.random.default_rng(0).integers(0, 9, (200, 2)).astype(np.int32)
+    assert np.array_equal(unique_pairs(pairs), np.unique(pairs, axis=0))
+    assert unique_pairs(pairs[:0]).shape == (0, 2)
+    far = np.array([[2**31 - 1, 0], [0, 2**31 - 1], [2**31 - 1, 0]])
+    assert unique_pairs(far).tolist() == [[0, 2**31 - 1], [2**31 - 1, 0]]
+
+
+def test_powers_begin_with_one():
+    values = np.array([0.5, -2.0, 0.0])
+    found = power_table(values, 3)
+    assert [row.tolist() for row in found] == [[1.0] * 3, [0.5, -2.0, 0.0], [0.25, 4.0, 0.0], [0.125, -8.0, 0.0]]

@@ -4,13 +4,15 @@
 
 from fractions import Fraction
 from itertools import product
+from math import factorial
 
 import numpy as np
 import pytest
 from body_moments.core.numerics.bspline import SplineSpace, clamped_space
-from body_moments.core.numerics.quadrature import gauss_legendre
+from body_moments.core.numerics.quadrature import gauss_legendre, gauss_legendre_with_ends, triangle_rule
 from body_moments.core.nurbs.blender_knots import blender_knots, blender_space, is_valid
 
+from tests.close import close
 from tests.core.exact_splines import span_polynomials
 
 SPACES = [clamped_space(order, (0.25, 0.5, 0.5)) for order in range(2, 7)] + [
@@ -27,7 +29,8 @@ def test_values_and_derivatives_are_those_of_the_exact_polynomials(space):
         low, high = space.knots[j], space.knots[j + 1]
         for share in (0.0, 0.125, 0.5, 1.0):
             t = low + share * (high - low)
-            found = space.derivatives(np.array([j]), np.array([t]), 2)
+            found = space.derivatives(np.array([j]), np.array([t]), space.order + 2)
+            assert len(found) == space.order + 3 and not np.any(found[space.order :])
             for derivative, values in enumerate(found):
                 exact = []
                 for row in polynomials:
@@ -67,6 +70,21 @@ def test_gauss_is_exact_to_its_degree_and_not_beyond(points):
         assert abs(weights @ nodes**degree - 1.0 / (degree + 1)) <= 1e-15
     if points <= 5:
         assert abs(weights @ nodes ** (2 * points) - 1.0 / (2 * points + 1)) > 1e-8
+    wider, more = gauss_legendre_with_ends(points)
+    assert wider.tolist() == [0.0, *nodes, 1.0] and more.tolist() == [0.0, *weights, 0.0]
+    assert not any(row.flags.writeable for row in (nodes, weights, wider, more))  # they are kept
+
+
+@pytest.mark.parametrize("n", range(1, 25))
+def test_the_rules_on_triangles_are_exact_to_their_degree(n):
+    places, weights = triangle_rule(n)
+    assert len(weights) == (7 if n == 3 else n * n)
+    assert (places > 0.0).all() and (weights > 0.0).all()
+    assert places.sum(axis=0) == pytest.approx(1.0)
+    for p in range(2 * n):
+        for q in (0, (2 * n - 1 - p) // 2, 2 * n - 1 - p):
+            true = factorial(p) * factorial(q) / factorial(p + q + 2)
+            assert close((weights * places[1] ** p * places[2] ** q).sum(), true, rel=1e-12)
 
 
 @pytest.mark.parametrize(

@@ -3,10 +3,11 @@
 """Quaternions and matrices are the same rotation, to double precision and at every angle."""
 
 import numpy as np
-from body_moments.core.numerics.rotations import quaternion, rotation_matrix
+import pytest
+from body_moments.core.numerics.rotations import along_x, polar_rotation, quaternion, rotation_matrix
 from hypothesis import given
 
-from tests.core.strategies import holds, rotations
+from tests.core.strategies import holds, rotations, seeds
 
 
 @holds(60)
@@ -24,3 +25,40 @@ def test_a_quarter_turn_about_z_takes_x_to_y():
 def test_a_float32_quaternion_gives_an_orthonormal_matrix():
     rotation = rotation_matrix(np.array([0.5, 0.1, -0.3, 0.7], np.float32))
     assert np.abs(rotation.T @ rotation - np.eye(3)).max() <= 1e-15
+
+
+@holds(40)
+@given(rotation=rotations(), seed=seeds)
+def test_own_axes_are_those_that_are_drawn_and_of_a_sheared_map_the_nearest_ones(rotation, seed):
+    rng = np.random.default_rng(seed)
+    scale, sign = 10.0 ** rng.uniform(-6, 6, (3, 3)), rng.choice([-1.0, 1.0], 3)
+    maps = np.full((3, 4, 4), np.nan)  # of which the linear parts alone are looked at
+    maps[0, :3, :3] = rotation * sign * scale[0]
+    maps[1, :3, :3] = sheared = rotation @ (np.eye(3) + rng.uniform(-0.3, 0.3, (3, 3))) * scale[1]
+    maps[2, :3, :3] = rotation * scale[2] * (0.0, 1.0, 1.0)
+    axes, shears = polar_rotation(maps)
+    assert shears.tolist() == [False, True, False]
+    assert np.abs(axes[0] - rotation * sign).max() <= 2e-15
+    nearest = sheared / np.linalg.norm(sheared, axis=0)
+    for _ in range(9):  # Newton's iteration to the polar factor
+        nearest = (nearest + np.linalg.inv(nearest).T) / 2.0
+    assert np.abs(axes[1] - nearest).max() <= 1e-14
+    assert np.abs(axes[2].T @ axes[2] - np.eye(3)).max() <= 2e-15  # of a map that flattens too
+    assert np.abs(axes[2] - rotation)[:, 1:].max() <= 1e-14
+
+
+@pytest.mark.parametrize("pair", [(0, 1), (0, 2), (1, 2)])
+@pytest.mark.parametrize("cosine, shears", [(0.9e-5, False), (-0.9e-5, False), (1.1e-5, True), (-1.1e-5, True)])
+def test_axes_that_float32_may_have_moved_are_at_right_angles(pair, cosine, shears):
+    matrix = np.eye(4)
+    matrix[pair] = cosine
+    assert polar_rotation(matrix[None])[1].tolist() == [shears]
+
+
+@holds(30)
+@given(rotation=rotations())
+def test_a_rotation_that_takes_x_to_an_axis(rotation):
+    for axis in rotation:
+        found = along_x(axis)
+        assert np.array_equal(found[:, 0], axis) and np.linalg.det(found) > 0.0
+        assert np.abs(found.T @ found - np.eye(3)).max() <= 2e-15

@@ -104,6 +104,12 @@ def test_holes_are_left_out_and_islands_in_them_are_not():
         assert abs(normal @ turn[:, 2]) == pytest.approx(1.0, abs=1e-12)
 
 
+@pytest.mark.parametrize("size", [1e-6, 1.0, 1e6])
+def test_holes_and_outlines_have_no_unit(size):
+    rings = [ring(radius * size).reverse() for radius in (1.0, 0.5)]
+    assert close(plane_moments(*planar_region(rings)).total, 0.75 * np.pi * size**2, rel=1e-13)
+
+
 @pytest.mark.parametrize("far", [0.0, 1e3, 1e6, 1e8])
 def test_a_region_far_away_is_one_as_long_as_its_points_are_known(far):
     rings = [ring(radius, (far, -far, 0.0)) for radius in (1.0, 0.5)]

@@ -18,6 +18,7 @@ from body_moments.core.nurbs.patch_moments import (
     weighted_monomials,
 )
 
+from tests.close import close
 from tests.core.exact_splines import flux_moment, sphere, torus
 from tests.core.findings import refused
 
@@ -323,3 +324,25 @@ def test_nothing_is_computed_with_what_memory_held_before(monkeypatch):
     monkeypatch.setattr(np, "empty", lambda shape: np.full(shape, np.inf))
     assert (patch_moments.weighted_monomials(place, density, 3, 2)[-2:] == 0.0).all()
     assert (patch_moments.weighted_monomials(place, density, 3) == 1.0).all()
+
+
+@pytest.mark.parametrize("kind", ["volume", "area", "sheet"])
+@pytest.mark.parametrize("rational", [False, True])
+def test_moments_and_their_bounds_scale_exactly_with_powers_of_two(kind, rational):
+    rng = np.random.default_rng(2)
+    spaces = clamped_space(3), clamped_space(4)
+    points = np.stack(np.meshgrid(np.arange(3.0), np.arange(4.0), [0.0], indexing="ij"), axis=-1)[:, :, 0]
+    points = points + 0.2 * rng.uniform(-1, 1, points.shape)
+    weights = rng.uniform(0.5, 2.0, (3, 4)) if rational else None
+
+    def measured(size):
+        patches = [Patch(spaces, size * points, weights)]
+        if kind == "volume":
+            return volume_moments(patches, 3)[0]
+        return area_moments(patches, 3)[0] if kind == "area" else sheet_moments(patches, 0.0, 0.01 * size, 3)[0]
+
+    plain, scaled = measured(1.0), measured(0.125)
+    powers = -3.0 * (monomials(3).sum(axis=1) + (2 if kind == "area" else 3))
+    assert (scaled.about == 0.125 * plain.about).all()
+    for name in ("raw", "rounding_error"):
+        assert close(getattr(scaled, name), getattr(plain, name) * 2.0**powers, rel=1e-9), name

@@ -495,3 +495,31 @@ def test_walls_that_meet_are_found_where_no_edge_pierces_a_face(part, side, apar
     swept = offset_solid(bodies.surface(part))
     assert not any(swept.self_intersects(*split_thickness(side, t)) for t in apart)
     assert all(swept.self_intersects(*split_thickness(side, t)) for t in through)
+
+
+def test_the_farther_a_wall_reaches_the_more_float32_may_have_moved_it():
+    found = offset_solid(bodies.surface(bodies.sphere(2), dtype=np.float32))
+    for ways in ((0.0, 1.0), (0.2, 1.0)):
+        errors = [found.moments(min(t * ways[0], 0.5), t * ways[1]).input_error for t in (0.1, 0.5, 2.0, 8.0)]
+        assert all((more > less).all() and (less > 0.0).all() for less, more in zip(errors, errors[1:]))
+
+
+@pytest.mark.parametrize("angle", [1e-3, 1e-2])
+def test_a_crease_that_float32_still_shows_is_offset_as_one(angle):
+    points, triangles = bodies.grid(6)
+    points[:, 2] = angle * np.maximum(points[:, 0] - np.unique(points[:, 0])[2], 0.0)
+    found = offset_solid(bodies.surface((points, triangles), dtype=np.float32))
+    assert found.inexact_vertices == 0 and max(1.0 - found.min_ratio, found.max_ratio - 1.0) < 1e-3 * angle**2 + 1e-9
+
+
+@pytest.mark.parametrize("gap, meet", [(1.5, True), (2.5, False)])
+def test_thin_walls_of_skins_that_face_each_other_meet_by_their_own_thickness(gap, meet):
+    points, triangles = bodies.grid(2)
+    thickness = 1e-6
+    part = bodies.joined((points, triangles), (points + [0.1, 0.1, gap * thickness], triangles[:, ::-1]))
+    assert offset_solid(bodies.surface(part)).self_intersects(0.0, thickness) == meet
+
+
+def test_a_tiny_part_beside_a_large_one_has_directions_of_its_own():
+    part = bodies.joined(bodies.box((1, 1, 1), (2, 2, 2)), bodies.moved(bodies.box(), 1e-7 * np.eye(3)))
+    assert offset_solid(bodies.surface(part)).degenerate_triangles == 0

@@ -121,6 +121,16 @@ def test_what_overlaps_by_its_coordinates_errors_touches():
     assert find_defects(points, edges, error=1e-6) == OutlineDefects(0, False, False, shared_length=2.0)
 
 
+@pytest.mark.parametrize("share, overlaps", [(3.9, False), (4.1, True)])
+@pytest.mark.parametrize("side", [(1.0, 0.25), (0.25, 1.0)])
+def test_what_overlaps_by_up_to_four_times_the_error_touches(share, overlaps, side):
+    error = 1e-3
+    corner = np.where(np.array(side) == 1.0, 1.0 - share * error, side)
+    points, loops = shape(rectangle(0, 0, 1, 1), rectangle(*corner, 0.5, 0.5))
+    found = find_defects(points, directed_edges(loops), error)
+    assert (found.crossings > 0, found.overlapping) == (overlaps, overlaps)
+
+
 def test_a_hole_that_touches_its_outline_from_within_is_a_hole():
     points, loops = shape(rectangle(0, 0, 4, 4), rectangle(0, 1, 2, 2))
     edges = orient_loops(points, loops)

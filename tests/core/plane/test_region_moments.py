@@ -33,10 +33,11 @@ def test_moments_about_the_centroid_are_within_their_bounds_and_these_are_tight(
     for i, truth, (p, q) in zip(plane_positions(order), truths(points, found.about, order), multi_indices(2, order)):
         assert abs(Fraction(found.raw[i]) - truth) <= Fraction(found.rounding_error[i])
         assert found.rounding_error[i] <= 1e-12 * found.raw[0] * reach ** float(p + q) and size > 0.0
+    assert np.abs(found.raw[1:3]).max() <= (1e-14 + 1e-15 * np.abs(offset).max()) * found.raw[0] * reach
     assert (np.delete(found.raw, plane_positions(order)) == 0.0).all()
 
 
-@pytest.mark.parametrize("step", [1e-9, 1e-3])
+@pytest.mark.parametrize("step", [1e-9, 1e-3, 0.3])
 def test_points_that_move_change_moments_by_no_more_than_the_bound_and_nearly_as_much(step):
     about = np.array([0.9, 0.8])
     known = region_moments(POINTS, EDGES, 5, about, rounded=step)

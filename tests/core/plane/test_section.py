@@ -3,12 +3,20 @@
 """Section properties against the closed forms of engineers' tables, in planes of any position."""
 
 import math
+from dataclasses import replace
 from fractions import Fraction
 
 import numpy as np
 import pytest
-from body_moments.core.plane.polygon import OutlineDefects, find_defects, orient_loops
-from body_moments.core.plane.section import Plane, fit_plane, measure_section
+from body_moments.core.plane.polygon import (
+    OutlineDefects,
+    directed_edges,
+    find_defects,
+    orient_loops,
+    outline_moments,
+)
+from body_moments.core.plane.section import Plane, fit_plane, measure_section, projection_rounding, region
+from body_moments.core.verdict.finding import MeasureError
 from hypothesis import given
 
 from tests.close import close
@@ -216,15 +224,19 @@ def test_the_plane_faces_as_most_of_its_faces_do_and_keeps_near_the_preferred_ax
     assert upright.origin == pytest.approx([0, 1, 1])
 
 
+@pytest.mark.parametrize("place", [(0.0, 0.0, 0.0), (100.0, -50.0, 30.0)])
 @pytest.mark.parametrize("size", [1e-6, 1.0, 1e6])
-def test_points_off_the_plane_are_refused_by_their_share_of_the_size(size):
+def test_points_off_the_plane_are_refused_by_their_share_of_the_size(size, place):
     points, triangles = SQUARE
     bent = points.copy()
     bent[2, 2] = 2e-6
     assert fit_plane(bent * size, triangles, np.eye(3), np.zeros(3)).out_of_plane > 0.0
     bent[2, 2] = 1e-3
-    with refused("section_not_flat"):
-        fit_plane(bent * size, triangles, np.eye(3), np.zeros(3))
+    with pytest.raises(MeasureError) as refusal:
+        fit_plane((bent + place) * size, triangles, np.eye(3), np.zeros(3))
+    (code, share), normal = (refusal.value.finding.code, refusal.value.finding.values["share"]), [-1e-3, -1e-3, 2.0]
+    heights = bent @ normal / np.linalg.norm(normal)
+    assert code == "section_not_flat" and close(share, np.ptp(heights) / 2.0 / np.sqrt(2.0 + 1e-6), rel=1e-9)
     assert fit_plane(bent * size, triangles, np.eye(3), np.zeros(3), error=1e-3 * size).out_of_plane > 0.0
 
 
@@ -234,3 +246,31 @@ def test_what_has_no_area_is_refused():
         fit_plane(points, np.array([[0, 1, 2]]), np.eye(3), np.zeros(3))
     with refused("section_encloses_nothing"):
         measure_section(LEVEL, points, np.array([[0, 1], [1, 0]]))
+
+
+@pytest.mark.parametrize("shared, once, ends", [(0.0, 1.0, 1.0), (0.5, 3.0, 5.0)])
+def test_the_bound_of_the_perimeter_counts_what_outlines_share_twice(shared, once, ends):
+    points, loops = shape(rectangle(0, 0, 2, 1))
+    edges, error = directed_edges(loops), 1e-7
+    section = measure_section(LEVEL, lifted(points), edges, error, shared)
+    assert close(section.perimeter, 6.0 - 2.0 * shared, rel=1e-15)
+    moved = 2.0 * np.sqrt(2.0) * len(edges) * ends
+    rounding = once * outline_moments(points, edges).rounding_error[0] + moved * projection_rounding(
+        LEVEL, lifted(points), points
+    )
+    assert close(section.rounding_error["perimeter"], rounding, rel=1e-12)
+    assert close(section.input_error["perimeter"], moved * error, rel=1e-12)
+
+
+@pytest.mark.parametrize("apart, undetermined", [(1.9e-4, True), (2.1e-4, False)])
+def test_axes_are_undetermined_up_to_twice_what_rounding_can_make(apart, undetermined):
+    section = measured(rectangle(0, 0, 1, 1))
+    section = replace(section, second=np.array([1.0 + apart, 1.0, 0.0]), rounding_error={"second": 1e-4})
+    assert section.axes_undetermined == undetermined
+
+
+@pytest.mark.parametrize("error, turned", [(0.0, 1), (1e-7, 0)])
+def test_slivers_have_no_side_to_look_to(error, turned):
+    points = lifted(np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [0.5, -1e-7]]))
+    triangles = np.array([[0, 1, 2], [0, 1, 3]])
+    assert region(LEVEL, points, triangles, np.arange(2), error)[1] == turned

@@ -205,6 +205,7 @@ def test_many_blocks_give_what_one_gives(monkeypatch):
     [
         ([[0.0, 0.0], [1.0, np.nan]], [[0, 1]], "finite"),
         ([[0.0, 0.0], [1.0, 0.0]], [[0, 2]], "no such point"),
+        ([[0.0, 0.0], [1.0, 0.0]], [[0, -1]], "no such point"),
         ([[0.0, 0.0], [1.0, 0.0]], [[0, 1, 1]], "simplices"),
         ([0.0, 1.0], [[0]], "points"),
         ([[0.0, 1j], [1.0, 0.0]], [[0, 1]], "real"),

@@ -17,6 +17,7 @@ from hypothesis import strategies as st
 
 from tests.close import close
 from tests.core import exact
+from tests.core.bodies import rotation
 from tests.core.strategies import holds, random_meshes, seeds
 
 polyhedron_moments = partial(integration.polyhedron_moments, allow_open=True)  # of faces as they are
@@ -253,6 +254,15 @@ def test_relative_errors_stay_below_1e_14_far_from_the_origin(factor):
     assert max(abs(float(value) - float(right)) for value, right in zip(moments.raw[4:10], truth[4:10])) < 1e-14 * size
 
 
+def test_bounds_of_float32_points_scale_exactly_with_powers_of_two(path):
+    points, quads = grid_torus(noise=0.05)
+    points, powers = points.astype(np.float32), 8 * np.array([sum(m) for m in MONOMIALS])
+    plain, scaled = (polyhedron_moments(Surface(np.ldexp(points, n), quads=quads), area_order=3) for n in (0, 8))
+    for one, other, dimension in zip(plain, scaled, (3, 2)):
+        for name in ("raw", "rounding_error", "input_error"):
+            assert close(getattr(other, name), np.ldexp(getattr(one, name), powers + 8 * dimension), rel=1e-12), name
+
+
 @pytest.mark.parametrize("exponent", [-300, -140, -30, 30, 100])
 def test_moments_scale_exactly_with_powers_of_two(exponent):
     points, quads = grid_torus(noise=0.05)
@@ -469,6 +479,28 @@ def test_quads_so_small_that_the_rule_underflows_are_decided_in_float32(scale):
     np.testing.assert_array_equal(np.concatenate(loop.flipped, axis=1), turned.T)
 
 
+def cut_alike(points, quads):
+    """Whether the kernel cuts each quad by itself as it is drawn."""
+    loop = blocks.BlockAccumulator(points, np.zeros(3), area=True, area_moments=False, exact=False)
+    for quad in quads:
+        loop.add_faces(quad[:, None], quads=True)
+    with np.errstate(all="ignore"):
+        turned = np.roll(quads[flipped_quads(points, quads)], -1, axis=1)
+    return np.array_equal(np.concatenate(loop.flipped, axis=1), turned.T)
+
+
+def test_quads_whose_rule_overflows_are_decided_in_float32():
+    """The products of the normals' components are -3.5e38 and twice 3.3e38: float32 takes their sum for less than 0."""
+    first, second = np.array([3.5e38, 3.3e38, 3.3e38]) ** 0.5 * [[1, 1, 1], [-1, 1, 1]]
+    edge = np.cross(first, second) / np.linalg.norm(np.cross(first, second))
+    length = 4e9
+    points = np.array([[0, 0, 0], np.cross(edge, first) / length, edge * length, np.cross(second, edge) / length])
+    points, quads = points.astype(np.float32), np.arange(4)[None]
+    with np.errstate(all="ignore"):
+        assert flipped_quads(points, quads).all()
+    assert cut_alike(points, quads)
+
+
 def test_corners_farther_apart_than_float32_can_say_are_cut_without_a_warning():
     points = np.array([[-3e38, 0, 0], [3e38, 0, 0], [3e38, 3e38, 0], [-3e38, 3e38, 0]], np.float32)
     assert not flipped_quads(points, np.array([[0, 1, 2, 3]])).any()
@@ -483,11 +515,13 @@ def test_quads_on_the_edge_of_the_rule_are_decided_in_float32(path):
     b = np.stack([rng.uniform(0.2, 0.8, count), np.cos(angle), np.sin(angle)], axis=1)
     d = np.stack([rng.uniform(0.2, 0.8, count), -np.sin(angle), np.cos(angle)], axis=1)
     points = np.stack([np.broadcast_to(a, b.shape), b, np.broadcast_to(c, b.shape), d], axis=1).reshape(-1, 3)
-    points = (points + rng.uniform(-3.0, 3.0, 3)).astype(np.float32)
+    points = (points @ rotation(3).T + rng.uniform(-3.0, 3.0, 3)).astype(np.float32)
     quads = np.arange(len(points)).reshape(-1, 4)
     flips = flipped_quads(points, quads)
     assert 50 < flips.sum() < 250
     assert_bounds_hold(Surface(points, quads=quads))
+    for signs in np.ndindex(2, 2, 2):
+        assert cut_alike(points * np.float32(1 - 2 * np.array(signs)), quads)
 
 
 def test_area_alone_equals_the_zeroth_shell_moment(path):

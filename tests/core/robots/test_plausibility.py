@@ -85,6 +85,10 @@ def test_the_center_lies_in_the_hull_and_the_mass_spreads_no_further(size, turn)
     corners = mass * size**2 * np.full(3, 2.0)  # all mass in the corners: variance 1 along each axis, which is the most
     assert said(np.zeros(3), corners) == []
     assert said(np.zeros(3), corners * 1.1) == ["inertial_spread_outside"]
+    most = 1.005 + 1e-3 * (hull.size / size) ** 2  # along x, and half of it across
+    for less, codes_said in ((1e-4, []), (-1e-4, ["inertial_spread_outside"])):
+        tensor = mass * size**2 * np.array([1.0, most - less + 0.5, most - less + 0.5])
+        assert said(np.zeros(3), tensor) == codes_said
     long = mass * size**2 * np.array([0.02, 1.1, 1.1])
     (found,) = impossible(StatedInertial(mass, np.zeros(3), turn @ np.diag(long) @ turn.T), hull)
     assert found.code == "inertial_spread_outside" and close(found.values["factor"], 1.09, 0.01)

@@ -4,6 +4,7 @@
 
 import gzip
 import io
+import itertools
 import random
 import struct
 import zipfile
@@ -12,6 +13,7 @@ import numpy as np
 import pytest
 from body_moments.core.scans.formats import SUFFIXES, read_scan, sample_matrix, scan_suffix
 from body_moments.core.scans.numpy_files import read_raw
+from body_moments.core.scans.scan import Scan
 from body_moments.core.verdict.finding import FileError, finding
 from body_moments.tests.core.scan_files import NIFTI_CODES, NRRD_NAMES, nifti, nrrd, written
 
@@ -38,6 +40,55 @@ def test_nrrd_of_every_type(tmp_path, kind, order, encoding):
     assert np.array_equal(scan.matrix, np.eye(4))
     assert not scan.is_placed and scan.unit is None
     assert isinstance(scan.samples, np.memmap) == (encoding == "raw")
+
+
+@pytest.mark.parametrize(
+    "dtype, names",
+    {
+        "i1": ("signed char", "int8", "int8_t"),
+        "u1": ("uchar", "unsigned char", "uint8", "uint8_t"),
+        "i2": ("short", "short int", "signed short", "signed short int", "int16", "int16_t"),
+        "u2": ("ushort", "unsigned short", "unsigned short int", "uint16", "uint16_t"),
+        "i4": ("int", "signed int", "int32", "int32_t"),
+        "u4": ("uint", "unsigned int", "uint32", "uint32_t"),
+        "i8": (
+            "longlong",
+            "long long",
+            "long long int",
+            "signed long long",
+            "signed long long int",
+            "int64",
+            "int64_t",
+        ),
+        "u8": ("ulonglong", "unsigned long long", "unsigned long long int", "uint64", "uint64_t"),
+        "f4": ("float",),
+        "f8": ("double",),
+    }.items(),
+)
+def test_nrrd_has_many_names_for_a_type_and_a_byte_order_for_all_but_bytes(tmp_path, dtype, names):
+    """All that the format's definition lists."""
+    data = nrrd(values()).partition(b"\n\n")[0]
+    for name in (*names, names[0].upper()):
+        head = data.replace(b"type: float", b"type: " + name.encode())
+        path = written(tmp_path / "a.nrrd", head + b"\n\n" + values(dtype).tobytes("F"))
+        assert read_scan(path).samples.dtype == dtype
+    path = written(path, head.replace(b"endian: little", b"") + b"\n\n")
+    assert refusal(read_scan, path) == ("file_damaged" if dtype[1] == "1" else "nrrd_endian_missing")
+
+
+def test_units_are_in_meters_if_all_axes_have_the_same(tmp_path):
+    sizes = {"m": 1.0, "meter": 1.0, "meters": 1.0, "cm": 1e-2, "nm": 1e-9, "inch": None, "": None}
+    sizes |= dict.fromkeys(("mm", "millimeter", "millimeters", " MM "), 1e-3)
+    sizes |= dict.fromkeys(("um", "µm", "micron", "microns"), 1e-6)
+    for field in ("space units", "units"):
+        for name, unit in sizes.items():
+            line = '{}: "{}" "{}" "{}"'.format(field, *[name] * 3).encode("latin-1")
+            data = nrrd(values()).replace(b"# made for a test", line)
+            assert read_scan(written(tmp_path / "a.nrrd", data)).unit == unit
+    mixed = nrrd(values(), 'space units: "mm" "mm" "m" "mm"'), nrrd(values(), 'space units: "mm" "mm" "mm" "s"')
+    assert [read_scan(written(tmp_path / "a.nrrd", data)).unit for data in mixed] == [None, 1e-3]
+    for code, unit in ((0, None), (1, 1.0), (2, 1e-3), (3, 1e-6), (8 + 2, 1e-3), (24 + 3, 1e-6), (4, None)):
+        assert read_scan(written(tmp_path / "a.nii", nifti(values(), unit=code))).unit == unit
 
 
 @pytest.mark.parametrize("order", "<>")
@@ -162,6 +213,33 @@ def test_what_is_given_takes_the_headers_place(tmp_path):
     assert findings == ()
 
 
+@pytest.mark.parametrize("given", list(itertools.product((False, True), repeat=5)))
+def test_what_is_decided_of_a_place_is_said(given):
+    """In every combination of what the file states and the user gives."""
+    has_unit, is_placed, *asked = given
+    own = np.array([[2.0, 0.5, 0.0, 7.0], [0.0, 3.0, 0.0, 8.0], [0.0, 0.0, 4.0, 9.0], [0.0, 0.0, 0.0, 1.0]])
+    scan = Scan(values(), own, 1e-3 if has_unit else None, is_placed)
+    spacing, origin, unit = (value if one else None for one, value in zip(asked, ((1, 2, 3), (4, 5, 6), 0.1)))
+    matrix, findings = sample_matrix(scan, spacing, origin, unit)
+    scale = 1e-3 if has_unit else unit or 1.0
+    linear = own[:3, :3] * scale if spacing is None else np.diag(spacing) * (unit or 1.0)
+    offset = own[:3, 3] * scale if origin is None else np.array(origin) * (unit or 1.0)
+    assert np.array_equal(matrix[:3], np.column_stack([linear, offset])) and matrix[3].tolist() == [0, 0, 0, 1]
+    assert own[0, 0] == 2.0
+    fields = [name for name, value in (("spacing", spacing), ("origin", origin)) if value is not None]
+    said = [finding("scan_own_unit")] if has_unit and unit else []
+    said += [finding("scan_placement_overridden", fields=fields)] if is_placed and fields else []
+    if spacing is None and not is_placed:
+        said.append(finding("scan_without_spacing"))
+    elif spacing is None and not has_unit and not unit:
+        said.append(finding("scan_without_unit"))
+    assert findings == tuple(said)
+
+
+def damage(code, **values):
+    return {"file": "", "cause": {"code": code, "values": values}}
+
+
 def nifti_with(offset: int, form: str, *numbers) -> bytes:
     data = bytearray(nifti(values()))
     struct.pack_into("<" + form, data, offset, *numbers)
@@ -169,29 +247,44 @@ def nifti_with(offset: int, form: str, *numbers) -> bytes:
 
 
 @pytest.mark.parametrize(
-    "data, code",
+    "data, code, values_said",
     [
-        (b"", "file_damaged"),
-        (b"x" * 400, "nifti_unrecognized"),
-        (nifti(values())[:-1], "file_damaged"),
-        (nifti_with(344, "4s", b"ni1\0"), "nifti_header_of_pair"),
-        (nifti_with(40, "h", 9), "nifti_dimensions"),
-        (nifti_with(40, "8h", 4, 3, 4, 5, 2, 1, 1, 1), "scan_dimensions"),
-        (nifti_with(42, "h", -3), "scan_size"),
-        (nifti_with(42, "3h", 32767, 32767, 32767), "file_damaged"),
-        (nifti_with(70, "h", 32), "nifti_type"),
-        (nifti_with(72, "h", 7), "nifti_type_size"),
-        (nifti_with(108, "f", float("nan")), "nifti_offset"),
-        (nifti_with(108, "f", 1e30), "nifti_offset"),
-        (nifti_with(112, "f", float("inf")), "scan_scaling"),
-        (nifti_with(80, "f", 0.0), "nifti_spacing"),
-        (nifti(values(), sform=np.zeros((3, 4))), "scan_placement"),
-        (nifti(values(), sform=np.full((3, 4), np.nan)), "scan_placement"),
-        (nifti(values(), quaternion=(1, 1, 1, 0, 0, 0)), "nifti_rotation"),
+        (b"", "file_damaged", damage("damage_header", bytes=348)),
+        (b"x" * 400, "nifti_unrecognized", {}),
+        (nifti(values())[:-1], "file_damaged", damage("damage_too_short", bytes=239, total=240)),
+        (nifti_with(344, "4s", b"ni1\0"), "nifti_header_of_pair", {}),
+        (nifti_with(40, "h", 9), "nifti_dimensions", {"dimensions": 9}),
+        (nifti_with(40, "8h", 4, 3, 4, 5, 2, 1, 1, 1), "scan_dimensions", {"dimensions": 4}),
+        (nifti_with(42, "h", -3), "scan_size", {"samples": [-3, 4, 5]}),
+        (
+            nifti_with(42, "3h", 32767, 32767, 32767),
+            "file_damaged",
+            damage("damage_too_short", bytes=240, total=140724603846652),
+        ),
+        (nifti_with(70, "h", 32), "nifti_type", {"type": 32}),
+        (nifti_with(72, "h", 7), "nifti_type_size", {"bits": 7, "type": 16}),
+        (nifti_with(108, "f", float("nan")), "nifti_offset", {"offset": float("nan")}),
+        (nifti_with(108, "f", 2.0**40), "nifti_offset", {"offset": 2.0**40}),
+        (nifti_with(108, "f", 347.0), "nifti_offset", {"offset": 347.0}),
+        (nifti_with(108, "f", 352.5), "nifti_offset", {"offset": 352.5}),
+        (nifti_with(108, "f", 356.0), "file_damaged", damage("damage_too_short", bytes=236, total=240)),
+        (nifti_with(40, "h", 0), "nifti_dimensions", {"dimensions": 0}),
+        (nifti_with(84, "f", np.inf), "nifti_spacing", {"x": 1.0, "y": np.inf, "z": 1.0}),
+        (nifti(values(), quaternion=(0.6, 0.8, 0.01, 0, 0, 0)), "nifti_rotation", {}),
+        (nifti(values(), quaternion=(0, 0, 0, 0, np.inf, 0)), "nifti_rotation", {}),
+        (nifti_with(112, "f", float("inf")), "scan_scaling", {}),
+        (nifti_with(80, "f", 0.0), "nifti_spacing", {"x": 0.0, "y": 1.0, "z": 1.0}),
+        (nifti(values(), sform=np.zeros((3, 4))), "scan_placement", {}),
+        (nifti(values(), sform=np.full((3, 4), np.nan)), "scan_placement", {}),
+        (nifti(values(), quaternion=(1, 1, 1, 0, 0, 0)), "nifti_rotation", {}),
     ],
 )
-def test_damaged_nifti_files_say_what_is_wrong(tmp_path, data, code):
-    assert refusal(read_scan, written(tmp_path / "a.nii", data)) == code
+def test_damaged_nifti_files_say_what_is_wrong(tmp_path, data, code, values_said):
+    with pytest.raises(FileError) as caught:
+        read_scan(written(tmp_path / "a.nii", data))
+    found = caught.value.finding
+    assert found.code == code and repr({**found.values, "file": 0}) == repr({**values_said, "file": 0})
+    assert found.values.get("file", "a.nii") in ("a.nii", "nowhere.raw") and caught.value.reason.endswith(".")
 
 
 def nrrd_with(old: str, new: str) -> bytes:
@@ -201,42 +294,60 @@ def nrrd_with(old: str, new: str) -> bytes:
 
 
 @pytest.mark.parametrize(
-    "data, code",
+    "data, code, values_said",
     [
-        (b"", "nrrd_unrecognized"),
-        (nrrd(values())[:-1], "file_damaged"),
-        (nrrd(values())[:60], "nrrd_dimension_mismatch"),
-        (nrrd_with("type: float\n", ""), "nrrd_field_missing"),
-        (nrrd_with("type: float", "type: block"), "nrrd_type"),
-        (nrrd_with("sizes: 3 4 5", "sizes: 3 4"), "nrrd_dimension_mismatch"),
-        (nrrd_with("sizes: 3 4 5", "sizes: 3 4 x"), "nrrd_field_not_numbers"),
-        (nrrd_with("sizes: 3 4 5", "sizes: 3 4 -5"), "scan_size"),
-        (nrrd_with("sizes: 3 4 5", "sizes: 3 4 5000000000000"), "scan_size"),
-        (nrrd_with("dimension: 3", "dimension: 4"), "nrrd_dimension_mismatch"),
-        (nrrd_with("encoding: raw", "encoding: bzip2"), "nrrd_encoding"),
-        (nrrd_with("encoding: raw", "encoding: gzip"), "file_damaged"),
-        (nrrd(values(), "byte skip: -1", encoding="gzip"), "nrrd_skip_from_end"),
-        (nrrd_with("endian: little\n", ""), "nrrd_endian_missing"),
-        (nrrd(values(), "spacings: 1 0 1"), "nrrd_spacings"),
-        (nrrd(values(), "spacings: nan nan nan"), "nrrd_spacings"),
-        (nrrd(values(), "space directions: (1,0,0) (2,0,0) (0,0,1)"), "scan_placement"),
-        (nrrd(values(), "space directions: (1,0,0) (0,1,0)"), "nrrd_space_directions"),
-        (nrrd(values(), "space directions: (1,0,0) (0,1,0) (0,0)"), "nrrd_vector"),
-        (nrrd(values(), "data file: nowhere.raw"), "nrrd_data_file_missing"),
-        (nrrd(values(), "data file: slice%03d.raw 1 9 1"), "nrrd_several_files"),
-        (nrrd(values(), "byte skip: a"), "nrrd_field_not_numbers"),
-        (nrrd(values(), "byte skip: -7"), "nrrd_field_not_one_number"),
-        (nrrd(values(), "line skip: 9999"), "file_damaged"),
+        (b"", "nrrd_unrecognized", {}),
+        (nrrd(values())[:-1], "file_damaged", damage("damage_too_short", bytes=239, total=240)),
+        (nrrd(values())[:60], "nrrd_dimension_mismatch", {}),
+        (nrrd_with("type: float\n", ""), "nrrd_field_missing", {"field": "type"}),
+        (nrrd_with("type: float", "type: block"), "nrrd_type", {"type": "block"}),
+        (nrrd_with("sizes: 3 4 5", "sizes: 3 4"), "nrrd_dimension_mismatch", {}),
+        (nrrd_with("sizes: 3 4 5", "sizes: 3 4 x"), "nrrd_field_not_numbers", {"field": "sizes", "text": "3 4 x"}),
+        (nrrd_with("sizes: 3 4 5", "sizes: 3 4 -5"), "scan_size", {"samples": [3, 4, -5]}),
+        (nrrd_with("sizes: 3 4 5", "sizes: 3 4 5000000000000"), "scan_size", {"samples": [3, 4, 5000000000000]}),
+        (nrrd_with("dimension: 3", "dimension: 4"), "nrrd_dimension_mismatch", {}),
+        (nrrd_with("encoding: raw", "encoding: bzip2"), "nrrd_encoding", {"encoding": "bzip2"}),
+        (nrrd_with("encoding: raw", "encoding: gzip"), "file_damaged", damage("damage_packed_start")),
+        (nrrd(values(), "byte skip: -1", encoding="gzip"), "nrrd_skip_from_end", {}),
+        (nrrd_with("endian: little\n", ""), "nrrd_endian_missing", {}),
+        (nrrd(values(), "spacings: 1 0 1"), "nrrd_spacings", {}),
+        (nrrd(values(), "spacings: nan nan nan"), "nrrd_spacings", {}),
+        (nrrd(values(), "space directions: (1,0,0) (2,0,0) (0,0,1)"), "scan_placement", {}),
+        (nrrd(values(), "space directions: (1,0,0) (0,1,0)"), "nrrd_space_directions", {}),
+        (
+            nrrd(values(), "space directions: (1,0,0) (0,1,0) (0,0)"),
+            "nrrd_vector",
+            {"field": "space directions", "text": "(0,0)"},
+        ),
+        (nrrd(values(), "data file: nowhere.raw"), "nrrd_data_file_missing", {"file": "nowhere.raw"}),
+        (nrrd(values(), "data file: slice%03d.raw 1 9 1"), "nrrd_several_files", {}),
+        (nrrd(values(), "byte skip: a"), "nrrd_field_not_numbers", {"field": "byte skip", "text": "a"}),
+        (nrrd(values(), "byte skip: -7"), "nrrd_field_not_one_number", {"field": "byte skip"}),
+        (nrrd(values(), "line skip: 9999"), "file_damaged", damage("damage_lines")),
     ],
 )
-def test_damaged_nrrd_files_say_what_is_wrong(tmp_path, data, code):
-    assert refusal(read_scan, written(tmp_path / "a.nrrd", data)) == code
+def test_damaged_nrrd_files_say_what_is_wrong(tmp_path, data, code, values_said):
+    with pytest.raises(FileError) as caught:
+        read_scan(written(tmp_path / "a.nrrd", data))
+    found = caught.value.finding
+    assert found.code == code and repr({**found.values, "file": 0}) == repr({**values_said, "file": 0})
+    assert found.values.get("file", "a.nrrd") in ("a.nrrd", "nowhere.raw") and caught.value.reason.endswith(".")
 
 
 def npy_bytes(array=None) -> bytes:
     stream = io.BytesIO()
     np.save(stream, values() if array is None else array)
     return stream.getvalue()
+
+
+def test_of_an_archive_the_first_volume_is_taken(tmp_path):
+    np.savez(tmp_path / "a.npz", table=np.eye(3), first=values(), second=values() + 1)
+    scan = read_scan(tmp_path / "a.npz")
+    assert np.array_equal(scan.samples, values())
+    assert scan.findings == (finding("arrays_left_out", array="first", arrays=["second"]),)
+    np.savez(tmp_path / "a.npz", first=values(), density=np.eye(3))
+    scan = read_scan(tmp_path / "a.npz")
+    assert np.array_equal(scan.samples, values()) and scan.findings == ()
 
 
 def test_an_archive_without_a_volume(tmp_path):
@@ -329,3 +440,15 @@ def test_a_file_that_may_not_be_read_is_not_taken_for_damaged(tmp_path, monkeypa
     monkeypatch.setattr("io.open", refused)
     with pytest.raises(PermissionError):
         read_scan(path)
+
+
+@pytest.mark.parametrize("name", ["a.npy", "a.npz"])
+def test_too_little_memory_is_not_taken_for_damage(tmp_path, monkeypatch, name):
+    path = written(tmp_path / name, SEEDS[name[1:]])
+
+    def fails(*_, **__):
+        raise MemoryError
+
+    monkeypatch.setattr(np.lib.format, "open_memmap", fails)
+    monkeypatch.setattr(np.lib.format, "read_array", fails)
+    assert refusal(read_scan, path) == "scan_out_of_memory"

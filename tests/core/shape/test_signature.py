@@ -6,6 +6,8 @@ import json
 
 import numpy as np
 import pytest
+from body_moments.core.plane import directed_edges, region_moments
+from body_moments.core.shape.flat_signature import flat_signature
 from body_moments.core.shape.library import SAME_SHAPE_DISTANCE, UNDECIDED_HANDEDNESS, classify, read_library
 from body_moments.core.shape.signature import MIN_CHIRALITY, Signature, signature, similarity
 from body_moments.core.verdict.finding import Finding
@@ -119,6 +121,17 @@ def test_a_record_gives_the_signature_back():
     for name in PARTS:
         assert np.array_equal(getattr(found, name), getattr(again, name))
     assert again.size == found.size
+    assert [len(getattr(found, name)) for name in PARTS] == [37, 121, 12, 47]  # what libraries on disk hold
+
+
+def test_a_flat_record_gives_the_signature_back_and_moments_beyond_order_20_add_nothing():
+    points, edges = np.array([[0, 0], [3, 0.25], [2.5, 1], [1, 1], [1.25, 2.5], [0, 2.0]]), directed_edges([range(6)])
+    found, more = (flat_signature(region_moments(points, edges, order), 2.5) for order in (20, 21))
+    again = Signature.from_record(json.loads(json.dumps(plain(found.as_record()))))
+    for name in PARTS:
+        assert np.array_equal(getattr(found, name), getattr(again, name))
+        assert np.array_equal(getattr(found, name), getattr(more, name))
+    assert again.dimension == 2 and [len(getattr(found, name)) for name in PARTS] == [40, 121, 0, 27]
 
 
 @pytest.mark.parametrize("damage", [{"zernike": []}, {"size": None}, {"chirality": [1.0]}, {"invariants": [None, "x"]}])

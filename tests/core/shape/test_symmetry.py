@@ -4,7 +4,10 @@
 
 import numpy as np
 import pytest
-from body_moments.core.shape.symmetry import confirm, symmetry
+from body_moments.core.plane import directed_edges, region_moments
+from body_moments.core.shape.disc_zernike import disc_zernike
+from body_moments.core.shape.flat_pose import MIRROR, holds_by_moments, turns_about_normal
+from body_moments.core.shape.symmetry import Symmetry, confirm, symmetry
 
 from tests.core import bodies, shapes
 from tests.core.recursion import moments
@@ -34,6 +37,18 @@ def test_what_is_round_to_sixth_order_gets_the_folds_that_its_corners_have(name)
     found = symmetry(moments(image, 6))
     assert found.group == group
     assert on_geometry(image, found).group == exact
+
+
+@pytest.mark.parametrize("sides, group", [(128, "D128h"), (129, "D43h")])
+def test_axes_to_order_128_are_looked_for(sides, group):
+    angle = 2.0 * np.pi / sides * np.arange(sides)
+    points = np.stack([np.cos(angle), np.sin(angle), 0.0 * angle], axis=1)
+    round_body = Symmetry(np.array([np.eye(3), np.diag([1.0, 1.0, -1.0])]), np.eye(3)[2:], 6)
+
+    def distance(images):
+        return np.sqrt(np.maximum(2.0 - 2.0 * (images @ points.T).max(axis=1), 0.0))
+
+    assert confirm(round_body, np.zeros(3), points, distance, 1e-6).group == group
 
 
 @pytest.mark.parametrize("power", [-20, 20])
@@ -90,3 +105,16 @@ def test_a_coarse_body_can_be_looked_at_loosely():
     points, triangles = bodies.moved(shapes.ICOSAHEDRON, bodies.rotation(2))
     rough = np.round(points, 4), triangles
     assert symmetry(moments(rough, 6), noise=1e-3).group == "Ih"
+
+
+@pytest.mark.parametrize("mirrored", [False, True])
+def test_the_moments_of_a_flat_shape_hold_for_its_turns_and_its_mirrors(mirrored):
+    """A blade, or an arrow head along x, three times around."""
+    blade = np.array([[0.2, 0.0], [1.0, -0.1], [1.5, 0.0] if mirrored else [1.5, 0.6], [1.0, 0.1]])
+    turns = turns_about_normal(2.0 * np.pi / 3.0 * np.arange(3))
+    points = np.concatenate([blade @ turn[:2, :2].T for turn in turns])
+    moments = region_moments(points, directed_edges(np.arange(12).reshape(3, 4)), 12, (0.0, 0.0))
+    holds = holds_by_moments(disc_zernike(moments, 2.0), 12, 1e-9)
+    for k, turn in enumerate(turns_about_normal(np.pi / 6.0 * np.arange(12))):
+        assert holds(turn) == (k % 4 == 0)
+        assert holds(turn @ MIRROR) == (mirrored and k % 4 == 0)

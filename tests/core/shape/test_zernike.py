@@ -2,12 +2,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Solid harmonics, Zernike moments and radial power against closed forms of balls, and by two ways of the same body."""
 
+from fractions import Fraction
 from math import gamma, pi, sqrt
 
 import numpy as np
 import pytest
 from body_moments.core.moments.moments import monomials
 from body_moments.core.moments.solid_harmonics import couple, harmonic_moments
+from body_moments.core.shape.disc_zernike import MAX_DISC_ORDER, _radial, disc_degrees
 from body_moments.core.shape.zernike import (
     descriptor_error,
     descriptors,
@@ -138,3 +140,13 @@ def test_the_power_of_a_box_is_the_mean_of_its_products_of_sincs():
         f = np.prod(2 * half * np.sinc(value * direction * half / pi), axis=-1)
         wanted = (weights[:, None] * f**2).sum() / 160
         assert abs(power[i] - wanted) <= bound[i] + 1e-12
+
+
+def test_radial_polynomials_are_orthogonal_on_the_disc_and_one_at_its_edge():
+    for m in range(MAX_DISC_ORDER + 1):
+        radial = {n: _radial(n, m) for n, other in disc_degrees(MAX_DISC_ORDER) if other == m}
+        for n, terms in radial.items():
+            assert sum(factor for _, factor in terms) == 1.0
+            for k, others in radial.items():
+                product = sum(Fraction(a) * Fraction(b) / (s + t + 2) for s, a in terms for t, b in others)
+                assert product == (Fraction(1, 2 * n + 2) if n == k else 0)

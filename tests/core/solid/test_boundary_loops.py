@@ -105,6 +105,38 @@ def test_hundreds_of_sides_at_one_vertex_are_joined_in_pairs():
     assert close(loops.planar_area.sum(), n * np.sin(np.pi / n) / 2.0, rel=1e-12)
 
 
+def greedy_links(points, sides, directed):
+    """As `join_sides`, an end at a time."""
+    count, ends = len(sides), {}
+    for number, vertex in enumerate(np.array(sides).T.ravel().tolist()):
+        ends.setdefault(vertex, []).append(number)
+    places = points[np.array(sides)]
+    ways = np.concatenate([places[:, 1] - places[:, 0], places[:, 0] - places[:, 1]])
+    links = set()
+    for meeting in ends.values():
+        pairs = [(a, b) for a in meeting for b in meeting if a < b]
+        fits = [(a, b) for a, b in pairs if len(meeting) == 2 or not directed or (a < count) != (b < count)]
+        for a, b in sorted(fits, key=lambda pair: (-(ways[pair[0]] @ ways[pair[1]]), pair)):
+            if a in meeting and b in meeting:
+                meeting.remove(a), meeting.remove(b)
+                links.add((*sorted((a % count, b % count)), (a < count) != (b < count)))
+    return links
+
+
+@holds(20)
+@given(seed=seeds)
+def test_at_each_vertex_the_sharpest_turns_are_joined_first_and_of_equal_ones_the_first(seed):
+    rng = np.random.default_rng(seed)
+    points = np.stack(np.meshgrid(*[np.arange(3.0)] * 3), axis=-1).reshape(-1, 3)
+    pairs = np.argwhere(np.linalg.norm(points[:, None] - points, axis=2) == 1.0)
+    sides = rng.permutation(pairs)[:70].tolist()
+    start, stop = np.array(sides).T
+    for directed in (True, False):
+        one, other, follows = join_sides(points[start], points[stop], start, stop, directed)
+        found = {(*sorted(pair), way) for *pair, way in zip(one.tolist(), other.tolist(), follows.tolist())}
+        assert found == greedy_links(points, sides, directed)
+
+
 def test_more_pairs_than_allowed_are_joined_in_order(monkeypatch):
     monkeypatch.setattr("body_moments.core.solid.boundary_loops.MAX_END_PAIRS", 1)
     points = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [-1, 0, 0], [-1, -1, 0]]

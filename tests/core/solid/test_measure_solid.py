@@ -11,6 +11,7 @@ import pytest
 from body_moments.core.mesh import bvh as shell_tree
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.polyhedron import third_order as polyhedron
+from body_moments.core.solid.duplicate_faces import copied_faces
 from body_moments.core.solid.measure_solid import measure_solid
 from body_moments.core.verdict.finding import Finding, MeasureError
 
@@ -72,6 +73,19 @@ def test_a_sound_cube_needs_no_word():
     result = verdict(CUBE)
     check_unit_cube(result, [0.5] * 3, "exact")
     assert not result.findings and marked(result.health) == {"closed": True, "components": 1}
+
+
+@pytest.mark.parametrize("turn", range(4))
+def test_every_corner_of_a_quad_is_a_vertex_that_is_used(turn):
+    points = np.array([[9, 9, 9], [0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], float)
+    result = measure_solid(Surface(points, quads=np.roll([[1, 2, 3, 4]], turn, axis=1)))
+    assert result.area.total == 1.0 and len(result.given_surface.points) == 4
+
+
+@pytest.mark.parametrize("times", [1, 2, 3])
+def test_faces_on_the_same_vertices_are_known_by_their_numbers(times):
+    surface = Surface(CORNERS, quads=np.concatenate([SIDES] + [np.roll(SIDES[2:4], 1, axis=1)] * (times - 1)))
+    assert copied_faces(surface).tolist() == list(range(6, 6 + 2 * (times - 1)))
 
 
 @pytest.mark.parametrize("spin", [None, 1])

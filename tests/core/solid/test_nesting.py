@@ -10,7 +10,7 @@ from body_moments.core.mesh.bvh import Bvh, sort_components
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.solid import nesting
 from body_moments.core.solid.measure_solid import measure_solid
-from body_moments.core.solid.nesting import classify_pairs, orient_nested_components
+from body_moments.core.solid.nesting import ComponentRelations, cavity_host, classify_pairs, orient_nested_components
 from hypothesis import given
 
 from tests.close import close
@@ -239,3 +239,41 @@ def test_a_part_without_extent_beside_others_is_no_trouble():
     points, triangles = joined(OUTER, INNER, (np.zeros((3, 3)), np.array([[0, 1, 2]])))
     shells = sort_components(points, triangles, np.repeat([0, 1, 2], [12, 12, 1]), 3)
     assert len(Bvh(points, shells, np.ones(3, bool)).ids.T) == 25
+
+
+@holds(20)
+@given(seed=seeds)
+def test_the_order_of_components_changes_nothing(seed):
+    rng = np.random.default_rng(seed)
+    parts = []
+    for _ in range(6):
+        low, size = rng.integers(0, 8, 3), rng.integers(1, 7, 3)
+        parts.append((inverted if rng.integers(2) else (lambda part: part))(box(low, low + size)))
+    results = []
+    for order in (range(6), rng.permutation(6), rng.permutation(6)):
+        points, triangles = joined(*(parts[k] for k in order))
+        body = measure_solid(Surface(points, triangles))
+        found = {
+            item.code: (item.values, sorted(order[k] for k in np.unique(item.elements // 12))) for item in body.findings
+        }
+        results.append((body.health.as_record(), found, body.volume.total))
+    for record, found, total in results[1:]:
+        assert record == results[0][0] and found == results[0][1] and close(total, results[0][2], rel=1e-12)
+
+
+def test_a_rod_in_a_hole_that_is_drilled_through_breaks_through_nothing():
+    """Both are cavities as they are given; what is in a hole is none."""
+    block, hole = box(high=(4, 4, 4)), inverted(box((1, 1, -1), (3, 3, 5)))
+    rod = inverted(box((1.5, 1.5, -0.5), (2.5, 2.5, 4.5)))
+    points, triangles = joined(block, hole, rod)
+    body = measure_solid(Surface(points, triangles))
+    found = {item.code: np.unique(item.elements // 12).tolist() for item in body.findings}
+    assert found == {"inverted_components": [2], "cavities_break_through": [1], "components_overlap": [0, 2]}
+
+
+def test_of_equally_deep_containers_the_last_is_the_innermost_in_whatever_order_they_were_found():
+    outer = np.arange(1, 40)
+    pairs = np.stack([np.zeros_like(outer), outer], axis=1)
+    for seed in range(3):
+        found = ComponentRelations(np.random.default_rng(seed).permutation(pairs), np.empty((0, 2), np.intp), 0)
+        assert cavity_host(found, np.arange(40) == 0)[0] == 39

@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 from body_moments.core.moments.moments import Moments
 from body_moments.core.nurbs.solid import PatchIntegrals
+from body_moments.core.solid.closedness import check_surface, integrate_and_prove, prove_closed
 from body_moments.core.solid.measure_solid import measure_solid
 from body_moments.core.solid.orientation import orient_components
 from body_moments.core.solid.repair import STEPS, repair_surface
 from body_moments.core.solid.self_intersection import SelfIntersection
 from body_moments.core.solid.solid_verdict import SolidIntegrals, judge
-from body_moments.core.solid.triage import check_surface, integrate_and_prove, prove_closed
 from body_moments.core.solid.weld_open_parts import split_into_triangles
 from body_moments.core.verdict.health import Intersection
 from body_moments.core.verdict.method import Verdict

@@ -90,7 +90,7 @@ def body(rng):
 
 def assert_alike(stack, i, surface):
     alone, together = measure_solid(surface), stack.health(i)
-    assert alone.method is (Verdict.CAPPED if stack.is_capped[i] else Verdict.EXACT)
+    assert alone.method is (Verdict.CAPPED if stack.caps.is_capped[i] else Verdict.EXACT)
     for one, other in ((alone.volume, stack.volume.at(i)), (alone.area, stack.area.at(i))):
         for name in ("raw", "about", "rounding_error", "input_error"):
             assert np.array_equal(getattr(one, name), getattr(other, name)), name
@@ -114,7 +114,7 @@ def test_whatever_is_measured_together_is_what_it_is_alone(seed):
     surfaces = [surface for surface in (body(rng) for _ in range(250)) if can_be_stacked(surface)]
     stack = measure_stack(surfaces)
     measured = np.flatnonzero(stack.is_measured)
-    assert 20 < np.count_nonzero(stack.is_capped[measured]) < len(measured) - 20
+    assert 20 < np.count_nonzero(stack.caps.is_capped[measured]) < len(measured) - 20
     for i in measured.tolist():
         assert_alike(stack, i, surfaces[i])
 

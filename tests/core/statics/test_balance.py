@@ -142,6 +142,10 @@ def test_one_vertex_cannot_move_the_center_every_way():
     part = middle, np.concatenate([np.delete(flat[1], bodies.TOP, axis=0), top])
     with refused("balance_no_effect"):
         balance(bodies.surface(part), np.array([8]), (0.6, 0.5, 0.5))
+    two = [[4, 5, 8], [5, 7, 9], [5, 9, 8], [7, 6, 9], [6, 8, 9], [6, 4, 8]]
+    part = np.concatenate([flat[0], [[0.3, 0.4, 1.0], [0.7, 0.6, 1.0]]]), np.concatenate([part[1][:10], two])
+    with refused("balance_no_effect"):
+        balance(bodies.surface(part), np.array([8, 9]), (0.6, 0.5, 0.5))
 
 
 def test_no_vertex_of_a_face_is_no_selection():

@@ -53,6 +53,7 @@ def size_of(part, gradient):
 def test_moving_everything_is_the_derivative_by_the_reference_point(part, kind):
     moments = measured(part, kind)
     gradient = KINDS[kind](bodies.surface(part), moments.about)
+    assert np.array_equal(gradient.reach, np.abs(part[0] - moments.about).max(axis=0))
     total = gradient.by_vertex.sum(axis=0)
     bound = gradient.error().sum(axis=0) + len(part[0]) * 1e-16 * np.abs(gradient.by_vertex).sum(axis=0).max(axis=1)
     for i, exponents in enumerate(monomials(2)):
@@ -60,6 +61,14 @@ def test_moving_everything_is_the_derivative_by_the_reference_point(part, kind):
             lower = exponents - EYE[axis]
             truth = exponents[axis] * moments[tuple(lower)] if exponents[axis] else 0.0
             assert abs(total[i, axis] - truth) <= bound[i] + 1e-14 * abs(truth)
+
+
+def test_a_flat_body_has_no_error_of_what_stands_across_it(kind):
+    """Its bounds follow its reach along each axis, not the largest."""
+    flat = bodies.moved(bodies.sphere(1), np.diag([1.0, 1.0, 1e-9]))
+    error = KINDS[kind](bodies.surface(flat), np.zeros(3)).error()
+    assert close(error[:, 3], error[:, 1] * 1e-9, 1e-6) or kind == "area"
+    assert (error[:, 9] < 1e-8 * error[:, 4]).all()
 
 
 def test_a_moment_of_degree_n_grows_with_the_n_plus_third_power(part, kind):

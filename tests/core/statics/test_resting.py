@@ -223,3 +223,9 @@ def test_noise_on_edges_changes_no_face():
     poses = resting_poses(convex_hull(np.concatenate([corners, noise]), tolerance=1e-6), np.zeros(3))
     assert len(poses.shares) == 6
     assert close(poses.shares, 1.0 / 6.0, 1e-5) and close(poses.margins, 1.0, 1e-5)
+
+
+@pytest.mark.parametrize("share, poses", [(1.9, 2), (2.1, 6)])
+def test_a_margin_of_twice_what_points_may_be_outside_the_hull_is_none(share, poses):
+    hull = convex_hull(box(1.0, 1.0, 1.0), 1e-3)
+    assert len(resting_poses(hull, (1.0 - share * hull.gap, 0.5, 0.5), 0.0).shares) == poses

@@ -9,6 +9,7 @@ from body_moments.core.polyhedron import polyhedron_moments
 from body_moments.core.streams import measure_stream, open_mesh_file, ply_rows
 from body_moments.core.streams import ply as ply_module
 from body_moments.core.streams import stl as stl_module
+from body_moments.core.verdict.finding import FileError
 
 from tests.close import close
 from tests.core.bodies import box, inverted, joined, ring, rotation, soup, sphere, torus, with_flipped, without
@@ -67,6 +68,7 @@ FORMS = {
     "text.ply": lambda part: ply(*part, order=""),
     "double.ply": lambda part: ply(*part, kind="f8", extra=True),
     "extra.ply": lambda part: ply(*part, order=">", extra=True),
+    "double text.ply": lambda part: ply(*part, order="", kind="f8"),
     "extra text.ply": lambda part: ply(*part, order="", extra=True),
 }
 
@@ -87,7 +89,7 @@ def test_moments_are_those_in_memory(tmp_path, small_blocks, name, order):
 def test_large_blocks_are_the_same(tmp_path, name):
     part = moved(torus(9, 7))
     found = measured(tmp_path, name, FORMS[name](part), 4, 4, threads=2)
-    assert found.closed
+    assert found.closed and (found.volume.input_error > 0.0).any() == (name != "double.ply")
     same(found, in_memory(part, 4, found.volume.about))
 
 
@@ -149,12 +151,20 @@ def test_a_block_without_order_in_its_vertices_is_copied(tmp_path, small_blocks,
         assert found.closed and close(found.volume.total, truth.total, rel=1e-12)
 
 
-def test_what_reaches_far_beyond_the_first_faces_is_read_again(tmp_path, small_blocks):
-    near, far = sphere(2), box((1e9, 0, 0), (1e9 + 1e6, 1e6, 1e6))
-    points, triangles = joined(near, far)
-    for data in (stl((points, triangles)), stl_text((points.astype(np.float32), triangles))):
-        found = measured(tmp_path, "a.stl", data, 20)
-        assert found.closed and found.volume.about[0] > 1e8
+@pytest.mark.parametrize("place", [0.0, 1e9, -1e9])
+def test_what_reaches_far_beyond_the_first_faces_is_read_again(tmp_path, small_blocks, place):
+    """However far from the world's origin, on either side of the first faces."""
+    points, triangles = joined(sphere(2), box((1e9, 0, 0), (1e9 + 1e6, 1e6, 1e6)))
+    points[:, 0] += place
+    triangles = np.roll(triangles, 40, axis=0)  # no sample is of the box
+    for way in (1.0, -1.0):
+        part = (points * way).astype(np.float32), triangles
+        low, high = part[0].min(axis=0), part[0].max(axis=0)
+        for data in (stl(part), stl_text(part)):
+            seen = []
+            found = measured(tmp_path, "a.stl", data, 20, progress=seen.append)
+            assert found.closed and close(found.volume.about[:1], (low / 2.0 + high / 2.0)[:1], rel=1e-6)
+            assert found.face_count == len(triangles) < sum(seen)
 
 
 @pytest.mark.parametrize("order", ["<", ">", ""])
@@ -244,6 +254,26 @@ def test_progress_counts_faces(tmp_path, small_blocks, monkeypatch):
         assert sum(seen) == len(part[1]) and len(seen) > 5
 
 
+def test_some_triangles_show_where_a_body_is(tmp_path, small_blocks, monkeypatch):
+    """Of a text the first ones; the others are not read."""
+    part = moved(sphere(2))
+    triangles = part[0][part[1]]
+    monkeypatch.setattr(stl_module.StlFile, "box", None)
+    first = stl_text(part)[:700].count(b"endfacet")
+    for make, some in ((stl, triangles[:: len(triangles) // 3]), (stl_text, triangles[:first])):
+        (tmp_path / "a.stl").write_bytes(make(part))
+        low, high = open_mesh_file(tmp_path / "a.stl").sampled_box()
+        assert np.array_equal(low, some.min(axis=(0, 1))) and np.array_equal(high, some.max(axis=(0, 1)))
+
+
+@pytest.mark.parametrize("name", FORMS)
+def test_the_number_of_faces_is_known_before_they_are_read_or_nearly(tmp_path, name):
+    part = moved(sphere(2))
+    (tmp_path / name).write_bytes(FORMS[name](part))
+    share = open_mesh_file(tmp_path / name).face_count / len(part[1])
+    assert share == 1.0 or name == "text.stl" and 0.5 < share < 2.0
+
+
 def ply_text(elements, rows):
     return "ply\nformat ascii 1.0\n{}end_header\n{}".format(elements, rows).encode()
 
@@ -307,3 +337,80 @@ def test_a_file_that_starts_as_a_text_and_is_none_is_not_read_to_its_end(tmp_pat
     with refused("file_damaged"):
         measured(tmp_path, "a.stl", b"solid" + bytes(100_000))
     assert max(sizes) <= 2700
+
+
+def header(*lines, start="ply\nformat ascii 1.0"):
+    return "\n".join([start, *lines, "end_header", ""]).encode()
+
+
+POINTS = "element vertex 4", "property float x", "property float y", "property float z"
+
+
+@pytest.mark.parametrize(
+    "data",
+    [
+        header(*POINTS, start="plx\nformat ascii 1.0"),
+        header(*POINTS)[:-12],
+        header(*POINTS, start="ply\nformat text 1.0"),
+        header(*POINTS[:-1], FACES[:-1]),
+        header("property float x", *POINTS, FACES[:-1]),
+        header(*POINTS[:-1], "property real z", FACES[:-1]),
+        header(*POINTS, FACES[:-1].replace("4", "-4")),
+        header(*POINTS, FACES[:-1].replace("4", "four")),
+        header(*POINTS, "element face", FACES.splitlines()[1]),
+    ],
+)
+def test_a_header_that_makes_no_sense_is_refused_as_such(tmp_path, data):
+    with refused("file_damaged", file="a.ply", cause={"code": "damage_ply_header", "values": {}}):
+        measured(tmp_path, "a.ply", data + TETRAHEDRON.encode())
+
+
+@pytest.mark.parametrize(
+    "old, new, code, values",
+    [
+        ("3 1 2 3", "3 1 2", "damage_ply_rows", {"name": "face", "count": 4}),
+        ("3 1 2 3", "3 1 2 x", "damage_ply_rows", {"name": "vertex", "count": 4}),
+        ("3 1 2 3", "2.5 1 2 3", "damage_ply_rows", {"name": "face", "count": 4}),
+        ("3 1 2 3", "-3 1 2 3", "damage_ply_rows", {"name": "face", "count": 4}),
+        ("0 0 1\n", "0 0\xe9 1\n", "damage_ply_rows", {"name": "vertex", "count": 4}),
+        ("vertex 4", "vertex 4000000000000", "damage_ply_rows", {"name": "vertex", "count": 4000000000000}),
+        ("face 4", "face 40", "damage_ply_rows", {"name": "face", "count": 40}),
+        ("3 1 2 3", "3 1 2 4", "damage_ply_index", {"vertices": 4}),
+        ("3 1 2 3", "3 -1 2 3", "damage_ply_index", {"vertices": 4}),
+        ("3 1 2 3", "3 1 nan 3", "damage_ply_index", {"vertices": 4}),
+    ],
+)
+def test_what_is_damaged_in_a_ply_is_named(tmp_path, old, new, code, values):
+    whole = ply_text(VERTICES + FACES, TETRAHEDRON).decode()
+    assert whole.count(old) == 1
+    with refused("file_damaged", file="a.ply", cause={"code": code, "values": values}):
+        measured(tmp_path, "a.ply", whole.replace(old, new).encode("latin-1"))
+
+
+@pytest.mark.parametrize("order", ["<", ""])
+def test_rows_may_be_as_short_as_they_can_be(tmp_path, order):
+    points, faces = box()
+    many = ply(np.concatenate([points, np.zeros((3000, 3))]).astype(int) * 1.0, faces, order)
+    assert measured(tmp_path, "a.ply", many.replace(b"0.0", b"0").replace(b"1.0\n", b"1\n")).closed
+
+
+def test_what_is_damaged_in_a_text_is_said_to_be_behind_so_many_facets(tmp_path, small_blocks):
+    text = stl_text(moved(sphere(1)))
+    at = text.rindex(b"vertex")
+    before = text[: text.rindex(b"facet", 0, at - 60)].count(b"endfacet")
+    with pytest.raises(FileError) as caught:
+        measured(tmp_path, "a.stl", text[:at] + b"vertx" + text[at + 6 :])
+    cause = caught.value.finding.values["cause"]
+    assert cause["code"] == "damage_facets" and before - 5 <= cause["values"]["count"] <= before + 1
+
+
+def test_other_files_are_refused(tmp_path):
+    (tmp_path / "a.obj").write_bytes(b"")
+    with refused("file_type", suffixes=".stl .ply"):
+        open_mesh_file(tmp_path / "a.obj")
+    with refused("file_without_faces"):
+        measured(tmp_path, "a.stl", stl((np.zeros((0, 3)), np.zeros((0, 3), int))))
+    with refused("file_without_objects", suffix=".ply"):
+        measured(tmp_path, "a.ply", header(*POINTS) + b"0 0 0\n" * 4)
+    (tmp_path / "a.stl").rename(tmp_path / "b.STL")
+    assert open_mesh_file(str(tmp_path / "b.STL")).face_count == 0

@@ -19,10 +19,12 @@ from body_moments.core.verdict.finding import (
     ReadError,
     Severity,
     finding,
+    system_reason,
     truncate_findings,
     unique,
 )
-from body_moments.core.verdict.health import DefectiveElements
+from body_moments.core.verdict.health import DefectiveElements, MeshHealth
+from body_moments.core.verdict.method import Method, Source, Verdict, least_trusted
 from body_moments.operators.write.messages import MESSAGES, of_severity, sentence, severity, truncate_list
 
 ROOT = Path(__file__).resolve().parent.parent.parent.parent
@@ -46,6 +48,40 @@ def test_values_come_back_from_json_and_equal_findings_are_one():
     assert again == first and str(again) == str(first)
     other = finding("holes_capped", count=3, flat=1, curved=1, share=0.125)
     assert unique([first, other, again]) == (first, other)
+    assert first != finding("holes_closed", **first.values) and first != first.as_record()
+    assert Finding("no_faces") == finding("no_faces")
+
+
+def test_why_the_system_refused_is_a_part_of_a_sentence():
+    assert system_reason(OSError(13, "Permission denied.")) == "Permission denied"
+    assert system_reason(OSError("No such device.")) == "No such device"
+
+
+def test_a_mesh_of_which_nothing_else_is_known_is_sound():
+    counts = "boundary_edges non_manifold_edges inconsistent_edges inverted_components nested_components cavities"
+    counts += " overlapping_components duplicate_faces degenerate_faces non_planar_faces"
+    record = MeshHealth(True).as_record()
+    assert record == {
+        **{"closed": True, "welded": False, "components": 1, **dict.fromkeys(counts.split(), 0)},
+        **{"volume_spread": 0.0, "cap_area_share": 0.0, "self_intersection": "not_checked", "flipped_faces": []},
+    }
+    turned = MeshHealth(False, defective_elements=DefectiveElements(flipped_faces=np.array([2, 5])))
+    assert turned.as_record() == {**record, "closed": False, "flipped_faces": [2, 5]}
+    for entry in fields(DefectiveElements):
+        assert getattr(DefectiveElements(), entry.name).shape == ((0, 2) if "edges" in entry.name else (0,))
+
+
+def test_what_holds_for_several_solids_is_the_least_that_can_be_trusted():
+    order = ["open", "capped", "reoriented", "exact", "union", "shell", "wire", "given", "assembly"]
+    assert [str(verdict) for verdict in Verdict] == order and least_trusted([]) == Verdict.OPEN
+    for worse, better in zip(order, order[1:]):
+        assert least_trusted([Verdict(better), Verdict(worse), Verdict(better)]) == worse
+    assert [verdict for verdict in Verdict if verdict.is_closed] == ["capped", "reoriented", "exact", "union"]
+    for verdict in Verdict:
+        for source in Source:
+            method = Method(verdict, source)
+            assert Method.parse(str(method)) == method and str(method).split() == [*filter(None, [source]), verdict]
+    assert Method.parse("STL exact") is Method.parse("NURBS") is Method.parse("") is None
 
 
 def test_numbers_lists_causes_and_sources_are_filled_in():

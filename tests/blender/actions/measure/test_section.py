@@ -12,7 +12,7 @@ import pytest
 from tests.blender.findings import refused as refusal
 from tests.blender.findings import said
 from tests.blender.objects import add, mesh_body, only
-from tests.blender.panels.test_panel import Layout, copied, labels
+from tests.blender.panels.drawing import Layout, copied, labels
 from tests.close import close
 
 pytestmark = pytest.mark.usefixtures("scene")

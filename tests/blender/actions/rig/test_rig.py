@@ -5,8 +5,10 @@
 import bpy
 import numpy as np
 import pytest
+from body_moments.core.verdict.finding import ReadError
 from body_moments.operators.bodies.measure_object import measure_object
 from body_moments.operators.bodies.rig import measure_rig
+from body_moments.operators.read.links import bone_freedom, bone_parents
 from body_moments.operators.session import handlers, results, shown
 from body_moments.operators.session import rig as session
 from body_moments.operators.session.shown import shown_bone
@@ -354,3 +356,74 @@ def test_the_overlay_draws_the_whole_where_the_parts_are_posed():
     )
     found = (now.axes * (now.mass * now.gyration**2)) @ now.axes.T
     assert np.abs(found - inertia).max() < 1e-12 * np.abs(inertia).max() and np.linalg.det(now.axes) > 0.0
+
+
+def test_what_is_left_out_of_a_character_is_said():
+    """Objects on bones that are not rendered, without a mass or on bones that are gone; meshes without weights."""
+    armature, skin = character()
+    whole = measured(armature).measurement.mass_properties.mass
+    names = {"hidden": "head", "weightless": "head", "lost": "nowhere", "part": "head"}
+    for name, bone in names.items():
+        obj = bpy.data.objects.new(name, box_mesh(0.1, 0.1, 0.1))
+        bpy.context.scene.collection.objects.link(obj)
+        obj.parent, obj.parent_type, obj.parent_bone = armature, "BONE", bone
+    bpy.data.objects["hidden"].hide_render = True
+    bpy.data.objects["weightless"].scale = (0, 0, 0)
+    bpy.context.view_layer.update()
+    rig = measured(armature)
+    told = {found.code: found.values for found in rig.measurement.findings}
+    assert told["members_left_out"] == {"count": 1, "names": ["hidden"]}
+    assert told["members_not_measured"] == {"count": 2, "names": ["lost", "weightless"]}
+    assert told["members_density_unset"] == {"count": 1, "names": ["part"]}
+    assert {obj.name for obj in rig.objects} == {skin.name, "lost", "part", "weightless"}
+    part = measure_object(bpy.data.objects["part"], bpy.context.evaluated_depsgraph_get()).mass_properties.mass
+    assert close(rig.measurement.mass_properties.mass, whole + part, 1e-6)
+    skin.body_moments.property_unset("density")
+    settings = skin.body_moments
+    settings.kind, settings.wall, settings.thickness = "SHELL", "OUTWARD", 0.01
+    rig = measured(armature)
+    told = {found.code: found.values for found in rig.measurement.findings}
+    assert told["rig_wall_thin"] == {"sources": [skin.name]}
+    assert told["members_density_unset"]["names"] == [skin.name, "part"] or told["members_density_unset"]["count"] == 2
+    area = sum(polygon.area for polygon in skin.data.polygons)
+    assert close(rig.measurement.mass_properties.mass, 1000.0 * 0.01 * area + part, 1e-5)
+    for name, value in (("thickness", 0.0), ("density", 0.0)):
+        kept = getattr(settings, name)
+        setattr(settings, name, value)
+        if getattr(settings, name) == 0.0:
+            told = {found.code: found.values for found in measured(armature).measurement.findings}
+            assert skin.name in told["members_not_measured"]["names"]
+        setattr(settings, name, kept)
+    for bone in armature.data.bones:
+        bone.use_deform = False
+    with pytest.raises(ReadError) as refused:
+        measured(armature)
+    assert refused.value.finding.code == "no_deforming_bones"
+
+
+def test_a_bone_is_as_free_as_its_locks_limits_and_constraints_leave_it():
+    armature, _ = character()
+    bone = armature.pose.bones["head"]
+    axes = {axis: [float(other == axis) for other in "xyz"] for axis in "xyz"}
+
+    def free():
+        return [(one["kind"], one["axis"], one["lower"], one["upper"]) for one in bone_freedom(bone)]
+
+    assert free() == [("rotate", axes[axis], None, None) for axis in "zyx"]
+    bone.use_ik_limit_x, bone.ik_min_x, bone.ik_max_x = True, -0.5, 0.25
+    bone.lock_rotation[1] = True
+    bone.lock_ik_z = True
+    assert free() == [("rotate", axes["x"], -0.5, 0.25)]
+    bone.lock_rotation[1] = bone.lock_ik_z = False
+    limit = bone.constraints.new("LIMIT_ROTATION")
+    limit.use_limit_x = limit.use_limit_y = True
+    limit.min_x, limit.max_x, limit.min_y, limit.max_y = -1.0, 1.5, 0.5, 0.5
+    assert [one[1] for one in free()] == [axes[axis] for axis in "zyx"]  # in the world it leaves the bone free
+    limit.owner_space = "LOCAL"
+    assert free() == [("rotate", axes["z"], None, None), ("rotate", axes["x"], -1.0, 1.5)]
+    limit.enabled = False
+    assert [one[1] for one in free()] == [axes[axis] for axis in "zyx"]
+    other = bone.constraints.new("COPY_ROTATION")
+    assert other.owner_space != "" and [one[1] for one in free()] == [axes[axis] for axis in "zyx"]
+    assert bone_parents(bone, {"hips": "Hips"}) == ["Hips"]
+    assert bone_parents(bone, {"hips": "Hips", "chest": "Chest", "arm.L": "Arm"}) == ["Chest", "Hips"]

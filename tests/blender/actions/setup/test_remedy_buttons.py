@@ -6,7 +6,7 @@ import bpy
 import pytest
 
 from tests.blender.objects import add, mesh_body, only
-from tests.blender.panels.test_panel import drawn, findings_of, labels
+from tests.blender.panels.drawing import findings_of, labels, shown
 from tests.close import close
 
 pytestmark = pytest.mark.usefixtures("scene")
@@ -27,7 +27,7 @@ def boxes(*sizes, reverse=()):
 
 
 def buttons(record=None):
-    return [entry[1] for entry in record or drawn() if entry[0] == "operator"]
+    return [entry[1] for entry in record or shown() if entry[0] == "operator"]
 
 
 def orders(mesh):
@@ -81,9 +81,9 @@ def test_a_mesh_that_its_modifiers_make_is_not_edited_and_the_refusal_stands_in_
     before = orders(mesh)
     assert bpy.ops.object.body_moments_recalculate_outside() == {"CANCELLED"}
     assert orders(mesh) == before and reported.codes == ["failure", "modified_mesh"]
-    assert "“Twice”" in " ".join(labels(drawn())) and "Recalculate Outside" in labels(drawn())
+    assert "“Twice”" in " ".join(labels(shown())) and "Recalculate Outside" in labels(shown())
     bpy.ops.wm.body_moments_dismiss()
-    assert "“Twice”" not in " ".join(labels(drawn()))
+    assert "“Twice”" not in " ".join(labels(shown()))
 
 
 def test_count_as_union_and_measure_as_shell_set_the_setting_and_measure():
@@ -121,7 +121,7 @@ def test_an_accepted_warning_is_a_note_here_in_records_and_when_measured_again()
     assert not obj["body_warnings"] and other["body_warnings"]
     assert findings_of(obj, "warning") == [] and "components_nested" in findings_of(obj, "note")
     assert staleness.stale_reason(obj, bpy.context.scene) is None
-    assert "Accepted: 1 outward component lies" in " ".join(labels(drawn()))
+    assert "Accepted: 1 outward component lies" in " ".join(labels(shown()))
     bpy.ops.object.body_moments_measure()
     assert findings_of(obj, "warning") == [] and findings_of(other, "warning") == ["components_nested"]
     measurement = measure_object(obj, bpy.context.evaluated_depsgraph_get())
@@ -150,11 +150,11 @@ def test_the_unit_is_asked_for_once_a_scene_and_set_at_a_click():
     ask = "scene.body_moments_set_millimeters"
     assert ask not in buttons()
     bpy.ops.object.body_moments_measure()
-    assert ask in buttons() and "60 m long and 268\u2009000 t" in " ".join(labels(drawn()))
+    assert ask in buttons() and "60 m long and 268\u2009000 t" in " ".join(labels(shown()))
     assert bpy.ops.scene.body_moments_set_millimeters() == {"FINISHED"}
     assert scene.unit_settings.length_unit == "MILLIMETERS" and close(scene.unit_settings.scale_length, 1e-3, rel=1e-6)
     assert close(obj["body_mass"], 0.26784, rel=1e-6) and ask not in buttons()
-    assert "20 mm" in labels(drawn())
+    assert "20 mm" in labels(shown())
     scene.unit_settings.scale_length = 1.0
     bpy.ops.object.body_moments_measure()
     assert ask not in buttons()
@@ -181,21 +181,21 @@ def test_what_was_left_unchanged_is_named_in_the_panel_until_the_next_action_and
         obj.modifiers.new("Cast", "CAST")
     only(*good, *bad)
     bpy.ops.object.body_moments_origin_to_center()
-    shown = " ".join(labels(drawn()))
-    assert "Origin to Center of Mass" in shown and "Bad 07: " in shown and "Bad 08: " not in shown
-    assert "and 12 more" in shown
+    text = " ".join(labels(shown()))
+    assert "Origin to Center of Mass" in text and "Bad 07: " in text and "Bad 08: " not in text
+    assert "and 12 more" in text
     assert bpy.ops.object.body_moments_select_refused() == {"FINISHED"}
     assert {*bpy.context.view_layer.objects.selected} == {*bad}
     only(*good)
     bpy.ops.object.body_moments_add_empty()
-    assert "Bad" not in " ".join(labels(drawn(without=("selection",))))
+    assert "Bad" not in " ".join(labels(shown(without=("selection",))))
 
 
 def test_all_wrong_origins_of_rigid_bodies_are_named_and_selected_not_three():
     bodies = [add(mesh_body(), "Body {:03d}".format(i)) for i in range(12)]
     only(*bodies)
     bpy.ops.object.body_moments_set_rigid_body_mass(add=True)
-    assert "“Body 007”, and 4 more" in " ".join(labels(drawn()))
+    assert "“Body 007”, and 4 more" in " ".join(labels(shown()))
     assert "object.body_moments_axes_to_principal" in buttons()
     bpy.ops.object.select_all(action="DESELECT")
     bpy.ops.object.body_moments_select_refused()
@@ -207,5 +207,4 @@ def test_a_report_of_many_names_those_with_warnings(reported):
     only(add(mesh_body(), "Fine"), *several)
     bpy.ops.object.body_moments_measure()
     assert sorted(reported.values("with_warnings")["objects"]) == ["Nested 0", "Nested 1", "Nested 2"]
-    shown = " ".join(labels(drawn()))
-    assert "Nested 2: 1 outward component" in shown
+    assert "Nested 2: 1 outward component" in " ".join(labels(shown()))

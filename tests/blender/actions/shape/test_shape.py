@@ -370,7 +370,7 @@ def test_a_symmetry_is_out_of_date_after_an_edit_and_not_after_a_motion():
 def test_the_panel_shows_what_was_found(panel):
     from types import SimpleNamespace
 
-    from tests.blender.panels.test_panel import Layout, labels
+    from tests.blender.panels.drawing import Layout, labels
 
     def drawn():
         layout = Layout()
@@ -468,3 +468,20 @@ def test_distances_from_a_skin_are_those_from_all_triangles_and_decide_alike(bod
     assert near.sum() > 5 and (found - truth)[near].max() < 1e-12  # single precision may tell less
     for tolerance in np.array([1e-6, 1e-4, 1e-3, 1e-2, 0.1]) * shape.size:
         assert ((found <= tolerance) == (skin.distance(points, within=tolerance) <= tolerance)).all()
+
+
+def test_a_copy_of_another_size_lies_on_the_first_one_once_it_is_scaled():
+    from body_moments.operators.bodies.shape import SurfaceDistance, register_surfaces, shape_of
+
+    objects = wedge(location=(1, 2, 3), rotation=(0.3, 1.0, 2.0)), wedge(location=(-4, 5, 6), rotation=(1, 2, 3))
+    objects[0].scale = (2.5, 2.5, 2.5)
+    bpy.context.view_layer.update()
+    depsgraph = bpy.context.evaluated_depsgraph_get()
+    source, target = (shape_of(obj, depsgraph) for obj in objects)
+    skins = SurfaceDistance(source), SurfaceDistance(target)
+    assert [list(skin.build()) for skin in skins] == [[0.2, 0.4, 1.0]] * 2
+    found = register_surfaces(source, target, *skins, scale=0.4)
+    turn = np.array(objects[1].matrix_world.to_3x3()) @ np.array(objects[0].matrix_world.to_3x3()).T / 2.5
+    assert np.abs(found.rotation - turn).max() < 1e-5 and found.max_distance < 1e-5 * target.size
+    apart = register_surfaces(source, target, *skins)
+    assert apart.mean_distance > 0.1 * target.size

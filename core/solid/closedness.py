@@ -1,0 +1,204 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The first stages of measuring a solid: is there something to measure, and do its own edges prove it closed?"""
+
+from __future__ import annotations
+
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, replace
+from functools import partial
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..mesh.edges import closed_side_faces
+from ..mesh.planarity import Planarity, PlanarityAccumulator
+from ..mesh.side_pairs import faces_across_sides
+from ..mesh.surface import Surface, indices_in_range
+from ..moments.moments import Moments
+from ..numerics.graph import connected_components, connected_neighbors
+from ..polyhedron import third_order
+from ..polyhedron.integration import polyhedron_moments
+from ..verdict.finding import MeasureError
+from ..verdict.health import MeshHealth
+from ..verdict.tolerances import MAX_COORDINATE, MIN_SIZE, WELDING_RTOL
+from .repaired_mesh import RepairedMesh
+
+SUM_ROUNDING = 1e-13  # of a sum of numbers of one sign: by how much rounding may change it
+
+
+@dataclass(frozen=True, eq=False)
+class CheckedSurface:
+    """A surface that can be measured.
+
+    Attributes
+    ----------
+    surface : Surface
+        Without the vertices that no face uses.
+    vertices : (n,) int, optional
+        The input's number of each vertex; None where all are used.
+    size : float
+        The diagonal of the bounding box (unit).
+    error : float
+        How far storing the points may have moved them (unit).
+    tolerance : float
+        What counts as touching (unit).
+    """
+
+    surface: Surface
+    vertices: NDArray[np.intp] | None
+    size: float
+    error: float
+    tolerance: float
+
+
+@dataclass(frozen=True, eq=False)
+class GivenIntegrals:
+    """What the faces come to as they are given.
+
+    Attributes
+    ----------
+    volume : Moments
+        To order 3: the signed sum over the faces.
+    area : Moments
+        The input's: without caps, with what a repair leaves out and with flat parts.
+    planarity : Planarity
+        How flat the faces are.
+    all_cones_agree : bool
+        Whether all the cones over the faces, from the reference point, are known to have the same sign.
+    proven : RepairedMesh, optional
+        The mesh where its own edges prove it closed and oriented; None where they do not.
+    """
+
+    volume: Moments
+    area: Moments
+    planarity: Planarity
+    all_cones_agree: bool
+    proven: RepairedMesh | None
+
+
+def check_surface(surface: Surface) -> CheckedSurface:
+    """Check that a surface can be measured, and leave out vertices that no face uses.
+
+    Raises
+    ------
+    MeasureError
+        Where there are no faces, faces name vertices that do not exist, or positions are not finite, or too large or
+        too small for their powers to be numbers.
+    """
+    faces = [corners for corners in (surface.quads, surface.triangles) if len(corners)]
+    if not faces:
+        raise MeasureError("no_faces")
+    total = len(surface.points)
+    if not all([indices_in_range(corners, total) for corners in faces]):
+        raise MeasureError("invalid_faces")
+    used = np.zeros(total, bool)
+    for column in (0, 2, 1, 3):  # opposite corners first: they reach most vertices
+        for corners in faces:
+            if column < corners.shape[1]:
+                used[corners[:, column].astype(np.intp)] = True
+        if used.all():
+            break
+    vertices = None
+    if not used.all():
+        vertices = np.flatnonzero(used)
+        number = np.cumsum(used) - 1
+        surface = replace(
+            surface,
+            points=surface.points[used],
+            triangles=number[surface.triangles],
+            quads=number[surface.quads],
+            corner_vertices=None if surface.corner_vertices is None else number[surface.corner_vertices],
+        )
+    low, high = surface.box
+    with np.errstate(invalid="ignore", over="ignore"):
+        size = float(np.linalg.norm(high - low))
+    if not np.isfinite(size):
+        misplaced = np.flatnonzero(~np.isfinite(surface.points).all(axis=1))
+        if len(misplaced):
+            elements = misplaced if vertices is None else vertices[misplaced]
+            raise MeasureError("non_finite_vertices", elements=elements, count=len(misplaced), total=total)
+    if not max(size, float(np.abs([low, high]).max())) < MAX_COORDINATE:
+        raise MeasureError("object_too_large")
+    if 0.0 < size < MIN_SIZE:
+        raise MeasureError("object_too_small")
+    error = float(np.linalg.norm(surface.coordinate_error))
+    return CheckedSurface(surface, vertices, size, error, tolerance=max(WELDING_RTOL * size, 4.0 * error))
+
+
+def integrate_and_prove(checked: CheckedSurface, shell: bool, threads: int) -> GivenIntegrals:
+    """Integrate over the faces as they are given, and look whether their edges prove the surface closed.
+
+    Sums and proof run side by side where that is worth a thread.
+
+    Parameters
+    ----------
+    checked : CheckedSurface
+    shell : bool
+        Whether the area's moments are wanted to order 3; else to order 0.
+    threads : int
+    """
+    surface = checked.surface
+    accumulator = PlanarityAccumulator(surface, checked.error)
+    integrate = partial(
+        polyhedron_moments,
+        surface,
+        area_order=3 if shell else 0,
+        threads=threads,
+        planarity=accumulator,
+        allow_open=True,
+    )
+    if min(threads, (len(surface.triangles) + 2 * len(surface.quads)) // third_order.MIN_TRIANGLES_PER_THREAD) > 1:
+        with ThreadPoolExecutor(1) as pool:
+            waiting = pool.submit(prove_closed, surface)
+            volume, area = integrate()
+        proven = waiting.result()
+    else:
+        volume, area = integrate()
+        proven = prove_closed(surface)
+    agree = accumulator.cones is not None and bool(same_sign(*accumulator.cones))
+    return GivenIntegrals(volume, area, accumulator.planarity(), agree, proven)
+
+
+def same_sign(total: float | NDArray, signed: float | NDArray) -> bool | NDArray[np.bool_]:
+    """Whether numbers have the same sign, or are but rounding, that add up to so much without their signs and with
+    them."""
+    return total - abs(signed) <= SUM_ROUNDING * total
+
+
+def prove_closed(surface: Surface) -> RepairedMesh | None:
+    """Give the mesh in need of no repair where its own edges prove it closed and oriented; else None.
+
+    The triangles of a single component are left out: nothing asks for them.
+    """
+    found = _components_of_closed(surface)
+    if found is None:
+        return None
+    component, component_count = found
+    triangles, face = surface.triangles[:0], component[:0]
+    if component_count > 1:
+        triangles, face = surface.all_triangles()
+    return RepairedMesh(
+        surface.points,
+        triangles,
+        face,
+        np.zeros(len(face), bool),
+        component[face],
+        component_count,
+        np.zeros(component_count, bool),
+        np.zeros((component_count, 3)),
+        report=MeshHealth(closed=True, components=component_count),
+    )
+
+
+def _components_of_closed(surface: Surface) -> tuple[NDArray[np.intp], int] | None:
+    """The component of each mesh face, and how many; None where nothing proves the surface closed and oriented."""
+    if surface.corner_edges is not None:
+        sides = closed_side_faces(surface)
+        return None if sides is None else connected_components(int(sides.max()) + 1, *sides)
+    if surface.triangle_faces is not None or surface.quad_faces is not None:
+        return None
+    if len(surface.triangles) and len(surface.quads):
+        return None
+    across = faces_across_sides(surface.triangles if len(surface.triangles) else surface.quads, len(surface.points))
+    return None if across is None else connected_neighbors(across)

@@ -1,0 +1,23 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""While Blender is read, or changed and put back, no change of it counts as an edit."""
+
+from __future__ import annotations
+
+
+class tracking_paused:
+    """A context in which no change is noted: for changes that leave every object's shape as it was.
+
+    Attributes
+    ----------
+    depth : int
+        Of the class: how many such contexts are open. While there is one, changes that Blender reports are no edits.
+    """
+
+    depth = 0
+
+    def __enter__(self) -> None:
+        tracking_paused.depth += 1
+
+    def __exit__(self, *_error: object) -> None:
+        tracking_paused.depth -= 1

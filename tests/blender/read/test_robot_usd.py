@@ -1,0 +1,245 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Robots as USD from numbers that are known, in all units and by all operations; and how much descriptions may hold."""
+
+import json
+
+import pytest
+
+pytest.importorskip("bpy")
+import numpy as np
+from body_moments.core.verdict.finding import FileError
+from body_moments.operators.read.robots import descriptions, limits, xml
+
+from tests.blender.robot_truth import about, check_repair, near, quaternion, random_inertial, read
+
+SEEDS = pytest.mark.parametrize("seed", range(6))
+
+
+def usd_steps(rng):
+    """Operations with their values, and what they do."""
+    axis, angle, vector, scales = rng.normal(size=3), rng.uniform(-3, 3), rng.normal(size=3), rng.uniform(0.5, 2)
+    turn, angles = np.eye(4), rng.uniform(-3, 3, 3)
+    turn[:3, :3] = about(axis, angle)
+    moved, scaled = np.eye(4), np.diag([scales, scales, scales, 1])
+    moved[:3, 3] = vector
+    yield "translate", vector, moved
+    yield "translate:pivot", vector, moved
+    yield "scale", [scales] * 3, scaled
+    yield "orient", quaternion(axis, angle), turn
+    yield "transform", (moved @ turn @ scaled).T, moved @ turn @ scaled
+    for order in ("X", "Y", "Z", "XYZ", "ZYX", "YXZ"):
+        step = np.eye(4)
+        for name, each in zip(order, angles):  # the first of them acts first
+            step[:3, :3] = about(np.eye(3)["XYZ".index(name)], each) @ step[:3, :3]
+        yield "rotate" + order, np.degrees(angles[: len(order)]), step
+
+
+def usd_operations(rng, count):
+    """The text of some operations, and what all of them do: the last of them acts first."""
+    lines, names, matrix = [], [], np.eye(4)
+    steps = list(usd_steps(rng))
+    for number in rng.permutation(len(steps))[:count]:
+        kind, values, step = steps[number]
+        name = "xformOp:" + kind
+        lines.append("double[] {} = ({})".format(name, ", ".join(map(repr, np.ravel(values).tolist()))))
+        names.append(name)
+        matrix = matrix @ step
+    if count and rng.integers(2):  # back again, as pivots do
+        names.append("!invert!" + names[0])
+        matrix = matrix @ np.linalg.inv(steps[rng_first(names[0])][2])
+    lines.append("uniform token[] xformOpOrder = [{}]".format(", ".join(map(json.dumps, names))))
+    return "\n".join(lines), matrix
+
+
+def rng_first(name):
+    kinds = "translate", "translate:pivot", "scale", "orient", "transform"
+    turns = ["rotate" + order for order in ("X", "Y", "Z", "XYZ", "ZYX", "YXZ")]
+    return [*kinds, *turns].index(name.partition(":")[2])
+
+
+@SEEDS
+def test_usd(tmp_path, seed):
+    """Links in axes of their own, in meters and kilograms; shapes with all that stands above them."""
+    rng = np.random.default_rng(seed)
+    meters, kilograms = [(0.01, 1.0), (1.0, 0.001), (0.001, 2.0)][seed % 3]
+    above, first = usd_operations(rng, 4)
+    own, second = usd_operations(rng, seed)
+    below, third = usd_operations(rng, 3)
+    body = first @ second
+    scale = np.cbrt(np.linalg.det(body[:3, :3]))
+    local = np.diag([scale, scale, scale, 1.0])  # in the link's axes
+    inner = local @ third
+    mass, center, moments, tensor = random_inertial(rng, about((1, 2, 3), 0.7))
+    radius, height = rng.uniform(0.5, 2, 2).tolist()
+    corners, sizes = rng.normal(size=(6, 3)), [3, 4, 5]
+    indices = rng.integers(0, 6, sum(sizes))
+    values = {"center": center, "moments": moments, "axes": np.multiply(quaternion((1, 2, 3), 0.7), 2)}
+    values = {name: "({})".format(", ".join(map(repr, value.tolist()))) for name, value in values.items()}
+    points = ", ".join("({})".format(", ".join(map(repr, point))) for point in corners.tolist())
+    mesh = "point3f[] points = [{}]\nint[] faceVertexCounts = {}\nint[] faceVertexIndices = {}\n".format(
+        points, sizes, indices.tolist()
+    )
+    prims = []
+    for kind, statements in (
+        ("Cube", "double size = {!r}".format(radius)),
+        ("Cube", ""),
+        ("Sphere", "double radius = {!r}".format(radius)),
+        ("Sphere", ""),
+        ("Capsule", 'double radius = {!r}\ndouble height = {!r}\ntoken axis = "X"'.format(radius, height)),
+        ("Capsule", ""),
+        ("Cylinder", 'double radius = {!r}\ndouble height = {!r}\ntoken axis = "Y"'.format(radius, height)),
+        ("Cylinder", 'uniform token axis = "Z"'),
+        ("Mesh", mesh),
+        ("Mesh", mesh + 'uniform token orientation = "leftHanded"'),
+        ("Scope", ""),
+    ):
+        number = len(prims)
+        schemas = '(prepend apiSchemas = ["PhysicsCollisionAPI"])' if number % 2 else ""
+        prims.append('def {} "p{}" {}\n{{\n{}\n{}\n}}\n'.format(kind, number, schemas, below, statements))
+    content = """#usda 1.0
+(
+    metersPerUnit = {meters!r}
+    kilogramsPerUnit = {kilograms!r}  # a comment = 3
+    doc = \"\"\"{{ more (
+    lines\"\"\"
+)
+def Xform "world" ( doc = "a }} b" )
+{{
+    {above}
+    variantSet "looks" = {{ "a" {{ def Xform "no" ( apiSchemas = ["PhysicsRigidBodyAPI"] ) {{}} }} }}
+    rel material:binding = </m> ( a = 1 )
+    custom asset file = @a.png@
+    float alone
+    def Xform "body" (
+        prepend apiSchemas = ["PhysicsRigidBodyAPI", "PhysicsMassAPI"]
+    )
+    {{
+        float physics:mass = {mass!r} ( doc = "kg" )
+        point3f physics:centerOfMass = {center}; float3 physics:diagonalInertia = {moments}
+        quatf physics:principalAxes = {axes}
+        {own}
+        {prims}
+        def Xform "next" ( prepend apiSchemas = ["PhysicsRigidBodyAPI"] ) {{
+            !reset!
+            def Sphere "s" {{}}
+        }}
+        over "more" {{ class Sphere "s" {{}} }}
+    }}
+    def Sphere "only" ( prepend apiSchemas = ["PhysicsMassAPI"] ) {{ float physics:mass = 1 }}
+}}
+""".format(meters=meters, kilograms=kilograms, above=above, own=own, prims="".join(prims), mass=mass, **values).replace(
+        "!reset!", 'uniform token[] xformOpOrder = ["!resetXformStack!"]'
+    )
+    description = read(tmp_path, content)
+    assert (description.name, description.format) == ("world", "usd")
+    link, following, only = description.links
+    assert [one.name for one in description.links] == ["world/body", "world/body/next", "world/only"]
+    assert [one.inertial is None for one in description.links] == [False, True, True]
+    assert not link.moves and not link.findings
+    assert near(link.inertial.mass, mass * kilograms, 1e-14)
+    assert near(link.inertial.center, scale * center * meters, 1e-12)
+    assert near(link.inertial.inertia, tensor * meters**2 * kilograms, 1e-12)
+    assert near(link.local, local, 1e-12)
+    inside = description.source[slice(*link.span)]
+    assert inside.lstrip().startswith(b"float physics:mass") and inside.rstrip().endswith(b'class Sphere "s" {} }')
+    grown = scale * np.cbrt(np.linalg.det(third[:3, :3])) * meters
+    turned = third[:3, :3] / np.cbrt(np.linalg.det(third[:3, :3]))
+    orders = {"X": [1, 2, 0], "Y": [2, 0, 1], "Z": [0, 1, 2]}
+    expected = [
+        *(("box", np.full(3, radius)), ("box", np.full(3, 2.0))),
+        *(("ellipsoid", np.full(3, radius)), ("ellipsoid", np.full(3, 1.0))),
+        *(("capsule", (radius, height), "X"), ("capsule", (0.5, 1.0), "Z")),
+        *(("cylinder", (radius, height), "Y"), ("cylinder", (1.0, 2.0), "Z")),
+    ]
+    for number, (stated, (kind, size, *axis)) in enumerate(zip(link.shapes, expected)):
+        shape = stated.shape
+        assert shape.kind == kind and stated.role == ("collision" if number % 2 else "visual")
+        assert near(np.array(shape.size), np.array(size) * grown, 1e-12)
+        assert near(shape.pose.position, inner[:3, 3] * meters, 1e-12)
+        assert near(shape.pose.rotation, turned[:, orders[axis[0] if axis else "Z"]], 1e-12)
+    starts = np.cumsum(sizes) - sizes
+    fans = [(s, s + i + 1, s + i + 2) for s, count in zip(starts, sizes) for i in range(count - 2)]
+    placed = (corners @ inner[:3, :3].T + inner[:3, 3]) * meters
+    for stated, order in zip(link.shapes[8:10], ([0, 1, 2], [2, 1, 0])):
+        assert stated.shape.kind == "mesh" and near(stated.points, placed, 1e-12)
+        assert (stated.triangles == indices[np.array(fans)][:, order]).all()
+    assert len(link.shapes) == 11 and link.shapes[10].shape.kind == "ellipsoid"  # up to the next body
+    for other, size, place in ((following, meters, np.eye(4)), (only, meters * np.cbrt(np.linalg.det(first)), first)):
+        assert near(np.array(other.shapes[0].shape.size), np.full(3, size), 1e-12)
+        assert near(other.local, np.diag([*[np.cbrt(np.linalg.det(place))] * 3, 1]), 1e-12)
+    check_repair(tmp_path, description)
+
+
+def test_usd_leaves_out_meshes_that_are_damaged(tmp_path):
+    whole = {"points": "[(0, 0, 0), (1, 0, 0), (0, 1, 0)]", "faceVertexCounts": "[3]", "faceVertexIndices": "[0, 1, 2]"}
+    wrong = [
+        *({"points": "[0, 1]"}, {"faceVertexCounts": "[4]"}, {"faceVertexCounts": "[0]", "faceVertexIndices": "[]"}),
+        *({"faceVertexIndices": "[0, 1, 3]"}, {"faceVertexIndices": "[0, -1, 2]"}),
+    ]
+    cases = [{**whole, **change} for change in wrong]
+    cases += [{name: value for name, value in whole.items() if name != left} for left in whole]
+    cases.append(whole)
+    meshes = ["\n".join("int[] {} = {}".format(*item) for item in case.items()) for case in cases]
+    prims = "".join('def Mesh "m" {{\n{}\n}}\n'.format(mesh) for mesh in meshes)
+    body = '#usda 1.0\ndef Xform "b" ( apiSchemas = ["PhysicsRigidBodyAPI"] ) {{\n{}{}}}'
+    (link,) = read(tmp_path, body.format("float physics:mass = 1\n", prims)).links
+    assert len(link.shapes) == 1 and link.inertial is None
+    assert (link.shapes[0].points == [[0, 0, 0], [0.01, 0, 0], [0, 0.01, 0]]).all()  # centimeters
+    wrong = "float3 physics:diagonalInertia = (1, 2)\nfloat physics:mass = 1\n"
+    (link,) = read(tmp_path, body.format(wrong, "")).links
+    assert [(one.code, one.values["text"]) for one in link.findings] == [("description_number", "(1, 2)")]
+
+
+@pytest.mark.parametrize(
+    "content, line",
+    [
+        ('def Xform "a" {\n double x = (1,', 3),
+        ('\ndef Xform "a" {\n double x = 1 `"\n}', 4),
+        ('\n\nxform "a" {}', 4),
+        ('def Xform "a"', 2),
+    ],
+)
+def test_a_layer_that_is_cut_short_says_where(tmp_path, content, line):
+    with pytest.raises(FileError) as refused:
+        read(tmp_path, "#usda 1.0\n" + content)
+    assert (refused.value.finding.code, refused.value.finding.values["line"]) == ("usda_invalid", line)
+
+
+def test_descriptions_are_limited_as_documented(tmp_path, monkeypatch):
+    assert (limits.MAX_DESCRIPTION, limits.MAX_MESH) == (64 * 2**20, 2**30)
+    assert (limits.MAX_ELEMENTS, limits.MAX_DEPTH) == (1_000_000, 200)
+    assert (limits.MAX_LINKS, limits.MAX_TRIANGLES) == (100_000, 50_000_000)
+    include = '<mujoco><include file="a.xml"/><worldbody><body name="b"/></worldbody></mujoco>'
+    (tmp_path / "a.xml").write_text("<mujoco><worldbody><body/></worldbody></mujoco>", encoding="utf-8")
+    size = len((tmp_path / "a.xml").read_text(encoding="utf-8"))
+    deep = "<robot><link>{}{}</link></robot>"
+    cases = {
+        (descriptions, "MAX_DESCRIPTION", len(include), "description_too_large"): include,
+        (descriptions, "MAX_LINKS", 2, "description_too_large"): "<robot><link/><link/></robot>",
+        (xml, "MAX_ELEMENTS", 3, "xml_too_large"): "<robot><link/><link/></robot>",
+        (xml, "MAX_DEPTH", 4, "xml_too_large"): deep.format("<a><b/>", "</a>"),
+    }
+    for (module, name, limit, code), content in cases.items():
+        with monkeypatch.context() as changed:
+            changed.setattr(module, name, limit)
+            assert read(tmp_path, content).links, name
+            changed.setattr(module, name, limit - 1)
+            with pytest.raises(FileError) as refused:
+                read(tmp_path, content)
+            assert refused.value.finding.code == code, name
+    twice = include.replace("<worldbody>", '<include file="b.xml"/><worldbody>')
+    (tmp_path / "b.xml").write_bytes((tmp_path / "a.xml").read_bytes())
+    for limit, fits in ((2 * size, True), (2 * size - 1, False)):  # of all that is included together
+        with monkeypatch.context() as changed:
+            path = tmp_path / "model.xml"
+            path.write_text(twice, encoding="utf-8")
+            root = xml.parse(path.read_bytes())
+            changed.setattr(descriptions, "MAX_DESCRIPTION", limit)
+            if fits:
+                descriptions._include(root, descriptions.Roots.of(path))
+                assert len(root.all("worldbody")) == 3
+            else:
+                with pytest.raises(FileError) as refused:
+                    descriptions._include(root, descriptions.Roots.of(path))
+                assert refused.value.finding.code == "description_too_large"

@@ -1,0 +1,43 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Which meshes an armature stands for while it is posed."""
+
+import bpy
+import pytest
+from body_moments.operators.session import live, posed
+
+from tests.blender.objects import add, mesh_body, only
+
+pytestmark = pytest.mark.usefixtures("scene")
+
+
+def test_an_armature_stands_for_what_it_deforms():
+    rig, other = add(bpy.data.armatures.new("Rig"), "Rig"), add(bpy.data.armatures.new("Other"), "Other")
+
+    def mesh(name, parent=None, parent_type="OBJECT", armature=None):
+        obj = add(mesh_body(), name)
+        obj.parent, obj.parent_type = parent, parent_type
+        if armature is not None:
+            obj.modifiers.new("Armature", "ARMATURE").object = armature
+        return obj
+
+    free, below = mesh("Free"), mesh("Below", rig)
+    bound, skinned = mesh("Bound", rig, "ARMATURE"), mesh("Skinned", None, "OBJECT", rig)
+    mesh("Bound to Other", other, "ARMATURE")
+    mesh("Skinned by Other", rig, "OBJECT", other)
+    hooked = mesh("Hooked")
+    hooked.modifiers.new("Hook", "HOOK").object = rig
+    curve = add(bpy.data.curves.new("Curve", "CURVE"), "Curve")
+    curve.parent, curve.parent_type = rig, "ARMATURE"
+    bpy.context.view_layer.update()
+    assert posed.deformed_meshes(rig) == (bound, skinned)
+    assert posed.subjects([rig, free, free]) == [rig, free]
+    only(rig)
+    bpy.ops.object.mode_set(mode="POSE")
+    assert posed.stands_for_meshes(rig) and not posed.stands_for_meshes(other) and not posed.stands_for_meshes(free)
+    assert posed.subjects([free, rig, bound, other]) == [free, bound, skinned, other]
+    bpy.ops.object.mode_set(mode="OBJECT")
+    bpy.data.objects.remove(skinned)
+    bpy.context.view_layer.update()
+    assert posed.deformed_meshes(rig) == (bound,)
+    assert not live.is_live(below) and not live.is_pending(below) and live.current_numbers(below) is None

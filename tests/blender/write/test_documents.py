@@ -1,0 +1,257 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Whole documents, kept as text: of measured objects in each format, of a robot in each format. What is in them is
+tested where it is measured; here is what they look like.
+"""
+
+import base64
+import json
+import re
+import zlib
+from math import inf
+
+import bpy
+import numpy as np
+import pytest
+from body_moments.core.mesh.surface import Surface
+from body_moments.core.robots.model import FreeAxis, Inertial, Joint, Link, Pose, Robot, Shape
+from body_moments.core.robots.stated import Description, StatedInertial, StatedLink
+from body_moments.core.verdict.finding import finding
+from body_moments.operators.write import documents, text_report
+from body_moments.operators.write.html.report import to_html
+from body_moments.operators.write.robots import audit_report, formats, gltf, shapes, usd
+from body_moments.operators.write.terminal import visible
+from body_moments.operators.write.thumbnail import SIZE, thumbnail
+
+from tests.blender import batch_files
+from tests.blender.actions.measure.test_section import I_BEAM, flat_mesh, square
+from tests.blender.actions.setup.test_remedy_buttons import boxes
+from tests.blender.bodies.test_assembly import box_mesh
+from tests.blender.objects import add, only
+
+TURN = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
+QUARTERS = np.array([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
+
+
+def of_box(mass, sides, center=(0.0, 0.0, 0.0), turn=TURN):
+    moments = mass * (np.square(sides).sum() - np.square(sides)) / 12.0
+    order = np.argsort(moments)
+    axes = turn[:, order] * (1.0, 1.0, np.linalg.det(turn[:, order]))
+    return Inertial(mass, np.array(center), turn @ np.diag(moments) @ turn.T, moments[order], axes)
+
+
+def robot():
+    """A link of each kind of shape, a joint of each kind, names that no format has, two roots."""
+    shapes = {
+        "base": (Shape("mesh", file="meshes/base.stl"), Shape("box", (1.0, 2.0, 3.0), Pose(np.array([0.5, 0.0, 0.0])))),
+        "arm <1>": (Shape("mesh", (2.0, 1.0, 1.0), Pose(np.zeros(3), TURN), "meshes/arm.stl", True),),
+        "arm_1_": (Shape("ellipsoid", (1.0, 2.0, 3.0)),),
+        "world": (Shape("capsule", (0.5, 2.0), Pose(np.array([0.0, 1.0, 0.0]), QUARTERS)),),
+        "3rd::link": (Shape("cylinder", (0.25, 1.5)),),
+        "hand": (Shape("sphere", (0.75,)),),
+        "": (),
+        "wheel": (),
+        "other": (),
+    }
+    links = [
+        Link(
+            name, of_box(count + 1.0, (1.0, 2.0, 4.0), (0.1 * count, 0.0, -0.5)), Pose(np.array([count, 0.0, 1.0])), own
+        )
+        for count, (name, own) in enumerate(shapes.items())
+    ]
+    links[1] = Link("arm <1>", links[1].inertial, Pose(np.array([1.0, 2.0, 3.0]), QUARTERS), links[1].shapes)
+    links[7] = Link("wheel", None, Pose(), ())
+    x, y, z = np.eye(3)
+    joints = (
+        Joint("shoulder", "base", "arm <1>", (FreeAxis("rotate", z, -0.5, 1.5),)),
+        Joint("spin", "arm <1>", "arm_1_", (FreeAxis("rotate", -y),)),
+        Joint("slide", "arm_1_", "world", (FreeAxis("translate", x, -0.25, inf),)),
+        Joint("weld", "world", "3rd::link"),
+        Joint("cross", "3rd::link", "hand", (FreeAxis("rotate", x, -1.0, 1.0), FreeAxis("rotate", -y, -0.5, inf))),
+        Joint("ball", "hand", "", (FreeAxis("rotate", x), FreeAxis("rotate", y), FreeAxis("rotate", z))),
+        Joint("hip", "", "wheel", (FreeAxis("rotate", x), FreeAxis("rotate", -y, -1.0, 2.0), FreeAxis("translate", z))),
+    )
+    return Robot('A "robot"', tuple(links), joints)
+
+
+def surface_of(name):
+    corners = np.array([(0, 0, 0), (9, 9, 9), (1, 0, 0), (0, 2, 0), (0, 0, 3)], float)  # the second is in no triangle
+    faces = np.array([(0, 3, 2), (0, 2, 4), (0, 4, 3), (2, 3, 4)])
+    return Surface.from_triangles(corners, faces) if name == "base" else None
+
+
+@pytest.mark.parametrize("name", formats.WRITERS)
+def test_a_robot(kept, name):
+    remarks = (finding("robot_without_links"), finding("robot_links_left_out", count=1, links=["--"]))
+    text, findings = formats.robot_text(robot(), name, remarks, surface_of=surface_of)
+    brief, _ = formats.robot_text(robot(), name, inertial_only=True)
+    said = ["{:s} {!r}".format(one.code, one.values) for one in findings]
+    kept("robot." + name, "\n".join([text, "=== inertials only", brief, "=== findings", *said]))
+
+
+def test_a_robot_of_one_root_without_remarks(kept):
+    whole = robot()
+    one = Robot("One", whole.links[:2], whole.joints[:1])
+    kept("robots_of_one_root.txt", "\n".join(formats.robot_text(one, name)[0] for name in formats.WRITERS))
+
+
+def test_masses_over_another_layer_and_into_another_file(kept):
+    whole = robot()
+    scaled = Link("other", whole.links[8].inertial, whole.links[8].pose, (), np.array([1.0, 2.0, 4.0]))
+    whole = Robot("Over", (*whole.links[:8], scaled), whole.joints)
+    paths = {"base": ("root", "base"), "other": ("root", "above", "other")}
+    document = {
+        "nodes": [
+            {"name": "base", "extensions": {"OWN": 1}},
+            {"name": "other"},
+            {"name": "hand"},
+            {"name": "base"},
+            {},
+        ],
+        "skins": [{"joints": [3]}],
+        "extensionsUsed": ["OWN"],
+    }
+    said = gltf.add_rigid_bodies(document, whole, 0.5)
+    missing = gltf.add_rigid_bodies({"nodes": [{"name": "other"}, {"name": "other"}]}, whole, 1.0)
+    lines = [usd.write_over(whole, paths, "./geometry.usda", 0.5, ["Remark"]), json.dumps(document, indent=1)]
+    kept("masses_over.txt", "\n".join(lines + ["{:s} {!r}".format(one.code, one.values) for one in (*said, *missing)]))
+
+
+def test_a_glb_file_keeps_what_is_no_json():
+    document, binary = {"name": "Würfel"}, b"\x01\x02\x03\x04"
+    data = gltf.to_glb(json.dumps(document))
+    assert data[:4] == b"glTF" and len(data) == int.from_bytes(data[8:12], "little") and len(data) % 4 == 0
+    assert gltf.read_json(data) == document
+    data += len(binary).to_bytes(4, "little") + b"BIN\0" + binary
+    other = gltf.replace_json(data, {"name": "other", "more": [1]})
+    assert gltf.read_json(other) == {"name": "other", "more": [1]}
+    assert other.endswith(binary) and len(other) == int.from_bytes(other[8:12], "little")
+    assert other[4:8] == (2).to_bytes(4, "little") and other[16:20] == b"JSON"
+    text = gltf.replace_json(b"{}", document)
+    assert text.decode() == '{\n\t"name": "Würfel"\n}\n' and gltf.read_json(text) == document
+
+
+def test_audits_of_robots(kept):
+    found = [finding("no_faces"), finding("overlap_unchecked", count=2), finding("t_junctions", count=3)]
+    stated = StatedInertial(
+        2.0, np.array([0.5, 0.0, 1.0]), np.array([[3.0, 0.1, 0.0], [0.3, 2.0, 0.0], [0.0, 0.0, 1.0]])
+    )
+    links = [StatedLink("=<b>", stated), StatedLink("bare"), StatedLink("noted", stated)]
+    entries = [
+        audit_report.link_entry(links[0], found, stated.along_link(mass=4.0), 1234.5678),
+        audit_report.link_entry(links[1], (), None, None),
+        audit_report.link_entry(links[2], found[2:], None, 1000.0),
+    ]
+    description = Description("Robot", "urdf", tuple(links))
+    documents = [
+        audit_report.document("a&b.urdf", description, entries, "out/a&b.urdf"),
+        audit_report.document("fine.urdf", description, entries[1:], None),
+        audit_report.failed_document("gone.urdf", finding("file_missing")),
+    ]
+    pages = [write(documents) for write in audit_report.FORMATS.values()] + [audit_report.to_json(documents[:1])]
+    kept("audits.txt", "\n".join([*pages, *map(audit_report.to_text, documents)]))
+
+
+def test_links_as_the_primitives_of_their_inertia(kept):
+    lines = []
+    for kind in ("box", "ellipsoid", "capsule", "none"):
+        for link in shapes.with_primitives(robot(), kind).links:
+            lines += [repr((kind, link.name, [(one.kind, np.round(one.size, 9).tolist()) for one in link.shapes]))]
+    kept("primitives.txt", "\n".join(lines))
+
+
+def test_what_terminals_would_obey_is_shown():
+    assert visible("Würfel 立方体 \x1b[31m\r\n\u2028\u2029\u202e\ud800.") == (
+        "Würfel 立方体 \\x1b[31m\\r\\n\\u2028\\u2029\\u202e\\ud800."
+    )
+
+
+def scene_of_all_kinds():
+    add(box_mesh(1, 2, 4), "Box", location=(1, 2, 3)).body_moments.density = 500.0
+    flipped = add(boxes(2.0, reverse=[0]), "=Flipped", location=(5, 0, 0))
+    flipped.body_moments.kind, flipped.body_moments.thickness = "SHELL", 0.125
+    dense = add(box_mesh(1, 1, 1), "Polynomial", rotation=(0.0, 0.0, np.pi / 2))
+    dense.body_moments.density_from, dense.body_moments.density_polynomial = "POLYNOMIAL", "900 + 120*x"
+    bpy.ops.curve.primitive_nurbs_circle_add()
+    bpy.context.object.name, bpy.context.object.body_moments.kind = "Wire", "WIRE"
+    bpy.ops.surface.primitive_nurbs_surface_sphere_add()
+    sphere = bpy.context.object
+    sphere.name, sphere.location, sphere.rotation_euler, sphere.scale = "Sphere", (7, 8, 9), (0.3, 0.2, 0.1), (1, 2, 3)
+    broken = add(bpy.data.meshes.new("Empty"), "Empty Mesh")
+    add(box_mesh(1, 1, 1), "Hidden").hide_render = True
+    only(broken)
+
+
+def test_documents_of_objects(kept, scene):
+    scene_of_all_kinds()
+    plain = batch_files.document()
+    rich = batch_files.document(
+        "--order", 2, "--surface-moments", "--pose", "--signature", "--about", "center", "--object", "Box"
+    )
+    other = batch_files.document("--frame", "object", "--about", "world", "--order", 1, "--object", "Box")
+    for document in (plain, rich, other):
+        document["blender"] = "4.5.0"
+    failed = documents.failed_document("a\tb.stl", "It is gone", "missing", blender=None, frame="world")
+    kept("one.json", "".join(documents.to_json([plain])))
+    kept("rich.json", "".join(documents.to_json([rich])))
+    kept("several.json", "".join(documents.to_json([other, failed])))
+    kept("objects.csv", "".join(documents.to_csv([plain, rich, other, failed])))
+    page = "".join(to_html([plain, other, failed]))
+    kept("objects.html", re.sub(r"(?s)<style>.*?</style>|<script>.*?</script>", "", page))
+    kept("objects.txt", "\n".join(map(text_report.text, (plain, other, failed))))
+    assert [*documents.to_json([])] == ["[]\n"]
+    assert list(map(json.loads, documents.to_json_lines([plain, failed]))) == [plain, failed]
+
+
+def test_documents_of_flat_shapes(kept, scene):
+    add(flat_mesh(I_BEAM), "Beam", location=(1, 2, 3), rotation=(np.pi / 2, 0.0, 0.0))
+    add(flat_mesh(square(0, 0, 2)), "Square")
+    flat = batch_files.document("--flat", "--order", 2, "--signature")
+    about = batch_files.document("--flat", "--order", 1, "--about", "origin", "--frame", "object")
+    flat["blender"] = about["blender"] = "4.5.0"
+    kept("flat.json", "".join(documents.to_json([flat, about])))
+    kept("flat.csv", "".join(documents.to_csv([flat])))
+    kept("flat.html", re.sub(r"(?s)<style>.*?</style>|<script>.*?</script>", "", "".join(to_html([flat]))))
+
+
+def test_reports_of_stored_numbers(kept, scene):
+    from body_moments.operators.write import section
+
+    scene_of_all_kinds()
+    objects = [obj for obj in bpy.data.objects if obj.name != "Hidden"]
+    only(*objects)
+    bpy.ops.object.body_moments_measure()
+    caveat = finding("total_of_open_objects", objects=["Box"])
+    texts = []
+    for frame in ("WORLD", "OBJECT"):
+        scene.body_moments.frame = frame
+        texts.append(text_report.report_text(bpy.context, objects, {"Box"}, [caveat]))
+    beam = add(flat_mesh(I_BEAM), "Beam", location=(1, 2, 3), rotation=(np.pi / 2, 0.0, 0.0))
+    for obj in (
+        beam,
+        add(flat_mesh(square(0, 0, 2)), "Square"),
+        add(flat_mesh(square(-2000, -1999.99, 4000)), "Large"),
+    ):
+        only(obj)
+        bpy.ops.object.body_moments_measure_section()
+        for outdated in (None, finding("stale_geometry")):
+            texts.append(section.text(obj.name, section.stored(obj), outdated))
+    kept("reports.txt", "\n".join(texts))
+
+
+def test_a_thumbnail(kept):
+    """Every second pixel as a letter of its color."""
+    corners = np.array([(x, y, z) for x in (0, 1) for y in (0, 2) for z in (0, 3)], float)
+    quads = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
+    box = np.array([part for a, b, c, d in quads for part in ((a, b, c), (a, c, d))])
+    pages = []
+    for triangles in (box, np.zeros((1, 3), int)):
+        url = thumbnail(corners, triangles, np.array([0.5, 1.0, 1.5]), TURN)
+        data = base64.b64decode(url.removeprefix("data:image/png;base64,"))
+        start, end = data.index(b"IDAT") + 4, data.index(b"IEND") - 8
+        rows = np.frombuffer(zlib.decompress(data[start:end]), np.uint8).reshape(SIZE, -1)
+        pixels = rows[::2, 1:].reshape(SIZE // 2, SIZE, 4)[:, ::2]
+        colors, place = np.unique(pixels.reshape(-1, 4), axis=0, return_inverse=True)
+        letters = np.array([*".abcdefghi"])[place.reshape(pixels.shape[:2])]
+        pages += [repr(data[:33]), repr(colors.tolist()), *("".join(row).rstrip(".") for row in letters)]
+    kept("thumbnail.txt", "\n".join(pages))

@@ -1,0 +1,210 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Each mistake that a robot description may have is made, found, named and repaired; from both sides of each limit."""
+
+from dataclasses import replace
+from itertools import permutations, product
+from math import degrees, radians
+
+import numpy as np
+import pytest
+from body_moments.core.numerics.rotations import quaternion
+from body_moments.core.robots.diagnosis import INERTIA_UNITS, LENGTH_UNITS, Reference, diagnose
+from body_moments.core.robots.stated import StatedInertial, rotation_of_angles
+from body_moments.core.verdict.finding import finding
+
+from tests.close import close
+from tests.core import bodies
+
+MASS, DENSITY = 2.3, 1234.5
+CENTER, ORIGIN, ANGLES = np.array([0.21, -0.34, 0.55]), np.array([-0.1, 0.45, 0.3]), (0.4, -0.7, 1.1)
+AXES = bodies.rotation(5)
+INERTIA = MASS * AXES @ np.diag([0.017, 0.029, 0.036]) @ AXES.T
+TRUTH = StatedInertial(MASS, CENTER, INERTIA)
+REFERENCE = Reference(MASS / DENSITY, CENTER, INERTIA / MASS, (ORIGIN,))
+
+
+def square(arm):
+    return MASS * (arm @ arm * np.eye(3) - np.outer(arm, arm))
+
+
+def of_inertia(inertia, center=CENTER):
+    return StatedInertial(MASS, center, inertia)
+
+
+def along(rotation, stated_rotation, **more):
+    """The truth along other axes, which the file states otherwise."""
+    return StatedInertial(MASS, CENTER, rotation.T @ INERTIA @ rotation, stated_rotation, **more)
+
+
+def with_products(signs, tensor):
+    flipped = tensor.copy()
+    for (i, j), sign in zip(((0, 1), (0, 2), (1, 2)), signs):
+        flipped[i, j] = flipped[j, i] = tensor[i, j] * sign
+    return flipped
+
+
+def mistakes():
+    """Code, values, and what a file states."""
+    for factor in (1e-3, 1e3):
+        yield "mass_unit", {"factor": factor}, replace(TRUTH, mass=MASS / factor)
+    for factor in INERTIA_UNITS:
+        yield "inertia_unit", {"factor": factor}, of_inertia(INERTIA / factor)
+    for factor in LENGTH_UNITS:
+        yield "center_unit", {"factor": factor}, of_inertia(INERTIA, CENTER / factor)
+        yield "length_unit", {"factor": factor}, of_inertia(INERTIA / factor**2, CENTER / factor)
+    yield "inertia_of_unit_mass", {"factor": MASS}, of_inertia(INERTIA / MASS)
+    yield "inertia_of_unit_density", {"factor": DENSITY}, of_inertia(INERTIA / DENSITY)
+    yield "inertia_about_origin", {}, of_inertia(INERTIA + square(CENTER))
+    yield "inertia_shifted_twice", {}, of_inertia(INERTIA - square(CENTER))
+    yield "inertia_about_mesh_origin", {"point": ORIGIN.tolist()}, of_inertia(INERTIA + square(CENTER - ORIGIN))
+    turn = rotation_of_angles(*ANGLES)
+    for code, convert in (("angles_in_degrees", degrees), ("angles_in_radians", radians)):
+        angles = tuple(map(convert, ANGLES))
+        yield code, {}, along(turn, rotation_of_angles(*angles), angles=angles)
+    w, x, y, z = quaternion(turn).tolist()
+    for wrong in ((x, y, z, w), (z, w, x, y)):
+        yield "quaternion_order", {}, along(turn, np.eye(3), quaternion=wrong)
+    yield "frame_transposed", {}, along(turn, turn.T)
+    yield "frame_not_meant", {}, replace(TRUTH, rotation=turn)
+    for signs in list(product((1.0, -1.0), repeat=3))[1:]:
+        products = [name for name, sign in zip(("xy", "xz", "yz"), signs) if sign < 0.0]
+        yield "products_sign", {"products": products}, of_inertia(with_products(signs, INERTIA))
+        own = along(turn, turn)
+        yield "products_sign", {"products": products}, replace(own, tensor=with_products(signs, own.tensor))
+        axes = [axis for axis, sign in zip("xyz", signs) if sign < 0.0]
+        yield "center_sign", {"axes": axes}, of_inertia(INERTIA, CENTER * signs)
+    for axis in range(3):
+        mirror = np.eye(3)
+        mirror[axis, axis] = -1.0
+        yield "mirrored", {"axis": "xyz"[axis]}, of_inertia(mirror @ INERTIA @ mirror, mirror @ CENTER)
+        for way in (np.pi / 2.0, -np.pi / 2.0):
+            turned = rotation_of_angles(*way * np.eye(3)[axis])
+            yield "frame_turned", {"axis": "xyz"[axis]}, of_inertia(turned @ INERTIA @ turned.T, turned @ CENTER)
+            yield "tensor_turned", {"axis": "xyz"[axis]}, of_inertia(turned @ INERTIA @ turned.T)
+    diagonal = np.diag(np.diag(INERTIA))
+    for order in list(permutations(range(3)))[1:]:
+        values, back = {"order": "".join("xyz"[axis] for axis in order)}, np.argsort(order)
+        swapped = INERTIA[np.ix_(back, back)]
+        yield "axes_swapped", values, of_inertia(swapped)
+        yield "center_axes_swapped", values, of_inertia(INERTIA, CENTER[back])
+        yield "all_axes_swapped", values, of_inertia(swapped, CENTER[back])
+        yield "diagonal_swapped", values, of_inertia(INERTIA - diagonal + np.diag(np.diag(swapped)))
+        yield "products_swapped", values, of_inertia(swapped - np.diag(np.diag(swapped)) + diagonal)
+    moments, axes = np.linalg.eigh(INERTIA)
+    for order in permutations(range(3)):
+        rows = axes[:, order].T
+        yield "axes_transposed", {}, of_inertia(rows @ np.diag(moments[list(order)]) @ rows.T)
+
+
+def said(stated=TRUTH, *references, otherwise=()):
+    found = diagnose(stated, references or [REFERENCE], otherwise)
+    return found and (found.finding.code.removeprefix("audit_"), dict(found.finding.values))
+
+
+def of_density(density):
+    return replace(REFERENCE, volume=MASS / density)
+
+
+def test_a_mistake_is_found_named_and_repaired():
+    for code, values, stated in mistakes():
+        assert said(stated) == (code, values)
+        repaired = diagnose(stated, [REFERENCE]).repaired
+        assert REFERENCE.of(repaired) <= 1e-12 < 1e-2 < REFERENCE.of(stated) and close(repaired.mass, MASS, 1e-15)
+
+
+@pytest.mark.parametrize("size", LENGTH_UNITS)
+def test_a_mesh_in_another_unit_shows_in_the_density(size):
+    scaled = Reference(REFERENCE.volume * size**3, CENTER * size, INERTIA / MASS * size**2)
+    assert said(TRUTH, scaled) == ("mesh_unit", {"factor": 1.0 / size})
+    assert diagnose(TRUTH, [scaled]).repaired is None
+    # with a density that is usual for the mesh as it is, the file is wrong
+    assert said(TRUTH, replace(scaled, volume=MASS / DENSITY)) == ("length_unit", {"factor": size})
+    for density, code in ((9.0, "length_unit"), (11.0, "mesh_unit"), (29e3, "mesh_unit"), (31e3, "length_unit")):
+        assert said(TRUTH, replace(scaled, volume=MASS / density * size**3))[0] == code
+
+
+def test_what_is_near_is_the_same_and_what_is_far_is_not_uniform():
+    radius = np.sqrt(np.trace(INERTIA / MASS) / 2.0)
+    for share, is_same in ((0.0099, True), (-0.0099, True), (0.0101, False), (-0.0101, False)):
+        found = (
+            said(of_inertia(INERTIA * (1.0 + share))),
+            said(of_inertia(INERTIA, CENTER + [0.0, 0.0, share * radius])),
+        )
+        if is_same:
+            assert found == (None, None)
+        else:
+            assert [code for code, _ in found] == ["not_uniform"] * 2
+            assert close([values["factor"] for _, values in found], [1.0 + share, 1.0], 1e-12)
+            assert close(found[1][1]["distance"], abs(share) * radius, 1e-12)
+    for share, code in ((0.0049, "inertia_unit"), (0.0051, "not_uniform")):
+        assert said(of_inertia(INERTIA * 1e3 * (1.0 + share)))[0] == code
+    # the nearest of several, a change of the geometry first, and nothing to compare with
+    far, change = replace(REFERENCE, center=CENTER + 1.0), finding("audit_shape_angles_in_degrees")
+    assert said(TRUTH, far, REFERENCE) is said(TRUTH, REFERENCE, far) is None
+    assert close(said(of_inertia(INERTIA * 1.5), far, REFERENCE)[1]["factor"], 1.5, 1e-12)
+    assert said(TRUTH, far, otherwise=[(finding("other"), far), (change, REFERENCE)]) == (change.code[6:], {})
+    assert said(TRUTH, REFERENCE, otherwise=[(change, REFERENCE)]) is None and diagnose(TRUTH, []) is None
+
+
+def test_a_change_that_explains_it_ten_times_better_counts():
+    tensor = np.diag([0.03, 0.04, 0.05])
+    tensor[0, 1] = tensor[1, 0] = 0.015 * np.linalg.norm(tensor) / np.sqrt(2.0)
+    reference = Reference(MASS / DENSITY, CENTER, tensor)
+    for share, code in ((0.002, "products_sign"), (0.004, "not_uniform")):
+        stated = of_inertia(MASS * (1.0 + share) * with_products((-1.0, 1.0, 1.0), tensor))
+        assert 0.029 < reference.of(stated) < 0.031 and said(stated, reference)[0] == code
+
+
+@pytest.mark.parametrize("share, code", [(1e-4, "inertia_about_mesh_origin"), (0.0, "inertia_about_origin")])
+def test_of_two_changes_the_likelier_counts_unless_the_other_explains_it_ten_times_better(share, code):
+    """The mesh's own origin is next to the link's."""
+    reference = replace(REFERENCE, origins=(share * CENTER,))
+    stated = of_inertia(INERTIA + square(CENTER - share * CENTER))
+    assert reference.of(of_inertia(stated.inertia - square(CENTER))) < 5e-3 and said(stated, reference)[0] == code
+
+
+@pytest.mark.parametrize(
+    "density, code, factor",
+    [
+        *((density, None, None) for density in (10.01, 29_990.0)),
+        *((density, "mass_and_inertia_unit", 1e3) for density in (9.99, 0.1001)),
+        *((density, "mass_and_inertia_unit", 1e-3) for density in (100_010.0, 11_990_000.0)),
+        *((density, "density", None) for density in (0.0999, 30_010.0, 99_900.0, 12_010_000.0)),
+    ],
+)
+def test_a_density_that_nothing_has_is_told(density, code, factor):
+    found = diagnose(TRUTH, [of_density(density)])
+    if code is None:
+        assert found is None
+        return
+    assert found.finding.code == "audit_" + code and close(found.finding.values["density"], density, 1e-12)
+    assert found.finding.values.get("factor") == factor
+    if factor is None:
+        assert found.repaired is None
+    else:
+        assert close(found.repaired.mass, MASS * factor, 1e-15)
+        assert close(found.repaired.inertia, INERTIA * factor, 1e-15) and (found.repaired.center == CENTER).all()
+
+
+def test_a_mass_in_another_unit_needs_a_density_that_nothing_has():
+    for density, code in (
+        (10.01, "mass_unit"),
+        (9.99, "inertia_unit"),
+        (9_990.0, "mass_unit"),
+        (10_010.0, "inertia_unit"),
+    ):
+        assert said(replace(TRUTH, mass=MASS / 1e3), of_density(density))[0] == code
+    for density, code in (
+        (29.9, "inertia_unit"),
+        (30.1, "mass_unit"),
+        (29_990.0, "mass_unit"),
+        (30_010.0, "inertia_unit"),
+    ):
+        assert said(replace(TRUTH, mass=MASS * 1e3), of_density(density))[0] == code
+
+
+def test_decimals_of_the_file_stay_decimals():
+    assert 2300.0 * 1e-3 != 2.3 == diagnose(replace(TRUTH, mass=2300.0), [REFERENCE]).repaired.mass
+    stated = of_inertia(INERTIA, CENTER / 0.0254)
+    assert (diagnose(stated, [REFERENCE]).repaired.center == stated.center * 0.0254).all()

@@ -1,0 +1,169 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Frames in frames, inertials that are moved and put together, and the trees that links make."""
+
+import numpy as np
+import pytest
+from body_moments.core.robots import Inertial, Joint, Link, Robot
+from body_moments.core.robots.model import FreeAxis, Pose, Shape, combine_inertials
+from body_moments.core.robots.stated import StatedInertial, pose_of_angles, rotation_of_angles
+
+from tests.close import close
+from tests.core import bodies
+
+RNG = np.random.default_rng(3)
+Z = np.array([0.0, 0.0, 1.0])
+
+
+def inertial(seed, mass=1.7):
+    axes, moments = bodies.rotation(seed), mass * np.array([0.2, 0.3, 0.4])
+    return Inertial(mass, np.random.default_rng(seed).normal(size=3), axes @ np.diag(moments) @ axes.T, moments, axes)
+
+
+def pose(seed):
+    return Pose(np.random.default_rng(seed).normal(size=3), bodies.rotation(seed))
+
+
+def test_a_pose_in_a_pose_takes_points_as_both_do_and_its_inverse_takes_them_back():
+    outer, inner, point = pose(1), pose(2), RNG.normal(size=3)
+    both = outer @ inner
+    assert close(
+        both.rotation @ point + both.position,
+        outer.rotation @ (inner.rotation @ point + inner.position) + outer.position,
+        1e-13,
+    )
+    same = both @ both.inverse()
+    assert np.abs(same.position).max() <= 1e-14 and np.abs(same.rotation - np.eye(3)).max() <= 1e-14
+    assert (Pose().position == 0.0).all() and (Pose().rotation == np.eye(3)).all()
+
+
+def test_angles_turn_about_the_fixed_axes_x_then_y_then_z():
+    roll, pitch, yaw = 0.3, -1.2, 2.2
+    turns = [rotation_of_angles(*angles) for angles in ((roll, 0, 0), (0, pitch, 0), (0, 0, yaw))]
+    assert np.abs(rotation_of_angles(roll, pitch, yaw) - turns[2] @ turns[1] @ turns[0]).max() <= 1e-15
+    for axis, (turn, angle) in enumerate(zip(turns, (roll, pitch, yaw))):
+        following = np.roll(np.eye(3), axis + 1, axis=1)[0]
+        across = np.roll(np.eye(3), axis + 2, axis=1)[0]
+        assert close(turn @ following, np.cos(angle) * following + np.sin(angle) * across, 1e-15)
+    placed = pose_of_angles([1, 2, 3], (roll, pitch, yaw))
+    assert placed.position.tolist() == [1.0, 2.0, 3.0]
+    assert (placed.rotation == rotation_of_angles(roll, pitch, yaw)).all()
+
+
+def test_what_is_stated_along_other_axes():
+    turn = bodies.rotation(4)
+    stated = StatedInertial(2.0, Z, np.diag([1.0, 2.0, 2.5]), turn, (1.0, 2.0, 3.0), (1.0, 0.0, 0.0, 0.0))
+    assert np.abs(stated.inertia - turn @ np.diag([1.0, 2.0, 2.5]) @ turn.T).max() <= 1e-15
+    for other, tensor in ((stated.along_link(), stated.inertia), (stated.along_link(np.eye(3)), np.eye(3))):
+        assert (other.tensor == tensor).all() and (other.rotation == np.eye(3)).all()
+        assert other.angles is None and other.quaternion is None and other.mass == 2.0
+    assert stated.along_link(mass=5.0).mass == 5.0
+
+
+def test_an_inertial_is_moved_with_its_axes():
+    one, place = inertial(1), pose(2)
+    moved = one.place(place)
+    assert moved.mass == one.mass and (moved.moments == one.moments).all()
+    assert close(moved.center, place.rotation @ one.center + place.position, 1e-13)
+    assert np.abs(moved.inertia - place.rotation @ one.inertia @ place.rotation.T).max() <= 1e-15
+    assert np.abs(moved.axes @ np.diag(moved.moments) @ moved.axes.T - moved.inertia).max() <= 1e-15
+    assert (moved.inertia == moved.inertia.T).all()
+
+
+def test_inertials_add_by_the_theorem_of_parallel_axes():
+    parts = [inertial(1, 1.0), inertial(2, 3.0), inertial(5, 0.25)]
+    total = combine_inertials(parts)
+    mass = sum(part.mass for part in parts)
+    center = sum(part.mass * part.center for part in parts) / mass
+    arms = [part.center - center for part in parts]
+    tensor = sum(p.inertia + p.mass * (d @ d * np.eye(3) - np.outer(d, d)) for p, d in zip(parts, arms))
+    assert close(total.mass, mass, 1e-15) and close(total.center, center, 1e-13)
+    assert np.abs(total.inertia - tensor).max() <= 1e-13
+    assert np.abs(total.axes @ np.diag(total.moments) @ total.axes.T - tensor).max() <= 1e-13
+
+
+def test_principal_axes_that_do_not_give_the_tensor_are_found_anew():
+    true, off = inertial(3), bodies.rotation(1)
+    exact = Inertial.with_agreeing_axes(1.7, true.center, true.inertia, true.moments, true.axes)
+    assert (exact.axes == true.axes).all() and (exact.moments == true.moments).all()
+    agreeing = Inertial.with_agreeing_axes(1.7, true.center, true.inertia, np.array([1.0, 2.0, 3.0]), off)
+    assert np.abs(agreeing.axes @ np.diag(agreeing.moments) @ agreeing.axes.T - true.inertia).max() <= 1e-15
+    assert np.linalg.det(agreeing.axes) > 0.0 and close(agreeing.moments, true.moments, 1e-14)
+    tilt = rotation_of_angles(1e-9, 0.0, 0.0)
+    rod = Inertial.with_agreeing_axes(1.0, Z, np.diag([1e-20, 1.0, 1.0]), np.array([3e-20, 1.0, 1.0 + 1e-16]), tilt)
+    assert rod.moments[0] == 3e-20 and rod.moments[2] <= rod.moments[0] + rod.moments[1]
+
+
+def free(kind="rotate", **limits):
+    return FreeAxis(kind, Z, **limits)
+
+
+def test_a_ball_turns_about_three_axes_without_limits():
+    assert free(lower=-1.0).is_limited and free(upper=1.0).is_limited and not free().is_limited
+    for axes, is_ball in (
+        ([free()] * 3, True),
+        ([free()] * 2, False),
+        ([free(), free(), free(upper=1.0)], False),
+        ([free(), free(), free("slide")], False),
+        ([free()] * 3 + [free("slide")], False),
+    ):
+        assert Joint("j", "a", "b", tuple(axes)).is_ball == is_ball
+
+
+def tree():
+    links = [Link(name, inertial(k + 1), pose(k)) for k, name in enumerate("edcba")]
+    links[1] = Link("d", None, pose(9))
+    joints = [Joint("1", "a", "b"), Joint("2", "a", "c", (free(),)), Joint("3", "b", "d"), Joint("4", "b", "e")]
+    return Robot("r", tuple(links), tuple(joints))
+
+
+def test_links_are_walked_from_parents_to_children_in_their_order():
+    robot = tree()
+    assert [link.name for link in robot.roots] == ["a"]
+    assert [link.name for link in robot.ordered()] == ["a", "c", "b", "e", "d"]
+    assert [link.name for link in robot.children("b")] == ["e", "d"] and robot.children("e") == []
+    assert robot.joint_of("a") is None and robot.joint_of("c").name == "2" and robot.link("d").inertial is None
+    root, below = robot.link("a"), robot.link("b")
+    assert robot.pose_in_parent(root) is root.pose
+    back = root.pose @ robot.pose_in_parent(below)
+    assert (
+        close(back.position, below.pose.position, 1e-12) and np.abs(back.rotation - below.pose.rotation).max() < 1e-14
+    )
+
+
+def test_what_fixed_joints_hold_is_one_body():
+    robot = tree()
+    root, parts = robot.link("a"), ["a", "b", "e", "d"]
+    assert [link.name for link in robot.rigid_parts(root)] == parts
+    whole, to_link = robot.rigid_inertial(root), root.pose.inverse()
+    heavy = [robot.link(name) for name in parts if name != "d"]
+    truth = combine_inertials([link.inertial.place(to_link @ link.pose) for link in heavy])
+    assert close(whole.mass, sum(link.inertial.mass for link in heavy), 1e-15)
+    assert (whole.inertia == truth.inertia).all() and (whole.center == truth.center).all()
+    assert robot.rigid_inertial(robot.link("c")) is robot.link("c").inertial
+    assert robot.rigid_inertial(robot.link("d")) is None
+
+
+@pytest.mark.parametrize(
+    "joints, text",
+    [
+        ([("a", "b"), ("c", "b")], "twice"),
+        ([("a", "x")], "without link"),
+        ([("x", "a")], "without link"),
+        ([("a", "b"), ("b", "a")], "loop"),
+    ],
+)
+def test_what_is_no_tree_is_refused(joints, text):
+    links = tuple(Link(name) for name in "abc")
+    with pytest.raises(ValueError, match=text):
+        Robot("r", links, tuple(Joint(str(k), *pair) for k, pair in enumerate(joints)))
+    with pytest.raises(ValueError, match="twice"):
+        Robot("r", (*links, Link("a")))
+
+
+def test_what_is_left_out_is_a_unit_at_the_origin():
+    shape, link = Shape("box"), Link("a")
+    assert shape.size == (1.0, 1.0, 1.0) and shape.file == "" and not shape.sheet
+    assert (link.scale == 1.0).all() and link.shapes == () and link.inertial is None
+    for one in (shape.pose, link.pose):
+        assert not one.position.any() and (one.rotation == np.eye(3)).all()
