@@ -8,6 +8,7 @@ run the other way round their two directions: with v as s and u as t both agree.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 
@@ -109,3 +110,23 @@ class Patch:
 def _sample_table(space: SplineSpace, each: int) -> NDArray[np.float64]:
     """What control points weigh at equal steps in every span; not to be written to."""
     return space.collocation_matrix(space.uniform_parameters(each))
+
+
+def control_box(patches: Sequence[Patch]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """(3,) and (3,) the least and the largest coordinates of all control points."""
+    return (
+        np.min([patch.points.min(axis=(0, 1)) for patch in patches], axis=0),
+        np.max([patch.points.max(axis=(0, 1)) for patch in patches], axis=0),
+    )
+
+
+def patches_center(patches: Sequence[Patch]) -> NDArray[np.float64]:
+    """(3,) the middle of the box around all control points: the reference point."""
+    low, high = control_box(patches)
+    return low + (high - low) / 2.0
+
+
+def patches_size(patches: Sequence[Patch]) -> float:
+    """The diagonal of the box around all control points."""
+    low, high = control_box(patches)
+    return float(np.linalg.norm(high - low))

@@ -30,7 +30,7 @@ from ..numerics.quadrature import gauss_legendre, gauss_legendre_with_ends
 from ..numerics.vectors import cross, dot
 from ..verdict.finding import MeasureError
 from .bezier import BezierCells, Rule, Weights, cells_of
-from .patch import Patch
+from .patch import Patch, patches_center
 
 VOLUME_RTOL = 4e-15  # of the largest that the moment could be: what rounding leaves anyway
 AREA_RTOL = 1e-11
@@ -62,20 +62,6 @@ class Integral:
     estimate: float
     size: float
     converged: bool
-
-
-def control_box(patches: Sequence[Patch]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """(3,) and (3,) the least and the largest coordinates of all control points."""
-    return (
-        np.min([patch.points.min(axis=(0, 1)) for patch in patches], axis=0),
-        np.max([patch.points.max(axis=(0, 1)) for patch in patches], axis=0),
-    )
-
-
-def patches_center(patches: Sequence[Patch]) -> NDArray[np.float64]:
-    """(3,) the middle of the box around all control points: the reference point."""
-    low, high = control_box(patches)
-    return low + (high - low) / 2.0
 
 
 def volume_moments(

@@ -17,15 +17,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..mesh.bvh import SortedComponents, sort_components
-from ..moments.moments import Moments, monomials, sum_moments
+from ..moments.moments import Moments, sum_moments
 from ..solid.nesting import ComponentRelations, classify_pairs
 from ..solid.orientation import ComponentComparison, zero_volume
 from ..verdict.finding import Finding, MeasureError, finding
 from ..verdict.health import MeshHealth
 from ..verdict.method import Verdict
 from ..verdict.tolerances import NEGLIGIBLE, WELDING_RTOL
-from .patch import Patch
-from .patch_moments import area_moments, area_slope, control_box, patches_center, sheet_moments, volume_moments
+from .input_error import with_area_error, with_swept_error
+from .patch import Patch, patches_center, patches_size
+from .patch_moments import area_moments, area_slope, sheet_moments, volume_moments
 from .patch_topology import PatchTopology, find_topology
 
 SAMPLES_PER_SPAN, FINE_SAMPLES_PER_SPAN = 8, 48  # samples of a span, for comparing parts, and where those cross
@@ -182,7 +183,11 @@ def assess(
     is_open = bool(topology.unclosable.any() or not verdict.solid.any())
     if is_open and volume.total < 0.0:
         volume = replace(volume, raw=-volume.raw)
-    volume, area = _with_input_errors(volume, area, slope, topology, stored, size)
+    reach = size + 4.0 * stored
+    # caps move with their boundaries
+    skin = area.total + sum(loop.area for loop in topology.loops)
+    volume = with_swept_error(volume, stored * skin + topology.seam_gap, reach)
+    area = with_area_error(area, slope, stored, reach)
     misoriented = len(_misoriented(topology))
     further = list(findings)
     if not all(converged for *_, converged, _ in turned_parts):
@@ -233,19 +238,6 @@ def _judge_parts(
     comparison = _compare_parts(parts, total, solid, max(WELDING_RTOL * size, 4.0 * stored))
     flipped = solid & (total < 0.0) if comparison is None else comparison.flipped
     return _PatchVerdict(solid, flipped, solid if solid.any() else topology.unclosable, caps, comparison)
-
-
-def _with_input_errors(
-    volume: Moments, area: Moments, slope: float, topology: PatchTopology, stored: float, size: float
-) -> tuple[Moments, Moments]:
-    """Volume and area with the bounds of what storing the control points may have changed."""
-    reach = size + 4.0 * stored
-    # caps move with their boundaries
-    skin = area.total + sum(loop.area for loop in topology.loops)
-    return (
-        replace(volume, input_error=_input_error(volume, stored, topology.seam_gap, skin, reach)),
-        replace(area, input_error=_input_error(area, stored, 0.0, slope + area.total / reach, reach)),
-    )
 
 
 def _method(is_open: bool, verdict: _PatchVerdict, misoriented: int) -> Verdict:
@@ -311,54 +303,9 @@ def measure_sheet(
     sheet, converged = sheet_moments(patches, inner, outer, 3, about)
     size = patches_size(patches)
     reach = size + max(abs(inner), abs(outer)) + 4.0 * stored
-    area = replace(area, input_error=_input_error(area, stored, 0.0, area_slope(patches) + area.total / reach, reach))
-    sheet = replace(sheet, input_error=_input_error(sheet, stored, 0.0, 2.0 * sheet.total / reach, reach))
+    area = with_area_error(area, area_slope(patches), stored, reach)
+    sheet = with_swept_error(sheet, stored * 2.0 * sheet.total / reach, reach)
     return sheet, area, fine and converged
-
-
-def stored_area_moments(
-    patches: Sequence[Patch], order: int, about: NDArray[np.float64] | None = None, *, stored: float
-) -> Moments:
-    """Return the area moments of patches with the bounds of what storing their control points may have changed.
-
-    Parameters
-    ----------
-    patches : sequence of Patch
-    order : int
-    about : (3,) array, optional
-        A point in the box of the control points, by default its center.
-    stored : float
-        As for `measure_patches`.
-
-    Returns
-    -------
-    Moments
-    """
-    area = area_moments(patches, order, about)[0]
-    reach = patches_size(patches) + 4.0 * stored
-    return replace(area, input_error=_input_error(area, stored, 0.0, area_slope(patches) + area.total / reach, reach))
-
-
-def with_known_input_error(moments: Moments, known: Moments) -> Moments:
-    """Return moments of another order with the bounds of those that are known about the same point.
-
-    Of degree 0 that bound is the volume, or area, that is swept; from a degree to the next it grows by the reach.
-    """
-    swept, further = known.input_error[:2].tolist()
-    reach = further / swept if swept > 0.0 else 0.0
-    return replace(moments, input_error=swept * reach ** monomials(moments.order).sum(axis=1))
-
-
-def patches_size(patches: Sequence[Patch]) -> float:
-    """The diagonal of the box around all control points."""
-    low, high = control_box(patches)
-    return float(np.linalg.norm(high - low))
-
-
-def _input_error(moments: Moments, stored: float, gap: float, area: float, reach: float) -> NDArray[np.float64]:
-    """(K,) what a skin moved by `stored`, and a gap of that area along seams, may change: at most the area they sweep
-    times the largest value of the monomial, which is at most `reach` to its degree."""
-    return (stored * area + gap) * reach ** monomials(moments.order).sum(axis=1)
 
 
 def _compare_parts(

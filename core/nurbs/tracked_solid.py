@@ -22,10 +22,10 @@ from ..moments.moments import Measure, Moments, monomials, sum_moments
 from ..verdict.method import Verdict
 from ..verdict.tolerances import WELDING_RTOL
 from .incremental import IncrementalPatchMoments
-from .patch import Patch
-from .patch_moments import area_slope, patches_center, volume_moments
+from .patch import Patch, patches_center, patches_size
+from .patch_moments import area_slope, volume_moments
 from .patch_topology import PatchTopology, find_topology
-from .solid import PatchIntegrals, assess, measure_patches, oriented_parts, patches_size
+from .solid import PatchIntegrals, assess, measure_patches, oriented_parts
 
 MAX_SINGLE_UPDATES = 6  # moved control points that are updated one by one
 MAX_RULE_ERROR = 1e-10  # of the largest that a moment could be: a rule that is off by more does not follow

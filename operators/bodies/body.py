@@ -18,7 +18,7 @@ from ...core.inertia.principal_frame import OwnMoments
 from ...core.mesh.surface import Surface
 from ...core.moments.affine_maps import are_similarities
 from ...core.moments.images import sum_of_images
-from ...core.moments.moments import Moments, stack_moments, sum_moments
+from ...core.moments.moments import Moments, monomials, stack_moments, sum_moments
 from ...core.moments.symmetric_tensors import invert_through_point
 from ...core.numerics.rotations import polar_rotation
 from ...core.polyhedron import polyhedron_moments
@@ -217,6 +217,16 @@ def with_input_error(moments: Moments, known: Moments) -> Moments:
     error = moments.input_error.copy()
     error[: len(known.raw)] = np.minimum(error[: len(known.raw)], known.input_error)
     return replace(moments, input_error=error)
+
+
+def extend_input_error(moments: Moments, known: Moments) -> Moments:
+    """Return moments of another order with the bounds of those that are known about the same point.
+
+    Of degree 0 that bound is the volume, or area, that is swept; from a degree to the next it grows by the reach.
+    """
+    swept, further = known.input_error[:2].tolist()
+    reach = further / swept if swept > 0.0 else 0.0
+    return replace(moments, input_error=swept * reach ** monomials(moments.order).sum(axis=1))
 
 
 def own_moments(shapes: Sequence[Moments], which: NDArray[np.intp], linear: NDArray) -> OwnMoments:

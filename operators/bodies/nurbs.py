@@ -21,20 +21,15 @@ from ...core.moments.affine_maps import are_similarities, distinct_linear_parts,
 from ...core.moments.images import sum_of_images
 from ...core.moments.moments import Measure, Moments, monomial_count, sum_moments
 from ...core.nurbs.creases import sharpest_crease
+from ...core.nurbs.input_error import stored_area_moments
 from ...core.nurbs.patch import Patch
 from ...core.nurbs.patch_moments import area_moments, volume_moments
-from ...core.nurbs.solid import (
-    PatchIntegrals,
-    measure_patches,
-    measure_sheet,
-    stored_area_moments,
-    with_known_input_error,
-)
+from ...core.nurbs.solid import PatchIntegrals, measure_patches, measure_sheet
 from ...core.verdict.finding import Finding, MeasureError, ReadError, finding
 from ...core.verdict.method import Method, Source, Verdict, least_trusted
 from ..read import Part, Reading
 from ..read.reading import to_si
-from .body import Body, MeshBody
+from .body import Body, MeshBody, extend_input_error
 from .instances import (
     each_once,
     findings_by_part,
@@ -82,7 +77,7 @@ class PatchBody(Body):
         areas = []
         for part, measure, matrices in self.pieces if area else ():
             of_part = area_moments(_patches(part), order, measure.area.about)[0]
-            areas.extend(_image_areas(part, with_known_input_error(of_part, measure.area), matrices))
+            areas.extend(_image_areas(part, extend_input_error(of_part, measure.area), matrices))
         if self.polygons is not None:
             volume, faces = self.polygons.moments(order, area)
             volumes.append(volume)
@@ -236,7 +231,7 @@ def _moments_to_order(measure: PatchIntegrals, order: int) -> Moments:
     """The volume's moments to another order; those of an open body, or of none, to the one that is known."""
     if measure.method == Verdict.OPEN:
         raise ReadError("open_patches_order")
-    return with_known_input_error(volume_moments(measure.patches, order, measure.volume.about)[0], measure.volume)
+    return extend_input_error(volume_moments(measure.patches, order, measure.volume.about)[0], measure.volume)
 
 
 def _image_areas(part: Part, area: Moments, matrices: NDArray) -> Iterator[Moments]:

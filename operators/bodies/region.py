@@ -18,7 +18,7 @@ from ...core.verdict.finding import MeasureError, finding
 from ...core.verdict.health import MeshHealth
 from ...core.verdict.method import Method, Source, Verdict
 from ..read import Reading, read_lines, shows_flat_region
-from .body import Body
+from .body import Body, extend_input_error
 from .request import Request
 from .wire import DEGREE, curves_in_world
 
@@ -56,7 +56,8 @@ class RegionBody(Body):
     def moments(self, order: int, area: bool) -> tuple[Moments, Moments]:
         """Return that there is no volume, and the area's moments."""
         volume = Moments(np.zeros(monomial_count(order)), self.area.about, Measure.VOLUME)
-        return volume, plane_moments(self.boundary, self.normal, order, self.area.about)
+        of_region = plane_moments(self.boundary, self.normal, order, self.area.about)
+        return volume, extend_input_error(of_region, self.area)
 
 
 def read(request: Request) -> RegionReading | None:

@@ -7,7 +7,8 @@ import json
 import bpy
 import numpy as np
 import pytest
-from body_moments.operators.bodies.measure_object import measure_object
+from body_moments.core.moments.moments import monomials
+from body_moments.operators.bodies.measure_object import measure_body, measure_object
 from body_moments.operators.read import measurable
 from body_moments.operators.settings.options import MeasureOptions
 from body_moments.operators.write.documents import to_json
@@ -112,6 +113,29 @@ def test_moments_of_higher_order_of_a_region_are_exact_too():
     obj.body_moments.kind = "SHELL"
     found = measure_object(obj, bpy.context.evaluated_depsgraph_get(), MeasureOptions(order=6))
     assert found.area_moments.about_point(np.zeros(3))[6, 0, 0] == pytest.approx(5.0 * np.pi / 64.0, rel=1e-7)
+
+
+@pytest.mark.parametrize("order", [2, 5])
+@pytest.mark.parametrize("scale", [(1, 1, 1), (2, -3, 1), (1e-3, 2e-3, 1)])
+def test_what_float32_may_have_moved_bounds_moments_of_a_region_of_any_order(order, scale):
+    """A region grown by a thousandth changes by what points that are moved as far would change at most."""
+    obj = circle()
+    obj.body_moments.kind = "SHELL"
+    growth = 1.001
+
+    def moments(by):
+        obj.scale = by * np.array(scale)
+        bpy.context.view_layer.update()
+        body = measure_body(obj, bpy.context.evaluated_depsgraph_get())
+        farthest = max(np.linalg.norm(curve.points, axis=1).max() for curve in body.reading.boundary)
+        return body.body.moments(order, True)[1], (growth - 1.0) * farthest / body.reading.stored
+
+    (before, moved), (after, _) = moments(1.0), moments(growth)
+    degree = monomials(order).sum(axis=1)
+    change = np.abs(after.about_point(before.about).raw - before.raw)
+    allowed = moved * before.input_error * growth ** (degree + 1)
+    assert (change <= allowed + 1e-9 * before.total * np.max(np.abs(scale)) ** degree).all()
+    assert change[0] >= 0.1 * allowed[0]
 
 
 def test_moments_of_a_region_beyond_the_range_of_numbers_are_refused():

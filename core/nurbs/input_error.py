@@ -1,0 +1,66 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Bounds of what storing the control points of patches may have changed in their moments.
+
+A skin that moves sweeps a volume, and so do gaps along seams; a monomial of degree d is at most the reach, to the d, in
+it. What an area changes by is bounded the same way, with its slope in place of the skin.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..moments.moments import Moments, monomials
+from .patch import Patch, patches_size
+from .patch_moments import area_moments, area_slope
+
+
+def with_swept_error(moments: Moments, swept: float, reach: float) -> Moments:
+    """Return moments with the bounds of a change where only so much is swept, no farther away than the reach."""
+    return replace(moments, input_error=swept * reach ** monomials(moments.order).sum(axis=1))
+
+
+def with_area_error(area: Moments, slope: float, stored: float, reach: float) -> Moments:
+    """Return area moments with the bounds of moving each control point by at most `stored`.
+
+    Parameters
+    ----------
+    area : Moments
+    slope : float
+        As `area_slope` gives it.
+    stored : float
+        Unit.
+    reach : float
+        How far the patches are from the reference point, at most.
+
+    Returns
+    -------
+    Moments
+    """
+    return with_swept_error(area, stored * (slope + area.total / reach), reach)
+
+
+def stored_area_moments(
+    patches: Sequence[Patch], order: int, about: NDArray[np.float64] | None = None, *, stored: float
+) -> Moments:
+    """Return the area moments of patches with the bounds of what storing their control points may have changed.
+
+    Parameters
+    ----------
+    patches : sequence of Patch
+    order : int
+    about : (3,) array, optional
+        A point in the box of the control points, by default its center.
+    stored : float
+        As for `measure_patches`.
+
+    Returns
+    -------
+    Moments
+    """
+    area = area_moments(patches, order, about)[0]
+    return with_area_error(area, area_slope(patches), stored, patches_size(patches) + 4.0 * stored)
