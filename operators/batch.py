@@ -235,7 +235,8 @@ def _run() -> int:
     output = importlib.import_module(PACKAGE + ".operators.command.output")
     channel = output.claim_stdout()  # first of all: importing bpy may print
     words = sys.argv
-    in_blender = "bpy" in sys.modules  # of a Python that has the module nothing has imported it yet
+    bpy = sys.modules.get("bpy")
+    in_blender = bpy is not None and not bpy.app.module
     if in_blender:  # it leaves to a script what follows "--"
         words = words[words.index("--") :] if "--" in words else []
     batch = importlib.import_module(PACKAGE + ".operators.batch")

@@ -271,10 +271,6 @@ class Stacked:
         """The measurement's findings."""
         return self.stack.findings[self.index]
 
-    def add_finding(self, found: Finding) -> None:
-        """Report something more."""
-        self.stack.findings[self.index] += (found,)
-
     @property
     def mass_properties(self) -> MassProperties:
         """The measurement's mass properties."""
@@ -284,11 +280,6 @@ class Stacked:
     def method(self) -> Method:
         """The measurement's method."""
         return self.stack.members[self.index].shape.method
-
-    @property
-    def has_density(self) -> bool:
-        """Whether the object has a density, not a mass."""
-        return not self.stack.from_mass[self.index]
 
     @property
     def shape_digest(self) -> bytes | None:

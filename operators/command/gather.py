@@ -20,7 +20,7 @@ from ...core.verdict.finding import MeasureError, QueryError, finding, system_re
 from ..supervisor import journal, listing
 from ..write.documents import SCHEMA, to_csv, to_json_lines
 from ..write.html.report import to_html
-from ..write.terminal import print_message, visible
+from ..write.terminal import counted, print_message, visible
 from . import compare, output, own_results
 from .option_types import positive
 from .parser import Parser
@@ -182,8 +182,8 @@ def _summary(options: argparse.Namespace) -> tuple[Iterable[str], bool]:
             bound, size = _bound(entry), abs(entry.get("volume") or entry["area"] or 0.0)
             if bound is not None and size:
                 widest = sorted([*widest, (bound / size, "{}: {}".format(file, entry["name"]))], reverse=True)[:_LISTED]
-    lines = ["{} files: {}".format(statuses.total(), _counted(statuses))]
-    lines += ["{} objects: {}".format(methods.total(), _counted(methods))]
+    lines = ["{}: {}".format(counted(statuses.total(), "file"), _counted(statuses))]
+    lines += ["{}: {}".format(counted(methods.total(), "object"), _counted(methods))]
     lines += ["", "Not measured:", *failed] if failed else []
     if codes:
         lines += ["", "Findings, by how many objects have them:"]

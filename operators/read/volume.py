@@ -178,7 +178,7 @@ def _open_grid(obj, volume: _OwnedVolume, grid, depsgraph, findings: list[Findin
     if path:
         yield VdbGrid(path, grid.name)
         return
-    with tempfile.TemporaryDirectory(dir=bpy.app.tempdir or None) as folder:
+    with tempfile.TemporaryDirectory(prefix="body_moments_", dir=bpy.app.tempdir or None) as folder:
         path = os.path.join(folder, "volume.vdb")
         if not volume.data.grids.save(filepath=path):
             raise ReadError("temporary_folder_full")

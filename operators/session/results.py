@@ -33,7 +33,6 @@ from ..bodies.wall import WallBody
 from ..read.fingerprint import settings_hash
 from ..read.rig import skinned_objects
 from ..read.total_caveats import open_body_caveats, total_caveats
-from ..settings.density import is_density_unset
 from ..write import properties
 from . import density, faults, handlers, live, posed, reference, staleness, threshold, trust, updates, walls
 from .cache import SessionCache
@@ -61,11 +60,10 @@ _worlds: SessionCache[tuple[tuple, properties.StoredProperties | None]] = Sessio
 _totals: SessionCache[tuple[tuple, Total]] = SessionCache()  # a scene's last one, after what was computed for it
 
 
-def store(obj: Object, measured: Measured | Stacked, scene: Scene) -> None:
+def store(obj: Object, measured: Measured, scene: Scene) -> None:
     """Write what was measured on the object, and remember what its sliders need. EditRefusedError where the object
     cannot hold results."""
-    measured = _with_default_density(obj, measured, scene)
-    assert isinstance(measured, Measured)
+    measured = replace(measured, measurement=density.noted(obj, measured.measurement, scene))
     staleness.note_edits(obj)
     about = reference.stored_choice(obj)
     properties.store(obj, measured.measurement)
@@ -81,7 +79,6 @@ def store_many(
     measured: Sequence[tuple[Object, Measured | Stacked]], scene: Scene
 ) -> Iterator[tuple[Object, Exception | None]]:
     """As `store` on many objects; with each of them why it cannot hold results, or None."""
-    measured = [(obj, _with_default_density(obj, each, scene)) for obj, each in measured]
     for stack, run in groupby(measured, key=lambda item: getattr(item[1], "stack", None)):
         items: list[tuple[Object, Any]] = list(run)
         if stack is None:
@@ -96,19 +93,6 @@ def store_many(
             yield from _store_stack(stack, [each.index for _, each in items], scene)
 
 
-def _with_default_density(obj: Object, measured: Measured | Stacked, scene: Scene) -> Measured | Stacked:
-    """What was measured of an object, with a note where nobody has set its density and nothing says so yet."""
-    is_stacked = isinstance(measured, Stacked)
-    if is_stacked and not (measured.has_density and is_density_unset(obj.body_moments, scene)):
-        return measured
-    if density.OF_DEFAULT_DENSITY.intersection([found.code for found in measured.findings]):
-        return measured
-    if is_stacked:
-        measured.add_finding(density.DEFAULTS["density"])
-        return measured
-    return replace(measured, measurement=density.noted(obj, measured.measurement, scene))
-
-
 def _store_stack(stack: MeasuredStack, which: list[int], scene: Scene) -> Iterator[tuple[Object, Exception | None]]:
     part = stack.some(which)
     objects = [member.obj for member in part.members]
@@ -117,6 +101,10 @@ def _store_stack(stack: MeasuredStack, which: list[int], scene: Scene) -> Iterat
         staleness.note_edits(obj)
         if "body_reference" in obj:
             about[obj] = reference.stored_choice(obj)
+    findings = [
+        density.noted_findings(obj, of_member, not from_mass, scene)
+        for obj, of_member, from_mass in zip(objects, part.findings, part.from_mass.tolist())
+    ]
     refusals = properties.store_stack(
         objects,
         part.in_object_frames(),
@@ -124,7 +112,7 @@ def _store_stack(stack: MeasuredStack, which: list[int], scene: Scene) -> Iterat
         part.volume.raw[:, 0],
         part.area.raw[:, 0],
         part.error_bounds,
-        zip([member.shape.method for member in part.members], part.findings, part.fingerprints),
+        zip([member.shape.method for member in part.members], findings, part.fingerprints),
     )
     for obj, member, refusal in zip(objects, part.members, refusals):
         if refusal is None:

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Text for terminals. Names come from files: an escape sequence in one would be obeyed, a line break would make a line
-that nobody has written, and characters that set the direction of writing would show another name.
+"""Text for terminals and pages. Names come from files: an escape sequence in one would be obeyed, a line break would
+make a line that nobody has written, and characters that set the direction of writing would show another name.
 """
 
 from __future__ import annotations
@@ -22,6 +22,11 @@ def visible(text: str) -> str:
         else character
         for character in text
     )
+
+
+def counted(number: int, name: str) -> str:
+    """Return "1 link", "2 links"."""
+    return "{:d} {}{}".format(number, name, "" if number == 1 else "s")
 
 
 def print_message(*parts: object) -> None:

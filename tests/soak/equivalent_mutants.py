@@ -30,12 +30,6 @@ PATTERNS = [
     (r".*", r".*\*= -1\.0", r".*/= -1\.0", "times -1 is by -1"),
     (r".*", r"([\w.]+) @ \1", r".*", "nothing is changed"),
     (r".*", r".* \* HALF_TURN_SIGNS\[.*", r"\(.* / HALF_TURN_SIGNS\[.*", "times -1 is by -1"),
-    (
-        r"(core/(fourier|density|rigs)|operators|panels)/.*",
-        r"[\w.]*argsort\(.*kind=.stable.\)",
-        r"\([\w.]*argsort\(((?!kind=).)*\)\)",
-        "the order of equal ones, of which any may be first",
-    ),
     (r".*triangle_kernel.py PhaseMeans._by_edges", r"np\.divide\(total.*", r".*", "where a value is stored"),
     (r".*offset/walls.py OffsetSolid.moments", r"inward\*\*degree / degree", r".*", "a looser bound"),
     (r".*", r".*\.take\(.*, mode=.clip.\)", r"\(.*\.take\(((?!mode=).)*\)\)", "every index is one of the array's"),
@@ -74,12 +68,6 @@ PATTERNS = [
     ),
     (r".*solid/self_intersection.py SelfIntersection.effect", r"0\.0", r"1\.0", "read only where something was found"),
     (r".*nurbs/incremental.py .*_evaluate", r"False", r"True", "read only where rules are compared"),
-    (
-        r".*mesh/planarity.py PlanarityAccumulator.degenerate_limit",
-        r"2\.0 \* .*",
-        r"\(2\.0 / .*",
-        "how many are looked at one by one",
-    ),
     (r".*nurbs/patch_topology.py _overlapping_sides", r"0", r"1", "each of the two runs as the other does"),
     (
         r"panels/.*",
@@ -96,7 +84,6 @@ CONSTANTS = [
     (r".*cad/iges.py _Reader._pieces", r"_pieces_left (-=|<) ", "how soon a boundary of too many pieces is given up"),
     (r".*mesh/side_pairs.py _paired_by_sorting", r"high << np.uint64\(", "of vertices there are fewer than 2^30"),
     (r".*solid/nesting.py _interior_samples", r"weight = .*", "which places are tried"),
-    (r".*mesh/bvh.py intersecting_pairs", r"work = ", "how soon looking is given up"),
     (r".*shape/(symmetry.py confirm|flat_pose.py holds_by_outline)", r"points\[:: ", "which are looked at first"),
     (r".*density/threshold.py threshold_body", r"// ", "a reference point near the middle"),
     (r".*statics/gradient.py .*", r"kinds > ", "of orders 0, 1 and 2 there are 1, 4 and 10 moments"),

@@ -17,7 +17,7 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
-from ..terminal import visible
+from ..terminal import counted, visible
 
 _PICTURE = re.compile(r"data:image/png;base64,[A-Za-z0-9+/=]+")
 _COLUMNS = (
@@ -90,7 +90,9 @@ def to_html(documents: Iterable[dict[str, Any]]) -> Iterator[str]:
     yield '<meta http-equiv="Content-Security-Policy" content="{}">\n'.format(policy)
     yield "<title>Body Moments</title><style>{}</style></head><body>\n".format(_STYLE)
     counts = ", ".join("{} {}".format(number, status) for status, number in statuses.most_common())
-    yield "<h1>Body Moments</h1><p>{} files: {}. All numbers are SI.</p>\n".format(statuses.total(), counts or "-")
+    yield "<h1>Body Moments</h1><p>{}: {}. All numbers are SI.</p>\n".format(
+        counted(statuses.total(), "file"), counts or "-"
+    )
     yield '<p><input id="text" type="search" placeholder="Filter" aria-label="Filter">'
     yield '<select id="status" aria-label="Status"><option value="">All statuses</option>'
     yield from ("<option>{}</option>".format(html.escape(status)) for status in sorted(statuses))

@@ -16,6 +16,7 @@ from ....core.verdict.finding import Finding, Severity
 from ..documents import table
 from ..messages import sentence, severity
 from ..record import plain
+from ..terminal import counted
 from .marker import AUDIT_COLUMNS as COLUMNS
 from .marker import AUDIT_PAGE
 from .marker import AUDIT_SCHEMA as SCHEMA
@@ -103,15 +104,16 @@ def to_html(documents: Sequence[dict[str, Any]]) -> str:
     for one in documents:
         lines.append("<h2>{}</h2>".format(html.escape(str(one["file"]))))
         counts = [found["severity"] for link in one["links"] for found in link["findings"]]
-        summary = ", ".join("{} {}s".format(counts.count(level), level) for level in map(str, Severity))
-        lines.append("<p>{} links: {}.</p>".format(len(one["links"]), summary))
+        summary = ", ".join(counted(counts.count(level), level) for level in map(str, Severity))
+        lines.append("<p>{}: {}.</p>".format(counted(len(one["links"]), "link"), summary))
         lines += ["<table>", "<tr><th>Link<th>Severity<th>Finding<th>Mass, kg<th>Density, kg/m³<th>Repaired</tr>"]
         for _, link, level, code, message, mass, density, repaired in _rows([one]):
+            fine = "nothing to compare" if "" in (mass, density) else "agrees with its geometry"
             numbers = ["{:.6g}".format(value) if isinstance(value, float) else "" for value in (mass, density)]
             cells = [
                 "<td>{}".format(html.escape(str(link))),
                 '<td class="{0}">{0}'.format(html.escape(level) or "ok"),
-                '<td title="{}">{}'.format(html.escape(code), html.escape(message) or "agrees with its geometry"),
+                '<td title="{}">{}'.format(html.escape(code), html.escape(message) or fine),
                 *('<td class="number">{}'.format(text) for text in numbers),
                 "<td>{}".format("yes" if repaired == "true" else ""),
             ]

@@ -190,7 +190,7 @@ def test_a_summary_as_a_whole(main, tmp_path, monkeypatch):
         *("", "Widest bounds of the volume or area, of its size:", "   5.0e-01  f: s", "   5.0e-01  a: x"),
     ]
     path.write_text(json.dumps({**whole, "objects": []}) + "\n")
-    assert main("summary", path)[1].splitlines() == ["1 files: 1 ok", "0 objects: -"]
+    assert main("summary", path)[1].splitlines() == ["1 file: 1 ok", "0 objects: -"]
     old = {name: value for name, value in documents[-1].items() if name != "status"}  # as older versions wrote them
     path.write_text(json.dumps([old, {**old, "file": "s", "errors": []}], indent=1))
     assert main("summary", path)[1].splitlines()[:1] == ["2 files: 1 error, 1 ok"]

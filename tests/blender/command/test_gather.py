@@ -51,7 +51,7 @@ def test_a_summary_counts_what_became_of_files(main, tmp_path):
     path = result(tmp_path / "a.jsonl", document(), failed("b.stl"), failed("c.stl", "timeout"))
     code, out, _ = main("summary", path)
     assert code == 0
-    assert "3 files: 1 ok, 1 crashed, 1 timeout" in out and "1 objects: 1 exact" in out
+    assert "3 files: 1 ok, 1 crashed, 1 timeout" in out and "1 object: 1 exact" in out
     assert "density_defaulted" in out and "crashed  b.stl: It <b>failed</b>." in out
     code, out, _ = main("to-csv", path)
     assert code == 0 and len(out.splitlines()) == 4

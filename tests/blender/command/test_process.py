@@ -147,6 +147,12 @@ def test_the_script_leaves_no_folder_behind(folder, tmp_path):
     assert ended.returncode == 0 and list(tmp_path.iterdir()) == []
 
 
+def test_a_program_that_has_imported_bpy_may_run_the_script(folder):
+    code = "import bpy, runpy, sys; sys.argv = sys.argv[1:]; runpy.run_path(sys.argv[0], run_name='__main__')"
+    ended = process(sys.executable, "-c", code, SCRIPT, "measure", "--no-supervisor", "part.stl", cwd=folder)
+    assert ended.returncode == 0 and json.loads(ended.stdout)["file"] == "part.stl"
+
+
 def test_without_bpy_the_script_says_what_is_missing(folder):
     ended = process(sys.executable, "-S", SCRIPT, "measure", folder / "part.stl")
     assert ended.returncode == 2 and ended.stdout == b"" and b"'bpy'" in ended.stderr
