@@ -23,7 +23,7 @@ from ..solid.orientation import ComponentComparison, zero_volume
 from ..verdict.finding import Finding, MeasureError, finding
 from ..verdict.health import MeshHealth
 from ..verdict.method import Verdict
-from ..verdict.tolerances import NEGLIGIBLE, WELDING_RTOL
+from ..verdict.tolerances import NEGLIGIBLE, welding_tolerance
 from .input_error import with_area_error, with_swept_error
 from .patch import Patch, patches_center, patches_size
 from .patch_moments import area_moments, area_slope, sheet_moments, volume_moments
@@ -124,7 +124,7 @@ def measure_patches(
     if not size > 0.0:
         raise MeasureError("no_extent")
     about = patches_center(patches)
-    topology = find_topology(patches, max(WELDING_RTOL * size, 4.0 * stored))
+    topology = find_topology(patches, welding_tolerance(size, stored))
     area, converged = area_moments(patches, area_order, about)
     findings = () if converged else (finding("area_error_estimate_large"),)
     parts = oriented_parts(patches, topology)
@@ -235,7 +235,7 @@ def _judge_parts(
             caps[topology.component[loop.patch]] += (loop.is_planar, not loop.is_planar, loop.area)
     total = np.array([moments.total for moments, _ in measured])
     solid = ~topology.unclosable & (np.abs(total) > zero_volume(size, area, caps.any(axis=1), stored))
-    comparison = _compare_parts(parts, total, solid, max(WELDING_RTOL * size, 4.0 * stored))
+    comparison = _compare_parts(parts, total, solid, welding_tolerance(size, stored))
     flipped = solid & (total < 0.0) if comparison is None else comparison.flipped
     return _PatchVerdict(solid, flipped, solid if solid.any() else topology.unclosable, caps, comparison)
 

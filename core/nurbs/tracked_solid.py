@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from ..moments.moments import Measure, Moments, monomials, sum_moments
 from ..verdict.method import Verdict
-from ..verdict.tolerances import WELDING_RTOL
+from ..verdict.tolerances import welding_tolerance
 from .incremental import IncrementalPatchMoments
 from .patch import Patch, patches_center, patches_size
 from .patch_moments import area_slope, volume_moments
@@ -110,7 +110,7 @@ class TrackedSolid:
             return False
         self._fluxes = [self._flux(k, patch) for k, patch in enumerate(patches)]
         self._patches = list(patches)
-        measure = self._assess(patches, find_topology(patches, max(WELDING_RTOL * size, 4.0 * stored)), stored)
+        measure = self._assess(patches, find_topology(patches, welding_tolerance(size, stored)), stored)
         if measure.method is Verdict.OPEN:
             self._measure_anew(patches, stored)
             return False

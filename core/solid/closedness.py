@@ -21,7 +21,7 @@ from ..polyhedron import third_order
 from ..polyhedron.integration import polyhedron_moments
 from ..verdict.finding import MeasureError
 from ..verdict.health import MeshHealth
-from ..verdict.tolerances import MAX_COORDINATE, MIN_SIZE, WELDING_RTOL
+from ..verdict.tolerances import MAX_COORDINATE, MIN_SIZE, welding_tolerance
 from .repaired_mesh import RepairedMesh
 
 SUM_ROUNDING = 1e-13  # of a sum of numbers of one sign: by how much rounding may change it
@@ -123,7 +123,7 @@ def check_surface(surface: Surface) -> CheckedSurface:
     if 0.0 < size < MIN_SIZE:
         raise MeasureError("object_too_small")
     error = float(np.linalg.norm(surface.coordinate_error))
-    return CheckedSurface(surface, vertices, size, error, tolerance=max(WELDING_RTOL * size, 4.0 * error))
+    return CheckedSurface(surface, vertices, size, error, tolerance=welding_tolerance(size, error))
 
 
 def integrate_and_prove(checked: CheckedSurface, shell: bool, threads: int) -> GivenIntegrals:

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..mesh.bvh import sort_components
-from ..verdict.tolerances import CLOSED_SHEET_VOLUME_RTOL, NEGLIGIBLE, WELDING_RTOL
+from ..verdict.tolerances import CLOSED_SHEET_VOLUME_RTOL, NEGLIGIBLE, welding_tolerance
 from .nesting import classify_pairs
 from .solid_verdict import SolidIntegrals
 
@@ -80,7 +80,7 @@ def compare_places(solids: Sequence[tuple[SolidIntegrals, NDArray[np.float64]]])
         number,
     )
     size = float(np.linalg.norm(np.ptp(corners, axis=0)))
-    tolerance = max(WELDING_RTOL * size, 4.0 * displacement)
+    tolerance = welding_tolerance(size, displacement)
     extent = np.linalg.norm(components.high - components.low, axis=1)
     flattened = np.abs(components.volume) <= CLOSED_SHEET_VOLUME_RTOL * extent * components.area
     relations = classify_pairs(corners, components, closed & ~flattened, tolerance)

@@ -9,3 +9,8 @@ FLAT_CAP_VOLUME_RTOL = 1e-7  # of diagonal times area: what capping a flat sheet
 CLOSED_SHEET_VOLUME_RTOL = 1e-14  # the same for a closed one
 WELDING_RTOL = 1e-6  # of the body's diagonal
 NEGLIGIBLE = 1e-4  # of mass, size and inertia: a decision that changes them by less is a note
+
+
+def welding_tolerance(size: float, error: float) -> float:
+    """Return how near to each other points of a body are the same: of its diagonal and its coordinates' error."""
+    return max(WELDING_RTOL * size, 4.0 * error)

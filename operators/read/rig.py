@@ -85,23 +85,20 @@ def rest_pose(context: Context, armature: Object) -> Iterator[Depsgraph]:
             context.view_layer.update()
 
 
+def is_skin_of(obj: Object, armature: Object) -> bool:
+    """Return whether an armature deforms an object, by a modifier that is shown or as its parent."""
+    if obj.parent == armature and obj.parent_type == "ARMATURE":
+        return True
+    return any(
+        modifier.type == "ARMATURE" and modifier.object == armature and modifier.show_viewport
+        for modifier in obj.modifiers
+    )
+
+
 def skinned_objects(armature: Object, objects: Iterable[Object]) -> list[Object]:
     """Return the mesh objects that an armature deforms, by name."""
-    return sorted(
-        (
-            obj
-            for obj in objects
-            if obj.type == "MESH"
-            and (
-                any(
-                    modifier.type == "ARMATURE" and modifier.object == armature and modifier.show_viewport
-                    for modifier in obj.modifiers
-                )
-                or (obj.parent == armature and obj.parent_type == "ARMATURE")
-            )
-        ),
-        key=lambda obj: obj.name,
-    )
+    meshes = [obj for obj in objects if obj.type == "MESH" and is_skin_of(obj, armature)]
+    return sorted(meshes, key=lambda obj: obj.name)
 
 
 def hanging_objects(armature: Object, skinned: Iterable[Object]) -> list[tuple[Object, str]]:

@@ -9,6 +9,7 @@ from collections.abc import Iterable
 import bpy
 from bpy.types import Object
 
+from ..read.rig import is_skin_of
 from . import handlers
 from .cache import SessionCache
 
@@ -46,7 +47,7 @@ def deformed_meshes(armature: Object) -> tuple[Object, ...]:
     cached = _meshes.get(armature)
     if cached is None or cached[0] != handlers.generation():
         objects = bpy.context.view_layer.objects
-        meshes = tuple(obj for obj in objects if obj.type == "MESH" and _is_deformed(obj, armature))
+        meshes = tuple(obj for obj in objects if obj.type == "MESH" and is_skin_of(obj, armature))
         cached = _meshes[armature] = (handlers.generation(), meshes)
     return cached[1]
 
@@ -67,9 +68,3 @@ def subjects(objects: Iterable[Object]) -> list[Object]:
     for obj in objects:
         found.update(dict.fromkeys(deformed_meshes(obj) if stands_for_meshes(obj) else (obj,)))
     return list(found)
-
-
-def _is_deformed(obj: Object, armature: Object) -> bool:
-    if obj.parent == armature and obj.parent_type == "ARMATURE":
-        return True
-    return any(modifier.type == "ARMATURE" and modifier.object == armature for modifier in obj.modifiers)

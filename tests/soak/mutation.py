@@ -5,7 +5,7 @@
 First each test file runs once, and the lines that its tests run are noted (kept in .envs/soak/lines while the file does
 not change; where a module does, the lines follow its text, and new ones have the tests of those around them). Then
 mutants are drawn, round after round one of each package. Each is written into a copy of the project, and the tests that
-run its line pass there, the quickest first, until one fails.
+run its line pass there, the quickest first, until one fails or they have had their time.
 
 A mutant counts as found when a test fails, does not end, or dies. Those that no test could find are in
 tests/soak/equivalent_mutants.py, with reasons, and are not drawn. `mutation:core/mesh,core/solid` draws from these
@@ -62,7 +62,8 @@ LEFT_OUT = ("test_random_sessions.py",)  # what takes as long as it is given
 MISSED = ("passed", "no test")
 LEAST = 0.95  # of each package's mutants
 LEAST_DRAWN = 20  # below this, a share says nothing
-MAX_SECONDS = 10.0  # of the tests of one mutant, and again of the corpus
+FIRST_SECONDS = 10.0  # of the tests of one mutant, and again of the corpus
+FURTHER_SECONDS = 60.0  # of other tests that run its line, where those have not found it
 
 
 def run(budget_seconds: float, seed: int, *packages: str) -> str:
@@ -302,35 +303,37 @@ class Project:
         """What comes of the tests that run its line; where the line runs while it is imported, its module."""
         path = self.root / mutant.path
         text, status = path.read_text(encoding="utf-8"), path.stat()
-        answer = {"outcome": "no test", "test": "", "seconds": 0.0}
-        tests = self.tests_for(mutant)
-        limits = [int(20.0 + 10.0 * self.seconds[name]) for name in tests]
-        seconds = float(sum(limits))
-        changed = mutant.text(text)
-        job = {
-            "path": mutant.path,
-            "before": text,
-            "text": changed,
-            "tests": tests,
-            "seconds": seconds,
-            "limits": limits,
-        }
+        first, further = self.tests_for(mutant)
+        if not first:
+            return {"outcome": "no test", "test": "", "seconds": 0.0}
+        job = {"path": mutant.path, "before": text, "text": mutant.text(text)}
         job["lines"] = list(range(mutant.line, mutant.line + mutant.before.count("\n") + 1))
         try:
-            path.write_text(changed, encoding="utf-8")
+            path.write_text(job["text"], encoding="utf-8")
             later = status.st_mtime_ns + (10 + len(self.results)) * 10**9  # no bytecode of another mutant fits
             os.utime(path, ns=(later, later))
-            if tests and not mutant.is_imported:
-                answer = _answer(self.warm, job)
-            if tests and (mutant.is_imported or answer["outcome"] == "cold"):
-                answer = self.ask(_by_file(tests), seconds)
+            answer = self._outcome(mutant, job, first)
+            if further and answer["outcome"] in MISSED:
+                seconds = answer["seconds"]
+                answer = self._outcome(mutant, job, further)
+                answer["seconds"] += seconds
         finally:
             path.write_text(text, encoding="utf-8")
             os.utime(path, ns=(status.st_atime_ns, status.st_mtime_ns))
         return answer
 
-    def tests_for(self, mutant: mutants.Mutant) -> list[str]:
-        """The tests that may find it: those of its own folder first, the quickest first."""
+    def _outcome(self, mutant: mutants.Mutant, job: dict, tests: list[str]) -> dict:
+        """What comes of some tests while the mutant is on the disk."""
+        limits = [int(20.0 + 10.0 * self.seconds[name]) for name in tests]
+        seconds = float(sum(limits))
+        if not mutant.is_imported:
+            answer = _answer(self.warm, {**job, "tests": tests, "limits": limits, "seconds": seconds})
+            if answer["outcome"] != "cold":
+                return answer
+        return self.ask(_by_file(tests), seconds)
+
+    def tests_for(self, mutant: mutants.Mutant) -> tuple[list[str], list[str]]:
+        """The tests that may find it, those of its own folder first, the quickest first; and further ones."""
         near = "/{}/".format(package_of(mutant.path).rpartition("/")[2])
         names = {test for look, test in READERS.items() if look.match(mutant.before) and test in self.seconds}
         if mutant.is_imported:
@@ -345,15 +348,17 @@ class Project:
         others = {name for name in self.seconds if name.partition("::")[0] in files} - names
         order = {name: (name in others, near not in name, self.seconds[name], name) for name in names | others}
         sorted_names = sorted(order, key=order.__getitem__)
-        return [*self._quick(name for name in sorted_names if CORPUS not in name)] + [
-            *self._quick(name for name in sorted_names if CORPUS in name and name in names)
-        ]
+        first = [*self._quick((name for name in sorted_names if CORPUS not in name), FIRST_SECONDS)]
+        first += self._quick((name for name in sorted_names if CORPUS in name and name in names), FIRST_SECONDS)
+        done = set(first)
+        further = self._quick((name for name in sorted_names if name in names and name not in done), FURTHER_SECONDS)
+        return first, list(further)
 
-    def _quick(self, names: Iterable[str]) -> Iterator[str]:
-        """The first ones, for as long as a mutant has; at least one."""
+    def _quick(self, names: Iterable[str], seconds: float) -> Iterator[str]:
+        """The first ones, for as many seconds; at least one."""
         total = 0.0
         for name in names:
-            if total and total + self.seconds[name] > MAX_SECONDS:
+            if total and total + self.seconds[name] > seconds:
                 break
             total += self.seconds[name]
             yield name

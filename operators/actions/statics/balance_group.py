@@ -19,6 +19,7 @@ from ....core.verdict.finding import EditRefusedError, Finding, finding
 from ...bodies.assembly import measure_assembly
 from ...read import measurable
 from ...read.assembly import Member, MemberKind, members_of, settings_of
+from ...read.rig import is_skin_of
 from ...session import balance_groups, stability
 from ...session.motion import Motion
 from ...settings.preferences import copy_defaults
@@ -277,13 +278,7 @@ def deformed_by(armature: Object, objects: Iterable[Object]) -> list[Object]:
     -------
     list of bpy.types.Object
     """
-    return [
-        obj
-        for obj in objects
-        if obj.parent == armature
-        and obj.parent_type in {"ARMATURE", "BONE"}
-        or any(modifier.type == "ARMATURE" and modifier.object == armature for modifier in obj.modifiers)
-    ]
+    return [obj for obj in objects if is_skin_of(obj, armature) or obj.parent == armature and obj.parent_type == "BONE"]
 
 
 CLASSES = (OBJECT_OT_body_moments_balance_group,)

@@ -27,6 +27,8 @@ def test_an_armature_stands_for_what_it_deforms():
     mesh("Skinned by Other", rig, "OBJECT", other)
     hooked = mesh("Hooked")
     hooked.modifiers.new("Hook", "HOOK").object = rig
+    hidden = mesh("Skinned, not shown", None, "OBJECT", rig)
+    hidden.modifiers["Armature"].show_viewport = False
     curve = add(bpy.data.curves.new("Curve", "CURVE"), "Curve")
     curve.parent, curve.parent_type = rig, "ARMATURE"
     bpy.context.view_layer.update()
@@ -37,7 +39,8 @@ def test_an_armature_stands_for_what_it_deforms():
     assert posed.stands_for_meshes(rig) and not posed.stands_for_meshes(other) and not posed.stands_for_meshes(free)
     assert posed.subjects([free, rig, bound, other]) == [free, bound, skinned, other]
     bpy.ops.object.mode_set(mode="OBJECT")
+    hidden.modifiers["Armature"].show_viewport = True
     bpy.data.objects.remove(skinned)
     bpy.context.view_layer.update()
-    assert posed.deformed_meshes(rig) == (bound,)
+    assert posed.deformed_meshes(rig) == (bound, hidden)
     assert not live.is_live(below) and not live.is_pending(below) and live.current_numbers(below) is None
