@@ -175,8 +175,7 @@ def principal_frame(
         return found if isinstance(found, OwnMoments) else OwnMoments(found.at(None), np.zeros(1, np.intp))
 
     fixed = third_moment_frames(moments.at(None), (lambda _which: refine().at(None)) if refine else None)
-    if not fixed.is_body[0]:
-        raise MeasureError("negative_inertia")
+    _require_body(moments, fixed)
     return principal_frames(fixed, preferred_axes[None], None if higher is None else higher_of_all).at(0)
 
 
@@ -300,9 +299,15 @@ def equivalent_frames(moments: Moments, noise: float = NOISE_LEVEL) -> Equivalen
 
 def _of_one_body(moments: Moments, noise_factor: float = 1.0) -> ThirdMomentFrames:
     fixed = third_moment_frames(moments.at(None), None, noise_factor)
-    if not fixed.is_body[0]:
-        raise MeasureError("negative_inertia")
+    _require_body(moments, fixed)
     return fixed
+
+
+def _require_body(moments: Moments, fixed: ThirdMomentFrames) -> None:
+    """Raise MeasureError where the second moments are those of no body."""
+    if not fixed.is_body[0]:
+        is_lost = np.abs(moments.raw[4:10]).max() < np.finfo(float).tiny  # in the smallest of numbers
+        raise MeasureError("object_too_small" if is_lost else "negative_inertia")
 
 
 def nearest_frame(equivalent: EquivalentFrames, preferred_axes: NDArray) -> NDArray[np.float64]:

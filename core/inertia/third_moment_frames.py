@@ -85,6 +85,7 @@ class ThirdMomentFrames:
         return self.axes[i] * HALF_TURN_SIGNS[self.allowed[i], None]
 
 
+@np.errstate(all="ignore")  # who measures looks for what is beyond the range of numbers
 def third_moment_frames(
     moments: Moments, refine: Callable[[NDArray[np.intp]], Moments] | None = None, noise_factor: float = 1.0
 ) -> ThirdMomentFrames:

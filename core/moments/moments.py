@@ -309,6 +309,7 @@ def stack_moments(parts: Sequence[Moments]) -> Moments:
     return Moments(raw, np.array([part.about for part in parts]), parts[0].measure, rounding, inputs)
 
 
+@np.errstate(over="ignore", invalid="ignore")  # who measures looks for what is beyond the range of numbers
 def image(moments: Moments, matrices: NDArray, center: NDArray) -> Moments:
     """Return the image of a body under an affine map, or of each of a stack under its own.
 

@@ -315,11 +315,10 @@ def measure_members(
         density = np.where(from_mass, mass / volume.raw[:, 0], density)
     certain = (volume.raw[:, 0] > volume.rounding_error[:, 0]) & (density > 0.0) & (density < np.inf)
     rows = np.flatnonzero(certain)
-    with np.errstate(all="ignore"):  # bodies beyond the range of numbers are refused by themselves
+    fixed = third_moment_frames(volume.at(rows))
+    if not fixed.is_body.all():  # the others are refused by themselves
+        rows = rows[fixed.is_body]
         fixed = third_moment_frames(volume.at(rows))
-        if not fixed.is_body.all():
-            rows = rows[fixed.is_body]
-            fixed = third_moment_frames(volume.at(rows))
     if not len(rows):
         return None
     if len(rows) < len(members):  # the others are refused by themselves

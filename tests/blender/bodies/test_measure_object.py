@@ -582,3 +582,17 @@ def test_suzanne_raises_no_alarm_and_a_ring_past_itself_does_until_it_is_united(
     share = said(signed)["self_intersection"]["share"]
     assert 0.15 < share < 0.25 and signed.health.self_intersection == "found"
     assert close(united.volume, 0.8 * signed.volume, rel=0.01) and "union_by_boolean" in said(united)
+
+
+@pytest.mark.filterwarnings("error")
+def test_bodies_at_the_ends_of_the_range_of_numbers_are_right_or_refused_without_a_warning_of_numpy():
+    large, small = (add(box((0, 0, 0), (size,) * 3), scale=(size,) * 3) for size in (1e30, 1e-35))
+    sides = [np.float64(np.float32(size)) ** 2 for size in (1e30, 1e-35)]
+    found = measure(large)
+    assert close(found.volume, sides[0] ** 3, 1e-15) and np.isfinite(found.mass_properties.inertia).all()
+    with refused("object_too_small"):
+        measure(small)
+    for obj in (large, small):
+        obj.select_set(True)
+    assert bpy.ops.object.body_moments_measure() == {"FINISHED"}
+    assert close(large["body_volume"], sides[0] ** 3, 1e-15) and "body_volume" not in small
