@@ -45,7 +45,7 @@ def find_negative_point(
     largest = float(np.abs(values).max())
     least = int(np.argmin(values))
     if values[least] < 0.0:  # at the surface, where the density of all of it may be next to nothing
-        most = next(filter(inside, np.argsort(-inner)[:MAX_LOCATED_POINTS].tolist()), None)
+        most = next(filter(inside, np.argsort(-inner, kind="stable")[:MAX_LOCATED_POINTS].tolist()), None)
         largest = largest if most is None else max(largest, inner[most])
     if values[least] < -NEGLIGIBLE_RTOL * largest:
         return (float(values[least]), tried[least]), False
@@ -53,6 +53,6 @@ def find_negative_point(
         return None, False
     if density.lower_bound(low, high) >= -NEGLIGIBLE_RTOL * largest:
         return None, False
-    worst = np.argsort(inner)[:MAX_LOCATED_POINTS]
+    worst = np.argsort(inner, kind="stable")[:MAX_LOCATED_POINTS]
     negative_index = next(filter(inside, worst[inner[worst] < -NEGLIGIBLE_RTOL * largest].tolist()), None)
     return (None, True) if negative_index is None else ((float(inner[negative_index]), grid[negative_index]), False)

@@ -249,7 +249,7 @@ def _maximize_on_sphere(tensor: NDArray, degree: int, span: float, within: float
         if np.abs(move).max() < ARRIVED:
             break
     steep = np.linalg.norm(uphill, axis=1)
-    order = np.argsort(steep)
+    order = np.argsort(steep, kind="stable")
     return points[order[steep[order] <= max(1e-4 * scale, steep.min())]]
 
 

@@ -18,7 +18,7 @@ def _sweep(low: NDArray, high: NDArray, margin: float) -> tuple[NDArray[np.intp]
     before its end: along the axis with the fewest such pairs."""
     sweeps: list[tuple[NDArray[np.intp], NDArray[np.intp]]] = []
     for axis in range(3):
-        order = np.argsort(low[:, axis])
+        order = np.argsort(low[:, axis], kind="stable")
         last = np.searchsorted(low[order, axis], high[order, axis] - margin)
         sweeps.append((order, np.maximum(last - np.arange(1, len(order) + 1), 0)))
     return min(sweeps, key=lambda sweep: sweep[1].sum())

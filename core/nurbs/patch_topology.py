@@ -250,7 +250,7 @@ def _close_pairs(keys: NDArray, limit: float) -> tuple[NDArray[np.intp], NDArray
     keys = keys - keys[0]
     slope = 1.0 / np.sqrt(np.arange(2.0, 2.0 + keys.shape[1]))
     line = (keys * slope).sum(axis=1)
-    order = np.argsort(line)
+    order = np.argsort(line, kind="stable")
     line = line[order]
     count = np.searchsorted(line, line + (limit * slope.sum() + 1e-12 * np.abs(line).max()), side="right")
     count -= np.arange(1, len(line) + 1)

@@ -170,7 +170,7 @@ def _best_angles(source: NDArray, target: NDArray) -> NDArray[np.float64]:
     angles = 2.0 * np.pi / ANGLES * np.arange(ANGLES)
     overlap = derivative(angles, 0)
     peaks = np.flatnonzero((overlap >= np.roll(overlap, 1)) & (overlap >= np.roll(overlap, -1)))
-    peaks = peaks[np.argsort(-overlap[peaks])][:MAX_CANDIDATES]
+    peaks = peaks[np.argsort(-overlap[peaks], kind="stable")][:MAX_CANDIDATES]
     angles = angles[peaks]
     for _ in range(NEWTON_STEPS):
         slope, bend = derivative(angles, 1), derivative(angles, 2)

@@ -106,7 +106,7 @@ def best_rotation(candidates: NDArray, residual: Residual, size: float) -> tuple
     """Of (k, 3, 3) maps the one with the least residual, and its distances; of equal ones the smallest turn."""
     least = np.array([residual(way, FIRST_SAMPLES).max() for way in candidates])
     worst, distances = np.full(len(candidates), np.inf), {}
-    for i in np.argsort(least):
+    for i in np.argsort(least, kind="stable"):
         if least[i] > worst.min() + EQUAL_RESIDUAL_RTOL * size:
             break
         distances[i] = residual(candidates[i], None)

@@ -203,7 +203,7 @@ def orient_nested_components(
     inner, outer = relations.containers()
     depth = np.bincount(inner, minlength=number)
     parent = _innermost_container(relations, number)
-    order = np.argsort(depth[inner])
+    order = np.argsort(depth[inner], kind="stable")
     inner, outer = inner[order], outer[order]
     around = np.zeros(number)
     for level in np.unique(depth[candidates]):

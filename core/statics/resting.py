@@ -186,7 +186,7 @@ def _coplanar(
     same_side = np.einsum("ij,ij->i", double[triangle], double[other]) >= 0.0
     flat = same_side & (np.abs(np.einsum("ij,ij->i", unit[triangle], apart)) <= least)
     face, count = connected_components(len(triangles), triangle[flat], other[flat])
-    order = np.argsort(lengths)
+    order = np.argsort(lengths, kind="stable")
     largest = np.empty(count, np.intp)
     largest[face[order]] = order  # the last one written is the largest
     base = largest[face]

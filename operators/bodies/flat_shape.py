@@ -144,7 +144,7 @@ class OutlineDistance(SurfaceDistance):
         super().__init__(shape)
         ends = shape.region.points[shape.region.edges] - shape.moments.about[:2]
         middles = ends.mean(axis=1)
-        far = np.argsort((shape.corners**2).sum(axis=1))[-SURFACE_SAMPLES // 10 :]
+        far = np.argsort((shape.corners**2).sum(axis=1), kind="stable")[-SURFACE_SAMPLES // 10 :]
         flat = np.concatenate([shape.corners[far], _thinned(shape.corners), _thinned(middles)])
         self.points = np.insert(flat, 2, 0.0, axis=1) @ shape.axes.T + shape.center
 

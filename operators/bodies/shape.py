@@ -265,7 +265,9 @@ class SurfaceDistance:
         middles = whole.points[
             triangles[np.linspace(0, len(triangles) - 1, min(len(triangles), SURFACE_SAMPLES // 2)).astype(int)]
         ].mean(axis=1)
-        far = np.argsort(((whole.points[used] - self._center) ** 2).sum(axis=1))[-SURFACE_SAMPLES // 10 :]
+        far = np.argsort(((whole.points[used] - self._center) ** 2).sum(axis=1), kind="stable")[
+            -SURFACE_SAMPLES // 10 :
+        ]
         self.points = np.concatenate([whole.points[used[far]], whole.points[used[pick]], middles])
 
     def build(self) -> Iterator[float]:

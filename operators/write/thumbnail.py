@@ -65,7 +65,7 @@ def _draw(image: NDArray, corners: NDArray, normals: NDArray, areas: NDArray) ->
     a, b = np.where(a + b > 1.0, 1.0 - a, a), np.where(a + b > 1.0, 1.0 - b, b)
     triangles = corners[chosen]
     spots = triangles[:, 0] + a * (triangles[:, 1] - triangles[:, 0]) + b * (triangles[:, 2] - triangles[:, 0])
-    order = np.argsort(-spots[:, 2])  # the farthest first: the last one put at a pixel stays
+    order = np.argsort(-spots[:, 2], kind="stable")  # the farthest first: the last one put at a pixel stays
     light = np.abs(normals[chosen] @ (0.75, 0.75, -0.35)) / np.maximum(areas[chosen], 1e-300)
     colors = np.empty((_SAMPLES, 4), np.uint8)
     colors[:, :3] = _BODY * (0.35 + 0.65 * light[:, None].clip(0.0, 1.0))
