@@ -10,6 +10,7 @@ the folder that --reports names.
 
 import argparse
 import importlib
+import signal
 import sys
 import time
 import traceback
@@ -28,6 +29,7 @@ def main() -> int:
     parser.add_argument("--seed", type=int, default=int(time.time()))
     parser.add_argument("--reports", type=Path, default=ROOT / ".envs" / "soak")
     options = parser.parse_args()
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell's job in the background has it ignored
     unknown = {word.partition(":")[0] for word in options.names} - set(NAMES)
     if unknown:
         parser.error("unknown: " + ", ".join(sorted(unknown)))
