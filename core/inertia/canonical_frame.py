@@ -38,7 +38,7 @@ ASCENT_STEPS = 16  # from there to a maximum, most of them for those that are ha
 STEPS_BEFORE_MERGE = 3
 MERGED_DIRECTIONS = 1e-4  # after these steps, directions closer than this, which go to one maximum, are merged
 ARRIVED = 1e-15  # a step that is none
-MAX_ISOLATED_DIRECTIONS = 40  # more directions than these are a circle of them, or all
+DISTINCT_DIRECTIONS = 1e-2  # extreme directions closer than this are one
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,7 +89,9 @@ def canonical_frames(moments: Moments, spread: SecondMomentAxes, starts: NDArray
     that third moments allow. MeasureError where their size is beyond the range of numbers."""
     central = moments.about_center()
     total = central.raw[0]
-    if not np.finfo(float).tiny < total * spread.size.max() ** central.order < np.inf:
+    with np.errstate(over="ignore", under="ignore"):
+        reach = total * spread.size.max() ** central.order
+    if not np.finfo(float).tiny < reach < np.inf:
         raise MeasureError("moments_overflow", order=central.order)
     central = replace(
         central, raw=central.raw / total, rounding_error=central.rounding_error / total, measure=Measure.MASS
@@ -209,14 +211,16 @@ def _extreme_directions(
         if height.max() - _contract(sign * tensor, degree, _sphere_directions()).min() <= least:
             return np.empty((0, 3)), sign, 0.0, False
         top = points[height > height.max() - within]
-        extremes.append((distinct_arrays(top, 1e-2), sign))
+        extremes.append((distinct_arrays(top, DISTINCT_DIRECTIONS), sign))
     directions, sign = min(extremes, key=lambda pair: len(pair[0]))
     tilt = noise / span
-    if len(directions) <= MAX_ISOLATED_DIRECTIONS:
-        return directions, sign, tilt, True
-    values, vectors = np.linalg.eigh(directions.T @ directions / len(directions))
-    pole = vectors[:, 0] if values[1] - values[0] > values[2] - values[1] else vectors[:, 2]
-    return (np.array([pole, -pole]) if values[2] - values[0] > 0.1 else np.empty((0, 3))), sign, tilt, False
+    # About the axis of a circle of them the moment is the same everywhere: nowhere its slope leads around it.
+    around = np.cross(_sphere_directions(), _contract(tensor, degree - 1, _sphere_directions()))
+    pole = np.linalg.eigh(around.T @ around)[1][:, 0]
+    is_round = np.abs(around @ pole).max() <= min(noise, MAX_EQUAL_SHARE * span)
+    if is_round and np.linalg.norm(np.cross(directions, pole), axis=1).max() > DISTINCT_DIRECTIONS:
+        return np.array([pole, -pole]), sign, tilt, False
+    return directions, sign, tilt, True
 
 
 def _maximize_on_sphere(tensor: NDArray, degree: int, span: float, within: float) -> NDArray[np.float64]:

@@ -27,9 +27,7 @@ def invert_through_point(moments: Moments) -> Moments:
 
 
 def _contract(tensor: NDArray, times: int, points: NDArray) -> NDArray[np.float64]:
-    """The symmetric tensor with that many of its slots filled with each of the (n, 3) points."""
-    if not times:
-        return np.broadcast_to(tensor, (len(points), *tensor.shape))
+    """The symmetric tensor with that many of its slots, one at least, filled with each of the (n, 3) points."""
     out = np.tensordot(points, tensor, axes=(1, 0))
     for _ in range(times - 1):
         out = np.einsum("n...i,ni->n...", out, points)

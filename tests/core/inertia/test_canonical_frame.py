@@ -139,6 +139,18 @@ def test_a_body_whose_moments_are_no_numbers_any_more_is_refused():
         pose((points * 1e-60, triangles))
 
 
+@pytest.mark.parametrize("box", [(2, 2, 2), (3, 2, 1)], ids=["a cube", "a box"])
+@pytest.mark.parametrize("size, mass", [(-40.0, -100.0), (55.0, -100.0)])
+def test_moments_beyond_the_range_of_numbers_have_no_frames(box, size, mass):
+    """Of sixth order, by the powers of ten; those of second order, which are looked at before, are well within it."""
+    known = cloud((1.0, bodies.box(-np.array(box), box)[0]))
+    found = replace(known, raw=known.raw * 10.0 ** (mass + size * monomials(6).sum(axis=1)))
+    with refused("moments_overflow", order=6):
+        equivalent_frames(found)
+    with refused("moments_overflow", order=6):
+        principal_frame(found.truncate(3), higher=lambda: found)
+
+
 def test_a_lamina_has_no_skewness_across():
     plate = bodies.joined(bodies.box((0, 0, 0), (3, 1, 1e-9)), bodies.box((0, 1, 0), (1, 4, 1e-9)))
     frame, _ = pose(bodies.moved(plate, bodies.rotation(1)))
@@ -268,6 +280,60 @@ def test_about_an_axis_the_first_clear_harmonic_decides(share, harmonic):
     turn = bodies.rotation(3)
     found = equivalent_frames(cloud((1.0 - weight, hexagon @ turn.T), (weight, triangle @ turn.T)))
     assert found.rule.harmonic == harmonic
+
+
+def rings(radius, *points):
+    """A ring of eight at height 1, round to seventh order, and points with weights on its axis: (weight, height)."""
+    angle = np.pi / 4.0 * np.arange(8)
+    ring = np.stack([radius * np.cos(angle), radius * np.sin(angle), np.ones(8)], axis=1)
+    return (1.0, ring), *((weight, np.array([[0.0, 0.0, height]])) for weight, height in points)
+
+
+@pytest.mark.parametrize("over", [[1, 1, 1], [1, -1, -1]], ids=["as it is", "turned over"])
+@pytest.mark.parametrize(
+    "parts, cosine",
+    [
+        (rings(8.0**0.5, (1 / 6, 3.0), (1.5, -1.0)), 0.5**0.5),
+        (rings(11.02**0.5, (0.9, 1.0), (1.0, -1.9)), 3.9**-0.5),
+        (rings(8.0**0.5, (1.0, 1.0), (2.0, -1.0)), 3.0**-0.5),
+    ],
+    ids=["near the axis", "far from it", "spread as all directions are"],
+)
+def test_where_a_circle_of_directions_is_extreme_its_axis_is_taken(parts, cosine, over):
+    """All second moments are equal. With A = E[z³] and B = E[zx²], E[(u·x)³] = A c³ + 3B c (1 - c²), of the cosine c
+    with the axis, is largest at c² = B / (3B - A), where it is 2Bc > |A|."""
+    turn = bodies.rotation(6) * over
+    body = cloud(*((weight, points @ turn.T) for weight, points in parts))
+    found, frame = equivalent_frames(body), principal_frame(body.truncate(3), higher=lambda: body)
+    assert found.revolution_axes == (2,) and found.rule is None and len(found.frames) == 1
+    assert np.abs(found.frames[0, :, 2] - turn[:, 2]).max() < 1e-9
+    assert np.abs(frame.axes[:, 2] - turn[:, 2]).max() < 1e-9
+    raw = cloud(*parts).raw
+    a, b = raw[[19, 12]]
+    assert close(raw[[7, 9]], raw[4], rel=1e-12) and np.abs(raw[1:4]).max() < 1e-12
+    assert abs(a) < 2.0 * b * cosine and close((b / (3.0 * b - a)) ** 0.5, cosine, rel=1e-12)
+
+
+def test_an_axis_that_is_itself_extreme_stays_a_direction_that_can_be_refined():
+    """A = 60 and B = 22, as above."""
+    body = cloud(*((weight, points @ bodies.rotation(6).T) for weight, points in rings(44.0**0.5, (1, 4.0), (5, -1.0))))
+    found = equivalent_frames(body)
+    assert found.revolution_axes == (2,) and found.rule.extreme == 3 and len(found.frames) == 1
+    assert np.abs(found.frames[0, :, 2] - bodies.rotation(6)[:, 2]).max() < 1e-9
+
+
+def test_where_two_circles_are_extreme_their_axis_is_taken():
+    """Odd moments are zero. E[(u·x)⁴] = 3 t² + 7.2 t (1 - t) + 2.16 (1 - t)², of the squared cosine t with the axis, is
+    largest at t = 0.706 and least at t = 0."""
+    turn = bodies.rotation(6)
+    one = rings(2.4**0.5, (0.02, 10.0**0.5))
+    parts = [(weight / 2.0, side * points) for side in (1.0, [1.0, 1.0, -1.0]) for weight, points in one]
+    raw = cloud(*parts).raw
+    assert close(raw[[4, 7, 9, 20, 25, 34]], [1.2, 1.2, 1.2, 2.16, 1.2, 3.0], rel=1e-12)
+    found = equivalent_frames(cloud(*((weight, points @ turn.T) for weight, points in parts)))
+    assert found.revolution_axes == (2,) and found.rule is None
+    poles = found.frames[:, :, 2]
+    assert np.abs(poles * np.sign(poles @ turn[:, 2])[:, None] - turn[:, 2]).max() < 1e-9
 
 
 def test_where_a_plate_is_thinner_only_the_moments_across_it_are_more_of_noise():
