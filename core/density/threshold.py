@@ -32,7 +32,6 @@ from .threshold_cells import TURNS, Cells, Columns, amounts_of, compare_rules, i
 RULES = ((3, 5), (8, 12))  # points of the two rules that are compared, along x and along y; then the same with more
 TOLERANCE = 1e-11  # of the volume: what the rules may differ by in all cells together, where no cell is cut further
 AREA_TOLERANCE = 1e-9  # of a cell's face: the same in one cell
-MAX_DEPTH = 24  # how often a cell is cut in eight: what is left then is smaller than rounding
 MAX_PARTS, MIN_PARTS = 64, 1 << 13  # parts of a cut cell on average, and of all: what is left then is in the bounds
 MAX_CUT_CELLS = 1 << 21  # that are kept until they are measured
 CELLS_PER_BATCH = 1 << 9  # cut cells whose points are in memory at a time
@@ -242,7 +241,7 @@ class _Sums:
             return
         allowed = TOLERANCE * (self.volume[0] + len(cells.size) / 2.0) / len(cells.size)
         budget = MAX_PARTS * len(cells.size) + MIN_PARTS
-        for depth in range(MAX_DEPTH + 1):
+        while True:
             again = [
                 self._add_batch(cells[first : first + CELLS_PER_BATCH], threshold, allowed)
                 for first in range(0, len(cells.size), CELLS_PER_BATCH)
@@ -251,14 +250,14 @@ class _Sums:
             budget -= 8 * len(cells.size)
             if not len(cells.size):
                 return
-            if depth == MAX_DEPTH or budget < 0 or (cells.size**3).sum() < allowed:
-                break
+            if budget < 0 or (cells.size**3).sum() < allowed:
+                self._give_up(cells, threshold)
+                return
             cells = cells.cut_in_eight()
             signs = cells.corners >= 0.0
             inside = np.asarray(signs.all(axis=(1, 2, 3)))
             self._add_boxes(cells[inside], threshold)
             cells = cells[~inside & signs.any(axis=(1, 2, 3))]
-        self._give_up(cells, threshold)
 
     def _add_batch(self, cells: Cells, threshold: float, allowed: float) -> Cells:
         """Add what can be integrated; return the rest."""

@@ -69,7 +69,9 @@ def test_a_matrix_and_a_background_place_it():
     assert not found.clipped
     assert close(found.volume.center, (7.5, 1.0, 3.25), rel=1e-9)
     alone = smooth_threshold_body(samples, 0.5, 4, matrix=matrix)
-    assert alone.clipped and close(alone.volume.total, 8.0 * 0.25, rel=1e-12)
+    within = smooth_threshold_body(samples, 0.5, 4, matrix=matrix, background=0.5)
+    for found in (alone, within):
+        assert found.clipped and close(found.volume.total, 8.0 * 0.25, rel=1e-12)
 
 
 def test_the_bound_says_what_a_small_limit_leaves(monkeypatch):

@@ -260,9 +260,30 @@ def test_nothing_inside_everything_inside_and_bad_samples():
         threshold_body(np.ones((1, 4, 4)), 0.5)
 
 
-def test_a_saddle_line_is_bounded_and_ends():
-    """f = xy: no axis is monotone along the line x = y = 0, however small the cell."""
-    x, y, _ = points(3)
-    found = threshold_body(x * y, 0.0)
-    assert abs(found.volume.total - 4.0) <= found.volume.rounding_error[0] + 1e-14
-    assert found.volume.rounding_error[0] < 1e-3
+def test_along_a_saddle_line_half_of_what_is_left_counts_and_all_of_it_is_the_bound():
+    """f = 5 + (x - 1/3) (y - 1/3): no axis is monotone along the line x = y = 1/3, however small the cell. A cell with
+    its neighbors along the line has a part of 1/2 + 1/18 of it inside, as the line divides its sides by 1 to 2."""
+    x, y, _ = np.meshgrid(*[np.arange(2.0)] * 3, indexing="ij")
+    found = threshold_body(5.0 + (x - 1.0 / 3.0) * (y - 1.0 / 3.0), 5.0, with_density=True)
+    width = 2.0**-10  # 8 + 16 + ... parts are within the limit until then
+    left = width**2
+    assert close(found.volume.rounding_error[0], left, rel=1e-6)
+    assert close(found.volume.total - 5.0 / 9.0, -left / 18.0, rel=1e-6)
+    raw, inside = found.volume.about_point((0.0, 0.0, 0.0)).raw, 17.0 / 54.0  # ∫ x over a unit square divided so
+    assert close(raw[1:3] - inside, left * width * (341.5 / 2.0 - 341.0 * 5.0 / 9.0 - inside), rel=1e-5)
+    assert close(raw[3], 0.5 * found.volume.total, rel=1e-12)
+    inner = 17.0 / 324.0  # of (x - 1/3) (y - 1/3) over both parts
+    assert close(found.mass.total - 25.0 / 9.0 - inner, -5.0 * left / 18.0, rel=1e-5)
+    assert close(found.area.total, 2.0 - 2.0 * width, rel=1e-12)
+    assert close(found.area.rounding_error[0], 6.0 * width, rel=1e-6)
+
+
+def test_about_a_cone_s_apex_cells_are_cut_until_what_is_left_is_negligible(monkeypatch):
+    """f = ab + bc + ca with a = x - 1/3 and so on: about its apex no axis is monotone. Where one or two of them are
+    negative, its zeros are at bc / (b + c)."""
+    sizes, cut = [], threshold.Cells.cut_in_eight
+    monkeypatch.setattr(threshold.Cells, "cut_in_eight", lambda cells: sizes.append(cells.size) or cut(cells))
+    a, b, c = np.meshgrid(*[np.arange(2.0) - 1.0 / 3.0] * 3, indexing="ij")
+    found = threshold_body(a * b + b * c + c * a, 0.0)
+    assert abs(found.volume.total - (1.0 - 2.0 / 3.0 * math.log(2.0))) <= found.volume.rounding_error[0] < 1e-10
+    assert (sizes[-1] ** 3).sum() >= threshold.TOLERANCE / 2.0 > (sizes[-1] ** 3).sum() / 64.0

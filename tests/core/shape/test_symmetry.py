@@ -51,6 +51,31 @@ def test_axes_to_order_128_are_looked_for(sides, group):
     assert confirm(round_body, np.zeros(3), points, distance, 1e-6).group == group
 
 
+@pytest.mark.parametrize(
+    "axis", [None, [1, 0, 0], [0, 1, 0], [0, 0, 1], np.full(3, 3.0**-0.5)], ids=["a ball", "x", "y", "z", "diagonal"]
+)
+def test_what_is_a_ball_by_its_moments_is_one_where_turns_about_several_axes_keep_it(axis):
+    """Others are egg-shaped along an axis, about which every turn keeps them: r = 1 + c³ / 1000, by the cosine c."""
+    points = np.random.default_rng(0).normal(size=(200, 3))
+    points /= np.linalg.norm(points, axis=1)[:, None]
+    axis = np.zeros(3) if axis is None else np.array(axis)
+    center = np.array([3.0, -2.0, 5.0])
+
+    def radius(directions):
+        return 1.0 + 1e-3 * (directions @ axis) ** 3
+
+    def distance(images):
+        far = np.linalg.norm(images - center, axis=1)
+        return np.abs(far - radius((images - center) / far[:, None]))
+
+    ball = Symmetry(np.eye(3)[None], np.eye(3), 6)
+    surface = points * radius(points)[:, None] + center
+    found, loose = (confirm(ball, center, surface, distance, within) for within in (1e-9, 0.01))
+    assert ball.group == loose.group == "K" and found.group == ("C1" if axis.any() else "K")
+    assert found.tolerance == 1e-9 and found.order == 6 and np.array_equal(found.operations, np.eye(3)[None])
+    assert np.array_equal(loose.revolution_axes, np.eye(3))
+
+
 @pytest.mark.parametrize("power", [-20, 20])
 def test_the_folds_of_corners_have_no_unit(power):
     part = shapes.prism(12)

@@ -136,7 +136,15 @@ def cracked(width):
     return open_box(np.concatenate([CORNERS, CORNERS[:1] - width]), faces)
 
 
+def gapped(*open_sides):
+    """A box but for some sides; along one edge it has a vertex in one face alone."""
+    faces = [list(side) for k, side in enumerate(SIDES) if k not in (0, *open_sides)]
+    return open_box(np.concatenate([CORNERS, [[0, 0.5, 0]]]), [*faces, [8, 0, 1, 3, 2]])
+
+
 NOT_TOGETHER = {
+    "a gap without area": gapped,
+    "a gap without area beside a hole": lambda: gapped(1),
     "holes that share a vertex": pinched,
     "vertices that a repair welds": lambda: cracked(3e-7),
     "vertices at one place": lambda: cracked(0.0),
@@ -154,6 +162,12 @@ def test_what_needs_more_than_caps_is_left_to_be_repaired(name):
     assert stack.is_measured.tolist() == [True, False, True]
     for i in (0, 2):
         assert_alike(stack, i, whole_one)
+
+
+def test_where_no_surface_can_be_capped_none_is():
+    stack = measure_stack([gapped(), gapped(1)])
+    assert not stack.is_measured.any() and not stack.caps.is_capped.any()
+    assert measure_solid(gapped()).method is Verdict.EXACT
 
 
 def test_a_diagonal_along_an_edge_is_left_to_be_repaired():

@@ -1,0 +1,67 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""How the faces of stacked surfaces hang together, where the corners and edges of some do not fit their faces."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from body_moments.core.mesh.surface_stack import SurfaceStack
+
+from tests.core.bodies import CORNERS, SIDES, mesh
+
+BOX = mesh(CORNERS, SIDES.tolist(), np.float32)
+
+
+def connections(*surfaces):
+    assert all(SurfaceStack.takes(surface) for surface in surfaces)
+    return SurfaceStack.of(surfaces).connections()
+
+
+def with_corners(count):
+    """The box, with so many of its 24 corners, or the first ones again after them."""
+    return replace(
+        BOX, corner_vertices=np.resize(BOX.corner_vertices, count), corner_edges=np.resize(BOX.corner_edges, count)
+    )
+
+
+@pytest.mark.parametrize("other", [with_corners(20), with_corners(28)], ids=["fewer", "more"])
+def test_a_surface_with_more_or_fewer_corners_than_its_faces_have_does_not_disturb_others(other):
+    for stack in ([other, BOX], [BOX, other], [other, BOX, with_corners(24)], [BOX, other, BOX]):
+        found = connections(*stack)
+        fits = [surface is not other for surface in stack]
+        assert found.is_closed.tolist() == fits and not found.is_open.any()
+        assert found.component_counts[fits].tolist() == [1] * sum(fits)
+
+
+def test_surfaces_whose_corners_make_up_for_each_other_s_do_not_fit_either():
+    found = connections(with_corners(20), BOX, with_corners(28), mesh(CORNERS, SIDES[:5].tolist(), np.float32))
+    assert found.is_closed.tolist() == [False, True, False, False]
+    assert found.is_open.tolist() == [False, False, False, True]
+    start, stop = found.open_sides - 3 * len(CORNERS)
+    assert sorted(zip(start.tolist(), stop.tolist())) == sorted(zip(SIDES[5], np.roll(SIDES[5], 1)))
+
+
+def test_a_surface_with_a_face_without_triangles_does_not_fit():
+    gap = replace(BOX, quad_faces=np.array([0, 1, 2, 3, 4, 6]))
+    assert connections(BOX, gap, BOX).is_closed.tolist() == [True, False, True]
+
+
+def exchanged(first, second):
+    """The box with two edges, given by their vertices, exchanged where they run from the second vertex to the first."""
+    vertices, edges = BOX.corner_vertices, BOX.corner_edges.copy()
+    following = vertices.reshape(-1, 4)[:, [1, 2, 3, 0]].ravel()
+    (one,) = np.flatnonzero((vertices == first[1]) & (following == first[0]))
+    (other,) = np.flatnonzero((vertices == second[1]) & (following == second[0]))
+    edges[[one, other]] = edges[[other, one]]
+    return replace(BOX, corner_edges=edges)
+
+
+@pytest.mark.parametrize(
+    "edges",
+    [((0, 1), (6, 7)), ((0, 1), (0, 2)), ((1, 3), (2, 3)), ((1, 0), (2, 0)), ((3, 1), (3, 2))],
+    ids=["apart", "from one vertex", "to one vertex", "down to one vertex", "down from one vertex"],
+)
+def test_edges_that_join_other_vertices_close_nothing(edges):
+    found = connections(BOX, exchanged(*edges), BOX)
+    assert found.is_closed.tolist() == [True, False, True] and not found.is_open.any()
