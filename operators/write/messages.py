@@ -1851,7 +1851,7 @@ MESSAGES: dict[str, Message] = {
     "already_on_ground": _note("already on the ground"),
     "poll_object_or_pose_mode": _note("Switch to Object Mode or Pose Mode"),
     "progress_balance": _note("Following the center of mass: {share:percent}. Esc to cancel"),
-    "canceled_balance": _warning("Canceled: nothing was changed"),
+    "canceled_balance": _note("Balance Group canceled; nothing was changed"),
     "no_such_collection": _error("There is no collection “{collection}”. Choose another one."),
     "balance_group_without_contacts": _error("“{collection}” has no object with a surface. Choose another collection."),
     "balance_group_empty_group": _error(

@@ -16,7 +16,7 @@ from ...bodies.given import properties_of
 from ...write import reports
 from ...write.bill import BillRow, bill_csv
 from ...write.whole_file import whole_file
-from .. import selection
+from .. import files, selection
 from .assembly import TARGET, measured_assembly
 
 
@@ -69,15 +69,10 @@ class OBJECT_OT_body_moments_export_bill(Operator):
     filter_glob: StringProperty(default="*.csv", options={"HIDDEN"})
 
     def invoke(self, context: Context, event: Event) -> set[str]:
-        if not self.filepath:
-            self.filepath = bpy.path.ensure_ext(bpy.data.filepath.removesuffix(".blend") or "masses", ".csv")
-        context.window_manager.fileselect_add(self)
-        return {"RUNNING_MODAL"}
+        return files.ask_for_table(self, context)
 
     def check(self, _context: Context) -> bool:
-        path = bpy.path.ensure_ext(self.filepath, ".csv")
-        changed, self.filepath = path != self.filepath, path
-        return changed
+        return files.ensure_suffix(self, ".csv")
 
     def execute(self, context: Context) -> set[str]:
         try:

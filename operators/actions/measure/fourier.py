@@ -21,6 +21,7 @@ from ...bodies.measure_object import THREADS
 from ...read import measurable
 from ...settings.options import MeasureOptions
 from ...write import reports, spectrum
+from .. import files
 from ..modal import ModalSteps
 
 SUFFIX = ".npz"
@@ -100,10 +101,7 @@ class OBJECT_OT_body_moments_fourier(_Settings, Operator):
         return {"RUNNING_MODAL"}
 
     def check(self, context: Context) -> bool:
-        """Called by the file browser on every change; whether the path was changed here."""
-        path = bpy.path.ensure_ext(self.filepath, SUFFIX)
-        changed, self.filepath = path != self.filepath, path
-        return changed
+        return files.ensure_suffix(self, SUFFIX)
 
     def draw(self, context: Context) -> None:
         column = self.layout.column()

@@ -92,7 +92,7 @@ class OBJECT_OT_body_moments_measure_library(ModalSteps, Operator):
         return self.start_modal(context, count)
 
     def modal(self, context: Context, event: Event) -> set[str]:
-        outcome = super().modal(context, event)
+        outcome = ModalSteps.modal(self, context, event)
         return {"PASS_THROUGH"} if outcome == {"RUNNING_MODAL"} and event.type != "TIMER" else outcome
 
     def _begin(self, context: Context) -> int:

@@ -14,7 +14,7 @@ from ....core.verdict.finding import FileError, MeasureError, finding, system_re
 from ...write import reports
 from ...write.documents import FORMATS
 from ...write.whole_file import whole_file
-from .. import selection
+from .. import files, selection
 from .copy import copy_text, poll_stored, selected_document
 
 SUFFIXES = {".csv": "csv", ".json": "json", ".jsonl": "jsonl"}
@@ -55,16 +55,10 @@ class OBJECT_OT_body_moments_save_numbers(Operator):
         return poll_stored(cls, context)
 
     def invoke(self, context: Context, _event: Event) -> set[str]:
-        if not self.filepath:
-            self.filepath = bpy.path.ensure_ext(bpy.data.filepath.removesuffix(".blend") or "masses", ".csv")
-        context.window_manager.fileselect_add(self)
-        return {"RUNNING_MODAL"}
+        return files.ask_for_table(self, context)
 
     def check(self, _context: Context) -> bool:
-        if Path(self.filepath).suffix.lower() in SUFFIXES:
-            return False
-        self.filepath = bpy.path.ensure_ext(self.filepath, ".csv")
-        return True
+        return files.ensure_suffix(self, ".csv", SUFFIXES)
 
     def execute(self, context: Context) -> set[str]:
         try:

@@ -210,7 +210,7 @@ MESSAGES = {
     "already_on_ground": ("schon auf dem Boden",),
     "poll_object_or_pose_mode": ("In den Objektmodus oder Posenmodus wechseln",),
     "progress_balance": ("Massenmittelpunkt wird verfolgt: {share:percent}. Esc zum Abbrechen",),
-    "canceled_balance": ("Abgebrochen: nichts wurde geändert",),
+    "canceled_balance": ("Balancegruppe abgebrochen; nichts wurde geändert",),
     "no_such_collection": ("Es gibt keine Sammlung „{collection}“. Eine andere wählen.",),
     "balance_group_without_contacts": (
         "„{collection}“ hat kein Objekt mit einer Oberfläche. Eine andere Sammlung wählen.",

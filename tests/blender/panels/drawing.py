@@ -92,6 +92,11 @@ class Layout:
             known, properties, self.inner(idname.replace("body_moments_", ""), named("operator", options))
         )
 
+    def operator_menu_enum(self, idname, prop, **options):
+        category, name = idname.split(".")
+        assert prop in getattr(getattr(bpy.ops, category), name).get_rna_type().properties
+        self.write("operator_menu_enum", idname, prop, named("operator_menu_enum", options))
+
     def menu(self, idname, **options):
         assert hasattr(bpy.types, idname)
         self.write("menu", idname, named("menu", options))

@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Operators that work in steps: what Esc, the end and a fault between two steps leave behind."""
 
-from types import SimpleNamespace
-
 import numpy as np
 import pytest
 
@@ -17,11 +15,10 @@ from body_moments.operators.actions.shape.find_symmetry import OBJECT_OT_body_mo
 from body_moments.operators.actions.shape.match_pose import OBJECT_OT_body_moments_match_pose
 from body_moments.operators.session import results
 
+from tests.blender.actions.test_dialogs import ESC, MOUSE, TIMER, stand_in
 from tests.blender.objects import add, mesh_body, only, place
 
 pytestmark = pytest.mark.usefixtures("registered", "scene")
-
-TIMER, ESC, MOUSE = (SimpleNamespace(type=name) for name in ("TIMER", "ESC", "MOUSEMOVE"))
 
 
 class Window:
@@ -55,15 +52,9 @@ def one_step_at_a_time(monkeypatch):
 
 def pressed(cls, **settings):
     """An operator as its button starts it, without Blender's own part, and the window that it has."""
-    functions = {name: value for name, value in vars(cls).items() if name not in ("__dict__", "__weakref__")}
-    bases = tuple(base for base in cls.__bases__ if base is not bpy.types.Operator)
-    operator = type(cls.__name__, bases, functions)()
-    operator.reports = []
-    operator.report = lambda kind, text: operator.reports.append((*kind, text))
-    module, name = cls.bl_idname.split(".")
-    own = getattr(getattr(bpy.ops, module), name).get_rna_type().properties
-    properties = {each.identifier: each.default for each in own if hasattr(each, "default")}
-    vars(operator).update(properties | settings)
+    reports = []
+    operator = stand_in(cls, lambda kind, text: reports.append((*kind, text)), **settings)
+    operator.reports = reports
     window = Window()
     assert operator.invoke(window, None) == {"RUNNING_MODAL"}
     assert window.handlers == [operator] and window.timers == [window]
