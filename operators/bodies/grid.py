@@ -221,7 +221,7 @@ def density_body(
 
 def _solid(reading: VolumeReading, unit: float, threads: int) -> MeshBody:
     """What a level set bounds, by its polygons."""
-    if not reading.level_set:
+    if reading.level_set is False:
         raise ReadError("grid_is_not_level_set", grid=reading.grid)
     surface = reading.polygons()
     if not len(surface.triangles) and not len(surface.quads):

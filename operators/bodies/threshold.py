@@ -140,7 +140,9 @@ def threshold_grid_body(
     if not above.volume.total > 0.0:
         raise ReadError("threshold_not_reached", grid=grid.name, threshold=options.threshold, largest=grid.largest())
     mass = None if above.mass is None else above.mass * scale
-    if mass is not None and not 0.0 < mass.total < MAX_MASS_MOMENT:
+    if mass is not None and not np.abs(mass.raw).max() < MAX_MASS_MOMENT:
+        raise ReadError("mass_overflow")
+    if mass is not None and not mass.total > 0.0:
         raise ReadError("grid_empty")
     higher = None
     if mass is not None and order > KNOWN_ORDER:

@@ -32,9 +32,9 @@ KINDS = {
 
 
 class SampledGrid:
-    """As `vdb.VdbGrid`; `level_set` is not known here."""
+    """As `vdb.VdbGrid`; whether it is a level set is not known here."""
 
-    level_set = False
+    level_set = None
 
     def __init__(self, obj, depsgraph, grid, bound_box) -> None:
         if grid.data_type not in KINDS or (bpy.app.version < (5, 0) and grid.data_type != "FLOAT"):

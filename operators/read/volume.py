@@ -38,7 +38,8 @@ class VolumeReading:
     """One grid, and where it stands.
 
     name, type, matrix, rotation, location, findings: as in `Reading`.
-    grid: its name. level_set: whether it is marked as one. to_object: (4, 4) float64 from voxels to the object.
+    grid: its name. level_set: whether it is marked as one, None where nobody knows.
+    to_object: (4, 4) float64 from voxels to the object.
     shape: (3,) of the box that holds its voxels; low: (3,) where that begins. background: what is in no voxel.
     blocks: yields what is there, (offset in the box, array). polygons: gives the surface of a level set.
     """
@@ -49,7 +50,7 @@ class VolumeReading:
     rotation: NDArray[np.float64]
     location: NDArray[np.float64]
     grid: str
-    level_set: bool
+    level_set: bool | None
     to_object: NDArray[np.float64]
     low: NDArray[np.int64]
     shape: tuple[int, int, int]
@@ -180,8 +181,10 @@ def _open_grid(obj, volume: _OwnedVolume, grid, depsgraph, findings: list[Findin
         return
     with tempfile.TemporaryDirectory(prefix="body_moments_", dir=bpy.app.tempdir or None) as folder:
         path = os.path.join(folder, "volume.vdb")
-        if not volume.data.grids.save(filepath=path):
-            raise ReadError("temporary_folder_full")
+        try:
+            volume.data.grids.save(filepath=path)
+        except RuntimeError:
+            raise ReadError("temporary_folder_full") from None
         yield VdbGrid(path, grid.name)
 
 

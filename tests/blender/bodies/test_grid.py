@@ -3,7 +3,10 @@
 """Volume objects: voxels to the bit by both ways of reading them, and numbers through every transform and type."""
 
 import os
+import sys
 import tempfile
+from contextlib import nullcontext
+from types import ModuleType
 
 import bpy
 import numpy as np
@@ -537,3 +540,81 @@ def test_of_a_node_only_what_is_not_empty_is_handed_out(tmp_path):
     vdb.openvdb().write(str(tmp_path / "b.vdb"), vdb_grid(values, offset=(128, 128, 128)))
     source = vdb.VdbGrid(str(tmp_path / "b.vdb"), "density")
     assert [block.size for _, block in source.blocks()] == [20]
+
+
+def test_a_level_set_without_a_surface_bounds_nothing(tmp_path):
+    grid = vdb_grid(np.ones((4, 4, 4), np.float32), "distance", background=1.0)
+    grid.gridClass = "level set"
+    obj = volume_object(tmp_path / "a.vdb", grid)
+    obj.body_moments.grid_as = "SOLID"
+    with refused("level_set_empty", obj.name, grid="distance"):
+        measure(obj)
+
+
+def test_a_grid_on_a_frustum_is_refused(tmp_path):
+    grid = vdb_grid(ONES)
+    grid.transform = vdb.openvdb().createFrustumTransform((0, 0, 0), (7, 7, 7), 0.5, 2.0)
+    with refused("grid_frustum", "Cloud", grid="density"):
+        measure(volume_object(tmp_path / "a.vdb", grid))
+
+
+def test_a_damaged_file_is_refused_with_the_grid_that_cannot_be_read(tmp_path):
+    """Blender reads the list of grids, and voxels only when they are shown."""
+    path = tmp_path / "a.vdb"
+    obj = volume_object(path, vdb_grid(random_values(np.float32)))
+    data = path.read_bytes()
+    path.write_bytes(data[: len(data) // 2])
+    with refused("grid_unreadable", "Cloud", grid="density"):
+        measure(obj)
+
+
+def test_values_of_another_type_are_named(tmp_path):
+    grid = vdb.openvdb().Vec3SGrid()
+    grid.name = "velocity"
+    grid.fill((0, 0, 0), (3, 3, 3), (1.0, 0.0, 0.0))
+    volume_object(tmp_path / "a.vdb", grid)
+    with refused("grid_value_type", grid="velocity", type="vec3s"):
+        vdb.VdbGrid(str(tmp_path / "a.vdb"), "velocity")
+    with refused("grid_unreadable", grid="density"):
+        vdb.VdbGrid(str(tmp_path / "a.vdb"), "density")
+
+
+def test_without_openvdb_nobody_knows_whether_a_grid_is_a_level_set(tmp_path, monkeypatch):
+    by_nodes(monkeypatch)
+    obj = volume_object(tmp_path / "a.vdb", vdb_grid(ONES))
+    obj.body_moments.grid_as = "SOLID"
+    with refused("level_set_needs_openvdb", obj.name):
+        measure(obj)
+
+
+def test_without_openvdb_a_grid_has_a_size_that_fits(tmp_path, monkeypatch):
+    by_nodes(monkeypatch)
+    obj = volume_object(tmp_path / "a.vdb", vdb_grid(ONES))
+    monkeypatch.setattr(sample_grid, "MAX_VOXELS", 0)
+    with pytest.raises(MeasureError) as caught:
+        measure(obj)
+    samples = caught.value.finding.values["samples"]
+    assert all(8 + 2 <= along <= 8 + 4 for along in samples)  # the box around eight voxels, rounded, and a margin
+    monkeypatch.setattr(sample_grid, "MAX_VOXELS", int(np.prod(samples)))
+    assert measure(obj).mass_properties.mass == pytest.approx(512.0)
+    monkeypatch.setattr(sample_grid, "MAX_VOXELS", int(np.prod(samples)) - 1)
+    with refused("grid_too_large_without_openvdb", obj.name, grid="density", samples=samples):
+        measure(obj)
+
+
+def test_no_voxels_can_be_written_where_the_disk_is_full(monkeypatch):
+    bpy.ops.mesh.primitive_cube_add()
+    fog = mesh_to_volume(bpy.context.object)
+    monkeypatch.setattr(volume_module.tempfile, "TemporaryDirectory", lambda **_: nullcontext("/nowhere/at/all"))
+    with refused("temporary_folder_full", fog.name):
+        measure(fog)
+
+
+@pytest.mark.parametrize("name", ["openvdb", "pyopenvdb"])
+def test_the_module_is_found_under_either_name_or_said_to_be_missing(monkeypatch, name):
+    monkeypatch.setitem(sys.modules, "openvdb", None)
+    monkeypatch.setitem(sys.modules, "pyopenvdb", None)
+    assert vdb.openvdb() is None
+    module = ModuleType(name)
+    monkeypatch.setitem(sys.modules, name, module)
+    assert vdb.openvdb() is module

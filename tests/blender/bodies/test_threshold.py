@@ -146,3 +146,50 @@ def test_a_large_grid_is_followed_coarsely(tmp_path, monkeypatch):
     assert len(reading_sizes) == 2 and reading_sizes[0] <= 2000 < reading_sizes[1]
     assert close(obj["body_volume"], measure(obj).volume, rel=1e-13)
     assert properties.numbers(obj) is not None
+
+
+def test_a_level_set_has_no_threshold(tmp_path):
+    grid = vdb_grid(np.ones((4, 4, 4), np.float32), "distance")
+    grid.gridClass = "level set"
+    obj = volume_object(tmp_path / "level.vdb", grid)
+    obj.body_moments.grid_as, obj.body_moments.threshold = "THRESHOLD", 0.5
+    with refused("grid_is_level_set", obj.name, grid="distance"):
+        measure(obj)
+
+
+def test_a_grid_may_have_as_many_voxels_as_fit_and_no_more(tmp_path, monkeypatch):
+    obj = ramp(tmp_path)
+    monkeypatch.setattr(threshold_module, "MAX_SAMPLES", 12 * 9 * 7)
+    assert measure(obj).volume > 0.0
+    monkeypatch.setattr(threshold_module, "MAX_SAMPLES", 12 * 9 * 7 - 1)
+    with refused("threshold_too_large", obj.name, grid="density", samples=12 * 9 * 7):
+        measure(obj)
+
+
+@pytest.mark.parametrize("dtype", [np.float64, np.int64])
+def test_values_of_eight_bytes_keep_their_digits(tmp_path, dtype):
+    """From 2^24 on, float32 knows even numbers only."""
+    values = (2**24 + np.arange(12))[:, None, None] * np.ones((12, 9, 7), np.int64)
+    obj = volume_object(tmp_path / "fine.vdb", vdb_grid(values.astype(dtype)))
+    obj.body_moments.grid_as, obj.body_moments.threshold = "THRESHOLD", 2**24 + 2
+    whole = measure(obj).volume
+    obj.body_moments.threshold = 2**24 + 6
+    assert close(whole - measure(obj).volume, 4.0 * 8.0 * 6.0, rel=1e-4)
+
+
+def test_a_body_of_negative_or_of_too_large_densities_says_which(tmp_path):
+    obj = ramp(tmp_path)
+    obj.body_moments.threshold, obj.body_moments.threshold_fill = 3.25, "GRID"
+    weight = measure(obj).mass_properties.mass
+    assert close(weight, 48.0 * (12.0**2 - 3.25**2) / 2.0, rel=1e-4)
+    obj.body_moments.value_density = 3e38
+    assert close(measure(obj).mass_properties.mass, 3e38 * weight, rel=1e-12)
+    empty = volume_object(tmp_path / "empty.vdb", vdb_grid(np.zeros((4, 4, 4), np.float32) - 2.0))
+    empty.body_moments.grid_as, empty.body_moments.threshold_fill = "THRESHOLD", "GRID"
+    empty.body_moments.threshold = -3.0
+    with refused("grid_empty", empty.name):
+        measure(empty)
+    huge = volume_object(tmp_path / "huge.vdb", vdb_grid(np.full((4, 4, 4), 1e120)))
+    huge.body_moments.grid_as, huge.body_moments.threshold_fill = "THRESHOLD", "GRID"
+    with refused("mass_overflow", huge.name):
+        measure(huge)

@@ -298,3 +298,20 @@ def test_a_threshold_is_for_volume_objects_too_and_said_to_be_unused_by_others(t
     assert close(entries["VOLUME"]["volume"], truth.volume.total, rel=1e-5)
     assert "threshold_option_unused" in codes(entries["MESH"])
     assert "threshold_option_unused" not in codes(entries["VOLUME"])
+
+
+def test_a_threshold_needs_even_samples_and_a_spline_a_grid_that_fits(tmp_path, monkeypatch):
+    np.save(tmp_path / "b.npy", ball())
+    np.save(tmp_path / "z.npy", np.arange(12.0))
+    words = [tmp_path / "b.npy", "--threshold", "0.5", "--density", "7"]
+    code, document = run(tmp_path, *words, "--positions", f"z={tmp_path / 'z.npy'}")
+    assert code == 1 and not document["objects"]
+    assert document["errors"][0]["reason"] == sentence("threshold_positions")
+    monkeypatch.setattr("body_moments.operators.bodies.array.MAX_SAMPLES", 12**3)
+    assert run(tmp_path, *words, "--spline-order", "4")[0] == 0
+    monkeypatch.setattr("body_moments.operators.bodies.array.MAX_SAMPLES", 12**3 - 1)
+    assert run(tmp_path, *words)[0] == 0  # read block by block
+    code, document = run(tmp_path, *words, "--spline-order", "4")
+    assert code == 1 and not document["objects"]
+    (error,) = document["errors"]
+    assert error["reason"] == sentence("threshold_too_large", grid="b", samples=12**3)
