@@ -1189,8 +1189,6 @@ MESSAGES: dict[str, Message] = {
     "rigid_body_mass_too_small": _error(
         "The mass {mass:.3g} kg is below the {limit:.3g} kg of a rigid body. Raise Density."
     ),
-    "rigid_body_not_added": _error("Blender made no rigid body: {error}"),
-    "rigid_body_not_added_unknown": _error("Blender made no rigid body."),
     "rigid_body_display_scaled": _note(
         "Physics properties show masses times {factor:.6g} (unit scale cubed); the physics engine uses kilograms."
     ),
@@ -1532,7 +1530,9 @@ MESSAGES: dict[str, Message] = {
     "manifest_malformed": _error("{file} is not a list of files. Make one with “manifest FOLDER”"),
     "usage_result_not_written": _error("the result cannot be written: {error}"),
     # ------------------------------------------------------------------ Rigid bodies
-    "joint_not_added": _error("Blender did not make the joint. Check that the scene has a rigid body world."),
+    "rigid_world_linked": _error(
+        "The rigid body world uses the collection “{collection}”, which is linked. Give it one of this file."
+    ),
     "rigid_bodies_made": _note(
         "{count} rigid body of {mass:.7g} kg; Calculate Mass would say {calculated:.7g} kg",
         "{count} rigid bodies of {mass:.7g} kg; Calculate Mass would say {calculated:.7g} kg",

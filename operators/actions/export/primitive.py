@@ -20,6 +20,7 @@ from ....core.robots.primitives import equal_inertia_shape
 from ....core.verdict.finding import EditRefusedError, finding
 from ...bodies.measure_object import measure_object
 from .. import selection
+from ..rigid_world import add_rigid_bodies, require_rigid_world
 
 KINDS = (
     ("BOX", "Box", "The box of the same mass, center and inertia"),
@@ -57,6 +58,8 @@ class OBJECT_OT_body_moments_equal_inertia(Operator):
         def measure(obj: Object) -> bool:
             if self.rigid_body and (not obj.is_editable or obj.parent is not None):
                 raise EditRefusedError("primitive_has_parent")
+            if self.rigid_body:
+                require_rigid_world(context.scene)
             body = measure_object(obj, depsgraph).mass_properties
             inertial = Inertial(body.mass, body.center, body.inertia, body.principal.moments, body.principal.axes)
             shapes.append((obj, equal_inertia_shape(inertial, self.kind.lower()), body.mass))
@@ -85,13 +88,10 @@ class OBJECT_OT_body_moments_equal_inertia(Operator):
         return new
 
     def _make_rigid(self, context: Context, bodies: list[tuple[Object, float]]) -> None:
-        objects = [obj for obj, _ in bodies]
-        with context.temp_override(object=objects[0], active_object=objects[0], selected_objects=objects):
-            bpy.ops.rigidbody.objects_add(type="ACTIVE")
+        add_rigid_bodies(context, [obj for obj, _ in bodies])
         for obj, mass in bodies:
-            if obj.rigid_body is not None:
-                obj.rigid_body.collision_shape = COLLISION_SHAPES[self.kind]
-                obj.rigid_body.mass = mass
+            obj.rigid_body.collision_shape = COLLISION_SHAPES[self.kind]
+            obj.rigid_body.mass = mass
 
 
 def _mesh(name: str, shape: Shape, unit: float) -> Mesh:

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import bpy
 import numpy as np
-from bpy.types import Collection, Context, Object, Operator
+from bpy.types import Context, Object, Operator
 from mathutils import Matrix, Vector
 
 from ....core.numerics.float32 import shortest_decimal
@@ -22,9 +22,10 @@ from ...read.tracking import tracking_paused
 from ...write import reports
 from .. import selection
 from ..modal import redraw
+from .collection import MadeCollection
 from .measure import poll_armature
 
-CENTER_OF = "center_of_mass_of"  # ID property of such a collection: the armature object
+CENTER_OF = "center_of_mass_of"  # ID property of what is made: the armature object
 
 
 class OBJECT_OT_body_moments_rig_center(Operator):
@@ -58,11 +59,11 @@ class OBJECT_OT_body_moments_rig_center(Operator):
 def _add_center(context: Context, rig: Rig) -> None:
     armature = rig.armature
     unit = shortest_decimal(context.scene.unit_settings.scale_length)
-    collection = _collection(context, armature)
+    made = MadeCollection(context, armature, CENTER_OF, "Center of Mass")
     center = bpy.data.objects.new("{:s} Center of Mass".format(armature.name), None)
     center.empty_display_type, center.show_in_front = "SPHERE", True
     center.empty_display_size = 0.1 * float(rig.measurement.mass_properties.radii_of_gyration.max()) / unit
-    collection.objects.link(center)
+    made.link(center)
     mass = 0.0
     for part in rig.parts:
         if part.mass.total <= 0.0:
@@ -70,17 +71,17 @@ def _add_center(context: Context, rig: Rig) -> None:
         mass += part.mass.total
         constraint = center.constraints.new("COPY_LOCATION")
         constraint.name = part.name
-        constraint.target = _follower(context, collection, armature, part, unit)
+        constraint.target = _follower(context, made, armature, part, unit)
         constraint.influence = part.mass.total / mass
     context.view_layer.update()
 
 
-def _follower(context: Context, collection: Collection, armature: Object, part: BonePart, unit: float) -> Object:
+def _follower(context: Context, made: MadeCollection, armature: Object, part: BonePart, unit: float) -> Object:
     """An empty that is parented to a bone, at the center of its part."""
     bone = armature.data.bones[part.name]
     empty = bpy.data.objects.new("{:s} {:s} Center".format(armature.name, part.name), None)
     empty.empty_display_size = 0.1 * bone.length
-    collection.objects.link(empty)
+    made.link(empty)
     rest = np.array(armature.matrix_world @ bone.matrix_local, np.float64)
     local = np.linalg.solve(rest, np.append(part.mass.center / unit, 1.0))[:3]
     empty.parent, empty.parent_type, empty.parent_bone = armature, "BONE", bone.name
@@ -89,18 +90,6 @@ def _follower(context: Context, collection: Collection, armature: Object, part: 
     context.view_layer.update()
     empty.hide_set(True)
     return empty
-
-
-def _collection(context: Context, armature: Object) -> Collection:
-    """The collection of an armature's center of mass, with nothing in it."""
-    for collection in bpy.data.collections:
-        if collection.get(CENTER_OF) == armature and collection.is_editable:
-            bpy.data.batch_remove([*collection.objects])
-            return collection
-    collection = bpy.data.collections.new("{:s} Center of Mass".format(armature.name))
-    collection[CENTER_OF] = armature
-    context.scene.collection.children.link(collection)
-    return collection
 
 
 CLASSES = (OBJECT_OT_body_moments_rig_center,)

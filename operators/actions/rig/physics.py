@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import bpy
 import numpy as np
-from bpy.types import Bone, Collection, Context, Object, Operator, PoseBone
+from bpy.types import Bone, Context, Object, Operator, PoseBone
 from mathutils import Matrix
 from numpy.typing import NDArray
 
@@ -18,11 +18,12 @@ from ...read.rig import require_armature
 from ...read.tracking import tracking_paused
 from ...write import reports
 from .. import selection
-from ..joints import add_joint
 from ..modal import redraw
+from ..rigid_world import add_joint, add_rigid_bodies, require_rigid_world
+from .collection import MadeCollection
 from .measure import poll_armature
 
-RIG_OF = "physics_rig_of"  # ID property of such a collection: the armature object
+RIG_OF = "physics_rig_of"  # ID property of what is made: the armature object
 MIN_MASS = bpy.types.RigidBodyObject.bl_rna.properties["mass"].hard_min
 
 
@@ -48,6 +49,7 @@ class OBJECT_OT_body_moments_physics_rig(Operator):
             light = [part.name for part in parts if part.mass.total < MIN_MASS]
             if light:
                 raise EditRefusedError("physics_rig_too_light", subject=rig.armature.name, names=light, limit=MIN_MASS)
+            require_rigid_world(context.scene, joints=True)
             with tracking_paused():
                 bodies, joints = _create(context, rig, parts)
         except MeasureError as error:
@@ -63,10 +65,10 @@ class OBJECT_OT_body_moments_physics_rig(Operator):
 def _create(context: Context, rig: Rig, parts: list[BonePart]) -> tuple[int, int]:
     """Make the objects; how many bodies and joints."""
     unit = shortest_decimal(context.scene.unit_settings.scale_length)
-    collection = _collection(context, rig.armature)
-    bodies = {part.name: _body(collection, rig.armature, part, unit) for part in parts}
+    made = MadeCollection(context, rig.armature, RIG_OF, "Physics Rig")
+    bodies = {part.name: _body(made, rig.armature, part, unit) for part in parts}
     context.view_layer.update()
-    _add(context, list(bodies.values()))
+    add_rigid_bodies(context, list(bodies.values()))
     for part in parts:
         physics = bodies[part.name].rigid_body
         physics.mass, physics.collision_shape = part.mass.total, "CONVEX_HULL"
@@ -74,26 +76,13 @@ def _create(context: Context, rig: Rig, parts: list[BonePart]) -> tuple[int, int
     for name, body in bodies.items():
         above = _parent_with_part(rig.armature.data.bones[name], bodies)
         if above is not None:
-            _joint(context, collection, rig.armature.pose.bones[name], bodies[above], body)
+            _joint(context, made, rig.armature.pose.bones[name], bodies[above], body)
             joints += 1
     context.view_layer.update()
     return len(bodies), joints
 
 
-def _collection(context: Context, armature: Object) -> Collection:
-    """The collection of an armature's physics rig, with nothing in it."""
-    for collection in bpy.data.collections:
-        if collection.get(RIG_OF) == armature and collection.is_editable:
-            meshes = [obj.data for obj in collection.objects if obj.data is not None]
-            bpy.data.batch_remove([*collection.objects, *meshes])
-            return collection
-    collection = bpy.data.collections.new("{:s} Physics Rig".format(armature.name))
-    collection[RIG_OF] = armature
-    context.scene.collection.children.link(collection)
-    return collection
-
-
-def _body(collection: Collection, armature: Object, part: BonePart, unit: float) -> Object:
+def _body(made: MadeCollection, armature: Object, part: BonePart, unit: float) -> Object:
     """The object of a part: its closed pieces, in a frame at its center along its principal axes."""
     assert part.measurement is not None
     body = part.measurement.mass_properties
@@ -104,7 +93,7 @@ def _body(collection: Collection, armature: Object, part: BonePart, unit: float)
     points = (surface.points / unit - frame[:3, 3]) @ frame[:3, :3]
     _fill(mesh, points, surface.triangles)
     obj = bpy.data.objects.new(mesh.name, mesh)
-    collection.objects.link(obj)
+    made.link(obj)
     obj.rotation_mode = "QUATERNION"
     obj.matrix_world = Matrix(frame)
     settings = obj.body_moments
@@ -123,25 +112,17 @@ def _fill(mesh: bpy.types.Mesh, points: NDArray, triangles: NDArray) -> None:
     mesh.validate()
 
 
-def _add(context: Context, objects: list[Object]) -> None:
-    try:
-        with context.temp_override(object=objects[0], active_object=objects[0], selected_objects=objects):
-            bpy.ops.rigidbody.objects_add(type="ACTIVE")
-    except RuntimeError as error:
-        raise EditRefusedError("rigid_body_not_added", error=" ".join(str(error).split())) from error
-
-
 def _parent_with_part(bone: Bone, bodies: dict[str, Object]) -> str | None:
     """The nearest bone above that has a body."""
     return next((parent.name for parent in bone.parent_recursive if parent.name in bodies), None)
 
 
-def _joint(context: Context, collection: Collection, bone: PoseBone, above: Object, below: Object) -> None:
+def _joint(context: Context, made: MadeCollection, bone: PoseBone, above: Object, below: Object) -> None:
     """A joint at a bone's head, along its axes, with the limits that its inverse kinematics has."""
     armature = bone.id_data
     joint = bpy.data.objects.new("{:s} {:s} Joint".format(armature.name, bone.name), None)
     joint.empty_display_size = 0.25 * bone.bone.length * float(np.mean(armature.matrix_world.to_scale()))
-    collection.objects.link(joint)
+    made.link(joint)
     location, turn, _scale = (armature.matrix_world @ bone.bone.matrix_local).decompose()
     joint.rotation_mode = "QUATERNION"
     joint.location, joint.rotation_quaternion = location, turn

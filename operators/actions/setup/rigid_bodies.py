@@ -33,8 +33,8 @@ from ...write import properties, reports
 from ...write.translations import localized
 from ...write.units import Units
 from .. import selection
-from ..joints import add_joint, remove_joint
 from ..modal import progress
+from ..rigid_world import add_joint, add_rigid_bodies, remove_joint, require_rigid_world
 from ..snap import base as snapping
 
 UNIT_SCALE = 1e-6  # by how much an object's scale may differ from 1
@@ -152,8 +152,7 @@ class OBJECT_OT_body_moments_rigid_bodies(Operator):
         with assembly.kept_up_to_date(context):
             with tracking_paused():  # Blender reports a rigid body as a change of the shape
                 failures += self._place(context, measured)
-                new, refused = self._add(context, measured)
-                failures += refused
+                new = self._add(context, measured)
                 blender = _calculated_masses(context, measured)
                 for obj in new:
                     obj.rigid_body.mesh_source = "FINAL"  # the mesh that was weighed; Calculate Mass takes the default
@@ -195,34 +194,22 @@ class OBJECT_OT_body_moments_rigid_bodies(Operator):
                 staleness.mark_axes_changed(plan.obj for plan in changed)
         return failures
 
-    def _add(self, context: Context, measured: dict[Object, Measured]) -> tuple[list[Object], list[Finding]]:
-        """Make them rigid bodies with their shapes; the objects that were none, and why others are none."""
-        failures: list[Finding] = []
+    def _add(self, context: Context, measured: dict[Object, Measured]) -> list[Object]:
+        """Make them rigid bodies with their shapes; the objects that were none."""
         parts = [part for one in measured.values() for part in (one.body.obj, *one.body.members)]
         new = [obj for obj in parts if obj.rigid_body is None]
-        cause = finding("rigid_body_not_added_unknown")
-        if new:
-            try:
-                with context.temp_override(object=new[0], active_object=new[0], selected_objects=new):
-                    bpy.ops.rigidbody.objects_add(type=self.type)
-            except RuntimeError as error:
-                cause = finding("rigid_body_not_added", error=" ".join(str(error).split()))
-        for obj in [obj for obj in measured if obj.rigid_body is None]:
-            failures.append(reports.failure(obj.name_full, cause))
-            del measured[obj]
+        add_rigid_bodies(context, new, self.type)
         fresh = set(new)
         for one in measured.values():
             inner = {part.parent for part in one.body.members}
             for part in (one.body.obj, *one.body.members):
-                if part.rigid_body is None:
-                    continue
                 if part in fresh:
                     part.rigid_body.collision_shape = "CONVEX_HULL"
                 if part in inner:
                     part.rigid_body.collision_shape = "COMPOUND"
                 elif self.shape != "KEEP":
                     part.rigid_body.collision_shape = self.shape
-        return [obj for obj in new if obj.rigid_body is not None], failures
+        return new
 
     def _report(
         self,
@@ -277,6 +264,7 @@ def _asked(context: Context, bodies: Iterable[Body]) -> Callable[[Object], Measu
 
 def _measured(context: Context, body: Body, ask: Callable[[Object], MeasuredBody | Stacked]) -> Measured:
     """A body as it is now. EditRefusedError where it can be no rigid body."""
+    require_rigid_world(context.scene, joints=body.obj.rigid_body_constraint is not None)
     measurements, parts = [], []
     for part in (body.obj, *body.members):
         require_storable_data(part, "library_override_mass")
@@ -338,7 +326,7 @@ def _frame(obj: Object, target: snapping.SnapTarget, move_only: bool) -> NDArray
 
 def _calculated_masses(context: Context, measured: dict[Object, Measured]) -> dict[Object, float]:
     """What Blender's Calculate Mass makes of each body with the same density."""
-    objects = [part for one in measured.values() for part in (one.body.obj, *one.body.members) if part.rigid_body]
+    objects = [part for one in measured.values() for part in (one.body.obj, *one.body.members)]
     if not objects:
         return {}
     with context.temp_override(object=objects[0], active_object=objects[0], selected_objects=objects):

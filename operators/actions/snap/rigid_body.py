@@ -17,9 +17,9 @@ from ....core.verdict.finding import EditRefusedError, Finding, finding
 from ...read.tracking import tracking_paused
 from ...scene import reframe
 from ...scene.transforms import require_storable_data, world
-from ...write import reports
 from .. import selection
 from ..modal import MAX_OBJECTS_WITHOUT_REDRAW, ModalSteps
+from ..rigid_world import add_rigid_bodies, require_rigid_world
 from . import base as snapping
 from .principal_axes import matrix_along_axes
 
@@ -77,6 +77,8 @@ class OBJECT_OT_body_moments_set_rigid_body_mass(ModalSteps, Operator):
                 raise EditRefusedError("not_a_rigid_body")
             if obj.rigid_body is None and obj.type != "MESH":
                 raise EditRefusedError("rigid_body_needs_mesh")
+            if obj.rigid_body is None:
+                require_rigid_world(context.scene)
             body = target_in_turn(obj)
             limit = bpy.types.RigidBodyObject.bl_rna.properties["mass"].hard_min
             if body.mass < limit:
@@ -90,9 +92,8 @@ class OBJECT_OT_body_moments_set_rigid_body_mass(ModalSteps, Operator):
         bodies, failures = self._bodies, self._failures
         with tracking_paused():  # Blender reports a rigid body as a change of the shape
             new = [body.obj for body in bodies if body.obj.rigid_body is None]
-            failures += _add_rigid_bodies(context, new)
-            changed = {obj for obj in new if obj.rigid_body is not None}
-            bodies = [body for body in bodies if body.obj.rigid_body is not None]
+            add_rigid_bodies(context, new)
+            changed = set(new)
             for body in bodies:
                 if np.float32(body.obj.rigid_body.mass) != np.float32(body.mass):
                     body.obj.rigid_body.mass = body.mass
@@ -119,18 +120,6 @@ class OBJECT_OT_body_moments_set_rigid_body_mass(ModalSteps, Operator):
             findings.append(finding("rigid_body_center_elsewhere", objects=elsewhere))
         done, idle = finding("rigid_body_masses_set", count=count), finding("rigid_body_masses_equal")
         return selection.summarize(self, count, len(self._objects), done, failures, findings, idle)
-
-
-def _add_rigid_bodies(context: Context, objects: list[Object]) -> list[Finding]:
-    """Make them active rigid bodies, all by one operator; why Blender makes none of some."""
-    refusal = EditRefusedError("rigid_body_not_added_unknown")
-    if objects:
-        try:
-            with context.temp_override(object=objects[0], active_object=objects[0], selected_objects=objects):
-                bpy.ops.rigidbody.objects_add(type="ACTIVE")
-        except RuntimeError as error:
-            refusal = EditRefusedError("rigid_body_not_added", error=" ".join(str(error).split()))
-    return [reports.failure(obj.name_full, refusal) for obj in objects if obj.rigid_body is None]
 
 
 CLASSES = (OBJECT_OT_body_moments_set_rigid_body_mass,)

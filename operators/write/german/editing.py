@@ -113,8 +113,6 @@ MESSAGES = {
     "rigid_body_mass_too_small": (
         "Die Masse {mass:.3g} kg liegt unter den {limit:.3g} kg eines Starrkörpers. Dichte erhöhen.",
     ),
-    "rigid_body_not_added": ("Blender hat keinen Starrkörper erzeugt: {error}",),
-    "rigid_body_not_added_unknown": ("Blender hat keinen Starrkörper erzeugt.",),
     "rigid_body_display_scaled": (
         "Die Physikeigenschaften zeigen Massen mal {factor:.6g} (Einheitenmaßstab hoch drei); die Physik rechnet in "
         "Kilogramm.",

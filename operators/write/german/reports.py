@@ -4,7 +4,9 @@
 
 # Codes of messages → German, and for several where the English has such a text
 MESSAGES = {
-    "joint_not_added": ("Blender hat das Gelenk nicht angelegt. Prüfen, ob die Szene eine Starrkörperwelt hat.",),
+    "rigid_world_linked": (
+        "Die Starrkörperwelt benutzt die Sammlung „{collection}“, die verknüpft ist. Ihr eine aus dieser Datei geben.",
+    ),
     "rigid_bodies_made": (
         "{count} Starrkörper von {mass:.7g} kg; Masse berechnen würde {calculated:.7g} kg sagen",
         "{count} Starrkörper von {mass:.7g} kg; Masse berechnen würde {calculated:.7g} kg sagen",

@@ -1,0 +1,59 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Rigid bodies and joints of a scene. Blender adds joints to the view layer's active object alone."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+
+import bpy
+from bpy.types import Context, Object, RigidBodyConstraint, Scene
+
+from ...core.verdict.finding import EditRefusedError
+
+
+def require_rigid_world(scene: Scene, joints: bool = False) -> None:
+    """EditRefusedError where nothing can be added to the scene's rigid bodies, or to its joints either."""
+    world = scene.rigidbody_world
+    if world is None:
+        return
+    for collection in (world.collection, world.constraints if joints else None):
+        if collection is not None and (not collection.is_editable or collection.override_library is not None):
+            raise EditRefusedError("rigid_world_linked", collection=collection.name)
+
+
+def add_rigid_bodies(context: Context, objects: Sequence[Object], type: str = "ACTIVE") -> None:
+    """Make meshes rigid bodies, all by one operator."""
+    if objects:
+        with context.temp_override(object=objects[0], active_object=objects[0], selected_objects=objects):
+            bpy.ops.rigidbody.objects_add(type=type)
+
+
+def add_joint(context: Context, obj: Object, type: str) -> RigidBodyConstraint:
+    """Make an object a rigid body constraint."""
+    if context.scene.rigidbody_world is None:
+        bpy.ops.rigidbody.world_add()
+    with _active(context, obj):
+        bpy.ops.rigidbody.constraint_add(type=type)
+    joint = obj.rigid_body_constraint
+    assert joint is not None
+    return joint
+
+
+def remove_joint(context: Context, obj: Object) -> None:
+    """Let an object be no rigid body constraint any more."""
+    with _active(context, obj):
+        bpy.ops.rigidbody.constraint_remove()
+
+
+@contextmanager
+def _active(context: Context, obj: Object) -> Iterator[None]:
+    objects = context.view_layer.objects
+    before = objects.active
+    objects.active = obj
+    try:
+        with context.temp_override(object=obj, active_object=obj, selected_objects=[obj]):
+            yield
+    finally:
+        objects.active = before
