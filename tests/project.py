@@ -396,7 +396,7 @@ def pytest_options(options: argparse.Namespace) -> list[str]:
 
 
 def test(options: argparse.Namespace) -> int:
-    """Pass the tests: both Blenders side by side, then the window's alone, then what `lint` checks."""
+    """Pass the tests and what `lint` checks: both Blenders side by side, then the window's alone."""
     if options.subject:
         return test_subject(options)
     groups = options.only or list(GROUPS)
@@ -414,7 +414,7 @@ def test(options: argparse.Namespace) -> int:
         " four times that on a slow machine. Environments that are not there yet come first.",
         flush=True,
     )
-    runner = Runner()
+    runner, failures = Runner(), []
 
     def lane(version: str) -> list[dict]:
         python = prepare_blender(version)
@@ -422,6 +422,8 @@ def test(options: argparse.Namespace) -> int:
         outcomes = [run_tests(runner, python, version, group, extra) for group in mine]
         if "robots" in groups and version == max(versions):
             outcomes.append(run_tests(runner, prepare_consumers(version), version, "robots", extra))
+        if version == min(versions) and not options.only and not extra:
+            failures.append(lint(options))
         return outcomes
 
     outcomes = in_lanes(lane, versions)
@@ -433,10 +435,9 @@ def test(options: argparse.Namespace) -> int:
             outcomes.append(run_tests(runner, python, "4.5", "window", extra, BLENDER=older))
         else:
             remarks.append("The window of Blender 4.5 was not tested: BLENDER_45 names none.")
-    failed = 1 if not options.only and not extra and lint(options) else 0
     if CI:  # there, nothing may be left out
-        failed += len(left_out)
-    return finish(outcomes, [*left_out, *remarks], failed)
+        failures.append(len(left_out))
+    return finish(outcomes, [*left_out, *remarks], sum(failures))
 
 
 def demo(options: argparse.Namespace) -> int:
