@@ -132,7 +132,7 @@ def _apply_hook(evaluated, modifier, points: NDArray, depsgraph) -> NDArray[np.f
         center = np.array(modifier.center[:], np.float64)
         arms = before - center
         if modifier.use_falloff_uniform:
-            arms = arms @ matrix[:3, :3].T
+            arms = arms @ float64_matrix(modifier.matrix_inverse)[:3, :3].T
         distance = np.linalg.norm(arms, axis=1) / modifier.falloff_radius
         share = np.where(distance <= 1.0, share * FALLOFFS[modifier.falloff_type](np.minimum(distance, 1.0)), 0.0)
     after = before @ matrix[:3, :3].T + matrix[:3, 3]

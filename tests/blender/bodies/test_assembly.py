@@ -13,6 +13,7 @@ from body_moments.operators.read.assembly import members_of
 from body_moments.operators.session import staleness
 from mathutils import Matrix
 
+from tests.blender.grids import vdb_grid, volume_object
 from tests.blender.objects import add, mesh_body, only
 from tests.close import close
 
@@ -310,3 +311,84 @@ def test_a_given_inertia_is_no_multiple_of_the_mass():
     settings.mass = 3.0
     bpy.context.view_layer.update()
     assert close(obj["body_mass"], 3.0, 1e-6) and staleness.stale_reason(obj, bpy.context.scene) is None
+
+
+def test_a_given_mass_without_members_is_at_the_origin_and_said_to_be():
+    root = collection()
+    part = collection("Bought", root)
+    part.body_moments.mass_from, part.body_moments.mass = "MASS", 2.5
+    assembly = measured(root)
+    body = assembly.measurement.mass_properties
+    assert close(body.mass, 2.5, 1e-14) and not body.center.any() and not body.inertia.any()
+    (found,) = [one for part in assembly.root.walk() for one in part.findings if one.code == "given_center_missing"]
+    assert str(found)
+    part.body_moments.use_center, part.body_moments.given_center = True, (1, 2, 3)
+    assembly = measured(root)
+    assert close(assembly.measurement.mass_properties.center, [1, 2, 3], 1e-14)
+    assert not [one for part in assembly.root.walk() for one in part.findings if one.code == "given_center_missing"]
+
+
+def instance(into, of, **where):
+    obj = add(None, "Instance", select=False, **where)
+    obj.instance_type, obj.instance_collection = "COLLECTION", of
+    for other in obj.users_collection:
+        other.objects.unlink(obj)
+    into.objects.link(obj)
+    return obj
+
+
+def test_a_flattened_instance_and_what_cannot_be_shown_stretched_add_nothing(tmp_path):
+    root, of = collection(), bpy.data.collections.new("Of")
+    box(root, (1, 2, 4))
+    box(of, (1, 1, 1))
+    shown = instance(root, of, location=(5, 0, 0), scale=(2, 2, 2))
+    assert close(measured(root).measurement.mass_properties.mass, 16000.0, 1e-12)
+    shown.scale = (2, 0, 2)
+    assembly = measured(root)
+    assert close(assembly.measurement.mass_properties.mass, 8000.0, 1e-12)
+    assert close(assembly.measurement.volume, 8.0, 1e-12) and close(assembly.measurement.area, 28.0, 1e-12)
+    (refusal,) = [part.refusal for part in assembly.root.walk() if part.refusal is not None]
+    assert refusal.code == "instance_without_scale" and str(refusal)
+    for obj in list(of.objects):
+        of.objects.unlink(obj)
+    cloud = volume_object(tmp_path / "a.vdb", vdb_grid(np.ones((2, 2, 2), np.float32)))
+    bpy.context.scene.collection.objects.unlink(cloud)
+    of.objects.link(cloud)
+    shown.scale = (2, 2, 2)
+    assert close(measured(root).measurement.mass_properties.mass, 8000.0 + 64.0, 1e-6)
+    shown.scale = (1, 2, 3)
+    assembly = measured(root)
+    assert close(assembly.measurement.mass_properties.mass, 8000.0, 1e-12)
+    assert close(assembly.measurement.volume, 8.0, 1e-12) and close(assembly.measurement.area, 28.0, 1e-12)
+    (refusal,) = [part.refusal for part in assembly.root.walk() if part.refusal is not None]
+    assert refusal.code == "only_volume_instances" and str(refusal)
+
+
+def test_inside_of_an_instance_what_is_not_rendered_or_only_cuts_is_left_out():
+    """Whole nested collections as well, turned off in renders or in viewports."""
+    root, of = collection(), bpy.data.collections.new("Of")
+    box(root, (1, 2, 4))
+    body = box(of, (2, 2, 2))
+    cutter = box(of, (1, 1, 1), name="Cutter")
+    cutter.display_type = "WIRE"
+    inner = bpy.data.collections.new("Inner")
+    of.children.link(inner)
+    box(inner, (1, 1, 2), name="Extra")
+    shown = instance(root, of, location=(5, 0, 0))
+    assert close(measured(root).measurement.mass_properties.mass, 8000.0 + 8000.0 + 1000.0 + 2000.0, 1e-12)
+    modifier = body.modifiers.new("Cut", "BOOLEAN")
+    modifier.object, modifier.show_viewport, modifier.show_render = cutter, True, True
+    for display, left in (("WIRE", True), ("BOUNDS", True), ("TEXTURED", False)):
+        cutter.display_type = display
+        assembly = measured(root)
+        reasons = {part.member.name: part.member.left_out.code for part in assembly.root.walk() if part.member.left_out}
+        assert reasons == ({"Cutter": "boolean_operand"} if left else {})
+    cutter.display_type = "WIRE"
+    for name in ("hide_render", "hide_viewport"):
+        setattr(inner, name, True)
+        assembly = measured(root)
+        reasons = {part.member.name: part.member.left_out.code for part in assembly.root.walk() if part.member.left_out}
+        assert reasons == {"Cutter": "boolean_operand", "Inner": "not_rendered"}
+        assert close(assembly.measurement.mass_properties.mass, 8000.0 + 7000.0, 1e-6)
+        setattr(inner, name, False)
+    assert shown.name == "Instance"

@@ -22,6 +22,7 @@ from body_moments.operators.write.robots.repair import repaired_copy
 from body_moments.operators.write.robots.stl import to_stl
 from body_moments.operators.write.robots.text import roll_pitch_yaw
 
+from tests.close import close
 from tests.core.bodies import box, joined
 from tests.robots.links import inertial, rotation
 
@@ -450,3 +451,39 @@ def test_primitives_have_the_moments_of_their_slices_and_hulls_that_just_hold_th
         reach = np.abs(scaled).sum(axis=1) if kind == "box" else np.linalg.norm(scaled, axis=1)
     share = (piece.points @ directions.T).max(axis=0) / reach
     assert share.min() >= 1.0 - 1e-12 and share.max() <= (1.0 + 1e-12 if kind == "box" else 1.0101)
+
+
+def test_a_file_that_is_missing_or_damaged_is_said_once_and_nothing_is_judged_by_the_others(tmp_path):
+    """A tensor that no box of this size has is no mistake where other shapes are not known."""
+    shape = "<collision><geometry>{}</geometry></collision>"
+    shapes = [shape.format('<mesh filename="{}"/>'.format(name)) for name in ("gone.stl", "gone.stl", "bad.stl")]
+    (tmp_path / "bad.stl").write_bytes(b"solid")
+    text = """<robot name="r"><link name="a"><inertial><mass value="8000"/><inertia ixx="1e5" iyy="1e5" izz="1e5"
+    ixy="0" ixz="0" iyz="0"/></inertial>{}</link></robot>"""
+    box = shape.format('<box size="2 2 2"/>')
+    path = tmp_path / "r.urdf"
+    path.write_text(text.format(box))
+    (alone,) = audit(path).links
+    assert "inertial_spread_outside" in [one.code for one in alone.findings] and close(alone.density, 1000.0, 1e-12)
+    path.write_text(text.format(box + "".join(shapes)))
+    (found,) = audit(path).links
+    values = [(one.code, one.values.get("name")) for one in found.findings]
+    assert [name for _, name in values] == ["gone.stl", "bad.stl"] and found.repaired is None
+    assert found.density is None
+
+
+def test_shapes_that_bound_nothing_certain_are_no_reference(tmp_path):
+    """Three faces on one edge, or one alone, beside a box: both make a hull, and no density."""
+    points = np.array([[-1, -1, -1], [1, -1, -1], [1, 1, -1], [1, 1, 1], [-1, 1, 1]], float)
+    open_surface, flat = [[0, 1, 2], [0, 1, 3], [0, 1, 4]], [[0, 1, 2]]
+    for name, triangles in {"open": open_surface, "flat": flat}.items():
+        (tmp_path / (name + ".stl")).write_bytes(to_stl(Surface.from_triangles(points, np.array(triangles))))
+        link = """<link name="a"><inertial><origin xyz="{}"/><mass value="1"/><inertia ixx="0.1" iyy="0.1" izz="0.1"
+        ixy="0" ixz="0" iyz="0"/></inertial><collision><geometry><mesh filename="{}.stl"/></geometry></collision>
+        <collision><geometry><box size="2 2 2"/></geometry></collision></link>"""
+        path = tmp_path / "r.urdf"
+        for center, codes in (("0 0 0", []), ("1.5 0 0", ["inertial_center_outside"])):
+            path.write_text("<robot name='r'>{}</robot>".format(link.format(center, name)))
+            (found,) = audit(path).links
+            assert [one.code for one in found.findings] == codes, name
+            assert found.density is None and found.repaired is None

@@ -3,6 +3,7 @@
 """Curve objects: wires, and the flat regions that closed ones bound, from control points."""
 
 import json
+from types import SimpleNamespace
 
 import bpy
 import numpy as np
@@ -13,7 +14,9 @@ from body_moments.operators.read import measurable
 from body_moments.operators.settings.options import MeasureOptions
 from body_moments.operators.write.documents import to_json
 from body_moments.operators.write.record import record
+from mathutils import Matrix
 
+from tests.blender.characters import armature_of
 from tests.blender.findings import refused, said
 from tests.blender.objects import add, measured, only
 
@@ -330,3 +333,110 @@ def test_a_hook_on_a_flattened_wire_is_refused():
     obj.data.bevel_depth = 0.1  # else its geometry set has the curve
     with refused("scale_zero_axis", obj.name):
         measured(obj)
+
+
+def test_a_curve_whose_points_are_one_has_no_length():
+    obj = poly([(1, 2, 3)] * 3)
+    obj.body_moments.kind = "WIRE"
+    with refused("no_length", obj.name):
+        measured(obj)
+
+
+@pytest.mark.parametrize("bevel", [0.0, 0.1])
+def test_splines_of_too_few_points_are_left_out_and_counted(bevel):
+    """Also where they are the only ones."""
+    obj = poly([(0, 0, 0), (3, 0, 0)])
+    obj.body_moments.kind, obj.data.bevel_depth = "WIRE", bevel
+    assert said(measured(obj)) == {}
+    for kind in ("POLY", "NURBS"):
+        obj.data.splines.new(kind).points[0].co = (5, 5, 5, 1)
+    found = measured(obj)
+    assert found.length == pytest.approx(3.0) and found.health.components == 1
+    assert said(found) == {"splines_left_out": {"count": 2, "total": 3}}
+    obj.data.splines.remove(obj.data.splines[0])
+    with refused("no_curve", obj.name):
+        measured(obj)
+
+
+def test_a_bevel_hides_from_nodes_what_a_wire_is_and_that_is_said():
+    obj = poly([(0, 0, 0), (3, 0, 0)])
+    obj.body_moments.kind, obj.data.bevel_depth = "WIRE", 0.1
+    with_nodes(obj, "GeometryNodeTransform", Scale=(2.0, 2.0, 2.0))
+    found = measured(obj)
+    assert found.length == pytest.approx(3.0)
+    assert said(found) == {"curve_before_modifiers": {}}
+    obj.data.bevel_depth = 0.0
+    assert measured(obj).length == pytest.approx(6.0) and said(measured(obj)) == {}
+
+
+@pytest.mark.parametrize("bevel", [0.0, 0.1])
+def test_points_that_are_nowhere_are_refused(bevel):
+    obj = poly([(0, 0, 0), (3, 0, 0), (3, 1, 0)])
+    obj.body_moments.kind, obj.data.bevel_depth = "WIRE", bevel
+    obj.data.splines[0].points[1].co.y = float("nan")
+    with refused("non_finite_control_points", obj.name):
+        measured(obj)
+
+
+def hooked(obj, **settings):
+    """A hook on all points, and its object, which stands at the origin."""
+    target = add(None, "Target", select=False)
+    modifier = obj.modifiers.new("Hook", "HOOK")
+    modifier.object = target
+    modifier.vertex_indices_set(list(range(len(obj.data.splines[0].points))))
+    for name, value in settings.items():
+        setattr(modifier, name, value)
+    return target, modifier
+
+
+def test_a_hook_of_a_bone_moves_as_the_bone_and_one_without_object_not_at_all():
+    obj = poly([(0, 0, 0), (3, 0, 0), (3, 4, 0)])
+    obj.body_moments.kind, obj.data.bevel_depth = "WIRE", 0.1
+    rig = armature_of(SimpleNamespace(names=("bone",), bones=np.array([[[0, 0, 0], [0, 0, 1]]])))
+    target, modifier = hooked(obj)
+    modifier.object, modifier.subtarget = rig, "bone"
+    plain = measured(obj)  # Blender has made the hook one that moves nothing yet
+    assert plain.length == pytest.approx(7.0)
+    rig.pose.bones["bone"].scale = (2, 2, 2)
+    rig.scale, rig.location = (1.5, 1.5, 1.5), (1, 2, 3)
+    found = measured(obj)
+    assert found.length == pytest.approx(21.0, rel=1e-6)
+    center = 3.0 * plain.mass_properties.center + np.array([1, 2, 3])
+    assert found.mass_properties.center == pytest.approx(center, rel=1e-6)
+    modifier.subtarget, modifier.matrix_inverse = "gone", Matrix()
+    assert measured(obj).length == pytest.approx(10.5, rel=1e-6)
+    modifier.object = None
+    assert measured(obj).length == pytest.approx(7.0, rel=1e-12)
+    modifier.object, target.scale = target, (5, 5, 5)
+    assert measured(obj).length == pytest.approx(35.0, rel=1e-6)
+    modifier.vertex_indices_set([])
+    assert measured(obj).length == pytest.approx(7.0, rel=1e-12)
+
+
+@pytest.mark.parametrize("uniform", [False, True])
+def test_the_falloff_of_a_hook_is_measured_in_the_curve_or_as_it_was_when_hooked(uniform):
+    """Of two points at 1 and 3 from its center only the nearer one is within 2, unless lengths are halved first."""
+    obj = poly([(1, 0, 0), (3, 0, 0)])
+    obj.body_moments.kind, obj.data.bevel_depth = "WIRE", 0.1
+    target, modifier = hooked(obj, falloff_type="CONSTANT", falloff_radius=2.0, use_falloff_uniform=uniform)
+    modifier.matrix_inverse, target.scale = Matrix.Scale(0.5, 4), (3.0, 3.0, 3.0)
+    low, high = (1.5, 4.5) if uniform else (1.5, 3.0)
+    found = measured(obj)
+    assert found.length == pytest.approx(high - low, rel=1e-6)
+    assert found.mass_properties.center[0] == pytest.approx((low + high) / 2.0, rel=1e-6)
+    obj.data.bevel_depth = 0.0
+    bpy.context.view_layer.update()
+    mesh = obj.evaluated_get(bpy.context.evaluated_depsgraph_get()).to_mesh()
+    assert sorted(vertex.co.x for vertex in mesh.vertices) == pytest.approx([low, high], rel=1e-6)
+
+
+def test_keys_that_are_not_relative_are_left_to_what_blender_shows():
+    obj = poly([(0, 0, 0), (3, 0, 0)])
+    obj.body_moments.kind, obj.data.bevel_depth = "WIRE", 0.1
+    obj.shape_key_add(name="Basis")
+    key = obj.shape_key_add(name="Large")
+    key.data[1].co = (6, 0, 0)
+    key.value = 1.0
+    assert measured(obj).length == pytest.approx(6.0)
+    obj.data.shape_keys.use_relative = False
+    assert measured(obj).length == pytest.approx(3.0)

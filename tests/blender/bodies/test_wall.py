@@ -424,3 +424,48 @@ def body_of(obj):
     bpy.context.view_layer.update()
     reading = read_object(obj, bpy.context.evaluated_depsgraph_get())
     return reading, polygon_body(reading, 1.0, shell=True, union=False, threads=1)
+
+
+def sheet_of(points, faces, wall="OUTWARD", thickness=0.125):
+    mesh = bpy.data.meshes.new("Sheet")
+    mesh.from_pydata(points, [], faces)
+    obj = add(mesh, "Sheet")
+    settings = obj.body_moments
+    settings.kind, settings.wall, settings.thickness = "SHELL", wall, thickness
+    return obj
+
+
+def test_a_wall_without_a_thickness_is_refused():
+    obj = box()
+    for thickness in (0.0, -1.0):
+        with refused("no_thickness", obj.name):
+            measure_object(obj, bpy.context.evaluated_depsgraph_get(), MeasureOptions(thickness=thickness))
+
+
+def test_faces_that_fold_back_leave_no_room_for_any_wall():
+    obj = sheet_of([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], [(0, 1, 2), (0, 2, 1)])
+    for wall in ("INWARD", "OUTWARD", "CENTERED"):
+        obj.body_moments.wall = wall
+        with pytest.raises(MeasureError) as caught:
+            measured(obj)
+        found = caught.value.finding
+        assert found.code == "wall_faces_fold_back" and caught.value.subject == obj.name
+        assert set(found.values) == {"point"} and min(found.values["point"]) >= 0.0 and str(found)
+        reading, made = body_of(obj)
+        with refused("wall_faces_fold_back_somewhere"):
+            find_walls(reading, made, wall.lower()).drop_arrays().body(0.125)
+
+
+def test_a_face_without_area_goes_with_its_neighbors_and_is_counted():
+    obj = sheet_of([(0, 0, 0), (1, 0, 0), (2, 0, 0), (2, 3, 0), (0, 3, 0)], [(0, 2, 3, 4), (0, 1, 2)])
+    found = measured(obj)
+    assert close(found.volume, 6.0 * 0.125, rel=1e-12)
+    assert said(found)["wall_faces_without_area"] == {"count": 1}
+
+
+@pytest.mark.parametrize("wall", ["INWARD", "OUTWARD", "CENTERED"])
+def test_a_wall_of_a_density_that_varies_is_refused_with_the_remedy(wall):
+    obj = box(wall=wall)
+    obj.body_moments.density_from, obj.body_moments.density_polynomial = "POLYNOMIAL", "1000 + x"
+    with refused("wall_needs_one_density", obj.name):
+        measured(obj)
