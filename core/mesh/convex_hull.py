@@ -198,8 +198,8 @@ class _GrowingHull:
     def _highest(
         self, points: NDArray[np.intp], counts: NDArray[np.intp], firsts: NDArray[np.intp]
     ) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.float64]]:
-        """For each point the face that it is highest above, of the `counts` faces from the face `firsts` on; without
-        the points that are above none."""
+        """For each point, of one or more, the face that it is highest above, of the `counts` faces from the face
+        `firsts` on; without the points that are above none."""
         parts = []
         for block in batches(counts, PAIRS_PER_BLOCK):
             number = counts[block]
@@ -211,8 +211,6 @@ class _GrowingHull:
             place = place[np.searchsorted(place, segments)]
             above = highest > self.step
             parts.append((points[block][above], faces[place[above]], highest[above]))
-        if not parts:
-            return np.zeros(0, np.intp), np.zeros(0, np.intp), np.zeros(0)
         points, faces, height = (np.concatenate(arrays) for arrays in zip(*parts))
         return points, faces, height
 

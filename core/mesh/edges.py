@@ -33,7 +33,7 @@ def closed_side_faces(surface: Surface) -> NDArray[np.int32] | None:
     corners, edges = surface.corner_vertices, surface.corner_edges
     if corners is None or edges is None or not len(corners) == len(edges) > 0:
         return None
-    sides_at = _sides_at(surface)
+    sides_at = _sides_at(surface, corners)
     if sides_at is None:
         return None
     count = int(edges.view("u{:d}".format(edges.itemsize)).max()) + 1  # in which a negative edge is a large one
@@ -52,12 +52,12 @@ def closed_side_faces(surface: Surface) -> NDArray[np.int32] | None:
     return sides if len(corners) == sides.size and sides.min() >= 0 else None
 
 
-def _sides_at(surface: Surface) -> Callable[[int], tuple[NDArray[np.int32], NDArray[np.bool_]]] | None:
+def _sides_at(
+    surface: Surface, corners: NDArray[np.integer]
+) -> Callable[[int], tuple[NDArray[np.int32], NDArray[np.bool_]]] | None:
     """A function of where a block of corners starts: the face of each, and whether the side that starts there runs to a
     higher vertex. None where faces and corners do not fit."""
-    corners, quads, triangles = surface.corner_vertices, len(surface.quads), len(surface.triangles)
-    if corners is None:
-        return None
+    quads, triangles = len(surface.quads), len(surface.triangles)
     if not triangles and surface.quad_faces is None:
         size = 4
     elif not quads and surface.triangle_faces is None:

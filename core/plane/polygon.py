@@ -181,9 +181,8 @@ def boundary_edges(faces: NDArray, count: int) -> NDArray[np.intp]:
 
 
 def outline_areas(points: NDArray, edges: NDArray) -> NDArray[np.float64]:
-    """(k,) the signed area of each outline: negative ones are holes. Outlines that share a point count as one."""
-    if not len(edges):
-        return np.zeros(0)
+    """(k,) the signed area of each outline, of one or more: negative ones are holes. Outlines that share a point count
+    as one."""
     origin = points[edges[0, 0]]
     a, b = (points[edges[:, i]] - origin for i in (0, 1))
     outline = connected_components(len(points), edges[:, 0], edges[:, 1])[0][edges[:, 0]]

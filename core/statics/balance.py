@@ -118,7 +118,7 @@ def balance(
     movable = movable[used]
     start = problem.evaluate(problem.start)
     if start is None:
-        raise MeasureError("balance_zero_area" if shell else "balance_zero_volume")
+        raise MeasureError("balance_zero_volume")
     before, _, gradient = start
     step_directions = np.einsum("ri,nik->rnk", across, fans.center_gradient(before)[movable])
     step_directions *= (weights[used] / area[used])[:, None]
@@ -142,7 +142,7 @@ def _newton_solve(
     """(n, 3) and (3,) the points and the center, and how far it stays from its target, 0 where it comes there. start:
     as of `_Problem.evaluate`."""
     points, (center, residual, gradient) = problem.start, start
-    multiplier, far = np.zeros(len(step_directions)), np.inf
+    multiplier = np.zeros(len(step_directions))
     slope = _center_jacobian(step_directions, multiplier, gradient[:, movable], limit)
     for _ in range(MAX_NEWTON_STEPS):
         far = float(np.linalg.norm(residual))
@@ -162,7 +162,8 @@ def _newton_solve(
         else:
             return points, center, far if far > 16.0 * problem.tolerance else 0.0
         points, multiplier, (center, residual, gradient) = moved, trial, state
-    return points, center, far
+    far = float(np.linalg.norm(residual))
+    return points, center, far if far > problem.tolerance else 0.0
 
 
 def _is_solvable(system: NDArray) -> bool:

@@ -1197,7 +1197,6 @@ MESSAGES: dict[str, Message] = {
     ),
     "balance_no_selection": _error("No vertex is selected. Select the vertices that may move."),
     "balance_no_area": _error("No movable vertex belongs to a face with area. Select others."),
-    "balance_zero_area": _error("The object has no area. Add faces."),
     "balance_zero_volume": _error("The faces enclose no volume. Close the mesh, or set Kind to Shell."),
     "balance_no_effect": _error("Moving these vertices cannot bring the center of mass there. Select more."),
     "balance_short": _error(

@@ -123,7 +123,6 @@ MESSAGES = {
     ),
     "balance_no_selection": ("Kein Punkt ausgewählt. Die Punkte auswählen, die sich bewegen dürfen.",),
     "balance_no_area": ("Kein beweglicher Punkt gehört zu einer Fläche mit Inhalt. Andere auswählen.",),
-    "balance_zero_area": ("Das Objekt hat keine Fläche. Flächen hinzufügen.",),
     "balance_zero_volume": ("Die Flächen umschließen kein Volumen. Das Netz schließen oder Art auf Schale setzen.",),
     "balance_no_effect": ("Diese Punkte zu bewegen kann den Massenmittelpunkt nicht dorthin bringen. Mehr auswählen.",),
     "balance_short": ("Dem Massenmittelpunkt fehlen {distance:length}. Mehr Punkte oder ein näheres Ziel wählen.",),

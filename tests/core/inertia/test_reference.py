@@ -104,3 +104,16 @@ def test_moments_that_may_be_those_of_nothing_bound_no_center(share, bound):
     off[0] = share
     point = Moments(np.r_[1.0, np.zeros(9)], np.array([0.6, 0.8, 0.0]), input_error=off)
     assert Reference(np.zeros(3)).refer_moments(point).input_error["center"] == pytest.approx(bound)
+
+
+@pytest.mark.parametrize("total, error, is_certain", [(1.0, 0.49, True), (1.0, 0.5, False), (-1.0, 0.0, False)])
+def test_moments_whose_total_is_not_certain_are_refused(total, error, is_certain):
+    off = np.zeros(10)
+    off[0] = error
+    point = Moments(np.r_[total, np.zeros(9)], np.array([0.6, 0.8, 0.0]), rounding_error=off)
+    if is_certain:
+        assert close(Reference(np.array([0.6, 0.8, 0.0])).refer_moments(point).mass, 1.0, 1e-15)
+        return
+    with pytest.raises(QueryError) as refusal:
+        Reference(np.array([0.6, 0.8, 0.0])).refer_moments(point)
+    assert refusal.value.finding.code == "no_certain_volume"

@@ -418,3 +418,38 @@ def test_bounds_of_sums_of_images_are_the_sums_of_what_forms_carry(of, power, sp
             inputs[n] += weight * forms(n, top[1], reach)
     assert close(found.rounding_error, rounding[degree], rel=1e-9)
     assert close(found.input_error, inputs[degree], rel=1e-9)
+
+
+@pytest.mark.parametrize("by", ["size", "gyration"])
+@pytest.mark.parametrize("share, is_defined", [(0.49, True), (0.51, False)])
+def test_a_total_that_is_not_certain_cannot_be_normalized_by(by, share, is_defined):
+    body = floats(box_moments((-1, -1, -1), (1, 1, 1)))
+    off = np.zeros(len(body.raw))
+    off[0] = share * body.total / 2.0  # of rounding and of storage
+    body = Moments(body.raw, body.about, rounding_error=off, input_error=off)
+    if is_defined:
+        assert close(normalize(body, by).total, 1.0, rel=1e-14)
+        return
+    with refused("normalization_undefined"):
+        normalize(body, by)
+
+
+@pytest.mark.parametrize("by, order", [("size", 0), ("gyration", 1)])
+def test_without_a_center_or_an_extent_nothing_is_normalized(by, order):
+    body = floats(box_moments((-1, -1, -1), (1, 1, 1)))
+    with refused("normalization_undefined"):
+        normalize(body.truncate(order), by)
+    assert normalize(body.truncate(order + 1), by).order == order + 1
+
+
+@pytest.mark.parametrize("share, is_defined", [(0.49, True), (0.51, False)])
+def test_an_extent_that_is_not_certain_cannot_be_normalized_by(share, is_defined):
+    body = floats(box_moments((-1, -1, -1), (1, 1, 1)))
+    off = np.zeros(len(body.raw))
+    off[[4, 7, 9]] = share * body.raw[[4, 7, 9]]
+    body = Moments(body.raw, body.about, input_error=off)
+    if is_defined:
+        assert close(normalize(body, "gyration").raw[[4, 7, 9]].sum(), 1.0, rel=1e-14)
+        return
+    with refused("normalization_undefined"):
+        normalize(body, "gyration")

@@ -216,3 +216,14 @@ def test_rings_are_told_apart_whose_samples_seem_to_cross(gap, turn):
     inner = Curve(ROUND, ring(1.0 - gap).points @ [[c, s, 0], [-s, c, 0], [0, 0, 1]], ring().weights)
     moments = plane_moments(*planar_region([inner, ring()]))
     assert close(moments.total, np.pi * (1.0 - (1.0 - gap) ** 2), rel=1e-11)
+
+
+def test_control_points_and_weights_are_as_many_as_the_space_has():
+    space = clamped_space(2)
+    with pytest.raises(ValueError, match="points not"):
+        Curve(space, np.zeros((3, 3)))
+    with pytest.raises(ValueError, match="points not"):
+        Curve(space, np.zeros((2, 2)))
+    with pytest.raises(ValueError, match="weights not"):
+        Curve(space, np.eye(2, 3), np.ones(3))
+    assert Curve(space, np.eye(2, 3), np.array([1.0, 2.0])).weights.tolist() == [1.0, 2.0]

@@ -13,6 +13,7 @@ from body_moments.core.numerics.quadrature import gauss_legendre, triangle_rule
 from body_moments.core.offset import offset_solid, wall_moments
 from body_moments.core.offset.wall_moments import _strip_moments
 
+from tests.close import close
 from tests.core.bodies import box, grid, sphere, without
 
 
@@ -113,3 +114,13 @@ def test_strips_that_are_far_beyond_their_size_are_within_their_bounds(size):
     for powers, value, bound in zip(monomials(3).tolist(), found.raw, found.rounding_error):
         assert abs(Fraction(value) - strip_truth(corners, powers)) <= Fraction(bound)
         assert bound <= 1e-12 * size**2
+
+
+@pytest.mark.parametrize("order", range(4))
+def test_to_third_order_they_are_the_wall_s_own(order):
+    points, triangles = box((-1, -1, -1), (1, 1, 1))
+    wall = offset_solid(Surface(points, triangles))
+    found, own = wall_moments(wall, 0.25, 0.0, order), wall.moments(0.25, 0.0)
+    assert found.order == order and np.array_equal(found.raw, own.raw[: len(found.raw)])
+    assert np.array_equal(found.rounding_error, own.rounding_error[: len(found.raw)])
+    assert close(found.total, 8.0 - 1.5**3, rel=1e-14)

@@ -269,3 +269,7 @@ def test_edges_that_enclose_nothing_have_no_defects(way):
     points = np.outer([0.0, 1.0, 3.0], way) + 5.0
     found = find_defects(points, np.array([[0, 1], [1, 2], [2, 0]]))
     assert not found.crossings and not found.too_many_pairs
+
+
+def test_no_edges_have_no_defects():
+    assert find_defects(np.zeros((3, 2)), np.zeros((0, 2), int)) == OutlineDefects(0, False, False)

@@ -274,3 +274,12 @@ def test_slivers_have_no_side_to_look_to(error, turned):
     points = lifted(np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [0.5, -1e-7]]))
     triangles = np.array([[0, 1, 2], [0, 1, 3]])
     assert region(LEVEL, points, triangles, np.arange(2), error)[1] == turned
+
+
+@pytest.mark.parametrize(
+    "outline", [[(0, 0), (1, 1), (3, 3)], [(0, 0), (0, 2), (2, 2), (2, 0)]], ids=["flat", "outside"]
+)
+def test_a_section_that_encloses_nothing_is_refused(outline):
+    points = lifted(np.array(outline, float))
+    with refused("section_encloses_nothing"):
+        measure_section(LEVEL, points, directed_edges([range(len(outline))]))

@@ -210,3 +210,27 @@ def test_a_face_that_is_not_convex_pulls_as_it_is(shell):
     assert (
         abs(fans.areas.sum() - polyhedron_moments(bodies.surface((points, triangles)), area_order=0)[1].total) < 1e-14
     )
+
+
+def test_steps_that_do_not_suffice_are_refused_with_what_is_left_after_the_last(monkeypatch):
+    part, target = bodies.sphere(2), np.array([0.2, 0.0, 0.0])
+    found = balance(bodies.surface(part), upper(part), target, across=HORIZONTAL)
+    left = []
+    for steps in (1, 2):
+        monkeypatch.setitem(balance.__globals__, "MAX_NEWTON_STEPS", steps)
+        with pytest.raises(MeasureError) as refusal:
+            balance(bodies.surface(part), upper(part), target, across=HORIZONTAL)
+        assert refusal.value.finding.code == "balance_short"
+        left.append(refusal.value.finding.values["distance"])
+    assert 0.02 > left[0] > 20.0 * left[1] > 0.0
+    monkeypatch.setitem(balance.__globals__, "MAX_NEWTON_STEPS", 1)
+    near = balance(bodies.surface(part), upper(part), (1e-9, 0.0, 0.0), across=HORIZONTAL)
+    assert abs(near.after[0] - 1e-9) < 1e-13 and abs(found.after[0] - 0.2) < 1e-13
+
+
+@pytest.mark.parametrize("far", [0.0, 1e3])
+def test_a_body_without_volume_has_no_center_to_move(far):
+    flat = bodies.moved(bodies.box(), np.diag([1.0, 1.0, 0.0]), (0.0, 0.0, far))
+    with refused("balance_zero_volume"):
+        balance(bodies.surface(flat), np.arange(8), (0.6, 0.5, far), across=HORIZONTAL)
+    assert balance(bodies.surface(flat), np.arange(8), (0.6, 0.5, far), across=HORIZONTAL, shell=True).after[0] > 0.59

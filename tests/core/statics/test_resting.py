@@ -12,6 +12,7 @@ from body_moments.core.statics import resting_poses
 from body_moments.core.verdict import MeasureError
 
 from tests.close import close
+from tests.core.findings import refused
 
 EXACT = 1e-12
 PLACES = [
@@ -229,3 +230,10 @@ def test_noise_on_edges_changes_no_face():
 def test_a_margin_of_twice_what_points_may_be_outside_the_hull_is_none(share, poses):
     hull = convex_hull(box(1.0, 1.0, 1.0), 1e-3)
     assert len(resting_poses(hull, (1.0 - share * hull.gap, 0.5, 0.5), 0.0).shares) == poses
+
+
+def test_where_every_margin_is_within_the_tolerance_no_pose_is_stable():
+    cube = convex_hull(box(1.0, 1.0, 1.0))
+    assert len(resting_poses(cube, (0.5, 0.5, 0.5), 0.49).shares) == 6
+    with refused("no_stable_pose"):
+        resting_poses(cube, (0.5, 0.5, 0.5), 0.51)
