@@ -70,6 +70,30 @@ PATTERNS = [
     (r".*nurbs/incremental.py .*_evaluate", r"False", r"True", "read only where rules are compared"),
     (r".*nurbs/patch_topology.py _overlapping_sides", r"0", r"1", "each of the two runs as the other does"),
     (
+        r".*density/spline_grid.py _moments_about",
+        r"added if block\.min\(\) >= 0\.0 else (contract\(np\.abs\(block\), factors\))",
+        r"\(contract\(np\.abs\(block\), factors\)\)",
+        "what is nowhere negative is its own absolute value",
+    ),
+    (
+        r".*numerics/graph.py .*",
+        r"np\.arange\((.*), dtype=.*\)|-number",
+        r"\(np\.arange\([\w()]+\)\)|\(number\)",
+        "in how many bytes nodes are numbered",
+    ),
+    (
+        r".*mesh/convex_hull.py _first_corners",
+        r"GRID_BITS - 1|grid - 2\.0 \*\* \(GRID_BITS - 1\)",
+        r"\(GRID_BITS \+ 1\)|\(grid \+ 2\.0 \*\* \(GRID_BITS - 1\)\)",
+        "the farthest from any place is at a corner",
+    ),
+    (
+        r".*mesh/scan_lines.py LineGrids.through_points",
+        r"4\.0",
+        r"8\.0",
+        "how much of the body's surroundings is the line's own",
+    ),
+    (
         r"panels/.*",
         r"[\w.]+\([^()]*\balign=True[^()]*\)",
         r"\([\w.]+\(((?!align=).)*\)\)",
@@ -87,6 +111,20 @@ CONSTANTS = [
     (r".*shape/(symmetry.py confirm|flat_pose.py holds_by_outline)", r"points\[:: ", "which are looked at first"),
     (r".*density/threshold.py threshold_body", r"// ", "a reference point near the middle"),
     (r".*statics/gradient.py .*", r"kinds > ", "of orders 0, 1 and 2 there are 1, 4 and 10 moments"),
+    (
+        r".*density/spline_grid.py _moments_about",
+        r"block\.min\(\) >= ",
+        "what is nowhere negative is its own absolute value",
+    ),
+    (r".*density/threshold_cells.py Cells.column_axes", r"steps\.min\(axis=2\) \+ ", "which of several axes is taken"),
+    (r".*mesh/convex_hull.py _first_corners", r"GRID_BITS - ", "the farthest from any place is at a corner"),
+    (r".*mesh/convex_hull.py _first_corners", r"heights\[fourth\] < ", "it is more than a step above or below"),
+    (r".*mesh/scan_lines.py LineGrids.through_points", r"np\.zeros\(\(count, 2\)\), (1, )?", "there is nothing beyond"),
+    (r".*fourier/grid.py _points_per_side", r"np\.geomspace\(.*", "how fine and long the table is"),
+    (r".*cad/iges.py _spline_piece", r"part\[[01]\] != knots\[-?", "the ends' knots are the same there"),
+    (r".*numerics/graph.py _trees", r"for start in range\(", "the first node is the first root"),
+    (r".*numerics/graph.py connected_neighbors", r"for start in range\(", "there is none below the first"),
+    (r".*", r"\bdefault_rng\(", "which numbers are drawn at random"),
     (r".*canonical_frame.py _extreme_directions", r"(noise = |max\()", "a looser bound"),
 ]
 # functions that make bounds of errors, where a constant factor twice as large gives a bound still

@@ -509,3 +509,46 @@ def test_units_are_those_of_the_specification():
     assert (
         dict(zip(("IN", "MM", "FT", "MI", "M", "KM", "MIL", "UM", "CM", "UIN"), sizes)) | {"INCH": 0.0254} == UNIT_NAMES
     )
+
+
+@pytest.mark.parametrize("degree", [1, 2])
+@pytest.mark.parametrize("knots", [{0: -1.0}, {-1: 1.0}, {0: -1.0, -1: 1.0}, {}])
+@pytest.mark.parametrize("part", [{0: -1.0}, {1: 1.0}, {0: 0.25}, {1: -0.25}, {}])
+def test_a_boundary_s_curve_counts_as_a_whole_only(tmp_path, degree, knots, part):
+    """A side of the domain by a curve whose first or last knot lies beyond, or of which another part is meant."""
+    kind, fields = polyline(A, MIDDLE, B, degree=degree)
+    count = 3 + degree + 1
+    ends = {0: 6 + count + 12, 1: 6 + count + 13}
+    for place, shift in knots.items():
+        fields[6 + place % count] += shift
+    for place, shift in part.items():
+        fields[ends[place]] += shift
+    file = IgesFile()
+    trimmed(file, [(kind, fields), line(B, C), line(C, D), line(D, A)])
+    path = file.write(tmp_path / "a.igs")
+    if knots or part:
+        assert refusal(path).values["causes"][0]["code"] == "surface_trimmed"
+    else:
+        assert close(volume(read_surfaces(path)).total, BALL, 1e-14)
+
+
+def test_curves_and_points_that_stand_alone_are_counted_and_nothing_else(tmp_path):
+    """Arc, composite, conic, copious data, line, parametric spline, point, B-spline and offset of IGES 5.3."""
+    curves = {100, 102, 104, 106, 110, 112, 116, 126, 130}
+    for kind in range(100, 133):
+        file = IgesFile()
+        file.surface(unrolled(sphere()))
+        file.add(kind, [0] * 12)
+        file.add(kind, [0] * 12, status="00010000")
+        counts = {note.code: note.values["count"] for note in read_surfaces(file.write(tmp_path / "a.igs")).notes}
+        assert counts == ({"curves_left_out": 1} if kind in curves else {}), kind
+
+
+def test_parameters_without_an_end_are_damage(tmp_path):
+    file = IgesFile()
+    file.surface(unrolled(sphere()))
+    for label, more in (("PLAIN", []), ("TEXT", ["4Htext"])):
+        file.add(128, [*surface_fields(unrolled(sphere())), *more], label=label)
+        file._parameters[-1] = file._parameters[-1].replace(";", " ")
+    read = read_surfaces(file.write(tmp_path / "a.igs"))
+    assert close(volume(read).total, BALL, 1e-14) and refused(read) == {"surface_damaged": ["PLAIN", "TEXT"]}

@@ -80,3 +80,19 @@ def test_the_bound_says_what_a_small_limit_leaves(monkeypatch):
     found = smooth_threshold_body(samples, 0.0, 4)
     truth = 4.0 / 3.0 * np.pi * 8.0**1.5
     assert 1e-5 * truth < abs(found.volume.total - truth) <= found.volume.rounding_error[0]
+
+
+@pytest.mark.parametrize("most, grids", [(8 * 21**3 - 1, 2), (8 * 21**3, 3), (8 * 41**3 - 1, 3), (8 * 41**3, 4)])
+def test_grids_are_refined_while_the_next_may_have_as_many_samples(monkeypatch, most, grids):
+    """The next has eight times as many, about; none is near enough here."""
+    samples = 9.0 - (X[:, None, None] ** 2 + X[:, None] ** 2 + X**2)
+    shapes, body = [], smooth_threshold.threshold_body
+    monkeypatch.setattr(smooth_threshold, "MAX_SAMPLES", most)
+    monkeypatch.setattr(smooth_threshold, "TOLERANCE", 0.0)
+    monkeypatch.setattr(
+        smooth_threshold,
+        "threshold_body",
+        lambda values, *rest, **named: shapes.append(values.shape) or body(values, *rest, **named),
+    )
+    smooth_threshold_body(samples, 0.0, 4, order=0)
+    assert shapes == [(10 * 2**n + 1,) * 3 for n in range(grids)]

@@ -287,3 +287,19 @@ def test_about_a_cone_s_apex_cells_are_cut_until_what_is_left_is_negligible(monk
     found = threshold_body(a * b + b * c + c * a, 0.0)
     assert abs(found.volume.total - (1.0 - 2.0 / 3.0 * math.log(2.0))) <= found.volume.rounding_error[0] < 1e-10
     assert (sizes[-1] ** 3).sum() >= threshold.TOLERANCE / 2.0 > (sizes[-1] ** 3).sum() / 64.0
+
+
+@pytest.mark.parametrize("axis", range(3))
+@pytest.mark.parametrize("level", [0.6, 0.05])
+def test_the_surface_has_its_area_where_nothing_changes_along_an_axis(axis, level):
+    """yz ≥ t in the unit cube: 1 - t + t ln t, and the length of y = t / z between z = t and 1."""
+    mpmath = pytest.importorskip("mpmath")
+    corner = np.zeros((2, 2, 2))
+    corner[:, 1, 1] = 1.0
+    found = threshold_body(np.moveaxis(corner, 0, axis), level)
+    assert close(found.volume.total, 1.0 - level + level * math.log(level), rel=1e-11)
+    length = mpmath.quad(
+        lambda z: mpmath.sqrt(1 + level**2 / z**4), [level, 2 * level, 1] if level < 0.5 else [level, 1]
+    )
+    assert close(found.area.total, float(length), rel=1e-8)
+    assert close(found.volume.center[axis], 0.5, rel=1e-11) and close(found.area.center[axis], 0.5, rel=1e-9)

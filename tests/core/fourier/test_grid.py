@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Large grids to a tolerance: the fast transform against sums and closed forms, everywhere on the grid."""
 
+import math
 from functools import partial
 
 import numpy as np
@@ -180,3 +181,20 @@ def test_the_kernel_is_the_least_wide_one_whose_error_is_allowed(half, tolerance
         assert worst.pop(width) <= tolerance and all(one > tolerance for one in worst.values())
     with pytest.raises(ValueError, match="tolerance"):
         _kernel_width(half, 1e-30, True)
+
+
+@pytest.mark.parametrize("tolerance", [1e-14, 1e-6, 1e-2, 1.0, 1e3, 1e6])
+def test_points_along_a_side_are_the_fewest_whose_bound_is_allowed(tolerance):
+    """2 (g/4)^(2n) / (2n)! by the geometric series that follows, in a table of half percents."""
+
+    def suffices(span, n):
+        ratio = span / 4.0 / (2 * n + 1)
+        return ratio < 0.9 and 2.0 * (span / 4.0) ** (2 * n) / math.factorial(2 * n) / (1.0 - ratio) <= tolerance
+
+    spans = np.geomspace(1e-3, 90.0, 300)
+    found = fourier_grid._points_per_side(spans, tolerance)
+    largest = fourier_grid.MAX_POINTS_PER_SIDE
+    assert (found <= largest + 1).all()
+    for span, n in zip(spans.tolist(), found.tolist()):
+        assert n > largest or suffices(span, n)
+        assert not any(suffices(1.006 * span, fewer) for fewer in range(1, n))

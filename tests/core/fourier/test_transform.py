@@ -3,6 +3,7 @@
 """Fourier transforms of bodies and surfaces against 120 digits, closed forms, symmetries and moments."""
 
 import math
+import time
 import tracemalloc
 from functools import partial
 
@@ -367,3 +368,25 @@ def test_what_no_number_can_tell_is_refused():
         FrequencyGrid(8, 1e200)
     found = solid_transform(Surface.from_triangles(points, triangles), np.full((1, 3), 1e100))
     assert abs(found.values[0]) <= found.error[0] < 1e-13
+
+
+@pytest.mark.parametrize("threads, pools", [(1, []), (2, [2]), (3, [3])])
+def test_as_many_threads_work_as_are_asked_for_and_stop_when_they_are_left(monkeypatch, threads, pools):
+    made, done, pool = [], [], fourier.ThreadPoolExecutor
+    monkeypatch.setattr(fourier, "ThreadPoolExecutor", lambda count: made.append(count) or pool(count))
+    monkeypatch.setattr(fourier, "PAIRS_PER_TASK", 1 << 12)
+    surface, waves = bodies.surface(bodies.sphere(3)), np.random.default_rng(3).normal(size=(400, 3))
+    transform = Transform(surface, waves, "volume", threads)
+    task, first = transform._run_task, transform._tasks()[0]
+
+    def slow_task(share):
+        done.append(share)
+        if share != first:
+            time.sleep(0.05)
+        return task(share)
+
+    monkeypatch.setattr(transform, "_run_task", slow_task)
+    steps = transform.steps()
+    next(steps)
+    steps.close()
+    assert made == pools and 1 <= len(done) <= 2 * threads < len(transform._tasks())

@@ -177,3 +177,29 @@ def test_a_hull_is_the_same_however_a_processor_sorts_what_is_equal(monkeypatch)
     wanted = convex_hull(points).triangles
     monkeypatch.setattr(np, "argsort", argsort)
     np.testing.assert_array_equal(convex_hull(points).triangles, wanted)
+
+
+@pytest.mark.parametrize("normal", [(1, 1, 1), (-1, 1, 1), (1, -1, 1), (1, 1, -1), (3, 1, 2)])
+def test_slanted_faces_full_of_points_have_their_corners_only(normal):
+    """Triangles above and below a hexagon: no point within them is a corner, though all are as far from it."""
+    normal = np.array(normal) / np.linalg.norm(normal)
+    first = np.cross(normal, (0.3, 0.7, -0.6))
+    first /= np.linalg.norm(first)
+    across = np.stack([first, np.cross(normal, first)])
+    around = np.exp(2j * np.pi * np.arange(6) / 6.0)
+    hexagon = np.stack([around.real, around.imag], axis=1) @ across
+    shares = np.array([(i, j, 16 - i - j) for i in range(17) for j in range(17 - i)]) / 16.0
+    triangle = shares @ (0.4 * hexagon[[0, 2, 4]])
+    points = np.concatenate([hexagon, triangle + 0.2 * normal, triangle[::-1] - 0.15 * normal])
+    for order in (np.arange(len(points)), np.random.default_rng(3).permutation(len(points))):
+        hull = convex_hull(points[order] + (3.0, -5.0, 2.0))
+        require_closed(hull)
+        assert len(hull.points) == 6 + 3 + 3
+
+
+def test_a_flat_hull_may_leave_out_its_tolerance_of_the_extent_along_an_axis():
+    square = np.array([[0.0, 0.0, 5.0], [4.0, 0.0, 5.0], [4.0, 3.0, 5.0], [0.0, 3.0, 5.0]])
+    for axis in range(3):
+        hull = convex_hull(np.roll(square, axis, axis=1), tolerance=1e-4)
+        assert hull.is_flat and close(hull.gap, 4e-4, 1e-12)
+        assert close(hull.transform(np.diag([2.0, 5.0, 3.0])).gap, 20e-4, 1e-12)

@@ -129,3 +129,26 @@ def test_one_line_through_a_point_counts_how_often_it_is_surrounded():
     for point, expected in (((0.5, 1.0, 1.5), 1), ((0.1, 1.9, 0.1), 1), ((1.1, 1.0, 1.0), 0), ((0.5, 1.0, -0.1), 0)):
         found = find_crossings(body, LineGrids.through_points(np.array([point]), np.array([4.0])))
         assert abs(int(found.sign[found.along > 0.0].sum())) == expected
+
+
+def test_each_of_several_bodies_has_the_one_line_through_its_point():
+    """As far from its point as the crossing lies, on the lines that lean as all do."""
+    parts = [box((0, 0, 0), (1, 2, 3)), moved(box(), None, (9.0, 0.0, 0.0)), moved(sphere(2), 1e-3 * np.eye(3))]
+    places = np.array([[0.5, 1.0, 1.5], [9.25, 0.5, 0.75], [1e-4, 2e-4, -3e-4]])
+    points, triangles = joined(*parts)
+    of_point = np.repeat(np.arange(3), [len(part[0]) for part in parts])
+    lines = LineGrids.through_points(places, np.array([4.0, 2.0, 3e-3]))
+    found = find_crossings(Surface(points, triangles), lines, of_point)
+    assert sorted(found.body.tolist()) == [0, 0, 1, 1, 2, 2]
+    assert not found.row.any() and not found.column.any()
+    for k in range(3):
+        along = found.along[found.body == k]
+        assert along.min() < 0.0 < along.max() and found.sign[found.body == k].sum() == 0
+    slope = np.array([*LINE_SLOPES, 1.0])
+    squares = lines.squared_distances(found.body, found.row, found.column, found.along)
+    assert close(squares, found.along**2 * (slope @ slope), rel=1e-14)
+    ends = places[found.body] + found.along[:, None] * slope
+    low, high = np.array([[0.0, 0.0, 0.0], [9.0, 0.0, 0.0]]), np.array([[1.0, 2.0, 3.0], [10.0, 1.0, 1.0]])
+    for body, end in zip(found.body, ends):
+        if body < 2:
+            assert min(np.abs(end - low[body]).min(), np.abs(end - high[body]).min()) <= 1e-14 * 10.0

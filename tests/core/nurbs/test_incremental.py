@@ -4,7 +4,9 @@
 
 import numpy as np
 import pytest
+from body_moments.core.moments.moments import monomials
 from body_moments.core.numerics.bspline import clamped_space
+from body_moments.core.nurbs import tracked_solid
 from body_moments.core.nurbs.blender_knots import blender_space
 from body_moments.core.nurbs.incremental import IncrementalPatchMoments
 from body_moments.core.nurbs.patch import Patch
@@ -322,3 +324,25 @@ def test_arrays_that_are_written_to_again_change_no_patch():
     assert patch.weights[0, 0] == 1.0
     with pytest.raises(ValueError, match="read-only"):
         patch.points[0, 0, 0] = 7.0
+
+
+@pytest.mark.parametrize("off, follows", [(0.9e-10, True), (1.1e-10, False), (2e-13, True)])
+def test_the_rule_s_error_may_grow_eightfold_and_is_at_most_1e_10(monkeypatch, off, follows):
+    """Of the largest that a moment could be: the area times the farthest control point's distance."""
+    monkeypatch.setattr(tracked_solid, "_rule_error_at_random", lambda _patch: off)
+    patch = moved(torus(), 2.0, (3.0, -1.0, 5.0))
+    body, now = TrackedSolid([patch]), moved(torus(), 2.5, (3.0, -1.0, 5.0))
+    before = body.measure
+    assert body.update([now]) == follows
+    if follows:
+        old, new = (
+            4.0
+            * np.pi**2
+            * 0.75
+            * 0.25
+            * size**2
+            * np.linalg.norm(one.points - before.volume.about, axis=2).max() ** (monomials(3).sum(axis=1) + 1.0)
+            for one, size in ((patch, 2.0), (now, 2.5))
+        )
+        expected = (before.volume.rounding_error / old + 8.0 * off) * new
+        assert close(body.measure.volume.rounding_error, expected, rel=1e-3)

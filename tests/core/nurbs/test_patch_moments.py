@@ -4,7 +4,7 @@
 
 import numpy as np
 import pytest
-from body_moments.core.moments.moments import monomials
+from body_moments.core.moments.moments import U, monomials
 from body_moments.core.numerics.bspline import SplineSpace, clamped_space
 from body_moments.core.nurbs import patch_moments
 from body_moments.core.nurbs.bezier import cells_of
@@ -346,3 +346,48 @@ def test_moments_and_their_bounds_scale_exactly_with_powers_of_two(kind, rationa
     assert (scaled.about == 0.125 * plain.about).all()
     for name in ("raw", "rounding_error"):
         assert close(getattr(scaled, name), getattr(plain, name) * 2.0**powers, rel=1e-9), name
+
+
+@pytest.mark.parametrize("order", [0, 3])
+@pytest.mark.parametrize("size", [1e-3, 1.0, 50.0])
+def test_what_rounding_leaves_is_64_units_of_the_tangents_product_for_each_order(order, size):
+    """Of a slanted parallelogram |S_s| |S_t| is more than its area; its farthest corners are at half its diagonal."""
+    s, t = size * np.array([2.0, 0.0, 0.0]), size * np.array([0.8, 0.1, 0.4])
+    patch = Patch((clamped_space(2), clamped_space(4)), [[i * s + j / 3.0 * t for j in range(4)] for i in range(2)])
+    degree = monomials(order).sum(axis=1)
+    found, _ = volume_moments([patch], order)
+    reach, product = np.linalg.norm(s + t) / 2.0, np.linalg.norm(s) * np.linalg.norm(t)
+    expected = 64.0 * U * product * (2 + 4 + degree) * reach ** (degree + 1) / (degree + 3)
+    assert close(found.rounding_error, expected, rel=1e-12)
+
+
+def rules_apart(patch, order, coarse, fine):
+    """What two rules differ by in each cell, the worst of all moments by what it could be at most."""
+    cells, degree = next(cells_of([patch], ORIGIN)), monomials(order).sum(axis=1)
+    one, other = ([fixed_flux(cells[k : k + 1], n, order) for k in range(len(cells))] for n in (coarse, fine))
+    unit = np.linalg.norm(patch.points, axis=2).max() ** (degree + 1.0)
+    return [np.max(np.abs(a - b) / unit) for a, b in zip(one, other)], unit / (degree + 3.0)
+
+
+def test_where_rules_do_not_agree_yet_eight_times_what_they_differ_by_is_the_estimate(monkeypatch):
+    """Two cells, of which the weights of one are all alike but for the other's: with no more points to spend."""
+    monkeypatch.setattr(patch_moments, "MAX_POINTS", 0)
+    rng = np.random.default_rng(5)
+    spaces = clamped_space(4, (0.5, 0.5, 0.5)), clamped_space(3)
+    weights = rng.uniform(0.9, 1.1, (7, 3))
+    weights[5, 1] = 60.0
+    patch = Patch(spaces, rng.uniform(-1.0, 1.0, (7, 3, 3)), weights)
+    found, converged = volume_moments([patch], 2, ORIGIN)
+    (steady, steep), unit = rules_apart(patch, 2, 16, 24)
+    assert not converged and steady < 1e-14 < 1e-7 < steep
+    assert close(found.rounding_error, (steady + 8.0 * steep) * unit, rel=1e-4)
+
+
+def test_where_rules_agree_what_they_differ_by_is_the_estimate():
+    rng = np.random.default_rng(5)
+    patch = Patch(
+        (clamped_space(4), clamped_space(3)), rng.uniform(-1.0, 1.0, (4, 3, 3)), rng.uniform(0.2, 5.0, (4, 3))
+    )
+    found, converged = volume_moments([patch], 2, ORIGIN, tolerance=1e-3)
+    (apart,), unit = rules_apart(patch, 2, 8, 12)
+    assert converged and 1e-10 < apart < 1e-3 and close(found.rounding_error, apart * unit, rel=1e-3)

@@ -12,6 +12,7 @@ from body_moments.core.nurbs import patch_topology as closure
 from body_moments.core.nurbs.creases import sharpest_crease
 from body_moments.core.nurbs.curve import Curve
 from body_moments.core.nurbs.patch import Patch
+from body_moments.core.nurbs.patch_moments import volume_moments
 from body_moments.core.nurbs.patch_topology import find_topology
 from body_moments.core.nurbs.planar_region import planar_region
 from body_moments.core.nurbs.solid import measure_patches, measure_sheet
@@ -457,3 +458,31 @@ def test_what_float32_has_moved_comes_near_its_bound():
     for moments, larger, least in ((given.volume, grown.volume, 0.2), (given.area, grown.area, 1.0 / 20.0)):
         change = (larger.total - moments.total) / moments.input_error[0]
         assert least <= change <= 1.0, change
+
+
+def test_signs_say_how_each_given_patch_counts():
+    """A box with one patch turned, another one that is inside out, and a flat part."""
+    first, second = box(), [patch.reverse_orientation() for patch in box(offset=(9.0, 0.0, 0.0))]
+    first[2] = first[2].reverse_orientation()
+    sheet = flat([(20, 0, 0), (21, 0, 0), (21, 1, 0), (20, 1, 0)])
+    given = [*first, *second, sheet]
+    found = measure_patches(given)
+    assert found.signs.tolist() == [1.0, 1.0, -1.0, 1.0, 1.0, 1.0, *[-1.0] * 6, 0.0]
+    fluxes = [volume_moments([patch], 3, found.volume.about)[0].raw for patch in given]
+    assert np.abs(found.signs @ fluxes - found.volume.raw).max() <= 1e-12 * np.abs(fluxes).max()
+    assert np.abs(found.volume.total / 12.0 - 1.0) <= 1e-13
+
+
+@pytest.mark.parametrize("size", [1e-4, 1.0, 1e4])
+@pytest.mark.parametrize("turned", [False, True])
+def test_sides_of_other_parameters_are_told_to_run_along_each_other_at_any_size(size, turned):
+    """One patch whose parameters run slowly first, facing as the others do, or against them."""
+    patches = box((size, 2.0 * size, 3.0 * size), (0.0, 0.0, 0.0))
+    space, points = SplineSpace((0.0, 0.0, 0.1, 1.0, 1.0), 2, 3), patches[0].points
+    uneven = np.concatenate([points[:1], points[:1] * 0.7 + points[1:] * 0.3, points[1:]])
+    patches[0] = Patch((space, patches[0].spaces[1]), uneven)
+    if turned:
+        patches[0] = patches[0].reverse_orientation()
+    found = measure_patches([patches[5], *patches[:5]])
+    assert (found.method, codes(found)) == (("reoriented", ["flipped_patches"]) if turned else ("exact", []))
+    assert np.abs(found.volume.total / (6.0 * size**3) - 1.0) <= 1e-13

@@ -1,0 +1,82 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What second and third moments say of frames, and what of it is noise, against the closed forms of a box's moments."""
+
+import numpy as np
+import pytest
+from body_moments.core.inertia.third_moment_frames import third_moment_frames
+from body_moments.core.moments.moments import Measure, Moments, monomials
+
+from tests.close import close
+
+TABLE = [tuple(row) for row in monomials(3).tolist()]
+NOISE = 1e-5
+
+
+def lopsided_box(sides, skewness, scale=1.0):
+    """(20,) the raw moments of a box about its center, with a third moment along x besides."""
+    sides, raw = scale * np.array(sides), np.zeros(20)
+    raw[0] = sides.prod()
+    for axis in range(3):
+        power = [0, 0, 0]
+        power[axis] = 2
+        raw[TABLE.index(tuple(power))] = raw[0] * sides[axis] ** 2 / 12.0
+    raw[TABLE.index((3, 0, 0))] = skewness * raw[0] * (sides[0] ** 2 / 12.0) ** 1.5
+    return raw
+
+
+def expected(raw, rounding_error, input_error):
+    """The tilt, the step, and the noise of each axis' skewness, by plain numbers of one box."""
+    second = np.array([raw[TABLE.index(power)] for power in ((2, 0, 0), (0, 2, 0), (0, 0, 2))]) / raw[0]
+    largest = max(error for power, error in zip(TABLE, rounding_error) if sum(power) == 2)
+    scale = second.sum()
+    rounding = 4.0 * largest / (raw[0] * scale) + 8.0 * 2.0**-52
+    spread = second / scale
+    size = np.sqrt(spread)
+    step = input_error[0] / raw[0] * size[2]
+    doubtful = [2.0 * step * size[k] + rounding for k in (0, 1)]
+    gaps = spread[:2] - spread[1:]
+    tilt = {(0, 1): doubtful[0] / gaps[0], (1, 2): doubtful[1] / gaps[1], (0, 2): max(doubtful) / gaps.sum()}
+    scores, errors = np.zeros((3, 3)), np.zeros((3, 3))
+    for i in range(3):
+        for k in range(3):
+            power = [0, 0, 0]
+            power[i] += 1
+            power[k] += 2
+            place = TABLE.index(tuple(power))
+            unit = raw[0] * np.sqrt(second[i]) * second[k]
+            scores[i, k], errors[i, k] = raw[place] / unit, rounding_error[place] / unit
+    worst = (np.abs(scores) + errors).max(axis=1)
+    noise = [
+        NOISE
+        + 4.0 * step / size[i]
+        + 3.0 * sum(worst[k] * tilt[min(i, k), max(i, k)] for k in range(3) if k != i)
+        + errors[i, i]
+        for i in range(3)
+    ]
+    return max(tilt[0, 1], tilt[1, 2]), step * np.sqrt(scale), noise
+
+
+@pytest.mark.parametrize("place", range(20))
+@pytest.mark.parametrize("moved", [0.0, 1e-5])
+def test_bounds_of_moments_become_bounds_of_axes_and_scores(place, moved):
+    """Of a stack of two boxes, one of them a hundred times as large, of which one moment at a time is doubtful."""
+    shapes = [((6.0, 4.0, 2.0), 0.3, 1.0), ((5.0, 3.0, 2.5), -0.2, 100.0)]
+    raw = np.array([lopsided_box(*shape) for shape in shapes])
+    degree = monomials(3).sum(axis=1)
+    rounding_error, input_error = np.zeros((2, 20)), np.zeros((2, 20))
+    for row, (_, _, scale), share in zip(range(2), shapes, (1e-6, 3e-6)):
+        rounding_error[row, place] = share * raw[row, 0] * scale ** degree[place]
+        input_error[row] = moved * (1.0 + row) * raw[row, 0] * np.append(1.0, np.full(19, 7.0))
+    found = third_moment_frames(Moments(raw, np.zeros((2, 3)), Measure.VOLUME, rounding_error, input_error))
+    for row in range(2):
+        tilt, step, noise = expected(raw[row], rounding_error[row], input_error[row])
+        assert close(found.tilt[row], tilt, 1e-9) and close(found.skewness_error[row], noise, 1e-9)
+        assert close(found.step[row], step, 1e-12)
+        assert close(np.abs(found.skewness[row]), [abs(shapes[row][1]), 0.0, 0.0], 1e-12)
+        assert close(np.abs(found.axes[row]), np.eye(3), 1e-15) and close(np.linalg.det(found.axes[row]), 1.0, 1e-15)
+        second = raw[row, [TABLE.index(power) for power in ((2, 0, 0), (0, 2, 0), (0, 0, 2))]]
+        assert close(found.moments[row], [second[1] + second[2], second[0] + second[2], second[0] + second[1]], 1e-14)
+        assert close(found.size[row], np.sqrt(second / raw[row, 0]), 1e-14)
+        assert found.is_body[row] and found.symmetry[row] == 0
+        assert found.allowed[row].sum() == 2  # one of four axes' signs is known
