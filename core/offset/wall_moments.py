@@ -60,7 +60,7 @@ def wall_moments(wall: OffsetSolid, inward: float, outward: float, order: int) -
     count = len(wall.points)
     points = np.concatenate([wall.points - inward * wall.vectors, wall.points + outward * wall.vectors])
     sides = Surface(points, np.concatenate([wall.triangles[:, ::-1], wall.triangles + count]))
-    moments = polyhedron_moments(sides, order, about=wall.about, exact=True, allow_open=True)[0]
+    moments = polyhedron_moments(sides, order, about=wall.about, allow_open=True)[0]
     boundary = find_edges(wall.triangles).boundary_sides()
     if len(boundary):
         start, stop = wall.triangles.ravel()[boundary], np.roll(wall.triangles, -1, axis=1).ravel()[boundary]

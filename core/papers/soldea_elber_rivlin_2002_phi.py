@@ -20,7 +20,7 @@ from ..numerics.bspline import SplineSpace
 from ..numerics.quadrature import gauss_legendre
 from .sheynin_tuzikov_2001 import exponents_to
 
-MAX_ENTRIES = 2_000_000
+MAX_ENTRIES = 2e6
 
 
 def phi(spaces: tuple[SplineSpace, SplineSpace], order: int) -> NDArray[np.float64]:

@@ -215,7 +215,7 @@ class _Problem:
         volume, area = polyhedron_moments(
             replace(self.surface, points=points), area_order=3 if self.shell else 0, allow_open=True
         )
-        return area if self.shell and area is not None else volume
+        return area if self.shell else volume
 
     def evaluate(self, points: NDArray) -> tuple[NDArray, NDArray, NDArray] | None:
         """(3,) the center, (r,) how far it is from its target, and (r, n, 3) its derivatives; None where the body has

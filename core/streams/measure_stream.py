@@ -133,15 +133,14 @@ class _Stream:
         self._mesh, self._progress = mesh, progress
 
     def pieces(self) -> Iterator[Surface]:
-        """Yield the pieces. Raises FileError where a coordinate is not finite."""
+        """Yield the pieces."""
         for piece in self._mesh.pieces():
             faces = len(piece.triangles) + len(piece.quads)
             if self._progress is not None:
                 self._progress(faces)
             low, high = piece.box
-            if not (np.isfinite(low).all() and np.isfinite(high).all()):
-                self._mesh.box()  # raises, with the number of all such coordinates
-            if np.maximum(high - self.center, self.center - low).max() > MAX_REACH_RATIO * self.reach:
+            reach = np.maximum(high - self.center, self.center - low).max()
+            if not reach <= MAX_REACH_RATIO * self.reach:  # nor where it is NaN: the box of all refuses that
                 raise _FarPiece
             self.boundary.add(piece.points.reshape(-1, 3, 3) if self._mesh.is_loose else piece)
             self.face_count += faces

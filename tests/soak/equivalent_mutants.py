@@ -28,8 +28,21 @@ NAMES = {
 # places ("module function"), and the mutant's text before and after it: the reason
 PATTERNS = [
     (r".*", r".*\*= -1\.0", r".*/= -1\.0", "times -1 is by -1"),
-    (r".*", r"([\w.]+) @ \1", r".*", "nothing is changed"),
-    (r".*", r".* \* HALF_TURN_SIGNS\[.*", r"\(.* / HALF_TURN_SIGNS\[.*", "times -1 is by -1"),
+    (r".*", r"(\([^()]*(\([^()]*\))?[^()]*\) \* )?([\w.]+) @ \3", r"\([\w.]+ @ .*", "nothing is changed"),
+    (r".*", r".* \* HALF_TURN(S|_SIGNS)\[.*", r"\(.* / HALF_TURN(S|_SIGNS)\[.*", "times -1 is by -1"),
+    (
+        r".*streams/stl.py .*",
+        r"np\.arange\(.*, dtype=np\.int32\)",
+        r"\(np\.arange\(((?!dtype).)*\)\)",
+        "indices of eight bytes",
+    ),
+    (r".*shape/symmetry.py _around_axis", r"n // 2", r"\(n \* 2\)", "the same turns, the other way"),
+    (
+        r".*robots/plausibility.py Hull.distance",
+        r"lowest in chosen or .*",
+        r"\(length .*",
+        "where the corner is chosen already, the bound is what it was",
+    ),
     (r".*triangle_kernel.py PhaseMeans._by_edges", r"np\.divide\(total.*", r".*", "where a value is stored"),
     (r".*offset/walls.py OffsetSolid.moments", r"inward\*\*degree / degree", r".*", "a looser bound"),
     (r".*", r".*\.take\(.*, mode=.clip.\)", r"\(.*\.take\(((?!mode=).)*\)\)", "every index is one of the array's"),
@@ -125,6 +138,8 @@ CONSTANTS = [
     (r".*numerics/graph.py _trees", r"for start in range\(", "the first node is the first root"),
     (r".*numerics/graph.py connected_neighbors", r"for start in range\(", "there is none below the first"),
     (r".*", r"\bdefault_rng\(", "which numbers are drawn at random"),
+    (r".*rigs/cuts.py (bones_of_caps|_cut_edges)", r"(max\(initial=|int\(.*\) \+ )", "room for a label more"),
+    (r".*shape/symmetry.py _around_axis", r"n // 2 \+ ", "the same turns, the other way"),
     (r".*canonical_frame.py _extreme_directions", r"(noise = |max\()", "a looser bound"),
 ]
 # functions that make bounds of errors, where a constant factor twice as large gives a bound still

@@ -372,6 +372,25 @@ def test_a_vertex_that_no_mean_is_in_front_of_finds_a_direction_that_is():
     assert hard > 3
 
 
+def test_the_fitted_direction_is_kept_where_every_face_gets_a_tenth_of_the_thickness():
+    triangles, kept, left = np.array([[0, i, i % 7 + 1] for i in range(1, 8)]), [], []
+    for seed in range(200):
+        rng = np.random.default_rng(seed)
+        angle, height = np.sort(rng.uniform(0.0, 2 * np.pi, 7)), rng.uniform(-2.5, 2.5, 7)
+        points = np.concatenate([np.zeros((1, 3)), np.column_stack([np.cos(angle), np.sin(angle), height])])
+        corners = points[triangles]
+        normals = np.cross(corners[:, 1], corners[:, 2])
+        double = np.linalg.norm(normals, axis=1)
+        normals /= double[:, None]
+        weight = np.arctan2(double, np.einsum("ij,ij->i", corners[:, 1], corners[:, 2]))
+        fitted, _, _, values = np.linalg.lstsq(np.sqrt(weight)[:, None] * normals, np.sqrt(weight), rcond=None)
+        low = (normals @ fitted).min()
+        if low > 0.0 and values[2] ** 2 > 0.03 * values[0] ** 2:
+            vector = offset_directions(points, triangles).vectors[0]
+            (kept if np.abs(vector - fitted).max() < 1e-12 else left).append(low)
+    assert min(kept) > 0.1 > max(left) and min(kept) < 0.11 and max(left) > 0.095
+
+
 def test_faces_that_fold_back_on_each_other_have_no_wall():
     points = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 0], [1, 0, 0]], float)
     points[4:, 1] = 1e-9
@@ -523,3 +542,21 @@ def test_thin_walls_of_skins_that_face_each_other_meet_by_their_own_thickness(ga
 def test_a_tiny_part_beside_a_large_one_has_directions_of_its_own():
     part = bodies.joined(bodies.box((1, 1, 1), (2, 2, 2)), bodies.moved(bodies.box(), 1e-7 * np.eye(3)))
     assert offset_solid(bodies.surface(part)).degenerate_triangles == 0
+
+
+@pytest.mark.parametrize("flip", [False, True])
+@pytest.mark.parametrize("sizes", [(1.0, 2.0, 3.0), (3.0, 1.0, 2.0)])
+def test_what_folds_first_is_a_triangle_without_area_at_the_limit(flip, sizes):
+    """Of a tub, inward; of one that is inside out, outward. A centered wall folds where the nearer side does."""
+    part = bodies.moved(bodies.without(bodies.box(), 2, 3), np.diag(sizes))
+    found = offset_solid(bodies.surface(bodies.inverted(part) if flip else part))
+    limits = {"inward": -found.inward, "outward": found.outward}
+    nearer = min(limits, key=lambda side: abs(limits[side]))
+    assert nearer == ("outward" if flip else "inward") and found.max_thickness("centered") == 2 * abs(limits[nearer])
+    corners = found.points[found.triangles]
+    for side in (nearer, "centered"):
+        place = found.first_fold_location(side)
+        (first,) = np.flatnonzero(np.abs(corners.mean(axis=1) - place).max(axis=1) < 1e-12)
+        a, b, c = (found.points + limits[nearer] * found.vectors)[found.triangles[first]]
+        whole = np.linalg.norm(np.cross(corners[first, 1] - corners[first, 0], corners[first, 2] - corners[first, 0]))
+        assert np.linalg.norm(np.cross(b - a, c - a)) < 1e-6 * whole

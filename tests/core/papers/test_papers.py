@@ -6,6 +6,7 @@ import random
 from fractions import Fraction
 from itertools import product
 from math import isqrt
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -14,6 +15,7 @@ from body_moments.core.moments.moments import monomials
 from body_moments.core.papers import durso_2005 as durso
 from body_moments.core.papers import sheynin_tuzikov_2001 as sheynin_tuzikov
 from body_moments.core.papers import zhang_chen_2001 as zhang_chen
+from body_moments.core.papers.soldea_elber_rivlin_2002_phi import phi
 from body_moments.core.polyhedron import polyhedron_moments
 
 from tests.core import exact, rational
@@ -255,3 +257,14 @@ def test_the_tetrahedron_has_the_moments_that_the_papers_print():
     assert moments[2, 0, 0] == volume / 10 * squares
     mixed = x[0] * (y[1] + y[2]) + x[1] * (y[0] + y[2]) + x[2] * (y[0] + y[1])
     assert moments[1, 1, 0] == volume / 10 * (x[0] * y[0] + x[1] * y[1] + x[2] * y[2] + mixed / 2)
+
+
+@pytest.mark.parametrize("counts, order", [((18, 7), 0), ((19, 2), 1), ((19, 1), 2)])
+def test_tensors_of_more_than_two_million_entries_are_refused(counts, order):
+    """Before anything is computed: what would hold 126³, 38⁴ or 19⁵."""
+    spaces = tuple(SimpleNamespace(count=count) for count in counts)
+    with pytest.raises(ValueError, match="entries"):
+        phi(spaces, order)
+    fewer = SimpleNamespace(count=counts[0] - 1), spaces[1]
+    with pytest.raises(AttributeError):  # these have no functions
+        phi(fewer, order)

@@ -89,6 +89,7 @@ def test_the_outline_has_its_length_and_its_moments():
     found = outline_moments(points, orient_loops(points, loops), 1, about=(0.0, 0.0))
     assert found.raw[0] == 14 + 4
     assert close(found.raw[1], 14 * 1.5 + 4 * 1.5, rel=1e-15)
+    assert outline_moments(points, orient_loops(points, loops)).raw.tolist() == [18.0]
 
 
 def test_an_open_outline_is_refused():
@@ -104,6 +105,16 @@ def test_loops_of_any_direction_nest_as_outlines_holes_and_islands(turned):
     assert area_moments(points, edges, 0).raw[0] == 36 - 16 + 4 + 1
     assert sorted(outline_areas(points, edges)) == [-16, 1, 4, 36]
     assert find_defects(points, edges).crossings == 0 and not find_defects(points, edges).overlapping
+
+
+@pytest.mark.parametrize("first", range(4))
+def test_outlines_that_cross_are_holes_of_none(first):
+    """None is in the other, whichever of its edges begins in there."""
+    low, high = rectangle(0, 0, 4, 4), rectangle(1, 1, 5, 5)
+    for other in (high, [(-x, y) for x, y in low], [(x, -y) for x, y in high], [(-x, -y) for x, y in high]):
+        points, loops = shape(np.roll(low, first, axis=0), np.roll(other, first, axis=0))
+        areas = outline_areas(points, orient_loops(points, loops))
+        assert (areas > 0.0).all()
 
 
 def test_outlines_that_touch_along_edges_and_at_corners_are_no_flaw():

@@ -3,6 +3,7 @@
 """One signature for a shape however it lies, whatever its size and faces; mirror images told from copies."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -96,6 +97,36 @@ def test_what_noise_may_have_made_is_no_hand():
             handed = max(np.linalg.norm(found.chirality) for found in (one, other)) > MIN_CHIRALITY
             assert likeness.is_mirror_image is (None if handed else False), (name, noise)
             assert (classify(likeness) in UNDECIDED_HANDEDNESS) == (handed and likeness.shape <= SAME_SHAPE_DISTANCE)
+
+
+@pytest.mark.parametrize("share, told", [(0.19, True), (0.21, False)])
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_a_hand_is_told_where_one_difference_is_less_than_a_fifth_of_the_other(share, told, sign):
+    """Of chiralities c and k c the differences are as 1 - k to 1 + k."""
+    one = signed(shapes.WEDGE, 6)
+    other = replace(one, chirality=sign * (1.0 - share) / (1.0 + share) * one.chirality)
+    for found in (similarity(one, other), similarity(other, one)):
+        assert found.is_mirror_image is ((sign < 0.0) if told else None)
+
+
+@pytest.mark.parametrize("share, told", [(0.95, False), (1.05, True)])
+def test_a_hand_is_told_where_it_is_ten_times_what_the_shapes_differ_by(share, told):
+    one = signed(shapes.WEDGE, 6)
+    size = np.linalg.norm(one.chirality)
+    # of all numbers the invariants alone differ: by d, which makes a difference of d / √2
+    apart = size * np.sqrt(2.0) / 10.0 / share
+    assert apart < 1.0
+    other = replace(one, invariants=one.invariants * (1.0 - apart))
+    likeness = similarity(one, other)
+    assert close(likeness.shape, apart / np.sqrt(2.0), 1e-9)
+    assert likeness.is_mirror_image is (False if told else None)
+
+
+@pytest.mark.parametrize("size, mirrored", [(0.9e-11, False), (1.1e-11, True)])
+def test_a_chirality_that_is_rounding_is_no_hand(size, mirrored):
+    one = signed(shapes.WEDGE, 6)
+    tiny = one.chirality / np.linalg.norm(one.chirality) * size
+    assert similarity(replace(one, chirality=tiny), replace(one, chirality=-tiny)).is_mirror_image is mirrored
 
 
 def test_different_shapes_are_far_apart_and_noisy_copies_near():

@@ -120,6 +120,19 @@ def test_the_power_of_a_ball_is_known():
     assert np.all(bound[:5] < 1e-8)
 
 
+@pytest.mark.parametrize("radius", [0.3, 0.6, 0.9])
+def test_what_left_out_orders_may_change_is_all_that_parseval_leaves_them(radius):
+    """Of a ball Ω_00 = a³ of norm² a³, and Σ (2n+3) j_(n+1)² over n > 0 is 1 - j_0² - 3 j_1²."""
+    q = np.array([0.5, 1.0, 3.0, 8.0, 12.0])
+    power, bound = radial_power({(0, 0): np.array([radius**3 + 0j])}, q)
+    j0, j1 = np.sin(q) / q, np.sin(q) / q**2 - np.cos(q) / q
+    known = 3.0 * (j1 / q * radius**3) ** 2
+    tail = (1.0 - j0**2 - 3.0 * j1**2) / q**2 * (radius**3 - radius**6)
+    scale = (4.0 * pi) ** 2 / 3.0
+    assert close(power, scale * known, 1e-12)
+    assert close(bound, scale * (2.0 * np.sqrt(known * tail) + tail), 1e-11)
+
+
 def test_the_power_of_a_box_is_the_mean_of_its_products_of_sincs():
     half = np.array([0.5, 0.4, 0.3])
     body = bodies.box(-half, half)

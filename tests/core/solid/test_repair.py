@@ -7,6 +7,7 @@ from dataclasses import fields, is_dataclass, replace
 
 import numpy as np
 import pytest
+from body_moments.core.mesh.surface import Surface
 from body_moments.core.moments.moments import Moments
 from body_moments.core.nurbs.solid import PatchIntegrals
 from body_moments.core.solid.closedness import check_surface, integrate_and_prove, prove_closed
@@ -164,6 +165,22 @@ def test_only_what_a_meshs_own_edges_prove_is_left_as_it_is():
     )
     two = prove_closed(mesh(np.concatenate([CUBE[0], CUBE[0] + 3.0]), quads + (SIDES + 8).tolist()))
     assert two.number == 2 and len(two.triangles) == 24 and np.bincount(two.component).tolist() == [12, 12]
+
+
+@pytest.mark.parametrize("of", ["triangles", "quads"])
+def test_faces_of_one_kind_without_edges_prove_themselves_closed(of):
+    """In arrays, from no mesh: their sides have to be found first."""
+    faces = CUBE[1] if of == "triangles" else SIDES
+    points = np.concatenate([CUBE[0], CUBE[0] + 3.0])
+    for number in (1, 2):
+        given = np.concatenate([faces, faces + 8])[: number * len(faces)]
+        proven = prove_closed(Surface(points[: 8 * number], **{of: given}))
+        assert proven.number == number and proven.report.components == number and proven.report.closed
+        assert np.bincount(proven.component, minlength=1).tolist() == ([12, 12] if number == 2 else [0])
+    turned = np.concatenate([faces[:1, ::-1], faces[1:]])
+    assert prove_closed(Surface(CUBE[0], **{of: faces[1:]})) is prove_closed(Surface(CUBE[0], **{of: turned})) is None
+    mixed = Surface(CUBE[0], CUBE[1][:2], SIDES[1:])
+    assert prove_closed(mixed) is None
 
 
 @pytest.mark.parametrize(

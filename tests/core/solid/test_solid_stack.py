@@ -200,5 +200,24 @@ def test_components_of_warped_quads_are_compared_as_they_are_drawn():
     assert 10 < turned < 50
 
 
+@pytest.mark.parametrize("near", [(0, 1), (1, 2), (0, 2), (2, 3), (0, 3)])
+@pytest.mark.parametrize("axis", range(3))
+@pytest.mark.parametrize("place", [0.0, 2000.0])
+def test_parts_are_measured_together_where_twice_what_is_welded_is_between_them(near, axis, place):
+    """Any two of them, along any axis; the parts of another body of the stack may stand in them."""
+    faces = [side for k in range(4) for side in (np.array(SIDES) + 8 * k).tolist()]
+    corners = np.array([[0, 0, 0], [8, 0, 0], [0, 8, 0], [6.5, 6.5, 3]], float) + place
+    corners[near[1]] = corners[near[0]] + np.eye(3)[axis]
+    step, surfaces = 2.0**-13 if place else 2.0**-20, []
+    size = np.linalg.norm(np.ptp(np.concatenate([corners, corners + 1.0]), axis=0))
+    most = 2.0 * max(1e-6 * size, 4.0 * np.sqrt(3.0) * step / 2.0 if place else 0.0)
+    for gap in (most - 1.5 * step, most + 1.5 * step):
+        corners[near[1], axis] = corners[near[0], axis] + 1.0 + round(gap / step) * step
+        points = np.concatenate([CORNERS + corner for corner in corners])
+        surfaces.append(mesh(points, faces, np.float32))
+    stack = measure_stack([*surfaces, mesh(CORNERS + place, SIDES, np.float32)])
+    assert stack.is_measured.tolist() == [False, True, True]
+
+
 def test_an_empty_mesh_has_no_place_in_a_stack():
     assert not can_be_stacked(Surface(np.zeros((0, 3), np.float32), np.zeros((0, 3), int)))

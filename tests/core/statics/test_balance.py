@@ -135,6 +135,15 @@ def test_a_point_that_is_too_far_is_refused():
         balance(bodies.surface(part), upper(part, 0.5), (0.0, 0.0, -0.5), limit=4.0, shell=True)
 
 
+def test_what_a_limit_alone_lets_be_reached_is_not_called_too_far():
+    """Newton's method without a limit goes astray here; with one it comes to the point, through faces that fold."""
+    part, movable = bodies.sphere(1), np.delete(np.arange(18), [5, 6])
+    for turn in (np.eye(3), np.diag([-1.0, -1.0, 1.0])):
+        turned = part[0] @ turn, part[1]
+        with refused("balance_folds_faces"):
+            balance(bodies.surface(turned), movable, turn @ (4.14, 0.052, -0.571), across=HORIZONTAL, limit=4.0)
+
+
 def test_one_vertex_cannot_move_the_center_every_way():
     flat = bodies.moved(bodies.box(), np.diag([1.0, 1.0, 1.0]))
     middle = np.concatenate([flat[0], [[0.5, 0.5, 1.0]]])

@@ -71,6 +71,17 @@ def test_a_flat_body_has_no_error_of_what_stands_across_it(kind):
     assert (error[:, 9] < 1e-8 * error[:, 4]).all()
 
 
+def test_every_factor_of_an_integrand_adds_eight_roundings_to_its_bound():
+    """Of a body that reaches by one: (32 + 8 n + the most triangles at a vertex) U times what they add up to."""
+    points, triangles = bodies.box((-1, -1, -1), (1, 1, 1))
+    gradient = volume_gradient(bodies.surface((points, triangles)), np.zeros(3))
+    times = np.bincount(triangles.ravel())
+    squares = np.array([[(points[row] - points[row[k]]) ** 2 for k in range(3)] for row in triangles]).sum(axis=3)
+    scale = np.bincount(triangles.ravel(), np.repeat(squares[:, 0].max(axis=1), 3))
+    units = (32.0 + 8.0 * monomials(2).sum(axis=1) + times.max()) * 2.0**-53
+    assert close(gradient.error(), scale[:, None] * units, 1e-15)
+
+
 def test_a_moment_of_degree_n_grows_with_the_n_plus_third_power(part, kind):
     moments = measured(part, kind)
     gradient = KINDS[kind](bodies.surface(part), moments.about)

@@ -48,6 +48,14 @@ def test_vertices_that_are_near_are_welded(gap, code):
     assert codes(measured((points, triangles))) == [code]
 
 
+@pytest.mark.parametrize("steps, code", [(3, "vertices_welded"), (4, "holes_capped_slightly")])
+def test_vertices_that_storing_as_float32_may_have_parted_are_welded(steps, code):
+    """Nearer than four times √3 half steps of float32, which are those of 1024 to 2048 here: 3.46 steps."""
+    points, triangles = soup(box((1100, 1100, 1100), (1101, 1101, 1101)))
+    points[0] += (steps * 2.0**-13, 0.0, 0.0)
+    assert codes(measured((points.astype(np.float32), triangles))) == [code]
+
+
 @pytest.mark.parametrize("share, more", [(0.99e-4, "_slightly"), (1.01e-4, "")])
 def test_what_changes_a_body_by_little_is_a_note(share, more):
     area, one = np.array([1.0 - share, share]), np.array([1])
