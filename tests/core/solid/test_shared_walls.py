@@ -6,7 +6,10 @@ import itertools
 
 import numpy as np
 import pytest
+from body_moments.core.mesh.edges import find_edges
+from body_moments.core.numerics.graph import connected_components
 from body_moments.core.solid.measure_solid import measure_solid
+from body_moments.core.solid.shared_walls import _layers
 from hypothesis import given
 
 from tests.close import close
@@ -98,3 +101,20 @@ def test_welding_what_float32_cannot_tell_apart_is_not_worth_a_word(gap, reporte
     result = measure_solid(surface(part))
     assert result.method == "exact" and result.health.welded
     assert codes(result) == ["vertices_welded_slightly"] * reported
+
+
+def test_every_wall_has_a_number_of_its_own():
+    """One that is cut differently from both sides, and one of copies: numbers of faces and of pieces, told apart."""
+    row = list(ROW)
+    row[1] = row[1][0], np.concatenate([row[1][1][:8], [[0, 4, 2], [4, 6, 2]], row[1][1][10:]])
+    points, triangles = welded(joined(*row))
+    x = points[triangles].min(axis=1)[:, 0] + points[triangles].max(axis=1)[:, 0]
+    order = np.lexsort((*np.sort(triangles, axis=1).T, np.select([x == 2.0, x == 4.0], [0, 2], 1)))
+    for triangles in (triangles[order], triangles[order[::-1]]):
+        edges = find_edges(triangles)
+        first, second = edges.manifold_side_pairs()
+        piece, _ = connected_components(len(triangles), first // 3, second // 3)
+        layer, wall = _layers(points, edges, triangles, np.arange(len(triangles)), piece)
+        assert sorted(layer) == [0] * 28 + [1] * 4 + [2] * 4
+        of_pieces, of_copies = (set(wall[layer > 0][place]) for place in np.split(np.arange(8), 2))
+        assert sorted(map(len, (of_pieces, of_copies))) == [1, 2] and not of_pieces & of_copies
