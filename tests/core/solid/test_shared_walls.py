@@ -110,11 +110,11 @@ def test_every_wall_has_a_number_of_its_own():
     points, triangles = welded(joined(*row))
     x = points[triangles].min(axis=1)[:, 0] + points[triangles].max(axis=1)[:, 0]
     order = np.lexsort((*np.sort(triangles, axis=1).T, np.select([x == 2.0, x == 4.0], [0, 2], 1)))
-    for triangles in (triangles[order], triangles[order[::-1]]):
-        edges = find_edges(triangles)
+    for faces in (triangles[order], triangles[order[::-1]]):
+        edges = find_edges(faces)
         first, second = edges.manifold_side_pairs()
-        piece, _ = connected_components(len(triangles), first // 3, second // 3)
-        layer, wall = _layers(points, edges, triangles, np.arange(len(triangles)), piece)
+        piece, _ = connected_components(len(faces), first // 3, second // 3)
+        layer, wall = _layers(points, edges, faces, np.arange(len(faces)), piece)
         assert sorted(layer) == [0] * 28 + [1] * 4 + [2] * 4
         of_pieces, of_copies = (set(wall[layer > 0][place]) for place in np.split(np.arange(8), 2))
         assert sorted(map(len, (of_pieces, of_copies))) == [1, 2] and not of_pieces & of_copies
