@@ -87,7 +87,10 @@ def of_object(obj):
         used = getattr(modifier, "node_group", None) or getattr(modifier, "object", None)
         yield "{:s} modifier {:s}".format(place, modifier.name), [modifier.type, used]
     for constraint in obj.constraints:
-        yield "{:s} constraint {:s}".format(place, constraint.name), [constraint.type, constraint.target]
+        yield (
+            "{:s} constraint {:s}".format(place, constraint.name),
+            [constraint.type, getattr(constraint, "target", None)],
+        )
     for name, body in (("rigid body", obj.rigid_body), ("rigid constraint", obj.rigid_body_constraint)):
         for prop in body.bl_rna.properties if body else ():
             if prop.type not in ("COLLECTION",) and prop.identifier != "rna_type":

@@ -6,6 +6,8 @@ import bpy
 import numpy as np
 import pytest
 
+from tests.blender.actions.test_dialogs import stand_in
+from tests.blender.actions.test_transcripts import OPERATORS
 from tests.blender.bodies.test_assembly import box, boxes_inertia
 from tests.blender.objects import add, measured, mesh_body, only, place, seen
 from tests.close import close
@@ -145,3 +147,15 @@ def test_what_cannot_be_one_is_left_as_it_is_with_the_reason(reported):
 def test_one_undo_step_is_enough_for_what_is_registered():
     operator = bpy.types.OBJECT_OT_body_moments_rigid_bodies
     assert {"REGISTER", "UNDO"} <= set(operator.bl_options)
+
+
+@pytest.mark.parametrize("count", [12, 13])
+def test_the_redo_panel_compares_the_masses_of_the_first_objects(count):
+    only(*(add(mesh_body(), "Body {:d}".format(index), (5 * index, 0, 0)) for index in range(count)))
+    operator = stand_in(OPERATORS["OBJECT_OT_body_moments_rigid_bodies"], print, frame="KEEP")
+    assert operator.execute(bpy.context) == {"FINISHED"}
+    lines = operator.comparison.splitlines()
+    assert [line.startswith("Body {:d}: 3150 kg; Calculate Mass: ".format(i)) for i, line in enumerate(lines)] == [
+        True
+    ] * 12 + [False] * (count - 12)
+    assert lines[12:] == ["And 1 more"] * (count - 12)
