@@ -67,7 +67,7 @@ def read_patches(obj, depsgraph) -> Reading | None:
     """
     obj = obj.original
     reading = locate(obj, depsgraph)
-    if obj.type != "SURFACE" or obj.instance_type != "NONE" or len(obj.particle_systems):
+    if obj.instance_type != "NONE":
         return None
     geometry = evaluated_geometry(obj, depsgraph, obj)  # it owns its mesh
     evaluated = obj.evaluated_get(depsgraph)

@@ -123,7 +123,7 @@ def _selected_faces(obj, depsgraph) -> SectionReading:
     triangles, faces = surface.all_triangles()
     inside = chosen[faces]
     triangles = triangles[inside]
-    _require_finite(obj, surface.points[triangles])
+    _require_finite(obj, surface.points)  # of all, which say how far float32 may have moved any
     acting = [modifier.name for modifier in obj.modifiers if modifier.show_viewport]
     findings = [finding("section_without_modifiers", modifiers=acting)] if acting else []
     count = int(np.count_nonzero(chosen))

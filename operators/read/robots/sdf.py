@@ -27,10 +27,10 @@ def read(root: Node, data: bytes) -> Description:
 
 def _link(node: Node, model: Node, several: bool) -> StatedLink:
     findings: list[Finding] = []
-    inertial_node, inertial = node.find("inertial"), None
+    inertial_node, inertial, span = node.find("inertial"), None, None
     try:
-        automatic = inertial_node is not None and inertial_node.get("auto") in ("true", "1")
-        inertial = None if inertial_node is None or automatic else _inertial(inertial_node)
+        if inertial_node is not None and inertial_node.get("auto") not in ("true", "1"):
+            inertial, span = _inertial(inertial_node), (inertial_node.start, inertial_node.end)
     except ValueError as error:
         findings.append(finding("description_number", text=str(error)))
     shapes = []
@@ -40,7 +40,6 @@ def _link(node: Node, model: Node, several: bool) -> StatedLink:
                 shapes += _shape(element, role)
             except ValueError as error:
                 findings.append(finding("description_number", text=str(error)))
-    span = None if inertial is None or inertial_node is None else (inertial_node.start, inertial_node.end)
     static = _text(model, "static") in ("true", "1")
     name = "{}::{}".format(model.get("name"), node.get("name")) if several else node.get("name")
     moves = bool(shapes) and not static and inertial_node is None

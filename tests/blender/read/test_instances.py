@@ -358,3 +358,85 @@ def test_ten_thousand_instances_have_ten_thousand_matrices():
     assert part.matrices.shape == (10_000, 4, 4)
     total = part.matrices[:, :3, 3].sum(axis=0)
     assert math.isclose(float(np.abs(total).max()), 0.0, abs_tol=1e-2)
+
+
+def test_metaballs_that_are_instanced_are_counted_and_left_out():
+    """Blender draws none."""
+    members = collection("Members", False)
+    cube("Cube", members)
+    for number in range(2):
+        ball = bpy.data.objects.new("Ball", bpy.data.metaballs.new("Ball"))
+        ball.data.elements.new().co = (3.0 * number, 0, 0)
+        members.objects.link(ball)
+    host = empty("Host", members)
+    check(host, 1)
+    assert [(kind["code"], kind["values"]) for kind in left_out(host)] == [("kind_metaballs", {"count": 2})]
+
+
+def test_instances_that_are_all_scaled_to_nothing_are_refused():
+    host = cube("Host")
+
+    def build(tree, source):
+        made = node(tree, "GeometryNodeInstanceOnPoints", Points=grid(tree, 2), Instance=source)
+        made.inputs["Scale"].default_value = (0.0, 0.0, 0.0)
+        return made.outputs[0]
+
+    nodes(host, build)
+    with refused("no_visible_instances", "Host"):
+        read_object(host, depsgraph())
+
+
+def test_an_instancer_that_hides_itself_and_shows_nothing_else_is_refused_with_the_remedy():
+    host = cube("Host")
+    host.instance_type, host.show_instancer_for_viewport = "VERTS", False
+    with refused("instancer_hidden", "Host"):
+        read_object(host, depsgraph())
+    host.show_instancer_for_viewport = True
+    check(host, 1)
+
+
+def test_particles_of_which_the_viewport_shows_a_share_are_said():
+    source = cube("Source")
+    emitter = placed(link("Emitter", mesh("Emitter")))
+    modifier = emitter.modifiers.new("Particles", "PARTICLE_SYSTEM")
+    settings = modifier.particle_system.settings
+    settings.type, settings.count = "HAIR", 12
+    settings.render_type, settings.instance_object = "OBJECT", source
+    assert "render_particles_differ" not in said(read_object(emitter, depsgraph()))
+    settings.display_percentage = 25
+    codes = {cause["code"]: cause["values"] for cause in causes(read_object(emitter, depsgraph()))}
+    assert codes["render_particles_differ"] == {"modifier": "Particles", "share": 0.25}
+
+
+def causes(reading):
+    """All findings, and those among their values."""
+    for found in reading.findings:
+        yield {"code": found.code, "values": found.values}
+        for value in found.values.values():
+            yield from (one for one in value if isinstance(one, dict)) if isinstance(value, list) else ()
+
+
+def test_what_the_choice_of_instances_leaves_out_is_not_there():
+    """A collection's children one by one, of which the points take the second and the third."""
+    members = collection("Members", False)
+    for number, name in enumerate("ABC"):
+        placed(cube(name, members), location=(number, 0, 0))
+    host = cube("Host")
+
+    def build(tree, source):
+        info = node(tree, "GeometryNodeCollectionInfo", {"Collection": members, "Separate Children": True})
+        made = node(tree, "GeometryNodeInstanceOnPoints", Points=grid(tree, 2), Instance=info.outputs[0])
+        made.inputs["Pick Instance"].default_value = True
+        index = tree.nodes.new("GeometryNodeInputIndex").outputs[0]
+        chosen = tree.nodes.new("ShaderNodeMath")
+        chosen.operation = "MODULO"
+        chosen.inputs[1].default_value = 2.0
+        tree.links.new(index, chosen.inputs[0])
+        more = tree.nodes.new("ShaderNodeMath")
+        more.inputs[1].default_value = 1.0
+        tree.links.new(chosen.outputs[0], more.inputs[0])
+        tree.links.new(more.outputs[0], made.inputs["Instance Index"])
+        return made.outputs[0]
+
+    nodes(host, build)
+    check(host, 4)

@@ -585,3 +585,98 @@ def test_second_moments_have_the_scenes_units(system, unit, text):
     from body_moments.operators.write.units import Units
 
     assert Units(system, unit, "KILOGRAMS", 1.0).text("area_moment", 1.6) == text
+
+
+def region_of(obj, **options):
+    from body_moments.operators.bodies.flat import flat_region
+
+    bpy.context.view_layer.update()
+    return flat_region(obj, bpy.context.evaluated_depsgraph_get(), **options)
+
+
+def test_outlines_that_overlap_without_a_crossing_are_refused():
+    assert refused(add(curve_of(square(0, 0, 4), square(2, 0, 4))), "outlines_cross")
+
+
+def test_too_many_edges_to_compare_are_said_to_be_unchecked(monkeypatch):
+    obj = add(flat_mesh(I_BEAM))
+    assert "section_overlap_unchecked" not in said(section_of(obj)[2])
+    monkeypatch.setattr("body_moments.core.plane.polygon.MAX_EDGE_PAIRS", 4)
+    found, _, findings = section_of(obj)
+    assert close(found.area, I_AREA, rel=1e-14) and "section_overlap_unchecked" in said(findings)
+
+
+def test_outlines_that_touch_are_measured_by_their_polygons():
+    region = region_of(add(curve_of(square(0, 0, 4), square(0, 1, 2))))
+    assert not region.curves and close(region.moments(2).total, 12.0, rel=1e-14)
+
+
+def test_an_outline_of_two_points_encloses_nothing_and_leaves_the_polygons():
+    region = region_of(add(curve_of(square(0, 0, 4), [(10, 10), (11, 10)])))
+    assert not region.curves and close(region.moments(2).total, 16.0, rel=1e-14)
+    assert region_of(add(curve_of(square(0, 0, 4)))).curves
+
+
+@pytest.mark.parametrize("scale", [(1, 1, 1), (2, 3, 1), (0.25, 0.5, 4)])
+def test_what_blender_fills_is_compared_at_every_scale(scale):
+    touching = add(curve_of(square(0, 0, 4), square(4, 1, 2)), scale=scale)
+    assert "section_fill_wrong" in said(section_of(touching)[2])
+    apart = add(curve_of(square(0, 0, 4), square(5, 1, 2)), scale=scale)
+    found, _, findings = section_of(apart)
+    assert not said(findings) and close(found.area, 20.0 * scale[0] * scale[1], rel=1e-6)
+
+
+def test_a_resolution_of_the_render_alone_is_said():
+    obj = add(curve_of(square(0, 0, 4), kind="NURBS"))
+    resolution = obj.data.resolution_u
+    for rendered, values in ((0, None), (resolution, None), (3, {"render": 3})):
+        obj.data.render_resolution_u = rendered
+        assert said(section_of(obj)[2]).get("section_render_resolution") == values
+    straight = add(curve_of(square(0, 0, 4)))
+    straight.data.render_resolution_u = 3
+    assert not section_of(straight)[2]
+
+
+def test_a_text_on_a_curve_that_is_not_filled_is_refused():
+    obj = add(text_of("A"))
+    obj.data.follow_curve = add(curve_of([(0, 0), (9, 1)], closed=False), "Line")
+    assert section_of(obj)[0].area > 0.0
+    obj.data.fill_mode = "NONE"
+    assert refused(obj, "section_text_on_curve")
+
+
+def edit_with_square(sheet, number):
+    """Edit Mode, with one of several squares selected."""
+    for kind, count in (("vertices", 4), ("edges", 4), ("polygons", 1)):
+        parts = getattr(sheet.data, kind)
+        parts.foreach_set("select", [i // count == number for i in range(len(parts))])
+    only(sheet)
+    bpy.ops.object.mode_set(mode="EDIT")
+
+
+def test_points_that_are_nowhere_are_refused():
+    obj = add(curve_of(square(0, 0, 4)))
+    obj.data.splines[0].points[1].co.x = float("nan")
+    assert refused(obj, "section_non_finite")
+    sheet = add(flat_mesh(square(0, 0, 1), square(5, 0, 2)))
+    sheet.data.vertices[5].co.y = float("nan")
+    for number in range(2):  # the other one says how large the mesh is
+        edit_with_square(sheet, number)
+        assert refused(sheet, "section_non_finite")
+        bpy.ops.object.mode_set(mode="OBJECT")
+
+
+def test_all_faces_in_edit_mode_are_asked_for_or_those_that_are_selected():
+    sheet = add(flat_mesh(square(0, 0, 1), square(5, 0, 2)))
+    edit_with_square(sheet, 0)
+    for selected, area in ((True, 1.0), (False, 5.0)):
+        region = region_of(sheet, selected=selected)
+        assert close(region.moments(0).total, area, rel=1e-14)
+    bpy.ops.object.mode_set(mode="OBJECT")
+
+
+def test_flat_moments_beyond_the_range_of_numbers_are_refused():
+    region = region_of(add(flat_mesh(square(-2, -2, 4)), scale=(1e15, 1e15, 1)))
+    assert close(region.moments(2).total, 16e30, rel=1e-6)
+    with refusal("moments_overflow", order=24):
+        region.moments(24)

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Bones of skinned characters: what each part weighs, in rest pose and the bone's rest frame, however it is posed."""
 
+import bmesh
 import bpy
 import numpy as np
 import pytest
@@ -9,6 +10,7 @@ from body_moments.core.verdict.finding import ReadError
 from body_moments.operators.bodies.measure_object import measure_object
 from body_moments.operators.bodies.rig import measure_rig
 from body_moments.operators.read.links import bone_freedom, bone_parents
+from body_moments.operators.read.rig import require_armature
 from body_moments.operators.session import handlers, results, shown
 from body_moments.operators.session import rig as session
 from body_moments.operators.session.shown import shown_bone
@@ -16,7 +18,9 @@ from body_moments.operators.write import properties
 
 from tests.blender.bodies.test_assembly import box_mesh
 from tests.blender.characters import PARENTS, armature_of, pose, skin_of
-from tests.blender.objects import only
+from tests.blender.findings import refused
+from tests.blender.objects import only, strip_mesh
+from tests.blender.read_bodies import node, nodes
 from tests.close import close
 from tests.core import characters as made
 
@@ -427,3 +431,67 @@ def test_a_bone_is_as_free_as_its_locks_limits_and_constraints_leave_it():
     assert other.owner_space != "" and [one[1] for one in free()] == [axes[axis] for axis in "zyx"]
     assert bone_parents(bone, {"hips": "Hips"}) == ["Hips"]
     assert bone_parents(bone, {"hips": "Hips", "chest": "Chest", "arm.L": "Arm"}) == ["Chest", "Hips"]
+
+
+def test_a_density_that_varies_is_shared_as_its_mean():
+    armature, skin = character()
+    settings = skin.body_moments
+    settings.density_from, settings.density_polynomial = "POLYNOMIAL", "1000 + 100*z"
+    whole = measure_object(skin, bpy.context.evaluated_depsgraph_get())
+    mean = whole.mass_properties.mass / whole.volume
+    assert abs(mean - 1000.0) > 10.0
+    rig = measured(armature)
+    told = {found.code: found.values for found in rig.measurement.findings}
+    assert told["rig_mean_density"] == {"sources": [skin.name]}
+    assert close(rig.measurement.mass_properties.mass, whole.mass_properties.mass, 1e-9)
+    arm = next(part for part in rig.parts if part.name == "arm.L")
+    assert close(arm.mass.total, 8.0 * mean, 2e-6)
+
+
+def test_a_skin_that_cannot_be_closed_is_said():
+    armature, skin = character()
+    work = bmesh.new()
+    work.from_mesh(skin.data)
+    work.from_mesh(strip_mesh())
+    work.to_mesh(skin.data)
+    work.free()
+    rig = measured(armature)
+    told = {found.code: found.values for found in rig.measurement.findings}
+    assert told["rig_open_mesh"] == {"sources": [skin.name]}
+
+
+def test_the_area_of_a_stretched_skin_is_what_is_seen():
+    armature, skin = character()
+    skin.body_moments.kind, skin.body_moments.thickness = "SHELL", 0.01
+    for scale in ((1, 1, 1), (2, 2, 2), (1, 2, 3), (-1, 2, 1)):
+        armature.scale = scale
+        bpy.context.view_layer.update()
+        matrix = np.array(skin.matrix_world, float)[:3, :3]
+        corners = [np.array([skin.data.vertices[i].co for i in polygon.vertices]) for polygon in skin.data.polygons]
+        area = 0.0
+        for a, b, c, d in (one @ matrix.T for one in corners):
+            area += (np.linalg.norm(np.cross(b - a, c - a)) + np.linalg.norm(np.cross(c - a, d - a))) / 2.0
+        found = measured(armature).measurement
+        assert close(found.area, area, 1e-6) and close(found.mass_properties.mass, 10.0 * area, 1e-6)
+
+
+def test_an_armature_is_needed_and_not_in_edit_mode():
+    armature, skin = character()
+    for obj in (None, skin):
+        with refused("no_active_armature"):
+            require_armature(obj)
+    assert require_armature(armature) == armature
+    bpy.ops.object.mode_set(mode="EDIT")
+    with refused("armature_in_edit_mode", armature.name):
+        require_armature(armature)
+    bpy.ops.object.mode_set(mode="OBJECT")
+
+
+def test_a_surface_that_another_object_brings_has_no_weights():
+    armature, skin = character()
+    other = bpy.data.objects.new("Other", box_mesh(1, 1, 1))
+    bpy.context.scene.collection.objects.link(other)
+    nodes(skin, lambda tree, source: node(tree, "GeometryNodeMeshCube").outputs[0])
+    skin.modifiers.move(1, 0)
+    told = {found.code: found.values for found in measured(armature).measurement.findings}
+    assert told["unweighted_vertices"]["count"] == told["unweighted_vertices"]["total"] == 8
