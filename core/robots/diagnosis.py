@@ -264,9 +264,8 @@ def _orders(stated: StatedInertial) -> Iterator[Change]:
         # The products alone, such as ixz before ixy: xy, xz and yz are opposite to z, y and x.
         products = np.diag(np.diag(stated.inertia)) + (swapped - np.diag(np.diag(swapped)))
         yield "audit_products_swapped", values, stated.along_link(products)
-    turns = ((1, -1), (2, -1), (0, -1))
-    for axis, (_, sign) in enumerate(turns):  # a quarter turn: y up for z up
-        for way in (1.0, sign):
+    for axis in range(3):  # a quarter turn: y up for z up
+        for way in (1.0, -1.0):
             turn = np.eye(3)
             first, second = (axis + 1) % 3, (axis + 2) % 3
             turn[first, first] = turn[second, second] = 0.0

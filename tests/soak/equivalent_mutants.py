@@ -40,8 +40,8 @@ PATTERNS = [
     (
         r".*robots/plausibility.py Hull.distance",
         r"lowest in chosen or .*",
-        r"\(length .*",
-        "where the corner is chosen already, the bound is what it was",
+        r"\((length|lowest in chosen).*",
+        "how near to the largest bound the search ends, within a billionth",
     ),
     (r".*triangle_kernel.py PhaseMeans._by_edges", r"np\.divide\(total.*", r".*", "where a value is stored"),
     (r".*offset/walls.py OffsetSolid.moments", r"inward\*\*degree / degree", r".*", "a looser bound"),

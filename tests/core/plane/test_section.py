@@ -15,7 +15,7 @@ from body_moments.core.plane.polygon import (
     orient_loops,
     outline_moments,
 )
-from body_moments.core.plane.section import Plane, fit_plane, measure_section, projection_rounding, region
+from body_moments.core.plane.section import Plane, _bounds, fit_plane, measure_section, projection_rounding, region
 from body_moments.core.verdict.finding import MeasureError
 from hypothesis import given
 
@@ -283,3 +283,15 @@ def test_a_section_that_encloses_nothing_is_refused(outline):
     points = lifted(np.array(outline, float))
     with refused("section_encloses_nothing"):
         measure_section(LEVEL, points, directed_edges([range(len(outline))]))
+
+
+@pytest.mark.parametrize("about", [0.0, 0.25, 0.75, -0.75, 1e6])
+@pytest.mark.parametrize("shift", [0.0, 0.75, -0.3])
+def test_a_centroid_of_exact_moments_is_rounded_where_it_is_added_and_divided(about, shift):
+    """Four units of both the point and what is added to it, which may cancel."""
+    area = 3.0
+    raw = np.array([area, shift * area, -shift * area, 5.0, 4.0, 0.1])
+    found = _bounds(raw, np.array([about, -about]), np.zeros(6))
+    wanted = np.hypot(*(4 * 2.0**-53 * (abs(about) + np.abs(raw[1:3]) / area)))
+    assert close(found["centroid"], wanted, 1e-15) and found["area"] == 0.0
+    assert close(found["second"], area * (shift * shift) + 4 * 2.0**-53 * 5.0, 1e-14)

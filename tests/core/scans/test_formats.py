@@ -142,6 +142,17 @@ def test_nrrd_places(tmp_path):
     assert np.array_equal(scan.matrix[:3], [[0.5, 0, 0, 1], [0, 2, 0, 2], [0, 0, 3, 3]])
 
 
+@pytest.mark.parametrize(
+    "mins, origin",
+    [("1 2 3 nan", [1, 2, 3]), ("nan 2 3", [0] * 3), ("1 2 inf", [0] * 3), ("1 -inf 3", [0] * 3), ("1 2", [0] * 3)],
+)
+def test_nrrd_begins_at_the_origin_where_one_of_its_axes_does_not_say_where(tmp_path, mins, origin):
+    scan = read_scan(written(tmp_path / "a.nrrd", nrrd(values(), "spacings: 0.5 2 3", "axis mins: " + mins)))
+    assert np.array_equal(
+        scan.matrix, [[0.5, 0, 0, origin[0]], [0, 2, 0, origin[1]], [0, 0, 3, origin[2]], [0, 0, 0, 1]]
+    )
+
+
 def test_detached_headers_and_skips(tmp_path):
     expected = values("u2")
     data = expected.tobytes(order="F")

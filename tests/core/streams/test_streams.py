@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Meshes that are read in blocks have the moments that they have in memory, and whether they close is known."""
 
+from threading import active_count
+
 import numpy as np
 import pytest
 from body_moments.core.mesh.surface import Surface
@@ -252,6 +254,15 @@ def test_progress_counts_faces(tmp_path, small_blocks, monkeypatch):
         seen.clear()
         measured(tmp_path, name, make(part), progress=seen.append)
         assert sum(seen) == len(part[1]) and len(seen) > 5
+
+
+def test_as_many_threads_work_as_are_asked_for(tmp_path, small_blocks):
+    """While a file of many blocks is read; one alone needs no other."""
+    part, before = stl(moved(sphere(2))), active_count()
+    for threads, more in ((1, 0), (3, 3)):
+        seen = []
+        measured(tmp_path, "a.stl", part, 4, threads=threads, progress=lambda _, to=seen: to.append(active_count()))
+        assert max(seen) == before + more
 
 
 def test_some_triangles_show_where_a_body_is(tmp_path, small_blocks, monkeypatch):

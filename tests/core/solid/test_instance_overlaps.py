@@ -1,0 +1,99 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What solids have in common that stand in several places, mirrored and stretched: boxes, of which it is known."""
+
+import numpy as np
+import pytest
+from body_moments.core.solid.instance_overlaps import compare_places
+from body_moments.core.solid.measure_solid import measure_solid
+
+from tests.core.bodies import box, inverted, joined, surface, without
+
+MIRROR = np.diag([-1.0, 1.0, 1.0])
+STRETCH = np.diag([2.0, 0.5, 1.0])
+
+
+def places(*maps):
+    """(k, 4, 4) of (3, 3) maps about the origin, or of (map, offset)."""
+    result = np.tile(np.eye(4), (len(maps), 1, 1))
+    for row, one in zip(result, maps):
+        row[:3, :3], row[:3, 3] = one if isinstance(one, tuple) else (one, 0.0)
+    return result
+
+
+def cube(half, center=(0.0, 0.0, 0.0)):
+    return box(np.array(center) - half, np.array(center) + half)
+
+
+def solid(part):
+    return measure_solid(surface(part))
+
+
+def compared(*solids):
+    return compare_places([(solid(part), maps) for part, maps in solids])
+
+
+@pytest.mark.parametrize("outer", [np.eye(3), MIRROR, STRETCH, MIRROR @ STRETCH])
+@pytest.mark.parametrize("inner", [np.eye(3), MIRROR, MIRROR @ STRETCH / 4.0])
+def test_what_lies_in_another_ones_material_is_nested_however_they_are_mirrored(outer, inner):
+    found = compared((cube(1.0), places(outer)), (cube(0.25), places(inner, (inner, (9.0, 0.0, 0.0)))))
+    assert found.nested.tolist() == [[1, 0]] and not len(found.overlapping) and not found.undecided_pairs
+
+
+@pytest.mark.parametrize("way", [np.eye(3), MIRROR])
+def test_what_lies_in_a_cavity_is_in_nobodys_material(way):
+    hollow = joined(cube(1.0), inverted(cube(0.5)))
+    assert not len(compared((hollow, places(way)), (cube(0.25), places(np.eye(3)))).nested)
+    in_wall = compared((hollow, places(way)), (cube(0.125), places((np.eye(3), (0.75, 0.0, 0.0)))))
+    assert in_wall.nested.tolist() == [[1, 0]]
+    # a body around both: the outer shell of the hollow one is in it, a cavity is none of what counts twice
+    around = compared((cube(3.0), places(way)), (hollow, places(way)))
+    assert around.nested.tolist() == [[1, 0]] and not len(around.overlapping)
+
+
+@pytest.mark.parametrize("way", [np.eye(3), MIRROR])
+@pytest.mark.parametrize("shift, overlap", [(0.99, True), (1.01, False)])
+def test_two_that_share_a_part_overlap_each_once_in_every_place(way, shift, overlap):
+    found = compared(
+        (joined(cube(0.25, (0.0, 5.0, 0.0)), cube(0.5)), places(way, (way, (30.0, 0.0, 0.0)))),
+        (cube(0.5), places((way, (shift, 0.25, 0.0)), (way, (30.0 - shift, -0.25, 0.0)))),
+    )
+    assert found.overlapping.tolist() == ([[0, 1]] * 2 + [[1, 0]] * 2 if overlap else []) and not len(found.nested)
+    # and one that meets itself in another place
+    twice = compared((cube(0.5), places(way, (way, (shift, 0.25, 0.1)))))
+    assert twice.overlapping.tolist() == ([[0, 0]] * 2 if overlap else [])
+
+
+def test_parts_of_one_body_and_what_is_open_are_not_compared():
+    crossed = joined(cube(0.5), cube(0.5, (0.5, 0.25, 0.0)))
+    found = compared((crossed, places(np.eye(3), (np.eye(3), (9.0, 0.0, 0.0)))))
+    assert not len(found.overlapping) and not len(found.nested)
+    lid = without(cube(0.25), *range(2, 12))
+    found = compared((cube(0.5), places(np.eye(3))), (lid, places(np.eye(3), MIRROR)))
+    assert not len(found.overlapping) and not len(found.nested)
+
+
+@pytest.mark.parametrize("share, slight", [(0.9, True), (1.1, False)])
+def test_what_changes_mass_by_less_than_a_ten_thousandth_is_slight(share, slight):
+    """By the area of what is inside, times the diagonal of all: 6 a² √3 against 1e-4 of the volume 1 + a³."""
+    side = np.sqrt(share * 1e-4 / (6.0 * np.sqrt(3.0)))
+    nested = compared((cube(0.5), places(np.eye(3))), (cube(side / 2.0), places(np.eye(3))))
+    assert nested.nested.tolist() == [[1, 0]] and nested.nested_slightly is slight
+    assert nested.overlapping_slightly is True  # of none
+    crossed = compared(
+        (cube(0.5), places(np.eye(3))), (cube(side / 2.0), places((np.eye(3), (0.5 - side / 8.0, 0, 0))))
+    )
+    assert crossed.overlapping.tolist() == [[0, 0], [1, 0]] and crossed.overlapping_slightly is slight
+    assert crossed.nested_slightly is True
+
+
+@pytest.mark.parametrize("steps, overlap", [(3, False), (5, True)])
+def test_bodies_may_reach_into_each_other_by_what_float32_may_have_moved_them(steps, overlap):
+    """By four times √3 half steps of float32, those of 1024 to 2048 here, 3.46 steps; ten times as far where ten times
+    as large."""
+    for size in (1.0, 10.0):
+        part = box((1100, 1100, 1100), (1101, 1101, 1101))
+        whole = measure_solid(surface(part, np.float32))
+        shift = (1.0 - steps * 2.0**-13, 0.25, 0.25)
+        maps = places(size * np.eye(3), (size * np.eye(3), size * np.array(shift)))
+        assert bool(len(compare_places([(whole, maps)]).overlapping)) is overlap
