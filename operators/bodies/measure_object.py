@@ -76,10 +76,12 @@ def measure_body(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, options:
             if point is not None:
                 measurement, body = point_measurement(point, request)
                 return Measured(measurement, point, body)
-            readings = ((kind, kind.read(request)) for kind in KINDS if request.options.kind in kind.MEASURED_AS)
-            kind, reading = next((kind, reading) for kind, reading in readings if reading is not None)
-            body = with_given(kind.body(reading, request), reading, request)
-            return Measured(measurement_of(reading, body, request), reading, body)
+            for kind in KINDS:
+                reading = kind.read(request) if request.options.kind in kind.MEASURED_AS else None
+                if reading is not None:
+                    body = with_given(kind.body(reading, request), reading, request)
+                    return Measured(measurement_of(reading, body, request), reading, body)
+            raise AssertionError("the last kind reads or refuses")
     except MeasureError as error:
         error.about(obj.name)
         raise
