@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from body_moments.core.moments.moments import U, monomials
 from body_moments.core.numerics.bspline import SplineSpace, clamped_space
+from body_moments.core.numerics.quadrature import gauss_legendre_with_ends
 from body_moments.core.nurbs import patch_moments
 from body_moments.core.nurbs.bezier import cells_of
 from body_moments.core.nurbs.patch import Patch
@@ -391,3 +392,162 @@ def test_where_rules_agree_what_they_differ_by_is_the_estimate():
     found, converged = volume_moments([patch], 2, ORIGIN, tolerance=1e-3)
     (apart,), unit = rules_apart(patch, 2, 8, 12)
     assert converged and 1e-10 < apart < 1e-3 and close(found.rounding_error, apart * unit, rel=1e-3)
+
+
+@pytest.fixture
+def rules(monkeypatch):
+    """(cells, points) of each rule that is evaluated, in their order."""
+    asked, evaluate = [], patch_moments.integrand_in_blocks
+
+    def note(cells, rule, integrand):
+        asked.append((len(cells), *{points for along in rule for points in along}))
+        return evaluate(cells, rule, integrand)
+
+    monkeypatch.setattr(patch_moments, "integrand_in_blocks", note)
+    return asked
+
+
+def uneven_patch(weight):
+    """Of one cell, one of whose weights is larger; it is bent a little, and does not fold."""
+    weights = np.ones((4, 3))
+    weights[1, 1] = weight
+    weights[0, 2] = 0.9
+    return Patch((clamped_space(4), clamped_space(3)), bent_sheet(0.2), weights)
+
+
+def bent_sheet(height):
+    """(4, 3, 3) control points over a square."""
+    flat = np.stack(np.meshgrid(np.arange(4.0), np.arange(3.0), [0.5], indexing="ij"), axis=-1)[:, :, 0] / (3, 2, 1)
+    flat[..., 2] += height * np.random.default_rng(6).uniform(-1.0, 1.0, (4, 3))
+    return flat
+
+
+@pytest.mark.parametrize(
+    "of, points, share", [(volume_moments, (16, 24, 36), 1), (area_moments, (8, 12, 18), 2)], ids=["volume", "area"]
+)
+def test_rules_grow_by_halves_then_cells_are_cut_until_the_points_are_spent(rules, monkeypatch, of, points, share):
+    """Of areas, half as many are enough."""
+    few, some, many = points
+    whole = [(1, few), (1, some), (1, many)]
+    spent = few**2 + some**2 + many**2
+    for limit, expected in (
+        (0, whole[:2]),
+        (share * (few**2 + some**2) - 1, whole[:2]),
+        (share * (few**2 + some**2), whole),
+        (share * spent - 1, whole),
+        (share * spent, [*whole, (4, few), (4, some)]),
+        (share * (spent + 4 * (few**2 + some**2)) - 1, [*whole, (4, few), (4, some)]),
+    ):
+        monkeypatch.setattr(patch_moments, "MAX_POINTS", limit)
+        rules.clear()
+        _, converged = of([uneven_patch(60.0)], 2, ORIGIN)
+        assert (rules, converged) == (expected, False), limit
+    monkeypatch.setattr(patch_moments, "MAX_POINTS", 6_000_000)
+    assert of([uneven_patch(60.0)], 2, ORIGIN)[1]
+    rules.clear()
+    assert of([uneven_patch(1.05)], 2, ORIGIN)[1] and rules[:2] == whole[:2]
+
+
+@pytest.mark.parametrize("depth", [1, 3])
+def test_cells_are_cut_so_often_and_at_once_where_a_weight_hides_what_lies_between(rules, monkeypatch, depth):
+    monkeypatch.setattr(patch_moments, "MAX_DEPTH", depth)
+    _, converged = volume_moments([uneven_patch(1e20)], 0, ORIGIN)
+    assert not converged and {points for _, points in rules} == {16, 24}
+    counts = [count for count, _ in rules]
+    assert counts[::2] == counts[1::2] and counts[0] == 1 and counts[2] == 4 and len(counts) == 2 * (depth + 1)
+
+
+def fixed_area(cells, points, order):
+    (s, along, across), weights = cells.evaluate(((points,), (points,)))
+    length = np.linalg.norm(np.cross(along, across, axis=0), axis=0)
+    return sum_over_points(weighted_monomials(s, length, order), weights)[0].sum(axis=1)
+
+
+def test_of_areas_eight_times_what_rules_differ_by_is_the_estimate_and_64_times_where_they_do_not_agree(monkeypatch):
+    """As patches may fold."""
+    monkeypatch.setattr(patch_moments, "MAX_POINTS", 0)
+    for height, factor in ((0.1, 8.0), (0.5, 64.0)):
+        patch = Patch((clamped_space(4), clamped_space(3)), bent_sheet(height))
+        found, converged = area_moments([patch], 2, ORIGIN)
+        unit = np.linalg.norm(patch.points, axis=2).max() ** monomials(2).sum(axis=1)
+        cells = next(cells_of([patch], ORIGIN))
+        apart = np.max(np.abs(fixed_area(cells, 8, 2) - fixed_area(cells, 12, 2)) / unit)
+        assert converged == (factor == 8.0) and apart > 1e-13
+        assert close(found.rounding_error, factor * apart * unit, rel=0.1)
+
+
+@pytest.mark.parametrize("about", [None, (3.0, -2.0, 5.0)])
+@pytest.mark.parametrize("size", [1e-3, 1.0, 50.0])
+def test_what_rounding_leaves_of_flat_areas_and_sheets_is_64_units_for_each_order(size, about):
+    s, t = size * np.array([2.0, 0.0, 0.0]), size * np.array([0.8, 0.1, 0.4])
+    patch = Patch((clamped_space(2), clamped_space(4)), [[i * s + j / 3.0 * t for j in range(4)] for i in range(2)])
+    middle = (s + t) / 2.0
+    place = middle if about is None else size * np.array(about)
+    reach = max(np.linalg.norm(i * s + j * t - place) for i in (0, 1) for j in (0, 1))
+    area, degree = np.linalg.norm(np.cross(s, t)), monomials(3).sum(axis=1)
+    found, _ = area_moments([patch], 3, None if about is None else place)
+    assert close(found.total, area, rel=1e-14) and close(found.about, place, rel=1e-14)
+    assert close(found.rounding_error, 64.0 * U * 6 * area * reach**degree, rel=0.2)
+    inner, outer = -0.1 * size, 0.3 * size
+    found, _ = sheet_moments([patch], inner, outer, 3, None if about is None else place)
+    assert close(found.total, area * (outer - inner), rel=1e-14) and close(found.about, place, rel=1e-14)
+    expected = 64.0 * U * 6 * area * (outer - inner) * (reach + outer) ** degree
+    assert close(found.rounding_error, expected, rel=0.2)
+
+
+@pytest.mark.parametrize("rational", [False, True])
+@pytest.mark.parametrize("spans", [1, 10])
+def test_the_slope_of_the_area_is_that_of_differences_by_every_control_point(spans, rational):
+    """Ten spans are more than are looked at at a time."""
+    rng = np.random.default_rng(4)
+    spaces = clamped_space(3, tuple(np.arange(1, spans) / spans)), clamped_space(3)
+    shape = (spaces[0].count, spaces[1].count)
+    flat = np.stack(np.meshgrid(*map(np.arange, shape), [0.0], indexing="ij"), axis=-1)[:, :, 0]
+    points = flat + 0.2 * rng.uniform(-1.0, 1.0, flat.shape) + (5.0, -3.0, 2.0)
+    weights = rng.uniform(0.8, 1.25, shape) if rational else None
+    total, step = 0.0, 1e-4
+    for i, j in np.ndindex(*shape):
+        gradient = []
+        for axis in range(3):
+            ends = []
+            for sign in (1.0, -1.0):
+                moved = points.copy()
+                moved[i, j, axis] += sign * step
+                ends.append(area_moments([Patch(spaces, moved, weights)])[0].total)
+            gradient.append((ends[0] - ends[1]) / (2.0 * step))
+        total += np.linalg.norm(gradient)
+    patch = Patch(spaces, points, weights)
+    assert close(patch_moments.area_slope([patch]), total, rel=1e-5)
+    larger = patch.transform(np.diag([7.0, 7.0, 7.0, 1.0]))
+    assert close(patch_moments.area_slope([patch, larger]), 8.0 * total, rel=1e-5)
+
+
+@pytest.mark.parametrize("rational", [False, True])
+def test_the_slope_of_the_area_is_the_same_far_away(rational):
+    rng = np.random.default_rng(4)
+    weights = rng.uniform(0.8, 1.25, (4, 3)) if rational else None
+    points = np.round(bent_sheet(0.2) * 2.0**10) / 2.0**10
+    near, far = (
+        patch_moments.area_slope([Patch((clamped_space(4), clamped_space(3)), points + by, weights)])
+        for by in (0.0, 2.0**40)
+    )
+    assert close(far, near, rel=1e-12)
+
+
+@pytest.mark.parametrize("size", [1.0, 50.0])
+@pytest.mark.parametrize("swapped", [False, True])
+@pytest.mark.parametrize("last, counts", [(-2.0, True), (-1e-8, True), (-1e-10, False), (2.0, False)])
+def test_where_a_patch_turns_over_the_area_between_its_points_counts(swapped, last, counts, size):
+    """Of three cells the second one turns over along one direction, between two points; at a pole all is rounding."""
+    counts_along = (5, 3)
+    nodes, weights = zip(*(gauss_legendre_with_ends(points) for points in counts_along))
+    height = np.ones((7, 3, 5))
+    height[:3] = 0.7
+    height[4:, 1] = last
+    normal = np.multiply.outer([0.6, 0.0, -0.8], size * height)
+    rule = tuple((points,) for points in counts_along)
+    if swapped:
+        normal, rule, weights = normal.swapaxes(1, 3), rule[::-1], weights[::-1]
+    found = patch_moments._reversed_areas(normal, tuple(one[:, None] for one in weights), rule)
+    width = nodes[0][4] - nodes[0][3]
+    assert close(found, [0.0, size * (1.0 + abs(last)) * width / 2.0 if counts else 0.0, 0.0], rel=1e-13)
