@@ -142,8 +142,6 @@ class _Reader:
             raise SurfaceRefusedError("surface_recursive")
         for one in reversed(chain):
             rows = numbers(self._text.fields(one)[:12])
-            if len(rows) < 12:
-                raise ValueError("too few parameters")
             matrix = np.eye(4)
             matrix[:3] = rows.reshape(3, 4)
             known = known @ matrix
@@ -173,7 +171,7 @@ class _Reader:
         """Whether the outer boundary is that of the surface's own domain."""
         (outer,) = integers(fields[3:4], 1)
         _, base, curve, _, _ = integers(self._text.fields(self._entry(outer, PARAMETER_CURVE)), 5)
-        if base != surface or not curve:
+        if base != surface:
             return False
         self._pieces_left = MAX_PIECES
         pieces = self._pieces(curve, ())

@@ -146,12 +146,10 @@ def _slices(sides: Sides) -> Iterator[Sides]:
 def _paired_by_sorting(
     number: NDArray[np.int32], start: NDArray[np.integer], stop: NDArray[np.integer]
 ) -> NDArray[np.int32] | None:
-    """The partner of each side; None where they are no pairs."""
+    """The partner of each of an even number of sides; None where they are no pairs."""
     low, high = np.minimum(start, stop).astype(np.uint64), np.maximum(start, stop).astype(np.uint64)
     key = low << np.uint64(32) | high << np.uint64(1) | (start < stop)
     order = np.argsort(key)
-    if len(order) % 2:
-        return None
     order = order.reshape(-1, 2)
     if not (np.bitwise_xor(*key[order].T) == 1).all():
         return None

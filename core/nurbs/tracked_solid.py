@@ -64,6 +64,9 @@ class TrackedSolid:
 
     def _measure_anew(self, patches: Sequence[Patch], stored: float) -> None:
         self.measure: PatchIntegrals = measure_patches(patches, stored=stored)
+        self._is_tracking = self.measure.method is not Verdict.OPEN
+        if not self._is_tracking:
+            return
         volume, area = self.measure.volume, self.measure.area
         self._slope = area_slope(patches)
         self._patches = list(patches)
@@ -73,8 +76,7 @@ class TrackedSolid:
         ]
         largest = self._largest(patches, area.total)
         self._error, self._area_error = volume.rounding_error / largest, area.rounding_error[:1] / area.total
-        self._is_tracking = self.measure.method is not Verdict.OPEN
-        if self._is_tracking and any(patch.weights is not None for patch in patches):
+        if any(patch.weights is not None for patch in patches):
             tables = self._assess(patches, self.measure.topology, stored).volume
             # The worst of all moments stands for each: of a symmetric body one may be right by chance.
             off = float((np.abs(tables.raw - volume.raw) / largest).max())

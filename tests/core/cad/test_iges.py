@@ -552,3 +552,38 @@ def test_parameters_without_an_end_are_damage(tmp_path):
         file._parameters[-1] = file._parameters[-1].replace(";", " ")
     read = read_surfaces(file.write(tmp_path / "a.igs"))
     assert close(volume(read).total, BALL, 1e-14) and refused(read) == {"surface_damaged": ["PLAIN", "TEXT"]}
+
+
+def test_a_boundary_on_another_surface_or_without_a_curve_trims(tmp_path):
+    patch = unrolled(sphere())
+    for other in (True, False):
+        file = IgesFile()
+        base, beside = (file.surface(patch, status="00010000") for _ in range(2))
+        curve = file.add(*polyline(A, B, C, D, A), status="00010500")
+        boundary = file.add(142, [0, beside if other else base, curve if other else 0, 0, 1], status="00010000")
+        file.add(144, [base, 1, 0, boundary], label="TRIM")
+        file.surface(patch)
+        assert refused(read_surfaces(file.write(tmp_path / "a.igs"))) == {"surface_trimmed": ["TRIM"]}
+
+
+def test_a_boundary_with_a_weight_that_is_not_positive_trims(tmp_path):
+    kind, fields = polyline(A, B, C, D, A)
+    assert fields[13:18] == [1.0] * 5
+    for weight in (0.5, 0.0, -1.0):
+        file = IgesFile()
+        trimmed(file, [(kind, [*fields[:14], weight, *fields[15:]])])
+        path = file.write(tmp_path / "a.igs")
+        if weight > 0.0:
+            assert close(volume(read_surfaces(path)).total, BALL, 1e-14)
+        else:
+            assert refusal(path).values["causes"][0]["code"] == "surface_trimmed"
+
+
+def test_a_transformation_or_surface_that_lacks_numbers_is_damage(tmp_path):
+    fields = surface_fields(unrolled(sphere()))
+    file = IgesFile()
+    file.surface(unrolled(sphere()), matrix=file.add(124, [1.0] * 11), label="SHORT")
+    file.add(128, [1, *fields[1:]], label="FEW")
+    file.add(128, [*fields[:3], 0, *fields[4:]], label="STEPS")
+    file.surface(unrolled(sphere()))
+    assert refused(read_surfaces(file.write(tmp_path / "a.igs"))) == {"surface_damaged": ["SHORT", "FEW", "STEPS"]}

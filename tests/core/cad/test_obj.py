@@ -7,8 +7,9 @@ import time
 
 import numpy as np
 import pytest
-from body_moments.core.cad import read_surfaces
+from body_moments.core.cad import obj, read_surfaces, surfaces
 from body_moments.core.cad.obj import has_surfaces
+from body_moments.core.cad.surface_file import SUFFIXES
 from body_moments.core.numerics.bspline import SplineSpace, clamped_space
 from body_moments.core.nurbs.bezier_form import bezier_patches
 from body_moments.core.nurbs.patch import Patch
@@ -187,3 +188,34 @@ def test_a_statement_of_many_lines_is_read_in_time(tmp_path):
     start = time.process_time()
     assert read_surfaces(path).bodies
     assert time.process_time() - start < 2.0  # it took five and more, with the square of the number
+
+
+def test_a_file_with_more_surfaces_than_there_may_be_is_refused(tmp_path, monkeypatch):
+    monkeypatch.setattr(obj, "MAX_SURFACES", 3)
+    text = obj_text([unrolled(sphere())] * 3)
+    assert len(read(tmp_path, text).bodies[0].patches) == 3
+    with pytest.raises(FileError) as caught:
+        read(tmp_path, text + "surf 0 1 0 1 1 2 3 4\nend\n")
+    assert caught.value.finding == finding("too_many_surfaces", limit=3)
+
+
+def test_a_surface_with_too_many_control_points_is_refused(tmp_path, monkeypatch):
+    patch = unrolled(sphere())
+    count = np.prod([len(space.spans) * (space.order - 1) + 1 for space in patch.spaces]).item()
+    monkeypatch.setattr(surfaces, "MAX_POINTS", count)
+    assert len(read(tmp_path, obj_text([patch])).bodies[0].patches) == 1
+    monkeypatch.setattr(surfaces, "MAX_POINTS", count - 1)
+    assert cause(tmp_path, obj_text([patch])) == "surface_too_large"
+
+
+def test_what_is_no_file_of_surfaces_is_refused(tmp_path):
+    folder = tmp_path / "folder.obj"
+    folder.mkdir()
+    for name, expected in (
+        ("a.stl", finding("surface_file_type", suffixes=" ".join(SUFFIXES))),
+        ("none.obj", finding("file_missing")),
+        ("folder.obj", finding("file_not_regular")),
+    ):
+        with pytest.raises(FileError) as caught:
+            read_surfaces(tmp_path / name)
+        assert caught.value.finding == expected

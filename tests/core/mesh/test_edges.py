@@ -342,3 +342,25 @@ def test_faces_that_the_mesh_does_not_have_name_no_edges(number):
     whole = mesh(CORNERS, SIDES.tolist())
     surface = replace(whole, quad_faces=np.array([0, 1, 2, 3, 4, number], np.int32))
     assert edges_from_mesh(surface, surface.all_triangles()[0]) is None
+
+
+@pytest.mark.parametrize("name, part", [("triangles", sphere(1)), ("quads", grid_torus())])
+def test_corners_that_close_without_some_of_the_faces_prove_nothing_of_them(name, part):
+    whole = mesh(part[0], part[1].tolist())
+    for faces, is_closed in ((part[1], True), (part[1][:-1], False)):
+        surface = Surface(
+            whole.points,
+            corner_vertices=whole.corner_vertices,
+            corner_edges=whole.corner_edges,
+            **{name: faces.astype(np.int32)},
+        )
+        assert (closed_side_faces(surface) is not None) == is_closed
+
+
+@pytest.mark.parametrize("less", ["triangle_faces", "quad_faces"])
+def test_of_faces_of_two_kinds_without_numbers_no_edges_are_named(less):
+    whole = mesh(*polygons())
+    triangles = mesh(CORNERS, [*SIDES[:5].tolist(), [1, 3, 7], [1, 7, 5]])
+    assert edges_from_mesh(triangles, triangles.all_triangles()[0]) is not None
+    assert edges_from_mesh(replace(triangles, **{less: None}), triangles.all_triangles()[0]) is None
+    assert edges_from_mesh(whole, whole.all_triangles()[0]) is None  # pentagons, of which triangles are parts

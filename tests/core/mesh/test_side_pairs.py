@@ -126,3 +126,12 @@ def test_bare_arrays_are_judged_as_meshes_are():
         assert solid.method is Verdict.EXACT and solid.health.closed and not solid.health.welded
     solid = measure_solid(Surface(*shuffled(bodies.inverted(bodies.torus()))))
     assert solid.method is Verdict.REORIENTED and solid.health.inverted_components == 1
+
+
+def test_triangles_and_quads_without_numbers_are_not_proved_by_one_kind_of_them():
+    """Else a finely cut ball would do for the box of quads beside it."""
+    ball, quads = bodies.sphere(2), bodies.SIDES + len(bodies.sphere(2)[0])
+    solid = measure_solid(Surface(np.concatenate([ball[0], bodies.CORNERS + 5.0]), ball[1], quads))
+    alone = measure_solid(Surface(*ball))
+    assert solid.health.components == 2 and solid.method is Verdict.EXACT
+    assert abs(solid.volume.total - alone.volume.total - 1.0) < 1e-12

@@ -103,3 +103,9 @@ def test_a_jump_makes_two_patches():
     points = np.array([[[x, y, 0.0] for y in (0.0, 1.0)] for x in (0.0, 1.0, 5.0, 6.0)])
     first, second = bezier_patches(Patch((s, t), points), WHOLE)
     assert np.array_equal(first.points, points[:2]) and np.array_equal(second.points, points[2:])
+
+
+def test_steps_have_no_bezier_form():
+    steps = SplineSpace((0.0, 1.0, 2.0), 1, 2)
+    with pytest.raises(ValueError, match="steps"):
+        bezier_patches(Patch((steps, clamped_space(2)), np.zeros((2, 2, 3))), WHOLE)

@@ -346,3 +346,14 @@ def test_the_rule_s_error_may_grow_eightfold_and_is_at_most_1e_10(monkeypatch, o
         )
         expected = (before.volume.rounding_error / old + 8.0 * off) * new
         assert close(body.measure.volume.rounding_error, expected, rel=1e-3)
+
+
+@pytest.mark.parametrize("axis", [0, 2], ids=["with an area", "without"])
+def test_a_followed_body_that_is_flat_now_is_measured_anew_and_followed_again(axis):
+    patch, body = tube(), TrackedSolid([tube()])
+    flat = Patch(patch.spaces, patch.points * (np.arange(3) != axis), patch.weights)
+    for _ in range(2):
+        assert not body.update([flat])
+        assert body.measure.method == "open" and codes(body.measure) == codes(measure_patches([flat]))
+    assert not body.update([patch]) and body.update([patch])
+    assert_same(body, measure_patches([patch]))

@@ -16,6 +16,7 @@ from body_moments.core.nurbs.patch_moments import volume_moments
 from body_moments.core.nurbs.patch_topology import find_topology
 from body_moments.core.nurbs.planar_region import planar_region
 from body_moments.core.nurbs.solid import measure_patches, measure_sheet
+from body_moments.core.solid import nesting
 from body_moments.core.verdict.finding import Finding
 from hypothesis import given
 
@@ -486,3 +487,16 @@ def test_sides_of_other_parameters_are_told_to_run_along_each_other_at_any_size(
     found = measure_patches([patches[5], *patches[:5]])
     assert (found.method, codes(found)) == (("reoriented", ["flipped_patches"]) if turned else ("exact", []))
     assert np.abs(found.volume.total / (6.0 * size**3) - 1.0) <= 1e-13
+
+
+def test_nothing_is_no_body():
+    with refused("no_patches"):
+        measure_patches([])
+
+
+def test_parts_that_are_too_many_to_compare_are_told(monkeypatch):
+    parts = [patch for place in range(3) for patch in box((1.0, 1.0, 1.0), (0.25 * place, 0.0, 0.0))]
+    assert "overlap_unchecked" not in codes(measure_patches(parts))
+    monkeypatch.setattr(nesting, "MAX_COMPONENT_PAIRS", 0)
+    found = measure_patches(parts)
+    assert [one.values["count"] for one in found.findings if one.code == "overlap_unchecked"] == [3]

@@ -117,6 +117,12 @@ def test_nifti_places(tmp_path):
     assert np.allclose(scan.matrix[:3, :3], [[0, 0, 1], [1, 0, 0], [0, 1, 0]], atol=1e-7)
 
 
+def test_a_nifti_file_without_any_spacing_is_not_placed(tmp_path):
+    scan = read_scan(written(tmp_path / "n.nii", nifti(values(), spacing=(0, 0, 0))))
+    assert np.array_equal(scan.matrix, np.eye(4)) and not scan.is_placed
+    assert read_scan(written(tmp_path / "s.nii", nifti(values(), spacing=(2, 3, 4)))).is_placed
+
+
 def test_nifti_scales_and_has_a_fourth_dimension_of_one(tmp_path):
     scan = read_scan(written(tmp_path / "a.nii", nifti(values("i2"), slope=2.0, intercept=-1024.0, dims=4)))
     assert (scan.slope, scan.intercept) == (2.0, -1024.0)

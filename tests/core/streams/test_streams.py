@@ -425,3 +425,12 @@ def test_other_files_are_refused(tmp_path):
         measured(tmp_path, "a.ply", header(*POINTS) + b"0 0 0\n" * 4)
     (tmp_path / "a.stl").rename(tmp_path / "b.STL")
     assert open_mesh_file(str(tmp_path / "b.STL")).face_count == 0
+
+
+@pytest.mark.parametrize("number", [0, 3, 9])
+def test_a_word_in_the_place_of_a_number_is_damage_behind_so_many_facets(tmp_path, number):
+    lines = stl_text(moved(sphere(1))).split(b"\n")
+    at = 1 + 7 * number + 2
+    lines[at] = b" ".join([*lines[at].split()[:3], b"far"])
+    with refused("file_damaged", file="a.stl", cause={"code": "damage_facets", "values": {"count": 0}}):
+        measured(tmp_path, "a.stl", b"\n".join(lines))
