@@ -337,7 +337,11 @@ def nrrd_with(old: str, new: str) -> bytes:
             {"field": "space directions", "text": "(0,0)"},
         ),
         (nrrd(values(), "data file: nowhere.raw"), "nrrd_data_file_missing", {"file": "nowhere.raw"}),
-        (nrrd(values(), "data file: slice%03d.raw 1 9 1"), "nrrd_several_files", {}),
+        *(
+            (nrrd(values(), "data file: " + name), "nrrd_several_files", {})
+            for name in ("slice%03d.raw 1 9 1", "slice%03d.raw", "LIST", "list 2", "a b c d")
+        ),
+        (nrrd(values(), "data file: a b c"), "nrrd_data_file_missing", {"file": "a b c"}),
         (nrrd(values(), "byte skip: a"), "nrrd_field_not_numbers", {"field": "byte skip", "text": "a"}),
         (nrrd(values(), "byte skip: -7"), "nrrd_field_not_one_number", {"field": "byte skip"}),
         (nrrd(values(), "line skip: 9999"), "file_damaged", damage("damage_lines")),
@@ -348,7 +352,9 @@ def test_damaged_nrrd_files_say_what_is_wrong(tmp_path, data, code, values_said)
         read_scan(written(tmp_path / "a.nrrd", data))
     found = caught.value.finding
     assert found.code == code and repr({**found.values, "file": 0}) == repr({**values_said, "file": 0})
-    assert found.values.get("file", "a.nrrd") in ("a.nrrd", "nowhere.raw") and caught.value.reason.endswith(".")
+    assert found.values.get("file", "a.nrrd") in ("a.nrrd", "nowhere.raw", "a b c") and caught.value.reason.endswith(
+        "."
+    )
 
 
 def npy_bytes(array=None) -> bytes:

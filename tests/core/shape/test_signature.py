@@ -175,6 +175,30 @@ def test_a_damaged_record_is_refused(damage):
         Signature.from_record(record)
 
 
+@pytest.mark.parametrize(
+    "name, most", [("zernike", 1e100), ("invariants", 1e100), ("fourier", 1e100), ("chirality", 1e100), ("size", 1e150)]
+)
+def test_numbers_of_a_record_may_be_as_large_as_their_squares_are_numbers(name, most):
+    record = plain(signed(shapes.WEDGE, 6).as_record())
+    sides = [1.0] if name == "size" else [1.0, -1.0]
+    for sign in sides:
+        for share in (0.99, 1.01, np.inf, np.nan):
+            value = sign * share * most
+            changed = {**record, name: value if name == "size" else [*record[name][:-1], value]}
+            if share == 0.99:
+                assert np.max(np.abs(getattr(Signature.from_record(changed), name))) == 0.99 * most
+            else:
+                with refused("signature_incomplete"):
+                    Signature.from_record(changed)
+    for size, is_known in ((1.01e-150, True), (0.99e-150, False), (0.0, False), (-1.0, False)):
+        changed = {**record, "size": size}
+        if is_known:
+            assert Signature.from_record(changed).size == size
+        else:
+            with refused("signature_incomplete"):
+                Signature.from_record(changed)
+
+
 def test_a_library_has_entries_and_a_finding_for_each_body_without_a_signature(tmp_path):
     shape = plain(signed(shapes.WEDGE, 6).as_record())
     records = [{"name": "A", "signature": shape}, {"name": "B", "signature": None}, {"name": "C"}]

@@ -326,6 +326,16 @@ def test_coordinates_beyond_float32(tmp_path, order):
     assert found.closed and close(found.volume.total / 1e117, in_memory((points, faces), 3, None)[0].total, rel=1e-12)
 
 
+@pytest.mark.parametrize("size", [1e-13, 6e12])
+def test_a_body_of_any_size_has_moments_of_twentieth_order(tmp_path, size):
+    """Of its own scale: as numbers of meters they would be too small or too large on the way."""
+    points, faces = box((-1, -1, -1), (1, 1, 1))
+    found = measured(tmp_path, "a.ply", ply(points * size, faces, kind="f8"), 20)
+    for powers in ((0, 0, 0), (20, 0, 0), (4, 6, 10)):
+        truth = np.prod([2.0 / (power + 1.0) for power in powers]) * size ** (sum(powers) + 3.0)
+        assert close(found.volume[powers], truth, rel=1e-12)
+
+
 def test_moments_beyond_all_numbers_are_refused(tmp_path):
     points, faces = box()
     with refused("moments_overflow"):
