@@ -230,6 +230,23 @@ def test_blocks_join_whatever_they_and_the_members_are(tmp_path, monkeypatch):
             assert max(map(len, blocks)) <= block
 
 
+def test_where_nothing_is_packed_its_end_is_missing(tmp_path):
+    for data, code in ((b"head", "damage_packed_end"), (b"head" + bytes(3), "damage_packed_start")):
+        with pytest.raises(FileError) as refused:
+            list(samples.gzip_blocks(written(tmp_path / "a.gz", data), 4))
+        assert refused.value.finding.values["cause"]["code"] == code
+
+
+@pytest.mark.parametrize("more, code", [(0, "damage_too_short"), (1, "damage_too_small")])
+def test_a_file_is_too_small_for_more_than_gzip_can_pack_in_it(tmp_path, more, code):
+    """A byte holds 1032 at most, which is the longest match in two bits."""
+    path = written(tmp_path / "a.gz", gzip.compress(b"few"))
+    count = 1032 * path.stat().st_size + more
+    with pytest.raises(FileError) as refused:
+        samples.unpack_samples(path, 0, np.dtype("u1"), (count - 5, 1, 1), 5, samples.Limits())
+    assert refused.value.finding.values["cause"]["code"] == code
+
+
 def test_unpacking_needs_no_second_copy_of_the_samples(tmp_path):
     values = np.random.default_rng(1).integers(0, 9, (128, 128, 256)).astype("u1")
     packer = zlib.compressobj(1, wbits=31)
