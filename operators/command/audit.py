@@ -40,7 +40,7 @@ def parse(argv: list[str]) -> argparse.Namespace:
         allow_abbrev=False,
     )
     add = parser.add_argument
-    add("command", choices=("audit",), metavar="audit")
+    add("command", metavar="audit")
     add("files", nargs="+", type=Path, metavar="FILE")
     add("--root", action="append", type=Path, default=[], metavar="FOLDER", help="meshes may be in it; repeatable")
     add("--allow-outside", action="store_true", help="meshes may be anywhere (refused)")

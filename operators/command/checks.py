@@ -12,7 +12,7 @@ from dataclasses import replace
 
 import bpy
 
-from ...core.verdict.finding import MeasureError, finding, system_reason
+from ...core.verdict.finding import MeasureError, finding
 from ..settings.limits import scan_limits
 from . import density_options, fourier, inputs, targets
 from .arguments import fail
@@ -20,19 +20,14 @@ from .arguments import fail
 
 def check(options: Namespace) -> None:
     """All of it, for a process that measures and writes by itself."""
-    try:
-        targets.check_places(options)
-        prepare(options)
-        # Also the file that is open, whether or not it is measured, and that of the wave vectors.
-        positions = (path for _, path in options.positions or ())
-        read = [path for path in (*options.files, bpy.data.filepath, options.q, *positions) if path]
-        replaced = targets.files_to_replace(options, read)
-        # Opening what is measured takes its time, and only here does it matter what that reads.
-        targets.check_dependencies(replaced, inputs.files_read(options.files) if replaced else ())
-    except MeasureError as error:
-        fail(error)
-    except OSError as error:
-        fail(finding("usage_path", path=str(error.filename), error=system_reason(error)))
+    targets.check_places(options)
+    prepare(options)
+    # Also the file that is open, whether or not it is measured, and that of the wave vectors.
+    positions = (path for _, path in options.positions or ())
+    read = [path for path in (*options.files, bpy.data.filepath, options.q, *positions) if path]
+    replaced = targets.files_to_replace(options, read)
+    # Opening what is measured takes its time, and only here does it matter what that reads.
+    targets.check_dependencies(replaced, inputs.files_read(options.files) if replaced else ())
 
 
 def prepare(options: Namespace) -> None:

@@ -70,6 +70,13 @@ def file_suffix(path: str) -> str:
 
 def open_file(path: str) -> Opened:
     """Make a file the open scene, and return what was found on the way. Raises FileError."""
+    try:
+        return _opened(path)
+    except OSError as error:  # such as of a disk that fails
+        raise FileError("file_unreadable", error=system_reason(error)) from error
+
+
+def _opened(path: str) -> Opened:
     kind = file_suffix(path)
     check_file(path)
     check_numbers(path, kind)
@@ -187,8 +194,10 @@ def _check_stl(head: bytes, tail: bytes, size: int) -> None:
 
 
 def reason(error: Exception) -> str:
-    """What Blender said, as one line: the first line of a report; of a traceback the exception, behind which Blender
-    may say where."""
+    """What the system said, or Blender, as one line: the first line of a report; of a traceback the exception, behind
+    which Blender may say where."""
+    if isinstance(error, OSError):
+        return system_reason(error)
     lines = [line.strip() for line in str(error).splitlines() if line.strip()]
     if not lines:
         return type(error).__name__

@@ -129,7 +129,7 @@ def _parse(argv: list[str]) -> argparse.Namespace:
         ),
         allow_abbrev=False,
     )
-    parser.add_argument("command", choices=(command,), metavar=command)
+    parser.add_argument("command", metavar=command)
     parser.add_argument("paths", nargs="+", metavar=names)
     parser.add_argument("--output", type=Path, metavar="PATH", help="(standard output)")
     parser.add_argument("--force", action="store_true", help="replace any file at --output (only results)")

@@ -12,7 +12,7 @@ import bpy
 from ...core.cad.obj import has_surfaces
 from ...core.cad.surface_file import read_surfaces
 from ...core.cad.surfaces import SurfaceFile
-from ...core.verdict.finding import FileError, Finding, finding, system_reason
+from ...core.verdict.finding import FileError, Finding, finding
 from ..scene.surface_objects import import_bodies
 from ..settings.limits import scan_limits
 from .opened import Opened
@@ -21,23 +21,18 @@ _MESH = re.compile(rb"[ \t]*(?:f|l|curv)[ \t]")  # what Blender's importer reads
 
 
 def import_iges(path: str) -> Opened:
-    """Add the surfaces of a file to the scene, in meters. Raises FileError."""
-    try:
-        return _added(read_surfaces(path, scan_limits()))
-    except OSError as error:
-        raise FileError("file_unreadable", error=system_reason(error)) from error
+    """Add the surfaces of a file to the scene, in meters. Raises FileError and OSError."""
+    return _added(read_surfaces(path, scan_limits()))
 
 
 def import_obj(path: str) -> Opened:
-    """Add the objects of a file to the scene: faces by Blender's importer, surfaces by ours. Raises FileError."""
-    try:
-        if not has_surfaces(path):
-            bpy.ops.wm.obj_import(filepath=path)
-            return Opened()
-        with open(path, "rb") as file:
-            has_faces = any(_MESH.match(line) for line in file)
-    except OSError as error:
-        raise FileError("file_unreadable", error=system_reason(error)) from error
+    """Add the objects of a file to the scene: faces by Blender's importer, surfaces by ours. Raises FileError and
+    OSError."""
+    if not has_surfaces(path):
+        bpy.ops.wm.obj_import(filepath=path)
+        return Opened()
+    with open(path, "rb") as file:
+        has_faces = any(_MESH.match(line) for line in file)
     try:
         opened = _added(read_surfaces(path, scan_limits()))
     except FileError as error:

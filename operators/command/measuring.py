@@ -29,8 +29,6 @@ def measured_together(
         return None
     if options.threshold is not None or options.polynomial is not None or options.density_from is not None:
         return None
-    if len(set(objects)) < len(objects):
-        return None
     return measured_in_turn(objects, bpy.context.evaluated_depsgraph_get(), measure_options)
 
 

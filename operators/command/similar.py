@@ -27,7 +27,7 @@ def parse(argv: list[str]) -> argparse.Namespace:
         epilog="exit code: 0 compared, 1 some records have no signature, 2 wrong usage, 3 interrupted",
         allow_abbrev=False,
     )
-    parser.add_argument("command", choices=("similar",), metavar="similar")
+    parser.add_argument("command", metavar="similar")
     parser.add_argument("libraries", nargs="+", type=Path, metavar="LIBRARY")
     parser.add_argument(
         "--to",

@@ -48,7 +48,7 @@ def parse(argv: list[str]) -> argparse.Namespace:
         allow_abbrev=False,
     )
     add = parser.add_argument
-    add("command", choices=("simplex",), metavar="simplex")
+    add("command", metavar="simplex")
     add("file", type=Path, metavar="FILE.npz")
     add("--order", type=types.order, default=2, metavar="N", help="all |α| up to this (2)")
     add("--about", type=_point, metavar="X,Y,...", help="the point that they are about (the origin)")

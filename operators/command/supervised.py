@@ -66,6 +66,9 @@ def measure(options: Namespace, channel: int, opened: str | None) -> int:
             except ChildError as error:
                 print_message(finding("children_failed", reason=str(error)))
                 return 2
+            except OSError as error:  # of the journal, such as on a full disk
+                print_message(finding("usage_result_not_written", error=system_reason(error)))
+                return 1
             except KeyboardInterrupt:
                 if places.journal_is_kept:
                     print_message(finding("interrupted_resumable", done=run.done, total=len(run.tasks)))
@@ -121,17 +124,17 @@ class _Places:
         self.work, self.journal = beside(target, "body_moments.work"), target.with_name(target.name + ".journal")
         try:
             ends.enter_context(locked(self.journal, 0.0))
+            shutil.rmtree(self.work, ignore_errors=True)  # of a run that was killed
+            _check_ours(self.journal, options.force)
+            if not options.resume:
+                forced = [path.resolve() for path in options.forced]
+                self._replaced = [path for path in (target, self.journal) if path not in forced]
+                for path in self._replaced:
+                    _check_ours(path.with_name(path.name + _OLD), options.force)
         except Busy:
             fail(finding("usage_busy", path=str(target)))
-        except OSError as error:
-            fail(finding("usage_path", path=str(target), error=system_reason(error)))
-        shutil.rmtree(self.work, ignore_errors=True)  # of a run that was killed
-        _check_ours(self.journal, options.force)
-        if not options.resume:
-            forced = [path.resolve() for path in options.forced]
-            self._replaced = [path for path in (target, self.journal) if path not in forced]
-            for path in self._replaced:
-                _check_ours(path.with_name(path.name + _OLD), options.force)
+        except OSError as error:  # a name that is too long with what is added to it
+            fail(finding("usage_path", path=str(error.filename or target), error=system_reason(error)))
 
     def set_aside(self) -> None:
         """Keep what is there of an earlier run as .old. Raises OSError."""
@@ -145,8 +148,12 @@ def _is_device(path: Path) -> bool:
 
 
 def _check_ours(path: Path, force: bool) -> None:
-    """End with a message where a file that this run is to replace is no journal or result."""
-    if force or not os.path.lexists(path):
+    """End with a message where a file that this run is to replace is no journal or result. Raises OSError."""
+    try:
+        os.lstat(path)
+    except FileNotFoundError:
+        return
+    if force:
         return
     if not path.is_file() or not (is_journal(path) or own_results.replaceable(path, "output")):
         fail(finding("usage_old_foreign", path=str(path)))

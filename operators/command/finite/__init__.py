@@ -12,7 +12,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from ....core.verdict.finding import FileError, system_reason
 from .fbx import check_fbx
 from .gltf import Buffers, check_gltf, unquote
 from .numbers import MAX_FLOAT32, Data, mapped
@@ -23,15 +22,10 @@ __all__ = ["MAX_FLOAT32", "Buffers", "check_numbers", "unquote"]
 
 
 def check_numbers(path: str, kind: str) -> None:
-    """Raise FileError where a coordinate in the file is no finite number. kind: the file's suffix."""
+    """Raise FileError where a coordinate in the file is no finite number, or OSError. kind: the file's suffix."""
     check = _CHECKS.get(kind)
-    if check is None:
-        return
-    try:
-        data = mapped(path)
-    except OSError as error:
-        raise FileError("file_unreadable", error=system_reason(error)) from error
-    check(data, path)
+    if check is not None:
+        check(mapped(path), path)
 
 
 _CHECKS: dict[str, Callable[[Data, str], None]] = {

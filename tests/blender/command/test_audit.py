@@ -5,6 +5,7 @@
 import csv
 import io
 import json
+import os
 
 import pytest
 
@@ -107,3 +108,39 @@ def test_no_file_of_a_user_is_replaced_without_being_asked_to(tmp_path, capfd):
     for words in (["--force"], []):  # and the same once more is no loss
         assert not json.loads(answer("--repair", tmp_path / "out", *words, path)[0])["errors"]
     assert "mine" not in copy.read_text(encoding="utf-8")
+
+
+def test_copies_of_one_name_and_a_disk_that_is_full_are_errors_of_the_file(tmp_path, monkeypatch):
+    for name in ("a", "b", "out"):
+        (tmp_path / name).mkdir()
+    paths = [description(tmp_path / name / "r.urdf", WRONG) for name in "ab"]
+    right = description(tmp_path / "a" / "s.urdf", RIGHT)
+    words = ("--repair", tmp_path / "out")
+    text, faults, internal = answer(*words, *paths, right, description(tmp_path / "b" / "s.urdf", RIGHT))
+    first, second, *others = json.loads(text)
+    assert (faults, internal) == (2, 0) and first["repaired"] and not first["errors"]
+    (error,) = second["errors"]
+    assert error["code"] == "audit_copies_alike" and error["values"] == {"name": "r.urdf"}
+    assert second["status"] == "error" and second["links"] == []
+    assert [(one["status"], one["repaired"]) for one in others] == [("ok", None)] * 2  # of which no copy is made
+    kept = (tmp_path / "out" / "r.urdf").read_bytes()
+
+    def full(_):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(os, "fsync", full)
+    (error,) = json.loads(answer(*words, "--force", paths[0])[0])["errors"]
+    assert error["code"] == "audit_not_written" and error["values"] == {"error": "No space left on device"}
+    assert [(path.name, path.read_bytes()) for path in (tmp_path / "out").iterdir()] == [("r.urdf", kept)]
+
+
+def test_only_an_empty_file_or_the_same_copy_is_replaced(tmp_path):
+    (tmp_path / "out").mkdir()
+    path, copy = description(tmp_path / "r.urdf", WRONG), tmp_path / "out" / "r.urdf"
+    copy.touch()
+    assert json.loads(answer("--repair", tmp_path / "out", path)[0])["repaired"] == str(copy)
+    good = copy.read_bytes()
+    copy.write_bytes(good + b" ")
+    found = json.loads(answer("--repair", tmp_path / "out", path)[0])
+    assert found["errors"][0]["values"] == {"path": str(copy)} and copy.read_bytes() == good + b" "
+    assert json.loads(answer(path)[0])["repaired"] is None and copy.read_bytes() == good + b" "

@@ -70,3 +70,34 @@ def test_an_assembly_that_has_no_mass_is_an_error_and_ends_nothing(tmp_path):
     nothing.body_moments.mass_from, nothing.body_moments.mass = "MASS", 0.0
     found = document(saved(tmp_path))
     assert [error["name"] for error in found["errors"]] == ["Nothing"] and len(found["objects"]) == 2
+
+
+@pytest.mark.parametrize("where", ["combined.measure_assembly", "combined.measure_rig"])
+def test_a_fault_in_an_assembly_or_a_rig_is_one_of_the_program_and_ends_nothing_else(tmp_path, monkeypatch, where):
+    assembly_of_boxes()
+    character()
+    bpy.ops.object.body_moments_measure_bones()
+    bpy.data.collections["Robot"].body_moments.mass_from = "MASS"
+    path = saved(tmp_path)
+    whole = document(path)
+    monkeypatch.setattr("body_moments.operators.command." + where, lambda *_: 1 / 0)
+    line = files.run(str(path))
+    (found,) = line.documents
+    (error,) = found["errors"]
+    assert line.internal_errors == 1 and error["name"] == ("Robot" if "assembly" in where else "Rig")
+    assert "ZeroDivisionError" in error["reason"] and found["objects"] == whole["objects"]
+    assert ("assemblies" in found, "bones" in found) == ("rig" in where, "assembly" in where)
+
+
+def test_a_fault_while_results_are_stored_is_one_of_the_program_and_the_others_are_stored(tmp_path, monkeypatch):
+    assembly_of_boxes()
+    character()
+    bpy.ops.object.body_moments_measure_bones()
+    bpy.data.collections["Robot"].body_moments.mass_from = "MASS"
+    path = saved(tmp_path)
+    monkeypatch.setattr("body_moments.operators.session.rig.store", lambda *_: 1 / 0)
+    line = files.run("--write", "--density", "2", str(path))
+    (error,) = line.documents[0]["errors"]
+    assert line.internal_errors == 1 and error["name"] == "Rig" and "ZeroDivisionError" in error["reason"]
+    bpy.ops.wm.open_mainfile(filepath=str(path))
+    assert close(bpy.data.collections["Robot"]["body_mass"], 1.0, 1e-14)

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the command line opens: every format, its unit and axes, and broken files of all kinds."""
 
+import gzip
 import os
 import struct
 import zipfile
@@ -11,6 +12,8 @@ import pytest
 
 pytest.importorskip("bpy")
 import bpy
+from body_moments.operators.command import files as opening
+from body_moments.operators.command import references
 
 from tests.blender import batch_files as files
 from tests.blender.batch_files import codes, document, measured, reason, run, sentence
@@ -277,3 +280,125 @@ def test_a_cache_that_is_gone_is_an_error(tmp_path, kind):
     assert error["name"] is None and "points." in error["reason"]
     bpy.context.scene.objects[0].modifiers[0].show_viewport = False
     assert document(files.save(tmp_path / "part.blend"))["errors"] == []
+
+
+def failing(_path, *_):
+    raise OSError(5, "Input/output error")
+
+
+@pytest.mark.parametrize(
+    ("name", "reader"),
+    [
+        ("part.stl", "finite.stl_obj.bad_in_text"),
+        ("part.igs", "import_surfaces.read_surfaces"),
+        ("part.obj", "import_surfaces.has_surfaces"),
+        ("part.3mf", "import_3mf.read_3mf"),
+    ],
+)
+def test_a_disk_that_fails_while_a_file_is_read_is_an_error_of_the_file(tmp_path, monkeypatch, name, reader):
+    files.write_text(tmp_path / name, files.stl_text() if name == "part.stl" else "x")
+    monkeypatch.setattr("body_moments.operators.command." + reader, failing)
+    assert reason(tmp_path / name) == sentence("file_unreadable", error="Input/output error")
+
+
+@pytest.mark.skipif(not Path("/proc/self/mem").exists(), reason="not on this system: /proc")
+def test_a_file_that_cannot_be_read_is_an_error(tmp_path):
+    """Address 0 of a process: a regular file of which nothing can be read."""
+    for words in ((), ("--stream", "always")):
+        (tmp_path / "part.stl").unlink(missing_ok=True)
+        (tmp_path / "part.stl").symlink_to("/proc/self/mem")
+        found = document(tmp_path / "part.stl", *words)
+        assert found["objects"] == [] and found["status"] == "error"
+        (error,) = found["errors"]
+        assert error == {"name": None, "reason": sentence("file_unreadable", error="Input/output error")}
+
+
+def test_an_importer_that_this_blender_does_not_have_is_said(tmp_path, monkeypatch):
+    path = files.write_text(tmp_path / "part.fbx", "x")
+    monkeypatch.setitem(opening._IMPORTERS, ".fbx", lambda path: bpy.ops.wm.no_such_import(filepath=path))
+    assert reason(path) == sentence("importer_missing", suffix=".fbx")
+
+
+@pytest.mark.parametrize("packed", [False, True])
+@pytest.mark.parametrize(
+    ("head", "version"),
+    [
+        (b"BLENDER-v999", "9.99"),
+        (b"BLENDER_v999", "9.99"),
+        (b"BLENDER-v249", "2.49"),
+        (b"BLENDER-V405", "-"),
+        (b"BLENDER17-01v9901", "99.1"),
+        (b"BLENDER17-02v0502", "99.0"),
+        (b"BLENDER-v250", None),
+        (b"BLENDER17-01v0250", None),
+        (b"BLENDER-v404", None),
+        (b"BLENDER-x404", None),
+        (b"blender-v999", None),
+        (b"BLEND", None),
+    ],
+)
+def test_a_file_of_a_version_that_this_blender_does_not_read_names_it(tmp_path, head, version, packed):
+    data = head + b"REND" + bytes(40)
+    (tmp_path / "part.blend").write_bytes(gzip.compress(data) if packed else data)
+    found = document(tmp_path / "part.blend")
+    (error,) = found["errors"]
+    expected = sentence("file_version_unsupported", blender=bpy.app.version_string, version=version)
+    assert (error["reason"] == expected) == (version is not None)
+    assert found["status"] == ("error" if version is None else "unsupported_version")
+
+
+def test_what_only_begins_as_a_packed_file_has_no_version(tmp_path):
+    whole = gzip.compress(b"BLENDER-v999" + bytes(40))
+    for data in (whole[:12], whole[:10] + b"\xff" * 30, b"\x1f\x8b" + bytes(30)):
+        (tmp_path / "part.blend").write_bytes(data)
+        assert document(tmp_path / "part.blend")["status"] == "error"
+
+
+def test_a_file_of_a_newer_blender_that_opens_has_a_warning(tmp_path):
+    major, minor = bpy.app.version[:2]
+    path = tmp_path / "part.blend"
+    files.empty_scene()
+    files.add_box()
+    bpy.ops.wm.save_as_mainfile(filepath=str(path), copy=True, compress=False)
+    assert "file_newer_version" not in files.codes(measured(path))
+    head = path.read_bytes()[:17]
+    new = head.replace(b"v%d%02d" % (major, minor), b"v%d%02d" % (major, minor + 1))
+    new = new.replace(b"v%02d%02d" % (major, minor), b"v%02d%02d" % (major, minor + 1))
+    assert new != head
+    path.write_bytes(new + path.read_bytes()[17:])
+    found = files.values(measured(path), "file_newer_version")
+    assert found == {"version": "{}.{}".format(major, minor + 1), "blender": bpy.app.version_string}
+
+
+@needs_usd
+def test_a_usdz_whose_files_lie_on_each_other_is_damaged(tmp_path):
+    """Of one entry in the directory two, with the same bytes."""
+    path = tmp_path / "part.usdz"
+    data = Path(files.box_file(path)).read_bytes()
+    begin, end = data.index(b"PK\1\2"), data.index(b"PK\5\6")
+    entry, last = data[begin:end], bytearray(data[end:])
+    struct.pack_into("<HHI", last, 8, 2, 2, 2 * len(entry))
+    path.write_bytes(data[:begin] + entry + entry + last)
+    assert "overlapping entries" in reason(path)
+
+
+@pytest.mark.parametrize(
+    ("said", "told"),
+    [
+        ("Error: Cannot read file.\nmore\n", "Cannot read file"),
+        ("\n  Python: it broke.\n", "it broke"),
+        ("", "RuntimeError"),
+        (" \n ", "RuntimeError"),
+        ("Error: Traceback (most recent call last):\n  File 1\n    x()\nKeyError: 'a'.\nLocation: b", "KeyError: 'a'"),
+        ("Traceback (most recent call last):\n  File 1\n    x()\n", "RuntimeError"),
+    ],
+)  # fmt: skip
+def test_of_what_blender_says_one_line_is_told(said, told):
+    found = opening.reason(RuntimeError(said))
+    assert found == ("its importer failed, " if "Traceback" in said else "") + told
+
+
+def test_usd_is_imported_where_the_standard_error_is_closed(monkeypatch):
+    done = []
+    monkeypatch.setattr(references.os, "dup", failing)
+    assert references.unresolved_references(lambda: done.append(1)) == [] and done == [1]

@@ -349,3 +349,63 @@ def test_vertices_without_coordinates_are_left_to_blender(tmp_path):
     path = tmp_path / "a.ply"
     path.write_bytes(b"ply\nformat binary_little_endian 1.0\nelement vertex 4\nend_header\n" + bytes(48))
     finite.check_numbers(str(path), ".ply")
+
+
+def test_whole_numbers_are_finite(tmp_path, gltf):
+    """Those of a quantized glTF, and of vertices in a .ply: their bits as a float would be none."""
+    text, binary = gltf
+    accessor, start = position(text)
+    binary[start:] = b"\xff" * (len(binary) - start)
+    (tmp_path / "box.bin").write_bytes(binary)
+    assert checked(tmp_path / "box.gltf") is not None
+    for kind in (5120, 5122):
+        accessor["componentType"] = kind
+        files.write_text(tmp_path / "box.gltf", json.dumps(text))
+        assert checked(tmp_path / "box.gltf") is None
+    lines = ["element vertex 3", *(f"property int {axis}" for axis in "xyz")]
+    path = tmp_path / "t.ply"
+    path.write_bytes(ply_head("binary_little_endian", *lines).encode() + b"\xff" * 36)
+    assert checked(path) is None
+
+
+@pytest.mark.parametrize("format", ["ascii", "binary_little_endian", "binary_big_endian"])
+def test_a_ply_without_vertices_is_left_to_blender(tmp_path, format):
+    """Also one whose lists of something else come last."""
+    path = tmp_path / "t.ply"
+    lines = ["element other 1", *AXES, "element face 1", "property list uchar float f"]
+    path.write_bytes(ply_head(format, *lines).encode() + b"nan nan nan\n1 nan\n" + b"\xff" * 90)
+    assert checked(path) is None
+
+
+def test_a_gltf_of_text_without_the_bytes_of_a_buffer_says_which(tmp_path, gltf):
+    text, _ = gltf
+    del text["buffers"][0]["uri"]
+    files.write_text(tmp_path / "box.gltf", json.dumps(text))
+    assert reason(tmp_path / "box.gltf") == sentence("gltf_buffer_missing", buffer="BIN")
+    text["buffers"][0]["uri"] = "empty.bin"
+    (tmp_path / "empty.bin").touch()
+    files.write_text(tmp_path / "box.gltf", json.dumps(text))
+    assert reason(tmp_path / "box.gltf") == sentence("gltf_buffer_missing", buffer="empty.bin")
+
+
+def test_a_line_goes_on_behind_each_backslash_at_an_end(tmp_path):
+    """In an .obj, in either direction, and not behind any other."""
+    path = tmp_path / "t.obj"
+    files.write_text(path, "v 0 0 0\nv \\\n1 \\\n2 \\\nnan\nv 0 0 1\n")
+    said(path, 1, "at_vertex", vertex=1)
+    files.write_text(path, "v 0 0 0\nv nan \\\n1 \\\ninf \\\nnan\nv 0 0 1\n")  # the fourth is no coordinate
+    said(path, 2, "at_vertex", vertex=1)
+    files.write_text(path, "v 0 0 0\nv 1 \\ \n2 3\nvn \\\n1 \\\n2 \\\nnan\n")
+    assert checked(path) is None
+
+
+@pytest.mark.parametrize("end", ["", " "])
+def test_the_first_and_the_last_bytes_of_a_file_count(tmp_path, end):
+    path = tmp_path / "t.obj"
+    files.write_text(path, "v nan 0 0\nv 1 0 0" + end)
+    said(path, 1, "at_vertex", vertex=0)
+    files.write_text(path, "v 1 0 0\nv 0 0 inf" + end)
+    said(path, 1, "at_vertex", vertex=1)
+    path = tmp_path / "t.stl"
+    files.write_text(path, "vertex nan 0 0\nvertex 1 1e99 inf" + end)
+    said(path, 3, "at_triangle", triangle=0)

@@ -27,8 +27,9 @@ STOPPING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP) if os.name != "nt" els
 
 @pytest.fixture(autouse=True)
 def handlers():
-    """As they were, after a test."""
+    """As they were, after a test; Ctrl+C is one, also where this runs in the background of a shell."""
     before = {number: signal.getsignal(number) for number in STOPPING}
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     yield
     for number, handler in before.items():
         signal.signal(number, handler)

@@ -3,10 +3,13 @@
 """What the command line's --output and --fourier replace: older results, other files with --force, never an input."""
 
 import base64
+import errno
 import json
 import os
 import zlib
+from contextlib import nullcontext
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -14,8 +17,10 @@ import pytest
 pytest.importorskip("bpy")
 import bpy
 from body_moments.operators import batch
-from body_moments.operators.command import inputs, measuring
-from body_moments.operators.write import documents
+from body_moments.operators.command import inputs, measuring, own_results
+from body_moments.operators.write import documents, file_lock
+from body_moments.operators.write.file_lock import locked
+from body_moments.operators.write.whole_file import whole_file
 
 from tests.blender import batch_files as files
 from tests.core.scan_files import nrrd
@@ -252,3 +257,154 @@ def test_the_standard_output_goes_where_it_is_sent_whatever_is_there(tmp_path):
         ended = script(*words, stdout=log, stderr=log)
     lines = (tmp_path / "log").read_text().splitlines()
     assert ended.returncode == 0 and lines[0] == "before" and json.loads(lines[-1])["objects"]
+
+
+def crate(tokens, name=b"TOKENS", sections=1, before=0):
+    """A binary USD layer of nothing but words, packed so: its table of sections, some of which come before."""
+    others = b"".join(b"OTHER".ljust(16, b"\0") + bytes(16) for _ in range(before))
+    place = 8 + 32 * (before + 1)
+    table = (sections + before).to_bytes(8, "little") + others + name.ljust(16, b"\0")
+    table += (24 + place).to_bytes(8, "little") + bytes(8)
+    words = (1).to_bytes(8, "little") + bytes(8) + len(tokens).to_bytes(8, "little") + tokens
+    return b"PXR-USDC" + bytes(8) + (24).to_bytes(8, "little") + table + words
+
+
+def literals(text, more=b""):
+    """An LZ4 block of these bytes and what follows, as USD packs one block alone."""
+    assert len(text) < 15
+    return bytes([0, len(text) << 4]) + text + more
+
+
+def test_words_of_a_binary_layer_are_found_wherever_its_table_has_them(tmp_path):
+    (tmp_path / "a.usda").touch()
+    part, word = tmp_path / "part.usdc", literals(b"\0a.usda\0")
+    for before in (0, 1, 2, 63):
+        part.write_bytes(crate(word, before=before))
+        assert [*inputs.references(str(part), False)] == [tmp_path / "a.usda"]
+        assert [*inputs._named_in(part, inputs._NAMES)] == [tmp_path / "a.usda"]
+    part.write_bytes(crate(word, before=64))
+    assert [*inputs.references(str(part), False)] == []
+
+
+@pytest.mark.parametrize(
+    "data",
+    [
+        crate(literals(b"\0a.usda\0"), b"TOKEN"),
+        crate(literals(b"\0a.usda\0"), sections=0),
+        crate(literals(b"\0a.usda\0"), b"OTHER", 60)[:200],
+        crate(literals(b"\0a.usda\0", bytes([9, 0]))),  # a match of what is before the beginning
+        crate(literals(b"\0a.usda\0", bytes([0, 0]))),  # and of nothing
+        crate(literals(b"\0a.usda\0", bytes([1]))),
+        crate(literals(b"\0a.usda\0", bytes([1, 0, 0xF0]))),
+        crate(bytes([2]) + (11).to_bytes(4, "little") + literals(b"\0a.usda\0")[1:]),
+        b"PXR-USDC",
+        b"PXR-USDC" + bytes(8) + b"\xff" * 16,
+    ],
+)
+def test_a_damaged_binary_layer_refers_to_nothing(tmp_path, data):
+    (tmp_path / "a.usda").touch()
+    (tmp_path / "part.usdc").write_bytes(data)
+    assert [*inputs.references(str(tmp_path / "part.usdc"), False)] == []
+
+
+def test_what_cannot_be_read_is_not_replaced(tmp_path, main, no_measuring, monkeypatch):
+    """Whether it is a result cannot be known."""
+    part, target = files.box_file(tmp_path / "part.stl"), tmp_path / "out"
+    target.write_text("mine")
+
+    def fail(*_):
+        raise OSError(5, "Input/output error")
+
+    monkeypatch.setattr(own_results, "open", fail, raising=False)
+    expected = files.sentence("usage_not_replaceable", option="output", path=str(target), error="Input/output error")
+    for words in ((), ("--force",)):
+        code, said = main(part, "--output", target, *words)
+        assert code == 2 and said.endswith("error: {}\n".format(expected)) and target.read_text() == "mine"
+
+
+def test_each_result_that_has_no_place_gets_a_name_of_its_own(tmp_path):
+    """The number is the first one that is free."""
+    taken = [tmp_path / name for name in ("out.json", "out.1.json", "out.2.json")]
+    for path in taken:
+        path.write_text("mine")
+
+    def refuse(_):
+        raise FileExistsError("it is there")
+
+    for number in (3, 4):
+        with pytest.raises(FileExistsError) as refused, whole_file(tmp_path / "out.json", refuse) as file:
+            file.write(b"ours")
+        kept = tmp_path / "out.{}.json".format(number)
+        assert str(refused.value) == "it is there; it is in {}".format(kept) and kept.read_bytes() == b"ours"
+    assert {path.read_text() for path in taken} == {"mine"} and len([*tmp_path.iterdir()]) == 5
+
+
+@pytest.mark.parametrize("length", [199, 200, 201, 255])
+def test_a_long_name_can_be_written_and_locked(tmp_path, length):
+    """Beside a file of a name to which nothing can be added there are others, of names that differ with it."""
+    first, second = tmp_path / ("a" * length), tmp_path / ("a" * (length - 1) + "b")
+    with locked(first), locked(second, 0.0), whole_file(tmp_path / ("c" * length)) as file:
+        locks = {path.name for path in tmp_path.iterdir()}
+        assert len(locks) == 4 and all(name.startswith(".") for name in locks)
+        assert any("a" * 199 in name for name in locks) == (length <= 200)
+        file.write(b"x")
+    assert [path.name for path in tmp_path.iterdir()] == ["c" * length]
+
+
+def test_where_there_are_no_locks_a_file_is_written_all_the_same(tmp_path, monkeypatch):
+    """And what the system refuses otherwise is an error. No descriptor stays open."""
+    opened = len(os.listdir("/proc/self/fd")) if Path("/proc/self/fd").exists() else None
+
+    def fail(number):
+        def flock(*_):
+            raise OSError(number, "no")
+
+        monkeypatch.setattr(file_lock.fcntl, "flock", flock)
+
+    for number in sorted(file_lock._WITHOUT_LOCKS):
+        fail(number)
+        with locked(tmp_path / "a") as alone:
+            assert not alone
+        (tmp_path / ".b.1234.partial").touch()  # perhaps of a process that is writing it
+        with whole_file(tmp_path / "b") as file:
+            file.write(b"x")
+        assert {path.name for path in tmp_path.iterdir()} == {"b", ".b.1234.partial"}
+    fail(errno.EIO)
+    with pytest.raises(OSError) as refused, locked(tmp_path / "a"):
+        pass
+    assert refused.value.errno == errno.EIO and not isinstance(refused.value, file_lock.Busy)
+    assert opened is None or len(os.listdir("/proc/self/fd")) == opened
+
+
+def test_a_lock_that_another_user_has_left_is_taken(tmp_path, monkeypatch):
+    real, flags = os.open, []
+
+    def refuse(path, how, *rest, **more):
+        if str(path).endswith(".lock"):
+            flags.append(how & (os.O_RDWR | os.O_RDONLY))
+            if how & os.O_RDWR:
+                raise PermissionError(13, "Permission denied")
+        return real(path, how, *rest, **more)
+
+    monkeypatch.setattr(file_lock.os, "open", refuse)
+    with locked(tmp_path / "a") as alone:
+        assert alone and flags == [os.O_RDWR, os.O_RDONLY]
+    assert [*tmp_path.iterdir()] == []
+
+
+def test_on_windows_a_lock_goes_when_it_is_closed(tmp_path, monkeypatch):
+    """What is open cannot be removed there."""
+    asked = []
+    system = SimpleNamespace(**{**vars(os), "name": "nt"})
+    library = SimpleNamespace(LK_NBLCK=2, locking=lambda descriptor, *rest: asked.append((os.fstat(descriptor), *rest)))
+    monkeypatch.setattr(file_lock, "os", system)
+    monkeypatch.setattr(file_lock, "msvcrt", library, raising=False)
+    monkeypatch.setattr(file_lock, "removed", lambda _: nullcontext())
+    lock = file_lock.beside(tmp_path / "a", "body_moments.lock")
+    with locked(tmp_path / "a") as alone:
+        assert alone and lock.exists()
+        ((status, *rest),) = asked
+        assert os.path.samestat(status, os.stat(lock)) and rest == [2, 1]
+    assert not lock.exists()
+    with locked(tmp_path / "a"):
+        lock.unlink()  # by another process

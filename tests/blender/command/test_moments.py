@@ -11,10 +11,11 @@ import pytest
 pytest.importorskip("bpy")
 import bmesh
 import bpy
+from body_moments.core.verdict.finding import finding
 from mathutils import Matrix
 
 from tests.blender import batch_files as files
-from tests.blender.batch_files import measured
+from tests.blender.batch_files import document, measured, sentence
 from tests.blender.command.test_options import box_moment
 from tests.close import close
 
@@ -169,3 +170,15 @@ def test_what_has_no_mass_is_refused_once():
     files.add_box(size=(1, 1, 0))
     found = files.document("--order", "4")
     assert found["objects"] == [] and len(found["errors"]) == 1
+
+
+def test_moments_beyond_the_range_of_numbers_are_an_error_beside_the_mass():
+    files.add_box().scale = (1e35, 1e35, 1e35)
+    bpy.context.view_layer.update()
+    (plain,) = document()["objects"]
+    cause = finding("moments_overflow", order=8).as_record()
+    for words in ((), ("--surface-moments",)):
+        found = document("--order", "8", *words)
+        assert found["errors"] == [{"name": files.BOX_NAME, "reason": sentence("moments_unavailable", cause=cause)}]
+        assert found["objects"] == [plain] and "moments" not in plain and found["status"] == "error"
+    assert "moments" in document("--order", "4")["objects"][0]

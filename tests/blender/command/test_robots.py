@@ -225,3 +225,16 @@ def test_a_robot_without_links_is_an_error():
     line.measure()
     (entry,) = line.documents[0]["errors"]
     assert line.errors == 1 and entry == {"name": None, "reason": str(finding("robot_without_bones"))}
+
+
+def test_meshes_that_cannot_be_written_are_an_error_beside_the_robot(tmp_path):
+    """As where their folder's name is taken."""
+    arm()
+    (tmp_path / "meshes").write_text("mine")
+    path = tmp_path / "robot.urdf"
+    line = Run(parsed("measure", "--format", "urdf", "--meshes", "--output", str(path)))
+    line.measure()
+    (entry,) = line.documents[0]["errors"]
+    assert line.errors == 1 and line.internal_errors == 0 and (tmp_path / "meshes").read_text() == "mine"
+    assert entry == {"name": None, "reason": str(finding("robot_meshes_not_written", error="File exists"))}
+    assert line.documents[0]["robot"].startswith("<?xml")

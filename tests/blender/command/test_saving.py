@@ -108,7 +108,7 @@ def test_a_file_that_cannot_be_replaced_is_left_as_it_was(tmp_path, monkeypatch)
     found = document(path, "--write")
     assert [entry["name"] for entry in found["objects"]] == [files.BOX_NAME]
     (error,) = found["errors"]
-    assert error["name"] is None and "No space left" in error["reason"]
+    assert error == {"name": None, "reason": files.sentence("file_not_saved", error="No space left on device")}
     assert path.read_bytes() == before and [file.name for file in tmp_path.iterdir()] == ["part.blend"]
 
 
@@ -137,7 +137,10 @@ def test_only_a_blend_file_can_be_written(tmp_path):
 def test_a_scene_that_was_never_saved_cannot_be_written():
     files.add_box()
     line = run("--write")
-    assert len(line.documents[0]["objects"]) == 1 and line.errors == 1
+    (found,) = line.documents
+    assert len(found["objects"]) == 1 and line.errors == 1 and not line.has_saved
+    assert found["errors"] == [{"name": None, "reason": files.sentence("scene_never_saved")}]
+    assert "body_mass" not in bpy.data.objects[files.BOX_NAME]
 
 
 def test_the_open_file_is_saved_where_it_is(tmp_path):
@@ -431,3 +434,92 @@ def test_a_file_that_was_saved_while_blender_started_is_not_overwritten(tmp_path
     assert process(*start, *words).returncode == 0
     ended = process(*start, "--python-expr", save, *words)
     assert ended.returncode == 1 and b"name the file" in ended.stderr and path.read_bytes().endswith(b"more")
+
+
+def error_of(found):
+    """The reason of the one error, of a file whose object has a record all the same."""
+    assert [entry["name"] for entry in found["objects"]] == [files.BOX_NAME]
+    (error,) = found["errors"]
+    assert error["name"] is None
+    return error["reason"]
+
+
+def test_a_file_that_may_not_be_written_stays(tmp_path, monkeypatch):
+    path = tmp_path / "part.blend"
+    files.box_file(path)
+    before, real = path.read_bytes(), os.access
+    monkeypatch.setattr(os, "access", lambda one, mode: str(one) != str(path) and real(one, mode))
+    assert error_of(document(path, "--write")) == files.sentence("file_read_only")
+    assert path.read_bytes() == before and [*tmp_path.iterdir()] == [path]
+
+
+def test_an_open_file_that_is_gone_does_not_come_back(tmp_path):
+    path = tmp_path / "part.blend"
+    bpy.ops.wm.open_mainfile(filepath=files.box_file(path))
+    path.unlink()
+    assert error_of(run("--write").documents[0]) == files.sentence("file_vanished") and [*tmp_path.iterdir()] == []
+
+
+def test_a_file_that_cannot_be_locked_is_measured_and_stays(tmp_path, monkeypatch):
+    path = tmp_path / "part.blend"
+    files.box_file(path)
+    before = path.read_bytes()
+
+    def fail(*_):
+        raise OSError(5, "Input/output error")
+
+    monkeypatch.setattr(file_lock, "_lock", fail)
+    assert error_of(document(path, "--write")) == files.sentence("file_not_saved", error="Input/output error")
+    assert path.read_bytes() == before and path in tmp_path.iterdir()
+
+
+@pytest.mark.parametrize("change", ["contents", "place"])
+def test_a_file_that_changed_after_blender_has_started_with_it_is_kept(tmp_path, monkeypatch, change):
+    """By its times, for what Blender has read is not known. One that it opened later may be younger."""
+    path = tmp_path / "part.blend"
+    files.box_file(path)
+    time.sleep(0.05)
+    os.utime(bpy.app.tempdir)  # the session is younger now
+    link = tmp_path / "link.blend"
+    link.symlink_to(path)
+    for word in (path, link):
+        bpy.ops.wm.open_mainfile(filepath=str(path))
+        monkeypatch.setattr(sys, "argv", ["blender", "-b", str(word), "--", "measure"])
+        measured("--write")
+        time.sleep(0.05)
+        os.utime(bpy.app.tempdir)
+    kept = path.read_bytes()
+    time.sleep(0.05)
+    if change == "contents":
+        os.utime(path, (2e9, 2e9))
+    else:
+        path.chmod(0o644)  # no time but that of its entry
+        os.utime(path, (1e9, 1e9))
+    for word in (path, link):
+        monkeypatch.setattr(sys, "argv", ["blender", "-b", str(word), "--", "measure"])
+        bpy.ops.wm.open_mainfile(filepath=str(path))
+        assert error_of(run("--write").documents[0]) == files.sentence("file_changed_since_start")
+        assert path.read_bytes() == kept
+    for words in (["blender", "-b", str(tmp_path / "other.blend")], ["blender", "-b"]):
+        monkeypatch.setattr(sys, "argv", words)
+        bpy.ops.wm.open_mainfile(filepath=str(path))
+        measured("--write")
+    monkeypatch.setattr(sys, "argv", ["blender", "-b", str(path)])
+    measured(path, "--write")  # which is opened here
+
+
+def test_a_copy_that_cannot_be_saved_is_an_error_and_the_file_stays(tmp_path, monkeypatch):
+    path = tmp_path / "part.blend"
+    files.empty_scene()
+    files.add_box().asset_mark()
+    files.save(path)
+    before = path.read_bytes()
+
+    def full(_):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(os, "fsync", full)
+    expected = files.sentence("file_not_saved", error="No space left on device")
+    for where in ("copy", "file"):
+        assert error_of(document(path, "--asset-metadata", where)) == expected
+        assert path.read_bytes() == before and [*tmp_path.iterdir()] == [path]

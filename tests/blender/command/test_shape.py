@@ -222,3 +222,36 @@ def test_what_has_no_shape_is_not_asked_to_be_measured_with_what_it_was(tmp_path
     assert sentence("record_without_shape", name="Cloud") in capsys.readouterr().err
     assert ask(tmp_path, tmp_path / "none.jsonl", "--to", "Box")[0] == 2
     assert "none.jsonl cannot be read: No such file or directory." in capsys.readouterr().err
+
+
+def test_a_wall_of_curved_patches_has_a_pose_and_no_signature():
+    """Its display mesh is not what was measured."""
+    bpy.ops.surface.primitive_nurbs_surface_torus_add()
+    torus = bpy.context.object.body_moments
+    torus.kind, torus.thickness = "SHELL", 0.125
+    (entry,) = document("--pose", "--signature")["objects"]
+    assert entry["method"] == "NURBS shell" and entry["pose"]["symmetry"] == "D∞h" and entry["signature"] is None
+    assert codes(entry).count("signature_needs_polygons") == 1 and "signature_of_display_mesh" not in codes(entry)
+    (entry,) = document("--pose")["objects"]
+    assert "signature" not in entry and "signature_needs_polygons" not in codes(entry)
+
+
+def test_what_has_no_faces_has_no_picture():
+    add_box("Box")
+    bpy.ops.curve.primitive_nurbs_path_add()
+    bpy.context.object.name, bpy.context.object.body_moments.kind = "Wire", "WIRE"
+    bpy.context.object.data.bevel_depth = 0.0
+    found = {entry["name"]: entry["thumbnail"] for entry in document("--thumbnails")["objects"]}
+    assert found["Wire"] is None and found["Box"].startswith("data:image/png;base64,")
+    assert all("thumbnail" not in entry for entry in document()["objects"])
+
+
+def test_a_picture_is_of_the_body_in_meters_whatever_its_unit():
+    """Its center and axes are in meters, the display mesh is in units."""
+    box = add_box("Box", (3.0, 4.0, 5.0))
+    (first,) = document("--thumbnails")["objects"]
+    bpy.context.scene.unit_settings.scale_length = 0.125
+    box.location, box.scale = (24.0, 32.0, 40.0), (8.0, 8.0, 8.0)
+    bpy.context.view_layer.update()
+    (second,) = document("--thumbnails")["objects"]
+    assert first["thumbnail"] == second["thumbnail"] and close(first["mass"], second["mass"], 1e-6)

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Runs over files whose children are programs of a few lines, which do all that a child may do but measure."""
 
+import importlib.util
 import io
 import json
 import os
@@ -13,10 +14,12 @@ import threading
 import time
 from collections import Counter
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
 pytest.importorskip("bpy")
+from body_moments.core.verdict.finding import QueryError, finding
 from body_moments.operators import batch
 from body_moments.operators.command import arguments, supervised
 from body_moments.operators.supervisor import lifeline, listing, pool, processes, progress, whole_run
@@ -620,3 +623,211 @@ def test_a_run_ends_with_the_window_that_has_started_it():
         child.stdout.close()
     alone = [sys.executable, "-c", code.format(lifeline.__file__, "assert 'BODY_MOMENTS_WATCHED' not in os.environ")]
     assert subprocess.run(alone, check=True, stdout=subprocess.PIPE).stdout == b"."
+
+
+def test_a_name_to_which_nothing_can_be_added_is_wrong_usage(tmp_path, fake, capsys):
+    """The journal is called like the output, and so is what is kept of an older run."""
+    place = tmp_path / "out"
+    place.mkdir()
+    for length, ending in ((250, ".journal"), (245, ".journal.old"), (240, "")):
+        target = place / ("r" * length)
+        code = batch.main(["measure", "ok 1", "ok 2", "--output", str(target), "--jobs", "1"], channel=-1)
+        said = capsys.readouterr().err
+        if ending:
+            reason = sentence("usage_path", path=str(target) + ending, error="File name too long")
+            assert code == 2 and said.endswith("error: {}\n".format(reason)) and not [*place.iterdir()]
+        else:
+            assert code == 0 and {path.name for path in place.iterdir()} == {target.name, target.name + ".journal"}
+    target = place / "result"
+    (place / ".result.journal.body_moments.lock").mkdir()
+    assert batch.main(["measure", "ok 1", "--output", str(target)], channel=-1) == 2
+    reason = sentence("usage_path", path=str(place / ".result.journal.body_moments.lock"), error="Is a directory")
+    assert reason in capsys.readouterr().err and not target.exists()
+
+
+def test_a_disk_that_is_full_is_said_and_the_older_result_stays(tmp_path, main, monkeypatch):
+    words = (tmp_path / "ok 1", tmp_path / "ok 2", "--jobs", "1")
+    assert main(*words)[0] == 0
+    result = (tmp_path / "out" / "result").read_bytes()
+
+    def full(*_):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(Journal, "append", full)
+    code, _, said, _ = main(*words, reads=False)
+    assert code == 1
+    assert said[-1] == "body_moments: {}".format(sentence("usage_result_not_written", error="No space left on device"))
+    assert (tmp_path / "out" / "result.old").read_bytes() == result
+
+
+def test_an_interrupted_run_without_a_journal_says_so_alone(tmp_path, fake, monkeypatch, capsys):
+    def interrupted(*_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(Pool, "step", interrupted)
+    for target in ((), ("--output", "/dev/null")):
+        assert supervised.measure(arguments.parse(["measure", "ok 1", "ok 2", *target]), -1, None) == 3
+        assert capsys.readouterr().err == "body_moments: {}\n".format(sentence("interrupted"))
+
+
+def test_the_blender_that_is_started_is_the_one_that_is_named_or_runs_this(monkeypatch, capsys):
+    asked = []
+    monkeypatch.setattr(processes, "child_command", asked.append)
+    module, window = (SimpleNamespace(app=SimpleNamespace(module=one, binary_path="/blender")) for one in (True, False))
+    cases = [(None, [], None), (module, [], None), (window, [], "/blender")]
+    cases += [(one, ["--blender", "/other"], "/other") for one in (None, module, window)]
+    for bpy, words, command in cases:
+        options = arguments.parse(["measure", "a.stl", *words])
+        monkeypatch.setitem(sys.modules, "bpy", bpy)
+        with pytest.raises(SystemExit) as ended:
+            supervised.measure(options, -1, None)
+        monkeypatch.undo()
+        monkeypatch.setattr(processes, "child_command", asked.append)
+        assert ended.value.code == 2 and asked.pop() == command
+        assert sentence("usage_no_blender") in capsys.readouterr().err
+
+
+def test_a_command_needs_a_blender_or_the_module(monkeypatch):
+    script = str(Path(batch.__file__).resolve())
+    assert processes.child_command(None) == [sys.executable, script, "child"]
+    command = processes.run_command("/b", ["measure", "x"])
+    switches = ["-b", "--factory-startup", "--disable-autoexec", "--offline-mode", "-q", "--python-exit-code", "70"]
+    assert command == ["/b", *switches, "--python", script, "--", "measure", "x"]
+    found = importlib.util.find_spec
+    monkeypatch.setattr(importlib.util, "find_spec", lambda name, *more: None if name == "bpy" else found(name, *more))
+    assert processes.child_command(None) is None and processes.child_command("/b") == [*command[:11], "child"]
+
+
+def test_processors_are_counted_where_a_process_is_bound_to_none(monkeypatch):
+    monkeypatch.delattr(os, "sched_getaffinity")
+    for count in (6, None):
+        monkeypatch.setattr(os, "cpu_count", lambda count=count: count)
+        assert processes.cores() == (count or 1)
+    monkeypatch.delattr(os, "sysconf")
+    assert processes.memory_of_machine() is None and processes.memory_share(2) is None
+
+
+@pytest.mark.parametrize(
+    "lines",
+    [
+        b"",
+        b"a.stl\nb.stl\n",
+        b'[{"schema": "body-moments-manifest/1"}]\n',
+        b'{"files": 0}\n',
+        b'{"schema": "body-moments-manifest/2", "files": 1}\n{"path": "a.stl"}\n',
+        b'{"schema": "body-moments-manifest/1", "files": 2}\n{"path": "a.stl"}\n',
+        b'{"schema": "body-moments-manifest/1", "files": 0}\n{"path": "a.stl"}\n',
+        b'{"schema": "body-moments-manifest/1"}\n{"path": "a.stl"}\n',
+        b'{"schema": "body-moments-manifest/1", "files": 1}\n{"name": "a.stl"}\n',
+        b'{"schema": "body-moments-manifest/1", "files": 2}\n{"path": "a.stl"}\n{"path": 5}\n',
+        b'{"schema": "body-moments-manifest/1", "files": 1}\n{"path": "\xff"}\n',
+        b"[" * 100_000,
+    ],
+)
+def test_what_is_no_list_of_files_is_wrong_usage(tmp_path, fake, capsys, lines):
+    listed = tmp_path / "list"
+    listed.write_bytes(lines)
+    assert batch.main(["measure", "--manifest", str(listed)], channel=-1) == 2
+    assert capsys.readouterr().err.endswith("error: {}\n".format(sentence("manifest_malformed", file=str(listed))))
+    assert not (tmp_path / "log").exists()
+
+
+def test_the_names_in_a_list_are_meant_from_its_folder(tmp_path, monkeypatch):
+    names = ["a.stl", "b/ü\n\udcff.stl", str(tmp_path / "c.stl")]
+    (tmp_path / "in").mkdir()
+    listed = tmp_path / "in" / "list"
+    listed.write_text("".join(listing.write_lines(names)) + "\n")
+    assert listing.read(listed) == [str(tmp_path / "in" / name) for name in names[:2]] + names[2:]
+    monkeypatch.chdir(tmp_path)
+    assert listing.read(Path("in/list")) == ["in/" + name for name in names[:2]] + names[2:]
+    monkeypatch.chdir(tmp_path / "in")
+    assert listing.read(Path("list")) == names
+    missing = tmp_path / "none"
+    with pytest.raises(QueryError) as refused:
+        listing.read(missing)
+    assert refused.value.finding == finding("manifest_unreadable", file=str(missing), error="No such file or directory")
+
+
+class Channel:
+    """A descriptor to which answers are written, and what came."""
+
+    def __init__(self):
+        self.reading, self.writing = os.pipe()
+
+    def answers(self):
+        os.close(self.writing)
+        with open(self.reading, "rb") as file:
+            return [json.loads(line.removeprefix(lifeline.MARK)) for line in file if line.startswith(lifeline.MARK)]
+
+
+def test_where_a_thread_listens_messages_come_and_their_end_is_that_of_the_process(monkeypatch):
+    """In one process: what would end it is noted."""
+    ended, over = [], threading.Event()
+    monkeypatch.setattr(lifeline, "BY_SIGNAL", False)
+    monkeypatch.setattr(lifeline.os, "_exit", lambda code: (ended.append(code), over.set()))
+    lines = [b'{"number": %d}\n' % number for number in range(3)]
+    monkeypatch.setattr(sys, "stdin", SimpleNamespace(buffer=io.BytesIO(b"".join(lines))))
+    channel = Channel()
+    line = lifeline.Lifeline(channel.writing, 5)
+    messages = line.messages()
+    assert [next(messages) for _ in lines] == [{"number": number} for number in range(3)]
+    assert over.wait(60) and ended == [0]
+    line.answer({"done": True})
+    line.answer({"more": 1}, b"data")
+    assert channel.answers() == [{"done": True}, {"more": 1, "bytes": 4}]
+
+
+def test_a_file_has_its_time_and_no_longer(monkeypatch):
+    """Also one at which something fails; afterwards a child may wait for as long as it has nothing to do."""
+    asked = []
+    monkeypatch.setattr(lifeline.faulthandler, "dump_traceback_later", lambda *what, **how: asked.append((what, how)))
+    monkeypatch.setattr(lifeline.faulthandler, "cancel_dump_traceback_later", lambda: asked.append("over"))
+    line = lifeline.Lifeline.__new__(lifeline.Lifeline)  # without its pipes
+    with line.limited(7.0):
+        assert asked == [((12.0,), {"exit": True, "file": 2})]
+    assert asked.pop() == "over"
+    with pytest.raises(ZeroDivisionError), line.limited(0.5):
+        raise ZeroDivisionError
+    assert asked[1:] == [((5.5,), {"exit": True, "file": 2}), "over"]
+
+
+def test_where_there_are_no_descriptors_to_control_nothing_is_watched(monkeypatch):
+    monkeypatch.setattr(lifeline, "fcntl", None)
+    lifeline.end_with(-1)
+    monkeypatch.setattr(lifeline, "BY_SIGNAL", False)
+    monkeypatch.setenv(lifeline.WINDOW, "-1")
+    lifeline.end_with_window()
+    assert lifeline.WINDOW not in os.environ
+
+
+def test_an_idle_child_that_ends_is_nobodys_fault(tmp_path, fake):
+    """Nor is what comes of one that has been let go, or of one that has been given nothing."""
+    with Pool(fake.command, 1, {"options": {"object": None}}, Limits(60.0), tmp_path / "work") as found:
+        found.wait_until_ready()
+        (child,) = found._children
+        assert found._receive(child, {}, b"stray") == []
+        os.kill(child.process.pid, signal.SIGKILL)
+        while found._children:
+            assert found.step() == []
+        assert found._receive(child, {"ready": {"blender": "other"}}, b"") == []
+        assert found.about == {"blender": "9.8.7"} and not child.log.exists() and found._said(child) == ""
+        found.add(["ok 1"])
+        outcomes = []
+        while not found.is_done:
+            outcomes += found.step()
+    assert [(one.status, one.attempts) for one in outcomes] == [("answered", 1)] and len(fake("setup")) == 2
+
+
+def test_a_child_that_was_let_go_and_does_not_end_is_ended(tmp_path, fake, monkeypatch):
+    monkeypatch.setattr(pool, "_END", 0.2)
+    with Pool(fake.command, 1, {"options": {"object": None}}, Limits(60.0), tmp_path / "work") as found:
+        found.wait_until_ready()
+        (child,) = found._children
+        os.kill(child.process.pid, signal.SIGSTOP)
+        found._retire(child)
+        assert found._children == [] and child.process.poll() is None
+        begun = time.monotonic()
+        while found._ending:
+            found.step()
+        assert child.process.returncode == -signal.SIGKILL and time.monotonic() - begun >= 0.2
+        assert child.kept is None and not child.log.exists() and not child.folder.exists()

@@ -255,3 +255,47 @@ def test_a_thumbnail(kept):
         letters = np.array([*".abcdefghi"])[place.reshape(pixels.shape[:2])]
         pages += [repr(data[:33]), repr(colors.tolist()), *("".join(row).rstrip(".") for row in letters)]
     kept("thumbnail.txt", "\n".join(pages))
+
+
+def test_a_row_of_the_page_has_the_records_picture_or_the_box_of_its_inertia(scene):
+    """No other text can stand there."""
+    add(box_mesh(1, 2, 4), "Box")
+    document = batch_files.document("--thumbnails")
+    entry = document["objects"][0]
+
+    def shown(**changed):
+        page = "".join(to_html([{**document, "objects": [{**entry, **changed}]}]))
+        return page.count("<img"), page.count("<svg")
+
+    assert shown() == (1, 0)
+    for wrong in (None, 5, "", "javascript:x", entry["thumbnail"] + '"', "x" + entry["thumbnail"]):
+        assert shown(thumbnail=wrong) == (0, 1)
+    for name in ("mass", "principal_moments", "principal_axes"):
+        assert shown(thumbnail=None, **{name: None}) == (0, 0)
+    assert shown(thumbnail=None, mass=0.0) == shown(thumbnail=None, principal_moments=[1.0, None, 2.0]) == (0, 0)
+    assert shown(thumbnail=None, principal_moments=[0.0, 0.0, 0.0]) == (0, 1)
+
+
+def test_a_section_that_somebody_else_has_stored_is_none(scene):
+    from body_moments.operators.write import section
+
+    beam = add(flat_mesh(I_BEAM), "Beam")
+    only(beam)
+    bpy.ops.object.body_moments_measure_section()
+    kept = beam[section.KEY].to_dict()
+    assert section.stored(beam) is not None
+    for name, length in section.LENGTHS.items():
+        for wrong in ([0.0] * (length + 1), [0.0] * (length - 1) if length > 1 else ["x"], "x" * length, 5.0):
+            beam[section.KEY] = {**kept, name: wrong}
+            assert section.stored(beam) is None, (name, wrong)
+        beam[section.KEY] = {one: value for one, value in kept.items() if one != name}
+        assert section.stored(beam) is None
+    for name in section.SIDE_DESCRIPTIONS:
+        beam[section.KEY] = {one: value for one, value in kept.items() if one != name}
+        assert (section.stored(beam) is not None) == (name == "findings")
+    beam[section.KEY] = kept
+    assert section.stored(beam) is not None and section.fingerprint(beam) == kept["fingerprint"]
+    for wrong in (5, "text", [1.0, 2.0]):
+        beam[section.KEY] = wrong
+        assert section.stored(beam) is None and section.fingerprint(beam) == ""
+    assert section.clear(beam) and not section.clear(beam) and section.stored(beam) is None

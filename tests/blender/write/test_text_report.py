@@ -152,3 +152,23 @@ def test_a_wall_is_told_as_one():
     for text in (text_report.text(document()), stored(box)):
         assert line(text, "Verdict") == "shell: The mass is in a wall of real thickness"
         assert any("0.01 m" in note for note in re.findall(r"^  Note +(.*)$", text, re.MULTILINE))
+
+
+@pytest.mark.parametrize("name", ["center_of_mass", "inertia"])
+def test_what_has_no_tensor_is_told_as_far_as_it_is_known(name):
+    files.add_box("Box")
+    found = document()
+    whole = text_report.text(found)
+    found["objects"][0][name] = None
+    told = text_report.text(found)
+    assert "\n  Surface area " in told
+    for label in ("Center of mass", "Principal moments", "Inertia tensor", "Rounding, at most"):
+        assert "\n  " + label in whole and label not in told
+
+
+def test_the_share_of_a_display_mesh_of_no_volume_is_none():
+    files.add_box("Box")
+    found = document()
+    for volume, share in ((4.0, "-25"), (0.0, "+0")):
+        found["objects"][0].update(volume=volume, display_mesh={"volume": 3.0, "difference": -1.0})
+        assert line(text_report.text(found), "Its display mesh") == "3 m³, {} %".format(share)

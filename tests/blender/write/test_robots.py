@@ -1,0 +1,140 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the formats of robots cannot say or would round wrongly, and files that are none: findings, names, limits."""
+
+import json
+import struct
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+pytest.importorskip("bpy")
+from body_moments.core.robots.model import Joint, Link, Pose, Robot
+from body_moments.core.verdict.finding import FileError, finding
+from body_moments.operators.write.robots import from_records, gltf, mjcf, text, usd
+
+from tests.blender.write.test_documents import of_box
+
+
+def with_least(mass, moment):
+    """An inertial of this mass and this least moment."""
+    return replace(of_box(1.0, (1.0, 2.0, 4.0)), mass=mass, moments=np.array([moment, 2.0 * moment, 3.0 * moment]))
+
+
+def test_what_mujoco_refuses_is_named_with_the_least_of_all():
+    least = mjcf.LEAST
+    links = [
+        Link("none", None),
+        Link("right", with_least(1.0, least)),
+        Link("light", with_least(np.nextafter(least, 0.0), 1.0)),
+        Link("thin", with_least(1.0, 0.25 * least)),
+        Link("large", of_box(2.0, (1.0, 2.0, 4.0))),
+    ]
+    assert mjcf.check(Robot("r", tuple(links[:2]))) == mjcf.check(Robot("r", ())) == []
+    values = {"count": 2, "links": ["light", "thin"], "least": 0.25 * least, "limit": 1e-15}
+    assert mjcf.check(Robot("r", tuple(links))) == [finding("mjcf_inertia_too_small", **values)]
+
+
+def test_what_single_precision_does_not_hold_is_named():
+    """Half of a moment has all its digits: readers may halve it."""
+    least = float(np.finfo(np.float32).tiny)
+    links = [
+        Link("none", None),
+        Link("right", with_least(1.0, np.nextafter(2.0 * least, 1.0))),
+        Link("small", with_least(1.0, 2.0 * least)),
+        Link("zero", with_least(1.0, 0.0)),
+        Link("unknown", with_least(1.0, np.nan)),
+    ]
+    assert usd.check(Robot("r", tuple(links[:2]))) == usd.check(Robot("r", ())) == []
+    (found,) = usd.check(Robot("r", tuple(links)))
+    assert found == finding("usd_inertia_too_small", count=3, links=["small", "zero", "unknown"])
+
+
+def test_the_largest_moment_does_not_exceed_the_others_in_single_precision():
+    """It is lowered no more than that needs, and not at all where nothing is to do."""
+    draw = np.random.default_rng(3)
+    lowered = 0
+    for first, second in draw.uniform(0.5, 2.0, (500, 2)):
+        low, high = sorted((first, second))
+        moments = np.array([low, high, low + high])  # of a plate
+        plain, rounded = moments.astype(np.float32), usd.round_down(moments)
+        assert rounded.dtype == np.float32 and (rounded[:2] == plain[:2]).all()
+        sides = float(rounded[0]) + float(rounded[1])
+        assert float(rounded[2]) <= sides
+        if float(plain[2]) <= sides:
+            assert rounded[2] == plain[2]
+        else:
+            lowered += 1
+            assert float(np.nextafter(rounded[2], np.float32(9.0))) > sides
+    assert 50 < lowered < 450
+    assert usd.round_down([1.0, 2.0, 2.5]).tolist() == [1.0, 2.0, 2.5]
+
+
+def test_names_that_become_one_are_numbered():
+    names = ["a b", "a-b", "a_b", "a_b_2", "c"]
+    assert text.unique_names(names, usd.identifier) == dict(zip(names, ["a_b", "a_b_2", "a_b_3", "a_b_2_2", "c"]))
+    assert text.unique_names(["a", "b"], str, ["a", "a_2"]) == {"a": "a_3", "b": "b"}
+    files = from_records.mesh_files(["Arm", "ARM", "äb", ""])
+    assert files == {"Arm": "meshes/arm.stl", "ARM": "meshes/arm_2.stl", "äb": "meshes/_b.stl", "": "meshes/_.stl"}
+
+
+def test_a_root_without_a_mass_is_passed_over_in_a_gltf():
+    inertial = of_box(2.0, (1.0, 2.0, 4.0))
+    robot = Robot("r", (Link("empty", None), Link("box", inertial), Link("empty 2", None)))
+    document = {"nodes": [{"name": name} for name in ("empty", "box", "empty 2")]}
+    assert gltf.add_rigid_bodies(document, robot, 1.0) == []
+    assert [gltf.KHR in node.get("extensions", {}) for node in document["nodes"]] == [False, True, False]
+    nothing = {"nodes": [{"name": "empty"}]}
+    assert gltf.add_rigid_bodies(nothing, Robot("r", (Link("empty", None),)), 1.0) == []
+    assert nothing == {"nodes": [{"name": "empty"}]}
+
+
+GLB = struct.pack("<4s2I", b"glTF", 2, 32)
+
+
+@pytest.mark.parametrize(
+    "data",
+    [
+        b"",
+        b"{",
+        b"\xff\xfe",
+        GLB,
+        GLB + struct.pack("<I4s", 8, b"BIN\0") + bytes(8),
+        GLB + struct.pack("<I4s", 4, b"JSON") + b"[1, ",
+        GLB + struct.pack("<I4s", 0, b"JSON"),
+        GLB + struct.pack("<I", 4),
+    ],
+)
+def test_what_is_no_gltf_is_refused(data):
+    with pytest.raises(FileError) as refused:
+        gltf.read_json(data)
+    assert refused.value.finding == finding("gltf_unreadable")
+
+
+def record(name, mass=1.0, **link):
+    place = {"position": [0.0, 0.0, 0.0], "rotation": np.eye(3).tolist()}
+    return {"name": name, "mass": mass, "link": {"parents": [], **place, **link}}
+
+
+def test_a_document_without_a_body_is_no_robot():
+    assert from_records.robot_of_records("r", [])[1] == [finding("robot_without_links")]
+    left = [record("massless", 0.0), {"name": "bare", "mass": 1.0}, {**record("none"), "link": None}]
+    robot, said = from_records.robot_of_records("r", left)
+    names = ["massless", "bare", "none"]
+    assert said == [finding("robot_links_left_out", count=3, links=names), finding("robot_without_links")]
+    assert robot.links == () and robot.joints == () and robot.name == "r"
+
+
+def test_poses_that_are_the_same_are_known():
+    assert text.is_identity(Pose())
+    assert not text.is_identity(Pose(np.array([0.0, 0.0, 1e-300])))
+    assert not text.is_identity(Pose(rotation=np.diag([-1.0, -1.0, 1.0])))
+
+
+def test_a_joint_of_a_robot_may_have_the_name_of_a_link_in_usd():
+    """Both are prims of one parent."""
+    inertial = of_box(2.0, (1.0, 2.0, 4.0))
+    robot = Robot("r", (Link("a", inertial), Link("b", inertial)), (Joint("a", "a", "b"),))
+    layer = usd.write(robot)
+    assert 'def Xform "a"' in layer and 'def PhysicsFixedJoint "a_2"' in layer and json.dumps("b") in layer
