@@ -23,6 +23,7 @@ NAMES = {
     r"^STEPS_BEFORE_MERGE$": "from when on directions that go to one maximum are followed as one",
     r"^MAX_CACHED_|_SCRATCH_": "how much is remembered",
     r"^DIRECT_COST$": "how time is estimated",
+    r"^(TRIAL_RADII|ERROR_CREDITS|SAMPLE_FREQUENCIES)$": "what is tried, and compared, first or besides",
     r"^NO_BONE$": "a mark, of which any negative number is one",
 }
 # places ("module function"), and the mutant's text before and after it: the reason
@@ -146,6 +147,7 @@ CONSTANTS = [
     (r".*mesh/convex_hull.py _first_corners", r"GRID_BITS - ", "the farthest from any place is at a corner"),
     (r".*mesh/convex_hull.py _first_corners", r"heights\[fourth\] < ", "it is more than a step above or below"),
     (r".*mesh/scan_lines.py LineGrids.through_points", r"np\.zeros\(\(count, 2\)\), (1, )?", "there is nothing beyond"),
+    (r".*fourier/grid.py ", r"SHARING_TIME, CHECKING_TIME = .*", "how time is estimated"),
     (r".*fourier/grid.py _points_per_side", r"np\.geomspace\(.*", "how fine and long the table is"),
     (r".*nurbs/patch_moments.py integrand_in_blocks", r"step = .*", "how much is computed at a time"),
     (r".*nurbs/patch_moments.py ", r"SLOPE_POINTS, SLOPE_SPANS = .*", "how fine a rule is, and how much at a time"),

@@ -175,3 +175,15 @@ def test_an_inverted_surface_counts_negative_and_a_far_one_nothing():
 def test_values_that_are_not_finite_are_refused():
     with refused("density_non_finite"):
         inside_moments(blob(), np.full((7, 7, 7), np.nan))
+
+
+def test_what_lies_beyond_the_grid_hides_nothing_behind_it(monkeypatch):
+    """A box beside the grid ahead of one in it, triangle by triangle."""
+    densities = random_densities()
+    inner = box((0.5, 1.0, 0.25), (3.5, 4.5, 5.0))
+    alone, volume = inside_moments(inner, densities, 2)
+    monkeypatch.setattr(density_inside, "PIECES_PER_BATCH", 1)
+    found, both = inside_moments(np.concatenate([box((-9.0, 1.0, 1.0), (-7.0, 2.0, 2.0)), inner]), densities, 2)
+    assert close(both, volume, rel=1e-13) and close(volume, 3.0 * 3.5 * 4.75, rel=1e-13)
+    expected = alone.about_point(found.about)
+    assert (np.abs(found.raw - expected.raw) <= found.rounding_error + expected.rounding_error).all()

@@ -15,6 +15,7 @@ from body_moments.core.fourier.wave_vectors import FrequencyGrid
 from body_moments.core.numerics.quadrature import triangle_rule
 from body_moments.core.polyhedron import integration
 
+from tests.close import close
 from tests.core import bodies
 from tests.core.findings import refused
 
@@ -198,3 +199,20 @@ def test_points_along_a_side_are_the_fewest_whose_bound_is_allowed(tolerance):
     for span, n in zip(spans.tolist(), found.tolist()):
         assert n > largest or suffices(span, n)
         assert not any(suffices(1.006 * span, fewer) for fewer in range(1, n))
+
+
+@pytest.mark.parametrize("size", [0.01, 1.0, 300.0])
+def test_half_of_the_tolerance_is_for_the_points_and_half_for_the_kernel(size):
+    """Of a box of 1 by 2 by 3: by the area, and of a volume by the wave vector, at the corners of the grid at most."""
+    surface = bodies.surface(bodies.box((0.0, 0.0, 0.0), (size, 2.0 * size, 3.0 * size)))
+    grid, area = FrequencyGrid(20, 5.0 / size), 22.0 * size**2
+    for tolerance in (1e-3, 1e-6):
+        volume = GridTransform(surface, grid, "volume", tolerance * size**3)
+        mean = tolerance * size**3 / area / 2.0
+        assert close(volume.each, mean * np.sqrt(3.0) * grid.largest / 2.0, rel=1e-12)
+        assert close(volume.joint_count * volume.faces.scale**3, tolerance * size**3 / 2.0 / 3.0, rel=1e-12)
+        assert volume.width == _kernel_width(grid.half, mean * grid.step, True)
+        surfaces = GridTransform(surface, grid, "area", tolerance * size**2)
+        assert close(surfaces.each, tolerance * size**2 / area / 2.0 / 2.0, rel=1e-12)
+        assert close(surfaces.joint_count * surfaces.faces.scale**2, tolerance * size**2 / 2.0 / 3.0, rel=1e-12)
+        assert surfaces.width == _kernel_width(grid.half, tolerance * size**2 / area / 2.0, False)

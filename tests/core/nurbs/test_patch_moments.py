@@ -551,3 +551,9 @@ def test_where_a_patch_turns_over_the_area_between_its_points_counts(swapped, la
     found = patch_moments._reversed_areas(normal, tuple(one[:, None] for one in weights), rule)
     width = nodes[0][4] - nodes[0][3]
     assert close(found, [0.0, size * (1.0 + abs(last)) * width / 2.0 if counts else 0.0, 0.0], rel=1e-13)
+
+
+def test_volumes_and_sheets_have_moments_to_third_order_and_areas_their_total_alone():
+    patch = Patch((clamped_space(4), clamped_space(3)), bent_sheet(0.1))
+    found = volume_moments([patch])[0], sheet_moments([patch], 0.0, 0.01)[0], area_moments([patch])[0]
+    assert [moments.order for moments in found] == [3, 3, 0]

@@ -1,0 +1,48 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Winding numbers by rays: of a box, and where they are not sure."""
+
+import numpy as np
+import pytest
+from body_moments.core.mesh import bvh
+from body_moments.core.mesh.bvh import RAY_SLOPES, Bvh, sort_components
+
+from tests.core import bodies
+
+RAY = np.array([*RAY_SLOPES, 1.0])
+TOLERANCE = 1e-6
+
+
+def tree_of(points, triangles):
+    components = sort_components(points, triangles, np.zeros(len(triangles), np.intp), 1)
+    return Bvh(points, components, np.ones(1, bool))
+
+
+@pytest.mark.parametrize("flip", [False, True])
+@pytest.mark.parametrize("share", [2.0, 1.1, 0.9, 0.1, -0.1, -0.9, -1.1, -2.0])
+def test_a_place_is_sure_where_the_surface_is_farther_along_the_ray_than_the_tolerance(share, flip):
+    """Of faces above and below it, on both sides; other places are sure all the same."""
+    points, triangles = bodies.box((1.0, 2.0, 3.0), (2.0, 4.0, 6.0))
+    tree = tree_of(points, triangles[:, ::-1] if flip else triangles)
+    faces = np.array([[1.3, 2.9, 6.0], [1.8, 3.4, 3.0], [1.3, 3.1, 6.0]])
+    far = np.array([[1.5, 3.0, 4.5], [0.5, 3.0, 4.5], [1.5, 3.0, 6.5], [1.5, 3.0, 2.0]])
+    places = np.concatenate([faces - share * TOLERANCE * RAY, far])
+    winding, sure = tree.winding_numbers(places - tree.origin, np.zeros(7, np.intp), TOLERANCE)
+    assert sure.tolist() == [abs(share) > 1.0] * 3 + [True] * 4
+    inside = [share > 0.0, share < 0.0, share > 0.0, True, False, False, False]
+    expected = np.where(inside, -1 if flip else 1, 0)
+    assert (winding[sure] == expected[sure]).all()
+
+
+def test_a_place_on_the_surface_is_not_sure_without_a_tolerance():
+    tree = tree_of(*bodies.box((0.0, 0.0, 0.0), (1.0, 2.0, 4.0)))
+    places = np.array([[0.5, 0.75, 4.0], [0.5, 0.75, 0.0], [0.5, 0.75, 1.0]]) - tree.origin
+    assert tree.winding_numbers(places, np.zeros(3, np.intp), 0.0)[1].tolist() == [False, False, True]
+
+
+@pytest.mark.parametrize("limit, is_sure", [(4, False), (5, True)])
+def test_where_the_work_runs_out_nothing_is_sure(monkeypatch, limit, is_sure):
+    monkeypatch.setattr(bvh, "MAX_BOX_PAIRS", limit)
+    points, triangles = bodies.box()
+    tree = tree_of(points, triangles[:4])  # one leaf
+    assert tree.winding_numbers(np.full((5, 3), 9.0), np.zeros(5, np.intp), 0.0)[1].tolist() == [is_sure] * 5
