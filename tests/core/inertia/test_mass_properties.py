@@ -6,9 +6,9 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from body_moments.core.inertia.mass_properties import MassProperties, combine
+from body_moments.core.inertia.mass_properties import MassProperties, are_physical, combine
 from body_moments.core.mesh.surface import Surface
-from body_moments.core.moments.moments import SECOND_MOMENT_INDEX, Moments, monomials, sum_moments
+from body_moments.core.moments.moments import SECOND_MOMENT_INDEX, Measure, Moments, monomials, sum_moments
 from body_moments.core.solid.measure_solid import measure_solid
 
 from tests.close import close
@@ -178,3 +178,43 @@ def test_a_mass_that_may_be_none_bounds_no_center(share, bounded):
     off[0] = share * L_PRISM.raw[0]
     found = MassProperties.from_moments(Moments(L_PRISM.raw, np.zeros(3), input_error=off)).input_error
     assert [np.isfinite(found[name]) for name in ("mass", "center", "inertia")] == [True, bounded, bounded]
+
+
+def stack_of(centers, spread, about, total, first_error=0.0, second_error=0.0):
+    """Moments of bodies with these centers and these central second moments (xx, yy, zz) by the total."""
+    raw, error = np.zeros((2, len(centers), 10))
+    for row, center in enumerate(centers):
+        mean = np.array(center) - about
+        second = np.diag(spread) + np.outer(mean, mean)
+        raw[row] = total * np.concatenate([[1.0], mean, second[np.triu_indices(3)]])
+    error[:, 2], error[:, 6] = first_error * total, second_error * total
+    return Moments(raw, np.tile(about, (len(centers), 1)), Measure.VOLUME, error)
+
+
+@pytest.mark.parametrize("size, first_error", [(4.0, 0.0), (4.0, 3e-6), (400.0, 0.0)])
+def test_a_body_s_center_is_in_its_box_but_for_what_is_uncertain(size, first_error):
+    """A millionth of the size, and what rounding leaves of the first moments."""
+    low, high, about = np.array([1.0, -2.0, 3.0]), np.array([2.0, 1.0, 7.0]), np.array([1.75, 0.5, 4.0])
+    tolerance = 1e-6 * size + first_error
+    centers, expected = [(low + high) / 2.0], [True]
+    for axis in range(3):
+        for end, sign in ((low, -1.0), (high, 1.0)):
+            for share in (0.99, 1.01):
+                center = (low + high) / 2.0
+                center[axis] = end[axis] + sign * share * tolerance
+                centers.append(center)
+                expected.append(share < 1.0)
+    volume = stack_of(centers, (0.3, 0.2, 0.1), about, 5.0, first_error=first_error)
+    boxes = (np.tile(side, (len(centers), 1)) for side in (low, high))
+    assert are_physical(volume, *boxes, size).tolist() == expected
+
+
+@pytest.mark.parametrize("error", [1e-9, 1e-6])
+def test_a_body_s_second_moments_are_those_of_a_mass_but_for_eight_times_what_is_uncertain(error):
+    center = np.array([1.5, -0.5, 5.0])
+    for axis in range(3):
+        for share in (-1.01, -0.99, 0.5):
+            spread = np.array([0.3, 0.2, 0.4])
+            spread[axis] = share * 8.0 * error
+            volume = stack_of([center], spread, center, 7.0, second_error=error)
+            assert are_physical(volume, center[None] - 2.0, center[None] + 2.0, 4.0).tolist() == [share > -1.0]
