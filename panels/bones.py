@@ -37,16 +37,17 @@ class BonesPanel:
             return
         rows.stale_row(layout, context, stored_rig.stale_reason(armature, context.scene))
         units = Units.of(context.scene.unit_settings)
-        measured = [bone for bone in armature.pose.bones if "body_mass" in bone]
-        total = sum(bone["body_mass"] for bone in measured)
+        stored = [(bone, properties.numbers(bone)) for bone in armature.pose.bones]
+        measured = [(bone, numbers[0][0]) for bone, numbers in stored if numbers is not None]
+        total = sum(mass for _, mass in measured)
         column = layout.column(align=True)
-        for bone in measured[:LISTED]:
+        for bone, mass in measured[:LISTED]:
             row = column.row(align=True)
             row.label(text=bone.name, icon="BONE_DATA", translate=False)
             cell = row.row(align=True)
             cell.alignment = "RIGHT"
-            cell.label(text=units.text("mass", bone["body_mass"]), translate=False)
-            cell.label(text="{:.1f}%".format(100.0 * bone["body_mass"] / total), translate=False)
+            cell.label(text=units.text("mass", mass), translate=False)
+            cell.label(text="{:.1f}%".format(100.0 * mass / total), translate=False)
         if len(measured) > LISTED:
             rows.filled(layout, "And {:d} more", len(measured) - LISTED)
         column = layout.column(align=True)

@@ -159,7 +159,8 @@ def _faces(points: NDArray, hull: ConvexHull, least: float) -> _Faces:
     length = np.linalg.norm(inward, axis=1)
     distance = -np.einsum("ij,ij->i", inward, start) / np.where(length > 0.0, length, 1.0)
     order = np.lexsort((distance, owner))
-    first = np.append(True, owner[order][1:] != owner[order][:-1])
+    first = np.ones(len(order), bool)  # none where what was flattened is one face
+    first[1:] = owner[order][1:] != owner[order][:-1]
     nearest = order[first]
     margins, over = np.full(count, -np.inf), np.arange(count)
     margins[owner[nearest]], over[owner[nearest]] = distance[nearest], beyond[nearest]

@@ -85,16 +85,20 @@ def iterate_objects(
         yield done
 
 
-def apply_to_all(objects: Sequence[Object], action: Callable[[Object], bool]) -> tuple[int, list[Finding]]:
-    """Run `action` on each object; how many it changed, and why others were refused or failed."""
+def apply_to_all(
+    objects: Sequence[Object], action: Callable[[Object], bool | None]
+) -> tuple[list[Object], list[Finding]]:
+    """Run `action` on each object; which it changed, all but those of which it says no, and why others were refused or
+    failed."""
     changed: list[Object] = []
     failures: list[Finding] = []
 
     def run(obj: Object) -> None:
-        if action(obj):
+        is_changed = action(obj)
+        if is_changed is None or is_changed:
             changed.append(obj)
 
     with progress(len(objects)) as step:
         for done in iterate_objects(objects, run, failures):
             step(done)
-    return len(changed), failures
+    return changed, failures

@@ -152,13 +152,16 @@ def _member_bodies(root: Member) -> dict[Object, tuple[float, NDArray[np.float64
     """Of each member the stored mass, where its center is in the world, and its radius of gyration."""
     bodies = {}
     for member in root.walk():
-        if member.kind == MemberKind.OBJECT and member.is_measured and "body_mass" in member.data:
+        if member.kind == MemberKind.OBJECT and member.is_measured:
             obj = member.data
+            numbers = properties.numbers(obj)
+            if numbers is None:
+                continue
+            stored = properties.from_numbers(numbers).body
             location, rotation, _scale = obj.matrix_world.decompose()
             unit = bpy.context.scene.unit_settings.scale_length
-            center = np.array(rotation @ Vector(obj["body_center_of_mass"]) + location * unit, np.float64)
-            mass = float(obj["body_mass"])
-            bodies[obj] = mass, center, float(np.sqrt(sum(obj["body_inertia_diagonal"]) / 2.0 / mass))
+            center = np.array(rotation @ Vector(stored.center) + location * unit, np.float64)
+            bodies[obj] = stored.mass, center, float(np.sqrt(np.trace(stored.inertia) / 2.0 / stored.mass))
     return bodies
 
 

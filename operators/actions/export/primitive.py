@@ -55,7 +55,7 @@ class OBJECT_OT_body_moments_equal_inertia(Operator):
         unit = shortest_decimal(context.scene.unit_settings.scale_length)
         shapes: list[tuple[Object, Shape, float]] = []
 
-        def measure(obj: Object) -> bool:
+        def measure(obj: Object) -> None:
             if self.rigid_body and (not obj.is_editable or obj.parent is not None):
                 raise EditRefusedError("primitive_has_parent")
             if self.rigid_body:
@@ -63,7 +63,6 @@ class OBJECT_OT_body_moments_equal_inertia(Operator):
             body = measure_object(obj, depsgraph).mass_properties
             inertial = Inertial(body.mass, body.center, body.inertia, body.principal.moments, body.principal.axes)
             shapes.append((obj, equal_inertia_shape(inertial, self.kind.lower()), body.mass))
-            return True
 
         _, failures = selection.apply_to_all(objects, measure)
         added = [self._add(context, obj, shape, mass, unit) for obj, shape, mass in shapes]

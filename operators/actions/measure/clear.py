@@ -54,10 +54,10 @@ class OBJECT_OT_body_moments_clear(Operator):
                 removed = True
             return removed
 
-        count, failures = selection.apply_to_all(objects, remove)
+        cleared, failures = selection.apply_to_all(objects, remove)
         staleness.mark_up_to_date(context, objects)
-        done = finding("results_removed", count=count) if objects else finding("no_results_to_remove")
-        return selection.summarize(self, count, len(objects), done, failures)
+        done = finding("results_removed", count=len(cleared)) if objects else finding("no_results_to_remove")
+        return selection.summarize(self, len(cleared), len(objects), done, failures)
 
 
 CLASSES = (OBJECT_OT_body_moments_clear,)

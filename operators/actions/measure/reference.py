@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import bmesh
 import numpy as np
-from bpy.types import Context, Operator
+from bpy.types import Context, Object, Operator
 
 from ....core.inertia.reference import ReferredInertia
 from ....core.verdict.finding import MeasureError, QueryError, finding
@@ -34,14 +34,13 @@ class OBJECT_OT_body_moments_store_reference(Operator):
     def execute(self, context: Context) -> set[str]:
         objects = [obj for obj in context.view_layer.objects.selected if properties.is_stored(obj)]
 
-        def store(obj) -> bool:
+        def store(obj: Object) -> None:
             reference.store(obj, context.scene)
             properties.retrigger_drivers(obj)
-            return True
 
-        count, failures = selection.apply_to_all(objects, store)
-        done = finding("reference_stored", count=count) if objects else finding("no_stored_results")
-        return selection.summarize(self, count, len(objects), done, failures)
+        stored, failures = selection.apply_to_all(objects, store)
+        done = finding("reference_stored", count=len(stored)) if objects else finding("no_stored_results")
+        return selection.summarize(self, len(stored), len(objects), done, failures)
 
 
 class OBJECT_OT_body_moments_copy_reference(Operator):

@@ -94,36 +94,34 @@ class OBJECT_OT_body_moments_select_faults(Operator):
         measurements: dict[Object, Measurement] = {}
         faults: dict[Object, dict[str, np.ndarray]] = {}
 
-        def measure(obj: Object) -> bool:
+        def measure(obj: Object) -> None:
             require_editable_mesh(obj)
             measurements[obj] = measure_object(obj, depsgraph)
-            return True
 
-        def store(obj: Object) -> bool:
+        def store(obj: Object) -> None:
             staleness.note_edits(obj)
             properties.store(obj, density.noted(obj, measurements[obj], context.scene))
             wrong = {kind: found for kind, found in _defects_by_kind(measurements[obj]).items() if kind in self.kinds}
             if wrong:
                 faults[obj] = wrong
-            return True
 
         # Not each stored as it is measured: Blender would evaluate the scene again for every one of them.
         _, failures = selection.apply_to_all(objects, measure)
-        count, unstored = selection.apply_to_all(list(measurements), store)
+        stored, unstored = selection.apply_to_all(list(measurements), store)
         failures += unstored
         if faults:
             _show_defects(context, faults)
         elif editing:
             bpy.ops.object.mode_set(mode="EDIT")
-        staleness.mark_up_to_date(context, list(measurements))
-        done = finding("no_defects", count=count)
+        staleness.mark_up_to_date(context, stored)
+        done = finding("no_defects", count=len(stored))
         if faults:
-            done = finding("with_defects", count=len(faults), total=count)
+            done = finding("with_defects", count=len(faults), total=len(stored))
         defects = [
             finding("object_defects", object=obj.name, defects=_counts(measurements))
             for obj, measurements in faults.items()
         ]
-        return selection.summarize(self, count, len(objects), done, failures, defects)
+        return selection.summarize(self, len(stored), len(objects), done, failures, defects)
 
 
 def require_editable_mesh(obj: Object) -> None:

@@ -72,9 +72,9 @@ class OBJECT_OT_body_moments_set_material(Operator):
             return before != _density_of(settings)
 
         changed, failures = selection.apply_to_all(objects, set_density)
-        done = finding("material_set", count=changed, material=material.name)
+        done = finding("material_set", count=len(changed), material=material.name)
         idle = finding("material_set_already", material=material.name)
-        return selection.summarize(self, changed, len(objects), done, failures, idle=idle)
+        return selection.summarize(self, len(changed), len(objects), done, failures, idle=idle)
 
 
 def _density_of(settings) -> tuple:
@@ -141,9 +141,9 @@ class OBJECT_OT_body_moments_copy_settings(Operator):
             require_storable_data(obj, "library_override_settings")
             return copy_settings(active.body_moments, obj.body_moments)
 
-        count, failures = selection.apply_to_all(objects, copy)
-        done = finding("settings_copied", count=count)
-        return selection.summarize(self, count, len(objects), done, failures, idle=finding("settings_equal"))
+        copied, failures = selection.apply_to_all(objects, copy)
+        done = finding("settings_copied", count=len(copied))
+        return selection.summarize(self, len(copied), len(objects), done, failures, idle=finding("settings_equal"))
 
 
 class OBJECT_OT_body_moments_preset_add(AddPresetBase, Operator):

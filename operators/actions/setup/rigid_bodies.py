@@ -143,9 +143,8 @@ class OBJECT_OT_body_moments_rigid_bodies(Operator):
 
         ask = _asked(context, by_obj.values())
 
-        def measure(obj: Object) -> bool:
+        def measure(obj: Object) -> None:
             measured[obj] = _measured(context, by_obj[obj], ask)
-            return True
 
         _, failures = selection.apply_to_all(list(by_obj), measure)
         context.view_layer.update()

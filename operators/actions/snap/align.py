@@ -71,16 +71,8 @@ class OBJECT_OT_body_moments_align_to_world(Operator):
     def execute(self, context: Context) -> set[str]:
         objects = selection.selected_measurable(context)
         frame = directions(self.order)
-        moved: list[Object] = []
-
-        def turn(obj: Object) -> bool:
-            # One after the other, for a child moves with its parent.
-            if self._align(context, obj, frame):
-                moved.append(obj)
-                return True
-            return False
-
-        _, failures = selection.apply_to_all(objects, turn)
+        # one after the other, for a child moves with its parent
+        moved, failures = selection.apply_to_all(objects, lambda obj: self._align(context, obj, frame))
         snapping.remeasure(context, moved)
         done = finding("aligned_to_world", count=len(moved))
         return selection.summarize(self, len(moved), len(objects), done, failures, idle=finding("already_aligned"))

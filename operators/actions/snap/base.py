@@ -182,7 +182,7 @@ def reframe_objects(
         plans: list[reframe.Plan] = []
         measured = measured_in_turn(chosen, context.evaluated_depsgraph_get(), CENTER if move_only else POSE)
 
-        def plan(obj: Object) -> bool:
+        def plan(obj: Object) -> None:
             reframe.check(obj)
             outcome = measured(obj)
             body = target_of(context, obj, outcome, strict)
@@ -191,7 +191,6 @@ def reframe_objects(
                 plans.append(reframe.Plan(obj, target, body.size, move_only=move_only))
             elif right is not None and properties.is_stored(obj):
                 right[obj] = outcome
-            return True
 
         return plans, selection.apply_to_all(chosen, plan)[1]
 

@@ -36,14 +36,13 @@ class VIEW3D_OT_body_moments_cursor_to_center(Operator):
         objects = selection.selected_measurable(context)
         measured, bodies = measured_in_turn(objects, context.evaluated_depsgraph_get()), []
 
-        def add(obj: Object) -> bool:
+        def add(obj: Object) -> None:
             measurement = measured(obj).measurement
             if measurement.method.verdict == Verdict.OPEN:
                 raise EditRefusedError("open_object")
             bodies.append((measurement.mass_moments, measurement.mass_properties))
-            return True
 
-        count, failures = selection.apply_to_all(objects, add)
+        added, failures = selection.apply_to_all(objects, add)
         findings = []
         if bodies:
             # One body keeps the frame that was measured, with what its own exact third moments say
@@ -54,8 +53,8 @@ class VIEW3D_OT_body_moments_cursor_to_center(Operator):
             if self.rotate:
                 _rotate_cursor(cursor, total.principal.axes)
                 findings = [total.principal.finding] if total.principal.finding is not None else []
-        done = finding("cursor_moved", count=count) if objects else finding("nothing_measurable")
-        return selection.summarize(self, count, len(objects), done, failures, findings)
+        done = finding("cursor_moved", count=len(added)) if objects else finding("nothing_measurable")
+        return selection.summarize(self, len(added), len(objects), done, failures, findings)
 
 
 def _rotate_cursor(cursor: View3DCursor, axes: np.ndarray) -> None:

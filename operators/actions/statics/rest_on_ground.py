@@ -75,16 +75,8 @@ class OBJECT_OT_body_moments_rest_on_ground(Operator):
     def execute(self, context: Context) -> set[str]:
         objects = selection.selected_measurable(context)
         findings: list[Finding] = []
-        moved: list[Object] = []
-
-        def lay(obj: Object) -> bool:
-            # One after the other, for a child moves with its parent.
-            if self._lay(context, obj, findings):
-                moved.append(obj)
-                return True
-            return False
-
-        _, failures = selection.apply_to_all(objects, lay)
+        # one after the other, for a child moves with its parent
+        moved, failures = selection.apply_to_all(objects, lambda obj: self._lay(context, obj, findings))
         snapping.remeasure(context, moved)
         done = finding("laid_on_ground", count=len(moved))
         idle = finding("already_on_ground")

@@ -37,19 +37,18 @@ class OBJECT_OT_body_moments_stability(Operator):
         findings: list[Finding] = []
         measured: list[Object] = []
 
-        def check(obj: Object) -> bool:
+        def check(obj: Object) -> None:
             findings.extend(check_stability(context, obj, measured))
-            return True
 
-        count, failures = selection.apply_to_all(objects, check)
+        known, failures = selection.apply_to_all(objects, check)
         staleness.mark_up_to_date(context, measured)
         standing = [obj for obj in objects if _stands(obj, context)]
         falling = [obj.name for obj in objects if stability.is_known(obj) and obj not in standing]
         if falling:
             findings.insert(0, finding("objects_tip", count=len(falling), names=falling))
         redraw(context)
-        done = finding("stability_computed", count=len(standing), total=count)
-        return selection.summarize(self, count, len(objects), done, failures, findings)
+        done = finding("stability_computed", count=len(standing), total=len(known))
+        return selection.summarize(self, len(known), len(objects), done, failures, findings)
 
 
 def check_stability(context: Context, obj: Object, measured: list[Object]) -> list[Finding]:

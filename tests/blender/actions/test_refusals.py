@@ -9,7 +9,7 @@ import bpy
 import pytest
 from body_moments.core.verdict.finding import finding
 from body_moments.operators.actions.assembly.assembly import target_of
-from mathutils import Quaternion
+from mathutils import Matrix, Quaternion
 
 from tests.blender.actions.assembly.test_assembly import assembly_of_boxes
 from tests.blender.actions.measure.test_section import I_BEAM, flat_mesh
@@ -48,6 +48,15 @@ def empty_assembly():
     root = assembly_of_boxes()
     for obj in [*root.all_objects]:
         bpy.data.objects.remove(obj)
+
+
+def damaged_member():
+    assembly_of_boxes()
+    obj = bpy.data.objects["b0"]
+    obj.data.transform(Matrix.Translation((1, 2, 3)))
+    only(obj)
+    bpy.ops.object.body_moments_measure_assembly()
+    obj["body_center_of_mass"] = "gone"
 
 
 def held_root():
@@ -235,6 +244,7 @@ CASES = {
     "assembly of a body": (body, "object.measure_assembly", {"target": "OBJECT"}),
     "clear no assembly": (body, "object.clear_assembly", {"target": "OBJECT"}),
     "assembly with a linked member": (linked_member, "object.measure_assembly", {}),
+    "origin of a damaged member": (damaged_member, "object.origin_to_center", {}),
     "origin that is held": (held_root, "object.assembly_origin", {"target": "OBJECT"}),
     "child that is held": (held_child, "object.assembly_origin", {"target": "OBJECT"}),
     "bill nowhere": (assembly_of_boxes, "object.export_bill", {"filepath": NOWHERE}),

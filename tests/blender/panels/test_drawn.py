@@ -313,6 +313,28 @@ def test_grid(book, tmp_path):
         book.draw("Threshold, " + fill, "", "density")
 
 
+def test_damaged_numbers(book):
+    obj = solid()
+    measure()
+    bpy.ops.object.body_moments_stability()
+    obj["body_center_of_mass"] = "gone"
+    book.draw("A body", "", "inertia", "stability", "selection", "shape", "advanced")
+    obj["body_center_of_mass"] = [0.0, 0.0, 0.0]
+    bpy.context.scene.gravity = (0.0, 0.0, 0.0)
+    book.draw("Without gravity", "stability")
+    obj.scale = (1, 1, 0)
+    book.draw("Flattened", "stability")
+    armature, _ = character()
+    bpy.ops.object.body_moments_measure_bones()
+    armature.data.bones.active = armature.data.bones["head"]
+    armature.pose.bones["head"]["body_mass"] = "gone"
+    armature["body_inertia_diagonal"] = "gone"
+    book.draw("Bones", "", "bones", "BONE_PT_body_moments")
+    rounded = add(bpy.data.meshes.new("Ball"), "Ball")
+    rounded.body_moments.mass_from, rounded.body_moments.mass = "MASS", 1.0
+    book.draw("Nothing", "", "inertia", "selection")
+
+
 def test_objects(book):
     for kind, data in (
         ("Camera", bpy.data.cameras.new("C")),
@@ -379,8 +401,10 @@ def test_selection(book):
     only(first, second, strip, capped, unmeasured)
     book.draw("All", "selection")
     book.draw("All, narrow", "selection", context=NARROW)
+    layout, listed = Layout(), bpy.types.BODY_MOMENTS_UL_measured
+    listed.draw_filter(SimpleNamespace(bl_rna=listed.bl_rna), bpy.context, layout)
+    book.write("What filters", layout.text())
     layout = Layout()
-    listed = bpy.types.BODY_MOMENTS_UL_measured
     cls = SimpleNamespace(bl_rna=listed.bl_rna, filter_name="", sort_by="NAME", warnings_first=False)
     cls.bitflag_filter_item = 1 << 30
     for settings in ({}, {"filter_name": "t"}, {"sort_by": "VERDICT"}, {"warnings_first": True}):

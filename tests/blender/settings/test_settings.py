@@ -3,6 +3,7 @@
 """What follows from settings, each changed alone in each state, kept as text; grids, given parts, options, copies."""
 
 import re
+from types import SimpleNamespace
 
 import bpy
 import numpy as np
@@ -10,7 +11,7 @@ import pytest
 from body_moments.core.scans.positions import EVEN
 from body_moments.core.verdict.finding import MeasureError, finding
 from body_moments.operators.read.fingerprint import settings_hash
-from body_moments.operators.settings import accepted, density, digest, hooks, properties
+from body_moments.operators.settings import accepted, density, digest, hooks, preferences, properties
 from body_moments.operators.settings.given import GIVEN_PROPERTIES, GivenPart, is_point_mass
 from body_moments.operators.settings.grid import GridOptions, positions_text
 from body_moments.operators.settings.options import MeasureOptions
@@ -271,3 +272,37 @@ def test_accepted_findings():
     assert accepted.set_accepted(obj, "t_junctions", False) and not accepted.set_accepted(obj, "t_junctions", False)
     now = accepted.with_acceptance(marked, accepted.accepted_codes(obj))
     assert now == (marked[0], junctions)
+
+
+def test_a_scene_gets_the_preferences_once_where_it_has_nothing_of_its_own(monkeypatch, scene):
+    source = SimpleNamespace(show_overlay=False)
+    values = {"frame": "OBJECT", "density_unit": "G_CM3", "digits": 9, "digit_grouping": "NONE"}
+    vars(source).update(values, default_material="CUSTOM", default_density=50.0)
+    monkeypatch.setattr(preferences, "preferences", lambda: source)
+    assert {*values, "default_material", "default_density", "show_overlay"} == {*vars(source)}
+    assert {*preferences.COPIED} == {*vars(source)} - {"show_overlay"}
+    settings = scene.body_moments
+    settings.digits = 3
+    settings.overlay.show = True
+    preferences.copy_defaults(scene)
+    assert settings.has_defaults and settings.digits == 3 and settings.overlay.show
+    for name in {*preferences.COPIED} - {"digits"}:
+        assert getattr(settings, name) == getattr(source, name), name
+    settings.property_unset("digits")
+    settings.overlay.property_unset("show")
+    preferences.copy_defaults(scene)
+    assert not settings.is_property_set("digits") and not settings.overlay.is_property_set("show")
+    settings.has_defaults = False
+    preferences.copy_defaults(scene)
+    assert settings.digits == 9 and settings.overlay.is_property_set("show") and not settings.overlay.show
+
+
+def test_without_preferences_a_scene_stays_as_it_is(monkeypatch, scene):
+    monkeypatch.setattr(preferences, "preferences", lambda: None)
+    preferences.copy_defaults(scene)
+    assert not scene.body_moments.has_defaults
+
+
+def test_a_density_comes_from_volumes_alone(scene):
+    poll = properties.BodyMomentsObjectSettings.__annotations__["density_volume"].keywords["poll"]
+    assert poll(None, add(bpy.data.volumes.new("Cloud"))) and not poll(None, add(mesh_body()))

@@ -237,3 +237,10 @@ def test_where_every_margin_is_within_the_tolerance_no_pose_is_stable():
     assert len(resting_poses(cube, (0.5, 0.5, 0.5), 0.49).shares) == 6
     with refused("no_stable_pose"):
         resting_poses(cube, (0.5, 0.5, 0.5), 0.51)
+
+
+@pytest.mark.parametrize("axis", range(3))
+def test_a_body_that_was_flattened_has_no_stable_pose(axis):
+    cube = convex_hull(list(product((-1.0, 1.0), repeat=3)))
+    with refused("no_stable_pose"):
+        resting_poses(cube.transform(np.diag(np.arange(3) != axis).astype(float)), [0.0, 0.0, 0.0])
