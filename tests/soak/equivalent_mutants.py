@@ -23,6 +23,7 @@ NAMES = {
     r"^STEPS_BEFORE_MERGE$": "from when on directions that go to one maximum are followed as one",
     r"^MAX_CACHED_|_SCRATCH_": "how much is remembered",
     r"^DIRECT_COST$": "how time is estimated",
+    r"^CELL_DIAGONAL$": "how many points are looked at more closely",
     r"^(TRIAL_RADII|ERROR_CREDITS|SAMPLE_FREQUENCIES)$": "what is tried, and compared, first or besides",
     r"^NO_BONE$": "a mark, of which any negative number is one",
 }
