@@ -127,11 +127,25 @@ PATTERNS = [
         r"\([\w.]+\(((?!align=).)*\)\)",
         "whether the corners between two rows are round",
     ),
+    (r".*supervisor/pool.py Pool._receive", r"self\._give\(child\)", r"pass", "the next step gives it"),
+    (
+        r"operators/(supervisor/pool|write/file_lock|actions/measure/library).py _(STEP|WATCH|PAUSE|GROWTH_PERIOD)",
+        r".*",
+        r".*",
+        "how often is looked",
+    ),
+    (
+        r"operators/supervisor/(pool|processes|whole_run).py (START_LIMIT|_END|_STOP|MAX_FAILED_STARTS|GROWTH)",
+        r".*",
+        r".*",
+        "how much patience there is with a process that hangs, fails or grows",
+    ),
     (r"panels/rows.py DEFAULT_WIDTH", r"\d+", r"\d+", "a pixel of a panel whose width is not known"),
 ]
 # places of constants, and what stands ahead of them in their line: the reason
 CONSTANTS = [
     (r".*", r"\breshape\(([^()]|\([^()]*\))*-", "numpy finds out a length from any negative number"),
+    (r".*command/output.py claim_stdout", r"channel = -", "any negative number is no descriptor"),
     (r"panels/.*", r"\balign=", "whether the corners between two rows are round"),
     (r".*cad/iges.py _Reader._pieces", r"_pieces_left (-=|<) ", "how soon a boundary of too many pieces is given up"),
     (r".*mesh/side_pairs.py _paired_by_sorting", r"high << np.uint64\(", "of vertices there are fewer than 2^30"),

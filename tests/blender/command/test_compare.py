@@ -194,3 +194,23 @@ def test_a_summary_as_a_whole(main, tmp_path, monkeypatch):
     old = {name: value for name, value in documents[-1].items() if name != "status"}  # as older versions wrote them
     path.write_text(json.dumps([old, {**old, "file": "s", "errors": []}], indent=1))
     assert main("summary", path)[1].splitlines()[:1] == ["2 files: 1 error, 1 ok"]
+
+
+@pytest.mark.parametrize("volume", [None, 0.0])
+def test_a_mass_without_a_volume_is_as_uncertain_as_its_area(volume):
+    add_box("Box")
+    first = document()
+    entry = first["objects"][0]
+    bounds = {name: None for name in entry["error_bound"]} | {"area": 0.5, "input": {"area": 0.25, "volume": 9.0}}
+    entry.update(volume=volume, area=10.0, mass=40.0, density=4.0, error_bound=bounds)
+    part = 0.75 / 10.0  # of each, so that the larger one is more uncertain
+    for name in ("mass", "density"):
+        for share in (0.98, 1.02):
+            second = copy.deepcopy(first)
+            second["objects"][0][name] *= 1.0 + share * 2.0 * part / (1.0 - part)
+            lines, failed = differences([first], [second], 0.0, False)
+            assert failed == (share > 1.0) and "Box: " + name in lines[0]
+    entry.update(volume=volume, area=0.0)
+    second = copy.deepcopy(first)
+    second["objects"][0]["mass"] *= 1.0 + 1e-15
+    assert differences([first], [second], 0.0, False)[1]

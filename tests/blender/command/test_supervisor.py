@@ -23,7 +23,7 @@ from body_moments.core.verdict.finding import QueryError, finding
 from body_moments.operators import batch
 from body_moments.operators.command import arguments, supervised
 from body_moments.operators.supervisor import lifeline, listing, pool, processes, progress, whole_run
-from body_moments.operators.supervisor.journal import Journal, is_journal, state
+from body_moments.operators.supervisor.journal import Entry, Journal, is_journal, state
 from body_moments.operators.supervisor.pool import Limits, Pool
 from body_moments.operators.supervisor.progress import Progress
 from body_moments.operators.supervisor.whole_run import WholeRun
@@ -512,6 +512,49 @@ def test_a_journal_is_known_and_damaged_lines_count_as_none(tmp_path):
         Journal(tmp_path / "link")
 
 
+def test_a_journal_is_on_the_disk_once_a_second_and_in_the_end(tmp_path, monkeypatch):
+    """So that little is lost where the machine stops."""
+    now, synced = [100.0], []
+    monkeypatch.setattr(time, "monotonic", lambda: now[0])
+    monkeypatch.setattr(os, "fsync", lambda descriptor: synced.append((now[0], os.fstat(descriptor).st_size)))
+    path = tmp_path / "journal"
+    sizes = {}
+    with Journal(path) as journal:
+        for seconds in (0.5, 1.0, 1.001, 2.0, 2.001, 2.002, 9.0):
+            now[0] = 100.0 + seconds
+            journal.append({"path": "a"}, "ok", 1, 0.0, {}, b"{}")
+            sizes[now[0]] = path.stat().st_size
+    assert synced == [(at, sizes[at]) for at in (101.001, 102.002, 109.0, 109.0)]
+
+
+def test_a_line_behind_a_torn_one_is_whole(tmp_path):
+    path = tmp_path / "journal"
+    for rest in (b"", b'{"schema": "body-moments-jou', b"\n"):
+        path.write_bytes(rest)
+        with Journal(path) as journal:
+            for name in "ab":
+                journal.append({"path": name}, "ok", 1, 0.0, {}, json.dumps({"n": name}).encode())
+            assert [journal.document(name) for name in "ab"] == [{"n": "a"}, {"n": "b"}]
+        lines = path.read_bytes().splitlines(keepends=True)
+        assert len(lines) == 2 + bool(rest) and all(line.endswith(b"\n") for line in lines)
+        with Journal(path) as journal:
+            assert [*journal.entries] == ["a", "b"] and journal.document("b") == {"n": "b"}
+
+
+@pytest.mark.parametrize("status", ["ok", "error", "crashed", "timeout", "memory"])
+def test_a_higher_limit_alone_is_a_reason_to_try_again(status):
+    key = {"path": "a", "size": 1}
+    name = {"timeout": "seconds", "memory": "memory"}.get(status)
+    for before, now, higher in ((2.0, 2.0, False), (2.0, 2.5, True), (2.0, 1.5, False), (2.0, None, True)) + (
+        *((None, None, False), (None, 2.0, False)),
+    ):
+        for limit in ("seconds", "memory"):
+            limits, other = {"seconds": 5.0, "memory": 5.0, limit: before}, {"seconds": 5.0, "memory": 5.0, limit: now}
+            entry = Entry(key, status, 1, 0.0, limits, False, 0, 1)
+            assert entry.serves(key, other) == (not (higher and limit == name)), (limit, before, now)
+            assert not entry.serves({**key, "size": 2}, other)
+
+
 LINE = """
 import importlib.util, sys, time
 spec = importlib.util.spec_from_file_location("lifeline", {!r})
@@ -831,3 +874,33 @@ def test_a_child_that_was_let_go_and_does_not_end_is_ended(tmp_path, fake, monke
             found.step()
         assert child.process.returncode == -signal.SIGKILL and time.monotonic() - begun >= 0.2
         assert child.kept is None and not child.log.exists() and not child.folder.exists()
+
+
+def test_without_options_a_file_has_half_an_hour_and_its_share_of_the_memory(tmp_path, main, fake):
+    assert main(tmp_path / "ok 1", tmp_path / "ok 2", "--jobs", "2")[0] == 0
+    assert {one["setup"]["seconds"] for one in fake("setup")} == {1800.0}
+    machine = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
+    assert {one["setup"]["memory"] for one in fake("setup")} == {int(0.4 * machine)}
+    assert 2.0 * processes._GRACE < 1.0  # a run ends within a second
+
+
+def test_what_a_child_is_asked_to_end_by_is_heard_first(tmp_path):
+    """It may clean up, for a moment; one that does not listen is ended all the same, with all that it has started."""
+    code = "import signal, sys, time; signal.signal(signal.SIGTERM, {}); print(flush=True); time.sleep(600)"
+    heard, deaf = "lambda *_: sys.exit(7)", "signal.SIG_IGN"
+    for gently, ends in ((True, [7, -signal.SIGKILL]), (False, [-signal.SIGKILL] * 2)):
+        started = [
+            subprocess.Popen(
+                [sys.executable, "-S", "-c", code.format(one)], stdout=subprocess.PIPE, start_new_session=True
+            )
+            for one in (heard, deaf)
+        ]
+        for one in started:
+            one.stdout.readline()
+        begun = time.monotonic()
+        processes.kill(started, gently=gently)
+        took = time.monotonic() - begun
+        assert [one.returncode for one in started] == ends and (took >= processes._GRACE) == gently
+        processes.kill(started, gently=True)  # what has ended is not signaled again
+        for one in started:
+            one.stdout.close()
