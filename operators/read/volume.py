@@ -112,8 +112,6 @@ def _volume(obj, depsgraph):
     """The evaluated volume with its grids loaded, or None."""
     if obj.type not in {"VOLUME", "MESH", "CURVE", "FONT", "SURFACE", "POINTCLOUD", "CURVES"}:
         return None
-    if obj.type != "VOLUME" and not any(modifier.type == "NODES" for modifier in obj.modifiers):
-        return None
     evaluated = obj.evaluated_get(depsgraph)
     try:
         geometry = evaluated.evaluated_geometry()

@@ -140,12 +140,26 @@ PATTERNS = [
         r".*",
         "how much patience there is with a process that hangs, fails or grows",
     ),
+    (
+        r"operators/(read|scene|bodies)/.*",
+        r"(read_object|mesh_surface)\(.*, edges=False\)",
+        r"\((read_object|mesh_surface)\(((?!edges=).)*\)\)",
+        "read, and not looked at where nothing is to be proved closed",
+    ),
+    (
+        r"operators/bodies/hull.py object_hull",
+        r"len\(part\.matrices\) > 1|_corners\(.* if len\(part\.matrices\) > 1 else .*",
+        r".*",
+        "the hull of hulls is that of their points, found sooner",
+    ),
     (r"panels/rows.py DEFAULT_WIDTH", r"\d+", r"\d+", "a pixel of a panel whose width is not known"),
 ]
 # places of constants, and what stands ahead of them in their line: the reason
 CONSTANTS = [
     (r".*", r"\breshape\(([^()]|\([^()]*\))*-", "numpy finds out a length from any negative number"),
     (r".*command/output.py claim_stdout", r"channel = -", "any negative number is no descriptor"),
+    (r"operators/bodies/hull.py object_hull", r"len\(part\.matrices\) > ", "the hull of hulls is that of their points"),
+    (r"operators/(read|scene|bodies)/.*", r"\bedges=", "read, and not looked at where nothing is to be proved closed"),
     (r"panels/.*", r"\balign=", "whether the corners between two rows are round"),
     (r".*cad/iges.py _Reader._pieces", r"_pieces_left (-=|<) ", "how soon a boundary of too many pieces is given up"),
     (r".*mesh/side_pairs.py _paired_by_sorting", r"high << np.uint64\(", "of vertices there are fewer than 2^30"),
@@ -182,6 +196,7 @@ LOOSER = {
     "core/inertia/reference.py Reference.refer",
     "core/plane/section.py _bounds",
     "core/polyhedron/any_order_kernel.py absolute_sums",
+    "operators/bodies/given.py given_moments",
 }
 # (module, function, before, after): the reason
 EQUIVALENT: dict[tuple[str, str, str, str], str] = {
@@ -191,6 +206,12 @@ EQUIVALENT: dict[tuple[str, str, str, str], str] = {
         "2.0**27 + 1.0",
         "(2.0 ** 27 - 1.0)",
     ): "one splits numbers into two of 26 bits as the other does",
+    (
+        "operators/scene/reframe.py",
+        "_transform_mesh",
+        "mesh.update()",
+        "pass",
+    ): "it was marked as changed when it was transformed, and is evaluated later",
 }
 
 

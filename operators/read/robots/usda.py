@@ -165,8 +165,6 @@ def read(data: bytes) -> Description:
         text = data.decode("utf-8")
     except UnicodeDecodeError as error:
         raise FileError("usda_invalid", line=1) from error
-    if not text.startswith("#usda"):
-        raise FileError("usda_invalid", line=1)
     try:
         return _description(text, data)
     except (IndexError, KeyError, ValueError, RecursionError) as error:

@@ -440,3 +440,13 @@ def test_keys_that_are_not_relative_are_left_to_what_blender_shows():
     assert measured(obj).length == pytest.approx(6.0)
     obj.data.shape_keys.use_relative = False
     assert measured(obj).length == pytest.approx(3.0)
+
+
+@pytest.mark.parametrize("bevel", [0.0, 0.1])
+def test_a_curve_without_splines_is_no_wire(bevel):
+    data = bpy.data.curves.new("Nothing", "CURVE")
+    data.bevel_depth = bevel
+    obj = add(data, "Nothing")
+    obj.body_moments.kind = "WIRE"
+    with refused("no_curve", obj.name):
+        measured(obj)

@@ -8,8 +8,10 @@ from fractions import Fraction
 import bpy
 import numpy as np
 import pytest
+from body_moments.core.mesh.surface import Surface
 from body_moments.core.verdict.finding import EditRefusedError
 from body_moments.operators.bodies import mesh
+from body_moments.operators.bodies.hull import object_hull
 from body_moments.operators.bodies.measure_object import measure_object
 from body_moments.operators.settings.options import MeasureOptions
 
@@ -596,3 +598,52 @@ def test_bodies_at_the_ends_of_the_range_of_numbers_are_right_or_refused_without
         obj.select_set(True)
     assert bpy.ops.object.body_moments_measure() == {"FINISHED"}
     assert close(large["body_volume"], sides[0] ** 3, 1e-15) and "body_volume" not in small
+
+
+def test_instances_without_a_scale_along_an_axis_enclose_nothing_and_are_counted():
+    unit = box((0, 0, 0), (1, 1, 1))
+    flat = [add(unit, location=(3.0 * i, 0, 0), scale=(1, 1, 0)) for i in (1, 2)]
+    found = measure(collection_of(add(unit), *flat))
+    assert found.volume == pytest.approx(1.0)
+    assert said(found)["instances_zero_scale"] == {"count": 2}
+
+
+@pytest.mark.parametrize("left", [[], [(0, 1, 2), (0, 1, 3), (0, 1, 4)]])
+def test_a_boolean_that_leaves_nothing_closed_is_refused(monkeypatch, left):
+    obj = add(box(), box((0.5, 0, 0), (1.5, 2, 3)))
+    points = np.array([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), (0, -1, 0)], np.float32)
+    triangles = np.array(left, np.int32).reshape(-1, 3)
+    monkeypatch.setattr(mesh, "union_surface", lambda _: Surface(points, triangles=triangles))
+    with refused("union_failed", obj.name):
+        measure(obj, overlap="union")
+
+
+def test_united_instances_have_no_coordinates_of_their_own():
+    unit = box((0, 0, 0), (1, 1, 1))
+    obj = collection_of(add(unit), add(unit, location=(0.5, 0, 0)))
+    settings = obj.body_moments
+    settings.overlap, settings.density_from, settings.density_polynomial = "UNION", "POLYNOMIAL", "100 + 10*x"
+    settings.density_frame = "WORLD"
+    assert measure(obj).mass_properties.mass == pytest.approx(100 * 1.5 + 10 * 1.5**2 / 2, rel=1e-6)
+    settings.density_frame = "OBJECT"
+    with refused("density_of_united_instances", obj.name):
+        measure(obj)
+
+
+def test_the_hull_of_instances_is_that_of_all_their_corners():
+    unit = box((0, 0, 0), (1, 1, 1))
+    turned = (0.3, 0.4, 0.5)
+    one, two = add(unit, rotation_euler=turned), add(unit, location=(3, 0, 0), scale=(2, 1, 0.5))
+    two.data = one.data
+    obj = collection_of(one, two)
+    obj.location, obj.scale = (1, 2, 3), (1, 2, 1)
+    bpy.context.view_layer.update()
+    points = object_hull(obj, bpy.context.evaluated_depsgraph_get()).points
+    corner = np.array(corners((0, 0, 0), (1, 1, 1)), float)
+    every = np.concatenate([corner @ world(each)[:3, :3].T + world(each)[:3, 3] for each in (one, two)])
+    assert all(np.abs(every - point).max(axis=1).min() < 1e-5 for point in points)
+    assert close(np.ptp(points, axis=0), np.ptp(every, axis=0), rel=1e-5)
+    obj.scale = (1, 0, 1)
+    bpy.context.view_layer.update()
+    with pytest.raises(EditRefusedError, match="scale is zero along an axis"):
+        object_hull(obj, bpy.context.evaluated_depsgraph_get())

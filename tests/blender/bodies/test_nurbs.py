@@ -602,3 +602,45 @@ def test_patches_and_polygons_in_one_object_are_the_sum_of_both():
     bpy.context.view_layer.update()
     with refused("zero_scale", "Both"):
         measured(empty)
+
+
+def instances_of(obj, *places):
+    """An empty that shows a collection of the object at places: (location, scale)."""
+    parts, copies = bpy.data.collections.new("Part"), bpy.data.collections.new("Copies")
+    parts.objects.link(obj)
+    bpy.context.scene.collection.objects.unlink(obj)
+    for location, scale in places:
+        one = bpy.data.objects.new("Place", None)
+        one.instance_type, one.instance_collection = "COLLECTION", parts
+        one.location, one.scale = location, scale
+        copies.objects.link(one)
+    empty = bpy.data.objects.new("All", None)
+    empty.instance_type, empty.instance_collection = "COLLECTION", copies
+    bpy.context.scene.collection.objects.link(empty)
+    bpy.context.view_layer.update()
+    return empty
+
+
+def test_instances_of_patches_add_up_and_what_was_not_looked_at_is_said():
+    found = measured(instances_of(primitive("sphere"), ((0, 0, 0), (1, 1, 1)), ((9, 0, 0), (2, 2, 2))))
+    assert close(found.volume, 9.0 * BALL * STORED, 1e-7) and not said(found)
+    found = measured(instances_of(primitive("sphere"), ((0, 0, 0), (1, 1, 1)), ((1, 0, 0), (1, 1, 1))))
+    assert close(found.volume, 2.0 * BALL * STORED, 1e-7)
+    assert said(found) == {"instance_overlap_unchecked": {"count": 2}}
+    found = measured(instances_of(primitive("sphere"), ((0, 0, 0), (1, 1, 1)), ((9, 0, 0), (1, 1, 0))))
+    assert close(found.volume, BALL * STORED, 1e-7)
+    assert said(found)["instances_zero_scale"] == {"count": 1}
+
+
+def test_a_wall_of_patches_has_no_surfaces_and_no_moments_beyond_the_third_order():
+    obj = primitive("sphere")
+    obj.body_moments.kind, obj.body_moments.wall, obj.body_moments.thickness = "SHELL", "INWARD", 0.1
+    bpy.context.view_layer.update()
+    depsgraph = bpy.context.evaluated_depsgraph_get()
+    assert measure_object(obj, depsgraph, MeasureOptions(order=3)).volume > 0.0
+    with refused("wall_order", obj.name, order=3):
+        measure_object(obj, depsgraph, MeasureOptions(order=4))
+    body = measure_body(obj, depsgraph).body
+    assert not list(body.surfaces(True)) and not list(body.surfaces(False))
+    with refused("wall_order", order=3):
+        body.moments(4, False)

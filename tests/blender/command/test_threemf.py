@@ -138,3 +138,10 @@ def test_limits_of_the_archive(tmp_path):
     with pytest.raises(FileError) as refused:
         threemf.read_3mf(str(package(tmp_path / "b.3mf", model(ONE + many, '<item objectid="11"/>'))))
     assert refused.value.finding.code == "threemf_instances"
+
+
+def test_a_package_without_relations_has_its_model_at_the_usual_place(tmp_path):
+    foreign = '<x:object xmlns:x="http://example.org/x" id="1"/><x:vertex xmlns:x="http://example.org/x" x="a"/>'
+    with zipfile.ZipFile(tmp_path / "a.3mf", "w") as archive:
+        archive.writestr("3D/3dmodel.model", model(ONE + foreign, ITEM, 'unit="meter"'))
+    assert close(measured(tmp_path / "a.3mf")["volume"], 1.0, 1e-12)

@@ -10,7 +10,7 @@ import pytest
 bpy = pytest.importorskip("bpy")
 
 from body_moments.core.verdict.finding import MeasureError, finding
-from body_moments.operators.read import measurable, measurable_objects, read_object
+from body_moments.operators.read import measurable, measurable_objects, read_object, read_patches
 from mathutils import Matrix
 
 from tests.blender import findings
@@ -681,3 +681,18 @@ def test_members_of_an_instanced_collection_are_listed_only_where_they_are_shown
     layer_of(members).exclude = True
     assert measurable_objects(layer) == [instancer]
     assert len(read(member).parts) == 1
+
+
+def test_patches_alone_are_read_of_what_shows_nothing_else():
+    """Not of what shows instances, too, nor of what modifiers make of the display mesh."""
+    bpy.ops.surface.primitive_nurbs_surface_sphere_add()
+    obj = bpy.context.object
+    (part,) = read_patches(obj, depsgraph()).parts
+    assert part.splines is not None and not len(part.surface.points)
+    obj.instance_type = "VERTS"
+    assert read_patches(obj, depsgraph()) is None
+    obj.instance_type = "NONE"
+    obj.modifiers.new("Thick", "SOLIDIFY")
+    assert read_patches(obj, depsgraph()) is None
+    obj.modifiers.clear()
+    assert read_patches(obj, depsgraph()) is not None

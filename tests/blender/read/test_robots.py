@@ -15,9 +15,11 @@ import bpy
 import numpy as np
 from body_moments.core.polyhedron import polyhedron_moments
 from body_moments.core.verdict.finding import FileError
+from body_moments.operators.read.robots import xml
 from body_moments.operators.read.robots.descriptions import read_description
 from body_moments.operators.read.robots.meshes import read_mesh
 from body_moments.operators.read.robots.paths import Roots
+from body_moments.operators.read.threemf import read_3mf
 
 from tests.blender import batch_files
 from tests.close import close
@@ -212,3 +214,23 @@ def Xform "w" ( doc = "a { b" )
     }
 }
 """
+
+
+def test_a_file_that_the_system_does_not_give_is_refused_with_its_reason(tmp_path):
+    (tmp_path / "a.stl").mkdir()
+    for read, path, code in (
+        (read_description, tmp_path / ("a" * 300 + ".urdf"), "file_unreadable"),
+        (read_mesh, tmp_path / "a.stl", "mesh_damaged"),
+        (lambda path: read_3mf(str(path)), tmp_path / "a.stl", "file_unreadable"),
+    ):
+        with pytest.raises(FileError) as refused:
+            read(path)
+        found = refused.value.finding
+        assert found.code == code and found.values["error"] and str(tmp_path) not in found.values["error"]
+        assert found.values.get("name", "a.stl") == "a.stl" and str(found)
+
+
+def test_a_usd_layer_is_only_so_deep(tmp_path):
+    depth = xml.MAX_DEPTH + 2  # the outermost one counts as none
+    layer = "#usda 1.0\n" + 'def Xform "a" {\n' * depth + "}\n" * depth
+    assert refusal(read_description, write(tmp_path / "a.usda", layer)) == "xml_too_large"

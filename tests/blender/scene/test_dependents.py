@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """When shapes are the same, and what holds objects that refer to changed ones, from both sides of each limit."""
 
+from types import SimpleNamespace
+
 import bpy
 import numpy as np
 import pytest
@@ -9,6 +11,7 @@ from body_moments.core.verdict.finding import EditRefusedError
 from body_moments.operators.scene import dependents
 from mathutils import Matrix
 
+from tests.blender.characters import armature_of
 from tests.blender.findings import refused
 from tests.blender.objects import add, mesh_body, place
 
@@ -177,3 +180,37 @@ def test_a_linked_child_is_refused(tmp_path):
     with pytest.raises(EditRefusedError) as error:
         dependents.DependentsGuard([child.parent], {child.parent: {child}}, bpy.context.evaluated_depsgraph_get())
     assert error.value.finding.code == "child_linked" and error.value.finding.values == {"object": "Child"}
+
+
+def test_a_bone_that_child_of_holds_is_held_with_its_object():
+    changed = add(mesh_body(), "Changed")
+    rig = armature_of(SimpleNamespace(names=("bone",), bones=np.array([[[0, 0, 0], [0, 0, 1]]])))
+    constraint = rig.pose.bones["bone"].constraints.new("CHILD_OF")
+    constraint.target = changed
+    bpy.context.view_layer.update()
+    around = guard(changed)
+    assert [one for one, _ in around.anchors] == [constraint]
+    before = np.array(rig.matrix_world @ rig.pose.bones["bone"].matrix)
+    changed.location, changed.rotation_euler = (0.5, -3.0, 1.0), (0.3, 0.2, 0.1)
+    bpy.context.view_layer.update()
+    around.compensate()
+    bpy.context.view_layer.update()
+    assert np.abs(np.array(rig.matrix_world @ rig.pose.bones["bone"].matrix) - before).max() < 1e-5
+    around.verify(bpy.context.evaluated_depsgraph_get(), 3.0)
+    assert not around.findings
+
+
+def test_the_shape_of_a_follower_that_moved_is_not_looked_at():
+    """That it moved is said, and where it is now its shape is another one."""
+    changed, _, follower, _, _ = family()
+    follower.modifiers.new("Array", "ARRAY").use_object_offset = True
+    follower.modifiers["Array"].offset_object = changed
+    bpy.context.view_layer.update()
+    around = guard(changed)
+    del around.shapes[bpy.data.objects["Shower"]]
+    changed.location = (0.5, -3.0, 1.0)
+    bpy.context.view_layer.update()
+    around.compensate()
+    bpy.context.view_layer.update()
+    around.verify(bpy.context.evaluated_depsgraph_get(), 3.0)
+    assert [(one.code, one.values["object"]) for one in around.findings] == [("follower_moved", "Follower")]

@@ -397,3 +397,15 @@ def test_points_that_come_to_lie_far_from_their_origin_are_left():
     done = reframe_own_meshes(bpy.context, plans)
     assert [plan.obj in done for plan in plans] == [True, True, True, False, False, True, False]
     assert max(np.abs(seen(plan.obj) - was).max() for plan, was in zip(plans, before)) < 1e-4
+
+
+def test_a_place_that_is_reached_at_once_takes_one_evaluation():
+    obj = add(mesh_body(), location=(3, 0, 0))
+    bpy.context.view_layer.update()
+    target = target_of(obj)
+    steps = 0
+    for _ in reframe.set_world_matrix(Plan(obj, target, 3.0, False)):
+        bpy.context.view_layer.update()
+        steps += 1
+    assert steps == 2
+    assert np.abs(np.array(obj.matrix_world) - target).max() < 1e-5

@@ -211,3 +211,11 @@ def test_linked_objects_are_refused(tmp_path):
     parent, child = add(None, "Parent"), add(None, "Child")
     child.parent = parent
     assert [*transforms.ancestors(child)] == [child, parent] and [*transforms.ancestors(None)] == []
+
+
+@pytest.mark.parametrize("mode", ORDERS)
+def test_of_two_triples_of_euler_angles_the_nearer_one_is_taken_however_little_nearer(mode):
+    """No rotation is three zeros, and three half turns."""
+    for off in (1e-7, -1e-7):
+        found = transforms.euler_angles(np.eye(3), mode, np.full(3, np.pi / 2.0 + off))
+        assert np.abs(found - (np.pi if off > 0.0 else 0.0)).max() < 1e-12
