@@ -618,3 +618,24 @@ def test_the_module_is_found_under_either_name_or_said_to_be_missing(monkeypatch
     module = ModuleType(name)
     monkeypatch.setitem(sys.modules, name, module)
     assert vdb.openvdb() is module
+
+
+def test_a_volume_that_is_nowhere_is_refused(tmp_path):
+    obj = volume_object(tmp_path / "a.vdb", vdb_grid(ONES))
+    obj.location.x = float("nan")
+    with refused("non_finite_transform", obj.name):
+        measure(obj)
+
+
+def test_what_an_empty_volume_instances_is_its_body():
+    obj = with_nodes(linked(bpy.data.objects.new("Empty", bpy.data.volumes.new("Empty"))), an_instance)
+    assert close(measure(obj).volume, 1.0, rel=1e-6)
+
+
+def test_a_volume_that_nodes_may_have_changed_is_written_and_read_again(tmp_path):
+    values = random_values(np.float32)
+    obj = volume_object(tmp_path / "a.vdb", vdb_grid(values))
+    truth = measure(obj).mass_properties
+    assert close(truth.mass, values.sum(dtype=float), rel=1e-12)
+    found = measure(with_nodes(obj)).mass_properties
+    assert close(found.mass, truth.mass, rel=1e-12) and close(found.center, truth.center, rel=1e-12)

@@ -9,7 +9,7 @@ bpy = pytest.importorskip("bpy")
 from body_moments.core.shape.signature import Signature, similarity
 from body_moments.core.verdict.finding import MeasureError
 from body_moments.operators.bodies import stack_signature
-from body_moments.operators.bodies.shape import surface_shape_of
+from body_moments.operators.bodies.shape import NoShapeError, surface_shape_of
 from body_moments.operators.bodies.stack_signature import signed_in_turn
 
 from tests.blender.bodies.test_many import KINDS, shards
@@ -78,3 +78,14 @@ def test_an_object_that_shows_the_mesh_of_another_shares_its_signature(monkeypat
     assert asked == [1]
     assert close([found.size / signatures[0].size for found in signatures], np.arange(1.0, 7.0), 1e-6)
     assert [np.sign(found.chirality @ signatures[0].chirality) for found in signatures] == [1, -1, 1, -1, 1, -1]
+
+
+def test_the_surfaces_shape_of_sheets_that_are_patches_is_refused_with_their_measurement():
+    bpy.ops.surface.primitive_nurbs_surface_sphere_add()
+    obj = bpy.context.object
+    obj.body_moments.kind, obj.body_moments.thickness, obj.body_moments.density = "SHELL", 0.5, 2.0
+    bpy.context.view_layer.update()
+    with pytest.raises(NoShapeError) as caught:
+        surface_shape_of(obj, bpy.context.evaluated_depsgraph_get())
+    assert caught.value.finding.code == "signature_needs_polygons" and caught.value.subject == obj.name
+    assert close(caught.value.measurement.mass_properties.mass, 4.0 * np.pi, rel=1e-6)

@@ -7,7 +7,9 @@ from types import SimpleNamespace
 import bpy
 import numpy as np
 import pytest
+from body_moments.core.robots.model import Pose
 from body_moments.core.verdict.finding import EditRefusedError
+from body_moments.operators.read.links import link_surface, sheared_objects
 from body_moments.operators.scene import dependents
 from mathutils import Matrix
 
@@ -214,3 +216,17 @@ def test_the_shape_of_a_follower_that_moved_is_not_looked_at():
     bpy.context.view_layer.update()
     around.verify(bpy.context.evaluated_depsgraph_get(), 3.0)
     assert [(one.code, one.values["object"]) for one in around.findings] == [("follower_moved", "Follower")]
+
+
+def test_a_link_has_the_surfaces_of_those_of_its_objects_that_have_some():
+    cube, nothing = add(mesh_body()), add(None, "Nothing")
+    twice = add(mesh_body(), location=(5, 0, 0))
+    bpy.context.view_layer.update()
+    depsgraph, pose = bpy.context.evaluated_depsgraph_get(), Pose(np.array([1.0, 2.0, 3.0]))
+    own = np.array([vertex.co for vertex in cube.data.vertices], float)
+    assert link_surface([nothing], depsgraph, pose, 1.0) is None
+    alone = link_surface([nothing, cube], depsgraph, pose, 0.5)
+    assert np.abs(alone.points - (0.5 * own - pose.position)).max() < 1e-6
+    both = link_surface([cube, nothing, twice], depsgraph, pose, 0.5)
+    assert np.abs(both.points - np.concatenate([alone.points, alone.points + (2.5, 0, 0)])).max() < 1e-6
+    assert sheared_objects([]) == [] and sheared_objects([cube, twice]) == []

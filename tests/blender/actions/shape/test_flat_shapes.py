@@ -7,7 +7,9 @@ import math
 import bpy
 import numpy as np
 import pytest
+from body_moments.operators.bodies.flat_shape import flat_shape_of
 
+from tests.blender.findings import refused
 from tests.blender.flat_objects import MONOSPACED, converted, regular, sheet, text
 from tests.blender.objects import add, mesh_body, only, place
 
@@ -167,3 +169,17 @@ def test_faces_that_cross_themselves_are_refused_with_the_reason(reported):
     only(sheet([(0, 0), (1, 1), (1, 0), (0, 1)]))
     assert run("find_symmetry") == {"CANCELLED"}
     assert "section_face_crosses_itself" in reported.codes
+
+
+def test_a_flat_shape_beyond_the_range_of_numbers_or_too_far_away_is_refused():
+    obj = sheet(regular(5))
+    for change, code in (
+        ({"scale": (1e36, 1e36, 1.0)}, "moments_overflow"),
+        ({"location": (1e12, 0, 0)}, "shape_far_from_origin"),
+    ):
+        obj.scale, obj.location = (1, 1, 1), (0, 0, 0)
+        for name, value in change.items():
+            setattr(obj, name, value)
+        bpy.context.view_layer.update()
+        with refused(code, obj.name):
+            flat_shape_of(obj, bpy.context.evaluated_depsgraph_get())
