@@ -127,6 +127,14 @@ PATTERNS = [
         r"\([\w.]+\(((?!align=).)*\)\)",
         "whether the corners between two rows are round",
     ),
+    (r".*supervisor/pool.py Pool.__init__", r"4 \* count|4|8", r".*", "more threads than read at a time"),
+    (
+        r".*supervisor/pool.py Pool._receive",
+        r"self\._tasks and self\._has_grown\(child\)",
+        r"\(self\._has_grown\(child\)\)",
+        "where nothing is left to do a child may end",
+    ),
+    (r".*supervisor/pool.py Pool._pause", r"(?!return|max).*", r".*", "how often is looked"),
     (r".*supervisor/pool.py Pool._receive", r"self\._give\(child\)", r"pass", "the next step gives it"),
     (
         r"operators/(supervisor/pool|write/file_lock|actions/measure/library).py _(STEP|WATCH|PAUSE|GROWTH_PERIOD)",

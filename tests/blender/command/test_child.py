@@ -223,3 +223,49 @@ def test_an_interruption_before_anything_is_read_is_said(monkeypatch, capsys):
     monkeypatch.setattr(arguments, "parse", interrupted)
     assert batch.main(["measure"], channel=-1) == 3
     assert capsys.readouterr().err == "body_moments: {}\n".format(sentence("interrupted"))
+
+
+class Descriptors:
+    """Those of a process, each with what it is open for."""
+
+    devnull, O_WRONLY = "nothing", 1
+
+    def __init__(self, **opened):
+        self.table = {number: name for number, name in enumerate(("in", "out", "err")) if opened[name]}
+
+    def open(self, path, _how):
+        free = next(number for number in range(9) if number not in self.table)
+        self.table[free] = path
+        return free
+
+    def fstat(self, number):
+        if number not in self.table:
+            raise OSError(9, "Bad file descriptor")
+
+    def dup(self, number):
+        self.fstat(number)
+        return self.open(self.table[number], 1)
+
+    def dup2(self, number, other):
+        self.fstat(number)
+        self.table[other] = self.table[number]
+
+    def close(self, number):
+        del self.table[number]
+
+
+@pytest.mark.parametrize("err", [True, False])
+@pytest.mark.parametrize("out", [True, False])
+@pytest.mark.parametrize("given", [True, False])
+def test_nobody_else_writes_where_the_result_goes_whatever_is_closed(monkeypatch, given, out, err):
+    system, stream = Descriptors(**{"in": given, "out": out, "err": err}), sys.stderr
+    monkeypatch.setattr(output, "os", system)
+    if not err:
+        monkeypatch.setattr(sys, "stderr", None)
+    channel = output.claim_stdout()
+    table = system.table
+    assert [number for number, name in table.items() if name == "out"] == ([channel] if out else [])
+    assert channel not in (1, 2) and (out or channel not in table)
+    assert table[1] == table[2] == ("err" if err else "nothing")
+    assert len(table) <= 3 + out  # nothing else stays open
+    assert (sys.stderr is stream) == err and sys.stderr.write("x") == 1

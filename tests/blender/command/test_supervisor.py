@@ -49,7 +49,8 @@ def log(**entry):
         file.write(json.dumps(dict(entry, pid=os.getpid())) + "\n")
 
 setup = json.loads(sys.stdin.readline())
-log(setup=setup, folder=os.environ["TMPDIR"], temp=os.environ["TEMP"], user=os.environ["BLENDER_USER_RESOURCES"])
+places = {name: os.environ[name] for name in ("TMPDIR", "TEMP", "TMP", "BLENDER_USER_RESOURCES")}
+log(setup=setup, folder=places["TMPDIR"], places=places, is_there=os.path.isdir(places["TMPDIR"]))
 if "refuse" in (setup["options"]["object"] or ()):
     answer({"usage": "error: no\n"})
 if "slow" in (setup["options"]["object"] or ()):
@@ -177,7 +178,9 @@ def test_each_end_of_a_child_is_a_record(tmp_path, main, fake):
     assert {one["setup"]["threads"] for one in started} == {processes.cores()}
     assert {(one["setup"]["seconds"], one["setup"]["memory"]) for one in started} == {(60.0, 150_000_000)}
     for one in started:
-        assert one["folder"] == one["temp"] == one["user"].removesuffix("/user") and not Path(one["folder"]).exists()
+        *temporary, user = one["places"].values()
+        assert {*temporary} == {one["folder"]} and user == one["folder"] + "/user"
+        assert one["is_there"] and not Path(one["folder"]).exists()
     asked = Counter(Path(one["path"]).name for one in fake("verb"))
     assert asked == Counter({name: by_name[name]["attempts"] for name in names})
     # a second attempt is made by a child that has measured nothing
@@ -904,3 +907,41 @@ def test_what_a_child_is_asked_to_end_by_is_heard_first(tmp_path):
         processes.kill(started, gently=True)  # what has ended is not signaled again
         for one in started:
             one.stdout.close()
+
+
+def test_of_a_process_that_is_gone_no_tool_is_asked_where_the_system_knows(monkeypatch):
+    monkeypatch.setattr(processes, "_memory_by_tool", lambda pid: 5 * pid)
+    gone = 2**22 + 1
+    assert processes.memory_of(gone) is None
+    monkeypatch.setattr(sys, "platform", "darwin")
+    assert processes.memory_of(gone) == 5 * gone
+
+
+@pytest.mark.parametrize("by_signal", [True, False])
+def test_a_run_watches_the_window_that_starts_it_where_it_can(tmp_path, monkeypatch, by_signal):
+    """By a pipe that the window alone holds open, until it has stopped the run; elsewhere it can be asked to end."""
+    given = {}
+
+    def popen(command, **options):
+        given.update(options, command=command)
+        given["inherited"] = [os.fstat(one).st_ino for one in options.get("pass_fds", ())]
+        return SimpleNamespace(poll=lambda: 3)
+
+    monkeypatch.setattr(whole_run.processes, "run_command", lambda blender, words: [blender, *words])
+    monkeypatch.setattr(whole_run, "BY_SIGNAL", by_signal)
+    monkeypatch.setattr(subprocess, "CREATE_NEW_PROCESS_GROUP", 0x200, raising=False)
+    monkeypatch.setattr(subprocess, "Popen", popen)
+    opened = {*os.listdir("/proc/self/fd")}
+    run = WholeRun(["a"], tmp_path / "out", "/b")
+    assert given["command"] == ["/b", "measure", "a", "--output", str(tmp_path / "out")] and run.exit_code == 3
+    assert {given[name] for name in ("stdin", "stdout", "stderr")} == {subprocess.DEVNULL}
+    if by_signal:
+        (watched,) = given["pass_fds"]
+        assert given["env"] == {**os.environ, lifeline.WINDOW: str(watched)} and "creationflags" not in given
+        (kept,) = [one for one in {*os.listdir("/proc/self/fd")} - opened if os.path.exists("/proc/self/fd/" + one)]
+        assert [os.fstat(int(kept)).st_ino] == given["inherited"] and int(kept) != watched
+    else:
+        assert "env" not in given and "pass_fds" not in given and given["creationflags"] == 0x200
+    run.stop()
+    run.stop()
+    assert len(os.listdir("/proc/self/fd")) == len(opened)
