@@ -338,9 +338,7 @@ def _tick() -> float | None:
 
 def _is_stroking(obj: Object) -> bool:
     """Whether a brush is drawn over an object that is sculpted."""
-    if obj.mode != "SCULPT":
-        return False
-    windows = bpy.context.window_manager.windows
+    windows = bpy.context.window_manager.windows if obj.mode == "SCULPT" else ()
     return any(running.bl_idname.startswith("SCULPT_OT_") for window in windows for running in window.modal_operators)
 
 

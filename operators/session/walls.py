@@ -79,7 +79,6 @@ def on_wall_setting(settings: PropertyGroup, context: Context) -> None:
         cached is None
         or settings.kind != "SHELL"
         or settings.wall == "THIN"
-        or scene is None
         or shortest_decimal(scene.unit_settings.scale_length) != cached.unit
         or staleness.is_edited(obj)
         or settings.mass_from == "DENSITY"

@@ -160,6 +160,12 @@ PATTERNS = [
         r".*",
         "the hull of hulls is that of their points, found sooner",
     ),
+    (
+        r"operators/session/assembly.py kept_up_to_date",
+        r'"body_fingerprint" in root and is_assembly\(root\)',
+        r".*",
+        "what is no assembly, or is not stored, is left out later",
+    ),
     (r"panels/rows.py DEFAULT_WIDTH", r"\d+", r"\d+", "a pixel of a panel whose width is not known"),
 ]
 # places of constants, and what stands ahead of them in their line: the reason
@@ -168,6 +174,7 @@ CONSTANTS = [
     (r".*command/output.py claim_stdout", r"channel = -", "any negative number is no descriptor"),
     (r"operators/bodies/hull.py object_hull", r"len\(part\.matrices\) > ", "the hull of hulls is that of their points"),
     (r"operators/(read|scene|bodies)/.*", r"\bedges=", "read, and not looked at where nothing is to be proved closed"),
+    (r"operators/session/shown.py _shown_now", r"last is None or last\[", "what was found is found once more"),
     (r"panels/.*", r"\balign=", "whether the corners between two rows are round"),
     (r".*cad/iges.py _Reader._pieces", r"_pieces_left (-=|<) ", "how soon a boundary of too many pieces is given up"),
     (r".*mesh/side_pairs.py _paired_by_sorting", r"high << np.uint64\(", "of vertices there are fewer than 2^30"),

@@ -12,12 +12,15 @@ from types import SimpleNamespace
 import bpy
 import pytest
 from body_moments.operators.actions import modal as stepwise
+from body_moments.operators.actions.measure import copy
 
+from tests.blender.actions.measure.test_section import I_BEAM, flat_mesh
 from tests.blender.actions.scene_state import difference, state
 from tests.blender.actions.test_transcripts import (
     MODULES,
     OPERATORS,
     assembly,
+    computed,
     edited,
     empty_tree,
     moving,
@@ -288,3 +291,35 @@ def pressed(name, options, way):
             break
     window.say(answer)
     return window.said, [*difference(before, state())]
+
+
+def beam():
+    add(flat_mesh(I_BEAM), "Beam")
+    bpy.ops.object.body_moments_measure_section()
+
+
+COPIED_IN = {
+    "OBJECT_OT_body_moments_copy_inertial": parts,
+    "OBJECT_OT_body_moments_copy_csv": parts,
+    "OBJECT_OT_body_moments_copy_report": parts,
+    "OBJECT_OT_body_moments_copy_reference": parts,
+    "OBJECT_OT_body_moments_copy_moments": computed,
+    "OBJECT_OT_body_moments_copy_section": beam,
+    "OBJECT_OT_body_moments_copy_value": parts,
+}
+
+
+def test_what_is_copied_in_a_window(kept, monkeypatch):
+    monkeypatch.setattr(
+        copy, "bpy", SimpleNamespace(app=SimpleNamespace(background=False, version=(9, 9, 9)), data=bpy.data)
+    )
+    pages = []
+    for name, build in COPIED_IN.items():
+        bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+        build()
+        window = Window()
+        options = {"value": "1.5", "unit": "kg"} if name.endswith("value") else {}
+        operator = stand_in(OPERATORS[name], lambda kind, text, to=window: to.say(*kind, text), **options)
+        window.say(operator.execute(window), len(window.clipboard.splitlines()), "lines")
+        pages += ["=== " + name, *window.said, window.clipboard.splitlines()[0]]
+    kept("copied.txt", "\n".join(pages))

@@ -179,3 +179,20 @@ def test_only_what_has_moved_is_looked_at_again(scene, monkeypatch):
     parts[2].body_moments.kind = "SHELL"
     bpy.context.view_layer.update()
     assert handlers.moved_since(generation) is None
+
+
+@pytest.mark.parametrize("inside", [None, [True, True, False, False, True]])
+def test_a_path_is_another_color_where_the_center_leaves_the_support_polygon(inside, registered):
+    from body_moments.operators.session.balance_groups import Path
+    from body_moments.panels.overlay import appearance as look
+    from body_moments.panels.overlay.details import _path
+
+    centers = np.array([[0, 0, 0], [1, 2, 0], [3, 2, 1], [4, 0, 5], [20, 1, 1]], float)
+    drawn = _path(Path(np.arange(5.0), centers, None if inside is None else np.array(inside)))
+    segments, colors = drawn.segments
+    lines, ticks = segments[:4], segments[4:]
+    assert (lines[:, 0] == centers[:-1]).all() and (lines[:, 1] == centers[1:]).all()
+    assert (ticks[:, 0] == centers).all() and np.allclose(ticks[:, 1] - centers, [0.0, 0.0, 0.2], rtol=1e-12)
+    leaves = [False] * 9 if inside is None else [False, True, True, True, False, False, True, True, False]
+    wanted = [look.TIPS if tips else look.PATH for tips in leaves]
+    assert (colors == np.array(wanted, np.float32)).all() and len(drawn.triangles[0]) == 0

@@ -5,6 +5,7 @@
 import itertools
 from dataclasses import replace
 from math import isclose
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -306,3 +307,50 @@ def test_undo_is_followed(monkeypatch):
     tick(monkeypatch)
     assert_current(obj)
     assert live._followed.get(obj).number == updates.count()
+
+
+def test_a_move_is_followed_by_a_tick_where_the_object_is_followed(monkeypatch):
+    followed, other = add(mesh_body(), "Followed"), add(mesh_body(), "Other", location=(9, 0, 0))
+    start(followed)
+    update()
+    scheduled = []
+    monkeypatch.setattr(live, "_schedule", scheduled.append)
+    other.location.x += 1.0
+    update()
+    assert scheduled == []
+    followed.location.x += 1.0
+    update()
+    assert scheduled == [0.0]
+
+
+def test_the_timer_is_set_once_and_in_a_window_alone(monkeypatch):
+    timers = SimpleNamespace(is_registered=lambda _: bool(set_for), register=lambda *a, **k: set_for.append((a, k)))
+    set_for, app = [], SimpleNamespace(background=True, timers=timers)
+    monkeypatch.setattr(live, "bpy", SimpleNamespace(app=app))
+    live._schedule(0.5)
+    assert set_for == []
+    app.background = False
+    live._schedule(0.5)
+    live._schedule(0.25)
+    assert set_for == [((live._tick,), {"first_interval": 0.5})]
+
+
+def test_while_a_picture_is_rendered_the_timer_waits(monkeypatch):
+    obj = add(mesh_body())
+    start(obj)
+    forbid_measuring(monkeypatch)
+    running = []
+    app = SimpleNamespace(is_job_running=lambda job: running.append(job) or True)
+    monkeypatch.setattr(live, "bpy", SimpleNamespace(app=app))
+    assert live._tick() == 0.5 and running == ["RENDER"]
+
+
+def test_only_what_is_not_painted_or_edited_is_followed_at_once():
+    obj = with_key()
+    start(obj)
+    surface = live._followed.get(obj).surface
+    for mode in ("OBJECT", "WEIGHT_PAINT", "SCULPT", "VERTEX_PAINT", "TEXTURE_PAINT", "EDIT"):
+        bpy.ops.object.mode_set(mode=mode)
+        found = surface.follow(obj, bpy.context.evaluated_depsgraph_get())
+        assert (found is not None) == (mode in ("OBJECT", "WEIGHT_PAINT")), mode
+    bpy.ops.object.mode_set(mode="OBJECT")
