@@ -28,8 +28,12 @@ class Kernel:
 
     def __init__(self, is_there=True):
         self.is_there, self.closed = is_there, []
-        self.OpenProcess = lambda access, inherited, pid: 0x123456789A if self.is_there else None  # beyond 32 bits
+        self.OpenProcess = lambda *words: self.opened(*words)  # which takes an attribute
         self.CloseHandle = lambda handle: self.closed.append(handle.value)
+
+    def opened(self, access, inherited, pid):
+        assert (access, inherited, pid) == (0x1000, False, 17)  # no more than to ask
+        return 0x123456789A if self.is_there else None  # beyond 32 bits
 
     def K32GetProcessMemoryInfo(self, process, counters, size):
         found = ctypes.cast(counters, ctypes.POINTER(windows._Counters)).contents

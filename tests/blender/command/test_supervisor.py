@@ -945,3 +945,15 @@ def test_a_run_watches_the_window_that_starts_it_where_it_can(tmp_path, monkeypa
     run.stop()
     run.stop()
     assert len(os.listdir("/proc/self/fd")) == len(opened)
+
+
+def test_the_folder_of_a_run_is_new_and_gone_in_the_end(tmp_path):
+    """Also one that somebody else has removed meanwhile."""
+    work = tmp_path / "new" / "work"
+    with Pool(["nothing"], 1, {}, Limits(60.0), work):
+        assert work.is_dir()
+        with pytest.raises(FileExistsError), Pool(["nothing"], 1, {}, Limits(60.0), work):
+            pass
+    assert not work.exists()
+    with Pool(["nothing"], 1, {}, Limits(60.0), work):
+        work.rmdir()
