@@ -232,3 +232,13 @@ def test_a_body_far_from_its_origin_rests_on_its_faces(scene):
     poses = stability.poses(obj)
     assert len(poses.shares) == 6
     assert close(np.sort(poses.margins), np.repeat([0.75, 1.0], [4, 2]), 1e-3)
+
+
+@pytest.mark.parametrize("start", [(1, 0, 0), (0, -1, 0), (0, 0, 1), (0.6, 0, -0.8), (2 / 3, -1 / 3, 2 / 3)])
+def test_what_points_the_opposite_way_makes_a_half_turn(start):
+    from body_moments.operators.actions.statics.rest_on_ground import shortest_turn
+
+    start = np.array(start, float)
+    turn = shortest_turn(start, -start)
+    assert np.abs(turn @ start + start).max() < 1e-15 and np.abs(turn @ turn - np.eye(3)).max() < 1e-15
+    assert abs(np.linalg.det(turn) - 1.0) < 1e-14 and np.abs(turn @ turn.T - np.eye(3)).max() < 1e-14

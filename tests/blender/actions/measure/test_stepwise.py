@@ -7,6 +7,7 @@ import pytest
 
 pytest.importorskip("bpy")
 import bpy
+from body_moments.core.verdict.finding import finding
 from body_moments.operators.actions import modal as stepwise
 from body_moments.operators.actions.measure.fourier import OBJECT_OT_body_moments_fourier_run
 from body_moments.operators.actions.measure.measure_selected import OBJECT_OT_body_moments_measure
@@ -240,3 +241,11 @@ def test_a_fourier_transform_that_fails_under_way_gives_the_window_back_and_says
     assert operator.modal(window, ESC) == {"CANCELLED"} and not path.exists() and window.timers == []
     operator, window = pressed(OBJECT_OT_body_moments_fourier_run, **settings)
     assert finished(operator, window) == {"FINISHED"} and path.exists()
+
+
+def test_a_fourier_transform_without_a_file_does_not_start():
+    add(mesh_body())
+    reports, window = [], Window()
+    operator = stand_in(OBJECT_OT_body_moments_fourier_run, lambda kind, text: reports.append((*kind, text)))
+    assert operator.invoke(window, None) == {"CANCELLED"} and window.handlers == window.timers == []
+    assert reports == [("ERROR", str(finding("fourier_path_missing")))]
