@@ -21,7 +21,7 @@ from ...core.verdict.finding import EditRefusedError, Finding, finding
 from ..read.fingerprint import VERSION, given_density, settings_hash, settings_hash_with
 from ..read.tracking import tracking_paused
 from ..settings import hooks
-from ..settings.density import default_density, is_density_unset, unset_density
+from ..settings.density import default_density, unset_density
 from ..write import properties
 from . import marks, reference, staleness
 
@@ -37,19 +37,17 @@ OF_DEFAULT_DENSITY = frozenset(
 def noted(obj: Object, measurement: Measurement, scene: Scene) -> Measurement:
     """Return an object's measurement, with a note where nobody has set its density and nothing says so yet."""
     unset = unset_density(obj, measurement, scene)
-    return measurement if unset is None else replace(measurement, findings=_with_note(measurement.findings, unset))
+    if unset is None:
+        return measurement
+    return replace(measurement, findings=with_default_note(measurement.findings, unset))
 
 
-def noted_findings(obj: Object, findings: tuple[Finding, ...], has_density: bool, scene: Scene) -> tuple[Finding, ...]:
-    """Return the findings of a solid of one density, with that note. has_density: no mass is given."""
-    is_unset = has_density and is_density_unset(obj.body_moments, scene)
-    return _with_note(findings, "density") if is_unset else findings
-
-
-def _with_note(findings: tuple[Finding, ...], name: str) -> tuple[Finding, ...]:
+def with_default_note(findings: tuple[Finding, ...], unset: str) -> tuple[Finding, ...]:
+    """Return findings with the note on a density that nobody has set, where none of them is about that. unset: the
+    setting."""
     if OF_DEFAULT_DENSITY.intersection([found.code for found in findings]):
         return findings
-    return (*findings, DEFAULTS[name])
+    return (*findings, DEFAULTS[unset])
 
 
 def follow_density(obj: Object, scene: Scene) -> None:

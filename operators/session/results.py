@@ -33,6 +33,7 @@ from ..bodies.wall import WallBody
 from ..read.fingerprint import settings_hash
 from ..read.rig import skinned_objects
 from ..read.total_caveats import open_body_caveats, total_caveats
+from ..settings.density import is_density_unset
 from ..write import properties
 from . import density, faults, handlers, live, posed, reference, staleness, threshold, trust, updates, walls
 from .cache import SessionCache
@@ -101,10 +102,10 @@ def _store_stack(stack: MeasuredStack, which: list[int], scene: Scene) -> Iterat
         staleness.note_edits(obj)
         if "body_reference" in obj:
             about[obj] = reference.stored_choice(obj)
-    findings = [
-        density.noted_findings(obj, of_member, not from_mass, scene)
-        for obj, of_member, from_mass in zip(objects, part.findings, part.from_mass.tolist())
-    ]
+    findings = list(part.findings)
+    for i, (obj, from_mass) in enumerate(zip(objects, part.from_mass.tolist())):
+        if not from_mass and is_density_unset(obj.body_moments, scene):
+            findings[i] = density.with_default_note(findings[i], "density")
     refusals = properties.store_stack(
         objects,
         part.in_object_frames(),
