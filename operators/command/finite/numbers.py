@@ -22,7 +22,7 @@ MAX_FLOAT32 = 3.4028235677973366e38  # what is as large or larger is infinite in
 
 BLOCK = 1 << 18  # bytes of text at a time, and numbers, so that what is computed of them stays in the cache
 _THREADS = min(4, os.cpu_count() or 1)
-_REACH = 1 << 12  # bytes to either side in which a line is looked for
+_REACH = 1 << 20  # bytes to either side in which a line is looked for
 OVERLAP = 64  # bytes that blocks of text share, so that none cuts what makes a number suspicious
 MALFORMED = (ValueError, KeyError, IndexError, TypeError, AttributeError, RecursionError, struct.error, zlib.error)
 
@@ -143,7 +143,10 @@ def bad_in_text(
             continue
         begin, done = _line(data, start, place)
         line = data[begin:done].replace(b"\\\n", b" ")
-        bad = sum(not is_finite(word) for word in coordinates(line, begin))
+        words = list(coordinates(line, begin))
+        bad = sum(not is_finite(word) for word in words)
+        if not words and begin > start and data[begin - 1 : begin] != b"\n":
+            bad = 1  # in the middle of a line, nobody knows what it is
         if bad and not count:
             first = begin
         count += bad

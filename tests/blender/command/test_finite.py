@@ -399,6 +399,22 @@ def test_a_line_goes_on_behind_each_backslash_at_an_end(tmp_path):
     assert checked(path) is None
 
 
+@pytest.mark.parametrize("length", [5000, 1 << 20, 3 << 20])
+@pytest.mark.parametrize("name", ["t.obj", "t.ply", "t.stl"])
+def test_a_word_is_found_however_far_from_the_beginning_of_its_line(tmp_path, name, length):
+    path = tmp_path / name
+    texts_of = {
+        "t.obj": "v 0 0 0\nv{space}1 2 {word}\n",
+        "t.ply": ply_head("ascii", "element vertex 2", *AXES) + "0 0 0\n{space}1 2 {word}\n",
+        "t.stl": "solid x\nvertex 0 0 0 {space}vertex 1 2 {word}\n",
+    }
+    for word in ("nan", "1e99"):
+        files.write_text(path, texts_of[name].format(space=" " * length, word=word))
+        assert checked(path).code == "non_finite_coordinates" and checked(path).values["count"] == 1
+    files.write_text(path, texts_of[name].format(space=" " * length, word="3"))
+    assert checked(path) is None
+
+
 @pytest.mark.parametrize("end", ["", " "])
 def test_the_first_and_the_last_bytes_of_a_file_count(tmp_path, end):
     path = tmp_path / "t.obj"
