@@ -220,7 +220,7 @@ def fit_plane(
 
 
 def _axes(normal: NDArray, prefer: NDArray) -> tuple[NDArray[np.float64], str]:
-    inside = [axis - normal * (normal @ axis) for axis in prefer.T[:2]]
+    inside = [axis - normal * (normal @ axis) for axis in prefer.T]
     first = int(np.sqrt(inside[0] @ inside[0]) <= MIN_AXIS_SHARE)
     x = inside[first] / np.sqrt(inside[first] @ inside[first])
     x = x - normal * (normal @ x)

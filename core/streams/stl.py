@@ -87,9 +87,9 @@ class StlFile:
         while chunk := file.read(TEXT_PER_BLOCK):
             waiting += chunk
             ends = [match.end() for match in FACET_END.finditer(waiting)]
-            if not ends and len(waiting) > MAX_WAITING:
-                raise self._damaged(done)
             if not ends:
+                if len(waiting) > MAX_WAITING:
+                    raise self._damaged(done)
                 continue
             corners = self._parse(waiting[: ends[-1]], done)
             waiting, done = waiting[ends[-1] :], done + len(corners)

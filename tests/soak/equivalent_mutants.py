@@ -166,6 +166,40 @@ PATTERNS = [
         r".*",
         "what is no assembly, or is not stored, is left out later",
     ),
+    (r".*any_order.py .*_ordered_results", r"len\(waiting\) > .*", r".* >= .*", "how many tasks wait at a time"),
+    (r".*streams/ply_rows.py RowReader._read_ahead", r"len\(self._buffer\) < count", r".* <= .*", "what is read ahead"),
+    (r".*streams/ply.py PlyFile._piece", r"last - first", r"\(last \+ first\)", "the same corners, gathered"),
+    (
+        r".*papers/.*_phi.py _integrals",
+        r"space.order - 1",
+        r"\(space.order \+ 1\)",
+        "a rule of more points is as exact",
+    ),
+    (
+        r".*plane/polygon.py _steep_side_windings",
+        r"float\(high.max\(\) - low.min\(\)\) or 1\.0",
+        r".*1\.0",
+        "of how many edges is looked at both sides",
+    ),
+    (r".*plane/polygon.py _signed_area", r".* / 2\.0", r".* \* 2\.0\)", "only its sign is read"),
+    (
+        r".*polyhedron/third_order.py _error_bounds",
+        r"np.array\(sizes\).* \* \(1\.0 \+ 1e-9\)",
+        r".* / \(1\.0 \+ 1e-09\)\)",
+        "a billionth of a bound that is larger by more",
+    ),
+    (
+        r".*solid/solid_stack.py measure_stack",
+        r"links.is_open.any\(\) and .*",
+        r"\(\(made := .*",
+        "nothing closed is capped",
+    ),
+    (
+        r".*canonical_frame.py _maximize_on_sphere",
+        r"np.eye\(3\) - points.*",
+        r"\(np.eye\(3\) \+ points.*",
+        "along the sphere one is the other, and where it is level they agree",
+    ),
     (r"panels/rows.py DEFAULT_WIDTH", r"\d+", r"\d+", "a pixel of a panel whose width is not known"),
 ]
 # places of constants, and what stands ahead of them in their line: the reason
@@ -202,6 +236,8 @@ CONSTANTS = [
     (r".*", r"\bdefault_rng\(", "which numbers are drawn at random"),
     (r".*rigs/cuts.py (bones_of_caps|_cut_edges)", r"(max\(initial=|int\(.*\) \+ )", "room for a label more"),
     (r".*shape/symmetry.py _around_axis", r"n // 2 \+ ", "the same turns, the other way"),
+    (r".*plane/polygon.py _signed_area", r"points\[edges\[(0, )?", "a closed outline has its area from anywhere"),
+    (r".*nurbs/creases.py _normals", r"patch\.points\[(0, )?", "slopes do not depend on the origin"),
     (r".*canonical_frame.py _extreme_directions", r"(noise = |max\()", "a looser bound"),
 ]
 # functions that make bounds of errors, where a constant factor twice as large gives a bound still
@@ -242,6 +278,8 @@ def reason(mutant: Mutant) -> str:
     is_doubled = re.fullmatch(r"\d+\.\d*", before) and after == repr(2.0 * float(before))
     if place in LOOSER and is_doubled and not ahead.endswith("/ "):
         return "a looser bound"
+    if ahead.endswith("(-1.0) ** (") and after == "({})".format(before.replace(" + ", " - ")):
+        return "both are even, or both odd"
     for where, old, new, why in PATTERNS:
         if re.fullmatch(where, place) and re.fullmatch(old, before) and re.fullmatch(new, after):
             return why
