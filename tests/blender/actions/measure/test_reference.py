@@ -78,6 +78,28 @@ def test_each_reference_is_about_its_point_and_along_its_axes():
     assert shown(obj).code == "reference_object_missing"
 
 
+def test_references_stand_where_the_unit_of_the_scene_puts_them():
+    """Of lengths that are a fourth, inertia about what is as far away is 4^-5 of it."""
+    obj = measured_box()
+    other = bpy.data.objects.new("Other", None)
+    bpy.context.scene.collection.objects.link(other)
+    other.location, obj.data.vertices[0].co.x = (5, 1, -2), -1.0
+    bpy.context.scene.cursor.location = (1, 2, 3)
+
+    def inertias():
+        bpy.ops.object.body_moments_measure()
+        for kind in ("WORLD", "CENTER", "ORIGIN", "CURSOR", "OBJECT"):
+            choose(kind, object=other)
+            yield shown(obj).inertia
+        choose("AXIS", first=(0, 0, 1), second=(3, 4, 1))
+        yield shown(obj).about_z
+
+    large = list(inertias())
+    bpy.context.scene.unit_settings.scale_length = 0.25
+    for small, before in zip(inertias(), large, strict=True):
+        assert np.abs(small - before / 4.0**5).max() <= 1e-13 * np.abs(before).max() / 4.0**5
+
+
 def test_what_is_stored_follows_the_next_measurement():
     obj = measured_box()
     choose("AXIS", first=(0, 0, 0), second=(0, 0, 2))
