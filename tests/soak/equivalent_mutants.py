@@ -236,6 +236,7 @@ CONSTANTS = [
     (r".*", r"\bdefault_rng\(", "which numbers are drawn at random"),
     (r".*rigs/cuts.py (bones_of_caps|_cut_edges)", r"(max\(initial=|int\(.*\) \+ )", "room for a label more"),
     (r".*shape/symmetry.py _around_axis", r"n // 2 \+ ", "the same turns, the other way"),
+    (r".*triangle_kernel.py SortedTriangles._sort", r"\+ 1100, (0, )?", "the order in which triangles are summed"),
     (r".*plane/polygon.py _signed_area", r"points\[edges\[(0, )?", "a closed outline has its area from anywhere"),
     (r".*nurbs/creases.py _normals", r"patch\.points\[(0, )?", "slopes do not depend on the origin"),
     (r".*canonical_frame.py _extreme_directions", r"(noise = |max\()", "a looser bound"),

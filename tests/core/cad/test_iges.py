@@ -587,3 +587,45 @@ def test_a_transformation_or_surface_that_lacks_numbers_is_damage(tmp_path):
     file.add(128, [*fields[:3], 0, *fields[4:]], label="STEPS")
     file.surface(unrolled(sphere()))
     assert refused(read_surfaces(file.write(tmp_path / "a.igs"))) == {"surface_damaged": ["SHORT", "FEW", "STEPS"]}
+
+
+def test_a_subfigure_in_itself_is_placed_once(tmp_path):
+    file = IgesFile()
+    ball = file.surface(unrolled(sphere()), status="00010000")
+    file.add(308, [0, "1HA", 2, ball, 5], status="00000200")
+    file.add(408, [3, 1.0, 0.0, 0.0], status="00010000", label="WITHIN")
+    file.add(408, [3, 0.0, 0.0, 0.0])
+    read = read_surfaces(file.write(tmp_path / "a.igs"))
+    assert len(read.bodies[0].patches) == 1 and close(volume(read).total, BALL, 1e-14)
+    assert refused(read) == {"surface_recursive": ["WITHIN"]}
+
+
+def test_numbers_of_the_directory_may_fill_their_columns(tmp_path):
+    file = IgesFile()
+    file.surface(unrolled(sphere()))
+    path = file.write(tmp_path / "a.igs")
+    lines = path.read_text().split("\n")
+    for at, line in enumerate(lines):
+        if line[72:73] == "D":
+            words = [line[start : start + 8].strip() for start in range(0, 72, 8)]
+            lines[at] = "".join("{:0>8}".format(word) for word in words) + line[72:]
+    path.write_text("\n".join(lines))
+    assert close(volume(read_surfaces(path)).total, BALL, 1e-14)
+
+
+@pytest.mark.parametrize("last, degree", [(2, 0), (2, 3), (3, 1)])
+def test_a_boundary_s_curve_that_lacks_numbers_is_damage(tmp_path, last, degree):
+    kind, fields = polyline(A, MIDDLE, B)
+    file = IgesFile()
+    trimmed(file, [(kind, [last, degree, *fields[2:]]), line(B, C), line(C, D), line(D, A)])
+    assert refusal(file.write(tmp_path / "a.igs")).values["causes"][0]["code"] == "surface_damaged"
+
+
+def test_of_many_reasons_the_first_eight_are_told():
+    found = surfaces.Refusals()
+    for number in range(12):
+        found.add("surface_damaged", "Kind {}".format(number), "name")
+    with pytest.raises(FileError) as caught:
+        found.file([])
+    kinds = [cause["values"].get("kind") for cause in caught.value.finding.values["causes"]]
+    assert [kind for kind in kinds if kind] == ["Kind {}".format(number) for number in range(8)]

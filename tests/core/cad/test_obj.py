@@ -219,3 +219,10 @@ def test_what_is_no_file_of_surfaces_is_refused(tmp_path):
         with pytest.raises(FileError) as caught:
             read_surfaces(tmp_path / name)
         assert caught.value.finding == expected
+
+
+@pytest.mark.parametrize("words", ["trim 0 1 1", "hole 0 1 1", "parm u 0 1"])
+def test_what_belongs_to_a_surface_means_nothing_outside_of_one(tmp_path, words):
+    text = obj_text([unrolled(sphere())])
+    for whole in (words + "\n" + text, text + "\n" + words + "\n"):
+        assert close(volume(read(tmp_path, whole).bodies[0]).total, BALL, 1e-14)

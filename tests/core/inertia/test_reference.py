@@ -117,3 +117,11 @@ def test_moments_whose_total_is_not_certain_are_refused(total, error, is_certain
     with pytest.raises(QueryError) as refusal:
         Reference(np.array([0.6, 0.8, 0.0])).refer_moments(point)
     assert refusal.value.finding.code == "no_certain_volume"
+
+
+def test_the_bound_of_an_arm_counts_the_rounding_of_both_its_ends():
+    place = np.array([4096.0, -8192.0, 2048.0])
+    moments, _ = box((1, 2, 4), place)
+    properties = MassProperties.from_moments(moments)
+    bound = Reference(place).refer(properties).rounding_error["center"] - properties.rounding_error["center"]
+    assert bound >= 2.0**-53 * 2.0 * np.abs(place).sum()

@@ -4,7 +4,7 @@
 
 import numpy as np
 import pytest
-from body_moments.core.inertia.third_moment_frames import third_moment_frames
+from body_moments.core.inertia.third_moment_frames import _are_decided, third_moment_frames
 from body_moments.core.moments.moments import Measure, Moments, monomials
 
 from tests.close import close
@@ -80,3 +80,22 @@ def test_bounds_of_moments_become_bounds_of_axes_and_scores(place, moved):
         assert close(found.size[row], np.sqrt(second / raw[row, 0]), 1e-14)
         assert found.is_body[row] and found.symmetry[row] == 0
         assert found.allowed[row].sum() == 2  # one of four axes' signs is known
+
+
+@pytest.mark.parametrize(
+    "sizes, decided",
+    [
+        ((9.0, 1.0, 0.0), True),  # the first one counts, whatever the next are
+        ((1.0, 9.0, 0.0), False),
+        ((0.0, 9.0, 0.0), True),
+        ((0.0, 9.0, 1.0), False),
+        ((0.0, 0.0, 0.0), True),
+        ((0.0, 0.0, 1.0), False),
+    ],
+)
+def test_third_moments_are_decided_where_better_ones_leave_what_counts(sizes, decided):
+    size, error, noise = np.zeros((1, 3, 3)), np.full((1, 3, 3), 0.5), np.ones((1, 3, 3))
+    size[0, 0] = sizes
+    fixed = np.array([[True, False, False]])
+    assert _are_decided(size, error, noise, fixed).tolist() == [decided]
+    assert _are_decided(size, error, noise, np.zeros_like(fixed)).all()

@@ -65,3 +65,20 @@ def exchanged(first, second):
 def test_edges_that_join_other_vertices_close_nothing(edges):
     found = connections(BOX, exchanged(*edges), BOX)
     assert found.is_closed.tolist() == [True, False, True] and not found.is_open.any()
+
+
+@pytest.mark.parametrize(
+    "lacking",
+    [
+        {"corner_edges": None},
+        {"corner_vertices": None},
+        {"corner_vertices": None, "corner_edges": None},
+        {"corner_edges": BOX.corner_edges[:-1]},
+        {"corner_edges": BOX.corner_edges - 1},
+        {"corner_edges": BOX.corner_edges + 48},
+        {"corner_vertices": BOX.corner_vertices + 1},
+        {"points": BOX.points.astype(np.float64)},
+    ],
+)
+def test_a_surface_without_sound_corners_and_edges_is_not_taken(lacking):
+    assert SurfaceStack.takes(BOX) and not SurfaceStack.takes(replace(BOX, **lacking))

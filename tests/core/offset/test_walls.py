@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Walls of real thickness against closed forms and rational arithmetic."""
 
+from dataclasses import replace
 from fractions import Fraction
 from math import pi, sqrt
 
@@ -560,3 +561,12 @@ def test_what_folds_first_is_a_triangle_without_area_at_the_limit(flip, sizes):
         a, b, c = (found.points + limits[nearer] * found.vectors)[found.triangles[first]]
         whole = np.linalg.norm(np.cross(corners[first, 1] - corners[first, 0], corners[first, 2] - corners[first, 0]))
         assert np.linalg.norm(np.cross(b - a, c - a)) < 1e-6 * whole
+
+
+def test_at_a_limit_nothing_is_allowed_but_no_wall():
+    found = offset_solid(bodies.surface(bodies.box()))
+    narrow = replace(found, inward=0.0, outward=0.0)
+    assert not narrow.moments(0.0, 0.0).raw.any()
+    for inward, outward in ((1.0, 0.0), (0.0, 1.0), (1e-9, 0.0), (0.0, 1e-9)):
+        with pytest.raises(ValueError, match="folds over"):
+            narrow.moments(inward, outward)

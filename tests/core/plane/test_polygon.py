@@ -284,3 +284,12 @@ def test_edges_that_enclose_nothing_have_no_defects(way):
 
 def test_no_edges_have_no_defects():
     assert find_defects(np.zeros((3, 2)), np.zeros((0, 2), int)) == OutlineDefects(0, False, False)
+
+
+@pytest.mark.parametrize("scale", [0.25, 1.0, 64.0])
+def test_an_edge_that_a_ray_runs_along_is_not_met_beyond_its_end(scale):
+    """A side rises by less than what touches, and the middle of another one lies in its rise, farther on."""
+    rise = 2.0**-32
+    corners = [(0, 0), (1, rise), (1, -1), (1.125, -1), (1.125, 1 + rise), (0, 1 + rise)]
+    found = find_defects(scale * np.array(corners), directed_edges([range(6)]))
+    assert found == OutlineDefects(0, False, False)

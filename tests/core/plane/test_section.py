@@ -295,3 +295,14 @@ def test_a_centroid_of_exact_moments_is_rounded_where_it_is_added_and_divided(ab
     wanted = np.hypot(*(4 * 2.0**-53 * (abs(about) + np.abs(raw[1:3]) / area)))
     assert close(found["centroid"], wanted, 1e-15) and found["area"] == 0.0
     assert close(found["second"], area * (shift * shift) + 4 * 2.0**-53 * 5.0, 1e-14)
+
+
+@pytest.mark.parametrize(("angle", "is_told"), [(5e-4, False), (2e-3, True), (0.1, True)])
+def test_wide_bounds_hide_an_angle_up_to_a_thousandth_of_the_larger_moment(angle, is_told):
+    cosine, sine = math.cos(angle), math.sin(angle)
+    points, loops = shape(rectangle(-1, -0.1, 2, 0.2))
+    points = points @ np.array([[cosine, sine], [-sine, cosine]])
+    section = measure_section(LEVEL, lifted(points), orient_loops(points, loops), error=1.0)
+    wide = replace(section, input_error={**section.input_error, "second": math.inf})
+    assert not wide.axes_undetermined
+    assert (wide.angle % (math.pi / 2.0) != 0.0) == is_told

@@ -110,3 +110,11 @@ def test_the_distance_from_scattered_points_is_no_more_than_that_of_the_nearest(
     corner = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 0.0]])
     assert close(Hull(corner).distance(np.array([0.25, 0.25, -0.5])), 0.5, 1e-12)
     assert close(Hull(corner[1:2]).distance(np.zeros(3)), 1.0, 1e-12)
+
+
+@pytest.mark.parametrize("size", [1e-3, 1.0, 1e3])
+def test_the_distance_is_found_within_a_billionth_of_the_size(size):
+    """The nearest corner's own plane leaves a tenth of a millionth to gain."""
+    slope = 1e-7
+    hull = Hull(size * np.array([(0, 0, 1), (1, 0, 1 - slope), (0, 1, 2), (1, 1, 2)]))
+    assert close(hull.distance(np.zeros(3)), size / np.hypot(1.0, slope), 2e-9)

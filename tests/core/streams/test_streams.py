@@ -246,6 +246,20 @@ def test_a_concave_polygon_is_refused(tmp_path):
         measured(tmp_path, "a.ply", ply(arrow, [[4, 0, 1, 2, 3], [0, 1, 2]]))
 
 
+@pytest.mark.parametrize("size", [1e-3, 1.0, 1e3])
+def test_a_polygon_is_concave_by_its_own_measure(tmp_path, size):
+    """A corner that reaches in by a billionth of the size is rounding, by a thousandth it is none."""
+    for depth in (1e-9, 1e-3):
+        dented = size * np.array([[0, 0, 0], [2, 1, 0], [0, 2, 0], [depth, 1.5, 0], [depth, 0.5, 0]])
+        (tmp_path / "a.ply").write_bytes(ply(dented, [[0, 1, 2, 3, 4]]))
+        if depth < 1e-6:
+            (piece,) = open_mesh_file(tmp_path / "a.ply").pieces()
+            assert len(piece.triangles) == 3
+        else:
+            with refused("ply_concave_polygons", count=1):
+                list(open_mesh_file(tmp_path / "a.ply").pieces())
+
+
 def test_progress_counts_faces(tmp_path, small_blocks, monkeypatch):
     monkeypatch.setattr(stl_module, "SAMPLES", 1000)  # else the file is read again
     seen = []
