@@ -269,7 +269,7 @@ def _sum(context: Context) -> Total:
 
 def _held(obj: Object, objects: Iterable[Object]) -> list[Object]:
     """What an assembly or a character is made of."""
-    return [*obj.children_recursive, *(skinned_objects(obj, objects) if obj.type == "ARMATURE" else ())]
+    return [*obj.children_recursive, *skinned_objects(obj, objects)]
 
 
 @lru_cache(maxsize=512)
