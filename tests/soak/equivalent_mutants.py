@@ -232,6 +232,7 @@ CONSTANTS = [
     (r".*nurbs/patch_moments.py (MAX_DEPTH|MIN_DIVISOR)", r"= ", "when more is given up"),
     (r".*cad/iges.py _spline_piece", r"part\[[01]\] != knots\[-?", "the ends' knots are the same there"),
     (r".*numerics/graph.py _trees", r"for start in range\(", "the first node is the first root"),
+    (r".*numerics/graph.py _trees", r"parent\.dtype\.type\(", "where there is one tree, its number is not read"),
     (r".*numerics/graph.py connected_neighbors", r"for start in range\(", "there is none below the first"),
     (r".*", r"\bdefault_rng\(", "which numbers are drawn at random"),
     (r".*rigs/cuts.py (bones_of_caps|_cut_edges)", r"(max\(initial=|int\(.*\) \+ )", "room for a label more"),

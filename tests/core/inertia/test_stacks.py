@@ -2,9 +2,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A stack of bodies is each of them: moments, mass properties and frames with a leading axis."""
 
+from itertools import product
+
 import numpy as np
 import pytest
-from body_moments.core.inertia.canonical_stack import choose_about_axis
+from body_moments.core.inertia.canonical_stack import HALF_TURN_PARITY, ODD_KIND, choose_about_axis
 from body_moments.core.inertia.mass_properties import MassProperties
 from body_moments.core.inertia.principal_frame import OwnMoments, principal_frame
 from body_moments.core.inertia.third_moment_frames import third_moment_frames
@@ -118,3 +120,13 @@ def test_prisms_to_six_sides_have_directions_about_their_axes_and_others_have_no
     parts = stack_moments([part.transform(matrix) for part, matrix in zip(parts, placed(len(parts)))])
     is_round, allowed = choose_about_axis(parts, third_moment_frames(parts.truncate(3)), np.arange(6))
     assert is_round.tolist() == [False] * 4 + [True] * 2 and allowed[4:].any(axis=1).all()
+
+
+@pytest.mark.parametrize("powers", list(product((0, 1), repeat=3)))
+def test_half_turns_change_the_sign_of_moments_that_are_odd_across_their_axis(powers):
+    signs = [1, *((-1) ** (sum(powers) - power) for power in powers)]
+    kind = ODD_KIND[powers]
+    if min(signs) > 0:
+        assert kind == 0
+    else:
+        assert HALF_TURN_PARITY[kind - 1].tolist() == signs and powers.count(powers[kind - 1]) == 1
