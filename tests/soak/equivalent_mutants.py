@@ -200,6 +200,12 @@ PATTERNS = [
         r"\(np.eye\(3\) \+ points.*",
         "along the sphere one is the other, and where it is level they agree",
     ),
+    (
+        r".*scene/transforms.py set_rotation_and_scale",
+        r"np\.array\(obj.*\* delta_scale",
+        r".*/ delta_scale\)",
+        "its signs",
+    ),
     (r"panels/rows.py DEFAULT_WIDTH", r"\d+", r"\d+", "a pixel of a panel whose width is not known"),
 ]
 # places of constants, and what stands ahead of them in their line: the reason
@@ -209,6 +215,7 @@ CONSTANTS = [
     (r"operators/bodies/hull.py object_hull", r"len\(part\.matrices\) > ", "the hull of hulls is that of their points"),
     (r"operators/(read|scene|bodies)/.*", r"\bedges=", "read, and not looked at where nothing is to be proved closed"),
     (r"operators/session/shown.py _shown_now", r"last is None or last\[", "what was found is found once more"),
+    (r".*session/listing.py _listing", r"lines = \[", "each is written over"),
     (r"panels/.*", r"\balign=", "whether the corners between two rows are round"),
     (r".*cad/iges.py _Reader._pieces", r"_pieces_left (-=|<) ", "how soon a boundary of too many pieces is given up"),
     (r".*mesh/side_pairs.py _paired_by_sorting", r"high << np.uint64\(", "of vertices there are fewer than 2^30"),

@@ -226,6 +226,21 @@ def test_a_signal_says_when_the_center_leaves_the_support_polygon(scene):
     assert empty["body_balance_inside"] == 0
 
 
+@pytest.mark.parametrize(("reach", "distance"), [(0.0, 0.02), (0.005, 0.005)])
+def test_what_is_as_near_to_the_ground_as_the_contact_distance_touches_it(scene, reach, distance):
+    """Of a foot of 2 m, a hundredth of that where none is given."""
+    foot = objects.add(box((2.0, 2.0, 0.1), (-1.0, -1.0, 0.0)), "Foot")
+    for frame, share in ((1, 0.98), (2, 1.02)):
+        foot.location.z = 3.0 + share * distance
+        foot.keyframe_insert("location", frame=frame)
+    collection = bpy.data.collections.new("Feet")
+    scene.collection.children.link(collection)
+    collection.objects.link(foot)
+    scene.frame_start, scene.frame_end = 1, 2
+    assert bpy.ops.object.body_moments_balance_group(contacts="Feet", ground=3.0, reach=reach) == {"FINISHED"}
+    assert path_of(groups()[0]).inside.tolist() == [True, False]
+
+
 def test_the_frame_and_the_selection_stay_and_one_empty_is_made(scene):
     first = objects.add(objects.mesh_body(), "First")
     second = objects.add(objects.mesh_body(), "Second", location=(4.0, 0.0, 0.0))

@@ -230,6 +230,19 @@ def test_numbers_in_the_text_of_a_gltf_are_looked_at_and_so_is_what_overrides_po
     assert checked(path).values["count"] == 1
 
 
+def test_a_skin_without_matrices_hides_no_position_and_one_with_them_no_name(tmp_path, gltf):
+    text, binary = gltf
+    path = tmp_path / "box.gltf"
+    accessor, start = position(text)
+    number, name = text["accessors"].index(accessor), text["meshes"][0]["name"]
+    bad = binary[: start + 60] + struct.pack("<f", math.nan) + binary[start + 64 :]
+    (tmp_path / "box.bin").write_bytes(bad)
+    for skin in ({"joints": [0]}, {"joints": [0], "inverseBindMatrices": number}):
+        text["skins"] = [skin]
+        files.write_text(path, json.dumps(text))
+        said(path, 1, "at_mesh_vertex", mesh=name, vertex=5)
+
+
 def test_whatever_places_points_in_a_gltf_is_looked_at_and_nothing_else(tmp_path):
     numbers = np.zeros((6, 4), "<f4")
     numbers[:, 3] = math.nan  # between the rows

@@ -242,8 +242,14 @@ def test_what_has_no_faces_is_refused_with_what_it_has():
     assert refused(wire, "only_loose_geometry", vertices=3, edges=2)
     assert refused(link("Nothing", mesh("Nothing", [], [])), "no_geometry")
     bpy.ops.curve.primitive_bezier_circle_add()
-    assert refused(bpy.context.object, "lines_only_curve")
-    assert not measurable(bpy.context.object)
+    circle = bpy.context.object
+    assert refused(circle, "lines_only_curve")
+    assert not measurable(circle)
+    circle.data.dimensions, circle.data.fill_mode = "2D", "NONE"
+    assert refused(circle, "lines_only_curve")
+    assert not measurable(circle)
+    circle.data.fill_mode = "BOTH"
+    assert measurable(circle)
     letters = text()
     letters.data.extrude, letters.data.fill_mode = 0.0, "NONE"
     assert refused(letters, "lines_only_text")
