@@ -18,6 +18,7 @@ from .signature import MAX_SIMILAR_DIFFERENCE, Likeness, Signature, similarity
 SAME_SHAPE_DISTANCE = 1e-4
 SAME_SIZE_RTOL = 1e-4
 MAX_LINE_BYTES = 1 << 28
+DECIMALS = 12  # of distances: what follows is rounding
 
 
 class Similarity(StrEnum):
@@ -119,7 +120,8 @@ def _lines(path: Path) -> Iterator[bytes]:
 def rank(
     query: Signature, entries: Iterable[Entry], any_size: bool = False, any_hand: bool = False
 ) -> list[tuple[Entry, Likeness]]:
-    """Sort the bodies of a library by their likeness to a shape, the most alike first.
+    """Sort the bodies of a library by their likeness to a shape, the most alike first; those as alike as others, to
+    rounding, in the order given.
 
     Parameters
     ----------
@@ -147,7 +149,7 @@ def rank(
     ['same', 'wide']
     """
     ranked = [(entry, similarity(query, entry.signature)) for entry in entries]
-    return sorted(ranked, key=lambda row: row[1].distance(any_size, any_hand))
+    return sorted(ranked, key=lambda row: round(row[1].distance(any_size, any_hand), DECIMALS))
 
 
 def same_size(similarity: Likeness) -> bool:

@@ -9,7 +9,14 @@ import numpy as np
 import pytest
 from body_moments.core.plane import directed_edges, region_moments
 from body_moments.core.shape.flat_signature import flat_signature
-from body_moments.core.shape.library import SAME_SHAPE_DISTANCE, UNDECIDED_HANDEDNESS, classify, read_library
+from body_moments.core.shape.library import (
+    SAME_SHAPE_DISTANCE,
+    UNDECIDED_HANDEDNESS,
+    Entry,
+    classify,
+    rank,
+    read_library,
+)
 from body_moments.core.shape.signature import MIN_CHIRALITY, Signature, signature, similarity
 from body_moments.core.verdict.finding import Finding
 from body_moments.operators.write.record import plain
@@ -46,6 +53,18 @@ def test_size_is_told_apart_from_shape(scale):
     likeness = similarity(first, other)
     assert likeness.shape < 1e-9 and likeness.distance(any_size=True) < 1e-8
     assert close(likeness.scale, scale, rel=1e-6) and likeness.is_mirror_image is False
+
+
+def test_bodies_that_are_as_alike_to_rounding_keep_their_order():
+    wanted = signed(shapes.WEDGE)
+
+    def named(name, share):
+        return Entry(name, "", replace(wanted, size=wanted.size * (1.0 + share)))
+
+    near, nearer, other = named("near", 3e-13), named("nearer", 1e-13), named("other", 3e-12)
+    for entries in ([near, nearer, other], [nearer, near, other], [other, nearer, near]):
+        found = [entry.name for entry, _ in rank(wanted, entries)]
+        assert found == [entry.name for entry in entries if entry != other] + ["other"]
 
 
 def test_a_mirror_image_differs_in_its_hand_alone():
