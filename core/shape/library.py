@@ -120,8 +120,7 @@ def _lines(path: Path) -> Iterator[bytes]:
 def rank(
     query: Signature, entries: Iterable[Entry], any_size: bool = False, any_hand: bool = False
 ) -> list[tuple[Entry, Likeness]]:
-    """Sort the bodies of a library by their likeness to a shape, the most alike first; those as alike as others, to
-    rounding, in the order given.
+    """Sort the bodies of a library by their likeness to a shape, the most alike first.
 
     Parameters
     ----------
@@ -133,6 +132,7 @@ def rank(
     Returns
     -------
     list of (Entry, Likeness)
+        Those that are as alike to rounding in the order given.
 
     Examples
     --------
