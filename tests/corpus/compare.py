@@ -223,7 +223,8 @@ class Tolerance:
         return (OF_ESTIMATES if estimated else OF_BOUNDS) * abs(one)
 
     def of_moments(self, moments: dict):
-        """RELATIVE beside the largest of an order, or extent × length^order: odd ones are zero for many bodies."""
+        """A tenth of its own bound, or RELATIVE beside the largest of an order, or extent × length^order: odd ones are
+        zero for many bodies."""
         sizes = {}
         for kind, entries in moments.items():
             if not isinstance(entries, dict) or kind in ("error", "input"):
@@ -243,7 +244,8 @@ class Tolerance:
                 return self.of_bound(one)
             if len(words) != 2 or words[0] not in moments or "," not in words[1]:
                 return 0.0
-            return share * sizes.get((words[0], sum(map(int, words[1].split(",")))), 0.0)
+            bound = moments.get("error", {}).get(words[0], {}).get(words[1]) or 0.0
+            return max(share * sizes.get((words[0], sum(map(int, words[1].split(",")))), 0.0), BOUND * bound)
 
         return allowed
 
