@@ -223,8 +223,8 @@ class Tolerance:
         return (OF_ESTIMATES if estimated else OF_BOUNDS) * abs(one)
 
     def of_moments(self, moments: dict):
-        """A tenth of its own bound, or RELATIVE beside the largest of an order, or extent × length^order: odd ones are
-        zero for many bodies."""
+        """RELATIVE beside the largest of an order, or extent × length^order: odd ones are zero for many bodies. Above
+        order 0 a tenth of its own bound where that is more: far away they are differences of large numbers."""
         sizes = {}
         for kind, entries in moments.items():
             if not isinstance(entries, dict) or kind in ("error", "input"):
@@ -244,8 +244,9 @@ class Tolerance:
                 return self.of_bound(one)
             if len(words) != 2 or words[0] not in moments or "," not in words[1]:
                 return 0.0
-            bound = moments.get("error", {}).get(words[0], {}).get(words[1]) or 0.0
-            return max(share * sizes.get((words[0], sum(map(int, words[1].split(",")))), 0.0), BOUND * bound)
+            order = sum(map(int, words[1].split(",")))
+            bound = moments.get("error", {}).get(words[0], {}).get(words[1]) if order else None
+            return max(share * sizes.get((words[0], order), 0.0), BOUND * (bound or 0.0))
 
         return allowed
 
