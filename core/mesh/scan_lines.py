@@ -62,7 +62,7 @@ class LineGrids:
     @classmethod
     def over_boxes(cls, low: NDArray, high: NDArray, lines: NDArray[np.integer]) -> LineGrids:
         """Make grids of about so many lines, (b,), over boxes, (b, 3)."""
-        axes = np.argsort(low - high, axis=1)
+        axes = np.argsort(low - high, axis=1, kind="stable")
         extent, center = (np.take_along_axis(sides, axes, 1) for sides in (high - low, (low + high) / 2.0))
         width = extent[:, :2] + LINE_SLOPES * extent[:, 2:]
         width = np.maximum(width, 1e-6 * width.max(axis=1, keepdims=True) + np.finfo(float).tiny)

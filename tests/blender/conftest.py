@@ -3,8 +3,12 @@
 """What the tests in Blender start from."""
 
 import re
+from contextlib import suppress
 
 import pytest
+
+with suppress(ImportError):
+    import bpy  # noqa: F401 with it comes bmesh, which tests may import ahead of it
 
 
 class Reported(list):

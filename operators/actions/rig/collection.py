@@ -28,7 +28,9 @@ class MadeCollection:
 
     def _clear(self) -> None:
         made = [obj for obj in self._collection.objects if obj.get(self._key) == self._armature]
-        bpy.data.batch_remove([*made, *{obj.data for obj in made if obj.data is not None}])
+        meshes = {obj.data for obj in made if obj.data is not None}
+        bpy.data.batch_remove(made)
+        bpy.data.batch_remove([mesh for mesh in meshes if not mesh.users])  # else an object of the user's has it
 
     def link(self, obj: Object) -> None:
         obj[self._key] = self._armature

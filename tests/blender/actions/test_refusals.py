@@ -70,26 +70,26 @@ def held_child():
     mirror.target, mirror.use_y, mirror.use_z, mirror.invert_x = bpy.data.objects["Root"], False, False, True
 
 
-def overridden():
-    """A library override alone, and nothing else of the file that it comes from."""
+def linked(name):
+    """An object of a library, and nothing else of the file that it comes from."""
     path = bpy.app.tempdir + "library.blend"
-    bpy.data.libraries.write(path, {add(mesh_body(), "Override", select=False)})
+    bpy.data.libraries.write(path, {add(mesh_body(), name, select=False)})
     bpy.data.batch_remove([*bpy.data.objects, *bpy.data.meshes])
     with bpy.data.libraries.load(path, link=True) as (_, names):
-        names.objects = ["Override"]
-    made = names.objects[0].override_create()
+        names.objects = [name]
+    return names.objects[0]
+
+
+def overridden():
+    made = linked("Override").override_create()
     bpy.context.scene.collection.objects.link(made)
     bpy.context.view_layer.update()
     only(made)
 
 
 def linked_member():
-    path = bpy.app.tempdir + "library.blend"
-    bpy.data.libraries.write(path, {add(mesh_body(), "Linked", select=False)})
-    bpy.data.batch_remove([*bpy.data.objects, *bpy.data.meshes])
-    with bpy.data.libraries.load(path, link=True) as (_, names):
-        names.objects = ["Linked"]
-    assembly_of_boxes().objects.link(names.objects[0])
+    obj = linked("Linked")
+    assembly_of_boxes().objects.link(obj)
 
 
 def light_bones():

@@ -266,6 +266,20 @@ def test_a_physics_rig_has_exact_masses_and_joints_at_the_bones():
     assert not constraint.use_limit_ang_y
 
 
+def test_a_linked_duplicate_of_what_was_made_keeps_its_mesh():
+    character()
+    bpy.ops.object.body_moments_physics_rig()
+    head = bpy.data.objects["Rig head"]
+    kept = head.copy()
+    bpy.context.scene.collection.objects.link(kept)
+    kept.name, count = "Kept", len(head.data.polygons)
+    assert bpy.ops.object.body_moments_physics_rig() == {"FINISHED"}
+    mesh = bpy.data.objects["Kept"].data
+    assert len(mesh.polygons) == count > 0 and mesh.users == 1
+    meshes = [mesh.name for mesh in bpy.data.meshes if mesh.name.startswith("Rig")]
+    assert len(meshes) == len(made.NAMES) + 1  # none of the others is left over
+
+
 def test_the_center_of_mass_follows_the_pose_by_constraints_alone():
     armature, _ = character()
     armature.location, armature.rotation_euler = (3, 2, 1), (0.1, 0.2, 0.3)
