@@ -1566,9 +1566,7 @@ MESSAGES: dict[str, Message] = {
         "{armature}: {mass:.7g} kg in the parts of {count} bone",
         "{armature}: {mass:.7g} kg in the parts of {count} bones",
     ),
-    "physics_rig_created": _note(
-        "Created {count} rigid body and {joints} joints", "Created {count} rigid bodies and {joints} joints"
-    ),
+    "physics_rig_created": _note("Rigid bodies created: {count}, joints: {joints}"),
     "physics_rig_too_light": _error(
         "Rigid bodies weigh {limit:.3g} kg at least, and these parts less: {names}. Scale the character, or set masses."
     ),

@@ -8,7 +8,6 @@ import bpy
 import numpy as np
 from bpy.types import Bone, Context, Object, Operator, PoseBone
 from mathutils import Matrix
-from numpy.typing import NDArray
 
 from ....core.mesh.surface import join_surfaces
 from ....core.numerics.float32 import shortest_decimal
@@ -91,7 +90,8 @@ def _body(made: MadeCollection, armature: Object, part: BonePart, unit: float) -
     surface = join_surfaces([piece.transform(matrix[:3, :3], matrix[:3, 3]) for piece, matrix in part.surfaces])
     mesh = bpy.data.meshes.new("{:s} {:s}".format(armature.name, part.name))
     points = (surface.points / unit - frame[:3, 3]) @ frame[:3, :3]
-    _fill(mesh, points, surface.triangles)
+    mesh.from_pydata(points, [], surface.triangles)
+    mesh.validate()
     obj = bpy.data.objects.new(mesh.name, mesh)
     made.link(obj)
     obj.rotation_mode = "QUATERNION"
@@ -99,17 +99,6 @@ def _body(made: MadeCollection, armature: Object, part: BonePart, unit: float) -
     settings = obj.body_moments
     settings.mass_from, settings.mass = "MASS", part.mass.total
     return obj
-
-
-def _fill(mesh: bpy.types.Mesh, points: NDArray, triangles: NDArray) -> None:
-    mesh.vertices.add(len(points))
-    mesh.vertices.foreach_set("co", points.astype(np.float32).ravel())
-    mesh.loops.add(triangles.size)
-    mesh.loops.foreach_set("vertex_index", triangles.astype(np.int32).ravel())
-    mesh.polygons.add(len(triangles))
-    mesh.polygons.foreach_set("loop_start", np.arange(0, triangles.size, 3, dtype=np.int32))
-    mesh.update(calc_edges=True)
-    mesh.validate()
 
 
 def _parent_with_part(bone: Bone, bodies: dict[str, Object]) -> str | None:

@@ -210,10 +210,7 @@ MESSAGES = {
         "{armature}: {mass:.7g} kg in den Teilen von {count} Knochen",
         "{armature}: {mass:.7g} kg in den Teilen von {count} Knochen",
     ),
-    "physics_rig_created": (
-        "{count} Starrkörper und {joints} Gelenke angelegt",
-        "{count} Starrkörper und {joints} Gelenke angelegt",
-    ),
+    "physics_rig_created": ("Angelegte Starrkörper: {count}, Gelenke: {joints}",),
     "physics_rig_too_light": (
         "Starrkörper wiegen mindestens {limit:.3g} kg, und diese Teile weniger: {names}. Die Figur skalieren oder "
         "Massen setzen.",

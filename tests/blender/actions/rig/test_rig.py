@@ -253,6 +253,7 @@ def test_a_physics_rig_has_exact_masses_and_joints_at_the_bones():
         body = bodies[name]
         mass = 1000.0 * float(np.prod(np.subtract(high, low)))
         assert close(body.rigid_body.mass, mass, 1e-6)
+        assert not any(polygon.use_smooth for polygon in body.data.polygons)
         assert np.abs(np.array(body.location) - np.add(high, low) / 2.0).max() < 1e-6
         measurement = measure_object(body, bpy.context.evaluated_depsgraph_get())
         local = measurement.in_object_frame()
