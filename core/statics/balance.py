@@ -32,7 +32,7 @@ from .gradient import Gradient, area_gradient, volume_gradient
 
 MAX_NEWTON_STEPS = 100  # of Newton's method at most; it takes a few
 MAX_STEP_HALVINGS = 20  # of one step, until the center comes nearer
-REACHED_TOLERANCE = 64.0 * U  # of the body's size and its distance from the origin: what rounding leaves of a center
+REACHED_TOLERANCE = 64.0 * U  # of the body's size and how far it or its target lies: what rounding leaves
 MIN_RELATIVE_EFFECT = 1e-12  # of what the most effective direction does
 SLIVER_RTOL = 1e-9  # of its longest side squared: a triangle without a normal
 
@@ -208,7 +208,8 @@ class _Problem:
         self.shell, self.across, self.target = shell, across, target
         used = self.start[np.unique(triangles)]
         self.size = float(np.linalg.norm(np.ptp(used, axis=0)))
-        self.tolerance = REACHED_TOLERANCE * (self.size + np.abs(used).max())
+        farthest = max(np.abs(used).max(), np.abs(self.across @ self.target).max())
+        self.tolerance = REACHED_TOLERANCE * (self.size + farthest)
         self.sign = 1.0 if shell else float(np.sign(self._moments(self.start).total))
 
     def _moments(self, points: NDArray) -> Moments:

@@ -135,6 +135,15 @@ def test_a_point_that_is_too_far_is_refused():
         balance(bodies.surface(part), upper(part, 0.5), (0.0, 0.0, -0.5), limit=4.0, shell=True)
 
 
+@pytest.mark.parametrize("height", [1.0, 1e3, 1e6])
+def test_a_point_that_one_vertex_reaches_is_reached_however_far_it_is(height):
+    """A tetrahedron's center is a quarter of its height above its base."""
+    corners = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.3, 0.0], [0.3, 0.3, 0.9]])
+    body = Surface.from_triangles(corners, [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    found = balance(body, [3], [0.0, 0.0, height], across=np.eye(3)[2:])
+    assert abs(found.points[3, 2] - 4.0 * height) <= 1e-14 * 4.0 * height
+
+
 def test_what_a_limit_alone_lets_be_reached_is_not_called_too_far():
     """Newton's method without a limit goes astray here; with one it comes to the point, through faces that fold."""
     part, movable = bodies.sphere(1), np.delete(np.arange(18), [5, 6])
