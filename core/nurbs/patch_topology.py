@@ -67,11 +67,11 @@ class BoundaryLoop:
 
 @dataclass(frozen=True, eq=False)
 class PatchTopology:
-    """component: (n,) of each patch; number: of them. flipped: (n,) which patches face against the first of theirs.
-    loops: the holes. open_sides, non_manifold_sides, misoriented_sides: how many sides lie open, coincide with more
-    than one other, or run the same way as the side that they coincide with, before anything was turned. seam_gap: the
-    largest distance, times the length, of sides that coincide. seams: (k, 2) sides that are joined, four to a patch in
-    the order of `SIDES`.
+    """component: (n,) of each patch; number: of them. flipped: (n,) which patches face against most of theirs, or the
+    first where as many face each way. loops: the holes. open_sides, non_manifold_sides, misoriented_sides: how many
+    sides lie open, coincide with more than one other, or run the same way as the side that they coincide with, before
+    anything was turned. seam_gap: the largest distance, times the length, of sides that coincide. seams: (k, 2) sides
+    that are joined, four to a patch in the order of `SIDES`.
     unclosable: (number,) components whose sides can be joined to no loops, or that have one side only.
     """
 
@@ -109,6 +109,8 @@ def find_topology(patches: Sequence[Patch], tolerance: float) -> PatchTopology:
     misoriented = same == (forward[left] == forward[right])
     component, number = connected_components(len(patches), owner[left], owner[right])
     flipped, conflict = _orient_patches(len(patches), owner[left], owner[right], misoriented)
+    are_most = 2 * np.bincount(component, flipped, number) > np.bincount(component, minlength=number)
+    flipped ^= are_most[component]
     unclosable = np.zeros(number, bool)
     unclosable[component[conflict]] = True
 

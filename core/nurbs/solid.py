@@ -188,7 +188,7 @@ def assess(
     skin = area.total + sum(loop.area for loop in topology.loops)
     volume = with_swept_error(volume, stored * skin + topology.seam_gap, reach)
     area = with_area_error(area, slope, stored, reach)
-    misoriented = len(_misoriented(topology))
+    misoriented = np.flatnonzero(topology.flipped).tolist()
     further = list(findings)
     if not all(converged for *_, converged, _ in turned_parts):
         further.append(finding("volume_error_estimate_large"))
@@ -201,13 +201,13 @@ def assess(
         volume,
         area,
         _health(topology, verdict, area.total),
-        _method(is_open, verdict, misoriented),
+        _method(is_open, verdict, len(misoriented)),
         (
             *_orientation_findings(
                 topology,
-                misoriented,
+                len(misoriented),
                 verdict.flipped,
-                slight_patches=_are_slight([[patches[k]] for k in _misoriented(topology)], size, volume.total),
+                slight_patches=_are_slight([[patches[k]] for k in misoriented], size, volume.total),
                 slight_parts=_are_slight([parts[k] for k in turned], size, volume.total),
             ),
             *_closing_findings(topology, verdict.solid, area.total, volume.total, size),
@@ -384,13 +384,6 @@ def _sagitta(grid: NDArray, each: int) -> float:
     bend = np.linalg.norm(np.diff(grid, 2, axis=0), axis=2) / 8.0
     bend[each - 1 :: each] = 0.0
     return float(bend.max())
-
-
-def _misoriented(topology: PatchTopology) -> NDArray[np.intp]:
-    """The patches that face against the rest of their part: the fewer of both kinds in each."""
-    flipped = np.bincount(topology.component, topology.flipped, topology.number)
-    are_most = 2 * flipped > np.bincount(topology.component, minlength=topology.number)
-    return np.flatnonzero(topology.flipped != are_most[topology.component])
 
 
 def _are_slight(groups: Sequence[Sequence[Patch]], size: float, volume: float) -> bool:

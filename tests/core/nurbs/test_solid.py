@@ -176,14 +176,23 @@ def test_round_sides_coincide_wherever_they_begin(turn):
     assert measure_patches([wall, *lids]).health.inconsistent_edges == 1
 
 
-def test_patches_that_face_against_the_rest_are_turned_and_counted():
-    patches = box()
-    patches[1], patches[4] = patches[1].reverse_orientation(), patches[4].reverse_orientation()
-    found = measure_patches(patches)
+@pytest.mark.parametrize(("turned", "sides"), [((1, 4), 6), ((0,), 4), ((0, 1), 8)])  # 0 and 1 lie opposite
+def test_patches_that_face_against_the_rest_are_turned_and_counted(turned, sides):
+    found = measure_patches([patch.reverse_orientation() if k in turned else patch for k, patch in enumerate(box())])
     assert found.method == "reoriented"
-    assert only(found) == Finding("flipped_patches", {"count": 2})
-    assert found.health.inconsistent_edges == 6  # the two share one
+    assert only(found) == Finding("flipped_patches", {"count": len(turned)})
+    assert found.health.inconsistent_edges == sides and found.health.inverted_components == 0
     assert abs(found.volume.total - 6.0) <= 1e-13
+
+
+@pytest.mark.parametrize("turned", range(6))
+def test_a_part_faces_as_most_of_its_patches_do(turned):
+    """A cavity of which any one patch faces outward is a cavity."""
+    cavity = [patch.reverse_orientation() for patch in box((0.5, 0.25, 0.125), (5.25, -2.5, 2.75))]
+    cavity[turned] = cavity[turned].reverse_orientation()
+    found = measure_patches([*box(), *cavity])
+    assert codes(found) == ["flipped_patches", "cavities_subtracted"]
+    assert abs(found.volume.total / (6.0 - 0.5 * 0.25 * 0.125) - 1.0) <= 1e-13
 
 
 @pytest.mark.parametrize(("side", "ending"), [(1e-3, "_slightly"), (0.1, "")])
