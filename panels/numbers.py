@@ -31,7 +31,7 @@ def numbers(layout: UILayout, context: Context, units: Units, shown: properties.
     else:
         entries.append(("Length", "length", length))
     rows.quantities(column, units, entries)
-    source = properties.density_from(context.object) if length is None else None
+    source = properties.density_from(context.object)
     if source:
         rows.message(column, context, finding("panel_density_mean", cause=source), icon="BLANK1")
     column = layout.column(align=True)

@@ -21,6 +21,7 @@ from ..mesh.surface import Surface
 from ..polyhedron.integration import polyhedron_moments
 
 DEGREE = 4  # of the first moments
+MIN_SHARE = 1e-6  # of a volume in the terms that it is the sum of, below which these cancel
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,9 +62,14 @@ class Mixes:
         Returns
         -------
         volumes : (f,) array
+            NaN for a mix that is flat or inside out.
         centers : (f, 3) array
+            NaN likewise.
         """
-        moments = _powers(np.asarray(values, np.float64), self.exponents) @ self.coefficients
+        powers = _powers(np.asarray(values, np.float64), self.exponents)
+        moments = powers @ self.coefficients
+        terms = np.abs(powers) @ np.abs(self.coefficients[:, 0])
+        moments[~(moments[:, 0] > MIN_SHARE * terms)] = np.nan
         return moments[:, 0], self.about + moments[:, 1:] / moments[:, :1]
 
 

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from ...core.numerics.rotations import rotation_matrix
 from ...core.rigs import VertexWeights
-from ...core.verdict.finding import EditRefusedError, ReadError
+from ...core.verdict.finding import ReadError
 from .reading import Part, float64_matrix
 from .tracking import tracking_paused
 from .visibility import evaluated_geometry, measurable
@@ -63,7 +63,7 @@ class RestBones:
 
 @contextmanager
 def rest_pose(context: Context, armature: Object) -> Iterator[Depsgraph]:
-    """Evaluate the scene with the armature at rest, and put it back. EditRefusedError where it cannot be.
+    """Evaluate the scene with the armature at rest, and put it back.
 
     Yields
     ------
@@ -73,10 +73,7 @@ def rest_pose(context: Context, armature: Object) -> Iterator[Depsgraph]:
     data = armature.data
     before = data.pose_position
     with tracking_paused():
-        try:
-            data.pose_position = "REST"
-        except (AttributeError, RuntimeError) as error:
-            raise EditRefusedError("armature_not_editable", subject=armature.name) from error
+        data.pose_position = "REST"
         try:
             context.view_layer.update()
             yield context.evaluated_depsgraph_get()

@@ -73,11 +73,12 @@ class Motion:
         matrix = float64_matrix(obj.evaluated_get(depsgraph).matrix_world)
         followed = self._followed.setdefault(obj, _Followed())
         if followed.mixes is not None:
-            return _mixed(obj, followed, matrix, unit)
+            mixed = _mixed(obj, followed, matrix, unit)
+            return _measured(obj, followed, depsgraph, matrix, unit) if mixed is None else mixed
         change = updates.last_change_of_geometry(obj)
         if followed.moments is None or followed.change != change or not _can_map(followed.moments, matrix):
             if followed.change == -1 and self._shape_keys(obj, depsgraph, followed):
-                return _mixed(obj, followed, matrix, unit)
+                return self.mass_and_center(obj, depsgraph)
             followed.change = change
             return _measured(obj, followed, depsgraph, matrix, unit)
         moments = followed.moments.transform(_in_si(matrix, unit))
@@ -133,10 +134,13 @@ def _coordinates(data) -> NDArray[np.float64]:
     return points.reshape(-1, 3).astype(np.float64)
 
 
-def _mixed(obj: Object, followed: _Followed, matrix: NDArray, unit: float) -> tuple[float, NDArray[np.float64]]:
+def _mixed(obj: Object, followed: _Followed, matrix: NDArray, unit: float) -> tuple[float, NDArray[np.float64]] | None:
+    """Mass and center; None where keys or matrix make the mesh flat or turn it inside out, which is for measuring."""
     blocks = obj.data.shape_keys.key_blocks
     assert followed.mixes is not None
     volumes, centers = followed.mixes.at([[blocks[name].value for name in followed.keys]])
+    if np.isnan(volumes[0]) or are_singular(matrix[None, :3, :3])[0]:
+        return None
     volume = float(volumes[0]) * abs(np.linalg.det(matrix[:3, :3])) * unit**3
     mass = followed.density * volume if followed.given_mass is None else followed.given_mass
     return mass, matrix[:3, :3] @ centers[0] + matrix[:3, 3]
@@ -151,13 +155,15 @@ def _measured(
     moments, factor = measurement.mass_moments
     followed.given_mass = _given_mass(obj)
     followed.moments = None
-    if not are_singular(matrix[None, :3, :3])[0] and _can_map(moments, matrix):
+    if _can_map(moments, matrix):
         followed.moments = (moments.truncate(1) * factor).transform(np.linalg.inv(_in_si(matrix, unit)))
     return measurement.mass_properties.mass, measurement.mass_properties.center / unit
 
 
 def _can_map(moments: Moments, matrix: NDArray) -> bool:
-    """Whether the moments follow the matrix: areas and lengths do so only where nothing is stretched."""
+    """Whether the moments follow the matrix: not a flat one, areas and lengths only where nothing is stretched."""
+    if are_singular(matrix[None, :3, :3])[0]:
+        return False
     return moments.measure in (Measure.VOLUME, Measure.MASS) or bool(are_similarities(matrix[None, :3, :3])[0])
 
 

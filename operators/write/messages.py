@@ -1539,7 +1539,6 @@ MESSAGES: dict[str, Message] = {
     # ------------------------------------------------------------------ Rigs
     "no_active_armature": _error("The active object is not an armature. Select one."),
     "armature_in_edit_mode": _error("The armature is in Edit Mode. Leave it."),
-    "armature_not_editable": _error("The armature cannot be put into its rest pose. Make it local."),
     "no_deforming_bones": _error("No bone deforms meshes. Make those that do deforming bones."),
     "bone_missing": _error("Its parent bone “{bone}” does not exist. Choose another one."),
     "rig_without_parts": _error(
@@ -1854,7 +1853,6 @@ MESSAGES: dict[str, Message] = {
     "balance_group_empty_group": _error(
         "Nothing to follow. Select objects with a surface, or an armature that deforms some."
     ),
-    "balance_group_without_mass": _error("Together the objects have no mass. Set their densities."),
     "balance_group_made": _note(
         "“{empty}” has {count} key of the center of mass; objects: {objects_count}",
         "“{empty}” has {count} keys of the center of mass; objects: {objects_count}",

@@ -191,10 +191,7 @@ class OBJECT_OT_body_moments_balance_group(ModalSteps, Operator):
             body = measure_assembly(self._assembly, depsgraph).measurement.mass_properties
             return body.center / shortest_decimal(depsgraph.scene.unit_settings.scale_length)
         masses, centers = zip(*[motion.mass_and_center(obj, depsgraph) for obj in self._objects])
-        total = float(np.sum(masses))
-        if not total > 0.0:
-            raise EditRefusedError("balance_group_without_mass")
-        return centers[0] + np.einsum("i,ij->j", np.array(masses) / total, np.array(centers) - centers[0])
+        return centers[0] + np.einsum("i,ij->j", np.array(masses) / np.sum(masses), np.array(centers) - centers[0])
 
     def _support(self, motion: Motion, depsgraph: Depsgraph, center: NDArray) -> Support | None:
         """What the contact objects stand on at this frame, None where they are all in the air."""

@@ -182,7 +182,6 @@ MESSAGES = {
     ),
     "no_active_armature": ("Das aktive Objekt ist keine Armatur. Eine auswählen.",),
     "armature_in_edit_mode": ("Die Armatur ist im Bearbeitungsmodus. Ihn verlassen.",),
-    "armature_not_editable": ("Die Armatur lässt sich nicht in ihre Ruhepose bringen. Sie lokal machen.",),
     "no_deforming_bones": ("Kein Knochen verformt Netze. Die, die es tun, zu verformenden Knochen machen.",),
     "bone_missing": ("Seinen Elternknochen „{bone}“ gibt es nicht. Einen anderen wählen.",),
     "rig_without_parts": (

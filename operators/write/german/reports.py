@@ -220,7 +220,6 @@ MESSAGES = {
     "balance_group_empty_group": (
         "Nichts, dem zu folgen wäre. Objekte mit einer Oberfläche auswählen oder eine Armatur, die welche verformt.",
     ),
-    "balance_group_without_mass": ("Zusammen haben die Objekte keine Masse. Ihre Dichten setzen.",),
     "balance_group_made": (
         "„{empty}“ hat {count} Schlüsselbild des Massenmittelpunkts; Objekte: {objects_count}",
         "„{empty}“ hat {count} Schlüsselbilder des Massenmittelpunkts; Objekte: {objects_count}",

@@ -200,6 +200,44 @@ def test_scales_that_change_are_followed(scene):
             assert np.abs(center - truth.center).max() <= 1e-6 * 10.0
 
 
+def mirrored_by_a_key(frames):
+    """8 m³ at (1, 2, 3) whose height becomes its negative, beside 1 m³ at (9, 0, 0)."""
+    obj, other = objects.add(box((1, 2, 4), (-0.5, -1, -2)), location=(1, 2, 3)), objects.add(box((1, 1, 1)), "Other")
+    other.location = (8.5, -0.5, -0.5)
+    obj.shape_key_add(name="Basis")
+    key = obj.shape_key_add(name="Mirrored")
+    for point in key.data:
+        point.co.z *= -1.0
+    for frame in range(1, frames + 1):
+        key.value = (frame - 1) / (frames - 1)
+        key.keyframe_insert("value", frame=frame)
+    bpy.context.scene.frame_start, bpy.context.scene.frame_end = 1, frames
+    objects.only(obj, other)
+
+
+@pytest.mark.parametrize("frames", [4, 10])
+def test_what_a_shape_key_turns_inside_out_weighs_as_much(scene, frames):
+    """In few frames, in each of which it is measured, as in many."""
+    mirrored_by_a_key(frames)
+    assert bpy.ops.object.body_moments_balance_group() == {"FINISHED"}
+    weights = 8.0 * np.abs(1.0 - 2.0 * np.arange(frames) / (frames - 1.0))[:, None]
+    expected = (weights * (1.0, 2.0, 3.0) + (9.0, 0.0, 0.0)) / (weights + 1.0)
+    assert np.abs(path_of(groups()[0]).centers - expected).max() <= 1e-5
+
+
+@pytest.mark.parametrize("by", ["shape key", "scale", "scale of a mix"])
+def test_what_becomes_flat_ends_it(scene, reported, by):
+    mirrored_by_a_key(9 if by == "shape key" else 10)
+    if by != "shape key":
+        obj = bpy.context.object if by == "scale of a mix" else bpy.data.objects["Other"]
+        for frame, scale in ((1, 1.0), (5, 0.0)):
+            obj.scale.x = scale
+            obj.keyframe_insert("scale", frame=frame)
+    with pytest.raises(RuntimeError):
+        bpy.ops.object.body_moments_balance_group()
+    assert reported.codes == ["no_volume" if by == "shape key" else "zero_scale"] and not groups()
+
+
 def test_a_signal_says_when_the_center_leaves_the_support_polygon(scene):
     """A weight that slides over a foot from -2 to 2: over the foot as long as their common center is within ±1."""
     foot = objects.add(box((2.0, 2.0, 0.1), (-1.0, -1.0, 0.0)), "Foot")

@@ -47,3 +47,13 @@ def test_a_uniform_growth_is_a_cube_of_its_value():
     volumes, centers = mixes.at([[0.0], [1.0], [3.0]])
     assert close(volumes / volumes[0], [1.0, 8.0, 64.0], 1e-12)
     assert np.abs(centers - center).max() <= 1e-13 * 8.0
+
+
+def test_a_mix_that_is_flat_or_inside_out_has_no_volume():
+    """A body that shrinks to its center, and on."""
+    surface, _ = body()
+    whole, _ = polyhedron_moments(surface, 1)
+    center = whole.center
+    volumes, centers = fit_mixes(surface, (center - surface.points)[None]).at([[0.9], [0.999], [1.0], [1.001], [3.0]])
+    assert close(volumes[0] / whole.total, 1e-3, 1e-9) and np.abs(centers[0] - center).max() <= 1e-9
+    assert np.isnan(volumes[1:]).all() and np.isnan(centers[1:]).all()
