@@ -6,10 +6,12 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
+from body_moments.core.density import piecewise_mass
 from body_moments.core.density.part_densities import part_densities
 from body_moments.core.density.piecewise_mass import sheet_mass_moments, solid_mass_moments, to_mass_moments
 from body_moments.core.inertia.mass_properties import MassProperties
 from body_moments.core.mesh.surface import Surface
+from body_moments.core.moments.moments import FLOAT32_HALF_ULP, Moments, U, monomials
 from body_moments.core.solid.measure_solid import measure_solid
 
 from tests.close import close
@@ -71,6 +73,51 @@ def test_a_density_linear_on_each_triangle_is_exact(offset, scale):
     assert within(found, expected)
     assert found.rounding_error[0] < 1e-9 * found.total if offset[0] else found.rounding_error[0] < 1e-12 * found.total
     assert found.measure == "area" and not found.input_error.any()
+
+
+CORNERS = np.array([[1, 2, -1], [4, 1, 2], [2, 7, 1], [3, 3, 9]])
+TRIANGLES = np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+DENSITY = [2.0, 3.0, 5.0, 8.0]
+
+
+def amounts(about, density):
+    """Of these triangles, in whole numbers: Σ ρ |det|, Σ ρ |N|, and Σ ρ (|u v'| + |u' v|) for each axis."""
+    dets, normals, terms = 0, 0.0, [0, 0, 0]
+    for rho, (a, b, c) in zip(density, (CORNERS - about)[TRIANGLES].tolist()):
+        u, v = [x - y for x, y in zip(b, a)], [x - y for x, y in zip(c, a)]
+        pairs = [(u[i] * v[j], u[j] * v[i]) for i, j in ((1, 2), (2, 0), (0, 1))]
+        normal = [plus - minus for plus, minus in pairs]
+        dets += rho * abs(sum(n * x for n, x in zip(normal, a)))
+        normals += rho * np.sqrt(sum(n * n for n in normal))
+        terms = [total + rho * (abs(plus) + abs(minus)) for total, (plus, minus) in zip(terms, pairs)]
+    return dets, normals, terms
+
+
+@pytest.mark.parametrize("per_block, blocks", [(2, 2.0), (3, 4.0 / 3.0), (4, 1.0)])
+@pytest.mark.parametrize("order", [0, 1, 4])
+def test_bounds_count_the_roundings_of_what_is_summed_up(monkeypatch, order, per_block, blocks):
+    """9 u for each product of a determinant, 27 u a degree for the table, 64 u and one a block for the sum."""
+    monkeypatch.setattr(piecewise_mass, "_block_size", lambda _order: per_block)
+    about, reach = np.array([2.0, 3.0, 1.0]), [2.0, 4.0, 8.0]
+    powers = monomials(order)
+    degree, bounds = powers.sum(axis=1), np.prod(np.array(reach) ** powers, axis=1)
+    like = Moments(np.ones(len(powers)), about, "area", input_error=1e-9 * (1.0 + degree))
+    roundings = (27.0 * (degree + 1.0) + 64.0 + blocks + 2.0) * U
+    dets, normals, terms = amounts(about.astype(int), DENSITY)
+    solid = solid_mass_moments(CORNERS * 1.0, TRIANGLES, np.array(DENSITY), like)
+    expected = (9.0 * U * np.dot(reach, terms) + roundings * dets) / (2.0 * degree + 6.0) * bounds
+    assert close(solid.rounding_error, expected + 8.0 * U * np.abs(solid.raw), rel=1e-12)
+    assert close(solid.input_error, 8.0 * like.input_error, rel=1e-14)
+    by_corner = np.array([[1.0, 2.0, 3.0], [0.0, 9.0, 0.0], [5.0, 4.0, 6.0], [7.0, 8.0, 9.0]])  # of the same means
+    for density in (np.array(DENSITY), by_corner):
+        plain, single = (
+            sheet_mass_moments(CORNERS * 1.0, TRIANGLES, density, like, stored=stored) for stored in (False, True)
+        )
+        expected = (9.0 * U * sum(terms) + roundings * normals) / 2.0 * bounds + 8.0 * U * np.abs(plain.raw)
+        for found in (plain, single):
+            assert close(found.rounding_error, expected, rel=1e-12)
+        assert close(plain.input_error, density.max() * like.input_error, rel=1e-14)
+        assert close(single.input_error - plain.input_error, FLOAT32_HALF_ULP * normals / 2.0 * bounds, rel=1e-6)
 
 
 def part_moments(parts, whole):

@@ -241,6 +241,42 @@ def test_a_preview_is_near_and_claims_nothing():
     assert abs(preview.volume.total - exact.volume.total) > 0.0
 
 
+@pytest.mark.parametrize("order", [0, 1, 2, 5])
+def test_sizes_of_cut_cells_are_the_most_that_their_moments_can_be(order):
+    """Of two cells a quarter and a half of which a plane cuts off, with all moments of one sign in each."""
+    sums = threshold._Sums(order, True, False, np.eye(3))
+    rising, falling = np.array([-1.0, 3.0])[:, None, None], np.array([2.0, -2.0])
+    corners = np.array([np.broadcast_to(rising, (2, 2, 2)), np.broadcast_to(falling, (2, 2, 2))])
+    origin, size = np.array([[3.0, -2.0, 5.0], [-4.0, 1.0, -0.5]]), np.array([1.0, 0.5])
+    sums.add_cut_cells(threshold.Cells(corners, origin, size), 10.0)
+    powers = monomials(order)
+    reach = np.prod((np.abs(origin) + size[:, None])[:, None] ** powers, axis=2).T
+    assert close(sums.volume_size, reach @ [1.0, 0.125], rel=1e-13)
+    assert close(sums.area_size, reach @ [1.0, 0.25], rel=1e-13)
+    low = np.array([[3.25, -2.0, 5.0], [-4.0, 1.0, -0.5]])
+    high = np.array([[4.0, -1.0, 6.0], [-3.5, 1.5, -0.25]])
+    nodes, weights = np.polynomial.legendre.leggauss(order + 2)
+    x, y, z = (low + (high - low) / 2.0 * (1.0 + nodes[:, None, None])).transpose(2, 1, 0)[:, :, :, None]
+    density = np.array([10.0 - 1.0 + 4.0 * (x[0] - 3.0), 10.0 + 2.0 - 8.0 * (z[1] + 0.5)])
+    masses = np.prod(high - low, axis=1) / 8.0
+    volume, mass = np.zeros((2, len(powers)))
+    for number, (p, q, r) in enumerate(powers.tolist()):
+        rows = [[(weights * t[:, 0] ** n).sum() for t in of] for n, of in ((p, x), (q, y), (r, z))]
+        volume[number] = (masses * rows[0] * np.array(rows[1]) * rows[2]).sum()
+        rows[0][0] = (weights * density[0, :, 0] * x[0, :, 0] ** p).sum()
+        rows[2][1] = (weights * density[1, :, 0] * z[1, :, 0] ** r).sum()
+        each = masses * rows[0] * np.array(rows[1]) * rows[2]
+        mass[number], largest = each.sum(), reach[number] @ [13.0, 12.0 * 0.125]
+        assert close(sums.mass_size[number], largest + np.abs(each).sum(), rel=1e-12)
+    assert close(sums.volume, volume, rel=1e-11) and close(sums.mass, mass, rel=1e-11)
+    for name in ("volume", "area", "mass"):
+        estimate = getattr(sums, name + "_estimate")
+        units = (sums.error(name) - estimate) / getattr(sums, name + "_size") / U
+        assert (estimate <= 1e-12 * np.abs(reach).sum() * 13.0).all()
+        assert (np.abs(units - (60.0 + 8.0 * order + math.log2(1.0 + sums.terms))) < 1e-3).all()
+    assert 2 <= sums.terms <= 2 * 12**2
+
+
 @pytest.mark.parametrize("order", [1, 3, 6])
 def test_the_bound_counts_the_roundings_of_whole_cells_and_of_the_map(order):
     found = threshold_body(np.full((4, 5, 6), 2.0), 1.0, order).volume

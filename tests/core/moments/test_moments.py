@@ -206,6 +206,54 @@ def test_a_shift_at_order_20_is_exact_within_its_bound_and_as_good_as_it_can_be(
     assert (shifted.rounding_error <= 1e-13 * largest).all()
 
 
+POSITIVE = np.array([[2.0, 0.5, 1.0], [0.25, 3.0, 0.5], [1.0, 0.125, 4.0]])
+TURNED = 2.0 * np.eye(3)[[1, 2, 0]]
+
+
+def products(place, order, factor=1.0):
+    return factor * np.prod(np.asarray(place) ** monomials(order), axis=1)
+
+
+@pytest.mark.parametrize("way", [1.0, -1.0])
+def test_bounds_move_with_the_sizes_of_what_a_shift_adds_up(way):
+    """Of a mass at one place, all of whose moments are products of its coordinates."""
+    order, place, offset = 5, np.array([0.5, 1.25, 2.0]), np.array([0.75, 0.25, 3.0])
+    raw = products(place, order, 3.0)
+    body = Moments(raw, np.array([8.0, -4.0, 2.0]), "mass", 1e-12 * raw, 1e-9 * raw)
+    found, most = body.about_point(body.about - way * offset), products(place + offset, order, 3.0)
+    n = monomials(order).sum(axis=1)
+    assert close(found.raw, products(place + way * offset, order, 3.0), rel=1e-13)
+    assert close(found.rounding_error, (1e-12 + (4.0 * n + 16.0) * U) * most, rel=1e-9)
+    assert close(found.input_error, 1e-9 * most, rel=1e-12)
+
+
+@pytest.mark.parametrize("order", [0, 1, 4])
+@pytest.mark.parametrize(
+    "of, linear, weight, products_of_entries",
+    [
+        ("mass", POSITIVE, 1.0, 0.0),
+        ("volume", POSITIVE, 20.65625, 27.90625),
+        ("area", TURNED, 4.0, 4.0),
+        ("length", TURNED, 2.0, 2.0),
+    ],
+)
+def test_bounds_of_an_image_are_made_of_the_sizes_of_its_terms(of, linear, weight, products_of_entries, order):
+    place, about, offset = np.array([0.5, 1.25, 2.0]), np.array([8.0, 4.0, 16.0]), np.array([32.0, 2.0, 64.0])
+    raw = products(place, order, 3.0)
+    matrix = np.eye(4)
+    matrix[:3, :3], matrix[:3, 3] = linear, offset
+    found = Moments(raw, about, of, 1e-12 * raw, 1e-9 * raw).transform(matrix)
+    most = products(linear @ place, order, 3.0 * weight)
+    center = linear @ about + offset
+    assert np.array_equal(found.about, center) and close(found.raw, most, rel=1e-13)
+    tolerance = 6.0 * U * (64.0 + center.max() + linear.sum(axis=1).max() * 16.0)
+    of_weight = 8.0 * products_of_entries / weight + 1.0 + 6.0 * order + 8.0
+    expected = (1e-12 + (of_weight + 4.0 * order + 50.0) * U) * most
+    expected += tolerance * (monomials(order) / (linear @ place)).sum(axis=1) * most  # what the place may be off by
+    assert close(found.rounding_error, expected, rel=1e-9)
+    assert close(found.input_error, 1e-9 * most, rel=1e-12)
+
+
 @pytest.mark.parametrize("of", ["volume", "area", "mass"])
 def test_a_frame_is_a_turn_about_its_origin(of):
     exact = simplex_moments(7)

@@ -7,10 +7,12 @@ from fractions import Fraction
 import numpy as np
 import pytest
 from body_moments.core.mesh.surface import Surface
+from body_moments.core.moments.moments import Moments, U, monomials
 from body_moments.core.polyhedron import polyhedron_moments
 from body_moments.core.polyhedron.any_order_small import extend_small_moments
 from body_moments.core.polyhedron.third_order_small import small_moments
 
+from tests.close import close
 from tests.core import bodies, exact, shapes
 
 PARTS = [shapes.TETRAHEDRON, shapes.L_PRISM, shapes.prism(7), bodies.sphere(1), shapes.SHEARED]
@@ -56,3 +58,22 @@ def test_higher_orders_are_exact_within_their_bounds(size, offset):
         assert (sixth.rounding_error[i, 20:] <= 100.0 * alone.rounding_error[20:]).all()  # and they say something
     right = exact.volume_moments(*parts[1], center[1], 6)
     assert all([abs(Fraction(float(x)) - y) <= e for x, y, e in zip(sixth.raw[1], right, sixth.rounding_error[1])])
+
+
+def test_bounds_of_higher_orders_count_their_roundings():
+    """14 u a degree and 3 u a triangle of what the cones come to; and twice what the volume is off by."""
+    _, points, triangles, counts, center, reach = stacked(1.0, 0.0)
+    off = np.array([1e-9, 2e-12, 0.0, 3e-15, 4e-16])
+    volume = Moments(np.ones((5, 20)), center, "volume", off[:, None] * np.arange(1, 21), off[:, None] + np.zeros(20))
+    found = extend_small_moments(volume, 5, points, triangles, counts, reach)
+    degree, ends = monomials(5).sum(axis=1), np.cumsum(counts)
+    for i, (end, count) in enumerate(zip(ends, counts)):
+        faces = triangles[end - count : end]
+        cones = float(exact.volume_moments(points, faces, center[i], 0, absolute=True)[0])
+        largest = np.prod(reach[i] ** monomials(5), axis=1)
+        terms = U * (14.0 * degree + 16.0 + 3.0 * count) * 6.0 * cones / (2.0 * degree + 6.0)
+        expected = (terms + 2.0 * off[i]) * largest + 8.0 * U * np.abs(found.raw[i])
+        assert close(found.rounding_error[i, 20:], expected[20:], rel=1e-9)
+        assert close(found.input_error[i, 20:], off[i] * largest[20:], rel=1e-12)
+    assert np.array_equal(found.rounding_error[:, :20], volume.rounding_error)
+    assert np.array_equal(found.input_error[:, :20], volume.input_error)

@@ -5,14 +5,18 @@ times smaller is false."""
 
 from dataclasses import replace
 from fractions import Fraction
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from body_moments.core.inertia.mass_properties import MassProperties
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.moments.moments import U, monomials
-from body_moments.core.polyhedron import polyhedron_moments, third_order
+from body_moments.core.polyhedron import any_order, polyhedron_moments, third_order, third_order_small
+from body_moments.core.polyhedron.any_order_kernel import Sums, absolute_sums
+from body_moments.core.polyhedron.third_order_kernel import BlockSums
 
+from tests.close import close
 from tests.core import bodies, exact
 
 NEAR = 1.0 / 20.0
@@ -169,6 +173,125 @@ def test_rounding_of_few_triangles_is_counted(area):
     size = measure(points, triangles, about, **({} if area else {"absolute": True}))
     steps = len(triangles) + 7.0 * monomials(3).sum(axis=1)
     assert (found.rounding_error >= U * steps * np.array([float(value) for value in size])).all()
+
+
+def derived_bounds(chunks, sizes, reach, half_ulp, steps, area):
+    """(2, 20) and (2, 20) what rounding and storage may change in the sums over chunks of triangles, (side, base,
+    count), with sums of their determinants and doubled areas: from the largest edges, one number after the other."""
+    tau, edges, count = np.zeros(3), 0.0, 0
+    for side, base, many in chunks:
+        tau += [many * (side[j] * base[k] + side[k] * base[j]) for j, k in ((1, 2), (2, 0), (0, 1))]
+        edges += many * (np.linalg.norm(side) + np.linalg.norm(base))
+        count += many
+    step = np.linalg.norm(half_ulp)
+    double = sizes[1] * (1.0 + 1e-9) if area else np.linalg.norm(tau)
+    swept = double / 2.0 + step * edges + 2.0 * step**2 * count  # by each unit of a step
+    rounding, inputs = np.zeros((2, 2, 20))
+    for number, powers in enumerate(monomials(3).tolist()):
+        degree, largest = sum(powers), np.prod(np.array(reach) ** powers)
+        moved = np.prod((np.array(reach) + half_ulp) ** powers)
+        for which, weight in enumerate((np.dot(reach, tau), tau.sum())):
+            off = 9.0 * U * weight
+            terms = U * (sizes[which] * (1.0 + 1e-9) + off) * (8.0 * degree + steps)
+            rounding[which, number] = (off + 1e-290 * count + terms) * largest * (1.0 if degree < 3 else 2.0)
+        inputs[0, number] = step * swept * moved
+        growth = sum(n * h / (r + h) for n, r, h in zip(powers, reach, half_ulp) if n and r + h)
+        inputs[1, number] = moved * (step * (edges + 2.0 * step * count) + growth * swept)
+    return rounding, inputs
+
+
+BOX = ((2.0, 3.0, 5.0), (0.5, 0.25, 0.75), (7.0, 11.0))
+
+
+@pytest.mark.parametrize("area", [False, True])
+@pytest.mark.parametrize(
+    "reach, half_ulp, sizes",
+    [BOX, ((2.0, 3.0, 0.0), (0.5, 0.25, 0.0), (7.0, 11.0)), (BOX[0], (0.0,) * 3, BOX[2]), (*BOX[:2], (0.0, 0.0))],
+)
+@pytest.mark.parametrize("edge", [1.0, 0.0])
+def test_bounds_are_those_that_are_derived(reach, half_ulp, sizes, edge, area):
+    """Each cause alone, too: edges or weights that are zero leave what underflow may lose."""
+    first = tuple(edge * np.array([1.0, 0.5, 2.0])), tuple(edge * np.array([0.25, 3.0, 1.5])), 3
+    second = tuple(edge * np.array([4.0, 1.5, 0.5])), tuple(edge * np.array([2.0, 0.75, 1.0])), 8
+    rows = [np.array([row, row]) for row in (reach, half_ulp, *first[:2], sizes)]
+    found = third_order_small._error_bounds(*rows, np.array([[3], [3]]), area)
+    for one, truth in zip(found, derived_bounds([first], sizes, reach, half_ulp, 3.0 * 3, area), strict=True):
+        assert close(one, np.stack([truth, truth], axis=1), rel=1e-13)
+    chunks = [first, second]
+    sides, bases = (np.array([chunk[k] for chunk in chunks]).T for k in (0, 1))
+    parts = np.array([0.25, 0.75]) * np.array(sizes)[:, None]
+    sums = BlockSums(np.zeros(20), None, sides, bases, parts, np.array([3, 8]), 5)
+    truth = derived_bounds(chunks, sizes, reach, half_ulp, 64.0 + 5, area)
+    rest = np.zeros((2, 20))
+    for number, powers in enumerate(monomials(3).tolist()):
+        i, j, k = ([axis for axis, n in enumerate(powers) for _ in range(n)] + [0, 0, 0])[:3]
+        for side, base, part in zip(sides.T, bases.T, parts.T):
+            f, e = side + base / 2.0, base
+            third = f[i] * f[j] * f[k] / 10.0
+            third += (f[i] * e[j] * e[k] + e[i] * f[j] * e[k] + e[i] * e[j] * f[k]) / 120.0
+            rest[:, number] += (1.0 + 1e-9) * third * part * (sum(powers) == 3)
+    for whole in (True, False):
+        job = SimpleNamespace(reach=np.array(reach), half_ulp=np.array(half_ulp), area=area, exact=whole)
+        total, rounding, inputs = third_order._error_bounds(job, sums)
+        assert close(total, sizes, rel=1e-15) and close(inputs, truth[1], rel=1e-13)
+        assert close(rounding, truth[0] + (0.0 if whole else rest), rel=1e-13)
+
+
+@pytest.mark.parametrize("order", [1, 4])
+@pytest.mark.parametrize("corners", [3, 4])
+@pytest.mark.parametrize("half_ulp", [(0.0, 0.0, 0.0), (0.5, 0.25, 0.125)])
+def test_sizes_of_high_orders_are_those_that_are_derived(order, corners, half_ulp):
+    """Of two blocks, of two chunks and of one: 32 faces each, as far as they reach, with their longest edges."""
+    high = np.array([[3.0, 2.0, -1.0], [1.0, 4.0, 2.0], [0.5, 0.25, 6.0]])
+    low = np.array([[-1.0, -2.5, -5.0], [-7.0, 1.0, -3.0], [0.125, -0.5, 2.0]])
+    weights = np.array([[7.0, 11.0], [3.0, 5.0], [0.5, 2.0]])
+    edges = np.array([[1.0, 2.0, 0.5], [3.0, 0.25, 4.0], [0.0, 1.5, 2.5]])[:, : corners - 1]
+    for area in (False, True):
+        chunks = np.concatenate([high, low, weights[:, : 1 + area], edges**2], axis=1).T
+        blocks = [Sums(np.empty(0), part, np.array(half_ulp)) for part in (chunks[:, :2], chunks[:, 2:])]
+        found, expected, step = absolute_sums(order, 1 + area, blocks), 0.0, np.linalg.norm(half_ulp)
+        for top, bottom, (volume, surface), lengths in zip(high, low, weights, edges):
+            reach = np.maximum(top, -bottom) + half_ulp
+            pairs = list(zip(lengths[:-1], lengths[1:]))
+            terms, sides = (32.0 * sum(of(*pair) for pair in pairs) for of in (np.multiply, np.add))
+            double = surface + 27.0 * U * terms if area else terms
+            added = step * (sides + 32.0 * 2.0 * len(pairs) * step)
+            off = 9.0 * U * terms * reach.sum()
+            rows = [volume + off, off, step * (double / 2.0 + added), double, 27.0 * U * terms, added]
+            expected += np.outer(rows[: 6 if area else 3], np.prod(reach ** monomials(order), axis=1))
+        assert close(found, expected, rel=1e-8) and (found >= expected * (1.0 + 1e-11)).all()
+    lost = np.zeros((10, 1))  # 32 triangles that are a point: what underflow may lose of their edges
+    (found,) = absolute_sums(0, 1, [Sums(np.empty(0), np.append(np.ones((6, 1)), lost[:3], 0), np.zeros(3))])[1]
+    assert 9.0 * U * 32.0 * 3.0 * 1e-145 <= found <= 1.1e-12 * 1e-145
+
+
+@pytest.mark.parametrize("reach, exponent", [(1.0, 0), (2.0**20 * 0.75, 20)])
+@pytest.mark.parametrize("area", [False, True])
+def test_bounds_of_high_orders_are_made_of_these_sizes(reach, exponent, area):
+    """228 u and 8 u a degree of them, and 1e-220 for each face; in the body's own unit."""
+    order, degree = 4, monomials(4).sum(axis=1)
+    rng, half_ulp = np.random.default_rng(8), np.array([0.5, 0.25, 0.125])
+    job = any_order._StreamIntegrator(order, True, 1, None, np.zeros(3), reach)
+    total = any_order._CompensatedSum(order, 2)
+    total.high, total.low = rng.uniform(1.0, 2.0, (2, 2, 35))
+    total.sizes, total.faces = rng.uniform(1.0, 2.0, (6, 35)) * np.array([[1.0], [1e-14], [1.0]] * 2), 7
+    sizes, scale = total.sizes[3:] if area else total.sizes[:3], 2.0 ** (exponent * (degree + (2.0 if area else 3.0)))
+    mean = 2.0 if area else 2.0 * (degree + 3.0)
+    found = job._moments(total, "area" if area else "volume")
+    assert not found.input_error.any()
+    expected = (U * (8.0 * degree + 228.0) * sizes[0] + sizes[1]) / mean
+    assert close(found.rounding_error, expected * scale + 8.0 * U * np.abs(found.raw), rel=1e-8)
+    job.half_ulp, inputs = half_ulp * 2.0**exponent, sizes[2].copy()
+    if area:
+        rows = monomials(order).tolist()
+        for number, powers in enumerate(rows):
+            for axis, power in enumerate(powers):
+                if power:
+                    lower = rows.index([n - (k == axis) for k, n in enumerate(powers)])
+                    inputs[number] += power * half_ulp[axis] / np.linalg.norm(half_ulp) * total.sizes[2, lower]
+    assert close(job._moments(total, "area" if area else "volume").input_error, inputs * scale, rel=1e-8)
+    total.high, total.low, total.sizes = np.zeros((2, 35)), np.zeros((2, 35)), np.zeros((6, 35))
+    assert close(job._moments(total, "area" if area else "volume").rounding_error, 7e-220 * scale, rel=1e-12)
 
 
 @pytest.mark.parametrize("degree", [0, 1, 2])
