@@ -9,7 +9,6 @@ the totals until Blender reports any change.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import chain, groupby
@@ -24,7 +23,7 @@ from numpy.typing import NDArray
 from ...core.inertia.mass_properties import MassProperties, combine
 from ...core.numerics.float32 import shortest_decimal
 from ...core.numerics.rotations import rotation_matrix
-from ...core.verdict.finding import Finding, MeasureError
+from ...core.verdict.finding import Finding
 from ...core.verdict.method import Method, Verdict
 from ..bodies.measure_object import Measured
 from ..bodies.stack import MeasuredStack, Stacked
@@ -174,11 +173,13 @@ def _of_object(obj: Object, scene: Scene, in_own_frame: bool) -> properties.Stor
     return _in_frame(numbers, None if in_own_frame else _world_matrix(obj), _unit(scene))
 
 
-def _summed(bodies: Sequence[MassProperties]) -> MassProperties:
-    """Bodies as one, by the parallel-axis theorem, for all of them at once. MeasureError where they have no mass."""
+def _summed(bodies: Sequence[MassProperties]) -> MassProperties | None:
+    """Bodies as one, by the parallel-axis theorem, for all of them at once; None where they have no mass."""
     masses = np.array([body.mass for body in bodies])
+    if not masses.sum() > 0.0:  # what is stored was changed
+        return None
     centers = np.array([body.center for body in bodies])
-    about = masses @ centers / masses.sum() if masses.sum() > 0.0 else centers[0]
+    about = masses @ centers / masses.sum()
     arms = centers - about
     inertia = np.array([body.inertia for body in bodies])
     second = np.trace(inertia, axis1=1, axis2=2).sum() / 2.0 * np.eye(3) - inertia.sum(axis=0)
@@ -189,11 +190,11 @@ def _summed(bodies: Sequence[MassProperties]) -> MassProperties:
 
 
 def _of_meshes(armature: Object, scene: Scene) -> properties.StoredProperties | None:
-    """The sum of those meshes of an armature that have numbers, in the world."""
+    """The sum of those meshes of an armature that have numbers, in the world; None where there is no mass."""
     parts = [part for mesh in posed.deformed_meshes(armature) if (part := _of_object(mesh, scene, False)) is not None]
-    if not parts:
-        return None
     body = _summed([part.body for part in parts])
+    if body is None:
+        return None
     volume, area = sum([part.volume for part in parts]), sum([part.area for part in parts])
     bound = _bound_of_sum(parts, body.center, [part.error_bound for part in parts])
     bound["input"] = _bound_of_sum(parts, body.center, [part.error_bound["input"] for part in parts])
@@ -218,8 +219,8 @@ def _bound_of_sum(parts: Sequence[properties.StoredProperties], center: NDArray,
 
 
 def are_meshes_measured(armature: Object, scene: Scene) -> bool:
-    """Return whether any mesh that an armature deforms has numbers, stored or live."""
-    return any(of_object(mesh, scene) is not None for mesh in posed.deformed_meshes(armature))
+    """Return whether the meshes that an armature deforms have a mass, stored or live."""
+    return _of_meshes(armature, scene) is not None
 
 
 def total(context: Context) -> Total:
@@ -251,15 +252,11 @@ def _sum(context: Context) -> Total:
         elif verdict == trust.Trust.DOUBTFUL:
             doubtful.append(obj.name)
     caveats = open_body_caveats((obj.name, properties.method(obj)) for obj in counted)
-    body = None
-    if stored:
-        with suppress(MeasureError):  # together they have no mass
-            body = _summed([body_stored.body for body_stored in stored])
     return Total(
         len(stored),
         sum(body_stored.volume for body_stored in stored),
         sum(body_stored.area for body_stored in stored),
-        body,
+        _summed([body_stored.body for body_stored in stored]),
         tuple(missing),
         tuple(stale),
         tuple(doubtful),

@@ -473,6 +473,9 @@ def test_bones(book):
     only(armature)
     bpy.ops.object.mode_set(mode="POSE")
     book.draw("Posed, the skin measured", "")
+    mass, skin["body_mass"] = skin["body_mass"], 0.0
+    book.draw("Posed, the stored mass changed to nothing", "")
+    skin["body_mass"] = mass
     skin.body_moments.kind = "SHELL"
     damaged = add(box_mesh(1, 2, 4), "Damaged", select=False)
     damaged.parent, damaged.parent_type, damaged["body_mass"] = armature, "ARMATURE", 1.0

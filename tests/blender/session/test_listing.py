@@ -13,6 +13,7 @@ import bpy
 from body_moments.operators.session import results
 from body_moments.operators.session.listing import SortBy, listed_masses, listing
 
+from tests.blender.bodies.test_assembly import box_mesh
 from tests.blender.objects import add, mesh_body, only, strip_mesh
 from tests.close import close
 
@@ -92,6 +93,27 @@ def test_the_total_names_what_is_doubtful_out_of_date_and_missing():
     bpy.context.view_layer.update()
     total = results.total(bpy.context)
     assert (total.missing, total.stale, total.doubtful) == (("Not Measured",), ("C heavy",), ("a strip",))
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("masses", [(0.0, 0.0), (0.0, 0.25), (0.125, 0.25)])
+def test_the_total_of_light_bodies_is_one_of_them_all(masses):
+    """Also where a stored mass was changed to nothing."""
+    objects = [add(box_mesh(1, 1, 1), name, (at, 0, 0)) for name, at in (("A", 2.0), ("B", 5.0))]
+    for obj, mass in zip(objects, masses):
+        obj.body_moments.mass_from, obj.body_moments.mass = "MASS", mass or 1.0
+    only(*objects)
+    assert bpy.ops.object.body_moments_measure() == {"FINISHED"}
+    for obj, mass in zip(objects, masses):
+        obj["body_mass"] = mass
+    bpy.context.view_layer.update()
+    total = results.total(bpy.context)
+    assert total.count == 2 and total.volume == 2.0
+    if not sum(masses):
+        assert total.body is None
+    else:
+        assert close(total.body.mass, sum(masses), 1e-15)
+        assert close(total.body.center[0], (2.0 * masses[0] + 5.0 * masses[1]) / sum(masses), 1e-15)
 
 
 def test_the_table_has_a_row_for_each_object(capsys):
