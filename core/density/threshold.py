@@ -63,6 +63,7 @@ class ThresholdBody:
     clipped: bool
 
 
+@np.errstate(over="ignore", invalid="ignore")  # who measures looks for what is beyond the range of numbers
 def threshold_body(
     samples: ArrayLike,
     threshold: float,

@@ -95,6 +95,8 @@ def columns_of(corners: NDArray, points: int, metric: NDArray) -> Columns:
     metric: (3, 3) what the area of a piece of surface is measured by: √(n·metric·n) for its normal n.
     """
     nodes, weights = gauss_legendre(points)
+    _, exponent = np.frexp(np.abs(corners).max(axis=(1, 2, 3)))
+    corners = np.ldexp(corners, -exponent[:, None, None, None])  # so that no product leaves the range of numbers
     near, step = corners[:, 0], corners[:, 1] - corners[:, 0]  # by y and z: at x = 0, and along x
     cell, start, length = _smooth_intervals(near.reshape(-1, 4), corners[:, 1].reshape(-1, 4))
     middle = near[cell] + (start + length / 2.0)[:, None, None] * step[cell]
@@ -124,7 +126,8 @@ def columns_of(corners: NDArray, points: int, metric: NDArray) -> Columns:
     with np.errstate(divide="ignore", invalid="ignore"):
         slope = np.where(crossed, np.sqrt(_square(metric, slope_x, slope_y, growth)) / np.abs(growth), 0.0)
     low, high = np.where(rises, level, 0.0), np.where(rises, 1.0, level)
-    return Columns(cell, x, y, weight, low, high, level, slope, floor, growth)
+    density, growth = np.ldexp(floor, exponent[cell]), np.ldexp(growth, exponent[cell])
+    return Columns(cell, x, y, weight, low, high, level, slope, density, growth)
 
 
 def _square(metric: NDArray, x: NDArray, y: NDArray, z: NDArray) -> NDArray[np.float64]:

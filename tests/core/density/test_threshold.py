@@ -179,6 +179,17 @@ def test_the_area_is_the_derivative_of_the_volume():
     assert close((low.volume.total - high.volume.total) / 2e-4, middle.area.total, rel=1e-7)
 
 
+@pytest.mark.parametrize("exponent", [-1000, -600, 600, 1000])
+def test_the_size_of_the_numbers_changes_nothing(exponent):
+    """Powers of two are exact, so every number stays; squares of these leave the range."""
+    samples, scale = np.random.default_rng(9).normal(size=(5, 6, 4)), 2.0**exponent
+    found, scaled = (threshold_body(samples * s, 0.1 * s, order=2, with_density=True) for s in (1.0, scale))
+    for measure in ("volume", "area"):
+        assert np.array_equal(getattr(scaled, measure).raw, getattr(found, measure).raw)
+        assert np.array_equal(getattr(scaled, measure).rounding_error, getattr(found, measure).rounding_error)
+    assert np.array_equal(scaled.mass.raw, found.mass.raw * scale)
+
+
 def test_turned_and_mirrored_samples_give_turned_and_mirrored_bodies():
     samples = RNG.normal(size=(5, 6, 7))
     plain = threshold_body(samples, 0.2, with_density=True)
