@@ -181,8 +181,8 @@ def assess(
     volumes = [moments * sign for _, moments, _, sign in turned_parts]
     volume = sum_moments(volumes) if volumes else measured[0][0] * 0.0
     is_open = bool(topology.unclosable.any() or not verdict.solid.any())
-    if is_open and volume.total < 0.0:
-        volume = replace(volume, raw=-volume.raw)
+    whole_sign = -1.0 if is_open and volume.total < 0.0 else 1.0
+    volume = replace(volume, raw=whole_sign * volume.raw)
     reach = size + 4.0 * stored
     # caps move with their boundaries
     skin = area.total + sum(loop.area for loop in topology.loops)
@@ -193,9 +193,11 @@ def assess(
     if not all(converged for *_, converged, _ in turned_parts):
         further.append(finding("volume_error_estimate_large"))
     outward = tuple(
-        patch.reverse_orientation() if sign < 0.0 else patch for part, *_, sign in turned_parts for patch in part
+        patch.reverse_orientation() if whole_sign * sign < 0.0 else patch
+        for part, *_, sign in turned_parts
+        for patch in part
     )
-    counted = np.where(verdict.flipped, -1.0, 1.0) * verdict.counted
+    counted = whole_sign * np.where(verdict.flipped, -1.0, 1.0) * verdict.counted
     turned = np.flatnonzero(verdict.flipped).tolist()
     return PatchIntegrals(
         volume,

@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 from ...core.fourier.polygon import RegionTransform
 from ...core.fourier.spectrum import Spectrum
 from ...core.fourier.wave_vectors import FrequencyGrid
-from ...core.verdict.finding import Finding, ReadError
-from .flat import FlatRegion, area_findings, flat_region
+from ...core.verdict.finding import Finding
+from .flat import area_findings, flat_region
 
 
 @dataclass(frozen=True)
@@ -63,21 +63,14 @@ def flat_transform(
     Raises
     ------
     MeasureError
-        Where it is not flat, or has outlines that cross.
+        Where it is not flat, has outlines that cross, or encloses nothing.
     """
     region = flat_region(obj, depsgraph, selected=False, exact=False, unit=unit)
+    findings = (*region.findings, *area_findings(region, region.moments(1).total))
     foot = region.foot(np.zeros(3) if frame == "world" else region.location)
     plane = region.plane
     origin = plane.origin + plane.axes @ foot
     if callable(q):
-        q = q(_extent(region))
+        q = q(float(np.ptp(region.used, axis=0).max()))
     transform = RegionTransform(region.points - foot[:2], region.edges, q, region.rounded, region.stored)
-    findings = (*region.findings, *area_findings(region, region.moments(1).total))
     return FlatTransform(obj.name, transform, {"axes": plane.axes[:, :2].T, "origin": origin}, findings)
-
-
-def _extent(region: FlatRegion) -> float:
-    size = float(np.ptp(region.used, axis=0).max()) if len(region.edges) else 0.0
-    if not 0.0 < size < np.inf:
-        raise ReadError("fourier_no_extent", subject=region.name)
-    return size

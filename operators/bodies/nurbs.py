@@ -72,7 +72,7 @@ class PatchBody(Body):
     threads: int = 1
 
     def moments(self, order: int, area: bool) -> tuple[Moments, Moments | None]:
-        """Return the moments to another order. Raises ReadError for an open body."""
+        """Return the moments to another order."""
         volumes = [sum_of_images(_moments_to_order(measure, order), matrices) for _, measure, matrices in self.pieces]
         areas = []
         for part, measure, matrices in self.pieces if area else ():
@@ -228,9 +228,7 @@ def _source(reading: Reading) -> Source:
 
 
 def _moments_to_order(measure: PatchIntegrals, order: int) -> Moments:
-    """The volume's moments to another order; those of an open body, or of none, to the one that is known."""
-    if measure.method == Verdict.OPEN:
-        raise ReadError("open_patches_order")
+    """The volume's moments to another order."""
     return extend_input_error(volume_moments(measure.patches, order, measure.volume.about)[0], measure.volume)
 
 

@@ -27,7 +27,7 @@ from ...core.verdict.finding import Finding, ReadError, finding, truncate_findin
 from ...core.verdict.method import Verdict
 from ...core.verdict.tolerances import NEGLIGIBLE
 from ..read import Reading
-from ..read.reading import FaceAttributes, attribute_to_source, to_si
+from ..read.reading import attribute_to_source, to_si
 from ..settings.density import DensityField, material_density
 from ..settings.digest import density_key
 from .body import KNOWN_ORDER, MAX_MASS_MOMENT, MeshBody
@@ -113,34 +113,22 @@ def _by_polynomial(reading: Reading, body: MeshBody, request: Request, order: in
 
 def _by_attribute(reading: Reading, request: Request, order: int) -> _Weighed:
     attribute = _field(request).attribute or ""
-    attributes = _face_attributes(reading)
     if request.options.kind != "shell":
         raise ReadError("density_attribute_of_solid")
     parts = [
-        _sheet_moments(
-            reading, i, _vertex_density(reading, i, carried.vertex_values, attribute), request, order, by_vertex=True
-        )
-        for i, carried in enumerate(attributes)
+        _sheet_moments(reading, i, _vertex_density(reading, i, attribute), request, order, by_vertex=True)
+        for i in range(len(reading.parts))
     ]
     source = finding("density_from_attribute", attribute=attribute)
     total = sum_moments([moments for part in parts for moments in part])
     return _Weighed(to_mass_moments(total, _thickness(request)), source)
 
 
-def _face_attributes(reading: Reading) -> list[FaceAttributes]:
-    """What the faces and vertices of each part carry. ReadError where one is not of polygons."""
-    attributes = [part.attributes for part in reading.parts if part.attributes is not None]
-    if len(attributes) < len(reading.parts):
-        raise ReadError("density_needs_polygons")
-    return attributes
-
-
 def _by_material(reading: Reading, body: MeshBody, request: Request, order: int) -> _Weighed:
     shell = request.options.kind == "shell"
-    attributes = _face_attributes(reading)
     if body.method.verdict == Verdict.UNION:
         raise ReadError("materials_of_union")
-    face_densities = _FaceDensities(reading, attributes, request.options.density or 0.0)
+    face_densities = _FaceDensities(reading, request.options.density or 0.0)
     parts: list[Moments] = []
     by_part: list[tuple[str, list[Finding]]] = []
     mixed = False
@@ -178,14 +166,14 @@ def _by_material(reading: Reading, body: MeshBody, request: Request, order: int)
 class _FaceDensities:
     """The densities of all faces of a reading. values: for each part (f,) of its mesh faces."""
 
-    def __init__(self, reading: Reading, attributes: list[FaceAttributes], default_density: float):
+    def __init__(self, reading: Reading, default_density: float):
         self.default_density = default_density
         self.values: list[NDArray] = []
         self.slots: list[tuple[NDArray, tuple]] = []
         met: dict[Any, None] = {}
         self.faces_without_density = self.faces = 0
-        for part, carried in zip(reading.parts, attributes):
-            slots, faces = carried.materials, carried.face_slots
+        for part in reading.parts:
+            slots, faces = part.attributes.materials, part.attributes.face_slots
             known = [material_density(material) for material in slots]
             # -1 is the last
             table = np.array(
@@ -293,9 +281,10 @@ def _mixed_parts_notes(
     return [finding("mixed_material_component", first, materials=materials, density=density)]
 
 
-def _vertex_density(reading: Reading, i: int, values: NDArray[np.float64], name: str) -> NDArray[np.float64]:
+def _vertex_density(reading: Reading, i: int, name: str) -> NDArray[np.float64]:
     """(n,) checked values of a part's vertices; those that no face uses do not count."""
     part = reading.parts[i]
+    values = part.attributes.vertex_values
     used = np.unique(part.surface.all_triangles()[0])
     for wrong, code in (
         (~np.isfinite(values[used]), "attribute_non_finite"),

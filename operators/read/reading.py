@@ -56,7 +56,7 @@ class Part:
 
     surface: Surface
     matrices: NDArray[np.float64]
-    attributes: FaceAttributes | None = None
+    attributes: FaceAttributes = field(default_factory=FaceAttributes)
     splines: SplineReading | None = None
     source_object_name: str = ""
 

@@ -539,7 +539,6 @@ MESSAGES: dict[str, Message] = {
         "zero.",
     ),
     "display_mesh_measured": _warning("The display mesh was measured. Raise Resolution Preview for accuracy."),
-    "open_patches_order": _error("The surface is open, so moments above order 3 are not known. Choose a lower order."),
     # ------------------------------------------------------------------ Walls
     "no_thickness": _error("The shell has no thickness. Set Thickness."),
     "wall_measured": _note(
@@ -621,7 +620,6 @@ MESSAGES: dict[str, Message] = {
     "zero_density": _error("The density is zero. Set Density."),
     "zero_mass": _error("The mass is zero. Set Mass."),
     "mass_overflow": _error("The densities are too large. Lower them."),
-    "density_needs_polygons": _error("A varying density needs polygons. Set Density From to One Value."),
     "density_volume_missing": _error("No Volume object is chosen for the density. Choose one in Volume."),
     "density_volume_unreadable": _error("The density from “{object}” cannot be read: {cause}"),
     "density_attribute_missing": _error("No vertex attribute is named for the density. Set Attribute."),

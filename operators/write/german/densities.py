@@ -79,7 +79,6 @@ MESSAGES = {
     "zero_density": ("Die Dichte ist null. Dichte setzen.",),
     "zero_mass": ("Die Masse ist null. Masse setzen.",),
     "mass_overflow": ("Die Dichten sind zu groß. Sie senken.",),
-    "density_needs_polygons": ("Eine veränderliche Dichte braucht Polygone. Dichte aus auf Ein Wert setzen.",),
     "density_volume_missing": ("Für die Dichte ist kein Volumenobjekt gewählt. Eines in Volumen wählen.",),
     "density_volume_unreadable": ("Die Dichte aus „{object}“ lässt sich nicht lesen: {cause}",),
     "density_attribute_missing": ("Für die Dichte ist kein Punktattribut genannt. Attribut setzen.",),

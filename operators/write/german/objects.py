@@ -247,7 +247,4 @@ MESSAGES = {
         "über null setzen.",
     ),
     "display_mesh_measured": ("Das Anzeigenetz wurde gemessen. Für Genauigkeit die Vorschauauflösung erhöhen.",),
-    "open_patches_order": (
-        "Die Oberfläche ist offen, Momente über Ordnung 3 sind also nicht bekannt. Eine niedrigere Ordnung wählen.",
-    ),
 }

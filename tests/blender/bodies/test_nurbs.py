@@ -8,9 +8,11 @@ import body_moments
 import bpy
 import numpy as np
 import pytest
+from body_moments.core.mesh.surface import Surface
 from body_moments.core.moments.monomials import monomials
 from body_moments.core.nurbs.blender_knots import blender_space, display_parameters, display_table
 from body_moments.core.nurbs.patch import Patch
+from body_moments.core.polyhedron import polyhedron_moments
 from body_moments.core.verdict.method import Method, Source, Verdict
 from body_moments.operators.bodies.measure_object import measure_body, measure_object
 from body_moments.operators.session import handlers, live
@@ -378,6 +380,16 @@ def test_a_wall_over_creases_says_what_it_is():
     assert not measured(smooth).findings
 
 
+@pytest.mark.parametrize("weight, large", [(10.0, False), (1e4, True)])
+def test_a_wall_whose_weights_are_too_far_apart_says_that_its_error_may_be_large(weight, large):
+    rng = np.random.default_rng(0)
+    x, y = np.meshgrid(*2 * [np.linspace(0.0, 1.0, 4)])
+    points = np.stack([x, y, 0.1 * rng.normal(size=x.shape)], axis=2)
+    obj = surface(points, weight ** rng.uniform(-1.0, 1.0, x.shape))
+    obj.body_moments.kind, obj.body_moments.wall, obj.body_moments.thickness = "SHELL", "OUTWARD", 1e-6
+    assert ("wall_error_estimate_large" in said(measured(obj))) == large
+
+
 def test_instances_of_a_surface_are_measured_as_it_is():
     ball = primitive("sphere")
     collection = bpy.data.collections.new("Balls")
@@ -602,6 +614,47 @@ def test_patches_and_polygons_in_one_object_are_the_sum_of_both():
     bpy.context.view_layer.update()
     with refused("zero_scale", "Both"):
         measured(empty)
+
+
+def moebius_net():
+    """(3, 17, 3) the control points of a Möbius band of bilinear patches."""
+    turns = np.linspace(0.0, 2.0 * np.pi, 17)
+    arm = np.stack([np.cos(turns) * np.cos(turns / 2), np.sin(turns) * np.cos(turns / 2), np.sin(turns / 2)], axis=1)
+    middle = np.stack([3.0 * np.cos(turns), 3.0 * np.sin(turns) + 5.0, 0.0 * turns - 2.0], axis=1)
+    return np.stack([middle - arm, middle, middle + arm])
+
+
+@pytest.mark.parametrize("side", [1, -1])
+def test_what_cannot_be_closed_has_moments_of_any_order_as_a_signed_sum(side):
+    """As its triangles have, closed by the cone from the same point; whichever way the patches face."""
+    obj = surface(moebius_net()[::side], orders=(2, 2), resolution=(8, 8))
+    found = measure_object(obj, bpy.context.evaluated_depsgraph_get(), MeasureOptions(order=5))
+    known = measured(obj).volume_moments
+    assert (str(found.method), *said(found)) == ("NURBS open", "open_patch_sides") and found.volume > 1.0
+    assert np.abs(found.volume_moments.raw[:20] - known.raw).max() <= 1e-12 * np.abs(known.raw).max()
+    mesh = bpy.data.meshes.new_from_object(obj.evaluated_get(bpy.context.evaluated_depsgraph_get()))
+    mesh.calc_loop_triangles()
+    triangles = np.array([triangle.vertices for triangle in mesh.loop_triangles])
+    sum_of_cones = polyhedron_moments(
+        Surface.from_triangles(shown(obj), triangles), 5, about=found.volume_moments.about, allow_open=True
+    )[0].raw
+    error = np.abs(found.volume_moments.raw - np.sign(sum_of_cones[0]) * sum_of_cones)
+    degree = monomials(5).sum(axis=1)
+    assert all((error <= 0.01 * np.abs(sum_of_cones[degree == n]).max())[degree == n].all() for n in range(6))
+
+
+def test_a_flat_patch_beside_polygons_is_left_out_of_moments_of_any_order():
+    """Of a cube whose frame third moments do not show."""
+    bpy.ops.mesh.primitive_cube_add(size=2.0)
+    cube, flat = bpy.context.object, surface(moebius_net() * (1.0, 1.0, 0.0), orders=(2, 2))
+    parts = bpy.data.collections.new("Parts")
+    for obj in (cube, flat):
+        parts.objects.link(obj)
+        bpy.context.scene.collection.objects.unlink(obj)
+    bpy.ops.object.collection_instance_add(collection="Parts")
+    found = measure_object(bpy.context.object, bpy.context.evaluated_depsgraph_get(), MeasureOptions(order=4))
+    moments = found.volume_moments.about_point(np.zeros(3))
+    assert close([found.volume, moments[4, 0, 0], moments[2, 2, 0]], [8.0, 8.0 / 5.0, 8.0 / 9.0], 1e-12)
 
 
 def instances_of(obj, *places):

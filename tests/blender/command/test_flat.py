@@ -138,6 +138,15 @@ def test_a_body_has_no_flat_transform(tmp_path):
     assert len(found["errors"]) == 1 and not (tmp_path / "out.npz").exists()
 
 
+def test_faces_that_cover_nothing_have_no_transform(tmp_path, reported):
+    """Two slivers that face each other: they are no larger than what rounding leaves, and no side of them is told."""
+    sheet([(1, 0), (2, 0), (1.5, 1e-7)], faces=[(0, 1, 2), (2, 1, 0)])
+    path = tmp_path / "out.npz"
+    with pytest.raises(RuntimeError):
+        bpy.ops.object.body_moments_fourier(filepath=str(path), of="FLAT")
+    assert reported.codes == ["section_encloses_nothing"] and not path.exists()
+
+
 def test_outlines_that_cross_are_the_reason():
     sheet([(0, 0), (1, 1), (1, 0), (0, 1)])
     found = document("--flat")

@@ -8,6 +8,7 @@ import pytest
 pytest.importorskip("bpy")
 import bpy
 from body_moments.core.fourier import instances as fourier_body
+from body_moments.core.fourier.wave_vectors import FrequencyGrid
 from body_moments.operators import batch
 from body_moments.operators.bodies.fourier import object_transform
 from body_moments.operators.command import fourier as command
@@ -102,6 +103,17 @@ def test_a_wall_of_real_thickness_is_refused_with_the_remedy():
     with refused("fourier_of_wall", box.name):
         transform(box, options=thick)
     assert close(transform(box, np.zeros((1, 3)), thick, area=True)[0].values[0], 22.0, rel=1e-14)
+
+
+@pytest.mark.parametrize("kind", ["solid", "shell"])
+def test_a_grid_needs_an_extent(kind):
+    """A mesh with all its corners at one place has none."""
+    mesh = bpy.data.meshes.new("Point")
+    mesh.from_pydata([(1, 2, 3)] * 3, [], [(0, 1, 2)])
+    point = objects.add(mesh)
+    options = MeasureOptions(kind=kind, thickness=0.1)
+    with refused("fourier_no_extent", point.name):
+        transform(point, lambda size: FrequencyGrid(4, 1.0 / size, 3), options, area=kind == "solid")
 
 
 def test_of_a_nurbs_surface_it_is_said_that_the_display_mesh_is_transformed():
