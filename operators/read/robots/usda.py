@@ -38,7 +38,6 @@ class Prim:
     start: int
     end: int = 0
     values: dict[str, str] = field(default_factory=dict)
-    spans: dict[str, tuple[int, int]] = field(default_factory=dict)
     children: list[Prim] = field(default_factory=list)
 
     def numbers(self, name: str) -> NDArray[np.float64] | None:
@@ -62,7 +61,7 @@ def _tokens(text: str) -> Iterator[tuple[str, int]]:
     while position < len(text):
         match = _TOKEN.match(text, position)
         if match is None:
-            raise FileError("usda_invalid", line=text.count("\n", 0, position) + 1)
+            raise FileError("usda_invalid", line=text[:position].count("\n") + 1)
         token = match.group()
         if not token[0].isspace() and token[0] != "#":
             yield token, position
@@ -87,16 +86,15 @@ class _Parser:
 
     def balanced(self) -> tuple[int, int]:
         """Skip what one bracket opens; where it stands."""
-        depth, start, end = 0, self.tokens[self.index][1], 0
+        depth, start = 0, self.tokens[self.index][1]
         while True:
             token, position = self.take()
             if token in "([{":
                 depth += 1
             elif token in ")]}":
                 depth -= 1
-            end = position + len(token)
             if depth == 0:
-                return start, end
+                return start, position + len(token)
 
     def prim(self, depth: int) -> Prim:
         self.count += 1
@@ -110,9 +108,9 @@ class _Parser:
         if self.peek() == "(":
             start, end = self.balanced()
             metadata = self.text[start:end]
-        name = words[-1].strip("\"'") if words else ""
+        kind, name = (words[0], words[-1].strip("\"'")) if words else ("", "")
         _, opening = self.take()
-        prim = Prim(words[0] if len(words) > 1 else "", name, metadata, opening + 1)
+        prim = Prim(kind, name, metadata, opening + 1)
         while self.peek() != "}":
             if self.peek() in _SPECIFIERS:
                 prim.children.append(self.prim(depth + 1))
@@ -129,18 +127,15 @@ class _Parser:
 
     def attribute(self, prim: Prim) -> None:
         """A statement: words, and after an equals sign a value."""
-        _, start = self.tokens[self.index]
         words: list[str] = []
         while self.peek() not in ("=", "}", "", ";") and self.peek() not in _SPECIFIERS:
             token, position = self.take()
             words.append(token)
-            if self.peek() == "(" or words and "\n" in self.text[position : self._next()]:
+            if self.peek() == "(" or "\n" in self.text[position : self.tokens[self.index][1]]:
                 break
-            if token in ("[", "]"):
-                continue
-        if self.peek() != "=":
-            if self.peek() in ("(", ";"):
-                self.balanced() if self.peek() == "(" else self.take()
+        if self.peek() != "=":  # metadata in brackets may follow, as it may behind a value
+            if self.peek() == ";":
+                self.take()
             return
         self.take()
         value_start = self.tokens[self.index][1]
@@ -151,12 +146,6 @@ class _Parser:
             end = position + len(token)
         name = words[-1] if words else ""
         prim.values[name] = self.text[value_start:end]
-        prim.spans[name] = start, end
-        if self.peek() == "(" and "\n" not in self.text[end : self.tokens[self.index][1]]:
-            self.balanced()
-
-    def _next(self) -> int:
-        return self.tokens[self.index][1] if self.index < len(self.tokens) else len(self.text)
 
 
 def read(data: bytes) -> Description:
@@ -180,7 +169,7 @@ def _description(text: str, data: bytes) -> Description:
     roots = []
     while parser.index < len(parser.tokens):
         if parser.peek() not in _SPECIFIERS:
-            raise FileError("usda_invalid", line=text.count("\n", 0, parser.tokens[parser.index][1]) + 1)
+            raise FileError("usda_invalid", line=text[: parser.tokens[parser.index][1]].count("\n") + 1)
         roots.append(parser.prim(0))
     scales = {"length": _scale(metadata, "metersPerUnit", 0.01), "mass": _scale(metadata, "kilogramsPerUnit", 1.0)}
     links: list[StatedLink] = []
@@ -316,7 +305,8 @@ def _mesh(prim: Prim, matrix: NDArray, unit: float, role: str) -> StatedShape | 
         return None
     placed = (points @ matrix[:3, :3].T + matrix[:3, 3]) * unit
     triangles = fan(sizes, corners)
-    if prim.values.get("orientation", "").strip("\"'") == "leftHanded" or np.linalg.det(matrix[:3, :3]) < 0.0:
+    is_left_handed = prim.values.get("orientation", "").strip("\"'") == "leftHanded"
+    if is_left_handed != (np.linalg.det(matrix[:3, :3]) < 0.0):
         triangles = triangles[:, ::-1]
     return StatedShape(Shape("mesh"), role, None, placed, triangles)
 

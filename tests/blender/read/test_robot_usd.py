@@ -9,7 +9,7 @@ import pytest
 pytest.importorskip("bpy")
 import numpy as np
 from body_moments.core.verdict.finding import FileError
-from body_moments.operators.read.robots import descriptions, limits, xml
+from body_moments.operators.read.robots import descriptions, limits, usda, xml
 
 from tests.blender.robot_truth import about, check_repair, near, quaternion, random_inertial, read
 
@@ -179,7 +179,7 @@ def test_usd_leaves_out_meshes_that_are_damaged(tmp_path):
     ]
     cases = [{**whole, **change} for change in wrong]
     cases += [{name: value for name, value in whole.items() if name != left} for left in whole]
-    cases.append(whole)
+    cases.append({**whole, "faceVertexCounts": "[2, 3, 1]", "faceVertexIndices": "[2, 2, 0, 1, 2, 1]"})  # a triangle
     meshes = ["\n".join("int[] {} = {}".format(*item) for item in case.items()) for case in cases]
     prims = "".join('def Mesh "m" {{\n{}\n}}\n'.format(mesh) for mesh in meshes)
     body = '#usda 1.0\ndef Xform "b" ( apiSchemas = ["PhysicsRigidBodyAPI"] ) {{\n{}{}}}'
@@ -198,12 +198,109 @@ def test_usd_leaves_out_meshes_that_are_damaged(tmp_path):
         ('\ndef Xform "a" {\n double x = 1 `"\n}', 4),
         ('\n\nxform "a" {}', 4),
         ('def Xform "a"', 2),
+        ('def Xform "a" {\n\n', 4),
+        ('def Xform "a" {\n double x = 1\n float', 4),
+        ('def Xform "a" {\n double x =', 3),
     ],
 )
 def test_a_layer_that_is_cut_short_says_where(tmp_path, content, line):
     with pytest.raises(FileError) as refused:
         read(tmp_path, "#usda 1.0\n" + content)
     assert (refused.value.finding.code, refused.value.finding.values["line"]) == ("usda_invalid", line)
+
+
+def bodies(tmp_path, inside, metadata=""):
+    layer = "#usda 1.0\n{}def {{}}\n{}".format(metadata, inside)
+    return read(tmp_path, layer).links
+
+
+BODY = 'def Xform "{}" (apiSchemas = ["PhysicsRigidBodyAPI"]) {{\n{}\n}}\n'
+
+
+def test_usd_that_says_little_means_what_the_schemas_say(tmp_path):
+    """Centimeters, kilograms, a center at the origin and axes along the body's; and no mass without both numbers."""
+    mass, diagonal = "float physics:mass = 3\n", "float3 physics:diagonalInertia = (2, 3, 4)\n"
+    zeros = "quatf physics:principalAxes = (0, 0, 0, 0)\n"
+    for inside in (mass + diagonal, mass + diagonal + zeros):
+        ((link),) = bodies(tmp_path, BODY.format("b", inside))
+        stated = link.inertial
+        assert stated.mass == 3.0 and (stated.center == 0.0).all() and (stated.rotation == np.eye(3)).all()
+        assert near(stated.tensor, np.diag([2e-4, 3e-4, 4e-4]), 1e-15) and stated.quaternion == (1.0, 0.0, 0.0, 0.0)
+    for inside in (mass, diagonal, zeros):
+        (link,) = bodies(tmp_path, BODY.format("b", inside))
+        assert link.inertial is None and not link.findings
+    with pytest.raises(FileError) as refused:
+        read(tmp_path, "#usda 1.0\n")
+    assert refused.value.finding.code == "description_without_links"
+    (tmp_path / "a.usda").write_bytes(b'#usda 1.0\n\ndef "\xff"')
+    with pytest.raises(FileError) as refused:
+        descriptions.read_description(tmp_path / "a.usda")
+    assert (refused.value.finding.code, refused.value.finding.values) == ("usda_invalid", {"line": 1})
+
+
+def test_usd_operations_of_other_counts_do_nothing(tmp_path):
+    wrong = {
+        **{"translate:a": "(1, 2)", "scale:b": "(2, 2, 2, 2)", "orient:c": "(1, 1, 0)", "orient:d": "(0, 0, 0, 0)"},
+        **{"transform:e": "(2, 0, 0, 0, 2, 0, 0, 0, 2)", "rotateX:f": "(9, 9, 9)", "rotateXYZ:g": "(9, 9)"},
+        **{"skewedZ:h": "9", "other:i": "(1, 2, 3)", "other:j": "(1, 1, 0, 0)", "other:k": str((2.0,) * 16)},
+    }
+    lines = ["float xformOp:{} = {};".format(*item) for item in wrong.items()]
+    names = ["none", *wrong, "translate"]
+    lines.append("double3 xformOp:translate = (1, 2, 3)")
+    lines.append("uniform token[] xformOpOrder = {}".format(json.dumps(["xformOp:" + name for name in names])))
+    statement = 'float alone ( doc = "a = 1" )\nfloat more;\nfloat3 last\n'
+    (link,) = bodies(tmp_path, BODY.format("b", statement + "\n".join(lines) + "\ndef Cube {}\ndef Cube { }"))
+    assert (link.local == np.eye(4)).all() and [shape.shape.size for shape in link.shapes] == [(0.02,) * 3] * 2
+    within = 'def Xform "w" {{\n{}\n{}}}'.format("\n".join(lines), BODY.format("b", "def Cube {}"))
+    above = BODY.format("a", within)
+    outer, inner = bodies(tmp_path, above)
+    assert (outer.name, inner.name) == ("a", "a/w/b") and (inner.local == np.eye(4)).all() and not outer.shapes
+    shape = bodies(tmp_path, BODY.format("a", "def Cube {{\n{}\n}}".format("\n".join(lines))))[0].shapes[0].shape
+    assert near(shape.pose.position, np.array([0.01, 0.02, 0.03]), 1e-15) and (shape.pose.rotation == np.eye(3)).all()
+
+
+def test_usd_shapes_are_as_large_as_each_axis_says(tmp_path):
+    scale = "float3 xformOp:scale = ({})\nuniform token[] xformOpOrder = [\"xformOp:scale\"]\n"
+    prims = [
+        *('def Cube "a" {', 'def Sphere "a" { double radius = (3, 4)', 'def Sphere "a" { double radius = none'),
+        *('def Cylinder "a" { uniform token axis = "{}"'.replace("{}", axis) for axis in ("X", "Y", "Z", "W")),
+        *('def Capsule "a" { token axis = "X"', 'def Capsule "a" {', 'def Cone "a" {'),
+    ]
+    sizes = [(4, 6, 10), (2, 3, 5), (2, 3, 5), (3, 4), (5, 6), (2, 10), (2, 10), (1.5, 2), (1, 5)]
+    turns = [np.eye(3)] * 3 + [np.eye(3)[:, order] for order in ([1, 2, 0], [2, 0, 1], [0, 1, 2], [0, 1, 2])]
+    turns += [np.eye(3)[:, [1, 2, 0]], np.eye(3)]
+    for signs, turn in (((1, 1, 1), np.eye(3)), ((-1, 1, 1), np.diag([1, -1, -1]))):  # a mirrored one is turned
+        text = scale.format(", ".join(map(str, np.multiply(signs, (2, 3, 5)).tolist())))
+        inside = "".join("{}\n{}}}\n".format(prim, text) for prim in prims)
+        (link,) = bodies(tmp_path, BODY.format("b", inside), "(\nmetersPerUnit = 1\n)\n")
+        for stated, size, own in zip(link.shapes, sizes, turns, strict=True):
+            assert near(np.array(stated.shape.size), np.array(size, float), 1e-15)
+            assert near(stated.shape.pose.rotation, turn @ own, 1e-15)
+
+
+@pytest.mark.parametrize("is_mirrored", [False, True])
+@pytest.mark.parametrize("is_left_handed", [False, True])
+def test_usd_meshes_and_bodies_that_are_mirrored(tmp_path, is_mirrored, is_left_handed):
+    """A mirror image of a left-handed mesh is a right-handed one. A body's own axes are never mirrored."""
+    scale = "float3 xformOp:scale = ({}, 2, 2)\nuniform token[] xformOpOrder = [\"xformOp:scale\"]\n"
+    scale = scale.format(-2 if is_mirrored else 2)
+    mesh = "point3f[] points = [(1, 0, 0), (0, 1, 0), (0, 0, 1)]\nint[] faceVertexCounts = [3]\n"
+    mesh += "int[] faceVertexIndices = [0, 1, 2]\n"
+    mesh += 'uniform token orientation = "{}Handed"\n'.format("left" if is_left_handed else "right")
+    mass = "float physics:mass = 3\nfloat3 physics:diagonalInertia = (2, 3, 4)\n"
+    mass += "point3f physics:centerOfMass = (10, 20, 30)\n"
+    own = BODY.format("b", mass + scale + 'def Mesh "m" {{\n{}}}'.format(mesh))
+    below = BODY.format("b", 'def Mesh "m" {{\n{}{}}}'.format(scale, mesh))
+    side = 2.0 * np.array([-1.0, 1.0, 1.0] if is_mirrored else [1.0, 1.0, 1.0])
+    for content, local in ((own, np.full(3, side[0])), (below, side)):
+        (link,) = bodies(tmp_path, content)
+        (shape,) = link.shapes
+        assert near(shape.points, 0.01 * np.diag(local), 1e-15)
+        ahead = np.linalg.det(shape.points[shape.triangles[0]]) > 0.0  # whether it faces away from the origin
+        assert ahead == (not is_left_handed)
+        if content is own:
+            assert near(link.local, np.diag([*local, 1.0]), 1e-15)
+            assert near(link.inertial.center, local * (0.1, 0.2, 0.3), 1e-15)
 
 
 def test_descriptions_are_limited_as_documented(tmp_path, monkeypatch):
@@ -219,6 +316,8 @@ def test_descriptions_are_limited_as_documented(tmp_path, monkeypatch):
         (descriptions, "MAX_LINKS", 2, "description_too_large"): "<robot><link/><link/></robot>",
         (xml, "MAX_ELEMENTS", 3, "xml_too_large"): "<robot><link/><link/></robot>",
         (xml, "MAX_DEPTH", 4, "xml_too_large"): deep.format("<a><b/>", "</a>"),
+        (usda, "MAX_ELEMENTS", 2, "xml_too_large"): "#usda 1.0\n" + BODY.format("b", "def {}"),
+        (usda, "MAX_DEPTH", 1, "xml_too_large"): "#usda 1.0\n" + BODY.format("b", "def {}"),
     }
     for (module, name, limit, code), content in cases.items():
         with monkeypatch.context() as changed:
@@ -228,6 +327,8 @@ def test_descriptions_are_limited_as_documented(tmp_path, monkeypatch):
             with pytest.raises(FileError) as refused:
                 read(tmp_path, content)
             assert refused.value.finding.code == code, name
+            if code == "xml_too_large":
+                assert refused.value.finding.values == {"limit": module.MAX_ELEMENTS, "depth": module.MAX_DEPTH}
     twice = include.replace("<worldbody>", '<include file="b.xml"/><worldbody>')
     (tmp_path / "b.xml").write_bytes((tmp_path / "a.xml").read_bytes())
     for limit, fits in ((2 * size, True), (2 * size - 1, False)):  # of all that is included together
