@@ -57,9 +57,7 @@ class Place:
         with partial_file(self.path, self.alone) as partial:
             mask = os.umask(0o077)  # until it has the mode of the other
             try:
-                bpy.ops.wm.save_as_mainfile(
-                    filepath=str(partial), copy=True, compress=packed, relative_remap=False, check_existing=False
-                )
+                bpy.ops.wm.save_as_mainfile(filepath=str(partial), copy=True, compress=packed, relative_remap=False)
             finally:
                 os.umask(mask)
             if _digest(self.path) != self.digest:

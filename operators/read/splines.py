@@ -147,7 +147,7 @@ def _interpolating_patch(patch: Patch, sample: tuple[NDArray, NDArray], piece: N
     inverses = []
     for table in sample:
         acting = table.any(axis=0)
-        if len(table) < acting.sum() or np.linalg.cond(table[:, acting]) > MAX_CONDITION:
+        if np.linalg.cond(table[:, acting]) > MAX_CONDITION:
             return None
         inverses.append(np.linalg.pinv(table))
     if patch.weights is not None:

@@ -99,7 +99,7 @@ def reframe(
     # objects that share a mesh are changed in one way, so that they go on sharing it
     others = {plan.obj.data for plan in plans if not shows_own_mesh(plan.obj, users)}
     own = [plan for plan in plans if plan.obj.data not in others]
-    carried_out = set(reframe_own_meshes(context, own)) if len(own) > 1 else set()
+    carried_out = set(reframe_own_meshes(context, own))
     done = len(carried_out)
     progress(done)
 

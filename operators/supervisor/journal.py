@@ -132,9 +132,9 @@ def state(path: str) -> dict[str, int | None]:
 
 def is_journal(path: Path) -> bool:
     """Whether a file is empty, or begins as a journal does. Raises OSError."""
+    start = json.dumps({"schema": SCHEMA})[:-1].encode()
     with open(path, "rb") as file:
-        head = file.read(len(SCHEMA) + 20)
-    return not head or head.startswith(json.dumps({"schema": SCHEMA})[:-1].encode())
+        return file.read(len(start)) in (b"", start)
 
 
 def _lines(file: Any) -> Iterator[tuple[int, bytes]]:

@@ -105,6 +105,18 @@ def test_an_edit_puts_it_out_of_date(scene):
     assert support(obj) is None and stability.is_stale(obj)
 
 
+def test_what_has_a_hull_and_no_numbers_neither_stands_nor_rests(scene):
+    from body_moments.operators.session import stability
+
+    obj = objects.add(box((4.0, 2.0, 6.0)))
+    stability.compute(obj, bpy.context.evaluated_depsgraph_get())
+    assert stability.is_known(obj) and support(obj) is None and stability.poses(obj) is None
+    bpy.ops.object.body_moments_measure()
+    assert support(obj).stands and len(stability.poses(obj).shares) == 6
+    stability.forget(obj)
+    assert not stability.is_known(obj) and support(obj) is None and stability.poses(obj) is None
+
+
 def test_a_tipping_object_is_reported(scene, reported):
     obj = objects.add(box((2.0, 2.0, 6.0)), rotation=(0.6, 0.0, 0.0))
     bpy.ops.object.body_moments_stability()

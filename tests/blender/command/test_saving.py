@@ -85,13 +85,24 @@ def test_what_is_written_is_not_out_of_date_when_the_file_is_opened(tmp_path):
     assert staleness.stale_reason(box, bpy.context.scene) is None
 
 
-def test_relative_paths_stay_as_they_are(tmp_path):
-    path = tmp_path / "part.blend"
+@pytest.mark.parametrize("by_link", [False, True])
+def test_relative_paths_stay_as_they_are(tmp_path, by_link):
+    """Also where the file is opened by way of a link in another folder; and it stays the one that is open."""
+    path, opened = tmp_path / "part.blend", tmp_path / "links" / "linked.blend"
     files.add_box()
     image = bpy.data.images.new("Picture", 1, 1)
-    image.use_fake_user, image.filepath = True, "//textures/picture.png"
+    image.source, image.use_fake_user, image.filepath = "FILE", True, "//textures/picture.png"
     files.save(path)
-    measured(path, "--write")
+    if by_link:
+        opened.parent.mkdir()
+        try:
+            opened.symlink_to(path)
+        except OSError:
+            pytest.skip("not on this system: links")
+    else:
+        opened = path
+    measured(opened, "--write")
+    assert bpy.data.filepath == str(opened)
     reopened(path)
     assert bpy.data.images["Picture"].filepath == "//textures/picture.png"
 

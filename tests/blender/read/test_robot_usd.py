@@ -260,7 +260,7 @@ def test_usd_operations_of_other_counts_do_nothing(tmp_path):
 
 
 def test_usd_shapes_are_as_large_as_each_axis_says(tmp_path):
-    scale = "float3 xformOp:scale = ({})\nuniform token[] xformOpOrder = [\"xformOp:scale\"]\n"
+    scale = 'float3 xformOp:scale = ({})\nuniform token[] xformOpOrder = ["xformOp:scale"]\n'
     prims = [
         *('def Cube "a" {', 'def Sphere "a" { double radius = (3, 4)', 'def Sphere "a" { double radius = none'),
         *('def Cylinder "a" { uniform token axis = "{}"'.replace("{}", axis) for axis in ("X", "Y", "Z", "W")),
@@ -282,7 +282,7 @@ def test_usd_shapes_are_as_large_as_each_axis_says(tmp_path):
 @pytest.mark.parametrize("is_left_handed", [False, True])
 def test_usd_meshes_and_bodies_that_are_mirrored(tmp_path, is_mirrored, is_left_handed):
     """A mirror image of a left-handed mesh is a right-handed one. A body's own axes are never mirrored."""
-    scale = "float3 xformOp:scale = ({}, 2, 2)\nuniform token[] xformOpOrder = [\"xformOp:scale\"]\n"
+    scale = 'float3 xformOp:scale = ({}, 2, 2)\nuniform token[] xformOpOrder = ["xformOp:scale"]\n'
     scale = scale.format(-2 if is_mirrored else 2)
     mesh = "point3f[] points = [(1, 0, 0), (0, 1, 0), (0, 0, 1)]\nint[] faceVertexCounts = [3]\n"
     mesh += "int[] faceVertexIndices = [0, 1, 2]\n"

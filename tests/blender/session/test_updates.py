@@ -101,3 +101,62 @@ def test_objects_that_come_and_go_between_moves_are_told_apart(change):
             obj.location.y += 1.0
         bpy.context.view_layer.update()
         assert [updates.last_change(obj) == updates.count() for obj in kept] == [True] * 5 + [False] * 5
+
+
+def test_the_graph_of_an_update_is_that_of_its_scene_and_layer_while_they_are_there():
+    scene, other = bpy.context.scene, bpy.data.scenes.new("Other")
+    layer = scene.view_layers.new("Second")
+    stamps = [
+        updates.Stamp(1, uid, name)
+        for uid, name in (
+            (scene.session_uid, scene.view_layers[0].name),
+            (scene.session_uid, "Second"),
+            (other.session_uid, other.view_layers[0].name),
+        )
+    ]
+    graphs = [one.depsgraph for one in (scene.view_layers[0], layer, other.view_layers[0])]
+    assert [updates.depsgraph_of(stamp) for stamp in stamps] == graphs and graphs[0] is not None
+    scene.view_layers.remove(layer)
+    bpy.data.scenes.remove(other)
+    assert [updates.depsgraph_of(stamp) for stamp in (*stamps, updates.NEVER)] == [graphs[0], None, None, None]
+
+
+def test_an_object_that_shows_others_has_their_updates_and_no_older_ones():
+    """Instances by a collection, by particles as an object and a collection; a density's volume but not its place."""
+    shown, other = add(mesh_body(), "Shown", select=False), add(mesh_body(), "Other", select=False)
+    collection = bpy.data.collections.new("Instanced")
+    collection.objects.link(other)
+    emitter, instancer = add(mesh_body(), "Emitter", select=False), add(None, "Instancer", select=False)
+    settings = emitter.modifiers.new("Particles", "PARTICLE_SYSTEM").particle_system.settings
+    settings.instance_object = shown
+    assert list(updates.shown_by(emitter)) == [shown]
+    settings.instance_object, settings.instance_collection = None, collection
+    assert list(updates.shown_by(emitter)) == [collection]
+    assert list(updates.shown_by(instancer)) == []
+    instancer.instance_type = "COLLECTION"
+    assert list(updates.shown_by(instancer)) == []
+    instancer.instance_collection = collection
+    assert list(updates.shown_by(instancer)) == [collection]
+    bpy.context.view_layer.update()
+    bpy.context.view_layer.update()
+    before = updates.count()
+    other.location.x += 1.0
+    bpy.context.view_layer.update()
+    assert updates.last_edit(instancer).number == updates.count() > before
+    assert updates.last_edit(instancer, before).number == updates.count()
+    assert updates.last_edit(instancer, updates.count()) == updates.NEVER
+    assert updates.last_edit(shown, before) == updates.NEVER
+
+    volume = add(bpy.data.volumes.new("Volume"), "Volume", select=False)
+    shown.body_moments.density_volume = volume
+    bpy.context.view_layer.update()
+    assert updates.density_source(shown) is None
+    shown.body_moments.density_from = "VOLUME"
+    assert updates.density_source(shown) == volume
+    bpy.context.view_layer.update()
+    for change, is_edit in ((lambda: setattr(volume, "location", (1, 2, 3)), False), (volume.data.update_tag, True)):
+        before = updates.count()
+        change()
+        bpy.context.view_layer.update()
+        assert updates.count() > before
+        assert updates.last_edit(shown, before) == (updates.last_edit(volume) if is_edit else updates.NEVER)
