@@ -37,6 +37,7 @@ from ..moments.moments import (
 
 TRIANGLES_PER_BLOCK = 4096  # triangles whose table of 20 monomials stays in the cache
 MIN_TRIANGLES_PER_BLOCK = 64
+CORNERS_PER_BLOCK = 1 << 16  # triangles whose corners are compared at a time
 
 
 @lru_cache
@@ -186,9 +187,9 @@ def _multiply_by_geometric_series(table: NDArray, vertex: NDArray, order: int) -
 def _reach(points: NDArray, triangles: NDArray, center: NDArray) -> NDArray[np.float64]:
     """(3,) how far any corner is from the reference point, along each axis."""
     reach = np.zeros(3)
-    for start in range(0, len(triangles), 16 * TRIANGLES_PER_BLOCK):
+    for start in range(0, len(triangles), CORNERS_PER_BLOCK):
         for axis in range(3):
-            part = points[:, axis].take(triangles[start : start + 16 * TRIANGLES_PER_BLOCK].ravel())
+            part = points[:, axis].take(triangles[start : start + CORNERS_PER_BLOCK].ravel())
             reach[axis] = max(reach[axis], np.abs(part.astype(np.float64) - center[axis]).max())
     return reach * (1.0 + 4.0 * U)
 

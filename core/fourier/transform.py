@@ -167,7 +167,7 @@ class Transform:
         with ThreadPoolExecutor(self.threads) as pool:
             waiting: list[Future] = []
             try:
-                for done, share in enumerate(shares):
+                for done, share in enumerate(shares, 1):
                     waiting.append(pool.submit(self._run_task, share))
                     if len(waiting) > 2 * self.threads:
                         self._add(*waiting.pop(0).result())

@@ -44,7 +44,7 @@ def sum_of_images(moments: Moments, matrices: NDArray, about: ArrayLike | None =
     9.0
     """
     matrices = np.asarray(matrices, np.float64)
-    if matrices.ndim != 3 or matrices.shape[1:] != (4, 4) or not len(matrices) or not np.isfinite(matrices).all():
+    if matrices.shape[1:] != (4, 4) or not len(matrices) or not np.isfinite(matrices).all():
         raise ValueError("matrices not finite (4, 4)")
     linear, offsets = to_trailing_axis(matrices)
     point, order = moments.about[:, None], moments.order

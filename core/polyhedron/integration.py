@@ -187,7 +187,7 @@ def _as_surface(piece: Surface | NDArray) -> Surface:
     if isinstance(piece, Surface):
         return piece
     corners = np.asarray(piece)
-    if corners.ndim != 3 or corners.shape[1:] != (3, 3) or np.iscomplexobj(corners):
+    if corners.shape[1:] != (3, 3) or np.iscomplexobj(corners):
         raise ValueError("corners not real (m, 3, 3)")
     return Surface(corners.reshape(-1, 3), np.arange(3 * len(corners)).reshape(-1, 3))
 

@@ -79,6 +79,54 @@ def test_the_bound_counts_the_roundings_of_tables_and_sums(spline_order, order):
     assert close(found.rounding_error[0], (units + of_map) * U * 60.0, rel=1e-9)
 
 
+@pytest.mark.parametrize("value", [3.0, -3.0])
+@pytest.mark.parametrize("clipped, counts", [(False, 2 * 2 + 3 * 2 + 6), (True, 16 + 3 * 2 + 64)])
+def test_the_bound_of_odd_moments_follows_from_the_even_ones(monkeypatch, value, clipped, counts):
+    """(|t| + 1)^l of a unit voxel about its middle, with |t| up to 1/2 where it is to an odd power; of the next one
+    beside it, in a block of its own, about the edge between the two."""
+    axis, pair = SplineAxis.uniform(1), SplineAxis.uniform(2)
+    if clipped:
+        axis, pair = axis.clip(), pair.clip()
+    single = [1.0, 1.0 + 0.5, 1.0 + 2 * 0.5 + 1.0 / 12.0]
+    double = [2.0, 2.0 + 2.0, 2.0 + 2 * 2.0 + 2.0 / 3.0]
+    monkeypatch.setattr(density, "COEFFICIENTS_PER_BLOCK", 1)
+    for axes, first, blocks in (([axis] * 3, single, 1), ([pair, axis, axis], double, 2)):
+        found = density_moments(np.full([one.count for one in axes], value), axes, 2)
+        units = 1.01 * (3 * counts + 3 + blocks + 8) * U
+        expected = [first[p] * single[q] * single[r] for p, q, r in monomials(2).tolist()]
+        assert close(found.rounding_error, 3.0 * units * np.array(expected), rel=1e-12)
+
+
+@pytest.mark.parametrize("nz, most, planes, columns", [(4, 24, 2, 6), (4, 11, 1, 2), (30, 24, 1, 1), (2, 12, 2, 6)])
+def test_pieces_have_as_many_coefficients_as_they_may(monkeypatch, nz, most, planes, columns):
+    monkeypatch.setattr(density, "COEFFICIENTS_PER_BLOCK", most)
+    values = np.arange(5 * 3 * nz).reshape(5, 3, nz)
+    found = [(place, block.tolist()) for place, block in density._pieces(values)]
+    starts = [(i, j, 0) for i in range(0, 5, planes) for j in range(0, 3, columns)]
+    assert found == [((i, j, k), values[i : i + planes, j : j + columns].tolist()) for i, j, k in starts]
+
+
+def test_changes_add_their_own_roundings_to_the_bound():
+    """Of what a coefficient changes by, times how far its function reaches; a block adds as many as are summed up."""
+    axes = [SplineAxis.uniform(count, 2) for count in (3, 5, 4)]  # supports of 2 about their places, from the middles
+    live, powers, changed = TrivariateSpline(np.zeros((3, 5, 4)), axes, 2), monomials(2), np.zeros(10)
+    counts = 3 * (2 * 3 + 3 * 2 + 6) + 6
+
+    def reach(place):
+        far = np.abs(np.array(place) - [1.0, 2.0, 1.5]) + 1.0
+        return np.prod(far**powers, axis=1)
+
+    for place, value in (((2, 0, 3), 5.0), ((0, 4, 1), -7.0), ((2, 0, 3), 2.0)):
+        change = value - live.coefficients[place]
+        found = live.set_coefficient(*place, value)
+        changed += counts * U * abs(change) * reach(place) + U * np.abs(found.raw)
+        assert close(found.rounding_error, changed, rel=1e-12)
+    found = live.set_block((1, 2, 0), np.array([[[1.0, -4.0]]]))
+    sizes = reach((1, 2, 0)) + 4.0 * reach((1, 2, 1))
+    changed += (counts + 1 + 1 + 2) * U * sizes + U * np.abs(found.raw)
+    assert close(found.rounding_error, changed, rel=1e-12)
+
+
 def test_bounds_are_not_wild():
     coefficients, axes = spline((4, 4, 4))
     moments = density_moments(coefficients, axes, 2)

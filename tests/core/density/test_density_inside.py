@@ -9,7 +9,7 @@ import pytest
 from body_moments.core.density import voxel_fill as density_inside
 from body_moments.core.density.voxel_fill import inside_moments
 from body_moments.core.mesh.surface import Surface
-from body_moments.core.moments.moments import monomials
+from body_moments.core.moments.moments import U, monomials
 from body_moments.core.polyhedron import polyhedron_moments
 
 from tests.close import close
@@ -135,6 +135,23 @@ def test_batches_have_about_as_many_pieces_as_they_may(monkeypatch):
             sizes.clear()
             inside_moments(np.tile(body, (count, 1, 1)), np.ones((64, 64, 64)), 0)
             assert max(sizes) < 9000 and (len(sizes) == 1 or np.mean(sizes[:-1]) > 400), sizes
+
+
+@pytest.mark.parametrize("pieces, terms", [(1, 1), (1 << 17, 12)])
+@pytest.mark.parametrize("order", [0, 1, 3])
+def test_the_bound_counts_the_roundings_of_a_piece_and_of_the_sums(monkeypatch, order, pieces, terms):
+    """Of a box in one voxel, whose floor and ceiling have columns of 5 from the bottom of the grid."""
+    monkeypatch.setattr(density_inside, "PIECES_PER_BATCH", pieces)
+    corners = np.array([[1.25, 2.25, 3.25], [1.75, 2.5, 3.5]])
+    found, volume = inside_moments(box(*corners), np.full((4, 5, 6), 5.0), order)
+    units = 40 + 4 * order + 6 + int(np.log2(terms + 1))
+    assert close(found.rounding_error[0], units * U * 5.0 * 0.125 * (3.25 + 3.5), rel=1e-12)
+    assert close(volume, 1.0 / 32.0, rel=1e-14)
+    if order:  # about the corner nearest to the middle, at 2, 2 and 3: the middles of floor and ceiling
+        x, y, z = 0.5, 0.375, 5.0 * 0.125 * ((3.0**2 - 0.25**2) / 2.0 + (3.0**2 - 0.5**2) / 2.0)
+        expected = [5.0 * 0.125 * 6.75 * x, 5.0 * 0.125 * 6.75 * y, z]
+        assert found.about.tolist() == [2.0, 2.0, 3.0]
+        assert close(found.rounding_error[1:4], units * U * np.array(expected), rel=1e-12)
 
 
 def test_densities_add():

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A density for each triangle or corner: against rational arithmetic, closed forms, and the sum over the parts."""
 
+from dataclasses import replace
 from fractions import Fraction
 
 import numpy as np
@@ -98,6 +99,7 @@ def amounts(about, density):
 def test_bounds_count_the_roundings_of_what_is_summed_up(monkeypatch, order, per_block, blocks):
     """9 u for each product of a determinant, 27 u a degree for the table, 64 u and one a block for the sum."""
     monkeypatch.setattr(piecewise_mass, "_block_size", lambda _order: per_block)
+    monkeypatch.setattr(piecewise_mass, "CORNERS_PER_BLOCK", per_block)
     about, reach = np.array([2.0, 3.0, 1.0]), [2.0, 4.0, 8.0]
     powers = monomials(order)
     degree, bounds = powers.sum(axis=1), np.prod(np.array(reach) ** powers, axis=1)
@@ -235,6 +237,19 @@ def test_caps_have_no_say_in_the_density_and_carry_it():
     assert found.density.tolist() == [500.0] and not found.has_several_materials.any()
     mass = solid_mass_moments(parts.points, parts.triangles, found.density[parts.part], solid.volume)
     assert mass.total == pytest.approx(500.0, rel=1e-14)
+
+
+def test_a_part_without_faces_of_the_mesh_has_no_density():
+    """Beside one of two materials, whose range and whose largest are by its area."""
+    solid = measure_solid(bodies.surface(bodies.joined(bodies.box(), bodies.box((4, 0, 0), (5, 2, 3)))))
+    parts = solid.parts()
+    parts = replace(parts, face=np.where(parts.part == 0, -1, parts.face))
+    faces = np.where(np.arange(24) < 14, 100.0, 1000.0)
+    found = part_densities(parts, faces)
+    assert found.density[0] == 0.0 and found.first_face.tolist() == [-1, 12]
+    assert found.range_by_area[0] == found.most_by_area[0] == 0.0
+    assert found.has_several_materials.tolist() == [False, True] and not found.has_foreign_cavity_material.any()
+    assert close(found.range_by_area[1], 900.0 * 22.0, rel=1e-14) and close(found.most_by_area[1], 22e3, rel=1e-14)
 
 
 @pytest.mark.parametrize("turned", [False, True])

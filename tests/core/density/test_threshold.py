@@ -245,6 +245,23 @@ def test_slabs_and_batches_change_nothing(monkeypatch):
     assert parts.cut_cells == whole.cut_cells
 
 
+@pytest.mark.parametrize("background", [None, -1.0])
+@pytest.mark.parametrize("most, planes", [(1, 1), (12, 1), (24, 2), (35, 2), (36, 3), (1 << 20, 100)])
+def test_slabs_are_as_thick_as_they_may_be_and_share_a_plane(monkeypatch, background, most, planes):
+    """Of samples of 3 by 4 in a plane; each of the slabs but for the first begins with the last plane of another."""
+    monkeypatch.setattr(threshold, "CELLS_PER_SLAB", most)
+    samples = RNG.normal(size=(9, 3, 4))
+    whole = samples if background is None else np.pad(samples, 1, constant_values=background)
+    found = list(threshold._slabs(samples, background, None))
+    assert [first for first, _ in found] == list(range(0, len(whole) - 1, planes))
+    for first, values in found:
+        assert np.array_equal(values, whole[first : first + planes + 1])
+    assert np.array_equal(
+        np.concatenate([3.0 * values for _, values in found]),
+        np.concatenate([v for _, v in threshold._slabs(samples, background and -3.0, lambda block: 3.0 * block)]),
+    )
+
+
 def test_a_preview_is_near_and_claims_nothing():
     samples = torus(24)
     exact, preview = (threshold_body(samples, 0.05, order=1, preview=quick) for quick in (False, True))

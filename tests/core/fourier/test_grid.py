@@ -98,6 +98,23 @@ def test_the_share_that_is_done_grows_from_the_start_to_the_end_and_all_work_is_
     assert transform.result().method == "approximate"
 
 
+def test_the_share_that_is_done_is_that_of_what_the_parts_cost():
+    """First of the triangles in closed form, then of the points, at last of the comparison."""
+    part = bodies.joined(bodies.box((-3, -3, -3), (-2, 5, 4)), bodies.sphere(3))
+    transform = GridTransform(bodies.surface(part), FrequencyGrid(22, 9.0), "volume", 1e-4)
+    shares = np.array(list(transform.steps()))
+    first, last = fourier_grid.SHARING_TIME, 1.0 - fourier_grid.CHECKING_TIME
+    direct = 12 * 23 * 23 * 12 * fourier_grid.DIRECT_COST
+    points = sum(len(rows) * len(triangle_rule(n)[1]) for n, rows in transform.fine) * transform.width**3
+    middle = first + (last - first) * direct / (direct + points)
+    assert np.count_nonzero(np.abs(shares - middle) < 1e-12) == 1
+    assert np.count_nonzero(np.abs(shares - last) < 1e-12) == 1 + 3  # and three components are collected
+    expected = 524 * len(fourier_grid._trial_vectors(transform.grid)) / fourier_grid.PAIRS_PER_BLOCK
+    tried = shares[shares < first]
+    assert close(tried, first * np.arange(len(tried)) / (np.arange(len(tried)) + expected), rel=1e-12)
+    assert (shares > last).any() and not (shares > 1.0).any()
+
+
 def test_the_area_and_an_open_surface_are_right_to_the_tolerance():
     surface = bodies.surface(bodies.without(LOPSIDED, *range(300)))
     exact = surface_transform(surface, FrequencyGrid(15, 18.0))

@@ -4,6 +4,7 @@
 
 import numpy as np
 import pytest
+from body_moments.core.fourier import polygon
 from body_moments.core.fourier.polygon import polygon_transform
 
 from tests.core.findings import refused
@@ -58,6 +59,20 @@ def test_opposite_frequencies_are_conjugate_and_long_lists_are_their_parts():
     values = polygon_transform([OUTLINE, HOLE], q).values
     assert np.array_equal(values, polygon_transform([OUTLINE, HOLE], -q).values.conj())
     assert abs(values[777] - polygon_transform([OUTLINE, HOLE], q[777:778]).values[0]) <= 1e-15
+
+
+@pytest.mark.parametrize("pairs, size", [(1, 1), (18, 2), (35, 3), (10**6, 7)])
+def test_shares_are_those_of_the_wave_vectors_that_are_done(monkeypatch, pairs, size):
+    """As many as make so many pairs with nine edges; at least one."""
+    monkeypatch.setattr(polygon, "PAIRS_PER_BLOCK", pairs)
+    points, q = np.concatenate([OUTLINE, HOLE]), np.random.default_rng(2).normal(size=(7, 2))
+    edges = np.array([(i, (i + 1) % 6) for i in range(6)] + [(6, 7), (7, 8), (8, 6)])
+    transform = polygon.RegionTransform(points, edges, q)
+    assert list(transform.steps()) == [min(done, 7) / 7 for done in range(size, 7 + size, size)]
+    whole = polygon_transform([OUTLINE, HOLE], q)
+    assert np.abs(transform.result().values - whole.values).max() <= 1e-15
+    nothing = polygon.RegionTransform(points, edges[:0], q)
+    assert list(nothing.steps())[-1] == 1.0 and not nothing.result().values.any()
 
 
 @pytest.mark.parametrize(

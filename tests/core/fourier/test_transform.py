@@ -312,6 +312,23 @@ def test_steps_tell_how_much_is_done_and_can_be_left():
         left.close()
 
 
+@pytest.mark.parametrize("waves", [FrequencyGrid(8, 20.0), np.random.default_rng(4).normal(size=(90, 3))])
+@pytest.mark.parametrize("threads, waiting", [(1, 0), (2, 4), (3, 6)])
+def test_shares_are_those_of_the_tasks_that_are_done(monkeypatch, waves, threads, waiting):
+    """A task has as many rows of wave vectors as make so many pairs with a run of 128 triangles, of 320."""
+    surface = bodies.surface(bodies.torus(20, 8))
+    monkeypatch.setattr(fourier, "PAIRS_PER_TASK", 20_000)
+    transform = Transform(surface, waves, "volume", threads)
+    columns, rows = (5, 81) if isinstance(waves, FrequencyGrid) else (1, 90)
+    size = 20_000 // (128 * columns)
+    starts = [(run, first) for run in (0, 128, 256) for first in range(0, rows, size)]
+    assert [(run.start, part.start) for run, part in transform._tasks()] == starts
+    assert all(part.stop == min(part.start + size, rows) for _, part in transform._tasks())
+    shares = list(transform.steps())
+    done = [n / len(starts) for n in range(1, len(starts) - waiting + 1)]
+    assert shares == (done if threads == 1 else [*done, 1.0])
+
+
 def test_memory_is_bounded_by_blocks():
     part = bodies.sphere(5)
     q = np.random.default_rng(0).normal(size=(200, 3)) * 30

@@ -3,8 +3,11 @@
 """Small things that are done with arrays."""
 
 import numpy as np
+import pytest
+from body_moments.core.numerics import arrays
 from body_moments.core.numerics.arrays import (
     GOLDEN_RATIO_64,
+    first_occurrence,
     hash_uint64,
     power_table,
     segment_ranges,
@@ -58,3 +61,17 @@ def test_powers_begin_with_one():
     values = np.array([0.5, -2.0, 0.0])
     found = power_table(values, 3)
     assert [row.tolist() for row in found] == [[1.0] * 3, [0.5, -2.0, 0.0], [0.25, 4.0, 0.0], [0.125, -8.0, 0.0]]
+
+
+@pytest.mark.parametrize("columns", [1, 2, 3])
+def test_of_different_rows_fewer_than_half_lose_their_slot_in_each_round(monkeypatch, columns):
+    """Rows that agree in all columns but one, whichever it is: else each round might find a single one."""
+    hashed = []
+    monkeypatch.setattr(arrays, "hash_uint64", lambda values: hashed.append(len(values)) or hash_uint64(values))
+    for own in range(columns):
+        rows = np.full((columns, 1000), 7, np.uint64)
+        rows[own] = np.arange(1000) + 2**40
+        hashed.clear()
+        assert first_occurrence(*rows).tolist() == list(range(1000))
+        rounds = hashed[columns:]
+        assert all(2 * later < earlier for earlier, later in zip([1000, *rounds], rounds)) and len(rounds) < 12

@@ -48,6 +48,14 @@ def test_weights_of_control_points_add_up_to_one_all_over_the_domain(space):
     assert (table >= 0.0).all()
 
 
+@pytest.mark.parametrize("highest", range(6))
+def test_there_are_as_many_derivatives_as_are_asked_for(highest):
+    space = clamped_space(4, (0.5,))
+    found, all_of_them = (space.derivatives(space.spans, np.array([0.25, 0.75]), most) for most in (highest, 5))
+    assert len(found) == highest + 1
+    assert all(np.array_equal(one, other) for one, other in zip(found, all_of_them))
+
+
 def test_a_cyclic_direction_ends_as_it_begins():
     space = blender_space(7, 5, True, False, False)
     first, last = space.collocation_matrix(np.array(space.domain))

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.moments.moments import Moments, U, monomials
-from body_moments.core.polyhedron import polyhedron_moments
+from body_moments.core.polyhedron import any_order_small, polyhedron_moments, third_order_small
 from body_moments.core.polyhedron.any_order_small import extend_small_moments
 from body_moments.core.polyhedron.third_order_small import small_moments
 
@@ -42,6 +42,23 @@ def test_a_stack_is_each_body_to_the_bit(size, offset):
             for name in ("raw", "about", "rounding_error", "input_error"):
                 assert np.array_equal(getattr(stack, name)[i], getattr(one, name)), name
         assert abs(cones[i, 1] - 6.0 * volume.raw[i, 0]) <= 1e-12 * cones[i, 0]
+
+
+@pytest.mark.parametrize("at_a_time", [1, 5, 30, 10**6])
+def test_bodies_are_whole_however_many_triangles_are_taken_at_a_time(monkeypatch, at_a_time):
+    monkeypatch.setattr(any_order_small, "TRIANGLES_PER_BLOCK", at_a_time)
+    monkeypatch.setattr(third_order_small, "TRIANGLES_PER_BLOCK", at_a_time)
+    parts, points, triangles, counts, center, reach = stacked(1.0, 0.0)
+    volume, area, _ = small_moments(
+        points, triangles, counts, center, reach, np.zeros((5, 3)), area=True, area_moments=True
+    )
+    fifth = extend_small_moments(volume, 5, points, triangles, counts, reach)
+    for i, (own, faces) in enumerate(parts):
+        for found, measure in ((fifth, exact.volume_moments), (area, exact.area_moments)):
+            right = measure(own, faces, center[i], order=found.order)
+            assert all(
+                abs(Fraction(float(x)) - y) <= e for x, y, e in zip(found.raw[i], right, found.rounding_error[i])
+            )
 
 
 @pytest.mark.parametrize(("size", "offset"), PLACES)
