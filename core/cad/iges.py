@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from ..nurbs.patch import Patch
 from ..verdict.finding import FileError, finding
-from .iges_text import Entry, IgesText, integers, numbers
+from .iges_text import Entry, IgesText, integers, numbers, padded
 from .surfaces import MAX_SURFACES, Refusals, SurfaceBody, SurfaceFile, SurfaceRefusedError, blender_patches
 from .trims import Piece, trims_nothing
 
@@ -53,7 +53,7 @@ class _Reader:
         self._entries = self._text.entries
         self._refusals = Refusals()
         self._matrices: dict[int, NDArray[np.float64] | None] = {0: np.eye(4)}
-        self._name, self._placed, self._pieces_left = path.stem, 0, 0
+        self._name, self._placed = path.stem, 0
 
     def read(self) -> SurfaceFile:
         used = set(self._references())
@@ -88,7 +88,7 @@ class _Reader:
     @staticmethod
     def _members(fields: list[str]) -> list[int]:
         """Of a subfigure: its depth, its name, and how many they are stand before them."""
-        (count,) = integers(fields[2:3], 1)
+        (count,) = integers(fields[2:], 1)
         return integers(fields[3:], count)
 
     def _place(self, entry: Entry, above: NDArray, path: tuple[int, ...]) -> list[Patch]:
@@ -111,7 +111,7 @@ class _Reader:
     def _instance(self, entry: Entry, above: NDArray, path: tuple[int, ...]) -> list[Patch]:
         fields = self._text.fields(entry)
         (pointer,) = integers(fields, 1)
-        x, y, z, scale = numbers((fields[1:5] + [""] * 4)[:4])
+        x, y, z, scale = numbers(padded(fields[1:], 4))
         definition = self._entry(pointer, DEFINITION)
         if pointer in path or len(path) >= MAX_DEPTH:
             raise SurfaceRefusedError("surface_recursive")
@@ -134,7 +134,7 @@ class _Reader:
     def _matrix(self, entry: Entry) -> NDArray[np.float64]:
         """(4, 4) of an entity, and of the transformations that its own refers to."""
         chain, pointer = [], entry.matrix
-        while pointer not in self._matrices and len(chain) <= MAX_DEPTH:
+        while pointer not in self._matrices and len(chain) < MAX_DEPTH:
             chain.append(self._entry(pointer, MATRIX))
             pointer = chain[-1].matrix
         known = self._matrices.get(pointer)
@@ -169,26 +169,25 @@ class _Reader:
 
     def _trims_nothing(self, fields: list[str], surface: int, spline: _Spline) -> bool:
         """Whether the outer boundary is that of the surface's own domain."""
-        (outer,) = integers(fields[3:4], 1)
+        (outer,) = integers(fields[3:], 1)
         _, base, curve, _, _ = integers(self._text.fields(self._entry(outer, PARAMETER_CURVE)), 5)
         if base != surface:
             return False
-        self._pieces_left = MAX_PIECES
-        pieces = self._pieces(curve, ())
+        pieces = self._pieces(curve, 0, iter(range(MAX_PIECES)))
         return pieces is not None and trims_nothing(pieces, spline.domain)
 
-    def _pieces(self, pointer: int, path: tuple[int, ...]) -> list[Piece] | None:
-        """The curve as lines and splines in order; None where it is something else."""
+    def _pieces(self, pointer: int, depth: int, left: Iterator[int]) -> list[Piece] | None:
+        """The curve as lines and splines in order; None where it is something else. depth: how many curves it is in.
+        left: one for each piece that there still may be."""
         entry = self._entries.get(pointer)
-        self._pieces_left -= 1
-        if entry is None or entry.matrix or pointer in path or len(path) >= MAX_DEPTH or self._pieces_left < 0:
+        if entry is None or entry.matrix or depth >= MAX_DEPTH or next(left, None) is None:
             return None
         fields = self._text.fields(entry)
         if entry.type == 102:
             (count,) = integers(fields, 1)
             pieces = []
             for member in integers(fields[1:], count):
-                part = self._pieces(member, (*path, pointer))
+                part = self._pieces(member, depth + 1, left)
                 if part is None:
                     return None
                 pieces += part
@@ -228,8 +227,6 @@ class _Spline:
             raise ValueError("too few control points")
         knot_counts = [count + degree + 1 for count, degree in zip(counts, degrees)]
         total = counts[0] * counts[1]
-        if len(fields) < 9 + sum(knot_counts) + 4 * total + 4:
-            raise ValueError("too few parameters")
         values = numbers(fields[9 : 9 + sum(knot_counts) + 4 * total + 4])
         s_knots, t_knots, weights, points, part = np.split(
             values, np.cumsum([knot_counts[0], knot_counts[1], total, 3 * total])

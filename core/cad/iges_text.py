@@ -75,9 +75,10 @@ class IgesText:
         """The parameters of an entity, behind its type, texts without their length. ValueError where they end too
         early, or are another entity's."""
         first, count = entry.parameters
-        if not (first > 0 and count > 0 and first + count - 1 <= len(self._lines)):
+        start, end = first - 1, first - 1 + count
+        if not 0 <= start < end <= len(self._lines):
             raise ValueError("parameters beyond the section")
-        text = "".join(line[:PARAMETERS] for line in self._lines[first - 1 : first - 1 + count])
+        text = "".join(line[:PARAMETERS] for line in self._lines[start:end])
         fields = _split(text, self._delimiter, self._end)
         if not fields or _integer(fields[0]) != entry.type:
             raise ValueError("parameters of another entity")
@@ -88,7 +89,7 @@ def _lines(text: str) -> list[str]:
     """Lines of 80 columns, with or without line breaks between them."""
     # Not splitlines: of Latin-1 it also cuts at \x85, which is half of an “Å” in UTF-8.
     cut = [text[start : start + LINE] for start in range(0, len(text), LINE)]
-    lines = re.split(r"\r\n|\r|\n", text) if re.search(r"[\r\n]", text[: LINE + 2]) else cut
+    lines = re.split(r"\r\n|\r|\n", text) if re.match(r"[^\r\n]{0,80}[\r\n]", text) else cut
     return [line for line in lines if line.strip("\0 \x1a")]
 
 
@@ -113,15 +114,15 @@ def _global_fields(text: str) -> tuple[str, str, list[str]]:
 
 def _unit(fields: list[str]) -> float:
     """Meters for a unit of the model."""
-    fields = fields + [""] * 13
+    scale_word, flag_word, name = padded(fields[10:], 3)
     try:
-        scale = float(numbers(fields[10:11])[0]) or 1.0
-        flag = _integer(fields[11]) or 1
+        scale = float(numbers([scale_word])[0]) or 1.0
+        flag = _integer(flag_word) or 1
     except ValueError:
         raise _damaged("iges_global_section") from None
-    unit = UNIT_NAMES.get(fields[12].strip().upper()) if flag == UNIT_BY_NAME else UNITS.get(flag)
+    unit = UNIT_NAMES.get(name.strip().upper()) if flag == UNIT_BY_NAME else UNITS.get(flag)
     if unit is None:
-        raise FileError("iges_unit", unit=fields[12].strip() or str(flag))
+        raise FileError("iges_unit", unit=name.strip() or str(flag))
     if not 0.0 < scale < math.inf or not 0.0 < unit / scale < math.inf:
         raise _damaged("iges_global_section")
     return unit / scale
@@ -172,7 +173,7 @@ def _split(text: str, delimiter: str, end: str) -> list[str]:
 def _integer(word: str) -> int:
     """Of a field, 0 where it is blank. ValueError where it is no whole number."""
     word = word.strip()
-    if len(word) > 18 or not re.fullmatch(r"[+-]?[0-9]*", word):
+    if not re.fullmatch(r"[+-]?[0-9]*", word):
         raise ValueError("not a whole number")
     return int(word or 0)
 
@@ -182,6 +183,11 @@ def integers(fields: list[str], count: int) -> list[int]:
     if not 0 <= count <= len(fields):
         raise ValueError("too few parameters")
     return [_integer(word) for word in fields[:count]]
+
+
+def padded(fields: list[str], count: int) -> list[str]:
+    """The first fields, blank ones in the place of those that are not there."""
+    return fields[:count] + [""] * (count - len(fields))
 
 
 def numbers(fields: list[str]) -> NDArray[np.float64]:

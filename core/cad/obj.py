@@ -154,8 +154,6 @@ def _patches(element: _Element, points: NDArray, weights: NDArray) -> list[Patch
         ]
     orders = (degrees[0] + 1, degrees[1] + 1)
     counts = [len(row) - order for row, order in zip(knots, orders)]
-    if min(counts) < 1 or counts[0] * counts[1] != len(used) or len(part) < 4:
-        raise ValueError("count of control points")
     shape = counts[1], counts[0]  # the first direction runs fastest
     return blender_patches(
         (knots[0], knots[1]),

@@ -93,7 +93,7 @@ class Refusals:
         try:
             patches = make()
             # What makes others of this file has counted them.
-            self.points = max(self.points, before + sum(patch.points[..., 0].size for patch in patches))
+            self.points = max(self.points, before + sum(patch.points.size // 3 for patch in patches))
             if self.points > MAX_TOTAL_POINTS:
                 raise FileError("too_many_control_points", limit=MAX_TOTAL_POINTS)
             return patches
@@ -140,7 +140,7 @@ def blender_patches(
     points: ArrayLike,
     weights: NDArray[np.float64] | None,
     domain: tuple[tuple[float, float] | None, tuple[float, float] | None],
-    matrix: NDArray | None = None,
+    matrix: NDArray,
 ) -> list[Patch]:
     """The patches that Blender can hold for a surface with any knots; ValueError where there is no such surface.
 
@@ -149,9 +149,7 @@ def blender_patches(
     """
     if max(orders) > MAX_ORDER:
         raise SurfaceRefusedError("surface_order", order=max(orders), limit=MAX_ORDER)
-    points = np.asarray(points, np.float64)
-    if matrix is not None:
-        points = points @ matrix[:3, :3].T + matrix[:3, 3]
+    points = np.asarray(points, np.float64) @ matrix[:3, :3].T + matrix[:3, 3]
     if not (np.abs(points) < MAX_COORDINATE).all():
         raise SurfaceRefusedError("surface_points", cause=finding("non_finite_control_points"))
     s_space, t_space = (

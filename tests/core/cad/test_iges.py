@@ -7,7 +7,7 @@ import random
 
 import numpy as np
 import pytest
-from body_moments.core.cad import read_surfaces, surfaces
+from body_moments.core.cad import iges, read_surfaces, surfaces
 from body_moments.core.cad.iges_text import UNIT_NAMES, UNITS
 from body_moments.core.numerics.bspline import SplineSpace, clamped_space
 from body_moments.core.nurbs.patch import Patch
@@ -275,7 +275,7 @@ def test_subfigures_that_multiply_end(tmp_path):
     assert refusal(file.write(tmp_path / "a.igs")).code in ("too_many_surfaces", "no_surface_kept")
 
 
-@pytest.mark.parametrize("depth, kept", [(45, True), (55, False)])
+@pytest.mark.parametrize("depth, kept", [(50, True), (51, False)])
 def test_subfigures_in_each_other_end(tmp_path, depth, kept):
     file = IgesFile()
     below = file.surface(unrolled(sphere()), status="00010000")
@@ -288,6 +288,172 @@ def test_subfigures_in_each_other_end(tmp_path, depth, kept):
         assert close(volume(read_surfaces(path)).total, BALL, 1e-14)
     else:
         assert refusal(path).values["causes"][0]["code"] == "surface_recursive"
+
+
+@pytest.mark.parametrize("depth, kept", [(50, True), (51, False)])
+def test_transformations_of_each_other_end(tmp_path, depth, kept):
+    file = IgesFile()
+    step, matrix = np.eye(4), 0
+    step[0, 3] = 0.5
+    for _ in range(depth):
+        matrix = file.transformation(step, matrix=matrix)
+    file.surface(unrolled(sphere()), matrix=matrix)
+    path = file.write(tmp_path / "a.igs")
+    if kept:
+        assert np.abs(volume(read_surfaces(path)).center - (depth / 2.0, 0.0, 0.0)).max() <= 1e-12
+    else:
+        assert refusal(path).values["causes"][0]["code"] == "surface_recursive"
+
+
+@pytest.mark.parametrize("depth, kept", [(49, True), (50, False)])
+def test_curves_in_each_other_end(tmp_path, depth, kept):
+    file = IgesFile()
+    curve = file.add(*polyline(A, B, C, D, A), status="00010500")
+    for _ in range(depth):
+        curve = file.add(102, [1, curve], status="00010500")
+    assert is_kept(file, curve, tmp_path) == kept
+
+
+@pytest.mark.parametrize("count, kept", [(9999, True), (10_000, False)])
+def test_a_boundary_has_up_to_ten_thousand_pieces(tmp_path, count, kept):
+    """And is one itself; all but four stay where they are."""
+    file = IgesFile()
+    here, *sides = (file.add(*line(*ends), status="00010500") for ends in ((A, A), (A, B), (B, C), (C, D), (D, A)))
+    curve = file.add(102, [count, *[here] * (count - 4), *sides], status="00010500")
+    assert is_kept(file, curve, tmp_path) == kept
+
+
+def is_kept(file, curve, tmp_path):
+    """Whether a surface is kept whose boundary this curve is."""
+    base = file.surface(unrolled(sphere()), status="00010000")
+    file.add(144, [base, 1, 0, file.add(142, [0, base, curve, 0, 1], status="00010000")], label="TRIM")
+    beside = unrolled(torus())
+    file.surface(beside)
+    read = read_surfaces(file.write(tmp_path / "a.igs"))
+    assert refused(read) in ({}, {"surface_trimmed": ["TRIM"]})
+    return read.refused == ()
+
+
+def test_surfaces_and_subfigures_are_counted_where_they_are_placed(tmp_path, monkeypatch):
+    file = IgesFile()
+    ball = file.surface(unrolled(sphere()), status="00010000")
+    two = file.add(308, [0, "3HTwo", 2, ball, ball], status="00000200")
+    file.add(408, [two, 0.0, 0.0, 0.0])
+    file.add(120, [1, 3, 0.0, 6.28])
+    trimmed(file, [line(A, B)], outer=0)
+    path = file.write(tmp_path / "a.igs")
+    monkeypatch.setattr(iges, "MAX_SURFACES", 4)
+    assert len(read_surfaces(path).bodies[0].patches) == 3
+    monkeypatch.setattr(iges, "MAX_SURFACES", 3)
+    assert refusal(path) == finding("too_many_surfaces", limit=3)
+
+
+def test_control_points_of_subfigures_in_each_other_are_counted_once(tmp_path, monkeypatch):
+    file = IgesFile()
+    ball = file.surface(unrolled(sphere()), status="00010000")
+    small = file.add(308, [0, "5HSmall", 2, ball, ball], status="00000200")
+    inner = file.add(408, [small, 0.0, 0.0, 0.0], status="00010000")
+    file.add(408, [file.add(308, [0, "5HLarge", 2, inner, ball], status="00000200"), 0.0, 0.0, 0.0])
+    file.surface(unrolled(sphere()))
+    path = file.write(tmp_path / "a.igs")
+    (body,) = read_surfaces(path).bodies
+    count = sum(len(patch.points.reshape(-1, 3)) for patch in body.patches)
+    assert len(body.patches) == 4
+    monkeypatch.setattr(surfaces, "MAX_TOTAL_POINTS", count)
+    assert len(read_surfaces(path).bodies[0].patches) == 4
+    monkeypatch.setattr(surfaces, "MAX_TOTAL_POINTS", count - 1)
+    assert refusal(path) == finding("too_many_control_points", limit=count - 1)
+
+
+def test_a_dependent_surface_that_nothing_stands_on_is_read(tmp_path):
+    file = IgesFile()
+    file.surface(unrolled(sphere()), status="00010000")
+    assert close(volume(read_surfaces(file.write(tmp_path / "a.igs"))).total, BALL, 1e-14)
+
+
+def test_of_entities_after_a_damaged_one_is_known_what_they_stand_on(tmp_path):
+    file = IgesFile()
+    file.add(308, [0, "1HA", 5], status="00000200")
+    file.add(408, [1, 0.0, 0.0, 0.0], label="DAMAGED")
+    trimmed(file, [line(A, B)], outer=0)
+    read = read_surfaces(file.write(tmp_path / "a.igs"))
+    assert len(read.bodies[0].patches) == 1 and refused(read) == {"surface_damaged": ["DAMAGED"]}
+
+
+@pytest.mark.parametrize("given", range(1, 6))
+def test_a_subfigure_s_place_and_scale_may_be_left_out(tmp_path, given):
+    fields = [0.5, -3.0, 2.0, 0.25][: given - 1]
+    file = IgesFile()
+    ball = file.surface(unrolled(sphere()), status="00010000")
+    file.add(408, [file.add(308, [0, "1HA", 1, ball], status="00000200"), *fields])
+    found = volume(read_surfaces(file.write(tmp_path / "a.igs")))
+    scale = 0.25 if given == 5 else 1.0
+    place = [*fields[:3], 0.0, 0.0, 0.0][:3]
+    assert close(found.total, BALL * scale**3, 1e-13) and np.abs(found.center - place).max() <= 1e-13
+
+
+def test_a_member_is_placed_by_all_that_it_is_in_from_the_innermost_outward(tmp_path):
+    """Its own transformation, that of the subfigure, where and how large that is placed, and the placing's own one."""
+    patch = Patch((clamped_space(2), clamped_space(2)), np.random.default_rng(4).uniform(-1.0, 1.0, (2, 2, 3)))
+    own, inner, outer, last, first = np.tile(np.eye(4), (5, 1, 1))
+    for seed, matrix in enumerate((own, inner, outer, last, first)):
+        matrix[:3] += np.random.default_rng(seed).uniform(-0.5, 0.5, (3, 4))
+    file = IgesFile()
+    member = file.surface(patch, matrix=file.transformation(own), status="00010000")
+    one = file.add(308, [0, "1HA", 1, member], matrix=file.transformation(inner), status="00000200")
+    place = file.add(408, [one, 1.0, 2.0, -3.0, 0.5], matrix=file.transformation(outer), status="00010000")
+    two = file.add(308, [1, "1HB", 1, place], matrix=file.transformation(last), status="00000200")
+    file.add(408, [two, -4.0, 0.0, 1.0, 3.0], matrix=file.transformation(first))
+    near, far = np.diag([0.5, 0.5, 0.5, 1.0]), np.diag([3.0, 3.0, 3.0, 1.0])
+    near[:3, 3], far[:3, 3] = (1.0, 2.0, -3.0), (-4.0, 0.0, 1.0)
+    (found,) = read_surfaces(file.write(tmp_path / "a.igs")).bodies[0].patches
+    truth = patch.transform(first @ far @ last @ outer @ near @ inner @ own)
+    assert np.abs(found.points - truth.points).max() <= 1e-13
+
+
+def test_curves_and_what_is_hidden_in_a_subfigure_are_left_out(tmp_path):
+    file = IgesFile()
+    ball = file.surface(unrolled(sphere()), status="00010000")
+    hidden = file.surface(unrolled(torus()), status="01010000")
+    curve = file.add(*line(A, B), status="00010000")
+    file.add(408, [file.add(308, [0, "1HA", 3, curve, hidden, ball], status="00000200"), 0.0, 0.0, 0.0])
+    read = read_surfaces(file.write(tmp_path / "a.igs"))
+    assert read.refused == () and close(volume(read).total, BALL, 1e-14)
+
+
+def test_a_boundary_s_curve_with_a_transformation_trims(tmp_path):
+    file = IgesFile()
+    matrix = file.transformation(np.eye(4))
+    kind, fields = polyline(A, B, C, D, A)
+    assert not is_kept(file, file.add(kind, fields, matrix=matrix), tmp_path)
+
+
+def test_what_follows_the_parameters_of_transformations_and_lines_is_not_read(tmp_path):
+    """As pointers to notes and properties do."""
+    file = IgesFile()
+    matrix = file.add(124, [*np.eye(4)[:3].ravel().tolist(), 0, 1, 7])
+    sides = [line(*ends) for ends in ((A, B), (B, C), (C, D), (D, A))]
+    trimmed(file, [(kind, [*fields, 0, 1, 7]) for kind, fields in sides])
+    file.surface(unrolled(sphere()), matrix=matrix)
+    read = read_surfaces(file.write(tmp_path / "a.igs"))
+    assert read.refused == () and close(volume(read).total, 2.0 * BALL, 1e-14)
+
+
+@pytest.mark.parametrize("first, count", [(0, 1), (-2, 3), (3, 0), (3, -1), (1, 1), (3, 99)])
+def test_parameters_that_are_not_where_the_directory_has_them_are_damage(tmp_path, first, count):
+    """The first lines belong to an entity of another type; from the last, and from none, nothing is counted."""
+    file = IgesFile()
+    file.add(110, [0.0] * 6)
+    file.surface(unrolled(sphere()), label="FAR")
+    file.surface(unrolled(sphere()))
+    path = file.write(tmp_path / "a.igs")
+    lines = path.read_text().split("\n")
+    at = [number for number, text in enumerate(lines) if text[72:73] == "D"][2:4]
+    lines[at[0]] = lines[at[0]][:8] + "{:>8}".format(first) + lines[at[0]][16:]
+    lines[at[1]] = lines[at[1]][:24] + "{:>8}".format(count) + lines[at[1]][32:]
+    path.write_text("\n".join(lines))
+    read = read_surfaces(path)
+    assert refused(read) == {"surface_damaged": ["FAR"]} and len(read.bodies[0].patches) == 1
 
 
 def test_curves_that_multiply_end(tmp_path):
@@ -457,7 +623,10 @@ def test_what_points_nowhere_is_damage(tmp_path):
         (",1.0,6,", ",1e-320,6,", "global"),
         (",1.0,6,", ",1e400,6,", "global"),
         (",1.0,6,", ",1.0,6.5,", "global"),
+        (",1.0,6,", ",1.0,1_0,", "global"),
         (",1.0,6,", ",1.0,12,", "unit"),
+        ("4Htest", "", 1.0),
+        ("4Htest", "5Ha,b;c", 1.0),
         (",1.0,6,", ",0.0,6,", 1.0),
         (",1.0,6,", ",,,", 0.0254),
         (",1.0,6,", ",1.0,0,", 0.0254),

@@ -87,6 +87,23 @@ def test_a_part_of_the_domain(tmp_path):
     assert np.abs(found.evaluate_grid(found.spaces[0].domain, found.spaces[1].domain) - corners).max() <= 1e-15
 
 
+@pytest.mark.parametrize("is_rational", [True, False])
+def test_a_vertex_may_lack_its_weight_or_have_a_color(tmp_path, is_rational):
+    """Coordinates, with one weight; with six numbers and more three are a color, and there is no weight."""
+    points = np.random.default_rng(6).uniform(-1.0, 1.0, (2, 2, 3))
+    more = ["", " 0.5", " 0.5 9", " 0.25 0.5 0.75"]
+    weights = np.array([[1.0, 0.5], [0.5, 1.0]])
+    spaces = clamped_space(2), clamped_space(2)
+    lines = [
+        "v {!r} {!r} {!r}{}".format(x, z, -y, last) for (x, y, z), last in zip(points.reshape(-1, 3).tolist(), more)
+    ]
+    lines += ["cstype {}bezier".format("rat " * is_rational), "deg 1 1", "surf 0 1 0 1 1 3 2 4"]
+    (found,) = read(tmp_path, "\n".join([*lines, "parm u 0 1", "parm v 0 1", "end"])).bodies[0].patches
+    truth = Patch(spaces, points, weights if is_rational else None)
+    at = [0.0, 0.25, 0.75, 1.0]
+    assert np.abs(found.evaluate_grid(at, at) - truth.evaluate_grid(at, at)).max() <= 1e-15
+
+
 BALL_TEXT = obj_text([unrolled(sphere())])
 
 
@@ -99,6 +116,7 @@ BALL_TEXT = obj_text([unrolled(sphere())])
         ("rat bspline", "bmatrix", "surface_of_unsupported"),
         ("deg 2 2", "deg 2", "surface_damaged"),
         ("deg 2 2", "deg 2 3", "surface_damaged"),
+        ("deg 2 2", "deg 2 2 2", "surface_damaged"),
         ("deg 2 2", "deg 0 2", "surface_damaged"),
         ("parm u", "parm w", "surface_damaged"),
         ("parm u 0.0", "parm u 2.0", "surface_damaged"),
@@ -132,6 +150,16 @@ def test_surfaces_are_counted_and_refused_one_by_one(tmp_path):
         finding("surface_order", kind="surf", count=1, names=["surf 2"], order=10, limit=6),
         finding("surface_of_unsupported", kind="surf", count=1, names=["surf 3"], base="taylor"),
     )
+
+
+@pytest.mark.parametrize("kind", ["bspline", "bezier", "rat bspline"])
+@pytest.mark.parametrize("count", range(6))
+@pytest.mark.parametrize("u_knots, v_knots", [(2, 4), (3, 4), (2, 2), (1, 3), (0, 1), (6, 1), (4, 2)])
+def test_knots_that_fit_no_number_of_control_points_are_damage(tmp_path, kind, count, u_knots, v_knots):
+    text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\ncstype {}\ndeg 1 1\nsurf 0 1 0 1 {}\nparm u {}\nparm v {}\nend\n"
+    words = " ".join("1234123"[:count]), " ".join("0011223"[:u_knots]), " ".join("0011223"[:v_knots])
+    if (kind, count, u_knots, v_knots) != ("bezier", 4, 2, 2):
+        assert cause(tmp_path, text.format(kind, *words)) == "surface_damaged"
 
 
 @pytest.mark.parametrize("weight, is_kept", [("1e-29", True), ("1e-31", False)])
@@ -206,6 +234,49 @@ def test_a_surface_with_too_many_control_points_is_refused(tmp_path, monkeypatch
     assert len(read(tmp_path, obj_text([patch])).bodies[0].patches) == 1
     monkeypatch.setattr(surfaces, "MAX_POINTS", count - 1)
     assert cause(tmp_path, obj_text([patch])) == "surface_too_large"
+
+
+def test_up_to_ten_thousand_surfaces_are_read_and_of_what_is_refused_a_thousand_named(tmp_path):
+    text = "cstype taylor\n" + "surf 0 1 0 1 1 1 1 1\n" * 10_000
+    with pytest.raises(FileError) as caught:
+        read(tmp_path, text)
+    (found,) = caught.value.finding.values["causes"]
+    assert found["values"]["count"] == 10_000
+    assert found["values"]["names"] == ["surf {}".format(number) for number in range(1, 1001)]
+    assert cause(tmp_path, text + "surf 0 1 0 1 1 1 1 1\n") == "too_many_surfaces"
+
+
+@pytest.mark.parametrize("count", [512, 513])
+def test_a_surface_has_up_to_two_to_the_eighteenth_control_points(monkeypatch, count):
+    monkeypatch.setattr(surfaces, "bezier_patches", lambda patch, _domain: [patch])  # takes seconds for that many
+    spaces = [clamped_space(2, tuple(range(1, size - 1)), 0.0, size - 1.0) for size in (512, count)]
+    arguments = [space.knots for space in spaces], (2, 2), np.zeros((512, count, 3)), None, (None, None), np.eye(4)
+    if count == 512:
+        assert surfaces.blender_patches(*arguments)
+        return
+    with pytest.raises(surfaces.SurfaceRefusedError) as refusal:
+        surfaces.blender_patches(*arguments)
+    assert refusal.value.values == {"points": 512 * 513, "limit": 512 * 512}
+
+
+def test_a_file_has_up_to_two_to_the_twenty_second_control_points():
+    corners = Patch((clamped_space(2), clamped_space(2)), np.zeros((2, 2, 3)))
+    refusals = surfaces.Refusals(points=2**22 - 8)
+    for number in range(2):
+        assert refusals.keep("surf", str(number), lambda: [corners]) == [corners]
+    with pytest.raises(FileError) as caught:
+        refusals.keep("surf", "2", lambda: [corners])
+    assert caught.value.finding == finding("too_many_control_points", limit=2**22)
+
+
+@pytest.mark.parametrize("place", [2.9e38, -2.9e38, 3.1e38, -3.1e38])
+def test_coordinates_up_to_what_float32_holds_are_kept(tmp_path, place):
+    text = "v 0 0 0\nv {!r} 0 0\nv 0 1 0\nv 1 1 0\ncstype bezier\ndeg 1 1\nsurf 0 1 0 1 1 2 3 4\n".format(place)
+    text += "parm u 0 1\nparm v 0 1\nend\n"
+    if abs(place) < 3e38:
+        assert read(tmp_path, text).bodies[0].patches[0].points[1, 0, 0] == place
+    else:
+        assert cause(tmp_path, text) == "surface_points"
 
 
 def test_what_is_no_file_of_surfaces_is_refused(tmp_path):

@@ -1,0 +1,76 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Curves that run along the sides of a domain, and how far from them they may."""
+
+import numpy as np
+import pytest
+from body_moments.core.cad.trims import Piece, trims_nothing
+
+DOMAIN = (1.0, 3.0), (-2.0, 6.0)
+SIZE = np.array([2.0, 8.0])
+A, B, C, D = np.array([(1.0, -2.0), (3.0, -2.0), (3.0, 6.0), (1.0, 6.0)])
+NOISE = 1e-7  # of the domain in each direction: what float32 rounds
+
+
+def lines(*corners):
+    return [Piece(np.array(ends), True) for ends in zip(corners[:-1], corners[1:])]
+
+
+def polyline(*corners, straight=True):
+    return Piece(np.array(corners), straight)
+
+
+@pytest.mark.parametrize("first", range(4))
+@pytest.mark.parametrize("way", [1, -1])
+def test_once_around_from_any_corner_in_either_sense(first, way):
+    corners = [(A, B, C, D)[(first + way * step) % 4] for step in range(5)]
+    assert trims_nothing(lines(*corners), DOMAIN) and trims_nothing([polyline(*corners)], DOMAIN)
+    assert not trims_nothing(lines(*corners, *corners[1:]), DOMAIN)  # twice
+    assert not trims_nothing(lines(*corners[:-1]), DOMAIN)  # open
+    assert not trims_nothing(lines(*corners[:3], corners[1], corners[0]), DOMAIN)  # there and back
+    assert not trims_nothing(lines(*corners[:2], *corners[:1], *corners[1:]), DOMAIN)
+
+
+@pytest.mark.parametrize("share, is_near", [(0.9, True), (1.1, False)])
+@pytest.mark.parametrize("direction", [(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)])
+@pytest.mark.parametrize("number", range(4))
+@pytest.mark.parametrize("end", [0, 1])
+def test_ends_meet_each_other_and_the_sides_but_for_what_float32_rounds(share, is_near, direction, number, end):
+    pieces = lines(A, B, C, D, A)
+    pieces[number].points[end] += share * NOISE * SIZE * direction
+    assert trims_nothing(pieces, DOMAIN) == is_near
+
+
+@pytest.mark.parametrize("share, is_near", [(0.9, True), (1.1, False)])
+@pytest.mark.parametrize("way", [1, -1])
+def test_a_curve_runs_one_way_but_for_what_float32_rounds(share, is_near, way):
+    middle = (A + B) / 2.0
+    corners = [A, middle, middle - share * NOISE * SIZE * (1.0, 0.0), B, C, D, A]
+    assert trims_nothing([polyline(*corners[::way])], DOMAIN) == is_near
+
+
+@pytest.mark.parametrize("share, is_near", [(0.9, True), (1.1, False)])
+@pytest.mark.parametrize("side", range(4))
+def test_a_smooth_curve_stays_along_one_side(share, is_near, side):
+    corners = [(A, B, C, D)[(side + step) % 4] for step in range(5)]
+    middle = (corners[0] + corners[1]) / 2.0
+    inward = np.sign((A + C) / 2.0 - middle) * (middle != (A + C) / 2.0)
+    for sense in (1.0, -1.0):
+        control = middle + sense * share * NOISE * SIZE * inward
+        smooth = polyline(corners[0], control, corners[1], straight=False)
+        assert trims_nothing([smooth, *lines(*corners[1:])], DOMAIN) == is_near
+    bent = polyline(*corners[:3], straight=False)
+    assert not trims_nothing([bent, *lines(*corners[2:])], DOMAIN)
+    assert trims_nothing([polyline(*corners[:3]), *lines(*corners[2:])], DOMAIN)
+
+
+def test_an_edge_across_the_domain_trims_though_its_ends_lie_on_sides():
+    middle = (A + B) / 2.0
+    assert not trims_nothing(lines(A, middle, (C + D) / 2.0, D, A), DOMAIN)
+    assert not trims_nothing(lines(A, C, D, A), DOMAIN)
+
+
+@pytest.mark.parametrize("domain", [((1.0, 1.0), (-2.0, 6.0)), ((1.0, 3.0), (6.0, -2.0))])
+def test_a_domain_of_no_size_is_trimmed_and_so_is_one_without_a_curve(domain):
+    assert not trims_nothing(lines(A, B, C, D, A), domain)
+    assert not trims_nothing([], DOMAIN)
