@@ -3,6 +3,7 @@
 """Area moments of polygons against rational integration, and what makes a polygon ambiguous."""
 
 import math
+from dataclasses import replace
 from fractions import Fraction
 
 import numpy as np
@@ -149,6 +150,34 @@ def test_a_hole_that_touches_its_outline_from_within_is_a_hole():
     assert not find_defects(points, edges).overlapping
 
 
+@pytest.mark.parametrize("first", range(4))
+@pytest.mark.parametrize("angle", [0.0, 0.3, 2.0])
+def test_a_hole_with_most_of_its_sides_on_the_outline_is_a_hole(first, angle):
+    """From side to side, and with three sides on the outline."""
+    cosine, sine = math.cos(angle), math.sin(angle)
+    for hole, area in ((rectangle(1, 0, 2, 4), 8.0), (rectangle(0, 0, 4, 1), 12.0)):
+        points, loops = shape(rectangle(0, 0, 4, 4), np.roll(hole, first, axis=0))
+        points = points @ np.array([[cosine, sine], [-sine, cosine]])
+        assert close(area_moments(points, orient_loops(points, loops), 0).raw[0], area, 1e-14)
+        assert close(sorted(outline_areas(points, orient_loops(points, loops[:1]))), [16.0], 1e-14)
+
+
+@pytest.mark.parametrize("share, turns", [(1e-10, (1.0, 0.0)), (1e-13, (0.5, 0.5))])
+@pytest.mark.parametrize("scale", [1.0, 1e-6, 1e6])
+def test_a_place_is_on_an_edge_where_its_ends_are_opposite_but_for_rounding(share, turns, scale):
+    """To the left and to the right of the side at y = 0; share: of half its length."""
+    points, loops = shape(rectangle(-1, 0, 2, 2))
+    places = np.array([[0.25, share], [0.25, -share]])
+    found = winding_numbers(points * scale, directed_edges(loops), places * scale)
+    assert np.abs(found - turns).max() <= 1e-9
+
+
+def test_the_boundary_of_triangles_leaves_out_those_that_are_edges_and_none_is_left_of_a_closed_surface():
+    flat = np.array([[3, 3, 4], [0, 1, 2], [2, 1, 0], [4, 5, 4]])
+    assert boundary_edges(flat, 6).shape == (0, 2) and boundary_edges(flat[:0], 6).shape == (0, 2)
+    assert sorted(map(tuple, boundary_edges(flat[[0, 2, 3]], 6).tolist())) == [(0, 2), (1, 0), (2, 1)]
+
+
 PENTAGRAM = [(math.cos(4 * math.pi * k / 5), math.sin(4 * math.pi * k / 5)) for k in range(5)]
 
 
@@ -273,6 +302,84 @@ def test_flaws_of_random_regions_are_those_that_winding_numbers_show(size):
         found = find_defects(points, edges)
         assert (found.overlapping or found.crossings > 0) == seen[-1]
     assert 20 < sum(seen) < 80
+
+
+def exact_defects(points, edges):
+    """By whole numbers, of each pair of edges and on both sides of each edge; beside the number of pairs the length
+    that they share is that of floats."""
+    crossings, shared = 0, 0.0
+    edges = [edge for edge in edges.tolist() if (points[edge[0]] != points[edge[1]]).any()]
+    for row, (a, b) in enumerate(edges):
+        for c, d in edges[:row]:
+            one, other = points[b] - points[a], points[d] - points[c]
+            turns = [turn(one, points[c] - points[a]), turn(one, points[d] - points[a])]
+            turns += [turn(other, points[a] - points[c]), turn(other, points[b] - points[c])]
+            crossings += turns[0] * turns[1] < 0 and turns[2] * turns[3] < 0
+            if not any(turns) and one @ other < 0:
+                along = [(points[i] - points[a]) @ one for i in (c, d)]
+                shared += max(0, min(along[0], one @ one) - max(along[1], 0)) / math.sqrt(one @ one)
+    middles = np.array([(points[a] + points[b]) / 2.0 for a, b in edges])
+    left = np.array([(points[a] - points[b])[::-1] * (1, -1) for a, b in edges]) * 1e-4
+    left, right = (np.round(winding_numbers(points, np.array(edges), middles + side)) for side in (left, -left))
+    negative = bool((right < 0).any())
+    overlapping = negative or bool((left < right).any() or (left > 1).any())
+    return OutlineDefects(crossings, False, overlapping, negative, shared)
+
+
+def turn(a, b):
+    return int(a[0] * b[1] - a[1] * b[0])
+
+
+@pytest.mark.parametrize("scale", [(1, 1), (2.0**-20, 2.0**-20), (2.0**9, 2.0**9), (4, 1), (0.5, 2)])
+@pytest.mark.parametrize("offset", [(0, 0), (-40, 25)])
+def test_all_that_is_told_of_random_regions_is_what_exact_arithmetic_finds(scale, offset):
+    """Edges on a lattice, of both senses, with points that are there twice."""
+    rng = np.random.default_rng(12)
+    kinds = set()
+    for _ in range(25):
+        outlines = [lattice_polygon(rng, 5)[:: 1 if rng.random() < 0.8 else -1] for _ in range(int(rng.integers(1, 4)))]
+        outlines = [np.insert(one, 1, one[0], axis=0) for one in outlines]
+        points, loops = shape(*outlines)
+        points, edges = points * scale + np.multiply(offset, scale), directed_edges(loops)
+        truth, found = exact_defects(points / min(scale), edges), find_defects(points, edges)
+        assert close(found.shared_length, min(scale) * truth.shared_length, 1e-12)
+        assert replace(found, shared_length=0.0) == replace(truth, shared_length=0.0)
+        kinds.add((min(found.crossings, 1), found.overlapping, found.negative, found.shared_length > 0.0))
+    assert len(kinds) >= 7
+
+
+@pytest.mark.parametrize("share, touches", [(0.9, True), (1.1, False)])
+@pytest.mark.parametrize("size", [2.0**-10, 3.0])
+@pytest.mark.parametrize("side", [(1.0, 0.25), (0.25, 1.0)])
+def test_what_overlaps_by_a_billionth_of_the_size_touches(share, touches, size, side):
+    corner = np.where(np.array(side) == 1.0, 1.0 - share * 1.5e-9, side)
+    points, loops = shape(rectangle(0, 0, 1, 1), rectangle(*corner, 0.5, 0.5), rectangle(1.25, 1.25, 0.25, 0.25))
+    found = find_defects(size * points + 7.0 * size, directed_edges(loops))
+    assert (found.crossings == 0, found.overlapping) == (touches, not touches)
+    if touches:
+        assert close(found.shared_length, 0.5 * size, 1e-8)
+
+
+@pytest.mark.parametrize("share, is_shared", [(3.9, False), (4.1, True)])
+@pytest.mark.parametrize("axis", [0, 1])
+def test_what_is_shared_is_longer_than_four_times_what_touches(share, is_shared, axis):
+    error = 1e-4
+    touch = 4.0 * error + 1e-9 * 3.0
+    points, loops = shape(rectangle(0, 0, 1, 1), rectangle(1, 1 - share * touch, 1, 2 + share * touch))
+    edges = directed_edges([loop[:: 1 - 2 * axis] for loop in loops])
+    found = find_defects(points[:, ::-1] if axis else points, edges, error)
+    assert close(found.shared_length, share * touch if is_shared else 0.0, 1e-9)
+
+
+@pytest.mark.parametrize("share, has_sides", [(3.9, False), (4.1, True)])
+def test_edges_have_sides_where_they_are_longer_than_four_times_what_touches(share, has_sides):
+    """A triangle that is gone round the wrong way, all of whose sides are as long as that."""
+    error = 1e-3
+    touch = 4.0 * error + 1e-9 * 4.0
+    small = share * touch * np.array([(0.0, 0.0), (0.5, math.sqrt(0.75)), (1.0, 0.0)])
+    points, loops = shape(rectangle(0, 0, 1, 1), small + (3.0, 4.0 - small.max()))
+    points[-1, 0] = min(points[-1, 0], 4.0)
+    assert find_defects(points, directed_edges(loops), error).negative == has_sides
 
 
 @pytest.mark.parametrize("way", [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)])

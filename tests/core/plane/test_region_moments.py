@@ -2,12 +2,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Area moments of any order, their bounds, and invariants, against rational arithmetic."""
 
+import math
 from fractions import Fraction
 
 import numpy as np
 import pytest
 from body_moments.core.moments import complex_moments, normalize
 from body_moments.core.moments.complex_moments import flusser_invariants, hu_invariants
+from body_moments.core.moments.monomials import monomials
 from body_moments.core.plane import directed_edges, region_moments
 from body_moments.core.plane.region_moments import plane_positions
 from body_moments.core.polyhedron.n_dimensions import multi_indices
@@ -49,6 +51,46 @@ def test_points_that_move_change_moments_by_no_more_than_the_bound_and_nearly_as
         worst = max(worst, off[0] / known.rounding_error[0])
     assert worst > 0.1
     assert (region_moments(POINTS, EDGES, 5, about, stored=step).input_error[positions] >= 0.9 * off).all()
+
+
+@pytest.mark.parametrize("scale", [2.0**-20, 2.0**15])
+def test_a_region_scaled_by_a_power_of_two_has_moments_and_bounds_scaled_by_powers_of_it(scale):
+    found, large = (
+        region_moments(POINTS * size, EDGES, 4, rounded=1e-6 * size, stored=1e-5 * size) for size in (1.0, scale)
+    )
+    powers = scale ** (monomials(4).sum(axis=1) + 2.0)
+    assert large.about.tolist() == (found.about * scale).tolist() and found.about[2] == 0.0
+    for name in ("raw", "rounding_error", "input_error"):
+        assert (getattr(large, name) == getattr(found, name) * powers).all()
+
+
+@pytest.mark.parametrize("step", [1e-3, 0.25])
+def test_the_bound_is_what_each_edge_sweeps_times_the_most_that_is_there(step):
+    about = np.array([-0.5, 1.75])
+    found = region_moments(POINTS, EDGES, 3, about, stored=step).input_error
+    way = step * np.sqrt(2.0)
+    for i, (p, q) in zip(plane_positions(3).tolist(), multi_indices(2, 3).tolist()):
+        truth = 0.0
+        for a, b in POINTS[EDGES] - about:
+            x, y = np.maximum(np.abs(a), np.abs(b)) + way
+            truth += way * (math.dist(a, b) + 2.0 * way) * x**p * y**q
+        assert truth * (1.0 + 1e-10) <= found[i] <= truth * (1.0 + 1e-8)
+
+
+@pytest.mark.parametrize("rounded, is_certain", [(0.1293, True), (0.1295, False)])
+def test_a_region_that_its_edges_may_sweep_as_a_whole_is_refused(rounded, is_certain):
+    """A unit square: 4 w (1 + 2 w) of it with w = √2 times what coordinates are off, which is 1 for w = 0.18301."""
+    square = [(3, 5), (4, 5), (4, 6), (3, 6)]
+    if is_certain:
+        assert region_moments(square, directed_edges([range(4)]), 2, rounded=rounded).about.tolist() == [3.5, 5.5, 0.0]
+        return
+    with refused("section_encloses_nothing"):
+        region_moments(square, directed_edges([range(4)]), 2, rounded=rounded)
+
+
+def test_what_is_remembered_of_positions_cannot_be_written():
+    with pytest.raises(ValueError, match="read-only"):
+        plane_positions(2)[0] = 1
 
 
 def test_a_region_without_area_is_refused():

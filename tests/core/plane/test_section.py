@@ -306,3 +306,132 @@ def test_wide_bounds_hide_an_angle_up_to_a_thousandth_of_the_larger_moment(angle
     wide = replace(section, input_error={**section.input_error, "second": math.inf})
     assert not wide.axes_undetermined
     assert (wide.angle % (math.pi / 2.0) != 0.0) == is_told
+
+
+@pytest.mark.parametrize("scale", [2.0**-20, 2.0**15])
+def test_a_section_scaled_by_a_power_of_two_has_all_of_its_properties_scaled_by_powers_of_it(scale):
+    points, loops = shape([(3, 1), (9, 1), (9, 3), (5, 4), (4, 8), (3, 8)], rectangle(4, 2, 1, 1))
+    points, edges = np.column_stack([points, np.full(len(points), 2.0)]), orient_loops(points, loops)
+    plane = Plane(np.array([0.0, 0.5, 2.0]), np.eye(3), 0.0, "X")
+    one, other = (
+        measure_section(replace(plane, origin=plane.origin * size), points * size, edges, 1e-5 * size, 0.25 * size)
+        for size in (1.0, scale)
+    )
+    for name, power in (("area", 2), ("perimeter", 1), ("centroid", 1), ("second", 4), ("reach", 1)):
+        assert np.array_equal(getattr(other, name), getattr(one, name) * scale**power), name
+    for name, power in (("area", 2), ("perimeter", 1), ("centroid", 1), ("second", 4)):
+        for bound in ("rounding_error", "input_error"):
+            assert close(getattr(other, bound)[name], getattr(one, bound)[name] * scale**power, 1e-13), name
+    assert other.angle == one.angle != 0.0
+
+
+def test_bounds_are_those_of_quotients_with_the_smallest_divisor():
+    """By hand: shifts 1/4 and 1/2, off by 3/28 and 1/7 at most."""
+    raw, delta = np.array([4.0, 1.0, -2.0, 9.0, -8.0, 7.0]), np.array([0.5, 0.25, 0.25, 0.125, 0.5, 0.25])
+    found = _bounds(raw, np.array([3.0, -5.0]), delta)
+    assert found["area"] == 0.5
+    assert close(found["centroid"], math.hypot(3 / 28, 1 / 7), 1e-13)
+    assert close(found["second"], 0.5 + 4.5 * (1 / 2 + 1 / 7) ** 2, 1e-13)
+
+
+def tilted_strip(height=0.0):
+    """(points, triangles, unit normal) of four triangles, one of which looks the other way, none of them at the origin;
+    height: of one corner over the others."""
+    turn = bodies.rotation(3)
+    flat = np.array([[0, 0, 0], [4, 0, 0], [4, 1, 0], [0, 1, 0], [4, 2, height], [9, 9, 9]])
+    triangles = np.array([[0, 1, 2], [0, 2, 3], [3, 2, 4], [1, 0, 2]])
+    return flat @ turn.T + (20.0, -30.0, 10.0), triangles, turn[:, 2]
+
+
+@pytest.mark.parametrize("facing", [None, (0.1, 0.2, 0.3), (-0.1, -0.2, -0.3)])
+@pytest.mark.parametrize("turned", [False, True])
+@pytest.mark.parametrize("size", [1.0, 1e-6, 1e6])
+def test_a_plane_lies_amid_its_points_whichever_way_most_faces_or_the_caller_look(facing, turned, size):
+    points, triangles, normal = tilted_strip(1e-5)
+    points, triangles = points * size, triangles[:, ::-1] if turned else triangles
+    origin = np.array([3.0, -2.0, 7.0]) * size
+    plane = fit_plane(points, triangles, np.eye(3), origin, facing=None if facing is None else np.array(facing))
+    sign = (-1.0 if turned else 1.0) if facing is None else np.sign(normal @ facing)
+    found = plane.axes[:, 2]
+    assert close(found, sign * normal, 1e-4)
+    heights = (points[:5] - origin) @ found
+    assert close(plane.out_of_plane, np.ptp(heights) / 2.0, 1e-6)
+    assert np.abs(plane.origin - origin - found * (heights.min() + heights.max()) / 2.0).max() <= 1e-13 * size
+    assert np.abs(plane.axes.T @ plane.axes - np.eye(3)).max() <= 1e-15 and np.linalg.det(plane.axes) > 0.0
+    assert plane.x_axis_name == "X" and plane.axes[0, 0] > 0.0
+    assert abs(np.cross(found, [1.0, 0.0, 0.0]) @ plane.axes[:, 0]) <= 1e-15  # in the plane of the normal and X
+
+
+@pytest.mark.parametrize("share, is_flat", [(0.99, True), (1.01, False)])
+@pytest.mark.parametrize("error", [0.0, 1e-4])
+@pytest.mark.parametrize("size", [1.0, 1e-3, 1e3])
+def test_points_are_planar_within_a_hundred_thousandth_of_the_size_and_four_errors(share, is_flat, error, size):
+    """Two equal squares, one above the other by twice what is allowed."""
+    allowed = 1e-5 * math.hypot(3.0, 1.0) + 4.0 * error
+    points = lifted(np.array([*rectangle(5, 7, 1, 1), *rectangle(7, 7, 1, 1)], float))
+    points[4:, 2] = 2.0 * share * allowed
+    triangles = np.array([[0, 1, 2], [0, 2, 3], [4, 5, 6], [4, 6, 7]])
+    arguments = points * size, triangles, np.eye(3), np.zeros(3), error * size
+    if is_flat:
+        assert close(fit_plane(*arguments).out_of_plane, share * allowed * size, 1e-9)
+        return
+    with refused("section_not_flat"):
+        fit_plane(*arguments)
+
+
+@pytest.mark.parametrize("share, name", [(0.049, "Y"), (0.051, "X"), (0.099, "X")])
+def test_x_is_the_preferred_axis_of_which_a_twentieth_lies_in_the_plane(share, name):
+    x, rest = np.array([share, math.sqrt(1.0 - share * share), 0.0]), np.array([0.0, 0.0, 1.0])
+    points = np.array([[0.0, 0.0, 0.0], x, x + rest, rest]) + 2.0
+    plane = fit_plane(points, SQUARE[1], np.eye(3), np.zeros(3))
+    assert plane.x_axis_name == name and close(plane.axes[:, 0], x, 1e-14)
+
+
+@pytest.mark.parametrize("share, turned", [(0.99, 0), (1.01, 1)])
+@pytest.mark.parametrize("error", [0.0, 1e-6])
+@pytest.mark.parametrize("size", [1.0, 2.0**-15, 2.0**15])
+@pytest.mark.parametrize("swapped", [False, True])
+def test_a_face_is_turned_where_its_area_is_surely_negative(share, turned, error, size, swapped):
+    """Of four units of error and 1e-12 of the longest of its sides times that, of two triangles of it and others."""
+    long = 4.0
+    height = 2.0 * share * (4.0 * error + 1e-12 * long)
+    flat = np.array([[3, 2], [7, 2], [5, 2 - height], [4, 2], [3, 4], [4, 4], [7, 4], [7, 6]])
+    points = lifted(flat[:, ::-1] if swapped else flat) * size
+    triangles = np.array([[0, 1, 2], [0, 0, 3], [0, 1, 5], [0, 5, 4], [7, 1, 6]])
+    if swapped:
+        triangles = triangles[:, [0, 2, 1]]
+    edges, count = region(LEVEL, points, triangles, np.array([0, 0, 1, 1, 2]), error * size)
+    assert count == turned
+    ends = {tuple(edge) for edge in edges.tolist()}
+    assert ((2, 1) in ends, (1, 2) in ends) == ((not swapped) == bool(turned), (not swapped) != bool(turned))
+
+
+def test_how_far_rounding_moves_a_projected_point_grows_with_all_that_is_added():
+    """By ten to thirty units of the largest coordinate of the points, of the origin, and of what comes out."""
+    points, origin, flat = np.array([[1e-3, -0.5, 2e-3]]), np.array([-8.0, 1.0, 2.0]), np.array([[3e-4, -0.0625]])
+    parts = [
+        projection_rounding(replace(LEVEL, origin=origin * b), points * a, flat * c)
+        for a, b, c in np.array([[1, 0, 0], [0, 1, 0], [0, 0, 1]])
+    ]
+    for part, largest in zip(parts, (0.5, 8.0, 0.0625)):
+        assert 10.0 * 2.0**-53 * largest <= part <= 30.0 * 2.0**-53 * largest
+    assert close(projection_rounding(replace(LEVEL, origin=origin), points, flat), sum(parts), 1e-14)
+
+
+def test_an_angle_is_told_where_the_product_is_more_than_both_bounds_together():
+    section = measured(rectangle(0, 0, 3, 1))
+    section = replace(section, rounding_error={"second": 2e-4}, input_error={"second": 1e-4})
+    for mixed, is_told in ((2.9e-4, False), (-2.9e-4, False), (3.1e-4, True), (-3.1e-4, True)):
+        for first, last in ((1.0, 0.5), (0.5, 1.0)):
+            found = replace(section, second=np.array([first, last, mixed])).angle
+            along = 0.0 if first > last else math.pi / 2.0
+            turn = 0.5 * math.atan2(-2.0 * mixed, first - last) if is_told else along
+            assert close(found, turn, 1e-14)
+
+
+@pytest.mark.parametrize("apart, undetermined", [(0.9e-6, True), (1.1e-6, False)])
+@pytest.mark.parametrize("size", [1e-9, 1e9])
+def test_moments_a_millionth_apart_are_equal(apart, undetermined, size):
+    section = replace(measured(rectangle(0, 0, 1, 1)), second=np.array([1.0 + apart, 1.0, 0.0]) * size)
+    section = replace(section, rounding_error={"second": 0.0}, input_error={"second": 0.0})
+    assert section.axes_undetermined == undetermined
