@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Inertia about any reference: against exact rationals, far away and tiny, within its bounds; both ways agree."""
 
+from dataclasses import replace
 from fractions import Fraction
 
 import numpy as np
@@ -125,3 +126,83 @@ def test_the_bound_of_an_arm_counts_the_rounding_of_both_its_ends():
     properties = MassProperties.from_moments(moments)
     bound = Reference(place).refer(properties).rounding_error["center"] - properties.rounding_error["center"]
     assert bound >= 2.0**-53 * 2.0 * np.abs(place).sum()
+
+
+def uncertain(mass, center, inertia):
+    return {"mass": mass, "center": center, "inertia": inertia}
+
+
+def test_the_bound_of_a_shifted_tensor_is_its_own_and_those_of_mass_and_arm():
+    """|d| = 7 and m = 5: by hand from √2 d² times the mass' and m (6 d e + 2 e²)."""
+    body = MassProperties.from_moments(box((1, 2, 4), (3, 5, -1), 5)[0])
+    body = replace(body, rounding_error=uncertain(2e-3, 1e-2, 3e-2), input_error=uncertain(0.25, 0.5, 7.0))
+    found = Reference(body.center - (2.0, 3.0, 6.0)).refer(body)
+    for bounds, own in ((found.input_error, body.input_error), (found.rounding_error, body.rounding_error)):
+        error = own["center"]
+        inertia = own["inertia"] + np.sqrt(2.0) * 49.0 * own["mass"] + 5.0 * (42.0 * error + 2.0 * error**2)
+        assert bounds["mass"] == own["mass"]
+        assert close(bounds["center"], error, 1e-11) and close(bounds["inertia"], inertia, 1e-11)
+
+
+def test_rounding_alone_bounds_an_arm_and_its_tensor():
+    """Units in the last place of what is subtracted, of the arm, and of the tensors that are added."""
+    unit, body = 2.0**-53, MassProperties.from_moments(box((1, 2, 4), (3, 5, -1), 5)[0])
+    body = replace(body, rounding_error=uncertain(0.0, 0.0, 0.0))
+    origin = body.center - (2.0, 3.0, 6.0)
+    found = Reference(origin).refer(body).rounding_error
+    arm = 2.0 * unit * (np.abs(body.center).sum() + np.abs(origin).sum())
+    size = np.linalg.norm(body.inertia) + np.sqrt(2.0) * 5.0 * 49.0
+    assert found["mass"] == 0.0 and close(found["center"], arm + 56.0 * unit, 1e-9)
+    assert close(found["inertia"], 5.0 * 42.0 * arm + 40.0 * unit * size, 1e-9)
+
+
+@pytest.mark.parametrize("length, mass", [(2.0**-20, 1.0), (2.0**20, 1.0), (1.0, 2.0**-30), (2.0**7, 2.0**30)])
+def test_inertia_and_its_bounds_scale_with_length_and_mass(length, mass):
+    axes = np.array([[2, -1, 2], [2, 2, -1], [-1, 2, 2]]) / 3.0
+    raw = box((1, 2, 4), (3, 5, -1), 5)[0].about_point((2.5, 4.0, 1.0)).raw
+    powers = mass * length ** monomials(3).sum(axis=1).astype(float)
+
+    def of(share, about, origin):
+        moments = Moments(raw * share, about, Measure.MASS, np.abs(raw) * share * 1e-15, np.abs(raw) * share * 1e-6)
+        reference = Reference(origin, axes)
+        return reference.refer(MassProperties.from_moments(moments)), reference.refer_moments(moments)
+
+    about, origin = np.array([2.5, 4.0, 1.0]), np.array([-1.0, 7.0, 2.0])
+    for one, other in zip(of(np.ones(20), about, origin), of(powers, about * length, origin * length)):
+        assert other.mass == one.mass * mass
+        assert (other.center == one.center * length).all()
+        assert close(other.inertia, one.inertia * mass * length**2, 1e-13)
+        for bound in ("rounding_error", "input_error"):
+            for name, factor in (("mass", mass), ("center", length), ("inertia", mass * length**2)):
+                assert close(getattr(other, bound)[name], getattr(one, bound)[name] * factor, 1e-9), (bound, name)
+
+
+def test_doubtful_moments_move_a_center_and_a_tensor_by_what_is_told():
+    """About the moments' own point, where nothing is shifted: with the worst signs, and (tr D) 1 + D of errors D."""
+    raw = np.array([4.0, 1.0, -2.0, 3.0, 9.0, 0.5, -0.25, 8.0, 0.125, 7.0])
+    off = np.array([0.5, 0.25, 0.5, 0.125, *[0.0625] * 6])
+    for name in ("input_error", "rounding_error"):
+        found = Reference(np.zeros(3)).refer_moments(Moments(raw, np.zeros(3), Measure.MASS, **{name: off}))
+        bounds = getattr(found, name)
+        worst = (np.abs(raw[1:4]) + off[1:4]) / 3.5 - np.abs(raw[1:4]) / 4.0
+        assert bounds["mass"] == pytest.approx(0.5, rel=1e-12)
+        assert close(bounds["center"], np.linalg.norm(worst), 1e-12)
+        assert close(bounds["inertia"], np.sqrt(54.0) * 0.0625, 1e-11)
+
+
+def test_points_nearer_than_a_millionth_of_their_coordinates_give_no_axis():
+    for first in ((1.0, -2000.0, 0.0), (1.0, 2.0, 2000.0)):
+        for sign in (1.0, -1.0):
+            assert Reference.through_points(first, np.add(first, (sign * 2.1e-3, 0.0, 0.0))).axes[0, 2] == sign
+            with pytest.raises(QueryError):
+                Reference.through_points(first, np.add(first, (sign * 1.9e-3, 0.0, 0.0)))
+    with pytest.raises(QueryError):
+        Reference.through_points((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+
+
+@pytest.mark.parametrize("along", [(3.0, 1.0, 2.0), (1.0, 3.0, -2.0), (3.0, -2.0, 1.0)])
+def test_the_first_axis_is_the_coordinate_axis_that_is_most_across(along):
+    axes = Reference.through_points((5.0, 6.0, 7.0), np.add((5.0, 6.0, 7.0), along)).axes
+    least = int(np.abs(along).argmin())
+    assert axes[least, 0] > 0.8 and abs(np.cross(axes[:, 2], np.eye(3)[least]) @ axes[:, 0]) < 1e-15
+    assert close(axes[:, 1], np.cross(axes[:, 2], axes[:, 0]), 1e-12)
