@@ -341,3 +341,43 @@ def test_an_object_without_a_certain_center_ends_it(scene, reported):
     with pytest.raises(RuntimeError):
         bpy.ops.object.body_moments_balance_group()
     assert "open_object" in reported.codes and scene.frame_current == 5 and not groups()
+
+
+def test_a_path_is_that_of_the_empty_s_own_keys(scene):
+    from body_moments.operators.session import balance_groups
+
+    frames, rng = np.arange(3.0, 8.0), np.random.default_rng(1)
+    paths = [
+        balance_groups.Path(frames + k, rng.normal(size=(5, 3)), np.array([True, False, True, True, False]))
+        for k in range(2)
+    ]
+    first, second, bare = (objects.add(None, name) for name in ("First", "Second", "Bare"))
+    assert balance_groups.path(bare) is None
+    for empty, path in zip((first, second), paths):
+        balance_groups.store(empty, path, [None] * 5)
+        found = balance_groups.path(empty)
+        assert found.frames.tolist() == path.frames.tolist() and found.inside.tolist() == path.inside.tolist()
+        assert np.array_equal(found.centers, path.centers.astype(np.float32))
+    action = first.animation_data.action
+    bare.animation_data_create().action = action
+    assert bare.animation_data.action_slot is None and balance_groups.path(bare) is None
+    bare.animation_data.action_slot = action.slots.new("OBJECT", "Bare")
+    balance_groups.handlers.count_change()
+    assert balance_groups.path(bare) is None
+    without = balance_groups.Path(frames[:4], rng.normal(size=(4, 3)), None)
+    balance_groups.store(first, without, [None] * 4)
+    found = balance_groups.path(first)
+    assert found.frames.tolist() == frames[:4].tolist() and found.inside is None
+    assert balance_groups.INSIDE not in first
+    layer = action.layers[0]
+    curves = layer.strips[0].channelbag(first.animation_data.action_slot).fcurves
+    assert sorted((curve.data_path, curve.array_index) for curve in curves) == [("location", i) for i in range(3)]
+    curves.remove(curves[0])
+    balance_groups.handlers.count_change()
+    assert balance_groups.path(first) is None
+    keys = next(
+        curve
+        for curve in layer.strips[0].channelbag(first.animation_data.action_slot).fcurves
+        if curve.array_index == 2
+    ).keyframe_points
+    assert len(keys) == 4 and len(balance_groups.path(second).frames) == 5

@@ -49,6 +49,9 @@ def test_a_full_cache_forgets_what_was_not_used_for_longest():
     cache.forget(first)
     cache.forget(first)
     assert first not in cache and cache.get(first) is None
+    with pytest.raises(KeyError):
+        cache[first]
+    assert cache[fourth] == 3
 
 
 def test_a_cache_without_a_limit_keeps_all_and_may_change_while_it_is_read():

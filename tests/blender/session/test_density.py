@@ -8,7 +8,9 @@ import pytest
 
 pytest.importorskip("bpy")
 import bpy
+from body_moments.core.verdict.finding import finding
 from body_moments.operators.session import results, staleness
+from body_moments.operators.session.density import with_default_note
 from body_moments.operators.session.shown import shown_body
 from body_moments.operators.session.trust import Trust
 from body_moments.operators.write import properties
@@ -246,6 +248,31 @@ def test_linked_and_overriding_objects_are_skipped_and_named(tmp_path, reported)
     assert reported.values("left_unchanged")["count"] == 1 and reported.values("failure")["object"].startswith("Linked")
     assert stored(linked) == before and local["body_density"] == local.body_moments.density != 1000.0
     assert_as_measured(local)
+
+
+def test_a_default_density_leaves_what_is_linked_as_it_was(tmp_path):
+    path = str(tmp_path / "library.blend")
+    obj = add(mesh_body(), "Linked")
+    measure(obj)
+    bpy.data.libraries.write(path, {obj})
+    bpy.data.objects.remove(obj)
+    with bpy.data.libraries.load(path, link=True) as (_source, target):
+        target.objects = ["Linked"]
+    bpy.context.scene.collection.objects.link(target.objects[0])
+    local = add(mesh_body(), "Local")
+    measure(local)
+    before = stored(target.objects[0])
+    settings = bpy.context.scene.body_moments
+    settings.default_material, settings.default_density = "CUSTOM", 2500.0
+    assert stored(target.objects[0]) == before and local["body_density"] == 2500.0 == 2.5 * before["body_density"]
+
+
+def test_the_note_on_a_density_that_nobody_set_is_made_once():
+    other = finding("zero_volume")
+    for name, code in (("density", "density_default_kept"), ("linear_density", "linear_density_default_kept")):
+        made = with_default_note((other,), name)
+        assert [one.code for one in made] == [other.code, code]
+        assert with_default_note(made, name) is made
 
 
 def test_inertia_about_a_reference_follows_the_density_and_is_out_of_date_once_the_object_has_moved():

@@ -10,6 +10,7 @@ import bpy
 import numpy as np
 import pytest
 from body_moments.core.verdict.finding import MeasureError, finding
+from mathutils import Vector
 
 from tests.blender.flat_objects import sheet, text
 from tests.blender.objects import add, mesh_body, only
@@ -197,3 +198,21 @@ def test_outlines_that_cross_are_the_reason_and_not_the_missing_volume(reported)
     only(sheet([(0, 0), (1, 1), (1, 0), (0, 1)]))
     assert bpy.ops.object.body_moments_compute_moments() == {"CANCELLED"}
     assert "section_face_crosses_itself" in reported.codes
+
+
+def test_a_flat_shape_has_its_center_in_the_world_and_invariants_within_the_range_of_numbers():
+    from body_moments.operators.session import moments as moments_table
+
+    obj = sheet(L_SHAPE, location=(4.0, -2.0, 1.0), rotation=(0.5, -0.25, 1.0))
+    only(obj)
+    compute(6)
+    computed = moments_table.computed_moments(obj)
+    area = float(truth(0, 0))
+    local = float(truth(1, 0)) / area, float(truth(0, 1)) / area, 0.0
+    assert np.abs(computed.center - np.array(obj.matrix_world @ Vector(local))).max() <= 2e-6
+    found = moments_table.invariants(computed, "FLAT", 6)
+    assert len(found) > 7 and max(one.degree for one in found) == 6
+    for order, code in ((2, "invariants_order"), (6, "invariants_of_flat")):
+        with pytest.raises(MeasureError) as refusal:
+            moments_table.invariants(computed, "FLAT" if code == "invariants_order" else "VOLUME", order)
+        assert refusal.value.finding.code == code

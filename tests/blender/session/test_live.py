@@ -354,3 +354,31 @@ def test_only_what_is_not_painted_or_edited_is_followed_at_once():
         found = surface.follow(obj, bpy.context.evaluated_depsgraph_get())
         assert (found is not None) == (mode in ("OBJECT", "WEIGHT_PAINT")), mode
     bpy.ops.object.mode_set(mode="OBJECT")
+
+
+@pytest.mark.parametrize("kind", ["SOLID", "SHELL"])
+def test_what_cannot_be_mapped_is_shown_as_it_was_measured(kind):
+    """Of a body that is flattened, or was when it was measured; and of a shell that deforms."""
+    obj = with_key()
+    obj.body_moments.kind, obj.rotation_euler = kind, (0.0, 0.0, 0.0)
+    start(obj)
+    whole = live.current_properties(obj, bpy.context.scene)
+    size = obj.scale.copy()
+    obj.scale = (1.0, 0.0, 1.0)
+    update()
+    shown = live.current_properties(obj, bpy.context.scene)
+    assert (shown.volume, shown.body.mass) == (whole.volume, whole.body.mass)
+    obj.scale = size
+    update()
+    live._followed.get(obj).matrix = np.diag([1.0, 0.0, 1.0, 1.0])
+    live._followed.get(obj).first_order = (2.0 * whole.volume, np.zeros(3))
+    shown = live.current_properties(obj, bpy.context.scene)
+    assert (shown.volume, shown.body.mass) == (whole.volume, whole.body.mass)
+
+
+def test_nothing_is_due_once_the_add_on_is_gone():
+    start(add(mesh_body()))
+    bpy.app.timers.register(live._tick, first_interval=1000.0)
+    live.unregister()
+    assert not bpy.app.timers.is_registered(live._tick)
+    live.unregister()

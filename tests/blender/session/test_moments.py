@@ -175,6 +175,15 @@ def test_an_object_without_a_surface_is_refused_with_the_reason():
         bpy.ops.object.body_moments_compute_moments()
 
 
+def test_of_what_was_not_computed_nothing_is_shown(box):
+    from body_moments.operators.session import moments as moments_table
+
+    for about in ("ORIGIN", "REFERENCE"):
+        settings(moments_about=about)
+        assert moments_table.current_numbers(box, bpy.context.scene) == ((), None)
+    assert moments_table.stale_reason(box, bpy.context.scene) is None
+
+
 def test_a_wire_is_refused_with_the_reason(reported):
     curve = bpy.data.curves.new("Wire", "CURVE")
     curve.dimensions = "3D"

@@ -12,6 +12,7 @@ from body_moments.operators.session import reference
 from mathutils import Euler
 
 from tests.blender.bodies.test_assembly import box, boxes_inertia, collection
+from tests.blender.findings import refused
 from tests.blender.objects import only
 from tests.close import close
 
@@ -175,3 +176,13 @@ def test_it_is_copied_with_its_bounds(capsys):
     assert bpy.ops.object.body_moments_copy_reference() == {"FINISHED"}
     text = capsys.readouterr().out
     assert "about the axis (kg·m²) " + repr(float(about((0, 0, 0))[2, 2]))[:12] in text and "rounding" in text
+
+
+def test_an_object_without_results_is_refused_by_name():
+    obj = measured_box()
+    bpy.ops.object.body_moments_clear()
+    assert shown(obj) is None
+    with refused("no_stored_results", obj.name):
+        reference.store(obj, bpy.context.scene)
+    reference.follow(obj, bpy.context.scene, ReferenceChoice("WORLD"))
+    assert "body_reference" not in obj and reference.stored_choice(obj) is None

@@ -13,6 +13,7 @@ from body_moments.operators.read.links import bone_freedom, bone_parents
 from body_moments.operators.read.rig import require_armature
 from body_moments.operators.session import handlers, results, shown
 from body_moments.operators.session import rig as session
+from body_moments.operators.session.robot_links import bone_links
 from body_moments.operators.session.shown import shown_bone
 from body_moments.operators.write import properties
 
@@ -351,6 +352,23 @@ def test_a_bone_whose_faces_enclose_nothing_has_no_part():
     assert (lower.name, lower.measurement) == ("Lower", None) and lower.refusal.code == "bone_part_impossible"
     assert "bone_parts_impossible" in codes(rig)
     assert close(upper.measurement.mass_properties.mass, rig.measurement.mass_properties.mass, 1e-12)
+    assert [*bone_links(bpy.context, "robot", [armature]).pieces] == ["Upper"]
+    assert [(name, found.code) for name, found in session.store(rig)] == [("Lower", lower.refusal.code)]
+
+
+def test_a_bone_that_cannot_hold_its_results_is_named_and_the_others_have_theirs(monkeypatch):
+    armature, _ = character()
+    rig, store = measured(armature), session.properties.store
+
+    def planted(owner, measurement):
+        if owner.name == "arm.L":
+            raise TypeError("planted")
+        store(owner, measurement)
+
+    monkeypatch.setattr(session.properties, "store", planted)
+    assert [(name, found.code) for name, found in session.store(rig)] == [("arm.L", "internal_error")]
+    stored = [name for name in made.NAMES if "body_mass" in armature.pose.bones[name]]
+    assert stored == [name for name in made.NAMES if name != "arm.L"]
 
 
 def test_the_overlay_draws_the_whole_where_the_parts_are_posed():
