@@ -23,6 +23,7 @@ from ...core.verdict.finding import FileError, Finding, MeasureError, finding
 from ...core.verdict.method import Verdict
 from ..read.robots.meshes import read_mesh
 from ..read.robots.paths import Roots
+from .body import KNOWN_ORDER
 
 ROUND = 1.01  # what holds all of a round shape, whose points are only some of it
 RELIABLE = (Verdict.EXACT, Verdict.REORIENTED, Verdict.CAPPED)
@@ -261,7 +262,7 @@ def _ball() -> NDArray[np.float64]:
 
 
 def _moments(volume: float, second: NDArray) -> Moments:
-    raw = np.zeros(monomial_count(3))
+    raw = np.zeros(monomial_count(KNOWN_ORDER))
     raw[0] = volume
     raw[np.diag(SECOND_MOMENT_INDEX)] = second
     return Moments(raw, np.zeros(3), Measure.VOLUME)

@@ -47,9 +47,8 @@ def object_hull(obj: Object, depsgraph: Depsgraph) -> ConvexHull:
             points.append(corners @ matrix[:3, :3].T + matrix[:3, 3])
             noise = max(noise, float((np.abs(matrix[:3, :3]) @ part.surface.coordinate_error).max()))
     joined = np.concatenate(points)
-    extent = float(np.ptp(joined, axis=0).max(initial=0.0)) if len(joined) else 0.0
-    tolerance = max(HULL_RTOL, NOISE * noise / extent) if extent > 0.0 else HULL_RTOL
-    return convex_hull(joined, tolerance, MAX_CORNERS)
+    extent = float(np.ptp(joined, axis=0).max())
+    return convex_hull(joined, max(HULL_RTOL, NOISE * noise / (extent or np.inf)), MAX_CORNERS)
 
 
 def _used_points(surface: Surface) -> NDArray[np.float64]:

@@ -89,7 +89,7 @@ def _tiles(path: Path) -> Iterable[Path]:
     if "<UDIM>" not in path.name:
         return [path]
     tile = re.compile(re.escape(path.name).replace(re.escape("<UDIM>"), r"\d+"))
-    return [one for one in path.parent.iterdir() if tile.fullmatch(one.name)] if path.parent.is_dir() else []
+    return [one for one in path.parent.iterdir() if tile.fullmatch(one.name)] if _holds(path.parent.is_dir) else []
 
 
 def _of_nrrd(path: Path) -> Iterator[str]:
@@ -132,7 +132,7 @@ def _of_usd(path: Path) -> Iterator[str]:
     else:
         texts = [long or short for long, short in re.findall(rb"@@@(.+?)@@@|@([^@\n]+)@", data)]
     for text in texts:
-        if 0 < len(text) < 4096:
+        if text:
             yield text.decode("utf-8", "surrogateescape")
 
 

@@ -647,3 +647,24 @@ def test_the_hull_of_instances_is_that_of_all_their_corners():
     bpy.context.view_layer.update()
     with pytest.raises(EditRefusedError, match="scale is zero along an axis"):
         object_hull(obj, bpy.context.evaluated_depsgraph_get())
+
+
+@pytest.mark.parametrize(
+    "low, height, is_corner",
+    [
+        *((0.0, 4.0 * share, share > 1e-6) for share in (7e-7, 1.4e-6)),  # of the extent
+        *((1000.0, ulps * 2.0**-14, ulps > 2) for ulps in (1, 3)),  # of float32, two of which a flat face may be uneven
+    ],
+)
+def test_what_a_hull_leaves_out_is_less_than_rounding_or_a_millionth(low, height, is_corner):
+    points = corners((low,) * 3, (low + 4.0,) * 3) + [(low + 1.0, low + 2.5, low + 4.0 + height)]
+    around = (1, 3, 7, 5)  # the corners of the top
+    obj = add({"points": points, "faces": [*CUBE, *((a, b, 8) for a, b in zip(around, around[1:] + around[:1]))]})
+    found = object_hull(obj, bpy.context.evaluated_depsgraph_get()).points
+    assert len(found) == 8 + is_corner
+
+
+def test_a_point_has_no_hull():
+    obj = add({"points": [(1, 2, 3)] * 3, "faces": [(0, 1, 2)]})
+    with refused("hull_without_extent"):
+        object_hull(obj, bpy.context.evaluated_depsgraph_get())

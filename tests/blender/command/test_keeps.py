@@ -286,6 +286,15 @@ def test_words_of_a_binary_layer_are_found_wherever_its_table_has_them(tmp_path)
     assert [*inputs.references(str(part), False)] == []
 
 
+def test_names_that_no_file_can_have_hide_none_of_the_others(tmp_path):
+    """Nothing between two marks, what is longer than a name may be, also where it stands for tiles, and a zero byte."""
+    (tmp_path / "b").touch()
+    long = b"x" * 5000
+    words = [b"@@@@@@", b"@@@%s@@@" % long, b"@%s/<UDIM>.png@" % long, b"@a\0b@", b"@b@"]
+    (tmp_path / "part.usda").write_bytes(b"#usda 1.0\n" + b"\n".join(words))
+    assert [*inputs.references(str(tmp_path / "part.usda"), False)] == [tmp_path / "b"]
+
+
 @pytest.mark.parametrize(
     "data",
     [

@@ -74,6 +74,29 @@ def test_turned_copies_of_a_prism_have_one_pose_and_its_own_group(sides, group, 
         assert abs(abs(entry["principal_axes"][2][0]) - 1.0) < 1e-5
 
 
+@pytest.mark.parametrize("twist, group", [(0.0, "Cs"), (0.1, "C1")])
+def test_prisms_of_several_sides_on_one_axis_have_one_pose_alone(twist, group):
+    """Each is round to sixth order; of both only moments of higher order tell one direction from another."""
+    turns = (0.0, 0.0, 0.0), (0.3, 2.4, -0.5)
+    for number, turn in enumerate(turns):
+        for sides, radius, height in ((7, 1.0, 0.0), (8, 1.5, 4.0)):
+            bpy.ops.mesh.primitive_cylinder_add(
+                vertices=sides, radius=radius, depth=3.0, location=(0, 0, height), rotation=(0, 0, twist * (sides - 7))
+            )
+        bpy.ops.object.select_all(action="SELECT")
+        for other in bpy.context.scene.objects[: 1 * number]:
+            other.select_set(False)
+        bpy.ops.object.join()
+        bpy.context.object.rotation_euler, bpy.context.object.location = turn, (number * 9, 2, 3)
+    poses = [entry["pose"] for entry in document("--pose")["objects"]]
+    laid = []
+    for pose, obj in zip(poses, bpy.context.scene.objects):
+        assert (pose["unique"], pose["symmetry"]) == (True, group)
+        matrix = np.array(pose["matrix"])
+        laid.append(corners(obj) @ matrix[:3, :3].T + matrix[:3, 3])
+    assert np.linalg.norm(laid[1][:, None] - laid[0], axis=2).min(axis=1).max() < 1e-5
+
+
 @pytest.mark.parametrize("frame", ["world", "object"])
 def test_the_pose_is_of_the_world_and_agrees_with_the_principal_axes(frame):
     add_box()
