@@ -364,7 +364,7 @@ class _Sums:
         name: "estimate", of how far they may be off, or "size", of what their terms add up to in absolute value.
         """
         reach = power_table((np.abs(cells.origin) + cells.size[:, None]).T, self.order)
-        density = abs(threshold) + np.abs(cells.corners).max(axis=(1, 2, 3), initial=0.0)
+        density = abs(threshold) + np.abs(cells.corners).max(axis=(1, 2, 3))
         largest = np.stack([reach[p][0] * reach[q][1] * reach[r][2] for p, q, r in self.powers.tolist()])
         for measure, amounts in (("volume", volumes), ("area", areas), ("mass", volumes * density)):
             total = getattr(self, measure + "_" + name)

@@ -237,10 +237,7 @@ class Transform:
         square = (q * q).sum(axis=0)
         nothing = square <= ZERO_WAVE_NUMBER**2
         values = 1j * sums / np.where(nothing, 1.0, square)
-        volume = self.volume.truncate(1).transform(
-            np.block([[np.eye(3), -self.faces.center[:, None]], [np.zeros(3), 1.0]])
-        )
-        raw = volume.raw / self.faces.scale ** np.array([3, 4, 4, 4])
-        about = volume.about / self.faces.scale
-        values[nothing] = raw[0] - 1j * (q[:, nothing].T @ (raw[1:4] + raw[0] * about))
+        raw = self.volume.raw[:4] / self.faces.scale ** np.array([3, 4, 4, 4])
+        about = (self.volume.about - self.faces.center) / self.faces.scale
+        values[nothing] = raw[0] - 1j * (q[:, nothing].T @ (raw[1:] + raw[0] * about))
         return values

@@ -211,10 +211,7 @@ class Moments:
         Moments
         """
         inverse, origin = np.asarray(rotation, np.float64).swapaxes(-1, -2), np.asarray(origin, np.float64)
-        matrix = np.zeros((*inverse.shape[:-2], 4, 4))
-        matrix[..., :3, :3], matrix[..., 3, 3] = inverse, 1.0
-        turn = -matrix[..., :3, :3]
-        matrix[..., :3, 3] = turn @ origin if origin.ndim == 1 else (turn @ origin[..., None])[..., 0]
+        matrix = np.concatenate([inverse, -inverse @ origin[..., None]], axis=-1)
         # A change of axes stretches nothing, whatever is measured and however the rotation was rounded.
         return replace(
             image(replace(self, measure=Measure.MASS), matrix, np.zeros(self.about.shape)), measure=self.measure
@@ -316,7 +313,7 @@ def image(moments: Moments, matrices: NDArray, center: NDArray) -> Moments:
     Parameters
     ----------
     moments : Moments
-    matrices : (..., 4, 4) array
+    matrices : (..., 4, 4) or (..., 3, 4) array
         Finite.
     center : (..., 3) array
         The point of the result.

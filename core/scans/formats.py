@@ -49,7 +49,7 @@ def scan_suffix(path: str | Path) -> str:
     ('.nii.gz', '')
     """
     name = str(path).lower()
-    return next((end for end in sorted(SUFFIXES, key=len, reverse=True) if name.endswith(end)), "")
+    return next((end for end in SUFFIXES if name.endswith(end)), "")  # none of which ends with another
 
 
 def read_scan(path: str | Path, limits: Limits = DEFAULT_LIMITS) -> Scan:

@@ -192,6 +192,8 @@ def test_an_inverted_surface_counts_negative_and_a_far_one_nothing():
 def test_values_that_are_not_finite_are_refused():
     with refused("density_non_finite"):
         inside_moments(blob(), np.full((7, 7, 7), np.nan))
+    with refused("density_non_finite"):
+        inside_moments(blob(), np.full((2, 3, 4), 0x7FA00000, np.uint32).view(np.float32))  # which signals it
 
 
 def test_what_lies_beyond_the_grid_hides_nothing_behind_it(monkeypatch):

@@ -239,17 +239,34 @@ def test_caps_have_no_say_in_the_density_and_carry_it():
     assert mass.total == pytest.approx(500.0, rel=1e-14)
 
 
-def test_a_part_without_faces_of_the_mesh_has_no_density():
+@pytest.mark.parametrize("bare", [0, 1])
+def test_a_part_without_faces_of_the_mesh_has_no_density(bare):
     """Beside one of two materials, whose range and whose largest are by its area."""
-    solid = measure_solid(bodies.surface(bodies.joined(bodies.box(), bodies.box((4, 0, 0), (5, 2, 3)))))
+    solid = measure_solid(bodies.surface(bodies.joined(*[bodies.box((x, 0, 0), (x + 1, 2, 3)) for x in (0, 4)])))
     parts = solid.parts()
-    parts = replace(parts, face=np.where(parts.part == 0, -1, parts.face))
-    faces = np.where(np.arange(24) < 14, 100.0, 1000.0)
+    parts = replace(parts, face=np.where(parts.part == bare, -1, parts.face))
+    faces = np.where(np.arange(24) % 12 < 2, 100.0, 1000.0)
     found = part_densities(parts, faces)
-    assert found.density[0] == 0.0 and found.first_face.tolist() == [-1, 12]
-    assert found.range_by_area[0] == found.most_by_area[0] == 0.0
-    assert found.has_several_materials.tolist() == [False, True] and not found.has_foreign_cavity_material.any()
-    assert close(found.range_by_area[1], 900.0 * 22.0, rel=1e-14) and close(found.most_by_area[1], 22e3, rel=1e-14)
+    assert found.density[bare] == 0.0 and found.first_face[bare] == -1
+    assert found.range_by_area[bare] == found.most_by_area[bare] == 0.0
+    assert found.has_several_materials[bare] == found.has_foreign_cavity_material.any() == False  # noqa: E712
+    other = 1 - bare
+    assert found.has_several_materials[other] and found.first_face[other] == 12 * other
+    assert close(found.range_by_area[other], 900.0 * 22.0, rel=1e-14)
+    assert close(found.most_by_area[other], 1000.0 * 22.0, rel=1e-14)
+    flat = part_densities(parts, faces, np.zeros((3, 3)))  # where no area tells how much of each there is
+    assert flat.density[other] == 550.0 and flat.density[bare] == 0.0
+
+
+def test_of_no_faces_and_of_thin_ones_the_moments_are_none_and_small():
+    like = Moments(np.ones(10), np.zeros(3), "area", input_error=np.ones(10))
+    for density in (np.zeros(0), np.zeros((0, 3))):
+        found = sheet_mass_moments(CORNERS * 1.0, TRIANGLES[:0], density, like)
+        assert not found.raw.any() and not found.rounding_error.any() and not found.input_error.any()
+    none = solid_mass_moments(CORNERS * 1.0, TRIANGLES[:0], np.zeros(0), like)
+    assert not none.raw.any() and not none.rounding_error.any() and not none.input_error.any()
+    for measure in (solid_mass_moments, sheet_mass_moments):
+        assert close(measure(CORNERS * 1.0, TRIANGLES, np.full(4, 1e-3), like).input_error, np.full(10, 1e-3), rel=0.0)
 
 
 @pytest.mark.parametrize("turned", [False, True])

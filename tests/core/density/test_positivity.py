@@ -66,3 +66,9 @@ def test_a_surface_of_next_to_nothing_is_compared_with_the_inside(least, is_foun
     assert (worst is not None) == is_found and not unsure
     if is_found:
         assert close(worst[0], least, 1e-9) and np.abs(worst[1]).max() == 1.0
+
+
+def test_of_places_that_are_negative_alike_the_first_is_named():
+    """Of a grid of nine places along each side, in their order."""
+    (value, place), _ = found("z**2 - 0.1", BOX)
+    assert close(value, -0.1, 1e-12) and close(place[:2], [-8.0 / 9.0] * 2, 1e-12) and abs(place[2]) <= 1e-15

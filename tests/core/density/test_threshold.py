@@ -320,6 +320,9 @@ def test_nothing_inside_everything_inside_and_bad_samples():
     with pytest.raises(MeasureError) as refused:
         threshold_body(samples, 0.5)
     assert refused.value.finding.code == "density_non_finite"
+    signaling = np.full((2, 3, 4), 0x7FA00000, np.uint32).view(np.float32)  # what a damaged file may hold
+    with pytest.raises(MeasureError):
+        threshold_body(signaling, 0.5)
     with pytest.raises(ValueError, match="two samples per axis"):
         threshold_body(np.ones((1, 4, 4)), 0.5)
 

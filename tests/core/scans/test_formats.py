@@ -188,6 +188,7 @@ def test_numpy_arrays(tmp_path, layout):
     expected = np.asarray(values("f8"), order=layout)
     np.save(tmp_path / "a.npy", expected)
     assert np.array_equal(read_scan(tmp_path / "a.npy").samples, expected)
+    assert not read_scan(tmp_path / "a.npy").samples.flags.writeable
     np.savez_compressed(tmp_path / "a.npz", table=np.eye(3), other=expected + 1, density=expected)
     scan = read_scan(tmp_path / "a.npz")
     assert np.array_equal(scan.samples, expected)

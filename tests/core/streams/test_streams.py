@@ -240,6 +240,26 @@ def test_numbers_that_are_not_finite_are_refused_with_their_count_and_place(tmp_
         measured(tmp_path, name, FORMS[name]((points, triangles)))
 
 
+@pytest.mark.parametrize("name", ["text.stl", "text.ply", "double text.ply"])
+def test_numbers_of_a_text_beyond_float32_are_not_finite(tmp_path, name):
+    points, triangles = soup(moved(sphere(0)))
+    text = FORMS[name]((points.astype(float) + 1000.0 * (np.arange(len(points))[:, None] == 7), triangles))
+    at = text.index(b"10", text.index(b"end_header") if name.endswith("ply") else 80)
+    with refused("non_finite_coordinates", count=1):
+        measured(tmp_path, name, text[:at] + b"1e39 " + text[text.index(b" ", at) + 1 :])
+
+
+def test_single_numbers_beside_doubles_may_signal_that_they_are_none(tmp_path):
+    row = np.dtype([("x", "<u4"), ("y", "<f8"), ("z", "<f4")])
+    table = np.zeros(4, row)
+    table["x"][2] = 0x7FA00000
+    head = VERTICES.replace("double x", "float x").replace("double z", "float z") + FACES
+    whole = b"ply\nformat binary_little_endian 1.0\n" + head.encode() + b"end_header\n" + table.tobytes()
+    faces = np.array([(3, (0, 2, 1))] * 4, np.dtype([("n", "u1"), ("corners", "<i4", 3)]))
+    with refused("non_finite_coordinates", count=1):
+        measured(tmp_path, "a.ply", whole + faces.tobytes())
+
+
 def test_a_concave_polygon_is_refused(tmp_path):
     arrow = np.array([[0, 0, 0], [2, 1, 0], [0, 2, 0], [0.5, 1.5, 0], [0.5, 0.5, 0]], float)
     with refused("ply_concave_polygons", count=1):
@@ -313,6 +333,20 @@ def test_a_ply_without_vertices_or_with_indices_between_them_is_refused(tmp_path
         measured(tmp_path, "a.ply", ply_text(FACES, TETRAHEDRON))
     with refused("file_damaged"):
         measured(tmp_path, "a.ply", ply_text(VERTICES + FACES, TETRAHEDRON.replace("3 1 2 3", "3 1.5 2 3")))
+
+
+def test_a_header_has_a_million_bytes_at_most(tmp_path):
+    whole = ply_text(VERTICES + FACES, TETRAHEDRON)
+    length = whole.index(b"end_header\n") + len(b"end_header\n")
+    for spare, is_read in ((0, True), (1, False)):
+        comment = b"comment " + b"x" * (2**20 - length - 9 + spare) + b"\n"
+        data = whole.replace(b"element vertex", comment + b"element vertex")
+        assert data.index(b"end_header\n") + len(b"end_header\n") == 2**20 + spare
+        if is_read:
+            assert measured(tmp_path, "a.ply", data).closed
+        else:
+            with refused("file_damaged", cause={"code": "damage_ply_header", "values": {}}):
+                measured(tmp_path, "a.ply", data)
 
 
 def test_elements_without_properties_take_nothing(tmp_path):
