@@ -14,7 +14,8 @@ from ..verdict.tolerances import WELDING_RTOL
 from .curve import Curve
 from .curve_moments import curves_center
 
-SAMPLES_PER_SPAN = 16, 64, 256  # samples of a span: more where what fewer make seems to cross
+SAMPLES_PER_SPAN = 16  # at first
+FINER_SAMPLES = 64, 256  # where what fewer make seems to cross
 MAX_CHORDS = 8192  # of the finer ones
 MAX_CHORD_PAIRS = 4_000_000  # of chords compared at a time
 
@@ -53,7 +54,7 @@ def planar_region(curves: Sequence[Curve], stored: float = 0.0) -> tuple[list[Cu
     center = curves_center(curves)
     size = max(float(np.abs(curve.points - center).max()) for curve in curves)
     tolerance = 4.0 * (WELDING_RTOL * size + stored + 2.0**-52 * float(np.abs(center).max()))
-    loops = [curve.samples(SAMPLES_PER_SPAN[0]) for curve in curves]
+    loops = [curve.samples(SAMPLES_PER_SPAN) for curve in curves]
     if any(np.linalg.norm(loop[0] - loop[-1]) > tolerance for loop in loops) or any(
         curve.space.is_discontinuous for curve in curves
     ):
@@ -70,16 +71,15 @@ def planar_region(curves: Sequence[Curve], stored: float = 0.0) -> tuple[list[Cu
     def polygons(each: int) -> list[NDArray]:
         return [_without_repeats((curve.samples(each)[:-1] - center) @ frame, tolerance) for curve in curves]
 
-    flat = polygons(SAMPLES_PER_SPAN[0])
+    flat = polygons(SAMPLES_PER_SPAN)
     if min(map(len, flat)) < 3:
         raise MeasureError("curve_too_small")
-    spans, crossing = sum(len(curve.space.spans) for curve in curves), chords_cross(flat, tolerance)
-    for each in SAMPLES_PER_SPAN[1:]:
-        if crossing and spans * each <= MAX_CHORDS:
-            flat = polygons(each)
-            crossing = chords_cross(flat, tolerance)
-    if crossing:
-        raise MeasureError("curves_cross")
+    spans = sum(len(curve.space.spans) for curve in curves)
+    finer = [each for each in FINER_SAMPLES if spans * each <= MAX_CHORDS]
+    while chords_cross(flat, tolerance):
+        if not finer:
+            raise MeasureError("curves_cross")
+        flat = polygons(finer.pop(0))
     oriented = []
     for i, (curve, loop) in enumerate(zip(curves, flat)):
         depth = sum(_is_inside(loop[0], outer) for j, outer in enumerate(flat) if j != i)

@@ -69,7 +69,7 @@ def wall_links(
         swap = np.diff(part[border[:, columns] // 3], axis=1)[:, 0] < 0
         border[np.ix_(swap, columns)] = border[np.ix_(swap, columns[::-1])]
     # a wall is between two bodies only, the same along its border
-    wall = np.unique(part[border[:, 2:] // 3] @ [len(triangles), 1], return_inverse=True)[1].ravel()
+    wall = np.unique(part[border[:, 2:] // 3], axis=0, return_inverse=True)[1].ravel()
     lower, upper = part[border[:, 0] // 3], part[border[:, 1] // 3]
     first = np.empty(int(wall.max()) + 1, np.intp)
     first[wall] = np.arange(len(wall))

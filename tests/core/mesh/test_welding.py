@@ -18,3 +18,13 @@ def test_only_points_that_stand_alone_have_no_neighbor():
     assert not may_have_neighbor(together, np.full(220, reach), owner)[200:].any()
     first = first_at_near_position(together, np.full(220, reach))
     assert first[200:].tolist() == list(range(20)) and first[:200].tolist() == list(range(200))
+
+
+def test_whichever_way_a_neighbor_within_reach_lies_it_is_noticed():
+    rng = np.random.default_rng(6)
+    way = rng.normal(size=(1000, 3))
+    points = rng.uniform(-1e3, 1e3, (1000, 3))
+    beside = points + 0.999e-6 * way / np.linalg.norm(way, axis=1)[:, None]
+    assert may_have_neighbor(np.concatenate([points, beside]), 1e-6).all()
+    alone = may_have_neighbor(points, 1e-6)
+    assert alone.sum() < 10

@@ -218,6 +218,23 @@ def test_rings_are_told_apart_whose_samples_seem_to_cross(gap, turn):
     assert close(moments.total, np.pi * (1.0 - (1.0 - gap) ** 2), rel=1e-11)
 
 
+@pytest.mark.parametrize(
+    "gap, least",  # of chords: how many it takes to tell the rings apart
+    [(1.4e-3, 128), (1.25e-3, 512), (9e-5, 512), (3e-5, 2048)],
+)
+def test_samples_are_made_finer_as_long_as_chords_are_not_too_many(gap, least, monkeypatch):
+    """Of two rings of four spans each: 16, 64 and 256 samples of a span."""
+    c, s = np.cos(0.05), np.sin(0.05)
+    rings = [Curve(ROUND, ring(1.0 - gap).points @ [[c, s, 0], [-s, c, 0], [0, 0, 1]], ring().weights), ring()]
+    monkeypatch.setitem(planar_region.__globals__, "MAX_CHORDS", least)
+    moments = plane_moments(*planar_region(rings))
+    assert close(moments.total, np.pi * (1.0 - (1.0 - gap) ** 2), rel=1e-11)
+    if least > 128:
+        monkeypatch.setitem(planar_region.__globals__, "MAX_CHORDS", least - 1)
+        with refused("curves_cross"):
+            planar_region(rings)
+
+
 def test_control_points_and_weights_are_as_many_as_the_space_has():
     space = clamped_space(2)
     with pytest.raises(ValueError, match="points not"):

@@ -423,6 +423,14 @@ def test_a_small_open_part_is_not_welded_away():
     assert small.health.boundary_edges == 3
 
 
+@pytest.mark.parametrize("share, is_welded", [(0.99e-3, True), (1.01e-3, False)])
+def test_a_crack_of_a_small_part_is_welded_up_to_a_thousandth_of_its_triangles(share, is_welded):
+    lid = moved((CUBE[0], CUBE[1][list(TOP)]), None, (share * np.sqrt(2.0), 0, 0))
+    small = moved(joined(without(CUBE, *TOP), lid), 1e-3 * np.eye(3))
+    result = verdict(joined(small, box((10, 10, 10), (11, 11, 11))))
+    assert result.health.welded is is_welded and result.health.boundary_edges == (0 if is_welded else 8)
+
+
 @pytest.mark.parametrize("scale", [2.0**-100, 1e-9, 1e-3, 1e5, 2.0**100])
 @pytest.mark.parametrize(
     "part",
