@@ -18,12 +18,14 @@ NAMES = {
     r"_PER_(BLOCK|BATCH|CHUNK|SLAB|TASK|THREAD|STACK)$|^_?BLOCK|_BLOCK$|_ROWS$|_IN_CACHE$|^SAMPLES$": "how much is "
     "computed or read at a time",
     r"^(FIRST_SAMPLES|GRID_CELLS)$": "in which order things are compared, of which all are",
-    r"^LINE_SLOPES$": "which lines are looked along",
+    r"^(LINE_SLOPES|RAY_SLOPES|LATTICE_SHIFT|COLUMN_SLOPE)$": "which lines are looked along",
+    r"^PIECE$|_PER_LEAF$": "how much is looked at at a time",
+    r"^MAX_(BOX|COMPONENT|CHORD|SIDE|END)_PAIRS$": "one more of as many as are worth the time",
     r"^HASH_FACTORS$": "which of two colliding numbers comes first",
     r"^STEPS_BEFORE_MERGE$": "from when on directions that go to one maximum are followed as one",
     r"^MAX_CACHED_|_SCRATCH_": "how much is remembered",
     r"^DIRECT_COST$": "how time is estimated",
-    r"^CELL_DIAGONAL$": "how many points are looked at more closely",
+    r"^(CELL_DIAGONAL|REACH_MARGIN)$": "how many points are looked at more closely",
     r"^(TRIAL_RADII|ERROR_CREDITS|SAMPLE_FREQUENCIES)$": "what is tried, and compared, first or besides",
     r"^NO_BONE$": "a mark, of which any negative number is one",
 }
@@ -303,6 +305,13 @@ PATTERNS = [
         r".*/ delta_scale\)",
         "its signs",
     ),
+    (
+        r".*(mesh/edges.py edges_from_mesh|solid/(cap_holes.py cap_holes|close_components.py _?find_\w+))",
+        r".* \* (width|len\(mesh\.points\))( \+ .*)?",
+        r"\(.*( / (width|len\(mesh\.points\))|(width|len\(mesh\.points\)) - .*)\)",
+        "one number of two: of others it is another",
+    ),
+    (r".*nurbs/planar_region.py MAX_CHORDS", r"8192", r"8193", "of chords there are multiples of 64"),
     (r"panels/rows.py DEFAULT_WIDTH", r"\d+", r"\d+", "a pixel of a panel whose width is not known"),
 ]
 # places of constants, and what stands ahead of them in their line: the reason
@@ -362,6 +371,7 @@ CONSTANTS = [
         "what is nowhere negative is its own absolute value",
     ),
     (r".*density/threshold_cells.py Cells.column_axes", r"steps\.min\(axis=2\) \+ ", "which of several axes is taken"),
+    (r".*mesh/edges.py edges_from_mesh", r"width = int\(triangles\.max\(\)\) \+ ", "room for a vertex more"),
     (r".*mesh/convex_hull.py _first_corners", r"GRID_BITS - ", "the farthest from any place is at a corner"),
     (r".*mesh/convex_hull.py _first_corners", r"heights\[fourth\] < ", "it is more than a step above or below"),
     (r".*mesh/scan_lines.py LineGrids.through_points", r"np\.zeros\(\(count, 2\)\), (1, )?", "there is nothing beyond"),
