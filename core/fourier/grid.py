@@ -117,11 +117,11 @@ class GridTransform(Transform):
         bound = _points_per_side(spans, self.each)
         q = _trial_vectors(self.grid) * self.faces.scale
         size = np.sqrt((q**2).sum(axis=1)) if self.measure == Measure.VOLUME else 1.0
-        exact, before = None, None
+        exact, before = None, bound
         for credit in ERROR_CREDITS:
             fewer = np.where(regular, bound, _points_per_side(spans, self.each * credit))
             tried = np.flatnonzero((fewer < bound) & (fewer <= MAX_POINTS_PER_SIDE))
-            if not len(tried) or (before is not None and np.array_equal(fewer, before)):
+            if not len(tried) or np.array_equal(fewer, before):
                 continue
             before = fewer
             if exact is None or len(exact[0]) != len(tried):

@@ -97,7 +97,7 @@ def read_nrrd(path: Path, limits: Limits) -> Scan:
             raise FileError("nrrd_field_not_numbers", field=name, text=fields[name]) from None
 
     sizes = numbers("sizes", int) if needed("sizes") else []
-    if numbers("dimension", int) != [len(sizes)] or not needed("dimension"):
+    if numbers("dimension", int) != [len(sizes)]:
         raise FileError("nrrd_dimension_mismatch")
     shape = shape_of(sizes)
     kind = TYPES.get(needed("type").lower())

@@ -29,7 +29,7 @@ class RowReader:
 
     def __init__(self, file: BinaryIO, order: str) -> None:
         self._file, self._order = file, order
-        self._buffer: NDArray = np.zeros(0, np.uint8 if order else NUMBERS)
+        self._buffer: NDArray = np.zeros(0)  # of bytes or numbers, once there are some
         self._text = b""
 
     def rows(self, element: Element) -> Iterator[list[NDArray]]:

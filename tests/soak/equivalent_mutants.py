@@ -192,7 +192,7 @@ PATTERNS = [
     ),
     (
         r".*density/spline_grid.py _moments_about",
-        r"np\.argsort\(.*, kind=.stable.\)",
+        r"np\.argsort\(.*, kind=.stable.\)|-abs\(stride\)",
         r".*",
         "in which order axes are contracted",
     ),
@@ -245,6 +245,49 @@ PATTERNS = [
         r"\(np\.einsum\(.*\)\)",
         "where a value is stored",
     ),
+    (r".*density/threshold.py (RULES|MAX_CUT_CELLS)", r"\d+", r"\d+", "which rules are compared, of how many cells"),
+    (
+        r".*density/positivity.py MAX_LOCATED_POINTS|.*density/smooth_threshold.py MAX_SAMPLES",
+        r"\d+",
+        r"\d+",
+        "when more is given up",
+    ),
+    (
+        r".*fourier/(grid.py MAX_POINTS_PER_SIDE|nufft.py ALIASED_ORDERS|polygon.py SERIES_TERMS)",
+        r"\d+",
+        r"\d+",
+        "a term, or points, more than are needed",
+    ),
+    (
+        r".*fourier/(transform.py ZERO_WAVE_NUMBER|triangle_kernel.py (MORTON_CELLS|TINY))",
+        r"[\d.e-]+",
+        r".*",
+        "another number as small, another order of the triangles",
+    ),
+    (
+        r".*fourier/triangle_kernel.py SPLIT_SERIES_TERMS",
+        r"2\.0|MAX_SERIES_SQUARE \* 2\.0 / 3\.0",
+        r"4\.0|\(MAX_SERIES_SQUARE \* 2\.0 \* 3\.0\)",
+        "more terms of a series than are needed",
+    ),
+    (r".*fourier/triangle_kernel.py MAX_SERIES_SQUARE", r"1\.0", r"2\.0", "which of two forms is taken"),
+    (r".*streams/ply.py MAX_SPREAD", r"4", r"5", "which vertices are copied"),
+    (r".*scans/scan.py PACKED", r"\d+", r"\d+", "how much is unpacked at a time"),
+    (r".*scans/numpy_files.py MAX_ARRAY_HEADER", r"10_000", r"10001", "numpy refuses it then"),
+    (
+        r".*polyhedron/(any_order.py (SCRATCH_NUMBERS|MAX_UNSCALED_EXPONENT)|third_order.py "
+        r"(SCRATCH_BYTES|MAX_SMALL_TRIANGLES|MIN_TRIANGLES_TO_PAIR)|workspace.py (ROW_PADDING|MAX_ARRAYS))",
+        r"[\d_]+",
+        r"\d+",
+        "how much is computed at a time, and where and how it is stored",
+    ),
+    (
+        r".*polyhedron/third_order_kernel.py (MIN_FLIP_COSINE|FLOAT32_UNDERFLOW|FLOAT32_OVERFLOW)",
+        r".*",
+        r".*",
+        "how many quads are looked at more closely",
+    ),
+    (r".*polyhedron/third_order.py MAX_UNSCALED_REACH", r"100", r"101", "a power of two, by which nothing is rounded"),
     (
         r".*density/voxel_fill.py inside_moments",
         r"centers\[.*\] > 0",
@@ -352,6 +395,9 @@ CONSTANTS = [
     (r".*polyhedron/third_order.py integrate", r"size = max\(.*", "how much is computed at a time"),
     (r".*polyhedron/any_order_kernel.py AnyOrderKernel.block_sums", r"if k > ", "how much of a block is filled up"),
     (r".*streams/stl.py ", r"TRIANGLES_PER_BLOCK, TRIANGLES_IN_CACHE = .*", "how much is read at a time"),
+    (r".*polyhedron/third_order.py _Integration.blocks", r"size // ", "how much is computed at a time"),
+    (r".*streams/stl.py StlFile._parse", r"word in words\[: ?", "numbers are the same in capitals"),
+    (r".*density/threshold.py ", r"MAX_PARTS, MIN_PARTS = ", "when more is given up"),
     (r".*streams/stl.py TEXT_PER_TRIANGLE", r"= ", "how many triangles a text has is estimated"),
     (r".*streams/stl.py StlFile.__init__", r"TEXT_PER_TRIANGLE \+ ", "how many triangles a text has is estimated"),
     (

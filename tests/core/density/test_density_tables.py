@@ -130,3 +130,9 @@ def test_a_uniform_function_has_variance_k_twelfths(order):
 def test_impossible_knots_are_refused(knots, order, domain, text):
     with pytest.raises(ValueError, match=text):
         SplineAxis(np.array(knots), order, domain)
+
+
+def test_splines_have_an_order_up_to_sixteen():
+    assert close(SplineAxis.uniform(1, 16).table(0)[0], [1.0], rel=1e-14)
+    with pytest.raises(ValueError, match="1…16"):
+        SplineAxis.uniform(1, 17)

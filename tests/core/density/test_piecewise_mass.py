@@ -281,6 +281,14 @@ def test_a_cavity_takes_away_the_material_that_it_is_cut_from(turned):
     parts = solid.parts()
     found = part_densities(parts, np.repeat([8000.0, 1.0, 200.0], 12))
     assert found.density.tolist() == [8000.0, 8000.0, 200.0]
+    assert found.has_foreign_cavity_material.tolist() == [False, True, False]
+    assert not found.has_several_materials.any()
+    # painted with two that come to the same together, and with its own alone
+    for one, other, foreign in ((7000.0, 9000.0, True), (8000.0, 8000.0, False)):
+        faces = np.repeat([8000.0, one, other, 200.0], [12, 6, 6, 12])
+        mixed = part_densities(parts, faces)
+        assert mixed.has_foreign_cavity_material.tolist() == [False, foreign, False]
+        assert mixed.density.tolist() == found.density.tolist() and not mixed.has_several_materials.any()
     mass = solid_mass_moments(parts.points, parts.triangles, found.density[parts.part], solid.volume)
     assert mass.total == pytest.approx(8000.0 * (64 - 8) + 200.0, rel=1e-14)
 

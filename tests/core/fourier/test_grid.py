@@ -50,6 +50,14 @@ def test_a_wider_kernel_is_a_digit_better():
     assert errors[0] < 3e-3 and errors[-1] < 1e-11
 
 
+def test_kernels_are_four_to_fifteen_cells_wide():
+    widths = [_kernel_width(8, tolerance, False) for tolerance in (0.1, 3.3 * aliasing(8, 15).max())]
+    assert widths == [4, 15]
+    with pytest.raises(ValueError, match="tolerance"):
+        _kernel_width(8, 2.9 * aliasing(8, 15).max(), False)
+    assert aliasing(8, 15).max() < 5e-13
+
+
 def cube(n):
     """A cube of n x n squares on each side: from far enough, all its triangles err alike."""
     sides = []

@@ -93,3 +93,25 @@ def test_nothing_is_refused():
     empty = bodies.surface((PART[0], PART[1][:0]))
     with refused("no_faces"):
         BodyTransform([(empty, MAPS)], Q, "area", 1.0)
+
+
+@pytest.mark.parametrize("count, is_closed_form", [(58, True), (59, False)])
+def test_more_than_two_hundred_million_pairs_are_taken_to_a_tolerance(count, is_closed_form):
+    """Of 2048 triangles, and half of a grid's frequencies: a ten-millionth of the whole, shared by three copies."""
+    maps = np.stack([np.eye(4)] * 3)
+    transform = BodyTransform([(bodies.surface(bodies.sphere(4)), maps)], FrequencyGrid(count, 8.0), "volume", 12.0)
+    assert transform.tolerance is None if is_closed_form else close(transform.tolerance, 4e-7, rel=1e-14)
+
+
+def test_the_shape_of_a_far_body_loses_no_digits():
+    """Half a million lengths away: only the place of what is turned there is off."""
+    turn, q = np.eye(4), np.random.default_rng(5).normal(size=(20, 3))
+    turn[:3, :3] = bodies.rotation(7)
+    near, far = (
+        run_to_completion(BodyTransform([(bodies.surface(part), turn[None])], q, "volume", 1.0)).values
+        for part in (
+            bodies.box((0, 0, 0), (1, 2, 4)),
+            bodies.moved(bodies.box((0, 0, 0), (1, 2, 4)), None, (2**19,) * 3),
+        )
+    )
+    assert np.abs(np.abs(far) - np.abs(near)).max() <= 1e-13

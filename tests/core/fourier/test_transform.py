@@ -265,6 +265,28 @@ def test_an_open_surface_is_refused_and_an_unwelded_one_is_not():
     assert abs(apart - whole) <= 1e-15
 
 
+@pytest.mark.parametrize("share, is_closed", [(0.5e-6, True), (2e-6, False)])
+def test_a_hole_of_a_millionth_of_the_area_is_none(share, is_closed):
+    """A needle along an edge of a unit cube is left out, whose normal is half along the wave that is looked at."""
+    points, triangles = bodies.box()
+    a, b, c = triangles[0].tolist()
+    middle, edge = (points[a] + points[b]) / 2.0, np.linalg.norm(points[b] - points[a])
+    inward = points[c] - middle
+    normal = np.cross(points[b] - points[a], points[c] - points[a])
+    normal /= np.linalg.norm(normal)
+    wave = np.array([0.48, 0.6, 0.64])
+    height = share * 6.0 / np.linalg.norm(np.cross(normal, wave)) * 2.0 / edge
+    along = (points[b] - points[a]) / edge
+    inward = inward - (inward @ along) * along
+    points = np.concatenate([points, [middle + height * inward / np.linalg.norm(inward)]])
+    part = points, np.array([[b, c, 8], [c, a, 8], *triangles[1:]])
+    if is_closed:
+        assert abs(solid_transform(bodies.surface(part), np.zeros((1, 3))).values[0] - 1.0) <= 1e-6
+    else:
+        with refused("fourier_of_open_surface"):
+            solid_transform(bodies.surface(part), np.zeros((1, 3)))
+
+
 @pytest.mark.parametrize(
     "q",
     [
@@ -381,8 +403,12 @@ def test_what_no_number_can_tell_is_refused():
             solid_transform(Surface.from_triangles(points * scale, triangles), np.zeros((1, 3)))
     with refused("wave_vectors_too_large"):
         solid_transform(Surface.from_triangles(points, triangles), np.full((1, 3), 1.7e308))
-    with refused("frequency_range"):
-        FrequencyGrid(8, 1e200)
+    for size in (1.01e100, 1e200):
+        with refused("frequency_range"):
+            FrequencyGrid(8, size)
+        with refused("wave_vectors_too_large"):
+            solid_transform(Surface.from_triangles(points, triangles), np.array([[0.0, -size, 0.0]]))
+    assert FrequencyGrid(8, 1e100).largest == 1e100
     found = solid_transform(Surface.from_triangles(points, triangles), np.full((1, 3), 1e100))
     assert abs(found.values[0]) <= found.error[0] < 1e-13
 

@@ -9,6 +9,7 @@ from functools import partial
 import numpy as np
 import pytest
 from body_moments.core.mesh.surface import Surface, flipped_quads, join_surfaces
+from body_moments.core.moments.monomials import monomial_count
 from body_moments.core.polyhedron import integration
 from body_moments.core.polyhedron import third_order as polyhedron
 from body_moments.core.polyhedron import third_order_kernel as blocks
@@ -552,3 +553,24 @@ def test_memory_is_bounded_by_blocks():
             peak = tracemalloc.get_traced_memory()[1]
             tracemalloc.stop()
             assert peak <= 16 * len(loose) + 8_000_000
+
+
+@pytest.mark.parametrize("offset", [3.0, 100.0])
+def test_the_reference_point_of_float32_is_one_of_them(offset):
+    """So that coordinates about it are not rounded."""
+    points = (np.array([[0, 0, 0], [0.7, 0, 0], [0, 0.9, 0], [0, 0, 1.1]]) / 3.0 + offset).astype(np.float32)
+    volume, _ = polyhedron_moments(Surface(points, np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])))
+    middle = (points.min(axis=0).astype(float) + points.max(axis=0)) / 2.0
+    assert np.array_equal(volume.about, middle.astype(np.float32)) and not np.array_equal(volume.about, middle)
+
+
+@pytest.mark.parametrize("count, is_exact", [(100_000, True), (100_001, False)])
+def test_more_than_a_hundred_thousand_triangles_leave_out_the_rest_of_the_third_order(count, is_exact):
+    points = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
+    body = Surface(points, np.tile([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]], (25_001, 1))[:count])
+    found, whole = (polyhedron_moments(body, about=(0.5, 0.5, 0.5), exact=exact)[0] for exact in (False, True))
+    assert np.array_equal(found.raw, whole.raw) == is_exact
+
+
+def test_the_highest_order_has_as_many_moments_as_are_promised():
+    assert monomial_count(integration.MAX_ORDER) == 5456

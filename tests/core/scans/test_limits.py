@@ -218,6 +218,43 @@ def test_a_text_that_gives_no_limits_is_refused(text):
     assert text in str(refused.value) and "samples" in str(refused.value)
 
 
+@pytest.mark.parametrize(
+    "name, most",
+    [
+        ("samples", 2**33),
+        ("unpacked_bytes", 2**32),
+        ("entries", 1000),
+        ("header_bytes", 2**20),
+        ("text_bytes", 2**28),
+    ],
+)
+def test_what_a_file_may_ask_for_where_nobody_says_how_much(tmp_path, name, most):
+    Limits().check(tmp_path / "a", name, most)
+    with pytest.raises(FileError) as refused:
+        Limits().check(tmp_path / "a", name, most + 1)
+    values = refused.value.finding.values
+    assert (values["file"], values["count"], values["limit"], values["next"]) == ("a", most + 1, most, 2 * most)
+
+
+def test_a_gzip_file_holds_a_thousand_times_its_bytes_at_most(tmp_path):
+    path = written(tmp_path / "a.gz", gzip.compress(bytes(5)))
+    for more, code in ((0, "damage_too_short"), (1, "damage_too_small")):
+        with pytest.raises(FileError) as refused:
+            scan.unpack_samples(path, 0, np.dtype("u1"), (1032 * path.stat().st_size + more, 1, 1), 0, Limits())
+        assert refused.value.finding.values["cause"]["code"] == code
+
+
+@pytest.mark.parametrize("axes, is_read", [(16, True), (17, False)])
+def test_a_header_has_sixteen_axes_at_most(tmp_path, axes, is_read):
+    path = written(
+        tmp_path / "a.nrrd", nrrd(VALUES, "space directions: (1,0,0) (0,1,0) (0,0,1)" + " none" * (axes - 3))
+    )
+    if is_read:
+        assert np.array_equal(read_scan(path).matrix, np.eye(4))
+    else:
+        assert refusal(path).code == "nrrd_vector"
+
+
 def test_a_header_names_no_samples_outside_of_its_folder(tmp_path):
     folder, other = tmp_path / "in", tmp_path / "in_side"
     (folder / "deeper").mkdir(parents=True)

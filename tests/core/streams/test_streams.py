@@ -236,7 +236,9 @@ def test_numbers_that_are_not_finite_are_refused_with_their_count_and_place(tmp_
     points, triangles = soup(moved(sphere(1)))
     points[3 * 20] = bad
     points[3 * 25, 1] = bad
-    with refused("non_finite_coordinates", count=4) as _:
+    kind, first = ("triangle", 20) if name.endswith("stl") else ("vertex", 60)
+    place = {"code": "at_" + kind, "values": {kind: first}}
+    with refused("non_finite_coordinates", count=4, place=place):
         measured(tmp_path, name, FORMS[name]((points, triangles)))
 
 
@@ -333,6 +335,31 @@ def test_a_ply_without_vertices_or_with_indices_between_them_is_refused(tmp_path
         measured(tmp_path, "a.ply", ply_text(FACES, TETRAHEDRON))
     with refused("file_damaged"):
         measured(tmp_path, "a.ply", ply_text(VERTICES + FACES, TETRAHEDRON.replace("3 1 2 3", "3 1.5 2 3")))
+
+
+@pytest.mark.parametrize("order", ["<", ">", ""])
+def test_rows_of_one_length_come_together(tmp_path, monkeypatch, order):
+    """However few are looked at one at a time."""
+    monkeypatch.setattr(ply_rows, "SINGLE_ROWS", 5)
+    points, quads = ring(30, 16)
+    faces = [quad[:3] for quad in quads[:200].tolist()] + quads[200:].tolist()
+    (tmp_path / "a.ply").write_bytes(ply(points, faces, order))
+    pieces = [(len(piece.triangles), len(piece.quads)) for piece in open_mesh_file(tmp_path / "a.ply").pieces()]
+    assert pieces == [(200, 0), (0, len(faces) - 200)]
+
+
+@pytest.mark.parametrize("far, times", [(1.9, 1), (2.1, 2)])
+def test_what_reaches_twice_as_far_as_the_samples_is_read_once(tmp_path, monkeypatch, far, times):
+    """From the middle of their box."""
+    monkeypatch.setattr(stl_module, "SAMPLES", 3)
+    near, away = box((-1, -1, -1), (1, 1, 1)), box((0, 0, 0), (far, 0.5, 0.5))
+    part = joined(near, away)
+    triangles = [*part[1][:12], *part[1][12:]]
+    boxes = np.array([triangles[0], *triangles[12:], *triangles[1:12]])
+    monkeypatch.setattr(stl_module.StlFile, "sampled_box", lambda _: (np.full(3, -1.0), np.full(3, 1.0)))
+    seen = []
+    assert measured(tmp_path, "a.stl", stl((part[0], boxes)), progress=seen.append).closed
+    assert sum(seen) == 24 * times
 
 
 def test_a_header_has_a_million_bytes_at_most(tmp_path):
