@@ -48,6 +48,16 @@ def test_a_rectangle_has_its_closed_form_at_zero_and_everywhere():
     assert np.abs(polygon_transform([loop[::-1]], q).values + true).max() <= 1e-14
 
 
+@pytest.mark.parametrize("scale", [1e-3, 1.0, 1e3])
+def test_next_to_zero_the_imaginary_part_is_that_of_the_first_moments(scale):
+    """Of two rectangles side by side, 3 by 1 and 1 by 2: an L whose center is not that of its box."""
+    corners = np.array([[0.0, 0.0], [4.0, 0.0], [4.0, 2.0], [3.0, 2.0], [3.0, 1.0], [0.0, 1.0]]) - (5.0, 2.0)
+    q = np.array([[1e-25, 0.0], [0.0, -1e-25], [2e-26, 3e-26]]) / scale
+    found = polygon_transform([corners * scale], q).values / scale**2
+    first = np.array([3.0 * (1.5 - 5.0) + 2.0 * (3.5 - 5.0), 3.0 * (0.5 - 2.0) + 2.0 * (1.0 - 2.0)]) * scale
+    assert np.abs(found.real - 5.0).max() <= 1e-14 and np.abs(found.imag / -(q @ first) - 1.0).max() <= 1e-13
+
+
 def test_corners_in_line_and_repeated_ones_change_nothing():
     q = np.random.default_rng(0).normal(size=(60, 2)) * np.logspace(-15, 3, 60)[:, None]
     more = np.insert(OUTLINE, 1, [[1, 0], [1, 0], [2, 0]], axis=0)

@@ -525,6 +525,23 @@ def test_quads_on_the_edge_of_the_rule_are_decided_in_float32(path):
         assert cut_alike(points * np.float32(1 - 2 * np.array(signs)), quads)
 
 
+@pytest.mark.parametrize("along, b_away, d_away", [(1, 1, 1), (1, 300, 1), (1, 1, 300), (300, 1, 1), (1, 1e-3, 1e-3)])
+@pytest.mark.parametrize("plane", range(3))
+def test_long_and_thin_quads_on_the_edge_of_the_rule_are_decided_in_float32(plane, along, b_away, d_away):
+    """Their first diagonal stands at half a right angle in a coordinate plane."""
+    rng, count = np.random.default_rng(4), 100
+    angle, half = rng.uniform(0.0, 2.0 * np.pi, count), 0.5**0.5
+    axes = np.roll([[half, half, 0.0], [half, -half, 0.0], [0.0, 0.0, 1.0]], plane, axis=1)
+    place = [np.zeros((count, 3)), np.zeros((count, 3)), np.zeros((count, 3)), np.zeros((count, 3))]
+    for at, away, first, second in ((1, b_away, np.cos, np.sin), (3, d_away, lambda t: -np.sin(t), np.cos)):
+        place[at] = np.stack([along * rng.uniform(0.2, 0.8, count), away * first(angle), away * second(angle)], axis=1)
+    place[2][:, 0] = along
+    points = (np.stack(place, axis=1).reshape(-1, 3) @ axes).astype(np.float32)
+    quads = np.arange(len(points)).reshape(-1, 4)
+    assert 10 < flipped_quads(points, quads).sum() < 90
+    assert cut_alike(points, quads)
+
+
 def test_area_alone_equals_the_zeroth_shell_moment(path):
     points, quads = grid_torus(noise=0.05)
     surface = Surface(points.astype(np.float32), quads=quads)
