@@ -262,6 +262,14 @@ def test_slabs_are_as_thick_as_they_may_be_and_share_a_plane(monkeypatch, backgr
     )
 
 
+def test_a_body_within_the_grid_reaches_no_edge_wherever_slabs_end(monkeypatch):
+    monkeypatch.setattr(threshold, "CELLS_PER_SLAB", 1)
+    assert not threshold_body(ball(9), 0.0, 0).clipped
+    for axis in range(3):
+        for center in (0.5, -0.5):
+            assert threshold_body(ball(9, 0.7, np.roll([center, 0.0, 0.0], axis)), 0.0, 0).clipped
+
+
 def test_a_preview_is_near_and_claims_nothing():
     samples = torus(24)
     exact, preview = (threshold_body(samples, 0.05, order=1, preview=quick) for quick in (False, True))

@@ -390,6 +390,12 @@ def test_input_bounds_map_with_the_body():
     assert image.about_point((0, 0, 0)).input_error[1] >= 10 * 8e-7
 
 
+def test_of_a_stack_totals_are_those_of_each():
+    stack = Moments(np.arange(8.0).reshape(2, 4), np.zeros((2, 3)))
+    assert stack.total.tolist() == [0.0, 4.0] == [stack.at(k).total for k in range(2)]
+    assert Moments(np.arange(24.0).reshape(2, 3, 4), np.zeros((2, 3, 3))).total.tolist() == [[0, 4, 8], [12, 16, 20]]
+
+
 def test_different_measures_do_not_add():
     with pytest.raises(ValueError, match="different measures"):
         sum_moments([Moments(np.ones(1), np.zeros(3)), Moments(np.ones(1), np.zeros(3), "area")])

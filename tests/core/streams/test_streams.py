@@ -268,6 +268,14 @@ def test_a_concave_polygon_is_refused(tmp_path):
         measured(tmp_path, "a.ply", ply(arrow, [[4, 0, 1, 2, 3], [0, 1, 2]]))
 
 
+def test_concave_polygons_are_counted(tmp_path):
+    arrow = np.array([[0, 0, 0], [2, 1, 0], [0, 2, 0], [0.5, 1.5, 0], [0.5, 0.5, 0]], float)
+    square = np.array([[0, 0, 0], [2, 0, 0], [2, 2, 0], [1, 3, 0], [0, 2, 0]], float)
+    faces = np.array([[4, 0, 1, 2, 3], [5, 6, 7, 8, 9], [3, 4, 0, 1, 2]])
+    with refused("ply_concave_polygons", count=2):
+        measured(tmp_path, "a.ply", ply(np.concatenate([arrow, square]), faces.tolist()))
+
+
 @pytest.mark.parametrize("size", [1e-3, 1.0, 1e3])
 def test_a_polygon_is_concave_by_its_own_measure(tmp_path, size):
     """A corner that reaches in by a billionth of the size is rounding, by a thousandth it is none."""
