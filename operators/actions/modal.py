@@ -57,10 +57,8 @@ class ModalSteps:
     PROGRESS: Finding
     CANCELED: Finding
     _steps: Generator[float, None, None]
+    _finish: Callable[[Context], set[str]]
     _returned_at = 0.0  # when the last step gave control back to the window
-
-    def _finish(self, context: Context) -> set[str]:
-        raise NotImplementedError
 
     def run_all_steps(self, context: Context, count: float) -> set[str]:
         """Every step, in one call of the operator. count: what the last step yields."""

@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The scene follows an assembly: cursor, empty, and the origin that its instances and its children are placed by."""
 
+from collections.abc import Callable
+
 import bpy
 import numpy as np
 from bpy.props import BoolProperty
@@ -30,6 +32,7 @@ class _SnapToAssembly:
 
     bl_options = {"REGISTER", "UNDO"}
     target: TARGET
+    _place: Callable[[Context, Assembly], list[Finding]]
 
     def execute(self, context: Context) -> set[str]:
         try:
@@ -45,9 +48,6 @@ class _SnapToAssembly:
             return {"CANCELLED"}
         selection.report(self, *findings)
         return {"FINISHED"}
-
-    def _place(self, context: Context, assembly: Assembly) -> list[Finding]:
-        raise NotImplementedError
 
 
 def _center(context: Context, body: MassProperties) -> NDArray[np.float64]:

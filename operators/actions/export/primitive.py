@@ -96,23 +96,20 @@ class OBJECT_OT_body_moments_equal_inertia(Operator):
 def _mesh(name: str, shape: Shape, unit: float) -> Mesh:
     """The shape in Blender units, in its own frame."""
     made = bmesh.new()
-    try:
-        if shape.kind == "box":
-            bmesh.ops.create_cube(made, size=1.0)
+    if shape.kind == "box":
+        bmesh.ops.create_cube(made, size=1.0)
+    else:
+        bmesh.ops.create_uvsphere(made, u_segments=SEGMENTS, v_segments=RINGS, radius=1.0)
+    for vertex in made.verts:
+        x, y, z = vertex.co
+        if shape.kind == "capsule":
+            radius, length = shape.size
+            half = length / 2.0 if z > 0.0 else -length / 2.0
+            vertex.co = (x * radius / unit, y * radius / unit, (z * radius + half) / unit)
         else:
-            bmesh.ops.create_uvsphere(made, u_segments=SEGMENTS, v_segments=RINGS, radius=1.0)
-        for vertex in made.verts:
-            x, y, z = vertex.co
-            if shape.kind == "capsule":
-                radius, length = shape.size
-                half = length / 2.0 if z > 0.0 else -length / 2.0
-                vertex.co = (x * radius / unit, y * radius / unit, (z * radius + half) / unit)
-            else:
-                vertex.co = [value * size / unit for value, size in zip((x, y, z), shape.size)]
-        mesh = bpy.data.meshes.new(name)
-        made.to_mesh(mesh)
-    finally:
-        made.free()
+            vertex.co = [value * size / unit for value, size in zip((x, y, z), shape.size)]
+    mesh = bpy.data.meshes.new(name)
+    made.to_mesh(mesh)
     return mesh
 
 

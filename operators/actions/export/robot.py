@@ -7,6 +7,7 @@ The exporters of collections keep their path and options in the .blend; Blender 
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 
@@ -158,6 +159,8 @@ class GeometryExport(RobotExport):
     """Of those that leave the geometry of objects to Blender's own exporter; all else is a file of our own."""
 
     WRITES_MESHES = False
+    _export_over: Callable[[Context, SceneLinks, Path], list[Finding]]  # writes the geometry as Blender does, with the
+    # masses, and returns what is to be said about them
 
     def _export(self, context: Context, objects: list[Object], path: Path) -> list[Finding]:
         if self.links != "OBJECT" or self.geometry != "MESH" or self.inertial_only:
@@ -168,10 +171,6 @@ class GeometryExport(RobotExport):
             made.findings.append(finding("robot_sheared", count=len(sheared), links=sheared))
         findings = self._export_over(context, made, path)
         return [finding("robot_exported", count=len(made.robot.links), file=path.name), *findings]
-
-    def _export_over(self, context: Context, made: SceneLinks, path: Path) -> list[Finding]:
-        """Write the geometry as Blender does, with the masses; return what is to be said about them."""
-        raise NotImplementedError
 
     def _run_exporter(self, exporter: str, path: Path, options: dict) -> None:
         """Run Blender's own exporter on the same objects."""

@@ -147,7 +147,7 @@ class OBJECT_OT_body_moments_measure(ModalSteps, bpy.types.Operator):
         elif warnings:
             names = [warning.values["object"] for warning in warnings]
             done.append(finding("with_warnings", count=len(names), objects=names))
-        outcome.remember(self.bl_label, [*self._failures, *warnings] if tried > 1 else self._failures[1:])
+        outcome.remember(self.bl_label, [*self._failures, *warnings] if tried > 1 else [])
         reports.report(self, *done, *(reports.first(self._failures) if self._failures else ()))
 
 

@@ -123,8 +123,7 @@ class OBJECT_OT_body_moments_copy_moments(Operator):
 
     def execute(self, context: Context) -> set[str]:
         settings, computed = context.scene.body_moments, computed_moments(context.object)
-        if computed is None:
-            return {"CANCELLED"}
+        assert computed is not None
         try:
             about = settings.moments_about
             reference = reference_of(context.object, computed, context.scene) if about == "REFERENCE" else None

@@ -10,7 +10,7 @@ from bpy.types import Context, Depsgraph, Object, Operator
 
 from ....core.numerics.float32 import shortest_decimal
 from ....core.plane.section import Section, measure_section
-from ....core.verdict.finding import Finding, MeasureError, Severity, finding
+from ....core.verdict.finding import Finding, Severity, finding
 from ...bodies.flat import area_findings, flat_region
 from ...read.fingerprint import fingerprint, matrix_hash, settings_hash
 from ...read.section import SECTION_TYPES
@@ -28,11 +28,7 @@ def section_of(obj: Object, depsgraph: Depsgraph) -> tuple[Section, str, tuple[F
     Raises MeasureError where there is none.
     """
     found = flat_region(obj, depsgraph, exact=False)
-    try:
-        section = measure_section(found.plane, found.spatial, found.edges, found.stored, found.shared)
-    except MeasureError as error:
-        error.about(obj.name)
-        raise
+    section = measure_section(found.plane, found.spatial, found.edges, found.stored, found.shared)
     return section, found.description, (*found.findings, *area_findings(found, section.area))
 
 
@@ -112,8 +108,7 @@ class OBJECT_OT_body_moments_copy_section(Operator):
     def execute(self, context: Context) -> set[str]:
         obj = context.object
         stored = record.stored(obj)
-        if stored is None:
-            return {"CANCELLED"}
+        assert stored is not None
         code = stale_reason(obj, context.scene, stored)
         text = record.text(obj.name, stored, None if code is None else Finding(code))
         copy_text(self, context, text, finding("section_copied", object=obj.name))

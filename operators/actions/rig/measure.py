@@ -8,7 +8,7 @@ from ....core.verdict.finding import MeasureError, Severity, finding
 from ...bodies.rig import measure_rig
 from ...read.rig import require_armature
 from ...session import rig as stored_rig
-from ...write import properties, reports
+from ...write import reports
 from ...write.messages import of_severity
 from .. import selection
 from ..modal import redraw
@@ -34,9 +34,7 @@ class OBJECT_OT_body_moments_measure_bones(Operator):
 
     def execute(self, context: Context) -> set[str]:
         try:
-            armature = require_armature(context.object)
-            properties.require_storable(armature)
-            rig = measure_rig(context, armature)
+            rig = measure_rig(context, require_armature(context.object))
             failures = stored_rig.store(rig)
         except MeasureError as error:
             selection.report(self, reports.refusal(error))
@@ -45,9 +43,8 @@ class OBJECT_OT_body_moments_measure_bones(Operator):
         mass = rig.measurement.mass_properties.mass
         findings = of_severity(rig.measurement.findings, Severity.WARNING, Severity.ERROR)
         findings += [reports.failure(name, reason) for name, reason in failures]
-        selection.report(
-            self, finding("bones_measured", armature=armature.name, count=count, mass=mass), *reports.first(findings)
-        )
+        done = finding("bones_measured", armature=rig.armature.name, count=count, mass=mass)
+        selection.report(self, done, *reports.first(findings))
         redraw(context)
         return {"FINISHED"}
 

@@ -126,9 +126,8 @@ class OBJECT_OT_body_moments_recalculate_outside(Operator):
         except MeasureError as refusal:
             return _refuse(self, refusal.about(obj.name_full))
         found = [shown.elements for shown in measurement.findings if shown.code in REVERSED]
-        whole = np.arange(len(obj.data.polygons)) if any(not len(elements) for elements in found) else ()
-        faces = np.unique(np.concatenate([np.empty(0, np.int64), *(np.asarray(e, np.int64) for e in found), whole]))
-        faces = faces.astype(np.int64)
+        whole = np.arange(len(obj.data.polygons) if any(not len(elements) for elements in found) else 0)
+        faces = np.unique(np.concatenate([whole, *(np.asarray(elements, np.int64) for elements in found)]))
         if not len(faces):
             reports.report(self, finding("nothing_to_do", cause=finding("no_reversed_faces").as_record()))
             return {"CANCELLED"}
@@ -140,14 +139,10 @@ class OBJECT_OT_body_moments_recalculate_outside(Operator):
 
 def _reverse(data: bpy.types.Mesh, faces: np.ndarray) -> None:
     mesh = bmesh.new()
-    try:
-        mesh.from_mesh(data)
-        mesh.faces.ensure_lookup_table()
-        bmesh.ops.reverse_faces(mesh, faces=[mesh.faces[index] for index in faces.tolist()], flip_multires=True)
-        mesh.to_mesh(data)
-    finally:
-        mesh.free()
-    data.update()
+    mesh.from_mesh(data)
+    mesh.faces.ensure_lookup_table()
+    bmesh.ops.reverse_faces(mesh, faces=[mesh.faces[index] for index in faces.tolist()], flip_multires=True)
+    mesh.to_mesh(data)
 
 
 class SCENE_OT_body_moments_set_millimeters(Operator):
@@ -235,8 +230,8 @@ class OBJECT_OT_body_moments_select_refused(Operator):
 
     def execute(self, context: Context) -> set[str]:
         last = outcome.last()
-        names = set() if last is None else set(last.objects)
-        objects = [obj for obj in context.view_layer.objects if obj.name_full in names]
+        assert last is not None
+        objects = [obj for obj in context.view_layer.objects if obj.name_full in last.objects]
         if not objects:
             return {"CANCELLED"}
         for obj in context.view_layer.objects:

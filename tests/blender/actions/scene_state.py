@@ -7,6 +7,7 @@ import numpy as np
 
 DATA = ("objects", "collections", "materials", "meshes", "curves", "images", "texts", "node_groups", "actions")
 DATA = (*DATA, "armatures", "volumes", "scenes")
+OF_OBJECTS = ("parent", "parent_type", "data", "hide_render", "display_type", "show_in_front")
 
 
 def shown(value):
@@ -78,9 +79,10 @@ def of_animation(place, animation):
 def of_object(obj):
     place = "objects/" + obj.name
     yield place + " matrix", [list(row) for row in obj.matrix_world]
-    for name in ("parent", "parent_type", "data", "hide_render", "display_type", "mode", "rotation_mode"):
+    for name in (*OF_OBJECTS, "mode", "rotation_mode"):
         yield "{:s}.{:s}".format(place, name), getattr(obj, name)
-    yield place + " selected", obj.select_get() if obj.name in bpy.context.view_layer.objects else None
+    is_there = obj.name in bpy.context.view_layer.objects
+    yield place + " selected, hidden", [obj.select_get(), obj.hide_get()] if is_there else None
     if obj.type == "EMPTY":
         yield place + " display", [obj.empty_display_type, obj.empty_display_size]
     for modifier in obj.modifiers:
@@ -121,6 +123,7 @@ def of_object(obj):
 def of_nodes(group):
     """What a group of nodes takes and gives, its nodes with the numbers in them, and what is linked."""
     place = "node_groups/" + group.name
+    yield place + " is a modifier", group.is_modifier
     for item in group.interface.items_tree:
         limits = [getattr(item, name, None) for name in ("default_value", "min_value")]
         limits = [value if isinstance(value, float | int | None) else list(value) for value in limits]

@@ -20,6 +20,7 @@ from tests.blender.actions.test_transcripts import (
     MODULES,
     OPERATORS,
     assembly,
+    bones,
     computed,
     edited,
     empty_tree,
@@ -296,6 +297,62 @@ def pressed(name, options, way):
 def beam():
     add(flat_mesh(I_BEAM), "Beam")
     bpy.ops.object.body_moments_measure_section()
+
+
+DRAWN_AGAIN = {
+    "OBJECT_OT_body_moments_axis_from_selection": lambda: edited(2),
+    "OBJECT_OT_body_moments_clear_assembly": assembly,
+    "OBJECT_OT_body_moments_clear_bones": bones,
+    "OBJECT_OT_body_moments_live": parts,
+    "OBJECT_OT_body_moments_measure_bones": bones,
+    "OBJECT_OT_body_moments_measure_section": beam,
+    "OBJECT_OT_body_moments_physics_rig": bones,
+    "OBJECT_OT_body_moments_rig_center": bones,
+    "OBJECT_OT_body_moments_stability": parts,
+}
+
+
+@pytest.mark.parametrize("name", DRAWN_AGAIN)
+def test_what_several_areas_show_has_them_drawn_again(name):
+    DRAWN_AGAIN[name]()
+    for _ in range(2 if name.endswith("live") else 1):  # on, and off
+        window = Window()
+        assert stand_in(OPERATORS[name], print).execute(window) == {"FINISHED"}
+        assert window.said == ["drawn again"]
+
+
+PROGRESS = {  # of operators on two objects: what is done after each step
+    "OBJECT_OT_body_moments_align_to_world": (1, 2),
+    "OBJECT_OT_body_moments_measure": (2,),  # they are measured together
+    "OBJECT_OT_body_moments_stability": (1, 2),
+    "OBJECT_OT_body_moments_find_symmetry": None,
+}
+
+
+@pytest.mark.parametrize("count", [1, 2])
+@pytest.mark.parametrize("name", PROGRESS)
+def test_of_several_objects_the_cursor_shows_the_progress(name, count, monkeypatch):
+    bodies(count)
+    window = Window()
+    monkeypatch.setattr(stepwise, "bpy", SimpleNamespace(context=window))
+    assert stand_in(OPERATORS[name], lambda *_: None).execute(bpy.context) == {"FINISHED"}
+    if count == 1:
+        assert not window.said
+        return
+    first, *steps, last = window.said
+    assert (first, last) == ("progress 0 2", "progress ends")
+    shares = [float(step.removeprefix("done ")) for step in steps]
+    assert shares == sorted(shares) and shares[-1] == 2.0
+    assert PROGRESS[name] in (tuple(shares), None)
+
+
+def test_the_cursor_shows_no_progress_any_more_where_a_step_fails(monkeypatch):
+    window = Window()
+    monkeypatch.setattr(stepwise, "bpy", SimpleNamespace(context=window))
+    with pytest.raises(ZeroDivisionError), stepwise.progress(3) as step:
+        step(1)
+        raise ZeroDivisionError
+    assert window.said == ["progress 0 3", "done 1", "progress ends"]
 
 
 COPIED_IN = {

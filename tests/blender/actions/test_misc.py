@@ -6,6 +6,7 @@ import bpy
 import numpy as np
 import pytest
 
+from tests.blender.bodies.test_assembly import box_mesh
 from tests.blender.objects import add, measured, mesh_body, only, place
 from tests.close import close
 
@@ -219,6 +220,30 @@ def test_boundary_edges_and_flipped_faces_are_selected(reported):
     assert {"defect_flipped_faces", "defect_boundary_edges"} <= set(reported.codes)
 
 
+@pytest.mark.parametrize(("face", "kinds"), [("flipped", {"flipped_faces"}), ("missing", {"boundary_edges"})])
+def test_defects_that_are_hidden_are_shown(face, kinds):
+    mesh = box_mesh(1, 2, 4)
+    if face == "flipped":
+        mesh.polygons[2].flip()
+    else:
+        corners = [tuple(polygon.vertices) for polygon in mesh.polygons][:-1]
+        mesh = bpy.data.meshes.new("Open")
+        mesh.from_pydata([vertex.co for vertex in box_mesh(1, 2, 4).vertices], [], corners)
+    obj = add(mesh)
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="SELECT")
+    bpy.ops.mesh.hide()
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert bpy.ops.object.body_moments_select_faults(kinds=kinds) == {"FINISHED"} and obj.mode == "EDIT"
+    assert list(bpy.context.tool_settings.mesh_select_mode) == [False, face == "missing", face == "flipped"]
+    bpy.ops.object.mode_set(mode="OBJECT")
+    uses = np.bincount([loop.edge_index for loop in mesh.loops], minlength=len(mesh.edges))
+    if face == "flipped":
+        assert [polygon.index for polygon in mesh.polygons if polygon.select and not polygon.hide] == [2]
+    else:
+        assert [edge.select and not edge.hide for edge in mesh.edges] == (uses == 1).tolist()
+
+
 @pytest.mark.parametrize("mode", ["OBJECT", "EDIT"])
 def test_undo_leads_back_from_the_faults_to_the_measurement_and_from_there_to_the_start(mode):
     good, bad = add(mesh_body(), "Good"), add(mesh_body(), "Bad")
@@ -292,6 +317,30 @@ def test_a_material_sets_the_density_of_all_selected_and_a_typed_density_forgets
     assert bpy.ops.object.body_moments_set_material(material="Water") == {"CANCELLED"}
     one.body_moments.density = 500.0
     assert one.body_moments.material == ""
+
+
+@pytest.mark.parametrize(
+    ("operator", "options"),
+    [
+        ("object.measure", {}),
+        ("object.origin_to_center", {}),
+        ("object.balance_group", {"use_scene_range": False, "frame_end": 2}),
+        ("object.set_material", {}),
+        ("scene.set_millimeters", {}),
+    ],
+)
+def test_a_scene_gets_the_preferences_with_the_first_press(operator, options, monkeypatch, scene):
+    from types import SimpleNamespace
+
+    from body_moments.operators.settings import preferences
+
+    source = SimpleNamespace(**{name: getattr(scene.body_moments, name) for name in preferences.COPIED})
+    monkeypatch.setattr(preferences, "preferences", lambda: SimpleNamespace(**(vars(source) | {"show_overlay": True})))
+    add(mesh_body(), location=(1, 2, 3))
+    assert not scene.body_moments.has_defaults
+    category, name = operator.split(".")
+    assert getattr(getattr(bpy.ops, category), "body_moments_" + name)(**options) == {"FINISHED"}
+    assert scene.body_moments.has_defaults
 
 
 def test_settings_are_copied_to_the_other_selected_objects():

@@ -87,6 +87,42 @@ def overridden():
     only(made)
 
 
+def linked_armature():
+    """Of a character that was measured before its file was saved."""
+    armature, skin = character()
+    bpy.ops.object.body_moments_measure_bones()
+    path = bpy.app.tempdir + "armature.blend"
+    bpy.data.libraries.write(path, {armature, skin})
+    bpy.data.batch_remove([*bpy.data.objects, *bpy.data.meshes, *bpy.data.armatures])
+    with bpy.data.libraries.load(path, link=True) as (_, names):
+        names.objects = ["Rig", "Skin"]
+    for obj in names.objects:
+        bpy.context.scene.collection.objects.link(obj)
+    bpy.context.view_layer.update()
+    only(bpy.data.objects["Rig"])
+
+
+def linked_assembly():
+    """A collection of a library in the scene, the active one."""
+    root = assembly_of_boxes()
+    path = bpy.app.tempdir + "assembly.blend"
+    name = root.name
+    bpy.data.libraries.write(path, {root})
+    bpy.data.batch_remove([*bpy.data.objects, *bpy.data.meshes, *bpy.data.collections])
+    with bpy.data.libraries.load(path, link=True) as (_, names):
+        names.collections = [name]
+    bpy.context.scene.collection.children.link(names.collections[0])
+    layer = bpy.context.view_layer
+    layer.active_layer_collection = layer.layer_collection.children[name]
+
+
+def refused_ones_are_gone():
+    body()
+    bpy.context.object.modifiers.new("Cast", "CAST")
+    bpy.ops.object.body_moments_origin_to_center()
+    bpy.data.objects.remove(bpy.context.object)
+
+
 def linked_member():
     obj = linked("Linked")
     assembly_of_boxes().objects.link(obj)
@@ -246,6 +282,7 @@ CASES = {
     "assembly with a linked member": (linked_member, "object.measure_assembly", {}),
     "origin of a damaged member": (damaged_member, "object.origin_to_center", {}),
     "origin that is held": (held_root, "object.assembly_origin", {"target": "OBJECT"}),
+    "origin of a linked collection": (linked_assembly, "object.assembly_origin", {}),
     "child that is held": (held_child, "object.assembly_origin", {"target": "OBJECT"}),
     "bill nowhere": (assembly_of_boxes, "object.export_bill", {"filepath": NOWHERE}),
     "bill without a file": (assembly_of_boxes, "object.export_bill", {}),
@@ -264,6 +301,8 @@ CASES = {
     "reference to nothing": (stored_about_nothing, "object.copy_reference", {}),
     "section of a body": (body, "object.measure_section", {}),
     "bones that deform nothing": (no_bones, "object.measure_bones", {}),
+    "bones of a linked armature": (linked_armature, "object.measure_bones", {}),
+    "clear bones of a linked armature": (linked_armature, "object.clear_bones", {}),
     "bones being edited": (edited_bones, "object.measure_bones", {}),
     "center of bones that deform nothing": (no_bones, "object.rig_center", {}),
     "physics rig that deform nothing": (no_bones, "object.physics_rig", {}),
@@ -295,6 +334,7 @@ CASES = {
     "group of a posed character": (posed, "object.balance_group", {"use_scene_range": False, "frame_end": 2}),
     "rest upside down": (upside_down, "object.rest_on_ground", {}),
     "rest of damaged numbers": (damaged, "object.rest_on_ground", {}),
+    "select refused ones that are gone": (refused_ones_are_gone, "object.select_refused", {}),
     "stability of a strip": (strip, "object.stability", {}),
 }
 WITH_FILES = {

@@ -291,6 +291,7 @@ AVAILABLE = {
     "bones": bones,
     "flat": flat,
     "a camera": nothing,
+    "posed": lambda: (bones(), bpy.ops.object.mode_set(mode="POSE")),
     "a point": lambda: add(None, "Empty"),
     "nothing selected": lambda: (parts(), bpy.ops.object.select_all(action="DESELECT")),
     "not measured": lambda: add(box_mesh(1, 2, 4)),

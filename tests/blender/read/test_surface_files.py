@@ -138,6 +138,16 @@ def test_nothing_to_import_changes_nothing(tmp_path, reported):
     assert before == (len(bpy.data.objects), len(bpy.data.scenes), len(bpy.data.curves))
 
 
+def test_a_file_that_may_not_be_read_is_refused(tmp_path, reported, monkeypatch):
+    def denied(*_):
+        raise PermissionError(13, "Permission denied")
+
+    monkeypatch.setattr("body_moments.operators.actions.imports.import_surfaces.read_surfaces", denied)
+    with pytest.raises(RuntimeError):
+        bpy.ops.object.body_moments_import_surfaces(filepath=str(written(tmp_path, unrolled(sphere()))))
+    assert reported.codes[-1] == "file_unreadable"
+
+
 def test_faces_of_surfaces_look_where_the_files_normals_do(tmp_path):
     (body,) = read_surfaces(written(tmp_path, unrolled(sphere()))).bodies
     ((obj, _),) = import_bodies([body], bpy.context.scene.collection, 1.0)

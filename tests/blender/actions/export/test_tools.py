@@ -66,6 +66,17 @@ def test_a_rigid_box_carries_the_object_where_it_is():
     assert bpy.ops.object.body_moments_equal_inertia(rigid_body=True) == {"CANCELLED"}
 
 
+def test_the_audit_of_what_is_right_writes_no_copy(tmp_path, reported):
+    path = tmp_path / "r.urdf"
+    path.write_text(BOX.format("5333.3333333333333"), encoding="utf-8")
+    assert bpy.ops.import_scene.body_moments_audit(filepath=str(path), write_copy=True) == {"FINISHED"}
+    assert [file.name for file in tmp_path.iterdir()] == ["r.urdf"]
+    (tmp_path / "r.urdf.audit.html").mkdir()
+    with pytest.raises(RuntimeError):
+        bpy.ops.import_scene.body_moments_audit(filepath=str(path), write_page=True)
+    assert reported.codes[-1] == "audit_not_written" and len(bpy.data.texts) == 1
+
+
 def test_the_audit_becomes_a_text_and_a_repaired_copy(tmp_path):
     path = tmp_path / "r.urdf"
     path.write_text(BOX.format("5333333"), encoding="utf-8")

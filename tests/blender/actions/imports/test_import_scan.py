@@ -101,6 +101,24 @@ def test_what_cannot_be_imported_leaves_nothing(tmp_path, reported):
     imported(good, overwrite=True)
 
 
+@pytest.mark.parametrize("name", ["read_scan", "read_all_positions"])
+def test_a_file_that_may_not_be_read_is_refused(name, tmp_path, reported, monkeypatch):
+    def denied(*_):
+        raise PermissionError(13, "Permission denied")
+
+    monkeypatch.setattr("body_moments.operators.actions.imports.import_scan." + name, denied)
+    with pytest.raises(RuntimeError):
+        bpy.ops.object.body_moments_import_scan(filepath=str(written(tmp_path / "a.nrrd", nrrd(samples()))))
+    assert reported.codes[-1] == "file_unreadable" and [file.name for file in tmp_path.iterdir()] == ["a.nrrd"]
+
+
+def test_without_openvdb_nothing_is_imported(tmp_path, reported, monkeypatch):
+    monkeypatch.setattr("body_moments.operators.actions.imports.import_scan.openvdb", lambda: None)
+    with pytest.raises(RuntimeError):
+        bpy.ops.object.body_moments_import_scan(filepath=str(written(tmp_path / "a.nrrd", nrrd(samples()))))
+    assert reported.codes[-1] == "openvdb_missing"
+
+
 def test_it_is_in_the_import_menu():
     import body_moments.operators.actions.imports.import_scan as module
 

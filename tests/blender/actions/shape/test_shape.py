@@ -274,6 +274,9 @@ def test_a_library_measured_in_batch_is_searched(tmp_path, reported):
     assert bpy.context.scene.body_moments_search.looked_at == "library.jsonl"
     refused("find_in_library", filepath=str(tmp_path / "none.jsonl"))
     assert reported.codes[-1] == "library_file_unreadable"
+    bpy.context.object.data = bpy.data.meshes.new("Nothing")
+    refused("find_in_library", filepath=str(path))
+    assert reported.codes[-1] != "library_file_unreadable" and found() == rows
 
 
 def test_what_was_found_survives_saving_and_loading(tmp_path, reported):
