@@ -162,7 +162,7 @@ def orient_loops(points: NDArray, loops: Sequence[NDArray]) -> NDArray[np.intp]:
             if clear.max() < 0.25:
                 raise MeasureError("outlines_coincide")
             depth += int(winding[np.argmax(clear)] > 0.5)
-        ahead = _signed_area(points, edges) > 0.0
+        ahead = _twice_the_area(points, edges) > 0.0
         order.append(loop if ahead == (depth % 2 == 0) else loop[::-1])
     return directed_edges(order)
 
@@ -287,9 +287,9 @@ def _steep_side_windings(points: NDArray, edges: NDArray, chosen: NDArray, touch
     return left, right
 
 
-def _signed_area(points: NDArray, edges: NDArray) -> float:
+def _twice_the_area(points: NDArray, edges: NDArray) -> float:
     a, b = (points[edges[:, i]] - points[edges[0, 0]] for i in (0, 1))
-    return float((a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]).sum()) / 2.0
+    return float((a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]).sum())
 
 
 def _crossing_pairs(points: NDArray, edges: NDArray, touch: float) -> tuple[int, float, bool]:
@@ -298,20 +298,22 @@ def _crossing_pairs(points: NDArray, edges: NDArray, touch: float) -> tuple[int,
     value is whether that was given up."""
     start, end = points[edges[:, 0]], points[edges[:, 1]]
     low, high = np.minimum(start, end), np.maximum(start, end)
-    length = np.hypot(*(end - start).T)
+    span = np.abs(end - start)
+    length = np.hypot(*span.T)
     length[length == 0.0] = 1.0
     size = float((high.max(axis=0) - low.min(axis=0)).max()) or 1.0
-    cell = max(2.0 * float((high - low).mean()), size / GRID_CELLS)
+    cell = max(2.0 * float(span.mean()), size / GRID_CELLS)
     low, high = (np.floor(corner / cell).astype(np.int64) for corner in (low - touch, high + touch))
     wide, tall = (high - low + 1).T
-    if (wide * tall).sum() > MAX_EDGE_PAIRS:
+    entered = wide * tall
+    if entered.sum() > MAX_EDGE_PAIRS:
         return 0, 0.0, True
-    edge = np.repeat(np.arange(len(edges)), wide * tall)
-    within = segment_ranges(wide * tall)
+    edge = np.repeat(np.arange(len(edges)), entered)
+    within = segment_ranges(entered)
     key = (low[edge, 0] + within // tall[edge]) * (2 * GRID_CELLS) + low[edge, 1] + within % tall[edge]
     order = np.argsort(key)
     edge, key = edge[order], key[order]
-    active, crossings, opposed, compared_count = np.arange(len(edge)), [], {}, 0
+    active, crossings, opposed, compared_count = np.arange(len(edge)), [np.zeros(0, np.int64)], {}, 0
     for step in range(1, len(edge)):
         active = active[active < len(edge) - step]
         active = active[key[active + step] == key[active]]
@@ -335,7 +337,7 @@ def _crossing_pairs(points: NDArray, edges: NDArray, touch: float) -> tuple[int,
         common = np.minimum(first, length[i]) - np.maximum(last, 0.0)  # of opposite edges first is beyond last
         opposed.update(zip(pair[common > 4.0 * touch].tolist(), common[common > 4.0 * touch].tolist()))
     return (
-        len(np.unique(np.concatenate(crossings))) if crossings else 0,
+        len(np.unique(np.concatenate(crossings))),
         float(sum(opposed.values())),
         compared_count > MAX_EDGE_PAIRS,
     )

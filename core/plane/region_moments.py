@@ -81,7 +81,8 @@ def region_moments(
     points, edges = np.asarray(points, np.float64), np.asarray(edges)
     if about is None:
         first = area_moments(points, edges, 1)
-        if not abs(first.raw[0]) > first.rounding_error[0] + _swept(points, edges, first.about, rounded, 0)[0]:
+        bounds = first.rounding_error + _swept(points, edges, first.about, rounded, 1)
+        if not abs(first.raw[0]) > bounds[0]:
             raise MeasureError("section_encloses_nothing")
         about = first.about + first.raw[1:] / first.raw[0]
     flat = area_moments(points, edges, order, about)

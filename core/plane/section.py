@@ -249,9 +249,7 @@ def region(
 
 def projection_rounding(plane: Plane, points: NDArray, flat: NDArray) -> float:
     """How far rounding may have moved a coordinate of (n, 3) points that were projected to (n, 2) flat ones."""
-    return (
-        16.0 * U * float(np.abs(points).max(initial=0.0) + np.abs(plane.origin).max() + np.abs(flat).max(initial=0.0))
-    )
+    return 16.0 * U * float(np.abs(points).max() + np.abs(plane.origin).max() + np.abs(flat).max(initial=0.0))
 
 
 def measure_section(plane: Plane, points: NDArray, edges: NDArray, error: float = 0.0, shared: float = 0.0) -> Section:

@@ -178,6 +178,21 @@ def test_the_boundary_of_triangles_leaves_out_those_that_are_edges_and_none_is_l
     assert sorted(map(tuple, boundary_edges(flat[[0, 2, 3]], 6).tolist())) == [(0, 2), (1, 0), (2, 1)]
 
 
+@pytest.mark.parametrize("axis", [0, 1])
+def test_edges_that_touch_are_compared_wherever_they_lie_among_the_cells_of_the_grid(axis):
+    """Two squares that touch but for a gap, and a third one on which the places of all cells depend."""
+    error, gap = 1e-3, 3e-3
+    for far in np.arange(0.0, 1.2, gap / 2.0):
+        points, loops = shape(rectangle(0, 0, 1, 1), rectangle(1 + gap, 0, 1, 1), rectangle(-2 - far, -2 - far, 1, 1))
+        edges = directed_edges([loop[:: 1 - 2 * axis] for loop in loops])
+        found = find_defects(points[:, ::-1] if axis else points, edges, error)
+        assert close(found.shared_length, 1.0, 1e-12) and not found.crossings and not found.overlapping
+
+
+def test_no_loops_have_no_edges():
+    assert directed_edges([]).shape == orient_loops(np.zeros((3, 2)), []).shape == (0, 2)
+
+
 PENTAGRAM = [(math.cos(4 * math.pi * k / 5), math.sin(4 * math.pi * k / 5)) for k in range(5)]
 
 
@@ -263,6 +278,17 @@ def test_the_search_for_crossings_tells_when_it_gives_up(monkeypatch):
     monkeypatch.setattr(polygon, "MAX_EDGE_PAIRS", 2)
     points, loops = shape(STAR)
     assert find_defects(points, directed_edges(loops)).too_many_pairs
+
+
+@pytest.mark.parametrize("limit, gives_up", [(400, True), (10**6, False)])
+def test_crossings_are_counted_until_too_many_pairs_are_compared(monkeypatch, limit, gives_up):
+    """A star of 41 long edges, each of which 38 others cross: few cells of the grid, and all edges in each."""
+    from body_moments.core.plane import polygon
+
+    monkeypatch.setattr(polygon, "MAX_EDGE_PAIRS", limit)
+    angle = 2.0 * np.pi * 20.0 / 41.0 * np.arange(41)
+    found = find_defects(np.stack([np.cos(angle), np.sin(angle)], axis=1), directed_edges([range(41)]))
+    assert found.too_many_pairs == gives_up and (found.crossings == 41 * 19) != gives_up
 
 
 def test_winding_numbers_are_whole_inside_and_outside_and_half_on_an_edge():
@@ -354,7 +380,7 @@ def test_all_that_is_told_of_random_regions_is_what_exact_arithmetic_finds(scale
 def test_what_overlaps_by_a_billionth_of_the_size_touches(share, touches, size, side):
     corner = np.where(np.array(side) == 1.0, 1.0 - share * 1.5e-9, side)
     points, loops = shape(rectangle(0, 0, 1, 1), rectangle(*corner, 0.5, 0.5), rectangle(1.25, 1.25, 0.25, 0.25))
-    found = find_defects(size * points + 7.0 * size, directed_edges(loops))
+    found = find_defects(size * (points + (7.0, -3.0)), directed_edges(loops))
     assert (found.crossings == 0, found.overlapping) == (touches, not touches)
     if touches:
         assert close(found.shared_length, 0.5 * size, 1e-8)

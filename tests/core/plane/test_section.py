@@ -276,6 +276,11 @@ def test_slivers_have_no_side_to_look_to(error, turned):
     assert region(LEVEL, points, triangles, np.arange(2), error)[1] == turned
 
 
+def test_a_section_without_edges_is_refused():
+    with refused("section_encloses_nothing"):
+        measure_section(LEVEL, SQUARE[0], np.zeros((0, 2), np.intp))
+
+
 @pytest.mark.parametrize(
     "outline", [[(0, 0), (1, 1), (3, 3)], [(0, 0), (0, 2), (2, 2), (2, 0)]], ids=["flat", "outside"]
 )
@@ -435,3 +440,13 @@ def test_moments_a_millionth_apart_are_equal(apart, undetermined, size):
     section = replace(measured(rectangle(0, 0, 1, 1)), second=np.array([1.0 + apart, 1.0, 0.0]) * size)
     section = replace(section, rounding_error={"second": 0.0}, input_error={"second": 0.0})
     assert section.axes_undetermined == undetermined
+
+
+def test_a_section_so_far_away_that_its_centroid_is_no_number_keeps_its_second_moments():
+    """301 by 501 of the steps that coordinates there have: the number nearest to it is half a step off."""
+    far, step = 2.0**33, 2.0**-19
+    points = far + step * np.array(rectangle(0, 0, 301, 501), float)
+    section = measure_section(LEVEL, lifted(points), directed_edges([range(4)]))
+    assert close(section.area, 301.0 * 501.0 * step**2, 1e-14)
+    assert close(section.second[:2], np.array([301.0 * 501.0**3, 501.0 * 301.0**3]) / 12.0 * step**4, 1e-12)
+    assert abs(section.second[2]) <= 1e-12 * section.second[0]
