@@ -243,8 +243,8 @@ def are_physical(volume: Moments, low: NDArray, high: NDArray, size: float | NDA
 
 
 def _propagate_errors(moments: Moments, density: NDArray) -> tuple[dict[str, PerBody], dict[str, PerBody]]:
-    """Bounds of the change that rounding makes, and of that when the moments are off by their `input_error`: propagated
-    to first order, with the divisor at its smallest; infinite where nothing bounds a quotient."""
+    """Bounds of the change that rounding makes, and of that when the moments are off by their `input_error`: what the
+    worst signs of all errors make, with the divisor at its smallest; infinite where nothing bounds a quotient."""
     delta, raw = np.stack([moments.rounding_error, moments.input_error]), moments.raw
     total, off = raw[..., 0], delta[..., 0]
     is_bounded = total > 2.0 * off
@@ -254,8 +254,8 @@ def _propagate_errors(moments: Moments, density: NDArray) -> tuple[dict[str, Per
     shift = first / total
     center = _lengths((off_first + shift * off[..., None]) / least)
     cross = off_first[..., :, None] * shift[..., None, :]
-    second = delta[..., SECOND_MOMENT_INDEX] + (cross + cross.swapaxes(-1, -2)) * (total / least)[..., None]
-    second = second + shift[..., :, None] * shift[..., None, :] * off[..., None, None]
+    cross = cross + cross.swapaxes(-1, -2) + shift[..., :, None] * shift[..., None, :] * off[..., None, None]
+    second = delta[..., SECOND_MOMENT_INDEX] + cross * (total / least)[..., None]
     second = second + off_first[..., :, None] * (off_first / least)[..., None, :]
     center[0] += 2.0 * U * _lengths(np.abs(moments.about) + 2.0 * shift[0])
     second[0] += 6.0 * U * (np.abs(raw[..., SECOND_MOMENT_INDEX]) + first[..., :, None] * shift[0][..., None, :])

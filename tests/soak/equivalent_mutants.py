@@ -32,7 +32,7 @@ NAMES = {
 # places ("module function"), and the mutant's text before and after it: the reason
 PATTERNS = [
     (r".*", r".*\*= -1\.0", r".*/= -1\.0", "times -1 is by -1"),
-    (r".*", r"(\([^()]*(\([^()]*\))?[^()]*\) \* )?([\w.]+) @ \3", r"\([\w.]+ @ .*", "nothing is changed"),
+    (r".*", r"(\([^()]*(\([^()]*\))?[^()]*\) \* )?([\w.]+(\[\w+\])?) @ \3", r"\([\w.\[\]]+ @ .*", "nothing is changed"),
     (r".*", r".* \* HALF_TURN(S|_SIGNS)\[.*", r"\(.* / HALF_TURN(S|_SIGNS)\[.*", "times -1 is by -1"),
     (
         r".*streams/stl.py .*",
@@ -183,7 +183,26 @@ PATTERNS = [
         r".*1\.0",
         "of how many edges is looked at both sides",
     ),
-    (r".*plane/polygon.py _signed_area", r".* / 2\.0", r".* \* 2\.0\)", "only its sign is read"),
+    (
+        r".*plane/polygon.py _steep_side_windings",
+        r"1\.0 / RAYS_PER_BLOCK|float\(\(high - low\)\.mean\(\)\) / .*|RAYS_PER_BLOCK / len\(edges\)",
+        r".*",
+        "of how many edges is looked at both sides",
+    ),
+    (r".*plane/polygon.py _steep_side_windings", r"up > 0", r"\(up >= 0\)", "what is not crossed adds nothing"),
+    (
+        r".*plane/polygon.py _crossing_pairs",
+        r"high\.max\(axis=0\)( - .*)?|low\.min\(axis=0\)|2\.0 \* float\(span\.mean\(\)\)|size / GRID_CELLS",
+        r".*",
+        "how coarse the grid is",
+    ),
+    (
+        r".*plane/polygon.py _steep_side_windings",
+        r"\(high >= y\.min\(\)\) & \(low <= y\.max\(\)\)",
+        r".* \| .*",
+        "each of them is looked at more closely",
+    ),
+    (r".*plane/polygon.py _crossing_pairs", r"break", r"continue", "it goes on to no avail"),
     (
         r".*density/piecewise_mass.py _block_size",
         r"TRIANGLES_PER_BLOCK \* 20 // .*",
@@ -350,6 +369,37 @@ PATTERNS = [
         "along the sphere one is the other, and where it is level they agree",
     ),
     (
+        r".*axial_harmonics.py AxialHarmonics.in_frame",
+        r"frame\[:, \d\] @ base\[:, \d\]",
+        r"\(base\[.*",
+        "the product of two vectors, either way",
+    ),
+    (
+        r".*canonical_stack.py _choose",
+        r"first\.argsort\(axis=1\)",
+        r"\(first\.argsort\(\)\)",
+        "the last axis is the second",
+    ),
+    (
+        r".*canonical_frame.py _maximize_on_sphere",
+        r"\(degree \* MAX_START_GAP\) \*\* 2 / 4\.0",
+        r".* \* 4\.0\)",
+        "more directions are followed",
+    ),
+    (r".*canonical_stack.py _harmonics", r"form\[.* \+= coefficient", r".* -= coefficient", "only its size is read"),
+    (
+        r".*shared_search.py _extreme",
+        r"np.eye\(3\) - square",
+        r"\(np.eye\(3\) \+ square\)",
+        "along the sphere one is the other, and where it is level they agree",
+    ),
+    (
+        r".*(axial_harmonics.py turn_by_harmonics|canonical_frame.py _fix_rotation_about_axis)",
+        r"np\.angle\(.* \+ 2\.0 \* np\.pi \* np\.arange\(m\)",
+        r"\(.* - 2\.0 \* np\.pi \* np\.arange\(m\)\)",
+        "the same turns, the other way",
+    ),
+    (
         r".*scene/transforms.py set_rotation_and_scale",
         r"np\.array\(obj.*\* delta_scale",
         r".*/ delta_scale\)",
@@ -451,8 +501,21 @@ CONSTANTS = [
     (r".*shape/symmetry.py _around_axis", r"n // 2 \+ ", "the same turns, the other way"),
     (r".*triangle_kernel.py SortedTriangles._sort", r"\+ 1100, (0, )?", "the order in which triangles are summed"),
     (r".*plane/section.py measure_section", r"np\.ones\(", "it is replaced"),
-    (r".*plane/polygon.py _signed_area", r"points\[edges\[(0, )?", "a closed outline has its area from anywhere"),
+    (
+        r".*plane/polygon.py _steep_side_windings",
+        r"share = .*|max\(share, ",
+        "of how many edges is looked at both sides",
+    ),
+    (r".*plane/polygon.py _crossing_pairs", r"(size|cell) = .*", "how coarse the grid is"),
+    (r".*plane/polygon.py _crossing_pairs", r"within // tall\[edge\]\) \* \(", "which other edges are compared"),
+    (r".*plane/polygon.py _twice_the_area", r"points\[edges\[(0, )?", "a closed outline has its area from anywhere"),
     (r".*nurbs/creases.py _normals", r"patch\.points\[(0, )?", "slopes do not depend on the origin"),
+    (r".*mass_properties.py _propagate_errors", r"\bshift\[", "for both kinds of errors it is the same"),
+    (
+        r".*third_moment_frames.py third_moment_frames",
+        r"scale\[scale == 0\.0\] = |doubtful / np\.where\(equal, |np\.where\(span > 0\.0, span, ",
+        "anything but zero, of which nothing comes",
+    ),
     (r".*canonical_frame.py _extreme_directions", r"(noise = |max\()", "a looser bound"),
 ]
 # functions that make bounds of errors, where a constant factor twice as large gives a bound still
@@ -460,6 +523,7 @@ LOOSER = {
     "core/inertia/canonical_frame.py _normalization",
     "core/inertia/canonical_stack.py _along_axes",
     "core/inertia/reference.py Reference.refer",
+    "core/inertia/reference.py Reference.refer_moments",
     "core/plane/section.py _bounds",
     "core/plane/section.py projection_rounding",
     "core/polyhedron/any_order_kernel.py absolute_sums",

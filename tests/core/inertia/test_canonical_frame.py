@@ -6,7 +6,14 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from body_moments.core.inertia.canonical_frame import CLEAR_HARMONIC
+from body_moments.core.inertia.canonical_frame import (
+    CLEAR_HARMONIC,
+    MAX_START_GAP,
+    START_DIRECTIONS,
+    SecondMomentAxes,
+    _normalization,
+    _sphere_directions,
+)
 from body_moments.core.inertia.principal_frame import (
     equivalent_frames,
     nearest_frame,
@@ -16,6 +23,7 @@ from body_moments.core.inertia.principal_frame import (
 )
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.moments.moments import Moments, monomials
+from body_moments.core.moments.monomials import monomial_index
 from body_moments.core.moments.symmetric_tensors import invert_through_point
 from body_moments.core.polyhedron import polyhedron_moments
 from body_moments.core.solid.measure_solid import measure_solid
@@ -344,3 +352,23 @@ def test_where_a_plate_is_thinner_only_the_moments_across_it_are_more_of_noise()
         noise.append(equivalent_frames(polyhedron_moments(body.repaired_surface, 6)[0]).noise)
     across = monomials(6)[10:, 2] > 0
     assert (noise[1] > 20.0 * noise[0])[across].all() and close(noise[1][~across], noise[0][~across], rel=0.01)
+
+
+@pytest.mark.parametrize("degree, growth", [(3, 1.0), (4, 3.0), (5, 8.0), (6, 15.0)])
+def test_along_axes_of_any_direction_the_bounds_of_moments_add_up(degree, growth):
+    """Where all of n indices may be off by e, a form is by √3^n e along a diagonal; one moment is off here."""
+    error, turn = np.zeros(84), bodies.rotation(1)
+    error[monomial_index(0, 0, degree)] = 1e-3
+    central = Moments(np.append(1.0, np.zeros(83)), np.zeros(3), rounding_error=error)
+    unit, noise = _normalization(central, SecondMomentAxes(turn, np.full(3, 0.5), (0, 1, 2), 0.0), degree)
+    assert close(unit, 0.5**degree, 1e-14)
+    worst = 3.0 ** (degree / 2.0) * 1e-3 * np.abs(turn[2]).max() ** degree
+    assert close(noise, growth * 1e-5 + worst / 0.5**degree, 1e-12)
+
+
+def test_no_direction_is_far_from_those_that_are_looked_from():
+    places = np.random.default_rng(3).normal(size=(20_000, 3))
+    places /= np.linalg.norm(places, axis=1)[:, None]
+    starts = _sphere_directions()
+    assert close(np.linalg.norm(starts, axis=1), 1.0, 1e-15) and starts.shape == (START_DIRECTIONS, 3)
+    assert np.arccos(np.minimum((places @ starts.T).max(axis=1), 1.0)).max() < MAX_START_GAP

@@ -3,6 +3,7 @@
 """Mass properties against closed forms and rational arithmetic."""
 
 from fractions import Fraction
+from itertools import product
 
 import numpy as np
 import pytest
@@ -218,3 +219,29 @@ def test_a_body_s_second_moments_are_those_of_a_mass_but_for_eight_times_what_is
             spread[axis] = share * 8.0 * error
             volume = stack_of([center], spread, center, 7.0, second_error=error)
             assert are_physical(volume, center[None] - 2.0, center[None] + 2.0, 4.0).tolist() == [share > -1.0]
+
+
+@pytest.mark.parametrize("share", [0.02, 0.2])
+def test_large_errors_are_bounded_by_exactly_what_the_worst_signs_of_them_make(share):
+    """Each of ten moments off by so much of what it is; all 1024 choices of signs."""
+    raw = box((0.5, -1.0, 2.0), (1.5, 1.5, 4.0)).raw
+    delta = share * np.abs(raw) * np.array([1.0, 0.5, 0.8, 0.3, 1.0, 0.2, 0.7, 0.9, 0.4, 0.6, *[0.0] * 10])
+    found = MassProperties.from_moments(Moments(raw, np.zeros(3), input_error=delta), 3.0).input_error
+
+    def derived(raw):
+        first = raw[..., 1:4]
+        second = raw[..., SECOND_MOMENT_INDEX] - first[..., :, None] * first[..., None, :] / raw[..., :1, None]
+        return first / raw[..., :1], second
+
+    moved = derived(raw[:10] + np.array(list(product((-1.0, 1.0), repeat=10))) * delta[:10])
+    center, second = (np.abs(values - own).max(axis=0) for values, own in zip(moved, derived(raw[:10])))
+    assert close(found["mass"], 3.0 * delta[0], 1e-14) and close(found["center"], np.linalg.norm(center), 1e-13)
+    assert close(found["inertia"], 3.0 * np.linalg.norm(second.trace() * np.eye(3) + second), 1e-12)
+
+
+def test_the_moments_of_a_mass_are_those_that_give_its_properties_again():
+    body = MassProperties.from_moments(L_PRISM, 3.0)
+    made = body.as_moments()
+    assert made.measure == Measure.MASS and (made.about == body.center).all() and made.raw[0] == body.mass
+    again = MassProperties.from_moments(made)
+    assert (again.center == body.center).all() and np.abs(again.inertia - body.inertia).max() <= 1e-14 * 22.0

@@ -6,7 +6,7 @@ from itertools import product
 
 import numpy as np
 import pytest
-from body_moments.core.inertia.canonical_stack import HALF_TURN_PARITY, ODD_KIND, choose_about_axis
+from body_moments.core.inertia.canonical_stack import HALF_TURN_PARITY, ODD_KIND, choose_about_axis, choose_half_turns
 from body_moments.core.inertia.mass_properties import MassProperties
 from body_moments.core.inertia.principal_frame import OwnMoments, principal_frame
 from body_moments.core.inertia.third_moment_frames import third_moment_frames
@@ -16,6 +16,7 @@ from body_moments.core.moments.symmetric_tensors import invert_through_point
 
 from tests.close import close
 from tests.core import bodies, shapes
+from tests.core.findings import refused
 from tests.core.recursion import moments
 
 PARTS = {**shapes.ASYMMETRIC, **{name: part for name, (part, _) in shapes.SYMMETRIC.items()}}
@@ -130,3 +131,13 @@ def test_half_turns_change_the_sign_of_moments_that_are_odd_across_their_axis(po
         assert kind == 0
     else:
         assert HALF_TURN_PARITY[kind - 1].tolist() == signs and powers.count(powers[kind - 1]) == 1
+
+
+@pytest.mark.parametrize("name", ["box", "prism"])
+@pytest.mark.parametrize("scale", [1e-40, 1e60])
+def test_one_body_of_a_stack_beyond_the_range_of_numbers_is_refused(name, scale):
+    points, triangles = bodies.box((0, 0, 0), (1, 1 if name == "prism" else 2, 3))
+    stack = stack_moments([moments((points * size, triangles), 6) for size in (1.0, scale)])
+    choose = choose_half_turns if name == "box" else choose_about_axis
+    with refused("moments_overflow", order=6):
+        choose(stack, third_moment_frames(stack), np.array([0, 1]))

@@ -2,10 +2,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What second and third moments say of frames, and what of it is noise, against the closed forms of a box's moments."""
 
+from dataclasses import fields
+from itertools import permutations, product
+
 import numpy as np
 import pytest
-from body_moments.core.inertia.third_moment_frames import _are_decided, third_moment_frames
-from body_moments.core.moments.moments import Measure, Moments, monomials
+from body_moments.core.inertia.third_moment_frames import (
+    HALF_TURN_SIGNS,
+    _allowed_signs,
+    _are_decided,
+    third_moment_frames,
+)
+from body_moments.core.moments.moments import Measure, Moments, monomials, stack_moments
 
 from tests.close import close
 
@@ -99,3 +107,44 @@ def test_third_moments_are_decided_where_better_ones_leave_what_counts(sizes, de
     fixed = np.array([[True, False, False]])
     assert _are_decided(size, error, noise, fixed).tolist() == [decided]
     assert _are_decided(size, error, noise, np.zeros_like(fixed)).all()
+
+
+def test_each_body_of_a_stack_is_known_as_it_is_by_itself():
+    """Sizes, places, skewness and doubts of all of them differ; two of four axes are nearly free."""
+    shapes = [
+        ((6.0, 4.0, 2.0), 0.3, 1.0),
+        ((5.0, 3.0, 2.5), -0.2, 100.0),
+        ((3.0, 2.0, 2.0), 0.1, 0.01),
+        ((2.0, 2.0, 1.0), 1e-4, 7.0),
+    ]
+    degree, draw, made = monomials(3).sum(axis=1), np.random.default_rng(1), []
+    for number, (sides, skewness, scale) in enumerate(shapes):
+        raw = lopsided_box(sides, skewness, scale)
+        size = raw[0] * scale**degree
+        center = np.array([3.0, -1.0, 2.0]) * scale * number
+        moments = Moments(raw, center, Measure.VOLUME, 1e-9 * size * draw.uniform(1.0, 9.0, 20), 1e-7 * size)
+        made.append(moments.about_point(center + draw.normal(size=3) * scale))
+    found = third_moment_frames(stack_moments(made))
+    for row, moments in enumerate(made):
+        alone = third_moment_frames(moments.at(None))
+        for entry in fields(found):
+            if entry.name != "noise":
+                values = (np.asarray(getattr(frames, entry.name), float) for frames in (found, alone))
+                assert close(next(values)[row], next(values)[0], 1e-12), entry.name
+    assert found.symmetry.tolist() == [0, 0, 1, 2]
+
+
+@pytest.mark.parametrize("order", permutations(range(3)))
+@pytest.mark.parametrize("signs", product((1.0, -1.0), repeat=3))
+@pytest.mark.parametrize("nearly", [0.0, 0.9e-4, 1.1e-4])
+def test_of_three_scores_the_weakest_is_dropped_and_of_equal_ones_the_last(order, signs, nearly):
+    sizes = np.array([1.0, 1.0 + nearly, 3.0])[list(order)]
+    weak = np.flatnonzero(sizes == 1.0).max() if nearly > 1e-4 else np.flatnonzero(sizes < 2.0).max()
+    wanted = [all(way[axis] == signs[axis] for axis in range(3) if axis != weak) for way in HALF_TURN_SIGNS.tolist()]
+    assert sum(wanted) == 1
+    assert _allowed_signs(1e-3 * sizes[None] * signs).tolist() == [wanted]
+    two = np.where(np.arange(3) == order[0], 0.0, sizes * signs)  # both of two count
+    wanted = [
+        all(way[axis] == signs[axis] for axis in range(3) if axis != order[0]) for way in HALF_TURN_SIGNS.tolist()
+    ]
+    assert _allowed_signs(two[None]).tolist() == [wanted]
