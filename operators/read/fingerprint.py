@@ -61,11 +61,10 @@ def transform_keys(matrices: NDArray[np.float64]) -> list[str]:
     """`transform_key` of objects whose bodies move along with them. matrices: (n, 4, 4) their `matrix_world`."""
     columns = matrices[:, :3, :3].astype(np.float64)
     lengths = np.sqrt(np.add.reduce(columns * columns, axis=1))
-    has_lengths = ((lengths > 0.0) & (lengths < np.inf)).all(axis=1)
-    with np.errstate(divide="ignore", invalid="ignore"):
+    with np.errstate(invalid="ignore"):  # axes of no length, or an endless one, are no numbers, and so no right angles
         axes = columns / lengths[:, None]
     cosines = np.abs(np.einsum("nai,naj->nij", axes, axes))[:, [0, 1, 2], [1, 2, 0]]
-    has_scale = has_lengths & (cosines <= SAME_SCALE_RTOL).all(axis=1)
+    has_scale = (cosines <= SAME_SCALE_RTOL).all(axis=1)
     signs = np.where(np.linalg.det(np.where(has_scale[:, None, None], axes, np.eye(3))) < 0.0, "-", "+")
     single, whole = lengths.astype(np.float32), matrices.astype(np.float32)
     return [
