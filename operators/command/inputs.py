@@ -175,7 +175,7 @@ def _lz4(block: bytes) -> bytes:
         return total
 
     try:
-        while at < len(block):
+        while True:  # the last of its sequences has no match
             token = block[at]
             at += 1
             count = length(token >> 4)

@@ -417,6 +417,8 @@ PATTERNS = [
 # places of constants, and what stands ahead of them in their line: the reason
 CONSTANTS = [
     (r".*", r"\breshape\(([^()]|\([^()]*\))*-", "numpy finds out a length from any negative number"),
+    (r"operators/bodies/bare_file.py bare_reading", r"kind, np\.eye\(", "where no object is, its matrix is not read"),
+    (r".*finite/numbers.py _large", r"ord\(\"0\"\)\) < ", "more is looked at closely, and found to be no number"),
     (r".*command/output.py claim_stdout", r"channel = -", "any negative number is no descriptor"),
     (r"operators/bodies/hull.py object_hull", r"len\(part\.matrices\) > ", "the hull of hulls is that of their points"),
     (r"operators/(read|scene|bodies)/.*", r"\bedges=", "read, and not looked at where nothing is to be proved closed"),

@@ -12,6 +12,7 @@ import pytest
 
 pytest.importorskip("bpy")
 import bpy
+from body_moments.core.verdict.finding import FileError
 from body_moments.operators.command import files as opening
 from body_moments.operators.command import references
 
@@ -380,6 +381,25 @@ def test_a_usdz_whose_files_lie_on_each_other_is_damaged(tmp_path):
     struct.pack_into("<HHI", last, 8, 2, 2, 2 * len(entry))
     path.write_bytes(data[:begin] + entry + entry + last)
     assert "overlapping entries" in reason(path)
+
+
+@pytest.mark.parametrize("size", [162, 163])
+def test_what_a_usdz_stores_may_be_as_much_as_the_file_and_no_more(tmp_path, size):
+    """Two entries for the same bytes, with headers that take 162."""
+    with zipfile.ZipFile(tmp_path / "whole.usdz", "w") as archive:
+        archive.writestr("a.usda", bytes(size))
+    data = (tmp_path / "whole.usdz").read_bytes()
+    begin, end = data.index(b"PK\1\2"), data.index(b"PK\5\6")
+    path = tmp_path / "part.usdz"
+    last = data[end : end + 8] + struct.pack("<HHI", 2, 2, 2 * (end - begin)) + data[end + 16 :]
+    path.write_bytes(data[:end] + data[begin:end] + last)
+    assert path.stat().st_size == size + 162
+    told = ""
+    try:
+        opening.check_file(str(path))
+    except FileError as error:  # also by newer Pythons themselves, in other words
+        told = str(error.finding)
+    assert ("(overlapping entries)" in told) == (size > 162)
 
 
 @pytest.mark.parametrize(
