@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from body_moments.core.plane import directed_edges, region_moments
 from body_moments.core.shape.disc_zernike import disc_zernike
-from body_moments.core.shape.flat_pose import MIRROR, holds_by_moments, turns_about_normal
+from body_moments.core.shape.flat_pose import MIRROR, flat_symmetry, holds_by_moments, turns_about_normal
 from body_moments.core.shape.symmetry import Symmetry, confirm, symmetry
 
 from tests.core import bodies, shapes
@@ -74,6 +74,29 @@ def test_what_is_a_ball_by_its_moments_is_one_where_turns_about_several_axes_kee
     assert ball.group == loose.group == "K" and found.group == ("C1" if axis.any() else "K")
     assert found.tolerance == 1e-9 and found.order == 6 and np.array_equal(found.operations, np.eye(3)[None])
     assert np.array_equal(loose.revolution_axes, np.eye(3))
+
+
+@pytest.mark.parametrize(
+    "waves", [3, 31, 314]
+)  # which all but turns by 1, by 0.1 and by 0.01 take nearly to themselves
+@pytest.mark.parametrize("within, is_round", [(0.5e-3, False), (2.1e-3, True)])
+def test_what_is_round_is_so_for_large_turns_and_for_small_ones(waves, within, is_round):
+    """r = 1 + cos(k φ) / 1000 turned by θ is off by sin(k θ / 2) / 500."""
+    angle = 2.0 * np.pi / 2000 * np.arange(2000)
+    points = (1.0 + 1e-3 * np.cos(waves * angle)) * np.array([np.cos(angle), np.sin(angle), 0.0 * angle])
+
+    def distance(images):
+        around = np.arctan2(images[:, 1], images[:, 0])
+        return np.abs(np.hypot(images[:, 0], images[:, 1]) - 1.0 - 1e-3 * np.cos(waves * around))
+
+    body = Symmetry(np.array([np.eye(3), np.diag([1.0, 1.0, -1.0])]), np.eye(3)[2:], 6)
+    assert (confirm(body, np.zeros(3), points.T, distance, within).group == "D∞h") == is_round
+
+    def holds(operation):
+        return bool((distance(points.T @ operation.T) <= within).all())
+
+    found = flat_symmetry(np.zeros(25, complex), 8, points[:2].T, np.eye(3), holds)
+    assert (found.group == "C∞v") == is_round
 
 
 @pytest.mark.parametrize("power", [-20, 20])

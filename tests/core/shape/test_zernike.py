@@ -118,6 +118,7 @@ def test_the_power_of_a_ball_is_known():
     wanted[0] = 4 * pi / 3 * radius**3
     assert np.all(np.abs(power - wanted**2) <= bound + 1e-9)
     assert np.all(bound[:5] < 1e-8)
+    assert close(power[0], wanted[0] ** 2, 1e-13)
 
 
 @pytest.mark.parametrize("radius", [0.3, 0.6, 0.9])
