@@ -49,6 +49,7 @@ class Window:
 @pytest.fixture(autouse=True)
 def one_step_at_a_time(monkeypatch):
     monkeypatch.setattr(stepwise, "STEP_SECONDS", 0.0)
+    monkeypatch.setattr(stepwise, "MAX_STEP_SECONDS", 0.0)
 
 
 def pressed(cls, **settings):
