@@ -220,7 +220,8 @@ def _bound_of_sum(parts: Sequence[properties.StoredProperties], center: NDArray,
 
 def are_meshes_measured(armature: Object, scene: Scene) -> bool:
     """Return whether the meshes that an armature deforms have a mass, stored or live."""
-    return _of_meshes(armature, scene) is not None
+    found = [of_object(mesh, scene) for mesh in posed.deformed_meshes(armature)]
+    return sum(stored.body.mass for stored in found if stored is not None) > 0.0
 
 
 def total(context: Context) -> Total:

@@ -56,6 +56,7 @@ PATTERNS = [
         r"\(\(self.order \+ 1\) \* 2\)",
         "a rule of more points is as exact",
     ),
+    (r"operators/actions/.*", r"(made|mesh)\.free\(\)", r"pass", "what nothing names any more is freed"),
     (r".*", r".*\.astype\([^()]*copy=False\)", r"\(.*\.astype\([\w.]+\)\)", "a copy"),
     (
         r".*",

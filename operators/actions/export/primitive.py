@@ -110,6 +110,7 @@ def _mesh(name: str, shape: Shape, unit: float) -> Mesh:
             vertex.co = [value * size / unit for value, size in zip((x, y, z), shape.size)]
     mesh = bpy.data.meshes.new(name)
     made.to_mesh(mesh)
+    made.free()
     return mesh
 
 

@@ -143,6 +143,7 @@ def _reverse(data: bpy.types.Mesh, faces: np.ndarray) -> None:
     mesh.faces.ensure_lookup_table()
     bmesh.ops.reverse_faces(mesh, faces=[mesh.faces[index] for index in faces.tolist()], flip_multires=True)
     mesh.to_mesh(data)
+    mesh.free()
 
 
 class SCENE_OT_body_moments_set_millimeters(Operator):

@@ -231,8 +231,9 @@ def test_zero_and_unheard_of_densities_leave_the_numbers():
     assert_as_measured(obj)
 
 
-def test_linked_and_overriding_objects_are_skipped_and_named(tmp_path, reported):
-    path = str(tmp_path / "library.blend")
+def linked_and_local(folder):
+    """Two measured objects, one of another file."""
+    path = str(folder / "library.blend")
     obj = add(mesh_body(), "Linked")
     measure(obj)
     bpy.data.libraries.write(path, {obj})
@@ -242,6 +243,11 @@ def test_linked_and_overriding_objects_are_skipped_and_named(tmp_path, reported)
     linked, local = target.objects[0], add(mesh_body(), "Local")
     bpy.context.scene.collection.objects.link(linked)
     measure(local)
+    return linked, local
+
+
+def test_linked_and_overriding_objects_are_skipped_and_named(tmp_path, reported):
+    linked, local = linked_and_local(tmp_path)
     only(local, linked)
     before = stored(linked)
     assert bpy.ops.object.body_moments_set_material(material="Aluminum 6061") == {"FINISHED"}
@@ -251,20 +257,11 @@ def test_linked_and_overriding_objects_are_skipped_and_named(tmp_path, reported)
 
 
 def test_a_default_density_leaves_what_is_linked_as_it_was(tmp_path):
-    path = str(tmp_path / "library.blend")
-    obj = add(mesh_body(), "Linked")
-    measure(obj)
-    bpy.data.libraries.write(path, {obj})
-    bpy.data.objects.remove(obj)
-    with bpy.data.libraries.load(path, link=True) as (_source, target):
-        target.objects = ["Linked"]
-    bpy.context.scene.collection.objects.link(target.objects[0])
-    local = add(mesh_body(), "Local")
-    measure(local)
-    before = stored(target.objects[0])
+    linked, local = linked_and_local(tmp_path)
+    before = stored(linked)
     settings = bpy.context.scene.body_moments
     settings.default_material, settings.default_density = "CUSTOM", 2500.0
-    assert stored(target.objects[0]) == before and local["body_density"] == 2500.0 == 2.5 * before["body_density"]
+    assert stored(linked) == before and local["body_density"] == 2500.0 == 2.5 * before["body_density"]
 
 
 def test_the_note_on_a_density_that_nobody_set_is_made_once():
