@@ -2,19 +2,20 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Mutants of the product: how many of a sample from each package the tests find.
 
-First each test file runs once, and the lines that its tests run are noted (kept in .envs/soak/lines while the file does
-not change; where a module does, the lines follow its text, and new ones have the tests of those around them). Then
-mutants are drawn, round after round one of each package. Each is written into a copy of the project, and the tests that
-run its line pass there, the quickest first, until one fails or they have had their time.
+First each test file runs once, and the lines that its tests run are noted (kept in .envs/soak/lines; tests that are new
+or changed run again; where a module changes, the lines follow its text, and new ones have the tests of those around
+them). Then mutants are drawn, round after round one of each package. Each is written into a copy of the project, and
+the tests that run its line pass there, the quickest first, until one fails or they have had their time.
 
 A mutant counts as found when a test fails, does not end, or dies. Those that no test could find are in
-tests/soak/equivalent_mutants.py, with reasons, and are not drawn. `mutation:core/mesh,core/solid` draws from these
-packages alone. The same seed draws the same mutants again: what is found stays so while its module does not change
-(.envs/soak/found.json), the others are tried again, and then come new ones.
+tests/soak/equivalent_mutants.py, with reasons, and are not drawn. `mutation:20,core/mesh,core/solid` draws 20 from each
+of these packages. The same seed draws the same mutants again: what is found stays so while its module does not change
+(.envs/soak/found.jsonl), the others are tried again, and then come new ones.
 """
 
 from __future__ import annotations
 
+import ast
 import hashlib
 import json
 import os
@@ -37,7 +38,7 @@ from tests.soak import equivalent_mutants, mutants
 ROOT = Path(__file__).resolve().parent.parent.parent
 PROCESS = Path(__file__).resolve().parent / "mutation_process"
 KEPT = ROOT / ".envs" / "soak" / "lines"
-FOUND = ROOT / ".envs" / "soak" / "found.json"
+FOUND = ROOT / ".envs" / "soak" / "found.jsonl"
 CORPUS = "soak/mutation_process/corpus/test_runs.py"
 MANY = "blender/bodies/test_many.py"
 TESTS = {  # of a package, or of all in a part
@@ -66,7 +67,7 @@ FIRST_SECONDS = 10.0  # of the tests of one mutant, and again of the corpus
 FURTHER_SECONDS = 60.0  # of other tests that run its line, where those have not found it
 
 
-def run(budget_seconds: float, seed: int, *packages: str) -> str:
+def run(budget_seconds: float, seed: int, *choice: str) -> str:
     """Draw mutants until the budget is spent.
 
     Parameters
@@ -74,8 +75,9 @@ def run(budget_seconds: float, seed: int, *packages: str) -> str:
     budget_seconds : float
         For the mutants; noting lines comes before, and takes as long as all tests.
     seed : int
-    packages : str
-        Such as "core/mesh" or "panels"; all if none is given.
+    choice : str
+        Packages such as "core/mesh" or "panels", all if none is given; and how many to draw from each, as many as
+        there is time for if that is not given.
 
     Returns
     -------
@@ -88,13 +90,15 @@ def run(budget_seconds: float, seed: int, *packages: str) -> str:
         With the same, where less than `LEAST` of a package were found.
     """
     os.environ["BODY_MOMENTS_CORPUS"] = str(corpus_plan())
+    count = next((int(word) for word in choice if word.isdigit()), sys.maxsize)
+    packages = {word for word in choice if not word.isdigit()}
     with Project() as project:
         decks = {name: deck for name, deck in all_mutants(ROOT).items() if name in (packages or {name})}
         tests = {test for name in decks for test in TESTS.get(name, TESTS[name.partition("/")[0]])}
         tests = sorted("tests/" + test for test in tests if test.partition("/")[0] not in tests - {test})
         project.note_lines(tests)
         project.load_tests(tests)
-        end, draws = time.monotonic() + budget_seconds, drawn(decks, seed)
+        end, draws = time.monotonic() + budget_seconds, drawn(decks, seed, count)
         while time.monotonic() < end and (mutant := next(draws, None)):
             answer = project.try_mutant(mutant)
             print("{:9} {:5.1f} s  {}".format(answer["outcome"], answer["seconds"], mutant), flush=True)
@@ -139,14 +143,14 @@ def all_mutants(root: Path) -> dict[str, list[mutants.Mutant]]:
     return dict(found)
 
 
-def drawn(decks: dict[str, list[mutants.Mutant]], seed: int) -> Iterator[mutants.Mutant]:
+def drawn(decks: dict[str, list[mutants.Mutant]], seed: int, count: int) -> Iterator[mutants.Mutant]:
     """Mutants in rounds, one of each package in a round, no two of one line; the same ones while others come or go."""
     order = {
         name: iter(sorted(deck, key=lambda mutant: hashlib.sha256(repr((seed, mutant.key)).encode()).digest()))
         for name, deck in decks.items()
     }
     lines = set()
-    while order:
+    for _ in range(min(count, max(map(len, decks.values())))):
         for name, deck in list(order.items()):
             mutant = next((one for one in deck if (one.path, one.line) not in lines), None)
             if mutant is None:
@@ -154,6 +158,31 @@ def drawn(decks: dict[str, list[mutants.Mutant]], seed: int) -> Iterator[mutants
             else:
                 lines.add((mutant.path, mutant.line))
                 yield mutant
+
+
+def texts_of_tests(text: str) -> dict[str, str]:
+    """Of each test function of a file a digest of its own text and of what does not belong to another test."""
+    tree = ast.parse(text)
+    classes = [node for node in tree.body if isinstance(node, ast.ClassDef)]
+    functions = {
+        "::".join([*holder, node.name]): node
+        for holder, nodes in [((), tree.body), *(((one.name,), one.body) for one in classes)]
+        for node in nodes
+        if isinstance(node, ast.FunctionDef) and node.name.startswith("test")
+    }
+    lines = text.splitlines()
+    own = {}
+    for name, node in functions.items():
+        start = min(one.lineno for one in (node, *node.decorator_list)) - 1
+        own[name] = "\n".join(lines[start : node.end_lineno])
+        lines[start : node.end_lineno] = [""] * (node.end_lineno - start)
+    rest = "\n".join(line for line in lines if line.strip())
+    return {name: hashlib.sha256((rest + part).encode()).hexdigest() for name, part in own.items()}
+
+
+def function_of(test: str) -> str:
+    """The test function of a node id, without its file and its parameters."""
+    return test.partition("[")[0].partition("::")[2]
 
 
 def report(results: list[tuple[mutants.Mutant, dict]]) -> str:
@@ -189,7 +218,8 @@ class Project:
 
     def __init__(self, kept: Path = KEPT, found: Path = FOUND):
         self.kept, self.found_file = kept, found
-        self.found = json.loads(found.read_text(encoding="utf-8")) if found.is_file() else {}
+        texts = found.read_text(encoding="utf-8").splitlines() if found.is_file() else []
+        self.found = dict(json.loads(text) for text in texts)
         self.results: list[tuple[mutants.Mutant, dict]] = []
 
     def __enter__(self) -> Project:
@@ -226,7 +256,7 @@ class Project:
         return _answer(self.server, {"tests": tests, "seconds": seconds, "lines": lines and str(lines)})
 
     def note_lines(self, tests: Iterable[str]) -> None:
-        """Run every test file that has changed, and know for each line of the product which tests run it."""
+        """Run the tests that are new or have changed, and know for each line of the product which tests run it."""
         self.kept.mkdir(parents=True, exist_ok=True)
         self.tests_of, self.seconds, self.texts = defaultdict(set), {}, {}
         for test in tests:
@@ -238,27 +268,28 @@ class Project:
     def _note_file(self, file: str) -> None:
         self.texts[file] = (self.root / file).read_text(encoding="utf-8")
         kept = self.kept / (file.replace("/", ".") + ".json")
-        notes = json.loads(kept.read_text(encoding="utf-8")) if kept.is_file() else {}
-        if notes.get("modules", {}).get(file) != self._digest(file).hex():
+        notes = json.loads(kept.read_text(encoding="utf-8")) if kept.is_file() else {"texts": {}, "tests": {}}
+        texts = texts_of_tests(self.texts[file])
+        changed = {name for name in texts if notes["texts"].get(name) != texts[name]}
+        tests = {name: note for name, note in notes["tests"].items() if function_of(name) in set(texts) - changed}
+        if changed:
             found = self.folder / "lines.json"
             found.unlink(missing_ok=True)
-            answer = self.ask([[file, None]], 3600.0, found)
-            tests = json.loads(found.read_text(encoding="utf-8")) if found.is_file() else {}
-            names = {file}.union(*(note["lines"] for note in tests.values()))
-            notes = {
-                "outcome": answer["outcome"],
-                "tests": tests,
-                "modules": {name: self._keep_text(name) for name in sorted(names)},
-            }
-            kept.write_text(json.dumps(notes), encoding="utf-8")
-        for name, note in notes["tests"].items():
+            self.ask([[file, sorted(changed)]], 3600.0, found)
+            new = json.loads(found.read_text(encoding="utf-8")) if found.is_file() else {}
+            for note in new.values():
+                note["modules"] = {path: self._keep_text(path) for path in note["lines"]}
+            tests |= new
+            kept.write_text(json.dumps({"texts": texts, "tests": tests}), encoding="utf-8")
+        for name, note in tests.items():
             if note["ok"]:
                 self.seconds[name] = note["seconds"]
                 for path, lines in note["lines"].items():
-                    following = self._following_lines(path, notes["modules"][path])
+                    following = self._following_lines(path, note["modules"][path])
                     for line in {now for before in lines for now in following.get(before, ())}:
                         self.tests_of[path, line].add(name)
 
+    @cache  # noqa: B019 one project a process
     def _keep_text(self, name: str) -> str:
         """Its digest, under which it is kept."""
         digest = self._digest(name).hex()
@@ -296,7 +327,8 @@ class Project:
         self.results.append((mutant, answer))
         if answer["outcome"] not in MISSED and name not in self.found:
             self.found[name] = answer
-            self.found_file.write_text(json.dumps(self.found, indent=0), encoding="utf-8")
+            with self.found_file.open("a", encoding="utf-8") as file:
+                file.write(json.dumps([name, answer]) + "\n")
         return answer
 
     def _new_answer(self, mutant: mutants.Mutant) -> dict:

@@ -5,9 +5,9 @@
     python -P server.py ROOT
 
 A line of standard input is a job: {"tests": [[file, [name, ...]], ...], "seconds": s, "lines": file or null}; names may
-be null for all of a file. A line of standard output is what came of it: {"outcome": "passed", "failed", "killed",
-"timeout" or "broken", "test": the first that failed, "seconds": s}. With `lines`, all tests run, and each one's
-outcome, time and the product's lines that it ran are written to that file.
+be null for all of a file, and without parameters. A line of standard output is what came of it: {"outcome": "passed",
+"failed", "killed", "timeout" or "broken", "test": the first that failed, "seconds": s}. With `lines`, all tests run,
+and each one's outcome, time and the product's lines that it ran are written to that file.
 """
 
 import contextlib
@@ -147,7 +147,8 @@ class _Selection:
         items[:] = sorted(kept, key=lambda item: self.place.get(item.nodeid, -1))
 
     def is_wanted(self, item) -> bool:
-        return item.nodeid in self.place or item.nodeid.partition("::")[0] in self.all
+        names = {item.nodeid, item.nodeid.partition("[")[0]}
+        return not names.isdisjoint(self.place) or item.nodeid.partition("::")[0] in self.all
 
     def pytest_runtest_logreport(self, report):
         if report.failed and not self.failed:
