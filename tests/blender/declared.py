@@ -3,22 +3,12 @@
 """What registered classes declare, as lines of text: names, ranges, defaults, choices, and what a change calls."""
 
 import sys
+from contextlib import suppress
 
 import bpy
 from bl_ui.utils import PresetPanel
 
 MAX_CHOICES = 16  # of a setting that are named
-
-
-def classes(base, package):
-    """The registered classes of a package of the product, in the order of their names."""
-    found, bases = {}, [base]
-    while bases:
-        for cls in bases.pop().__subclasses__():
-            bases.append(cls)
-            if cls.__module__.startswith("body_moments." + package) and getattr(cls, "is_registered", False):
-                found[cls.__name__] = cls
-    return [found[name] for name in sorted(found)]
 
 
 def declaration(cls):
@@ -43,8 +33,9 @@ def declaration(cls):
 def properties(cls):
     for base in reversed(cls.__mro__):
         for name, prop in vars(base).get("__annotations__", {}).items():
-            if isinstance(prop, str) and "Property(" in prop:
-                prop = eval(prop, vars(sys.modules[base.__module__]))
+            if isinstance(prop, str):
+                with suppress(NameError):  # a type of which only type checkers know
+                    prop = eval(prop, vars(sys.modules[base.__module__]))
             if hasattr(prop, "keywords"):
                 yield name, prop
 
@@ -57,13 +48,11 @@ def shown(value):
     return repr(value)
 
 
-def text(base, package):
-    return "\n".join(line for cls in classes(base, package) for line in declaration(cls))
-
-
-def pointers(package):
+def pointers():
     """Which of Blender's types have properties of the add-on's own types."""
     for owner in sorted(bpy.types.ID.__subclasses__() + [bpy.types.PoseBone], key=lambda cls: cls.__name__):
         for prop in owner.bl_rna.properties:
             if prop.identifier.startswith("body_moments"):
-                yield "{:s}.{:s}: {:s} {:s}".format(owner.__name__, prop.identifier, prop.type, prop.name)
+                told = ["described"] * bool(prop.description) + ["not saved"] * prop.is_skip_save
+                place = "{:s}.{:s}".format(owner.__name__, prop.identifier)
+                yield " ".join([place + ":", prop.type, prop.name, *told])

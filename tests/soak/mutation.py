@@ -372,6 +372,8 @@ class Project:
             module = mutant.path[:-3].replace("/", ".")
             importers = {file for file, text in self.texts.items() if module in text}
             names |= {name for name in self.seconds if name.partition("::")[0] in importers}
+            declared = "[body_moments/{:s}]".format(mutant.path)
+            names |= {name for name in self.seconds if name.endswith(declared)}
             names = names.union(*(tests for (path, _), tests in self.tests_of.items() if path == mutant.path))
         else:
             names |= self.tests_of.get((mutant.path, mutant.line), set())

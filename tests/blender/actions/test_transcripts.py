@@ -1,7 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Every operator as it is declared, and run with each of its options changed alone: what it says and all that it
-changes, kept as text.
+"""Every operator, run with each of its options changed alone: what it says and all that it changes, kept as text.
 
 The numbers are tested where they are measured; here is that each option does what it should and nothing else.
 """
@@ -15,7 +14,6 @@ import bpy
 import pytest
 from body_moments.operators import PARTS
 
-from tests.blender import declared
 from tests.blender.actions.assembly.test_assembly import assembly_of_boxes
 from tests.blender.actions.measure.test_section import I_BEAM, flat_mesh
 from tests.blender.actions.rig.test_rig import character
@@ -249,12 +247,6 @@ def files(folder):
             yield "file {:s}: {:d} lines, {:08x}".format(name, len(lines), zlib.crc32(text.encode()))
             if len(lines) <= MAX_LINES:
                 yield from ("    " + line for line in lines)
-
-
-@pytest.mark.parametrize("name", sorted(OPERATORS))
-def test_a_declaration(name, kept):
-    lines = [*declared.declaration(OPERATORS[name]), "without objects: {!r}".format(operator_of(name).poll())]
-    kept("declared/{:s}.txt".format(name.replace("_body_moments", "")), "\n".join(lines))
 
 
 @pytest.mark.parametrize("name", [name for name in sorted(OPERATORS) if not name.endswith(ELSEWHERE)])

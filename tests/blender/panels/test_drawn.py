@@ -13,7 +13,6 @@ import numpy as np
 import pytest
 from body_moments.core.verdict.finding import finding
 
-from tests.blender import declared
 from tests.blender.actions.assembly.test_assembly import assembly_of_boxes
 from tests.blender.actions.measure.test_section import I_BEAM, curve_of, flat_mesh, square
 from tests.blender.actions.rig.test_rig import character
@@ -69,11 +68,6 @@ def store_findings(obj, *findings):
     from body_moments.operators.write import properties
 
     obj["body_findings"] = properties.findings_text(findings)
-
-
-def test_classes(book):
-    for base in (bpy.types.Panel, bpy.types.Menu, bpy.types.UIList):
-        book.write(base.__name__, declared.text(base, "panels"))
 
 
 def test_body(book):
