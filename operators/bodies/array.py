@@ -93,7 +93,7 @@ def _density_body(
     body = density_body(
         scan.samples, shape, matrix, grid, None, findings, *scale, progress, options.order or KNOWN_ORDER, positions
     )
-    return replace(body, density_from=finding("density_from_samples"), density_key=repr(grid.key))
+    return replace(body, density_from=finding("density_from_samples"))
 
 
 def _threshold_body(
@@ -129,4 +129,4 @@ def _threshold_body(
         ThresholdGrid(name, samples, matrix @ turned, None, values), grid, order=options.order or KNOWN_ORDER
     )
     source = finding("density_from_samples") if filled else None
-    return replace(body, findings=(*findings, *body.findings), density_from=source, density_key=repr(grid.key))
+    return replace(body, findings=(*findings, *body.findings), density_from=source)

@@ -83,7 +83,7 @@ def measure_mesh_file(
         overlap="signed",
         wall="thin",
     )
-    order = max(options.order or 0, KNOWN_ORDER)
+    order = max(options.order or KNOWN_ORDER, KNOWN_ORDER)
     area_order = order if kind == "shell" or options.surface else 0
     unit = options.unit_scale or 1.0
     with about_file(name):

@@ -78,7 +78,7 @@ def measure_combined(options: MeasureOptions, internal: Internal, assets: bool =
         Also those that are assets, as far as they have a mass.
     """
     scene, found = bpy.context.scene, Combined()
-    wanted = replace(options, order=None, surface=False)
+    wanted = replace(options, order=None)
 
     def add_assembly(root: Root) -> None:
         found.assemblies.append(measure_assembly(root, bpy.context.evaluated_depsgraph_get(), wanted))

@@ -240,7 +240,7 @@ class Run:
                 return None, flat.record_of(label, obj, self.options, measure_options.unit_scale, refusal, findings)
             if order is None:
                 raise
-            lower = replace(measure_options, order=None, surface=False)
+            lower = replace(measure_options, order=None)
             measurement, more, of_shape = measure_shape(obj, self.options, lower)
             errors.append(failure(label, finding("moments_unavailable", cause=refusal.finding.as_record())))
             order = None

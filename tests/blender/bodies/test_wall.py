@@ -3,15 +3,18 @@
 """Shells of real thickness: the setting, what is found, and the thickness as a slider."""
 
 import json
+import math
 from dataclasses import replace
+from types import SimpleNamespace
 
 import bpy
 import numpy as np
 import pytest
+from body_moments.core.moments.moments import Measure, Moments, monomials
 from body_moments.core.verdict.finding import MeasureError, finding
 from body_moments.operators.bodies.measure_object import measure_object
 from body_moments.operators.bodies.mesh import mesh_body as polygon_body
-from body_moments.operators.bodies.wall import find_walls
+from body_moments.operators.bodies.wall import Walls, _round_down, find_walls
 from body_moments.operators.read import read_object
 from body_moments.operators.session import staleness
 from body_moments.operators.session import walls as wall_slider
@@ -400,6 +403,40 @@ def test_a_small_corner_of_more_than_three_planes_is_a_note(size, code, scale):
     settings.kind, settings.wall, settings.thickness = "SHELL", "OUTWARD", 0.05 * size
     found = said(measured(obj))
     assert found.keys() == {"wall_measured", code} and found[code]["minimum"] < 0.99
+
+
+@pytest.mark.parametrize("size", [0.01, 1.0, 300.0])
+@pytest.mark.parametrize("seed", range(4))
+def test_how_uneven_a_wall_is_is_the_largest_share_of_a_moment_that_it_misses(seed, size):
+    """Of points with weights; the wall has others of them, and is known about another place."""
+    rng = np.random.default_rng(seed)
+    points = size * rng.normal(size=(6, 3)) * (1.0, 2.0, 0.5) + 20.0 * size
+    weights = rng.uniform(1.0, 2.0, 6)
+    more = 1e-3 * rng.normal(size=6) * (10.0 if seed % 2 else 1.0)
+
+    def moments(weights, about):
+        return Moments(weights @ ((points - about)[:, None] ** monomials(3)).prod(axis=2), about, Measure.AREA)
+
+    area, wall = moments(weights, points[0]), moments(weights + more, points[1])
+    walls = Walls(SimpleNamespace(area=area), "inward", (SimpleNamespace(per_thickness=lambda: wall),), ())
+    total = math.fsum(weights)
+    center = [math.fsum(weights * points[:, axis]) / total for axis in range(3)]
+    arms = (points - center).tolist()
+    reach = math.sqrt(math.fsum(w * (x * x + y * y + z * z) for w, (x, y, z) in zip(weights, arms)) / total)
+    powers = [(i, j, k) for i in range(3) for j in range(3) for k in range(3) if i + j + k <= 2]
+    shares = [
+        abs(math.fsum(w * x**i * y**j * z**k for w, (x, y, z) in zip(more, arms))) / (total * reach ** (i + j + k))
+        for i, j, k in powers
+    ]
+    assert close(walls._unevenness(), max(shares), 1e-8)
+
+
+@pytest.mark.parametrize(
+    ("length", "named"),
+    [(0.25, 0.2499), (0.123456, 0.1234), (98765.4, 98760.0), (1.0, 0.999), (0.0012345, 0.001234), (math.inf, math.inf)],
+)
+def test_the_largest_thickness_is_named_with_four_digits_that_are_less(length, named):
+    assert _round_down(length) == named
 
 
 def test_just_below_the_largest_thickness_there_is_a_wall_and_from_it_on_none():

@@ -85,6 +85,7 @@ def test_given_mass_object_names_and_notes(tmp_path):
     code, document = run(tmp_path, tmp_path / "m.npz", "--mass", "7", "--unit-scale", "0.001")
     assert document["objects"][0]["mass"] == pytest.approx(7.0)
     assert close(document["objects"][0]["volume"], 48e-9, rel=1e-6)
+    assert document["objects"][0]["density_from"] == "samples"
     code, document = run(tmp_path, tmp_path / "m.npz", "--density", "5", "--object", "m", "--object", "n")
     assert code == 1
     assert [error["name"] for error in document["errors"]] == ["n"]
@@ -258,6 +259,7 @@ def test_a_threshold_takes_an_array_for_the_body_where_it_is_reached(tmp_path, o
     code, document = run(tmp_path, *words, "--density", "7")
     (entry,) = document["objects"]
     assert code == 0 and "threshold_measured" in codes(entry) and entry["method"] == "grid exact"
+    assert "density_from" not in entry and "scan_without_spacing" not in codes(entry)
     assert close([entry["volume"], entry["area"]], [truth.volume.total, truth.area.total], rel=1e-9)
     assert close(entry["mass"], 7.0 * truth.volume.total, rel=1e-9)
     assert close(entry["center_of_mass"], truth.volume.center, rel=1e-9)
@@ -268,7 +270,12 @@ def test_a_threshold_takes_an_array_for_the_body_where_it_is_reached(tmp_path, o
     (entry,) = document["objects"]
     assert close(entry["mass"], 2.0 * truth.mass.total, rel=1e-9)
     assert close(entry["center_of_mass"], truth.mass.center, rel=1e-9)
+    raw = truth.mass.about_point(np.zeros(3))
+    assert close(entry["moments"]["mass"]["2,1,1"], 2.0 * raw[2, 1, 1], rel=1e-8)
+    assert entry["density_from"] == "samples"
     assert "density_defaulted" not in codes(entry)
+    _, document = run(tmp_path, tmp_path / "b.npy", "--threshold", "0.5")
+    assert {"scan_without_spacing", "threshold_measured"} <= {*codes(document["objects"][0])}
 
 
 def test_a_threshold_is_of_the_values_that_the_header_gives_samples(tmp_path):

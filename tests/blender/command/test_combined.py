@@ -72,6 +72,27 @@ def test_an_assembly_that_has_no_mass_is_an_error_and_ends_nothing(tmp_path):
     assert [error["name"] for error in found["errors"]] == ["Nothing"] and len(found["objects"]) == 2
 
 
+def test_assemblies_that_are_assets_are_measured_where_metadata_are_asked_for_and_then_once(tmp_path):
+    assembly_of_boxes()
+    robot, lamps = bpy.data.collections["Robot"], collection("Lamps")
+    lamps.objects.link(bpy.data.objects.new("Lamp", bpy.data.lights.new("Lamp", "POINT")))
+    for asset in (robot, lamps):
+        asset.asset_mark()
+    path = saved(tmp_path)
+    assert "assemblies" not in document(path)
+    for given in (False, True):  # with a given mass it is measured anyway
+        bpy.ops.wm.open_mainfile(filepath=str(path))
+        if given:
+            bpy.data.collections["Robot"].body_moments.mass_from = "MASS"
+            path = saved(tmp_path)
+        found = document(path, "--force", "--asset-metadata", "copy")
+        (entry,) = found["assemblies"]
+        assert entry["name"] == "Robot" and not found["errors"] and len(found["objects"]) == 2
+        (made,) = tmp_path.glob("*.body_moments.blend")
+        bpy.ops.wm.open_mainfile(filepath=str(made))
+        assert close(bpy.data.collections["Robot"].asset_data["body_mass"], entry["mass"], 1e-14)
+
+
 @pytest.mark.parametrize("where", ["combined.measure_assembly", "combined.measure_rig"])
 def test_a_fault_in_an_assembly_or_a_rig_is_one_of_the_program_and_ends_nothing_else(tmp_path, monkeypatch, where):
     assembly_of_boxes()

@@ -6,8 +6,12 @@ import json
 
 import numpy as np
 import pytest
+from body_moments.core.streams import measure_stream
 from body_moments.operators import batch
+from body_moments.operators.bodies import stream
+from body_moments.operators.bodies.measurement import measurement_of
 from body_moments.operators.command import bare_files
+from body_moments.operators.settings.options import MeasureOptions
 from body_moments.operators.supervisor import processes
 
 from tests.blender.batch_files import codes, in_process, sentence
@@ -113,6 +117,47 @@ def test_the_usual_findings_are_there(tmp_path):
     assert "density_defaulted" not in codes(document["objects"][0])
     code, document = run(tmp_path, written(tmp_path), "--stream", "always", "--object", "other")
     assert code == 1 and [error["name"] for error in document["errors"]] == ["other"] and not document["objects"]
+
+
+@pytest.mark.parametrize(
+    ("given", "expected"),
+    [
+        ({}, {"kind": "solid", "density": 1000.0, "mass": None, "thickness": 0.0}),
+        ({"density": 7.0}, {"kind": "solid", "density": 7.0, "mass": None, "thickness": 0.0}),
+        ({"mass": 3.0}, {"kind": "solid", "density": None, "mass": 3.0, "thickness": 0.0}),
+        ({"kind": "shell", "thickness": 0.5}, {"kind": "shell", "density": 1000.0, "mass": None, "thickness": 0.5}),
+    ],
+)
+@pytest.mark.parametrize(
+    ("asked", "read"), [({}, (3, 0)), ({"order": 2}, (3, 0)), ({"order": 5}, (5, 0)), ({"surface": True}, (3, 3))]
+)
+def test_a_file_is_read_once_to_what_was_asked_for_with_options_without_gaps(
+    tmp_path, monkeypatch, given, expected, asked, read
+):
+    orders, requests = [], []
+
+    def reading(mesh, order, area_order, *rest):
+        orders.append((order, area_order))
+        return measure_stream(mesh, order, area_order, *rest)
+
+    def measuring(reading, body, request):
+        requests.append(request.options)
+        return measurement_of(reading, body, request)
+
+    monkeypatch.setattr(stream, "measure_stream", reading)
+    monkeypatch.setattr(stream, "measurement_of", measuring)
+    corners = np.array([(0, 0, 0), (1, 0, 0), (0, 2, 0), (0.3, 0.2, 3)], np.float32)  # without any symmetry
+    path = written(tmp_path, body=(corners, np.array([(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)])))
+    found = stream.measure_mesh_file(str(path), "part", MeasureOptions(**given, **asked))
+    (used,) = requests
+    assert {name: getattr(used, name) for name in expected} == expected
+    assert (used.overlap, used.wall, found.thickness) == ("signed", "thin", expected["thickness"])
+    assert orders == [(read[0], read[0] if "kind" in given else read[1])]
+
+
+def test_a_sheet_without_a_thickness_has_no_mass(tmp_path):
+    code, document = run(tmp_path, written(tmp_path), "--stream", "always", "--kind", "shell")
+    assert code == 1 and [error["reason"] for error in document["errors"]] == [sentence("no_thickness")]
 
 
 @pytest.mark.parametrize(
