@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from body_moments.core.streams import measure_stream
 from body_moments.operators import batch
-from body_moments.operators.bodies import stream
+from body_moments.operators.bodies import stream as stream_bodies
 from body_moments.operators.bodies.measurement import measurement_of
 from body_moments.operators.command import bare_files
 from body_moments.operators.settings.options import MeasureOptions
@@ -144,11 +144,11 @@ def test_a_file_is_read_once_to_what_was_asked_for_with_options_without_gaps(
         requests.append(request.options)
         return measurement_of(reading, body, request)
 
-    monkeypatch.setattr(stream, "measure_stream", reading)
-    monkeypatch.setattr(stream, "measurement_of", measuring)
+    monkeypatch.setattr(stream_bodies, "measure_stream", reading)
+    monkeypatch.setattr(stream_bodies, "measurement_of", measuring)
     corners = np.array([(0, 0, 0), (1, 0, 0), (0, 2, 0), (0.3, 0.2, 3)], np.float32)  # without any symmetry
     path = written(tmp_path, body=(corners, np.array([(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)])))
-    found = stream.measure_mesh_file(str(path), "part", MeasureOptions(**given, **asked))
+    found = stream_bodies.measure_mesh_file(str(path), "part", MeasureOptions(**given, **asked))
     (used,) = requests
     assert {name: getattr(used, name) for name in expected} == expected
     assert (used.overlap, used.wall, found.thickness) == ("signed", "thin", expected["thickness"])
