@@ -100,9 +100,8 @@ def offset_directions(
         average, and (n,) what moving the normals by one moves d by (Wedin, to first order)."""
         independent = values > least * values[:, 2:]
         inverse = np.where(independent, 1.0 / np.where(independent, values, 1.0), 0.0)
-        across = np.where(independent | (values[:, 2:] <= 0.0), 1.0, 0.0)
         vectors = np.einsum("nij,nj,nkj,nk->ni", axes, inverse, axes, right) + np.einsum(
-            "nij,nj,nkj,nk->ni", axes, across, axes, middle
+            "nij,nj,nkj,nk->ni", axes, independent, axes, middle
         )
         off = np.sqrt(mean((np.einsum("ij,ij->i", normals, vectors[corner]) - 1.0) ** 2))
         gain = np.sqrt(inverse.max(axis=1))

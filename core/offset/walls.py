@@ -398,9 +398,13 @@ class _Prisms:
         """(4,) coefficients in s of what the triangles and what they have become at s sweep together, when points move
         by `stored` and directions by `tangential_error` in all and `normal_error` along the normals."""
         unit = self.normals[0] / np.where(self.double > 0.0, self.double, 1.0)
-        along = [np.abs(np.einsum("im,im->m", normal, unit)) for normal in self.normals]
-        size = [np.sqrt(np.einsum("im,im->m", normal, normal)) for normal in self.normals]
-        across = [np.sqrt(np.maximum(a * a - b * b, 0.0)) + 8.0 * U * a for a, b in zip(size, along)]
+        height = [np.einsum("im,im->m", normal, unit) for normal in self.normals]
+        rest = [normal - along * unit for normal, along in zip(self.normals, height)]
+        along = np.abs(height)
+        size, across = (
+            [np.sqrt(np.einsum("im,im->m", vector, vector)) for vector in vectors] for vectors in (self.normals, rest)
+        )
+        across = [a + 8.0 * U * b for a, b in zip(across, size)]
         coefficients = [
             2.0 * size[0] * stored,
             size[1] * stored + size[0] * normal_error,
@@ -459,7 +463,6 @@ def first_positive_root(jacobian: NDArray, error: NDArray) -> NDArray[np.float64
     """
     a, b, c = jacobian - error[:, None]
     dead = ~(a > 0.0)
-    a = np.where(dead, 1.0, a)
     size = b * b + np.abs(4.0 * a * c)
     square = b * b - 4.0 * a * c
     real = square >= -16.0 * U * size

@@ -203,3 +203,18 @@ def test_a_flat_hull_may_leave_out_its_tolerance_of_the_extent_along_an_axis():
         hull = convex_hull(np.roll(square, axis, axis=1), tolerance=1e-4)
         assert hull.is_flat and close(hull.gap, 4e-4, 1e-12)
         assert close(hull.transform(np.diag([2.0, 5.0, 3.0])).gap, 20e-4, 1e-12)
+
+
+@pytest.mark.parametrize("steps, corners", [(0.4, 8), (0.6, 9)])
+def test_points_are_rounded_to_2_to_the_29_steps_of_the_extent(steps, corners):
+    cube = np.array([[x, y, z] for x in (0.0, 1.0) for y in (0.0, 1.0) for z in (0.0, 0.5)])
+    hull = convex_hull([*cube, [0.5, 0.5, 0.5 + steps * 2.0**-29]], 0.0)
+    assert len(hull.points) == corners
+
+
+@pytest.mark.parametrize("offset", [(0.0, 0.0), (0.0, 1e6), (-1e6, 0.0), (1e6, -1e6)])
+@pytest.mark.parametrize("height, corners", [(0.09, [0, 2, 3, 4]), (0.11, [0, 1, 2, 3, 4])])
+def test_how_far_a_polygon_s_corner_is_outside_is_measured_by_the_extent_alone(offset, height, corners):
+    """A rectangle of 10 by 4 with a point below one side by more or less than a hundredth of ten."""
+    points = np.array([[0, 0], [5, -height], [10, 0], [10, 4], [0, 4]]) + offset
+    assert convex_polygon(points, 0.01).tolist() == corners

@@ -78,6 +78,7 @@ def test_edges_that_join_other_vertices_close_nothing(edges):
         {"corner_edges": BOX.corner_edges + 48},
         {"corner_vertices": BOX.corner_vertices + 1},
         {"points": BOX.points.astype(np.float64)},
+        {"quads": BOX.quads[:0], "quad_faces": BOX.quad_faces[:0]},
     ],
 )
 def test_a_surface_without_sound_corners_and_edges_is_not_taken(lacking):

@@ -79,6 +79,22 @@ def test_convex_bodies_are_proved(part, scale, turned):
     assert_convex_is_proved(part, scale, turned)
 
 
+def hourglass(heavy):
+    """A prism on two wedges that meet in a narrow waist. All of its sides are seen from the middle of its box there;
+    from its center, in the wider one of the wedges, those of the other are seen from behind."""
+    outline = [(-3.0, -heavy), (0.0, -0.05), (3.0, -1.5), (3.0, 1.5), (0.0, 0.05), (-3.0, heavy)]
+    points = np.array([(x, y, z) for z in (-1.0, 1.0) for x, y in outline])
+    lids = [(0, 5, 4, 1), (1, 4, 3, 2), (6, 7, 10, 11), (7, 8, 9, 10)]
+    return points, split(lids + [(k, (k + 1) % 6, (k + 1) % 6 + 6, k + 6) for k in range(6)])
+
+
+@pytest.mark.parametrize("heavy", [0.3, 1.5])
+@pytest.mark.parametrize("offset", [(0.0, 0.0, 0.0), (8.0, -16.0, 4.0)])
+def test_a_body_whose_sides_all_face_the_middle_of_its_box_or_its_center_is_proved(heavy, offset):
+    result = measure_solid(surface(moved(hourglass(heavy), offset=offset)))
+    assert result.health.self_intersection is Intersection.EXCLUDED and not result.findings
+
+
 @holds(20)
 @given(seed=seeds, scale=st.sampled_from([1e-8, 1.0, 1e8]), turned=st.booleans())
 def test_random_convex_bodies_are_proved(seed, scale, turned):
