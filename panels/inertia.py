@@ -56,7 +56,7 @@ class InertiaPanel:
         column = layout.column(align=True)
         rows.heading(column, "Radii of Gyration", "length", shown.body.radii_of_gyration)
         rows.values(column, units, PRINCIPAL_LABELS, "length", shown.body.radii_of_gyration)
-        header, body = layout.panel("body_moments_tensor", default_closed=False)
+        header, body = layout.panel("body_moments_tensor")
         header.label(text="Inertia Tensor")
         if body is not None:
             column = body.column(align=True)

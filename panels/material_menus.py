@@ -109,7 +109,7 @@ class OBJECT_PT_body_moments_presets(PresetPanel, Panel):
 
     def draw(self, context: Context) -> None:
         if bpy.utils.preset_paths(PRESET_FOLDER):
-            super().draw(context)
+            PresetPanel.draw(self, context)
             return
         # Without a folder of presets, Blender's own drawing complains about missing paths.
         manager = context.window_manager

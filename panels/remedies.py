@@ -59,7 +59,7 @@ def warnings(
     alarming = [*of_severity(findings, Severity.ERROR), *of_severity(findings, Severity.WARNING)]
     if not alarming:
         return
-    header, body = layout.panel(idname, default_closed=False)
+    header, body = layout.panel(idname)
     rows.filled(header, "Warnings ({:d})", len(alarming))
     for shown in alarming if body is not None else ():
         column = body.column(align=True)

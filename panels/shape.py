@@ -77,7 +77,7 @@ def _similar(layout: UILayout, context: Context) -> None:
     search = context.scene.body_moments_search
     if not search.wanted:
         return
-    header, body = layout.panel("body_moments_similar", default_closed=False)
+    header, body = layout.panel("body_moments_similar")
     rows.filled(header, "Similar to {:s}", search.wanted)
     if body is None:
         return

@@ -26,7 +26,7 @@ from ...operators.session import handlers
 from ...operators.settings.overlay import BodyMomentsOverlaySettings
 from . import appearance as look
 from . import lines
-from .bodies import NOTHING, Bodies, Collected, collect, collect_moved
+from .bodies import Bodies, Collected, collect, collect_moved
 from .details import Detail, objects_details
 from .view import View
 
@@ -51,15 +51,15 @@ class _Layer:
         return not (self.lines or self.fills or len(self.bodies))
 
 
-@dataclass(eq=False)
+@dataclass(frozen=True, eq=False)
 class _Drawn:
     """What was made for a region, and what it was made for."""
 
-    generation: int = -1
-    key: tuple = ()
-    collected: Collected = NOTHING
-    moving: NDArray[np.bool_] = field(default_factory=lambda: np.zeros(0, bool))  # which are in the second layer
-    layers: tuple[_Layer, ...] = ()  # what rests; what moves, and what is drawn of single objects
+    generation: int
+    key: tuple
+    collected: Collected
+    moving: NDArray[np.bool_]  # which are in the second layer
+    layers: tuple[_Layer, _Layer]  # what rests; what moves, and what is drawn of single objects
 
 
 @dataclass(eq=False)
@@ -80,12 +80,7 @@ def draw() -> None:
     settings = scene.body_moments.overlay
     if not settings.show:
         return
-    drawn = _drawn(context)
-    key, generation = _key(context), handlers.generation()
-    if drawn.key != key or drawn.generation != generation:
-        _make(drawn, context, has_same_key=drawn.key == key)
-        drawn.key, drawn.generation = key, generation
-    layers = [layer for layer in drawn.layers if not layer.is_empty]
+    layers = [layer for layer in _drawn(context).layers if not layer.is_empty]
     if not layers:
         return
     view_key = gpu.matrix.get_model_view_matrix(), gpu.matrix.get_projection_matrix(), gpu.state.viewport_get()[2:]
@@ -98,12 +93,15 @@ def draw() -> None:
 
 
 def _drawn(context: Context) -> _Drawn:
-    pointer = context.region.as_pointer()
-    if pointer not in _state.regions:
-        while len(_state.regions) >= MAX_REGIONS:
+    """What is up to date of the region that Blender is drawing, made where it is not."""
+    pointer, key, generation = context.region.as_pointer(), _key(context), handlers.generation()
+    drawn = _state.regions.get(pointer)
+    if drawn is None or drawn.key != key or drawn.generation != generation:
+        if drawn is None and len(_state.regions) == MAX_REGIONS:
             del _state.regions[next(iter(_state.regions))]
-        _state.regions[pointer] = _Drawn()
-    return _state.regions[pointer]
+        before = None if drawn is None or drawn.key != key else drawn
+        drawn = _state.regions[pointer] = _made(before, context, key, generation)
+    return drawn
 
 
 def _key(context: Context) -> tuple:
@@ -130,24 +128,26 @@ def _view(view: Matrix, projection: Matrix, size: tuple[int, int]) -> View:
 # ---------------------------------------------------------------- What is drawn
 
 
-def _make(drawn: _Drawn, context: Context, has_same_key: bool) -> None:
-    """Make anew what has changed. Bodies that move are in a layer of their own, so that the others' batches stay."""
-    settings = context.scene.body_moments.overlay
-    before, collected = drawn.collected.bodies, None
-    moved = handlers.moved_since(drawn.generation)
-    if has_same_key and moved is not None and not settings.show_sum:
-        collected = collect_moved(context, drawn.collected, moved)
+def _made(before: _Drawn | None, context: Context, key: tuple, generation: int) -> _Drawn:
+    """Make anew what has changed since what has the same key, all where there is none. Bodies that move are in a layer
+    of their own, so that the others' batches stay."""
+    settings, collected, resting = context.scene.body_moments.overlay, None, None
+    if before is not None and not settings.show_sum:
+        moved = handlers.moved_since(before.generation)
+        collected = None if moved is None else collect_moved(context, before.collected, moved)
     collected = collected or collect(context)
     bodies = collected.bodies
-    moving, rests = np.zeros(len(bodies), bool), False
-    if has_same_key and len(before) == len(bodies):
-        changed = bodies.differ_from(before)
-        rests = not (changed & ~drawn.moving).any()
-        moving = drawn.moving if rests else changed
-    resting = drawn.layers[0] if rests else _layer(bodies.chosen(~moving), settings, [])
+    moving = np.zeros(len(bodies), bool)
+    if before is not None and len(before.moving) == len(bodies):
+        changed = bodies.differ_from(before.collected.bodies)
+        if (changed & ~before.moving).any():
+            moving = changed
+        else:
+            moving, resting = before.moving, before.layers[0]
+    if resting is None:
+        resting = _layer(bodies.chosen(~moving), settings, [])
     details = list(objects_details(context, settings))
-    drawn.collected, drawn.moving = collected, moving
-    drawn.layers = resting, _layer(bodies.chosen(moving), settings, details)
+    return _Drawn(generation, key, collected, moving, (resting, _layer(bodies.chosen(moving), settings, details)))
 
 
 def _layer(bodies: Bodies, settings: BodyMomentsOverlaySettings, details: list[Detail]) -> _Layer:

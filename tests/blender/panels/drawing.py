@@ -13,6 +13,8 @@ from unittest.mock import patch
 import bpy
 from body_moments.core.verdict.finding import finding
 
+from tests.blender.conftest import six_digits
+
 LAYOUT = bpy.types.UILayout.bl_rna
 ICONS = LAYOUT.functions["label"].parameters["icon"].enum_items
 LAYOUTS = {"row", "column", "split", "box", "grid_flow", "menu_pie", "column_flow"}
@@ -41,7 +43,7 @@ class Layout:
         """What was drawn, indented as it is nested where a line is too short for it."""
         inner = [[part] if isinstance(part, str) else part.lines() for part in self.parts]
         line = "{:s} ({:s})".format(self.words, "; ".join(lines[0] for lines in inner)) if inner else self.words
-        if all(len(lines) == 1 for lines in inner) and len(line) <= LINE:
+        if all(len(lines) == 1 for lines in inner) and len(six_digits(line)) <= LINE:
             return [line]
         return [self.words, *("    " + line for lines in inner for line in lines)]
 

@@ -196,6 +196,9 @@ def test_units(book):
     scene.unit_settings.scale_length = 0.5
     measure()
     book.draw("A scale that is not one", "")
+    scene.unit_settings.scale_length = 2.0
+    measure()
+    book.draw("A scale of two", "")
     scene.unit_settings.scale_length = 1.0
     for scale, density in ((1.2, 9000.0), (1.3, 5.0), (1.25, 6399.0), (1.25, 6400.0)):  # 5 m and 100 t are large enough
         obj.scale, obj.body_moments.density = (scale,) * 3, density
@@ -395,6 +398,10 @@ def test_selection(book):
     only(first, second, strip, capped, unmeasured)
     book.draw("All", "selection")
     book.draw("All, narrow", "selection", context=NARROW)
+    mass, first["body_mass"] = first["body_mass"], 0.0
+    only(first)
+    book.draw("One whose stored mass was changed to nothing", "selection")
+    first["body_mass"] = mass
     layout, listed = Layout(), bpy.types.BODY_MOMENTS_UL_measured
     listed.draw_filter(SimpleNamespace(bl_rna=listed.bl_rna), bpy.context, layout)
     book.write("What filters", layout.text())
@@ -409,6 +416,8 @@ def test_selection(book):
 
 
 def test_assembly(book):
+    from body_moments.operators.write import properties
+
     root = assembly_of_boxes()
     book.draw("No assembly yet", "assembly", "COLLECTION_PT_body_moments")
     out = box(root, (1, 1, 1), name="out")
@@ -420,6 +429,15 @@ def test_assembly(book):
     settings = root.body_moments
     settings.active_row = list(settings.rows.keys()).index("out")
     book.draw("A member that is left out", "assembly")
+    found = finding("no_faces"), finding("t_junctions", count=3)
+    for title, order in (("first", found), ("last", found[::-1])):
+        settings.rows["out"].findings = properties.findings_text(order)
+        book.draw("A member with two findings, the worst one " + title, "assembly")
+    mass, root["body_mass"] = root["body_mass"], "gone"
+    book.draw("Damaged numbers", "assembly")
+    root["body_mass"], method, root["body_method"] = mass, root["body_method"], "exact"
+    book.draw("Numbers of something else", "assembly")
+    root["body_method"] = method
     settings.active_row = len(settings.rows)
     settings.rows["Arm"].is_open = False
     book.draw("No active row", "assembly")
@@ -499,6 +517,8 @@ def test_moments(book):
 
 
 def test_section(book):
+    from body_moments.operators.write import properties
+
     add(flat_mesh(I_BEAM), "Beam")
     book.draw("Not measured", "section")
     bpy.ops.object.body_moments_measure_section()
@@ -508,6 +528,8 @@ def test_section(book):
     bpy.context.object.data.vertices[0].co.x += 0.5
     bpy.context.object.data.update()
     book.draw("Edited", "section")
+    bpy.context.object["body_section"]["findings"] = properties.findings_text((finding("flipped_faces", count=2),))
+    book.draw("Warned of", "section")
     add(curve_of(square(0, 0, 4), square(1, 1, 1)[::-1], square(2, 2, 1)[::-1], square(6, 6, 1)), "Curve")
     bpy.ops.object.body_moments_measure_section()
     book.draw("A square with two holes, and a square", "section")
@@ -526,6 +548,9 @@ def test_shape(book):
     book.draw("A box", "shape")
     book.draw("Narrow", "shape", context=NARROW)
     book.draw("Closed", "shape", closed=("body_moments_symmetry",))
+    bpy.context.object.scale.x = 2.0
+    book.draw("Stretched", "shape")
+    bpy.context.object.scale.x = 1.0
     stored = bpy.context.object.body_moments_symmetry
     stored.compatible, stored.of_display_mesh = "D4h", True
     for index in range(10):
@@ -569,7 +594,7 @@ def test_materials(book):
 
 
 def test_menus(book):
-    from body_moments.panels import body, menus
+    from body_moments.panels import body, material_menus, menus
     from body_moments.panels.overlay import popover
 
     obj = solid()
@@ -588,6 +613,15 @@ def test_menus(book):
     bpy.ops.rigidbody.object_add()
     draw("PHYSICS_PT_rigid_body of a rigid body", menus._rigid_body_panel, context)
     draw("PHYSICS_PT_rigid_body without an object", menus._rigid_body_panel, Context(object=None))
+    for paths in ([], ["presets"]):
+        with pytest.MonkeyPatch.context() as patched:
+            patched.setattr(bpy.utils, "preset_paths", lambda _, paths=paths: paths)
+            layout, cls = Layout(), material_menus.OBJECT_PT_body_moments_presets
+            names = ("bl_label", "preset_subdir", "preset_operator", "preset_add_operator")
+            shown = SimpleNamespace(layout=layout, **{name: getattr(cls, name) for name in names})
+            shown.path_menu = lambda *given, layout=layout, **options: layout.write("path_menu", repr(given), *options)
+            cls.draw(shown, bpy.context)
+            book.write("Presets in {}".format(paths), layout.text())
     draw("Overlays", popover.section, context)
     context.space_data.overlay.show_overlays = bpy.context.scene.body_moments.overlay.show = False
     draw("Overlays switched off", popover.section, context)

@@ -181,6 +181,33 @@ def test_only_what_has_moved_is_looked_at_again(scene, monkeypatch):
     assert handlers.moved_since(generation) is None
 
 
+def test_what_depends_on_another_object_is_looked_at_again_when_that_moves(scene, monkeypatch, tmp_path):
+    from body_moments.operators.session import handlers
+    from body_moments.operators.session.trust import Trust
+    from body_moments.panels.overlay import bodies
+    from body_moments.panels.overlay.appearance import VERDICTS
+
+    from tests.blender.grids import vdb_grid, volume_object
+
+    cloud = volume_object(tmp_path / "a.vdb", vdb_grid(np.ones((6, 6, 6), np.float32), offset=(-1, -1, -1)))
+    plain, filled = objects.add(objects.mesh_body(), "Plain", (9, 0, 0)), objects.add(objects.mesh_body(), "Filled")
+    filled.body_moments.density_from, filled.body_moments.density_volume = "VOLUME", cloud
+    objects.only(plain, filled)
+    bpy.ops.object.body_moments_measure()
+    bpy.context.view_layer.update()
+    monkeypatch.setattr(bodies, "drawn_objects", lambda *_: [plain, filled])  # there is no viewport
+    before, generation = bodies.collect(bpy.context), handlers.generation()
+    assert before.alone == {plain.session_uid: 0}
+    cloud.location.x += 1.0
+    bpy.context.view_layer.update()
+    moved = handlers.moved_since(generation)
+    assert moved == {cloud.session_uid}
+    after = bodies.collect_moved(bpy.context, before, moved)
+    assert [VERDICTS[verdict] for verdict in after.bodies.verdicts] == [Trust.EXACT, Trust.OUT_OF_DATE]
+    assert not after.bodies.differ_from(bodies.collect(bpy.context).bodies).any()
+    assert before.bodies.verdicts.tolist() == [0, 0]
+
+
 @pytest.mark.parametrize("inside", [None, [True, True, False, False, True]])
 def test_a_path_is_another_color_where_the_center_leaves_the_support_polygon(inside, registered):
     from body_moments.operators.session.balance_groups import Path

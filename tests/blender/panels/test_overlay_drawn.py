@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """All that the overlay asks the GPU for, kept as text, in the order of its calls; tests/window looks at the pixels.
 
-Of arrays there are their shapes, their sums and their sums with each number times its place; batches have numbers, so
-that one is seen to be drawn again.
+Of arrays there are their shapes and two sums, one of them with weights; batches have numbers, so that one is seen to be
+drawn again.
 """
 
 from types import SimpleNamespace
@@ -59,15 +59,19 @@ class Gpu:
         self.lines.append("{:s}: {:s} of {:s}".format(label, kind, shader.name))
         for key, values in [*content.items(), *([] if indices is None else [("indices", indices)])]:
             assert values.dtype == (np.int32 if key == "indices" else np.float32)  # as the GPU takes them
-            flat = values.astype(float).ravel()
-            sums = rounded([flat.sum(), flat @ np.arange(1.0, len(flat) + 1.0) / len(flat)])
-            self.lines.append("    {:s} {} {}".format(key, values.shape, sums))
+            self.lines.append("    {:s} {} {}".format(key, values.shape, sums(values)))
         draw = lambda shader: self.lines.append("draw {:s} with {:s}".format(label, shader.name))  # noqa: E731
         return SimpleNamespace(draw=draw)
 
     def taken(self):
         lines, self.lines = self.lines, []
         return "\n".join(lines)
+
+
+def sums(values):
+    """The sum, and that with weights between 0 and 1 that follow no rule which a shape may have."""
+    flat = values.astype(float).ravel()
+    return rounded([flat.sum(), flat @ (np.arange(1.0, len(flat) + 1.0) * (np.sqrt(1.25) - 0.5) % 1.0)])
 
 
 def rounded(values):
@@ -128,8 +132,7 @@ def test_looks(kept):
     for made in (glyphs.discs(), glyphs.digits()):
         for part in (made.corners, made.colors, made.triangles):
             for shape in np.moveaxis(part, 1, 0) if part.ndim == 4 else part:
-                flat = shape.astype(float).ravel()
-                text.append("{} {}".format(shape.shape, rounded([flat.sum(), flat @ np.arange(len(flat)) / len(flat)])))
+                text.append("{} {}".format(shape.shape, sums(shape)))
     kept("looks.txt", "\n".join(text))
 
 
@@ -229,8 +232,14 @@ def test_overlay_of_details(frame):
     only(leaning)
     bpy.ops.object.body_moments_balance_group()
     frame("The path of one that stands")
+    scene.frame_set(9)
+    frame("At a frame that is not of the path")
     overlay().show_support = False
+    scene.frame_set(1)
     frame("Without its support polygon")
+    (shown,) = (obj for obj in scene.objects if obj.type == "EMPTY")
+    shown.hide_set(True)
+    frame("Of one that is hidden")
     overlay().show_path = False
     frame("Without it")
 
@@ -246,6 +255,34 @@ def test_overlay_of_bones(frame, gpu):
     frame("Moved")
     gpu.context.__dict__["selected_pose_bones"] = list(armature.pose.bones)[1:2]
     frame("One bone")
+
+
+def test_overlay_of_live_numbers(frame):
+    """What is not measured and has no numbers is not drawn; an armature in Pose Mode stands for its meshes."""
+    from tests.blender.session.test_live import armature_with, with_key
+
+    plain, body = add(box_mesh(1, 2, 4), "Plain"), with_key()
+    only(plain, body)
+    frame("Not measured")
+    only(body)
+    bpy.ops.object.body_moments_live()
+    only(plain, body)
+    frame("Live")
+    bpy.context.scene.frame_set(6)
+    frame("Deformed")
+    only(body)
+    bpy.ops.object.body_moments_live()
+    frame("Live no more")
+    meshes = [add(box_mesh(1, 2, 4), "A"), add(box_mesh(1, 1, 3), "B", (4, 0, 0))]
+    armature = armature_with(*meshes)
+    measure(*meshes)
+    only(armature)
+    frame("An armature")
+    bpy.ops.object.mode_set(mode="POSE")
+    frame("In Pose Mode")
+    armature.pose.bones["Bone"].location = (0.0, 1.0, 0.0)
+    frame("Posed")
+    bpy.ops.object.mode_set(mode="OBJECT")
 
 
 def test_overlay_in_regions(frame, gpu):
@@ -270,3 +307,42 @@ def test_the_state_of_the_gpu_is_put_back_whatever_happens(gpu, monkeypatch):
     with pytest.raises(ZeroDivisionError):
         draw.draw()
     assert gpu.values == before
+
+
+@pytest.fixture
+def windows(gpu, monkeypatch):
+    """A window with a 3D Viewport beside something else; what is told to it."""
+    from body_moments.panels.overlay import draw
+
+    told = []
+    areas = [SimpleNamespace(type=kind, tag_redraw=lambda kind=kind: told.append(kind)) for kind in ("VIEW_3D", "INFO")]
+    manager = SimpleNamespace(windows=[SimpleNamespace(screen=SimpleNamespace(areas=areas))])
+    gpu.context.__dict__["window_manager"] = manager
+    told_to_space = SimpleNamespace(
+        draw_handler_add=lambda *given: told.append(given) or "handle",
+        draw_handler_remove=lambda *given: told.append(given),
+    )
+    monkeypatch.setattr(draw, "SpaceView3D", told_to_space)
+    app = SimpleNamespace(background=False)
+    monkeypatch.setattr(draw, "bpy", SimpleNamespace(context=gpu.context, app=app))
+    return told, app
+
+
+def test_the_overlay_is_drawn_from_registering_to_unregistering_in_windows_alone(windows, gpu):
+    from body_moments.panels.overlay import draw
+
+    told, app = windows
+    draw.register()
+    assert told == [(draw.draw, (), "WINDOW", "POST_VIEW"), "VIEW_3D"]
+    measure(add(box_mesh(1, 2, 4)))
+    draw.draw()
+    assert draw._state.regions
+    told.clear()
+    draw.unregister()
+    assert told == [("handle", "WINDOW"), "VIEW_3D"] and not draw._state.regions
+    told.clear()
+    draw.unregister()
+    app.background = True
+    draw.register()
+    draw.unregister()
+    assert told == [] and draw._state.handle is None

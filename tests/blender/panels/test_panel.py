@@ -222,6 +222,22 @@ def test_words_longer_than_a_line_are_broken_and_numbers_with_spaces_are_not():
     assert rows._wrapped("short", 60, 11.0) == ("short",)
 
 
+def test_a_word_is_broken_where_its_parts_are_as_long_as_a_line_and_none_is_very_short(monkeypatch):
+    from body_moments.panels import rows
+
+    least, last = rows.MIN_PART, rows.MIN_LAST_PART
+    monkeypatch.setattr(rows, "_is_within", lambda text, width: len(text) <= width)
+    for word in ("abcdefghijklmnopqrstuvwxyz"[:length] for length in range(1, 27)):
+        for width in range(1, 28):
+            *parts, rest = rows._parts(word, width)
+            assert "".join(part.removesuffix("-") for part in parts) + rest == word
+            assert bool(parts) == (len(word) > max(least, width)) and len(rest) <= max(least, width)
+            ahead = len(word)
+            for part in parts:
+                assert part.endswith("-") and len(part) - 1 == min(max(least, width - 1), ahead - last)
+                ahead -= len(part) - 1
+
+
 def test_drawing_changes_nothing_and_measures_nothing(monkeypatch):
     from body_moments.operators.bodies import request
 
