@@ -99,6 +99,15 @@ def test_what_the_sums_show_is_what_looking_at_each_face_gives(kind, dtype, monk
     assert (bent > 0) == (kind != "flat") and (len(bare) > 200) == (kind == "all sorts")
 
 
+@pytest.mark.parametrize("scale", [2.0**-10, 2.0**5])
+def test_what_the_sums_show_of_large_and_small_faces_is_what_looking_at_each_gives(scale):
+    surface = quads("all sorts", np.float64)
+    surface = replace(surface, points=surface.points * scale)
+    *found, error = told(surface, True)
+    bent, spread, bare = one_by_one(surface, error)
+    assert (found[0], found[2]) == (bent, bare) and close(found[1], spread, rel=1e-11)
+
+
 @pytest.mark.parametrize("order", ["pairs", "halves", "loose"])
 @pytest.mark.parametrize("dtype", [np.float32, np.float64])
 def test_triangles_without_area_are_found_wherever_they_stand(order, dtype):

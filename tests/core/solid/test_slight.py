@@ -8,7 +8,8 @@ from body_moments.core.mesh.surface import Surface
 from body_moments.core.solid.measure_solid import measure_solid
 from body_moments.core.verdict.tolerances import NEGLIGIBLE
 
-from tests.core.bodies import box, inverted, joined
+from tests.close import close
+from tests.core.bodies import CORNERS, SIDES, box, inverted, joined, mesh
 
 # A cube of side s has area 6 s², beside or in a box of volume 8 whose diagonal is 2√3.
 LIMIT = np.sqrt(NEGLIGIBLE * 8.0 / (6.0 * np.sqrt(12.0)))
@@ -53,3 +54,19 @@ def test_so_are_flipped_faces():
 
 def test_a_body_that_is_inside_out_as_a_whole_is_never_too_small():
     assert codes(inverted(cube(1e-9))) == {"inverted_components"}
+
+
+@pytest.mark.parametrize("size", [1.0, 2.0**-20, 2.0**20])
+@pytest.mark.parametrize(
+    "height, code", [(0.25, "non_planar_faces"), (8e-4, "non_planar_faces"), (4e-4, "non_planar_faces_slightly")]
+)
+def test_what_the_diagonals_of_faces_can_change_is_a_share_of_the_volume(size, height, code):
+    """A cube of which one corner is raised: the diagonals of its side differ by a pyramid of a sixth of that."""
+    points = np.array(CORNERS, float)
+    raised = (points == [1.0, 1.0, 1.0]).all(axis=1)
+    assert raised.sum() == 1
+    points[raised, 2] += height
+    solid = measure_solid(mesh(size * points, SIDES.tolist()))
+    (found,) = solid.findings
+    assert found.code == code
+    assert close(found.values["share"], height / 6.0 * size**3 / solid.volume.total, rel=1e-9)
