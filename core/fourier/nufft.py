@@ -88,8 +88,9 @@ class Spreading:
 
 
 def _kernel(z: NDArray, width: int) -> NDArray[np.float64]:
+    """z: from -1 to 1, but for rounding."""
     inside = np.maximum(1.0 - z * z, 0.0)
-    return np.exp(BETA * width * (np.sqrt(inside) - 1.0)) * (np.abs(z) <= 1.0)
+    return np.exp(BETA * width * (np.sqrt(inside) - 1.0))
 
 
 def _kernel_transform(frequencies: NDArray, width: int) -> NDArray[np.float64]:

@@ -17,10 +17,10 @@ from numpy.typing import NDArray
 
 from ..moments.affine_maps import rotate_moments
 from ..moments.moments import Moments
-from ..moments.monomials import monomial_count, monomial_index, monomials
+from ..moments.monomials import monomial_count, monomial_index, monomials, order_from_count
 from ..verdict.finding import MeasureError
 from .canonical_frame import FLAT_EXTENT_RTOL, NOISE_GROWTH
-from .third_moment_frames import EQUAL_AXES, HALF_TURN_SIGNS, SYMMETRIES, ThirdMomentFrames
+from .third_moment_frames import FIXED_AXIS, HALF_TURN_SIGNS, SYMMETRIES, ThirdMomentFrames
 
 THIRD = monomial_count(2)  # where the moments of third order begin
 # by whether p, q and r are odd: 0 where half turns change no sign, else which of p, q and r differs from the two others
@@ -69,13 +69,9 @@ def choose_about_axis(
     """
     values, least, raw = _along_axes(moments, fixed, bodies)
     is_round, allowed = np.ones(len(bodies), bool), fixed.allowed[bodies]
-    for name in ("prolate", "oblate"):
+    for name, axis in FIXED_AXIS.items():
         rows = np.flatnonzero(fixed.symmetry[bodies] == SYMMETRIES.index(name))
-        if not len(rows):
-            continue
-        first, second = EQUAL_AXES[name]
-        axis = 3 - first - second
-        degrees, weights, columns, forms = _harmonics((axis + 1) % 3, (axis + 2) % 3, axis, moments.order)
+        weights, columns, forms = _harmonics(axis, moments.order)
         size = fixed.size[bodies[rows]]
         powers = monomials(moments.order)[columns + THIRD]
         unit = np.multiply.reduce(_extents(size)[:, None] ** powers, axis=2)
@@ -93,7 +89,7 @@ def choose_about_axis(
 def _choose(values: NDArray, least: NDArray, allowed: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """(n, 4) of the half turns that are allowed those with the largest normalized moments, (n, columns), column after
     column; what differs by no more than `least` is equal."""
-    kind = ODD_KIND[tuple(monomials(_order_of(values))[THIRD:].T % 2)]
+    kind = ODD_KIND[tuple(monomials(order_from_count(THIRD + values.shape[1]))[THIRD:].T % 2)]
     clear = (2.0 * np.abs(values) > least)[:, None] & (kind == np.arange(1, 4)[:, None])  # (n, 3, columns)
     count = values.shape[1]
     bodies, first = np.arange(len(values)), np.where(clear.any(axis=2), clear.argmax(axis=2), count)
@@ -104,13 +100,6 @@ def _choose(values: NDArray, least: NDArray, allowed: NDArray[np.bool_]) -> NDAr
         decides = (column < count) & positive.any(axis=1)
         allowed = np.where(decides[:, None], positive, allowed)
     return allowed
-
-
-def _order_of(values: NDArray) -> int:
-    order = 3
-    while monomial_count(order) - THIRD < values.shape[1]:
-        order += 1
-    return order
 
 
 def _along_axes(
@@ -141,29 +130,23 @@ def _extents(size: NDArray) -> NDArray[np.float64]:
 
 
 @lru_cache
-def _harmonics(
-    first: int, second: int, axis: int, order: int
-) -> tuple[NDArray[np.intp], NDArray[np.float64], NDArray[np.intp], NDArray[np.complex128]]:
-    """E[(x+iy)^m (x²+y²)^j z^k] for all degrees m + 2j + k from 3 to `order` with m > 0, x, y and z along these axes:
-    (h,) the degrees, (h,) how many moments' noise each holds, (h,) the column, from third order on, of the moment whose
+def _harmonics(axis: int, order: int) -> tuple[NDArray[np.float64], NDArray[np.intp], NDArray[np.complex128]]:
+    """E[(x+iy)^m (x²+y²)^j z^k] for all degrees m + 2j + k from 3 to `order` with m > 0, z along this axis and x and y
+    along the next: (h,) how many moments' noise each holds, (h,) the column, from third order on, of the moment whose
     size it has, and (h, columns) what it is made from."""
-    degrees, weights, columns, forms = [], [], [], []
+    weights, columns, forms = [], [], []
     for degree in range(3, order + 1):
         for m in range(1, degree + 1):
             for k in range((degree - m) % 2, degree - m + 1, 2):
-                j, form = (degree - m - k) // 2, np.zeros(monomial_count(order) - THIRD, complex)
+                form = np.zeros(monomial_count(order) - THIRD, complex)
                 planar = np.polynomial.polynomial.polypow([1.0, 1.0j], m)  # of y by x
-                planar = np.polynomial.polynomial.polymul(
-                    planar, np.polynomial.polynomial.polypow([1.0, 0.0, 1.0], j) if j else [1.0]
-                )
-                for power, coefficient in enumerate(planar):
-                    exponents = [0, 0, 0]
-                    exponents[first], exponents[second], exponents[axis] = degree - k - power, power, k
-                    form[monomial_index(*exponents) - THIRD] += coefficient
-                exponents = [0, 0, 0]
-                exponents[first], exponents[axis] = degree - k, k
-                degrees.append(degree)
+                ring = np.polynomial.polynomial.polypow([1.0, 0.0, 1.0], (degree - m - k) // 2)
+                where = [
+                    monomial_index(*np.roll((degree - k - power, power, k), axis + 1)) - THIRD
+                    for power in range(degree - k + 1)
+                ]
+                form[where] = np.polynomial.polynomial.polymul(planar, ring)
                 weights.append(2.0 ** (degree - k))
-                columns.append(monomial_index(*exponents) - THIRD)
+                columns.append(where[0])
                 forms.append(form)
-    return np.array(degrees), np.array(weights), np.array(columns), np.array(forms)
+    return np.array(weights), np.array(columns), np.array(forms)

@@ -31,7 +31,7 @@ from .canonical_frame import (
     SecondMomentAxes,
     canonical_frames,
 )
-from .third_moment_frames import EQUAL_AXES, HALF_TURN_SIGNS, SYMMETRIES, ThirdMomentFrames
+from .third_moment_frames import EQUAL_AXES, FIXED_AXIS, HALF_TURN_SIGNS, SYMMETRIES, ThirdMomentFrames
 
 GRID = 1e-6  # of normalized moments, times NOISE_GROWTH: a tenth of NOISE_LEVEL
 LEAST_BOUND = 2.0**-30  # instead of smaller bounds; others are rounded up to three binary digits: copies have the same
@@ -45,7 +45,6 @@ POWERS = monomials(MAX_ORDER)
 DEGREE = POWERS.sum(axis=1)
 STEP = GRID * np.array(NOISE_GROWTH)[DEGREE[THIRD:]]
 BELOW_THIRD = np.where((POWERS[:THIRD] % 2 == 0).all(axis=1), 1.0, 0.0)  # of a body whose extents are one
-FIXED_AXIS = {"prolate": 0, "oblate": 2}
 
 
 def shared_frames(moments: Moments, fixed: ThirdMomentFrames, bodies: NDArray[np.intp]) -> list[EquivalentFrames]:
@@ -210,9 +209,7 @@ def _extreme(points: NDArray, degree: int, raw: NDArray) -> NDArray[np.float64]:
         twice = _contracted(raw, [points] * (degree - 2), degree)
         once = np.einsum("nkij,nkj->nki", twice, points)
         height = (once * points).sum(axis=-1)[..., None]
-        square = points[..., :, None] * points[..., None, :]
-        flat = np.eye(3) - square
-        curved = (degree - 1) * flat @ twice @ flat - height[..., None] * np.eye(3)
+        curved = (degree - 1) * twice - height[..., None] * np.eye(3)
         points = points + np.linalg.solve(curved, (height * points - once)[..., None])[..., 0]
         points /= np.linalg.norm(points, axis=-1, keepdims=True)
     return points

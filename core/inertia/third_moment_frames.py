@@ -30,6 +30,7 @@ HALF_TURN_SIGNS = np.array([signs for signs in product((1.0, -1.0), repeat=3) if
 SYMMETRIES = "asymmetric", "prolate", "oblate", "isotropic"
 # by symmetry, the axes whose moments are equal
 EQUAL_AXES = {"isotropic": (0, 1, 2), "prolate": (1, 2), "oblate": (0, 1), "asymmetric": ()}
+FIXED_AXIS = {"prolate": 0, "oblate": 2}  # the other one
 IS_FIXED = np.array([[axis not in EQUAL_AXES[name] for axis in range(3)] for name in SYMMETRIES])
 
 

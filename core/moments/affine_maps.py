@@ -162,8 +162,8 @@ def apply_translation(values: NDArray, order: int, offsets: NDArray) -> NDArray[
     for axis, (sources, lags, binomials, starts) in enumerate(_terms(order)):
         powers = np.ones((len(values), order + 1))
         powers[:, 1:] = offsets[:, axis, None]
-        powers = np.multiply.accumulate(powers, axis=1)
         with np.errstate(over="ignore", invalid="ignore"):
+            powers = np.multiply.accumulate(powers, axis=1)
             terms = binomials * powers.take(lags, axis=1)
             terms *= values.take(sources, axis=1)
             values = np.add.reduceat(terms, starts, axis=1)
@@ -201,7 +201,7 @@ def absolute_moments(raw: NDArray, order: int) -> NDArray[np.float64]:
         if n < order:
             largest[n] = np.sqrt(largest[n - 1]) * np.sqrt(largest[n + 1])
         elif n > 1:
-            with np.errstate(invalid="ignore", divide="ignore"):
+            with np.errstate(invalid="ignore"):
                 reach = np.sqrt(largest[n - 1] / largest[n - 3])
             largest[n] = HIGHEST_ODD * largest[n - 1] * np.where(np.isfinite(reach), reach, 0.0)
     for n in range(1, order + 1):
@@ -220,8 +220,8 @@ def anisotropy(linear: NDArray) -> NDArray[np.float64]:
     """(k,) by how much, relatively, each of the (3, 3, k) maps stretches one direction more than another; infinite for
     a flat map."""
     columns = linear.transpose(1, 0, 2)
-    a, b, c = [np.add.reduce(column * column, axis=0) for column in columns]
-    ab, ac, bc = [np.abs(np.add.reduce(columns[i] * columns[j], axis=0)) for i, j in ((0, 1), (0, 2), (1, 2))]
+    a, b, c = [np.add.reduce(column * column) for column in columns]
+    ab, ac, bc = [np.abs(np.add.reduce(columns[i] * columns[j])) for i, j in ((0, 1), (0, 2), (1, 2))]
     mean = (a + b + c) / 3.0
     off = np.maximum(np.maximum(np.abs(a - mean) + ab + ac, np.abs(b - mean) + ab + bc), np.abs(c - mean) + ac + bc)
     with np.errstate(invalid="ignore", divide="ignore"):

@@ -71,7 +71,7 @@ def quaternion(rotation: NDArray) -> NDArray[np.float64]:
     )
     best = outer.diagonal(axis1=0, axis2=1).argmax(axis=-1)
     column = np.take_along_axis(outer, best[None, None], axis=1)[:, 0]
-    column = column / np.sqrt(np.add.reduce(column * column, axis=0))
+    column = column / np.sqrt(np.add.reduce(column * column))
     return np.moveaxis(np.where(column[0] >= 0.0, column, -column), 0, -1) + 0.0  # no negative zeros
 
 

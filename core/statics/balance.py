@@ -126,7 +126,7 @@ def balance(
         raise MeasureError("balance_no_effect")
     points, center, far = _newton_solve(problem, start, step_directions, movable, np.inf)
     left = far
-    if limit < np.inf and (far or np.linalg.norm(points - problem.start, axis=1).max() > limit):
+    if far or np.linalg.norm(points - problem.start, axis=1).max() > limit:
         points, center, left = _newton_solve(problem, start, step_directions, movable, limit)
     if left and far:  # without a limit too: it is not the limit that stands against it
         raise MeasureError("balance_short", distance=float(far))
@@ -266,8 +266,8 @@ class _Fans:
         triangles, faces = surface.all_triangles()
         self.shell, self.count = shell, len(surface.points)
         points = surface.points.astype(np.float64)
-        faces = np.unique(faces, return_inverse=True)[1].ravel()
-        number = int(faces.max(initial=-1)) + 1
+        names, faces = np.unique(faces, return_inverse=True)
+        faces, number = faces.ravel(), len(names)
         vectors = normals(points, triangles)
         corner = np.unique(np.repeat(faces, 3) * np.int64(self.count) + triangles.ravel())
         self.owner, self.vertex = corner // self.count, corner % self.count

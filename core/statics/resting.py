@@ -107,13 +107,14 @@ def resting_poses(hull: ConvexHull, center: ArrayLike, tolerance: float = PLANE_
     5
     """
     points = hull.points - np.asarray(center, np.float64)
-    least = max(tolerance * float(np.ptp(hull.points, axis=0).max()), 2.0 * hull.gap)
+    extent = float(np.ptp(points, axis=0).max())
+    least = max(tolerance * extent, 2.0 * hull.gap)
     faces = _faces(points, hull, least)
     if faces.heights.min() < -least or hull.is_flat and faces.margins.max() < -least:
         raise MeasureError("center_outside_hull")
     shares = sums_by_index(faces.face, _solid_angles(points, hull.triangles), len(faces.heights)) / (4.0 * np.pi)
     # Of a face that the center lies in the solid angle is not certain: it is what the others leave.
-    around = faces.heights <= 1e-9 * float(np.ptp(hull.points, axis=0).max())
+    around = faces.heights <= 1e-9 * extent
     if around.any():
         shares[around] = (1.0 - shares[~around].sum()) / np.count_nonzero(around)
     stable = faces.margins > least

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from body_moments.core.fourier import grid as fourier_grid
 from body_moments.core.fourier.grid import GridTransform, _kernel_width, _sample_indices
-from body_moments.core.fourier.nufft import WIDTHS, Spreading, aliasing
+from body_moments.core.fourier.nufft import WIDTHS, Spreading, _kernel, aliasing
 from body_moments.core.fourier.transform import run_to_completion, solid_transform, surface_transform
 from body_moments.core.fourier.wave_vectors import FrequencyGrid
 from body_moments.core.numerics.quadrature import triangle_rule
@@ -48,6 +48,14 @@ def test_a_wider_kernel_is_a_digit_better():
     errors = [aliasing(20, width).max() for width in range(4, 15)]
     assert all(later < 0.5 * earlier for earlier, later in zip(errors, errors[1:]))
     assert errors[0] < 3e-3 and errors[-1] < 1e-11
+
+
+@pytest.mark.parametrize("width", [4, 15])
+def test_the_kernel_is_that_of_barnett_to_its_ends(width):
+    z = np.array([-1.0, -0.9, -0.3, 0.0, 0.5, 1.0])
+    exact = [math.exp(2.3 * width * (math.sqrt(1.0 - t * t) - 1.0)) for t in z.tolist()]
+    assert close(_kernel(z, width), exact, 1e-12)
+    assert close(_kernel(z[[0, -1]] * (1.0 + 2.0**-52), width), exact[-1], 1e-12)
 
 
 def test_kernels_are_four_to_fifteen_cells_wide():

@@ -5,6 +5,7 @@
 import numpy as np
 import pytest
 from body_moments.core.moments.affine_maps import (
+    absolute_moments,
     apply_translation,
     are_similarities,
     are_singular,
@@ -96,3 +97,17 @@ def test_of_arrays_that_are_near_the_first_is_kept():
     rows = np.array([[0.0, 0.0], [1.0, 0.0], [0.09, -0.09], [1.0, 0.11], [0.05, 0.0]])
     assert distinct_arrays(rows, 0.1).tolist() == rows[[0, 1, 3]].tolist()
     assert distinct_arrays(rows.reshape(5, 2, 1), 0.1)[:, :, 0].tolist() == rows[[0, 1, 3]].tolist()
+
+
+@pytest.mark.parametrize("offset, size", [(1e60, 1e200), (-1e60, 1e200), (1e200, 1.0)])
+def test_what_is_moved_beyond_the_range_of_numbers_says_nothing(offset, size):
+    """Who measures looks for that; numpy would warn on the console."""
+    values = np.append(size, np.full(monomial_count(4) - 1, -size))
+    with np.errstate(all="raise"):
+        assert not np.isfinite(apply_translation(values, 4, np.full(3, offset))).all()
+
+
+@pytest.mark.parametrize("order", range(8))
+def test_nothing_has_no_absolute_moments(order):
+    with np.errstate(all="raise"):
+        assert not absolute_moments(np.zeros((2, monomial_count(order))), order).any()

@@ -348,6 +348,50 @@ def test_the_bounds_of_normalized_moments_hold_whichever_moment_is_off(by, wrong
             assert (away <= limit).all() and limit.max() < 300.0 * away.max() + 1e-12
 
 
+@pytest.mark.parametrize("by, share", [("size", 12.0), ("gyration", 20.0)])
+@pytest.mark.parametrize("measure", ["volume", "area"])
+def test_what_is_known_exactly_is_normalized_but_for_some_roundings(by, share, measure):
+    exact = np.array([float(x) for x in central_box((1, 2, 3), 6)])
+    found, n = normalize(Moments(exact, np.zeros(3), measure), by), monomials(6).sum(axis=1)
+    units = found.rounding_error / np.where(exact > 0.0, found.raw, 1.0) / 2.0**-53
+    assert (np.abs(units - (8.0 + share * n) * (exact > 0.0)) <= 3.0).all() and not found.input_error.any()
+
+
+@pytest.mark.parametrize("by", ["size", "gyration"])
+@pytest.mark.parametrize("kind", ["rounding_error", "input_error"])
+@pytest.mark.parametrize("dimension, measure", [(3, "volume"), (2, "area")])
+def test_a_total_that_is_less_makes_moments_as_large_as_they_are_told_to_be_at_most(by, kind, dimension, measure):
+    """Nothing but the total is doubtful. R^-n / m goes with m^(n/2-1), so that second moments stay."""
+    exact, n = np.array([float(x) for x in central_box((1, 2, 3), 6)]), monomials(6).sum(axis=1)
+    delta = np.zeros(len(exact))
+    delta[0] = 1e-3 * exact[0]
+    found = normalize(Moments(exact, np.zeros(3), measure, **{kind: delta}), by)
+    power = 1.0 + n / dimension if by == "size" else np.abs(n / 2.0 - 1.0)
+    worst = found.raw * (0.999**-power - 1.0)
+    worst[0] += found.raw[0] * (1e-3 * 0.999 ** -power[0] + 1e-3 * (0.999 ** -power[0] - 1.0))
+    assert close(getattr(found, kind)[worst > 0.0], worst[worst > 0.0], 1e-9)
+    other = found.input_error if kind == "rounding_error" else found.rounding_error
+    assert (other <= 150.0 * 2.0**-53 * np.abs(found.raw)).all()
+
+
+def test_a_radius_of_gyration_that_is_less_makes_moments_as_large_as_they_are_told_to_be_at_most():
+    """Each of the three second moments that it is made of is doubtful."""
+    exact, n = np.array([float(x) for x in central_box((1, 2, 3), 6)]), monomials(6).sum(axis=1)
+    trace = exact[[4, 7, 9]].sum()
+    for place in (4, 7, 9):
+        delta = np.zeros(len(exact))
+        delta[place] = 1e-3 * trace
+        found = normalize(Moments(exact, np.zeros(3), rounding_error=delta), "gyration")
+        worst = found.raw * (0.999 ** -(n / 2.0) - 1.0)
+        worst[place] += found.raw[place] * 1e-3 * trace / exact[place] * (2.0 * 0.999**-1.0 - 1.0)
+        assert close(found.rounding_error[(exact > 0.0) & (n > 0)], worst[(exact > 0.0) & (n > 0)], 1e-9)
+    delta[9] = 0.51 * trace
+    with refused("normalization_undefined"):
+        normalize(Moments(exact, np.zeros(3), rounding_error=delta), "gyration")
+    delta[9] = 0.49 * trace
+    assert normalize(Moments(exact, np.zeros(3), rounding_error=delta), "gyration").order == 6
+
+
 def test_what_cannot_be_normalized_is_refused():
     with pytest.raises(ValueError, match="gyration"):
         normalize(Moments(np.ones(10), np.zeros(3), "mass"))

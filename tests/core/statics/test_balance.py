@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.polyhedron import polyhedron_moments
-from body_moments.core.statics.balance import _Fans, balance
+from body_moments.core.statics.balance import _center_jacobian, _Fans, _limited_moves, balance
 from body_moments.core.statics.gradient import area_gradient, volume_gradient
 from body_moments.core.verdict.finding import MeasureError
 
@@ -116,6 +116,24 @@ def test_a_limit_that_is_too_small_is_said():
     part = bodies.sphere(3)
     with refused("balance_short_by_limit", limit=0.001):
         balance(bodies.surface(part), upper(part), (0.2, 0.0, 0.0), across=HORIZONTAL, limit=1e-3)
+
+
+@pytest.mark.parametrize("limit", [0.7, 1.6, 40.0])
+def test_moves_are_cut_to_the_limit_and_the_center_follows_as_their_derivative_says(limit):
+    """Of some vertices that are held and some that are not, against central differences."""
+    rng = np.random.default_rng(2)
+    pulls, slope, start = rng.normal(size=(2, 30, 3)), rng.normal(size=(2, 30, 3)), np.array([0.8, -0.3])
+    moves = np.einsum("rnk,r->nk", pulls, start)
+    length, cut = np.linalg.norm(moves, axis=1), _limited_moves(pulls, start, limit)
+    held = length > limit
+    assert (limit > length.max()) == (limit == 40.0) and (held.any() and not held.all() or limit == 40.0)
+    assert (cut[~held] == moves[~held]).all()
+    assert np.abs(cut[held] - moves[held] * limit / length[held, None]).max(initial=0.0) < 1e-15
+    for column, step in enumerate(1e-6 * np.eye(2)):
+        gained = _limited_moves(pulls, start + step, limit) - _limited_moves(pulls, start - step, limit)
+        exact = (slope * gained).sum(axis=(1, 2)) / 2e-6
+        assert np.abs(_center_jacobian(pulls, start, slope, limit)[:, column] - exact).max() < 1e-7
+    assert (_center_jacobian(pulls, start, slope, np.inf) == _center_jacobian(pulls, start, slope, 40.0)).all()
 
 
 def test_willing_vertices_move_more():

@@ -232,11 +232,23 @@ def test_a_margin_of_twice_what_points_may_be_outside_the_hull_is_none(share, po
     assert len(resting_poses(hull, (1.0 - share * hull.gap, 0.5, 0.5), 0.0).shares) == poses
 
 
-def test_where_every_margin_is_within_the_tolerance_no_pose_is_stable():
-    cube = convex_hull(box(1.0, 1.0, 1.0))
-    assert len(resting_poses(cube, (0.5, 0.5, 0.5), 0.49).shares) == 6
+@pytest.mark.parametrize("place", [(0.0, 0.0, 0.0), (-7.0, 0.0, 4.0)])
+def test_where_every_margin_is_within_the_tolerance_no_pose_is_stable(place):
+    cube, center = convex_hull(box(1.0, 1.0, 1.0) + place), np.full(3, 0.5) + place
+    assert len(resting_poses(cube, center, 0.49).shares) == 6
     with refused("no_stable_pose"):
-        resting_poses(cube, (0.5, 0.5, 0.5), 0.51)
+        resting_poses(cube, center, 0.51)
+
+
+@pytest.mark.parametrize("size", [1e-6, 1.0, 1e6])
+def test_of_a_thin_plate_the_nearer_side_takes_more(size):
+    """From a point at height h above a square's middle it covers atan(1 / (2 h sqrt(2 + 4 h²))) / π of the sphere."""
+    low, high = 2e-7, 6e-7
+    hull = convex_hull(size * box(1.0, 1.0, low + high), 1e-9)
+    poses = resting_poses(hull, size * np.array([0.5, 0.5, low]), 1e-8)
+    for side, h in ((-1, low), (1, high)):
+        share = poses.shares[facing(poses.normals, (0, 0, side))]
+        assert close(share, atan(1.0 / (2.0 * h * sqrt(2.0 + 4.0 * h * h))) / pi, 1e-8)
 
 
 @pytest.mark.parametrize("axis", range(3))
