@@ -205,15 +205,15 @@ def _spline_piece(fields: list[str]) -> list[Piece] | None:
     last, degree = integers(fields, 2)
     count, knot_count = last + 1, last + degree + 2
     end = 6 + knot_count + 4 * count + 2
-    if degree < 1 or count <= degree or len(fields) < end:
-        raise ValueError("too few parameters")
+    if degree < 1 or count <= degree:
+        raise ValueError("too few control points")
     values = numbers(fields[6:end])
     knots, part = values[:knot_count], values[-2:]
+    points = values[knot_count + count : -2].reshape(count, 3)
     if (values[knot_count : knot_count + count] <= 0.0).any():
         return None
     if knots[0] != knots[degree] or knots[-1] != knots[count] or part[0] != knots[0] or part[1] != knots[-1]:
         return None
-    points = values[knot_count + count : -2].reshape(count, 3)
     return [Piece(points[:, :2], straight=degree == 1)]
 
 
@@ -223,8 +223,8 @@ class _Spline:
     def __init__(self, fields: list[str]) -> None:
         last_s, last_t, degree_s, degree_t = integers(fields, 4)
         counts, degrees = (last_s + 1, last_t + 1), (degree_s, degree_t)
-        if min(degrees) < 1 or any(count <= degree for count, degree in zip(counts, degrees)):
-            raise ValueError("too few control points")
+        if min(degrees) < 1:
+            raise ValueError("degrees")
         knot_counts = [count + degree + 1 for count, degree in zip(counts, degrees)]
         total = counts[0] * counts[1]
         values = numbers(fields[9 : 9 + sum(knot_counts) + 4 * total + 4])

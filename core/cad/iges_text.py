@@ -80,7 +80,7 @@ class IgesText:
             raise ValueError("parameters beyond the section")
         text = "".join(line[:PARAMETERS] for line in self._lines[start:end])
         fields = _split(text, self._delimiter, self._end)
-        if not fields or _integer(fields[0]) != entry.type:
+        if _integer(fields[0]) != entry.type:
             raise ValueError("parameters of another entity")
         return fields[1:]
 
@@ -123,7 +123,7 @@ def _unit(fields: list[str]) -> float:
     unit = UNIT_NAMES.get(name.strip().upper()) if flag == UNIT_BY_NAME else UNITS.get(flag)
     if unit is None:
         raise FileError("iges_unit", unit=name.strip() or str(flag))
-    if not 0.0 < scale < math.inf or not 0.0 < unit / scale < math.inf:
+    if not 0.0 < unit / scale < math.inf:
         raise _damaged("iges_global_section")
     return unit / scale
 

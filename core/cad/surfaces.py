@@ -157,8 +157,6 @@ def blender_patches(
         for row, order, count in zip(knots, orders, points.shape)
     )
     spaces = s_space, t_space
-    if any(space.function_count != space.count for space in spaces):
-        raise ValueError("knots of other points")
     sizes = [len(space.spans) * (space.order - 1) + 1 for space in spaces]
     if sizes[0] * sizes[1] > MAX_POINTS:
         raise SurfaceRefusedError("surface_too_large", points=sizes[0] * sizes[1], limit=MAX_POINTS)

@@ -58,13 +58,12 @@ def smooth_threshold_body(
     True
     """
     samples = np.asarray(samples, np.float64)
-    if background is not None and background >= threshold:
-        background = None
-    margin = 0 if background is None else (spline_order + 1) // 2
-    samples = np.pad(samples, margin, constant_values=0.0 if background is None else background)
     matrix = np.eye(4) if matrix is None else np.asarray(matrix, np.float64)
     place = np.eye(4)
-    place[:3, 3] = -margin
+    if background is not None and background < threshold:
+        margin = (spline_order + 1) // 2
+        samples = np.pad(samples, margin, constant_values=background)
+        place[:3, 3] = -margin
     coarse = extrapolated = None
     parts = 1
     while True:

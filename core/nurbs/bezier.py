@@ -27,7 +27,8 @@ Weights = tuple[NDArray[np.float64], NDArray[np.float64]]
 # cells of a patch: none of them is so small that rounding by the size of the patch would matter to it
 SMALL_CELL_COUNT = 32
 MAX_CELLS = 8192  # made at a time
-DERIVATIVES = (((0, 0),), ((0, 0), (1, 0), (0, 1)), ((0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2)))
+# by the highest one, how often along s and along t
+DERIVATIVES = {1: ((0, 0), (1, 0), (0, 1)), 2: ((0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2))}
 
 
 @dataclass(frozen=True, eq=False)

@@ -175,7 +175,7 @@ def boundary_edges(faces: NDArray, count: int) -> NDArray[np.intp]:
     ahead, low, high = (values[low != high] for values in (ahead, low, high))
     keys, which = np.unique(low * count + high, return_inverse=True)
     net = np.bincount(which.ravel(), np.where(ahead[:, 0] == low, 1.0, -1.0)).astype(np.int64)
-    edges = np.stack([keys // count, keys % count], axis=1) if len(keys) else np.empty((0, 2), np.int64)
+    edges = np.stack([keys // count, keys % count], axis=1)
     edges = np.where(net[:, None] < 0, edges[:, ::-1], edges)
     return np.repeat(edges, np.abs(net), axis=0).astype(np.intp)
 

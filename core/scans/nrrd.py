@@ -68,10 +68,8 @@ def read_header(path: Path, limits: Limits) -> tuple[dict[str, str], int | None]
     fields = {}
     text = head[: end.start() if end else len(head)].decode("latin-1")
     for line in text.splitlines()[1:]:
-        if line.startswith("#") or ":=" in line:
-            continue
         name, colon, value = line.partition(":")
-        if colon:
+        if colon and not value.startswith("="):  # of a key's value
             fields[name.strip().lower()] = value.strip()
     return fields, end.end() if end else None
 

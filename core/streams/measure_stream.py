@@ -106,7 +106,7 @@ def measure_stream(
                 order,
                 area_order=area_order,
                 about=stream.center,
-                reach=stream.reach or 1.0,  # of a point
+                reach=stream.reach,
                 allow_open=True,
                 threads=threads,
             )

@@ -99,11 +99,10 @@ class StlFile:
             raise FileError("stl_cut_short")
 
     def _parse(self, text: bytes, done: int) -> NDArray[np.float32]:
-        facets = SOLID_LINE.sub(b"", text)
+        facets = SOLID_LINE.sub(b"", text).lower()
         words = facets.split()
-        lower = [word.lower() for word in words] if any(word.isupper() for word in words[:2]) else words
         sound = len(words) % FACET_WORDS == 0 and all(
-            set(lower[place::FACET_WORDS]) == {word} for place, word in KEYWORDS.items()
+            set(words[place::FACET_WORDS]) == {word} for place, word in KEYWORDS.items()
         )
         if not sound or b"_" in facets:  # which Python takes as a part of numbers
             raise self._damaged(done)

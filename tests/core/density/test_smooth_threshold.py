@@ -82,6 +82,18 @@ def test_the_bound_says_what_a_small_limit_leaves(monkeypatch):
     assert 1e-5 * truth < abs(found.volume.total - truth) <= found.volume.rounding_error[0]
 
 
+@pytest.mark.parametrize("order, threshold", [(3, 1e-4), (4, 1e-4), (6, 1e-6), (4, 0.2)])
+def test_beside_a_background_a_body_reaches_as_far_as_its_spline(monkeypatch, order, threshold):
+    """Coefficients of one beside zero: where the threshold is low, all that the first of them adds is in the body."""
+    monkeypatch.setattr(smooth_threshold, "MAX_SAMPLES", 1)
+    samples = np.ones((3, 1, 1))
+    found = smooth_threshold_body(samples, threshold, order, order=1, background=0.0)
+    alone = smooth_threshold_body(np.pad(samples, 5), threshold, order, order=1)
+    assert not found.clipped and not alone.clipped
+    assert close(found.volume.center, (1.0, 0.0, 0.0), rel=1e-9)
+    assert close(found.volume.total, alone.volume.total, rel=1e-9)
+
+
 @pytest.mark.parametrize("most, grids", [(8 * 21**3 - 1, 2), (8 * 21**3, 3), (8 * 41**3 - 1, 3), (8 * 41**3, 4)])
 def test_grids_are_refined_while_the_next_may_have_as_many_samples(monkeypatch, most, grids):
     """The next has eight times as many, about; none is near enough here."""

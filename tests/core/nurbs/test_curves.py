@@ -188,12 +188,15 @@ def test_the_length_of_lines_that_turn_back_has_an_estimate_that_holds():
         assert abs(found.total - np.abs(np.diff(places)).sum()) <= found.rounding_error[0] <= 1e-9
 
 
-def test_two_turns_between_the_points_of_all_rules_are_found():
-    """x' = (t - 0.5)² - h², negative for a moment: rules without a point there agree upon a wrong length."""
+@pytest.mark.parametrize("ratio", [1.0, 0.25, 4.0])
+def test_two_turns_between_the_points_of_all_rules_are_found(ratio):
+    """x' = (t - 0.5)² - h², negative for a moment: rules without a point there agree upon a wrong length. Weights that
+    each are so many times the one before make the same curve by other parameters."""
     for h in (0.1, 0.01, 1e-3):
         x = np.array([0.0, (0.25 - h * h) / 3.0, 0.0, 1.0 / 12.0 - h * h])  # of t³/3 - t²/2 + (1/4 - h²) t
         x[2] = 2.0 * x[1] - 1.0 / 6.0
-        line = Curve(clamped_space(4), np.stack([x, 0.0 * x, 0.0 * x], axis=1))
+        weights = None if ratio == 1.0 else ratio ** np.arange(4.0)
+        line = Curve(clamped_space(4), np.stack([x, 0.0 * x, 0.0 * x], axis=1), weights)
         found = length_moments([line], 0)
         assert abs(found.total - (x[3] + 8.0 * h**3 / 3.0)) <= found.rounding_error[0] <= 1e-11
 

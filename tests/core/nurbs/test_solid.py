@@ -279,7 +279,7 @@ def test_a_patch_of_one_side_only_is_open():
     middle = np.stack([3.0 * np.cos(turns), 3.0 * np.sin(turns), 0.0 * turns], axis=1)
     space = SplineSpace((0.0, *map(float, range(17)), 16.0), 2, 17)
     found = measure_patches([Patch((space, clamped_space(2)), np.stack([middle - arm, middle + arm], axis=1))])
-    assert found.method == "open"
+    assert found.method == "open" and not found.health.closed
     assert codes(found) == ["open_patch_sides"]
 
 

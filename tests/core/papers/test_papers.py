@@ -180,6 +180,12 @@ def test_the_printed_third_order_formula_is_wrong_and_not_even_symmetric():
         assert all(right[i, j, k] == right[j, i, k] == right[i, k, j] for i, j, k in product(range(3), repeat=3))
 
 
+def test_a_face_without_an_area_has_its_first_corner_in_the_place_of_its_foot():
+    line = [(F(1), F(2), F(3)), (F(2), F(4), F(7)), (F(5, 2), F(5), F(9))]
+    for face in ((0, 1, 2), (2, 0, 1), (1, 0)):
+        assert durso.perpendicular_feet(line, [face]) == [line[face[0]]]
+
+
 def test_durso_holds_at_any_order_with_any_apex_in_the_face():
     points, faces = prism()
     truth = sheynin_tuzikov.volume_moments(points, faces, 5)

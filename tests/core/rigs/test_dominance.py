@@ -87,6 +87,8 @@ def test_weights_that_float32_tells_apart_tie_and_others_do_not():
     for more, bone in ((2e-6, 1), (5e-5, 0)):  # the first bone has more weight, the second is near
         weights = {(vertex, 0): 1.0 + more for vertex in range(3)} | {(vertex, 1): 1.0 for vertex in range(3)}
         assert found(points, bones, [[0, 1, 2]], weights) == ([bone], [])
+        turned = {(vertex, 1 - one): weight for (vertex, one), weight in weights.items()}
+        assert found(points, bones[::-1], [[0, 1, 2]], turned) == ([1 - bone], [])
     for off, bone in ((2e-6, 0), (5e-5, 1)):  # the second bone is nearer
         ends = [((0, 0, 1.0 + off), (0, 0, 3)), ((0, 0, -1), (0, 0, -2))]
         center = [(0, 0, 0)]

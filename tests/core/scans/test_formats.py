@@ -76,6 +76,15 @@ def test_nrrd_has_many_names_for_a_type_and_a_byte_order_for_all_but_bytes(tmp_p
     assert refusal(read_scan, path) == ("file_damaged" if dtype[1] == "1" else "nrrd_endian_missing")
 
 
+def test_the_keys_of_a_nrrd_file_and_its_comments_are_no_fields(tmp_path):
+    """And a field may have in it what makes a key."""
+    for line in (b"sizes:=9 9 9", b"type:= double", b"# sizes: 9 9 9", b"#sizes: 9 9 9", b"sizes 9 9 9", b"no:=a: b"):
+        data = nrrd(values()).replace(b"encoding: raw", line + b"\nencoding: raw\n" + line)
+        assert np.array_equal(read_scan(written(tmp_path / "a.nrrd", data)).samples, values())
+    with_both = nrrd(values(), "content: a:=b").replace(b"type: float", b"type: float:=")
+    assert refusal(read_scan, written(tmp_path / "a.nrrd", with_both)) == "nrrd_type"
+
+
 def test_units_are_in_meters_if_all_axes_have_the_same(tmp_path):
     sizes = {"m": 1.0, "meter": 1.0, "meters": 1.0, "cm": 1e-2, "nm": 1e-9, "inch": None, "": None}
     sizes |= dict.fromkeys(("mm", "millimeter", "millimeters", " MM "), 1e-3)
@@ -294,6 +303,7 @@ def nifti_with(offset: int, form: str, *numbers) -> bytes:
         (nifti_with(80, "f", 0.0), "nifti_spacing", {"x": 0.0, "y": 1.0, "z": 1.0}),
         (nifti(values(), sform=np.zeros((3, 4))), "scan_placement", {}),
         (nifti(values(), sform=np.full((3, 4), np.nan)), "scan_placement", {}),
+        (nifti(values(), sform=np.eye(3, 4) + [0, 0, 0, np.inf]), "scan_placement", {}),
         (nifti(values(), quaternion=(1, 1, 1, 0, 0, 0)), "nifti_rotation", {}),
     ],
 )

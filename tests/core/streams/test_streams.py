@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Meshes that are read in blocks have the moments that they have in memory, and whether they close is known."""
 
+from io import BytesIO
 from threading import active_count
 
 import numpy as np
@@ -11,6 +12,7 @@ from body_moments.core.polyhedron import polyhedron_moments
 from body_moments.core.streams import measure_stream, open_mesh_file, ply_rows
 from body_moments.core.streams import ply as ply_module
 from body_moments.core.streams import stl as stl_module
+from body_moments.core.streams.ply_header import Element, Property
 from body_moments.core.verdict.finding import FileError
 
 from tests.close import close
@@ -153,6 +155,19 @@ def test_a_block_without_order_in_its_vertices_is_copied(tmp_path, small_blocks,
         assert found.closed and close(found.volume.total, truth.total, rel=1e-12)
 
 
+@pytest.mark.parametrize("first", [0, 1000])
+@pytest.mark.parametrize("spread, is_copied", [(0, False), (1, True)])
+def test_vertices_are_copied_where_a_block_has_a_fourth_of_those_from_its_first_to_its_last(
+    tmp_path, first, spread, is_copied
+):
+    """Wherever the first of them stands; else those between come along."""
+    last = first + 4 * 9 - 1 + spread
+    faces = [[first, first + 1, last], [first + 2, first + 1, last], [last, first + 3, first]]
+    (tmp_path / "a.ply").write_bytes(ply(np.random.default_rng(0).normal(size=(1100, 3)), faces))
+    (piece,) = open_mesh_file(tmp_path / "a.ply").pieces()
+    assert len(piece.points) == (9 if is_copied else 4 * 9)
+
+
 @pytest.mark.parametrize("place", [0.0, 1e9, -1e9])
 def test_what_reaches_far_beyond_the_first_faces_is_read_again(tmp_path, small_blocks, place):
     """However far from the world's origin, on either side of the first faces."""
@@ -202,15 +217,30 @@ def test_an_stl_that_is_cut_short_is_refused(tmp_path, small_blocks, cut):
         with refused("stl_cut_short", "file_damaged"):  # though the first of two solids has its end
             measured(tmp_path, "a.stl", text + more)
     assert measured(tmp_path, "a.stl", text + second).face_count == 2 * len(part[1])
-    assert measured(tmp_path, "a.stl", text.upper().replace(b"\n", b"\r\n")).closed
+    for other in (text.upper().replace(b"\n", b"\r\n"), text.title()):
+        assert measured(tmp_path, "a.stl", other).closed
 
 
-@pytest.mark.parametrize("old, new", [(b"vertex", b"vertx"), (b"outer", b"inner"), (b" endloop", b"vertex 1 2 3")])
+@pytest.mark.parametrize(
+    "old, new",
+    [
+        (b"\nfacet", b"\nfacets"),
+        (b"normal", b"normals"),
+        (b"outer", b"inner"),
+        (b"loop\n  vertex", b"loops\n  vertex"),
+        (b"vertex", b"vertx"),
+        (b" endloop", b" endloops"),
+        (b" endloop", b"vertex 1 2 3"),
+        (b"endfacet", b"endfacets"),
+    ],
+)
 def test_a_text_that_is_no_stl_is_refused(tmp_path, small_blocks, old, new):
+    """Whichever of its words is another, in the last facet or in all of them."""
     text = stl_text(moved(sphere(1)))
     at = text.rindex(old)
-    with refused("file_damaged", "stl_cut_short"):
-        measured(tmp_path, "a.stl", text[:at] + new + text[at + len(old) :])
+    for other in (text[:at] + new + text[at + len(old) :], text.replace(old, new)):
+        with refused("file_damaged", "stl_cut_short"):
+            measured(tmp_path, "a.stl", other)
 
 
 def test_no_number_of_a_text_has_an_underscore(tmp_path):
@@ -228,6 +258,16 @@ def test_a_face_of_too_many_corners_is_not_read_into_memory(tmp_path, monkeypatc
     monkeypatch.setattr(ply_rows, "MAX_LIST", 2)
     with refused("file_damaged"):
         measured(tmp_path, "a.ply", whole)
+
+
+@pytest.mark.parametrize("length, is_looked_for", [(1 << 26, True), ((1 << 26) + 1, False)])
+def test_a_list_has_up_to_two_to_the_twenty_sixth_numbers(length, is_looked_for):
+    """The rest of a file is looked through for so many, and not for more."""
+    file = BytesIO(length.to_bytes(4, "little") + bytes(2 * ply_rows.BYTES_PER_BLOCK))
+    face = Element("face", 1, (Property("vertex_indices", "u1", "u4"),))
+    with pytest.raises(ply_rows.RowsError):
+        next(ply_rows.RowReader(file, "<").rows(face))
+    assert (file.read(1) == b"") == is_looked_for
 
 
 @pytest.mark.parametrize("name", FORMS)
@@ -387,6 +427,9 @@ def test_a_header_has_a_million_bytes_at_most(tmp_path):
 def test_elements_without_properties_take_nothing(tmp_path):
     empty = "element nothing 1000000000000\n"
     assert measured(tmp_path, "a.ply", ply_text(empty + VERTICES + FACES, TETRAHEDRON)).closed
+    for order in ("<", ">"):
+        whole = ply(*moved(sphere(0)), order)
+        assert measured(tmp_path, "a.ply", whole.replace(b"element face", empty.encode() + b"element face")).closed
 
 
 @pytest.mark.parametrize("order", ["<", ">"])
@@ -441,6 +484,22 @@ def test_a_file_that_starts_as_a_text_and_is_none_is_not_read_to_its_end(tmp_pat
     with refused("file_damaged"):
         measured(tmp_path, "a.stl", b"solid" + bytes(100_000))
     assert max(sizes) <= 2700
+    text = stl_text(box())
+    for most, is_read in ((2099, False), (2100, True)):  # three blocks without the end of a facet
+        monkeypatch.setattr(stl_module, "MAX_WAITING", most)
+        late = text.replace(b"solid part", b"solid " + b"x" * 2000, 1)
+        assert 2100 < late.index(b"endfacet") < 2792
+        if is_read:
+            assert measured(tmp_path, "a.stl", late).closed
+        else:
+            with refused("file_damaged"):
+                measured(tmp_path, "a.stl", late)
+
+
+def test_of_a_text_without_the_end_of_a_facet_twelve_megabytes_are_read_at_most(tmp_path):
+    text = stl_text(box()).replace(b"\n", b"\n" + b" " * (13 << 20), 1)
+    with refused("file_damaged"):
+        measured(tmp_path, "a.stl", text)
 
 
 def header(*lines, start="ply\nformat ascii 1.0"):

@@ -7,6 +7,7 @@ import pytest
 from body_moments.core import Surface, measure_solid
 from body_moments.core.solid.duplicate_faces import _copies_findings
 from body_moments.core.verdict.method import Verdict
+from body_moments.core.verdict.tolerances import welding_tolerance
 
 from tests.core.bodies import box, soup, without
 from tests.core.findings import codes, refused
@@ -39,6 +40,10 @@ def test_an_open_sheet_is_told_from_a_thin_body_without_a_side(height, is_flat):
     assert (found.method, codes(found)) == (
         (Verdict.OPEN, ["flat_surface"]) if is_flat else ("capped", ["holes_capped"])
     )
+
+
+def test_points_are_the_same_within_a_millionth_of_the_diagonal_or_four_times_what_storing_moves_them():
+    assert [welding_tolerance(2.0, error) for error in (0.0, 4e-7, 6e-7)] == [2e-6, 2e-6, 4.0 * 6e-7]
 
 
 @pytest.mark.parametrize("gap, code", [(1.72e-6, "vertices_welded_slightly"), (1.75e-6, "holes_capped_slightly")])

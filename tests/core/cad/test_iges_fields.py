@@ -1,0 +1,203 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Fields of IGES files that are blank, full, missing or of another kind; and those of .obj files that mean nothing."""
+
+import numpy as np
+import pytest
+from body_moments.core.cad import read_surfaces
+from body_moments.core.nurbs.solid import measure_patches
+from body_moments.core.verdict.finding import FileError, finding
+
+from tests.close import close
+from tests.core.exact_splines import sphere, torus
+from tests.core.iges_files import IgesFile, obj_text, surface_fields, unrolled
+
+BALL = 4.0 / 3.0 * np.pi
+DONUT = 2.0 * np.pi**2 * 0.75 * 0.25**2
+
+
+def ball_lines() -> list[str]:
+    """The lines of a file with a ball."""
+    file = IgesFile()
+    file.surface(unrolled(sphere()))
+    return file.text().splitlines()
+
+
+def read(tmp_path, lines):
+    path = tmp_path / "a.igs"
+    path.write_text("\n".join(lines) + "\n")
+    return read_surfaces(path)
+
+
+def total(file):
+    return measure_patches(file.bodies[0].patches).volume.total
+
+
+def refusal(tmp_path, lines):
+    with pytest.raises(FileError) as caught:
+        read(tmp_path, lines)
+    return caught.value.finding
+
+
+@pytest.mark.parametrize("section", "GDP")
+def test_a_file_without_one_of_its_sections_is_none(tmp_path, section):
+    assert refusal(tmp_path, [line for line in ball_lines() if line[72] != section]).code == "iges_unrecognized"
+
+
+@pytest.mark.parametrize("letter", "BCX")
+def test_a_letter_of_no_section_makes_no_other_form_of_a_file_that_has_begun(tmp_path, letter):
+    first, *rest = ball_lines()
+    assert first[72] == "S"
+    assert refusal(tmp_path, [first, first[:72] + letter + first[73:], *rest]).code == "iges_unrecognized"
+    assert close(total(read(tmp_path, [first, first, *rest])), BALL, 1e-14)
+
+
+def test_parameters_of_another_entity_are_damage_though_their_numbers_fit(tmp_path):
+    file = IgesFile()
+    file.surface(unrolled(sphere()), label="OTHER")
+    file.surface(unrolled(torus()))
+    lines = file.text().splitlines()
+    at = next(number for number, line in enumerate(lines) if line[72] == "P")
+    assert lines[at].startswith("128,")
+    lines[at] = "126," + lines[at][4:]
+    found = read(tmp_path, lines)
+    assert [(one.code, one.values["names"]) for one in found.refused] == [("surface_damaged", ["OTHER"])]
+    assert close(total(found), DONUT, 1e-14)
+
+
+def test_the_pointers_behind_parameters_may_fill_their_columns(tmp_path):
+    lines = [
+        line[:64] + line[64:72].strip().rjust(8, "9") + line[72:] if line[72] == "P" else line for line in ball_lines()
+    ]
+    assert sum(line[64] == "9" for line in lines if line[72] == "P") > 10
+    assert close(total(read(tmp_path, lines)), BALL, 1e-14)
+
+
+def test_blank_fields_of_the_directory_are_zero(tmp_path):
+    """But for the type and where the parameters are."""
+    lines = ball_lines()
+    first, second = (number for number, line in enumerate(lines) if line[72] == "D")
+    lines[first] = lines[first][:16].ljust(72) + lines[first][72:]
+    lines[second] = lines[second][24:32].rjust(32).ljust(72) + lines[second][72:]
+    assert close(total(read(tmp_path, lines)), BALL, 1e-14)
+
+
+@pytest.mark.parametrize("word", ["1_0.0", "1_0", "nan", "inf", "\xb2", "0x1", "one"])
+def test_what_only_a_programming_language_reads_is_no_number(tmp_path, word):
+    fields = surface_fields(unrolled(sphere()))
+    file = IgesFile()
+    file.surface(unrolled(torus()))
+    file.add(128, [*fields[:-5], word, *fields[-4:]], label="WRONG")
+    (tmp_path / "a.igs").write_bytes(file.text().encode("latin-1"))
+    found = read_surfaces(tmp_path / "a.igs")
+    assert [(one.code, one.values["names"]) for one in found.refused] == [("surface_damaged", ["WRONG"])]
+
+
+@pytest.mark.parametrize("name, said", [("", "12"), ("M", "M")])
+def test_an_unknown_unit_without_a_name_is_called_by_its_number(tmp_path, name, said):
+    file = IgesFile(12, name)
+    file.surface(unrolled(sphere()))
+    assert refusal(tmp_path, file.text().splitlines()) == finding("iges_unit", unit=said)
+
+
+def test_a_subfigure_without_members_places_nothing(tmp_path):
+    file = IgesFile()
+    file.surface(unrolled(sphere()))
+    file.add(408, [file.add(308, [0, "1HA", 0], status="00000200"), 0.0, 0.0, 0.0])
+    found = read(tmp_path, file.text().splitlines())
+    assert found.refused == () and close(total(found), BALL, 1e-14)
+
+
+def test_a_boundary_of_no_curves_trims(tmp_path):
+    file = IgesFile()
+    base = file.surface(unrolled(sphere()), status="00010000")
+    file.add(144, [base, 1, 0, file.add(142, [0, base, file.add(102, [0]), 0, 1], status="00010000")])
+    cause = refusal(tmp_path, file.text().splitlines()).values["causes"][0]
+    assert cause["code"] == "surface_trimmed"
+
+
+@pytest.mark.parametrize("word, code", [("1e38", ""), ("1e39", "surface_points"), ("1e400", "surface_damaged")])
+def test_a_coordinate_that_is_no_number_is_damage_and_one_beyond_float32_is_too_far(tmp_path, word, code):
+    fields = surface_fields(unrolled(sphere()))
+    file = IgesFile()
+    file.surface(unrolled(torus()))
+    file.add(128, [*fields[:-5], word, *fields[-4:]])
+    found = read(tmp_path, file.text().splitlines())
+    assert [one.code for one in found.refused] == [code] * bool(code)
+
+
+@pytest.mark.parametrize("degrees", [(0, 2), (2, 0), (-1, 2), (2, 3), (9, 9)])
+def test_degrees_that_fit_no_control_points_are_damage(tmp_path, degrees):
+    fields = surface_fields(unrolled(sphere()))
+    file = IgesFile()
+    file.surface(unrolled(torus()))
+    file.add(128, [*fields[:2], *degrees, *fields[4:]], label="WRONG")
+    (found,) = read(tmp_path, file.text().splitlines()).refused
+    assert found.values["names"] == ["WRONG"] and found.code in ("surface_damaged", "surface_order")
+
+
+@pytest.mark.parametrize("last", [-1, -2, -9, 0])
+def test_numbers_of_control_points_that_are_none_are_damage(tmp_path, last):
+    fields = surface_fields(unrolled(sphere()))
+    file = IgesFile()
+    file.surface(unrolled(torus()))
+    for place in (0, 1):
+        file.add(128, [*fields[:place], last, *fields[place + 1 :]], label="WRONG")
+    file.add(128, [last, last, *fields[2:]], label="WRONG")
+    (found,) = read(tmp_path, file.text().splitlines()).refused
+    assert found.code == "surface_damaged" and found.values["names"] == ["WRONG"] * 3
+
+
+def obj(tmp_path, text):
+    path = tmp_path / "a.obj"
+    path.write_text(text)
+    return read_surfaces(path)
+
+
+def test_an_object_without_a_name_goes_on_with_the_last_one(tmp_path):
+    first, second = obj_text([unrolled(sphere())], name="Ball"), "o\n"
+    at = first.index("cstype")
+    found = obj(tmp_path, first[:at] + second + first[at:])
+    assert [body.name for body in found.bodies] == ["Ball"]
+    found = obj(tmp_path, first.replace("o Ball", "o"))
+    assert [body.name for body in found.bodies] == ["a"]
+
+
+@pytest.mark.parametrize("line", ["cstype", "", "cstype rat"])
+def test_a_surface_of_no_stated_type_is_refused_as_such(tmp_path, line):
+    text = obj_text([unrolled(sphere())])
+    assert "cstype rat bspline" in text
+    with pytest.raises(FileError) as caught:
+        obj(tmp_path, text.replace("cstype rat bspline", line))
+    (cause,) = caught.value.finding.values["causes"]
+    base = "rat" if line.endswith("rat") else "cstype"
+    assert (cause["code"], cause["values"]["base"]) == ("surface_of_unsupported", base)
+
+
+@pytest.mark.parametrize("scale", [1e-6, 1.0, 1e6])
+@pytest.mark.parametrize("share, is_kept", [(1e-29, True), (1e-31, False)])
+def test_weights_are_uneven_by_their_shares_of_the_largest(tmp_path, scale, share, is_kept):
+    corners = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 0)]
+    lines = ["v {} {} {} {!r}".format(*corner, scale * w) for corner, w in zip(corners, (1.0, 0.5, share, 1.0))]
+    lines += ["cstype rat bezier", "deg 1 1", "surf 0 1 0 1 1 2 3 4", "parm u 0 1", "parm v 0 1", "end", ""]
+    if is_kept:
+        assert obj(tmp_path, "\n".join(lines)).refused == ()
+        return
+    with pytest.raises(FileError) as caught:
+        obj(tmp_path, "\n".join(lines))
+    (cause,) = caught.value.finding.values["causes"]
+    assert cause["values"]["cause"] == finding("non_positive_weights").as_record()
+
+
+@pytest.mark.parametrize("number", ["1", "4", "-4", "-1", "0", "5", "-5"])
+def test_a_vertex_is_one_of_those_before_the_surface(tmp_path, number):
+    lines = ["v 0 0 0", "v 1 0 0", "v 0 1 0", "v 1 1 0", "cstype bezier", "deg 1 1"]
+    lines += ["surf 0 1 0 1 1 2 3 " + number, "parm u 0 1", "parm v 0 1", "end", "v 7 7 7", ""]
+    if number in ("0", "5", "-5"):
+        with pytest.raises(FileError) as caught:
+            obj(tmp_path, "\n".join(lines))
+        assert caught.value.finding.values["causes"][0]["code"] == "surface_damaged"
+        return
+    (patch,) = obj(tmp_path, "\n".join(lines)).bodies[0].patches
+    last = [(0.0, 0.0, 0.0), (1.0, 0.0, 1.0)][number in ("4", "-1")]
+    assert close(patch.points[1, 1], last, 1e-14)
