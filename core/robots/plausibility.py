@@ -142,10 +142,8 @@ def _nearest_shares(points: NDArray, chosen: list[int], shares: NDArray) -> tupl
             return chosen, wanted
         falls = wanted <= 0.0
         way = float((shares[falls] / np.maximum(shares[falls] - wanted[falls], np.finfo(float).tiny)).min())
-        shares = shares + min(way, 1.0) * (wanted - shares)
-        kept = shares > 1e-14
-        if kept.all():
-            kept[int(np.argmin(np.where(falls, shares, np.inf)))] = False
+        shares = shares + way * (wanted - shares)
+        kept = shares > 1e-14  # without at least one of those that fall, which is zero to rounding
         chosen = [one for one, keep in zip(chosen, kept) if keep]
         shares = shares[kept] / shares[kept].sum()
 
