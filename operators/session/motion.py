@@ -44,8 +44,7 @@ class _Followed:
     mixes: Mixes | None = None
     density: float = 0.0
     keys: tuple[str, ...] = ()
-    hull: ConvexHull | None = None
-    hull_change: int = -1
+    hull: tuple[int, ConvexHull] | None = None  # and after which update of its geometry it was found
 
 
 @dataclass(eq=False)
@@ -88,10 +87,10 @@ class Motion:
         """Return the corners of an object's convex hull, (k, 3) in Blender's units and the world."""
         followed = self._followed.setdefault(obj, _Followed())
         change = updates.last_change_of_geometry(obj)
-        if followed.hull is None or followed.hull_change != change:
-            followed.hull, followed.hull_change = object_hull(obj, depsgraph), change
+        if followed.hull is None or followed.hull[0] != change:
+            followed.hull = change, object_hull(obj, depsgraph)
         matrix = float64_matrix(obj.evaluated_get(depsgraph).matrix_world)
-        return followed.hull.points @ matrix[:3, :3].T + matrix[:3, 3]
+        return followed.hull[1].points @ matrix[:3, :3].T + matrix[:3, 3]
 
     def _shape_keys(self, obj: Object, depsgraph: Depsgraph, followed: _Followed) -> bool:
         """Sample an object whose mesh is nothing but a mix of shape keys; whether it is one."""

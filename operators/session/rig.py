@@ -121,7 +121,7 @@ def _count_change(*_args: object) -> None:
 def _write_notes() -> None:
     if len(_edited):
         for obj in bpy.data.objects:
-            if obj.type == "ARMATURE" and _edited.get(obj) and obj.is_editable:
+            if _edited.get(obj) and obj.is_editable:
                 marks.write_edited(obj, [properties.fingerprint(obj)])
 
 

@@ -67,12 +67,17 @@ def heavier(root):
     root.objects[0].body_moments.density *= 2.0
 
 
+def edited(root):
+    root.objects[0].data.vertices[0].co.z -= 0.5
+    root.objects[0].data.update()
+
+
 def without_numbers(root):
     only(root.objects[0])
     bpy.ops.object.body_moments_clear()
 
 
-@pytest.mark.parametrize("change", [joined, moved, gone, heavier, without_numbers])
+@pytest.mark.parametrize("change", [joined, moved, gone, heavier, edited, without_numbers])
 def test_what_became_another_assembly_keeps_no_other_from_staying_up_to_date(change):
     first, second, third = three_assemblies()
     with assembly.kept_up_to_date(bpy.context):

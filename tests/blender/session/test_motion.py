@@ -8,7 +8,7 @@ import pytest
 from body_moments.operators.session import motion
 
 from tests.blender.findings import refused
-from tests.blender.objects import add, measured, mesh_body, strip_mesh
+from tests.blender.objects import add, measured, mesh_body, seen, strip_mesh
 
 pytestmark = pytest.mark.usefixtures("scene")
 
@@ -106,3 +106,22 @@ def test_what_is_open_or_welded_is_no_mix():
         obj.shape_key_add(name=name)
     mass, _ = found(followed, obj)
     assert followed._followed[obj].mixes is None and mass == pytest.approx(measured(add(mesh)).mass_properties.mass)
+
+
+def test_the_hull_is_found_again_where_the_geometry_has_changed_and_moved_where_not(monkeypatch):
+    obj, calls, object_hull = add(mesh_body(), location=(1, 2, 3)), [], motion.object_hull
+    monkeypatch.setattr(motion, "object_hull", lambda *given: calls.append(given) or object_hull(*given))
+    followed = motion.Motion(2)
+    directions = np.random.default_rng(4).standard_normal((50, 3))
+    for change, count in (
+        (lambda: None, 1),
+        (lambda: setattr(obj, "rotation_euler", (0.3, 0.2, 0.1)), 1),
+        (lambda: setattr(obj, "scale", (1.0, -2.0, 0.5)), 1),
+        (lambda: setattr(obj.data.vertices[0].co, "x", -2.0), 2),
+    ):
+        change()
+        obj.data.update() if count == 2 else None
+        bpy.context.view_layer.update()
+        corners = followed.hull_points(obj, bpy.context.evaluated_depsgraph_get())
+        reach = (seen(obj) @ directions.T).max(axis=0)
+        assert (corners @ directions.T).max(axis=0) == pytest.approx(reach, rel=1e-6) and len(calls) == count

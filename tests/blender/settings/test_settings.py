@@ -159,6 +159,7 @@ def test_values_of_grids_become_densities():
     ):
         notes = options.empty_background_note(background)
         assert [(one.code, one.values) for one in notes] == [("background_empty", {"value": 2.0})] * noted
+    assert GridOptions(value_density=0.0).empty_background_note(2.0) == ()
     assert plain.empty_background_note(np.inf) == () and GridOptions(table="0 0, 4 30").empty_background_note(0.0) == ()
     for order, code in ((1, "values_scaled"), (2, "values_scaled_spline")):
         assert GridOptions(spline_order=order, value_density=2.0).meaning().code == code
@@ -306,3 +307,19 @@ def test_without_preferences_a_scene_stays_as_it_is(monkeypatch, scene):
 def test_a_density_comes_from_volumes_alone(scene):
     poll = properties.BodyMomentsObjectSettings.__annotations__["density_volume"].keywords["poll"]
     assert poll(None, add(bpy.data.volumes.new("Cloud"))) and not poll(None, add(mesh_body()))
+
+
+def test_preferences_are_those_of_the_add_on_where_it_is_one(monkeypatch):
+    addons = {}
+    context = SimpleNamespace(preferences=SimpleNamespace(addons=addons))
+    monkeypatch.setattr(preferences, "bpy", SimpleNamespace(context=context))
+    assert preferences.preferences() is None
+    addons[preferences.ADDON_ID] = SimpleNamespace(preferences="its own")
+    assert preferences.preferences() == "its own"
+
+
+def test_the_default_density_is_none_its_own_or_that_of_a_material(scene):
+    settings = scene.body_moments
+    for name, wanted, material in (("NONE", None, ""), ("CUSTOM", 1234.5, ""), ("Copper", 8960.0, "Copper")):
+        settings.default_material, settings.default_density = name, 1234.5
+        assert preferences.default_density(scene) == wanted and preferences.default_material(scene) == material
