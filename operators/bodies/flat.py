@@ -145,12 +145,13 @@ def flat_region(
     unit = unit or shortest_decimal(depsgraph.scene.unit_settings.scale_length)
     try:
         found = _region_of(reading, obj.type, unit)
-        curves, stored = _curves(obj, depsgraph, reading, found.plane, unit) if exact else ((), 0.0)
+        outlines = _curves(obj, depsgraph, reading, found.plane, unit) if exact else None
     except MeasureError as error:
         error.about(obj.name)
         raise
-    if not curves:
+    if outlines is None:
         return found
+    curves, stored = outlines
     drawn = {"section_drawn_as_polygons", "section_render_resolution"}
     kept = [one for one in found.findings if one.code not in drawn]
     return replace(found, curves=curves, stored=max(stored, found.stored), findings=tuple(kept))
@@ -217,11 +218,11 @@ def area_findings(found: FlatRegion, area: float) -> list[Finding]:
 
 def _curves(
     obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, reading: SectionReading, plane: Plane, unit: float
-) -> tuple[tuple[Curve, ...], float]:
-    """The outlines as curves, along the plane's axes, and how far float32 may have moved their control points; none
+) -> tuple[tuple[Curve, ...], float] | None:
+    """The outlines as curves, along the plane's axes, and how far float32 may have moved their control points; None
     where Blender does not say what they are, or they touch."""
     if reading.loops is None:
-        return (), 0.0
+        return None
     try:
         curves, matrix = read_outline_curves(obj, depsgraph)
         to_plane = np.eye(4)
@@ -230,9 +231,9 @@ def _curves(
         placed, stored = curves_in_world(curves, matrix, unit)
         boundary, _ = planar_region([curve.transform(to_plane) for curve in placed], stored)
     except MeasureError:
-        return (), 0.0
+        return None
     if len(boundary) != len(reading.loops):  # some are left out of the polygons
-        return (), 0.0
+        return None
     is_left = plane_moments(boundary, NORMAL, 1).total > 0.0
     return tuple(boundary if is_left else [curve.reverse() for curve in boundary]), stored
 

@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
-from typing import ClassVar
+from typing import ClassVar, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,7 +28,7 @@ from ...core.nurbs.solid import PatchIntegrals, measure_patches, measure_sheet
 from ...core.verdict.finding import Finding, MeasureError, ReadError, finding
 from ...core.verdict.method import Method, Source, Verdict, least_trusted
 from ..read import Part, Reading
-from ..read.reading import to_si
+from ..read.reading import SplineReading, to_si
 from .body import Body, MeshBody, extend_input_error
 from .instances import (
     each_once,
@@ -113,11 +113,11 @@ class PatchSheetBody(Body):
 
 def _patches(part: Part) -> tuple[Patch, ...]:
     """The patches of a part that has some."""
-    return () if part.splines is None else part.splines.patches
+    return cast(SplineReading, part.splines).patches
 
 
 def _stored(part: Part) -> float:
-    return 0.0 if part.splines is None else part.splines.stored
+    return cast(SplineReading, part.splines).stored
 
 
 def read(request: Request) -> Reading:

@@ -175,17 +175,20 @@ class InstanceCollector:
         order = np.argsort(chosen, kind="stable")
         bounds = np.searchsorted(chosen[order], np.arange(len(references) + 1))
         for reference, start, end in zip(references, bounds[:-1], bounds[1:], strict=True):
-            if start == end or reference is None:
-                continue
-            with np.errstate(invalid="ignore", over="ignore"):  # parts() counts what is not finite
-                placed = (matrices[:, None] @ transforms[order[start:end]][None]).reshape(-1, 4, 4)
-            if isinstance(reference, bpy.types.Object):
-                self._add_object(reference.evaluated_get(self.depsgraph), placed)
-            elif isinstance(reference, bpy.types.Collection):
-                self._add_collection(reference, placed)
-            else:
-                self._add_geometry_set(reference, placed)
+            if start < end and reference is not None:
+                with np.errstate(invalid="ignore", over="ignore"):  # parts() counts what is not finite
+                    placed = (matrices[:, None] @ transforms[order[start:end]][None]).reshape(-1, 4, 4)
+                self._add_reference(reference, placed)
         return True
+
+    def _add_reference(self, reference, matrices: NDArray) -> None:
+        """What a geometry set instances: an object, a collection or another geometry set."""
+        if isinstance(reference, bpy.types.Object):
+            self._add_object(reference.evaluated_get(self.depsgraph), matrices)
+        elif isinstance(reference, bpy.types.Collection):
+            self._add_collection(reference, matrices)
+        else:
+            self._add_geometry_set(reference, matrices)
 
     def _add_collection(self, collection, matrices: NDArray) -> None:
         self.collections[collection.original] = None

@@ -23,7 +23,7 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.mesh.surface import NO_QUADS, NO_TRIANGLES, Surface
+from ...core.mesh.surface import Surface
 from ...core.verdict.finding import ReadError
 
 # One triangle read by its index costs as much as about five in a `foreach_get` of all of them.
@@ -99,9 +99,9 @@ def _faces(mesh, corners: NDArray[np.int32]) -> dict[str, NDArray]:
         triangles = np.concatenate([triangles, _loop_triangles(mesh, ngon_triangles)])
         triangle_faces = np.concatenate([three, owners[ngon_triangles]])
     return {
-        "triangles": triangles if len(triangles) else NO_TRIANGLES,
+        "triangles": triangles,
         "triangle_faces": triangle_faces.astype(np.int32),
-        "quads": corners[starts[four][:, None] + np.arange(4)] if len(four) else NO_QUADS,
+        "quads": corners[starts[four][:, None] + np.arange(4)],
         "quad_faces": four.astype(np.int32),
     }
 

@@ -88,13 +88,12 @@ def read_section(obj, depsgraph, *, selected: bool = True, resolution: int | Non
 
 
 def read_outline_curves(obj, depsgraph) -> tuple[list[Curve], NDArray[np.float64]]:
-    """The outlines of a flat curve or text as curves in its own coordinates, and its `matrix_world`.
+    """The outlines of a flat curve or text as curves in its own coordinates, and its `matrix_world`. It has no
+    modifiers, and follows no curve.
 
-    Raises ReadError where modifiers, shape keys or a curve that the text follows change them.
+    Raises ReadError where there are none.
     """
     obj = obj.original
-    if _has_modifiers(obj) or (obj.type == "FONT" and obj.data.follow_curve is not None):
-        raise ReadError("no_curve", subject=obj.name)
     place = locate(obj, depsgraph)
     curves = text_curves(obj, depsgraph) if obj.type == "FONT" else read_curves(obj, depsgraph)[0]
     return curves, place.matrix
@@ -105,7 +104,7 @@ def _has_modifiers(obj) -> bool:
 
 
 def _axes(reading: Reading) -> NDArray[np.float64]:
-    shortest = np.sqrt((reading.matrix[:3, :3] ** 2).sum(axis=0)).min()
+    shortest = np.sqrt((reading.matrix[:, :3] ** 2).sum(axis=0)).min()
     return polar_rotation(reading.matrix[None])[0][0] if shortest < ZERO_SCALE else reading.rotation
 
 

@@ -94,15 +94,10 @@ class VdbGrid:
                 array = np.zeros(np.minimum(np.array(corner) + NODE_VOXELS, end) - begin, self._dtype)
                 self._grid.copyToArray(array, ijk=tuple(begin.tolist()))
                 used = array != self._dtype(self._grid.background)
-                for axis in range(3):  # a node may be empty but for a corner
-                    where = np.flatnonzero(used.any(axis=tuple({0, 1, 2} - {axis})))
-                    if not len(where):
-                        break
-                    part = (slice(None),) * axis + (slice(where[0], where[-1] + 1),)
-                    begin[axis] += where[0]
-                    array, used = array[part], used[part]
-                else:
-                    yield tuple((begin - self.low).tolist()), array
+                if used.any():  # a node may be empty but for a corner
+                    along = [np.flatnonzero(used.any(axis=others)) for others in ((1, 2), (0, 2), (0, 1))]
+                    offset = begin - self.low + [where[0] for where in along]
+                    yield tuple(offset.tolist()), array[tuple(slice(where[0], where[-1] + 1) for where in along)]
 
     def polygons(self) -> Surface:
         """The surface where a level set is zero, in the object's coordinates, facing outward."""

@@ -167,7 +167,7 @@ def _choose_grid(obj, volume: _OwnedVolume, name: str, findings: list[Finding]):
 
 @contextmanager
 def _open_grid(obj, volume: _OwnedVolume, grid, depsgraph, findings: list[Finding]) -> Iterator[VdbGrid | SampledGrid]:
-    path = "" if openvdb() is None else _unchanged_file(obj, volume)
+    path = None if openvdb() is None else _unchanged_file(obj, volume)
     render = depsgraph.scene.render
     if not path and render.use_simplify and render.simplify_volumes < 1.0:
         findings.append(finding("grid_simplified", share=shortest_decimal(render.simplify_volumes)))
@@ -186,12 +186,11 @@ def _open_grid(obj, volume: _OwnedVolume, grid, depsgraph, findings: list[Findin
         yield VdbGrid(path, grid.name)
 
 
-def _unchanged_file(obj, volume: _OwnedVolume) -> str:
-    """The file that the grids are read from, where nothing has changed them since; else ""."""
+def _unchanged_file(obj, volume: _OwnedVolume) -> str | None:
+    """The file that the grids are read from, where nothing has changed them since."""
     if obj.type != "VOLUME" or any(modifier.show_viewport for modifier in obj.modifiers):
-        return ""
+        return None
     if getattr(obj.data, "packed_file", None) is not None:
-        return ""
-    path = volume.data.grids.frame_filepath
-    path = bpy.path.abspath(path, library=obj.data.library) if path else ""
-    return path if os.path.isfile(path) else ""
+        return None
+    path = bpy.path.abspath(volume.data.grids.frame_filepath, library=obj.data.library)
+    return path if os.path.isfile(path) else None

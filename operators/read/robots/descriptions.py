@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+import codecs
+import re
 import stat
 from pathlib import Path
 
@@ -15,6 +17,8 @@ from .paths import Roots
 from .xml import NOWHERE, Node, parse
 
 ROOTS = {"robot": urdf.read, "sdf": sdf.read, "mujoco": mjcf.read}
+_WIDE = {codecs.BOM_UTF16_LE: "utf-16", codecs.BOM_UTF16_BE: "utf-16", b"<\0": "utf-16-le", b"\0<": "utf-16-be"}
+_ENCODING = re.compile(r"""^(<\?xml\b[^>]*?)\s+encoding\s*=\s*["'][\w.-]*["']""")
 SUFFIXES = (".urdf", ".sdf", ".xml", ".usda", ".usd", ".world")
 
 
@@ -63,12 +67,24 @@ def _bytes(path: Path) -> bytes:
 def _xml(data: bytes, roots: Roots) -> Description:
     if data.startswith((b"PXR-USDC", b"PK")):
         raise FileError("usd_not_text")
+    data = _narrow(data)
     root = parse(data)
     if root.tag not in ROOTS:
         raise FileError("description_unknown", tag=root.tag)
     if root.tag == "mujoco":
         _include(root, roots)
     return ROOTS[root.tag](root, data)
+
+
+def _narrow(data: bytes) -> bytes:
+    """XML of two bytes a character as UTF-8, so that what is repaired can be put among its bytes."""
+    wide = next((name for start, name in _WIDE.items() if data.startswith(start)), None)
+    if wide is None:
+        return data
+    try:
+        return _ENCODING.sub(r"\1", data.decode(wide)).encode()
+    except UnicodeError as error:
+        raise FileError("xml_invalid", error=str(error)) from error
 
 
 def _include(root: Node, roots: Roots) -> None:

@@ -4,8 +4,10 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
+from typing import cast
 from xml.parsers import expat
 
 import numpy as np
@@ -15,6 +17,7 @@ from ....core.verdict.finding import FileError
 from .limits import MAX_DEPTH, MAX_ELEMENTS
 
 NOWHERE = -1  # in place of a position, of what another file states
+_TAG = re.compile(rb"""(?:[^>"']|"[^"]*"|'[^']*')*>""")  # attributes may hold the mark of its end
 
 
 @dataclass(eq=False)
@@ -55,8 +58,8 @@ class Node:
 class _Builder:
     def __init__(self, data: bytes) -> None:
         self.data = data
-        self.open: list[Node] = []
-        self.root: Node | None = None
+        self.document = Node("", {}, 0)
+        self.open = [self.document]
         self.count = 0
         self.parser = expat.ParserCreate()
         self.parser.buffer_text = True
@@ -71,13 +74,10 @@ class _Builder:
 
     def _start(self, tag: str, attributes: dict[str, str]) -> None:
         self.count += 1
-        if self.count > MAX_ELEMENTS or len(self.open) >= MAX_DEPTH:
+        if self.count > MAX_ELEMENTS or len(self.open) > MAX_DEPTH:
             raise FileError("xml_too_large", limit=MAX_ELEMENTS, depth=MAX_DEPTH)
         node = Node(tag, attributes, self.parser.CurrentByteIndex)
-        if self.open:
-            self.open[-1].children.append(node)
-        else:
-            self.root = node
+        self.open[-1].children.append(node)
         self.open.append(node)
 
     def _end(self, _tag: str) -> None:
@@ -87,22 +87,12 @@ class _Builder:
         node.end = end if is_empty else _end_of_tag(self.data, end)
 
     def _text(self, text: str) -> None:
-        if self.open:
-            self.open[-1].text += text
+        self.open[-1].text += text
 
 
 def _end_of_tag(data: bytes, start: int) -> int:
-    """Behind the tag that begins there; attributes may hold its end mark."""
-    quote = 0
-    for index in range(start, len(data)):
-        character = data[index]
-        if quote:
-            quote = 0 if character == quote else quote
-        elif character in b"\"'":
-            quote = character
-        elif character == 0x3E:  # >
-            return index + 1
-    return len(data)
+    """Behind the tag that begins there, which expat has seen to end."""
+    return cast("re.Match[bytes]", _TAG.match(data, start)).end()
 
 
 def parse(data: bytes) -> Node:
@@ -112,9 +102,7 @@ def parse(data: bytes) -> Node:
         builder.parser.Parse(data, True)
     except (expat.ExpatError, ValueError, LookupError) as error:
         raise FileError("xml_invalid", error=" ".join(str(error).split())) from error
-    if builder.root is None:
-        raise FileError("xml_invalid", error="")
-    return builder.root
+    return builder.document.children[0]  # expat has seen that there is one
 
 
 def numbers(text: str, count: int, default: Sequence[float]) -> NDArray[np.float64]:

@@ -22,6 +22,7 @@ from body_moments.operators.write.robots.repair import repaired_copy
 from body_moments.operators.write.robots.stl import to_stl
 from body_moments.operators.write.robots.text import roll_pitch_yaw
 
+from tests.blender.findings import refused
 from tests.close import close
 from tests.core.bodies import box, joined
 from tests.robots.links import inertial, rotation
@@ -199,6 +200,29 @@ def read_angles(angles):
     x = np.array([[1, 0, 0], [0, cr, -sr], [0, sr, cr]])
     y = np.array([[cp, 0, sp], [0, 1, 0], [-sp, 0, cp]])
     return np.array([[cy, -sy, 0], [sy, cy, 0], [0, 0, 1]]) @ y @ x
+
+
+@pytest.mark.parametrize("encoding", ["utf-16", "utf-16-le", "utf-16-be"])
+@pytest.mark.parametrize(
+    "head", ["", '<?xml version="1.0"?>\n', "<?xml version='1.0' encoding='utf-16' standalone='yes'?>\n"]
+)
+def test_a_file_of_two_bytes_a_character_is_repaired_as_one_that_can_be_read(tmp_path, head, encoding):
+    """As shells of Windows write them. A byte of the robot's name is that of a quotation mark."""
+    right = robot(tmp_path, 7, links=2)
+    wrong = replace(right.links[1].inertial, inertia=right.links[1].inertial.inertia * 1000)
+    lines = text_of([right.links[0], replace(right.links[1], inertial=wrong)]).splitlines()
+    path, copy = tmp_path / "robot.urdf", tmp_path / "copy.urdf"
+    path.write_bytes((head + "\n".join(['<robot name="\u0122">', *lines[2:]])).encode(encoding))
+    found = audit(path)
+    pairs = [(link.link, link.repaired) for link in found.links if link.repaired is not None]
+    copy.write_bytes(repaired_copy(found.description, pairs))
+    again = audit(copy)
+    assert len(pairs) == 1 and not [code for codes in faults(again) for code in codes]
+    assert near(again.links[1].link.inertial.inertia, right.links[1].inertial.inertia, 1e-3)
+    assert copy.read_text(encoding="utf-8").count("\u0122") == 1
+    path.write_bytes("<robot>".encode("utf-16") + b"\0")
+    with refused("xml_invalid"):
+        audit(path)
 
 
 @pytest.mark.parametrize("name, writer", [("urdf", urdf), ("sdf", sdf), ("mjcf", mjcf)])

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from body_moments.core.moments.moments import monomials
 from body_moments.operators.bodies.measure_object import measure_body, measure_object
-from body_moments.operators.read import measurable
+from body_moments.operators.read import curves, measurable
 from body_moments.operators.settings.options import MeasureOptions
 from body_moments.operators.write.documents import to_json
 from body_moments.operators.write.record import record
@@ -450,3 +450,70 @@ def test_a_curve_without_splines_is_no_wire(bevel):
     obj.body_moments.kind = "WIRE"
     with refused("no_curve", obj.name):
         measured(obj)
+
+
+def test_knots_are_known_where_they_give_the_length_that_blender_has():
+    """Blender gives the length of a spline, and of its knots nothing."""
+    obj = circle()
+    for cyclic in (True, False):
+        spline = obj.data.splines[0]
+        spline.use_cyclic_u, spline.use_endpoint_u = cyclic, not cyclic
+        bpy.context.view_layer.update()
+        curve = curves._curve(
+            "NURBS",
+            cyclic,
+            spline.order_u,
+            spline.use_bezier_u,
+            spline.use_endpoint_u,
+            curves._control_points(spline),
+            curves.weighted_points(spline)[:, 3].astype(float),
+        )
+        length = spline.calc_length(resolution=curves.STEPS_PER_POINT)
+        for share, expected in ((0.0, True), (5e-5, True), (-5e-5, True), (5e-4, False), (-5e-4, False)):
+            asked = []
+            other = SimpleNamespace(
+                points=spline.points,
+                use_cyclic_u=cyclic,
+                calc_length=lambda resolution, found=(1.0 + share) * length, asked=asked: (
+                    asked.append(resolution) or found
+                ),
+            )
+            assert curves._has_known_knots(other, curve) is expected, (cyclic, share)
+            assert asked == [curves.STEPS_PER_POINT]
+    assert curves._has_known_knots(spline, None) is True
+
+
+@pytest.mark.parametrize("bevel", [0.0, 0.1])
+def test_knots_that_nobody_tells_are_refused(monkeypatch, bevel):
+    obj = circle()
+    obj.body_moments.kind, obj.data.bevel_depth = "WIRE", bevel
+    assert measured(obj).length > 6.0
+    monkeypatch.setattr(curves, "_has_known_knots", lambda spline, curve: False)
+    if bevel:
+        with refused("unknown_knots", obj.name):
+            measured(obj)
+        obj.data.splines[0].type = "POLY"  # which has none
+    assert measured(obj).length > 5.0
+
+
+def test_curves_with_knots_of_their_own_are_refused():
+    data = bpy.data.hair_curves.new("Hair")
+    data.add_curves([5])
+    for name, value in (("curve_type", 3), ("knots_mode", 0)):
+        attribute = data.attributes.get(name) or data.attributes.new(name, "INT8", "CURVE")
+        attribute.data[0].value = value
+    points = np.array([(0, 0, 0), (1, 2, 0), (3, 2, 0), (4, 0, 0), (5, -1, 0)], np.float32)
+    data.attributes["position"].data.foreach_set("vector", points.ravel())
+    (found,) = curves._shown_curves(data, "Hair")
+    assert found.space.order == 4 and np.array_equal(found.points, points)
+    data.attributes["knots_mode"].data[0].value = curves.CUSTOM_KNOTS_MODE
+    with refused("unknown_knots", "Hair"):
+        list(curves._shown_curves(data, "Hair"))
+
+
+def test_a_spline_whose_points_are_one_is_as_its_polygon():
+    for kind in ("NURBS", "BEZIER"):
+        data = bpy.data.curves.new("Nothing", "CURVE")
+        spline = data.splines.new(kind)
+        (spline.points if kind == "NURBS" else spline.bezier_points).add(4)
+        assert curves._is_straight(spline) is True and not curves.is_round(add(data))

@@ -494,6 +494,23 @@ def test_a_negative_density_is_refused_with_its_place(text):
     assert parse_polynomial(text)(np.array([values["point"]]))[0] == pytest.approx(values["density"])
 
 
+@pytest.mark.parametrize("corner", [(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)])
+def test_a_density_that_is_negative_at_one_corner_alone_is_refused_wherever_the_body_is(corner):
+    """By a linear density of the world's coordinates, which has its least value there."""
+    obj = add(box((0, 0, 0), (1, 2, 3)), location=(5, -7, 11), scale=(2, 1, 0.5))
+    at = np.array([5, -7, 11]) + np.array(corner) * (2.0, 2.0, 1.5)
+    slopes = np.where(np.array(corner) == 1, -1.0, 1.0)
+    for least, negative in ((-0.01, True), (0.01, False)):
+        constant = least - slopes @ at
+        text = "{!r} + {!r}*x + {!r}*y + {!r}*z".format(float(constant), *slopes.tolist())
+        by_polynomial(obj, text, "WORLD")
+        if negative:
+            with refused("density_negative", obj.name):
+                measure(obj)
+        else:
+            assert not measure(obj).findings
+
+
 def test_a_density_that_only_may_be_negative_is_said_and_one_that_touches_zero_is_not():
     ring = add(box((-1, -1, 0), (1, 1, 1)))
     found = measure(by_polynomial(ring, "(x**2 + y**2)*z"))

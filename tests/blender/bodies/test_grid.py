@@ -6,7 +6,7 @@ import os
 import sys
 import tempfile
 from contextlib import nullcontext
-from types import ModuleType
+from types import ModuleType, SimpleNamespace
 
 import bpy
 import numpy as np
@@ -639,3 +639,62 @@ def test_a_volume_that_nodes_may_have_changed_is_written_and_read_again(tmp_path
     assert close(truth.mass, values.sum(dtype=float), rel=1e-12)
     found = measure(with_nodes(obj)).mass_properties
     assert close(found.mass, truth.mass, rel=1e-12) and close(found.center, truth.center, rel=1e-12)
+
+
+def fake_grid(kind, diagonal=(1.0, 1.0, 1.0, 1.0)):
+    return SimpleNamespace(name="density", data_type=kind, matrix_object=np.diag(diagonal))
+
+
+def test_what_nodes_cannot_sample_needs_openvdb(tmp_path):
+    obj = volume_object(tmp_path / "a.vdb", vdb_grid(ONES))
+    corners = [(0, 0, 0), (1, 1, 1)]
+    for kind in ("DOUBLE", "INT64", "VECTOR_FLOAT"):
+        with refused("grid_needs_openvdb", grid="density"):
+            sample_grid.SampledGrid(obj, depsgraph(), fake_grid(kind), corners)
+    for diagonal in ((0.0, 0.0, 0.0, 0.0), (1.0, 0.0, 1.0, 1.0)):
+        with refused("grid_transform_singular"):
+            sample_grid.SampledGrid(obj, depsgraph(), fake_grid("FLOAT", diagonal), corners)
+
+
+def test_nodes_that_give_no_values_are_said_to(tmp_path, monkeypatch):
+    by_nodes(monkeypatch)
+    obj = volume_object(tmp_path / "a.vdb", vdb_grid(ONES))
+    monkeypatch.setattr(sample_grid, "_fill", lambda *_: None)
+    before = [len(group) for group in (bpy.data.meshes, bpy.data.node_groups, bpy.data.objects, bpy.data.scenes)]
+    with refused("grid_not_sampled", obj.name, grid="density"):
+        measure(obj)
+    after = [len(group) for group in (bpy.data.meshes, bpy.data.node_groups, bpy.data.objects, bpy.data.scenes)]
+    assert after == before
+
+
+def test_a_whole_node_of_one_value_is_read_and_an_empty_one_is_not(tmp_path):
+    grid = vdb_grid(np.full((1, 1, 1), 3, np.float32), offset=(300, 5, 6))
+    grid.fill((0, 0, 0), (127, 127, 127), 2.0)
+    vdb.openvdb().write(str(tmp_path / "a.vdb"), grid)
+    blocks = list(vdb.VdbGrid(str(tmp_path / "a.vdb"), "density").blocks())
+    assert [(start, block.shape, block.min(), block.max()) for start, block in blocks] == [
+        ((0, 0, 0), (128, 128, 128), 2.0, 2.0),
+        ((300, 5, 6), (1, 1, 1), 3.0, 3.0),
+    ]
+    large = vdb_grid(np.full((1, 1, 1), 3, np.float32), offset=(4096, 0, 0))
+    large.fill((0, 0, 0), (4095, 4095, 4095), 2.0)
+    vdb.openvdb().write(str(tmp_path / "b.vdb"), large)
+    for number, (start, block) in zip(range(2), vdb.VdbGrid(str(tmp_path / "b.vdb"), "density").blocks()):
+        assert start == (0, 0, 128 * number) and block.shape == (128, 128, 128) and block.min() == block.max() == 2.0
+
+
+def test_a_volume_that_is_in_no_scene_is_refused(tmp_path):
+    obj = volume_object(tmp_path / "a.vdb", vdb_grid(ONES))
+    bpy.context.scene.collection.objects.unlink(obj)
+    with refused("not_in_scene", obj.name), volume_reading(obj, depsgraph()):
+        pass
+
+
+def test_a_packed_volume_is_read_from_the_file_that_it_is_in(tmp_path):
+    obj = volume_object(tmp_path / "a.vdb", vdb_grid(ONES))
+    truth = measure(obj).mass_properties.mass
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "a.blend"))
+    bpy.ops.file.pack_all()
+    assert obj.data.packed_file is not None
+    vdb.openvdb().write(str(tmp_path / "a.vdb"), [vdb_grid(2 * ONES)])
+    assert measure(obj).mass_properties.mass == truth > 0.0

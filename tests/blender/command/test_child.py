@@ -260,10 +260,13 @@ class Descriptors:
 def test_nobody_else_writes_where_the_result_goes_whatever_is_closed(monkeypatch, given, out, err):
     system, stream = Descriptors(**{"in": given, "out": out, "err": err}), sys.stderr
     monkeypatch.setattr(output, "os", system)
+    flushed = []
+    monkeypatch.setattr(sys, "stdout", SimpleNamespace(flush=lambda: flushed.append(system.table.get(1))))
     if not err:
         monkeypatch.setattr(sys, "stderr", None)
     channel = output.claim_stdout()
     table = system.table
+    assert flushed == (["out"] if out else [])  # what was printed before goes where it was meant to
     assert [number for number, name in table.items() if name == "out"] == ([channel] if out else [])
     assert channel not in (1, 2) and (out or channel not in table)
     assert table[1] == table[2] == ("err" if err else "nothing")

@@ -534,3 +534,23 @@ def test_a_copy_that_cannot_be_saved_is_an_error_and_the_file_stays(tmp_path, mo
     for where in ("copy", "file"):
         assert error_of(document(path, "--asset-metadata", where)) == expected
         assert path.read_bytes() == before and [*tmp_path.iterdir()] == [path]
+
+
+@pytest.mark.skipif(os.name == "nt", reason="not on this system: modes")
+def test_nobody_else_can_read_the_file_before_it_has_the_mode_of_the_other(tmp_path):
+    path, masks = tmp_path / "part.blend", []
+    files.box_file(path)
+
+    @bpy.app.handlers.persistent
+    def look(*_):
+        masks.append(os.umask(0o777))
+        os.umask(masks[-1])
+
+    before = os.umask(0o022)
+    bpy.app.handlers.save_pre.append(look)
+    try:
+        measured(path, "--write")
+        assert masks == [0o077] and os.umask(before) == 0o022
+    finally:
+        bpy.app.handlers.save_pre.remove(look)
+        os.umask(before)

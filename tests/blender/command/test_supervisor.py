@@ -947,6 +947,14 @@ def test_a_run_watches_the_window_that_starts_it_where_it_can(tmp_path, monkeypa
     assert len(os.listdir("/proc/self/fd")) == len(opened)
 
 
+def test_a_run_that_ends_asks_its_children_before_it_kills_them_and_hears_what_they_still_say(tmp_path, monkeypatch):
+    asked, heard = [], []
+    monkeypatch.setattr(processes, "kill", lambda children, **how: asked.append((children, how)))
+    with Pool(["nothing"], 1, {}, Limits(60.0), tmp_path / "work") as pool:
+        pool._readers.submit(lambda: (time.sleep(0.3), heard.append(True)))
+    assert asked == [([], {"gently": True})] and heard == [True]
+
+
 def test_the_folder_of_a_run_is_new_and_gone_in_the_end(tmp_path):
     """Also one that somebody else has removed meanwhile."""
     work = tmp_path / "new" / "work"

@@ -11,6 +11,7 @@ bpy = pytest.importorskip("bpy")
 
 from body_moments.core.verdict.finding import MeasureError, finding
 from body_moments.operators.read import measurable, measurable_objects, read_object, read_patches
+from body_moments.operators.read.decisions import _render_differences
 from mathutils import Matrix
 
 from tests.blender import findings
@@ -702,3 +703,13 @@ def test_patches_alone_are_read_of_what_shows_nothing_else():
     assert read_patches(obj, depsgraph()) is None
     obj.modifiers.clear()
     assert read_patches(obj, depsgraph()) is not None
+
+
+def test_the_resolution_of_an_ocean_is_said():
+    obj = cube()
+    modifier = obj.modifiers.new("Sea", "OCEAN")
+    modifier.viewport_resolution, modifier.resolution = 3, 5
+    (found,) = _render_differences(obj, bpy.context.scene)
+    assert found.code == "render_levels_differ" and found.values == {"modifier": "Sea", "viewport": 3, "render": 5}
+    modifier.resolution = 3
+    assert not [*_render_differences(obj, bpy.context.scene)]

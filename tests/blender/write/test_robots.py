@@ -10,11 +10,12 @@ import numpy as np
 import pytest
 
 pytest.importorskip("bpy")
-from body_moments.core.robots.model import Joint, Link, Pose, Robot
+from body_moments.core.robots.model import Inertial, Joint, Link, Pose, Robot
 from body_moments.core.verdict.finding import FileError, finding
 from body_moments.operators.write.robots import from_records, gltf, mjcf, text, usd
 
 from tests.blender.write.test_documents import of_box
+from tests.close import close
 
 
 def with_least(mass, moment):
@@ -138,3 +139,20 @@ def test_a_joint_of_a_robot_may_have_the_name_of_a_link_in_usd():
     robot = Robot("r", (Link("a", inertial), Link("b", inertial)), (Joint("a", "a", "b"),))
     layer = usd.write(robot)
     assert 'def Xform "a"' in layer and 'def PhysicsFixedJoint "a_2"' in layer and json.dumps("b") in layer
+
+
+def test_a_motion_has_the_moments_and_axes_in_units_of_the_file_unless_one_is_zero():
+    """glTF's y is Blender's z; a moment of zero would mean that it is found from the geometry, or infinite."""
+    turn = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
+    moments = np.array([2.0, 3.0, 4.0])
+    body = Inertial(5.0, np.array([0.4, 0.6, 1.2]), turn @ np.diag(moments) @ turn.T, moments, turn)
+    found = gltf.motion(body, 0.1, (1.0, 2.0, -3.0))
+    assert found["mass"] == 5.0 and close(found["centerOfMass"], [4.0, -4.0, -3.0], 1e-14)
+    assert close(found["inertiaDiagonal"], [200.0, 300.0, 400.0], 1e-14)
+    x, y, z, w = found["inertiaOrientation"]
+    cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+    rotation = np.eye(3) + 2.0 * (w * cross + cross @ cross)
+    assert np.abs(rotation - gltf.Y_UP @ turn).max() < 1e-14
+    for least in (0.0, 1e-30):
+        thin = gltf.motion(replace(body, moments=np.array([least, 3.0, 3.0])), 0.1, (1.0, 1.0, 1.0))
+        assert ("inertiaDiagonal" in thin, "inertiaOrientation" in thin) == (least > 0.0, least > 0.0)

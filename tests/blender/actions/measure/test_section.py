@@ -8,6 +8,8 @@ from types import SimpleNamespace
 import bpy
 import numpy as np
 import pytest
+from body_moments.operators.read.curves import text_curves
+from body_moments.operators.read.section import read_section
 
 from tests.blender.findings import refused as refusal
 from tests.blender.findings import said
@@ -135,6 +137,8 @@ def test_a_sheared_object_is_measured_as_it_is_seen():
     d, e = 4 * math.sqrt(2), 2 * math.sqrt(2)
     assert section.area == pytest.approx(d * e / 2, rel=1e-6)
     assert sorted(section.principal) == pytest.approx(sorted((d * e**3 / 48, e * d**3 / 48)), rel=1e-6)
+    frame = read_section(obj, bpy.context.evaluated_depsgraph_get()).rotation
+    assert np.abs(frame - np.array(obj.matrix_world.decompose()[1].to_matrix())).max() < 1e-6
 
 
 def test_the_scenes_unit_makes_it_si():
@@ -680,3 +684,27 @@ def test_flat_moments_beyond_the_range_of_numbers_are_refused():
     assert close(region.moments(2).total, 16e30, rel=1e-6)
     with refusal("moments_overflow", order=24):
         region.moments(24)
+
+
+@pytest.mark.parametrize("kind", ["curve", "text"])
+def test_a_region_with_its_curves_says_nothing_of_polygons_that_it_does_without(kind):
+    if kind == "text":
+        obj = add(text_of("O"))
+    else:
+        bpy.ops.curve.primitive_bezier_circle_add()
+        obj = bpy.context.object
+        obj.data.dimensions, obj.data.fill_mode = "2D", "BOTH"
+        obj.data.render_resolution_u = 50
+    codes = (
+        {"section_drawn_as_polygons", "section_render_resolution"} if kind == "curve" else {"section_drawn_as_polygons"}
+    )
+    polygons, smooth = region_of(obj, exact=False), region_of(obj)
+    assert not polygons.curves and codes <= said(polygons).keys()
+    assert smooth.curves and not codes & said(smooth).keys() and smooth.stored >= polygons.stored > 0.0
+    assert said(smooth).keys() == said(polygons).keys() - codes
+
+
+def test_a_text_without_outlines_has_no_curves():
+    obj = add(text_of(""))
+    with refusal("no_curve", obj.name):
+        text_curves(obj, bpy.context.evaluated_depsgraph_get())

@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Bones of skinned characters: what each part weighs, in rest pose and the bone's rest frame, however it is posed."""
 
+from dataclasses import replace
+
 import bmesh
 import bpy
 import numpy as np
@@ -9,8 +11,9 @@ import pytest
 from body_moments.core.verdict.finding import ReadError
 from body_moments.operators.bodies.measure_object import measure_object
 from body_moments.operators.bodies.rig import measure_rig
+from body_moments.operators.read import read_object
 from body_moments.operators.read.links import bone_freedom, bone_parents
-from body_moments.operators.read.rig import require_armature
+from body_moments.operators.read.rig import RestBones, require_armature, vertex_weights
 from body_moments.operators.session import handlers, results, shown
 from body_moments.operators.session import rig as session
 from body_moments.operators.session.robot_links import bone_links
@@ -522,8 +525,12 @@ def test_an_armature_is_needed_and_not_in_edit_mode():
 
 def test_a_surface_that_another_object_brings_has_no_weights():
     armature, skin = character()
-    other = bpy.data.objects.new("Other", box_mesh(1, 1, 1))
-    bpy.context.scene.collection.objects.link(other)
+    bones, (part,) = RestBones.of(armature), read_object(skin, bpy.context.evaluated_depsgraph_get()).parts
+    assert len(vertex_weights(skin, part, bones, bpy.context.evaluated_depsgraph_get()).weight) > 0
+    others = replace(part, source_object_name="Other"), replace(part, surface=replace(part.surface, points=np.eye(3)))
+    for other in others:
+        found = vertex_weights(skin, other, bones, bpy.context.evaluated_depsgraph_get())
+        assert [len(row) for row in (found.vertex, found.bone, found.weight)] == [0, 0, 0]
     nodes(skin, lambda tree, source: node(tree, "GeometryNodeMeshCube").outputs[0])
     skin.modifiers.move(1, 0)
     told = {found.code: found.values for found in measured(armature).measurement.findings}
