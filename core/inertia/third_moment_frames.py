@@ -174,9 +174,9 @@ def _are_decided(size: NDArray, error: NDArray, noise: NDArray, fixed: NDArray[n
     decided = (clear[:, :, 0] | (clear | below).all(axis=2) | ~fixed).all(axis=1)
     first = clear.argmax(axis=2)[:, :, None]
     size, error = (np.take_along_axis(values, first, 2)[:, :, 0] for values in (size, error))
-    last = np.argsort(size, axis=1)[:, :2]  # of three scores, which one is the last
-    size, error = np.take_along_axis(size, last, 1), np.take_along_axis(error, last, 1)
-    apart = size[:, 1] - size[:, 0] > 2.0 * error.sum(axis=1)
+    last = size.argmin(axis=1)[:, None]  # of three scores, which both others have to be clear of
+    least, least_error = np.take_along_axis(size, last, 1), np.take_along_axis(error, last, 1)
+    apart = (size - least > 2.0 * (error + least_error)).sum(axis=1) == 2
     return decided & (apart | ~(fixed & clear.any(axis=2)).all(axis=1))
 
 

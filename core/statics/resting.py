@@ -107,7 +107,7 @@ def resting_poses(hull: ConvexHull, center: ArrayLike, tolerance: float = PLANE_
     5
     """
     points = hull.points - np.asarray(center, np.float64)
-    extent = float(np.ptp(points, axis=0).max())
+    extent = float(np.ptp(hull.points, axis=0).max())
     least = max(tolerance * extent, 2.0 * hull.gap)
     faces = _faces(points, hull, least)
     if faces.heights.min() < -least or hull.is_flat and faces.margins.max() < -least:

@@ -527,6 +527,12 @@ CONSTANTS = [
         r"(bits = int\(|\(64 if |np\.uint64\(|np\.empty\()",
         "how large a table is",
     ),
+    (r".*statics/resting.py resting_poses", r"np\.round\(shares\[kept\], ", "shares that are equal but for rounding"),
+    (
+        r".*statics/(resting.py (_faces|_coplanar)|balance.py _center_jacobian|gradient.py _area_shares)",
+        r"np\.where\((length|lengths|double) > 0\.0, \2, ",
+        "what is divided is zero",
+    ),
     (r".*statics/gradient.py .*", r"kinds > ", "of orders 0, 1 and 2 there are 1, 4 and 10 moments"),
     (
         r".*density/spline_grid.py _moments_about",

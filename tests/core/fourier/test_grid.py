@@ -234,6 +234,40 @@ def test_points_along_a_side_are_the_fewest_whose_bound_is_allowed(tolerance):
         assert not any(suffices(1.006 * span, fewer) for fewer in range(1, n))
 
 
+def finished(work):
+    """What a generator returns at last."""
+    while True:
+        try:
+            next(work)
+        except StopIteration as stop:
+            return stop.value
+
+
+@pytest.mark.parametrize("name, tolerance", [("torus, low", 1e-4), ("torus, low", 1e-7), ("torus", 1e-4)])
+def test_as_few_points_are_taken_as_prove_enough_together(name, tolerance):
+    """From the most daring credit on; of each the triangles that would take fewer points are compared."""
+    part, grid, _ = CASES[name]
+    transform = GridTransform(bodies.surface(part), grid, "volume", tolerance)
+    faces = transform.faces
+    reach = np.sqrt(3.0) * grid.largest * faces.scale
+    bound = fourier_grid._points_per_side(reach * faces.diameters, transform.each)
+    q = fourier_grid._trial_vectors(grid) * faces.scale
+    wanted, refused_before = bound, set()
+    for credit in fourier_grid.ERROR_CREDITS:
+        fewer = fourier_grid._points_per_side(reach * faces.diameters, transform.each * credit)
+        fewer[reach * faces.heights >= 2.0 * np.pi] = bound[reach * faces.heights >= 2.0 * np.pi]
+        tried = np.flatnonzero(fewer < bound)
+        off = finished(transform._sum_over(tried, q))
+        for n in sorted(set(fewer[tried].tolist())):
+            off = off - finished(transform._points_over(tried[fewer[tried] == n], n, q))
+        if (np.abs(off) / np.linalg.norm(q, axis=1)).max() <= transform.joint_count:
+            wanted = fewer
+            break
+        refused_before.add(len(tried))
+    assert refused_before and (wanted < bound).any()
+    assert finished(transform._counts()).tolist() == wanted.tolist()
+
+
 @pytest.mark.parametrize("size", [0.01, 1.0, 300.0])
 def test_half_of_the_tolerance_is_for_the_points_and_half_for_the_kernel(size):
     """Of a box of 1 by 2 by 3: by the area, and of a volume by the wave vector, at the corners of the grid at most."""

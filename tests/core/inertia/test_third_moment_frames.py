@@ -148,3 +148,116 @@ def test_of_three_scores_the_weakest_is_dropped_and_of_equal_ones_the_last(order
         all(way[axis] == signs[axis] for axis in range(3) if axis != order[0]) for way in HALF_TURN_SIGNS.tolist()
     ]
     assert _allowed_signs(two[None]).tolist() == [wanted]
+
+
+def of_second_moments(diagonal, total=2.0, rounding=0.0, moved=0.0):
+    """Of one body, along the coordinate axes; the bound of a second moment, and what storing may move of the total."""
+    raw, error, stored = np.zeros((1, 20)), np.zeros((1, 20)), np.zeros((1, 20))
+    raw[0, 0], raw[0, [4, 7, 9]] = total, total * np.array(diagonal)
+    error[0, 6], stored[0, 0] = rounding, moved * total
+    return Moments(raw, np.zeros((1, 3)), Measure.VOLUME, error, stored)
+
+
+@pytest.mark.parametrize("share", [0.99, 1.01])
+@pytest.mark.parametrize("scale", [1e-6, 1.0, 1e6])
+@pytest.mark.parametrize(
+    "rounding, moved, factor", [(0, 0, 1), (0, 0, 50), (1e-4, 0, 1), (0, 1e-4, 1), (2e-5, 3e-5, 9)]
+)
+def test_moments_are_equal_within_a_millionth_and_what_is_doubtful(share, scale, rounding, moved, factor):
+    """A doubtful bound counts four times by the sum of the three; what storing moves counts twice."""
+    for pair, wanted in ((0, 2), (1, 1)):
+        diagonal = np.array([3.0, 2.0, 1.0])
+        diagonal[pair + 1] = diagonal[pair]
+        for _ in range(9):  # the limit depends on the moments a little
+            size = np.sqrt(diagonal)
+            doubt = 4.0 * rounding + 2.0 * moved * size[2] * size[pair]
+            diagonal[pair + 1] = diagonal[pair] - share * (factor * 1e-6 * diagonal[pair] + doubt)
+        given = of_second_moments(scale**2 * diagonal, 2.0, 2.0 * rounding * scale**2, moved)
+        found = third_moment_frames(given, None, factor)
+        assert found.symmetry.tolist() == [wanted if share < 1.0 else 0]
+        assert close(found.noise, factor * NOISE, 1e-15)
+        gap = factor * 1e-6 * diagonal[pair] + doubt
+        others = np.delete(diagonal, pair)
+        if share > 1.0:
+            assert found.tilt[0] >= doubt / (1.02 * gap) - 1e-9 and (others > 0.0).all()
+
+
+@pytest.mark.parametrize("share, is_body", [(0.9, True), (1.1, False)])
+@pytest.mark.parametrize("scale", [1e-6, 1.0, 1e6])
+@pytest.mark.parametrize("rounding", [0.0, 1e-9])
+def test_second_moments_below_zero_by_more_than_rounding_are_those_of_no_body(share, is_body, scale, rounding):
+    limit = 4.0 * rounding + 8.0 * 2.0**-52 * 3.0
+    given = of_second_moments(scale**2 * np.array([2.0, 1.0, -share * limit]), 2.0, 2.0 * rounding * scale**2)
+    assert third_moment_frames(given).is_body.tolist() == [is_body]
+
+
+@pytest.mark.parametrize("scale", [1e-6, 1.0, 1e6])
+def test_across_a_lamina_there_is_hardly_any_extent_and_no_skewness(scale):
+    given = of_second_moments(scale**2 * np.array([4.0, 1.0, 0.0]), moved=1e-6)
+    given.raw[0, [TABLE.index((0, 0, 3)), TABLE.index((2, 0, 1))]] = 0.0
+    found = third_moment_frames(given)
+    assert close(found.size[0], scale * np.array([2.0, 1.0, 2e-15]), 1e-6)
+    assert found.is_body[0] and found.symmetry[0] == 0 and found.skewness[0].tolist() == [0.0, 0.0, 0.0]
+    assert close(found.step[0], 1e-6 * 2e-15 * scale, 1e-6)
+
+
+@pytest.mark.parametrize("place", range(4, 10))
+def test_about_a_point_beside_its_center_bounds_of_second_moments_are_bounds_of_third_ones(place):
+    """Three times the distance along an axis, of all the worst; in a stack of which another body is at its center."""
+    raw = np.array([lopsided_box((6.0, 4.0, 2.0), 0.3), lopsided_box((5.0, 3.0, 2.5), -0.2)])
+    error = np.zeros((2, 20))
+    error[:, place] = 1e-5
+    body = Moments(raw, np.zeros((2, 3))).about_point(np.array([[0.5, -3.0, 2.0], [0.0, 0.0, 0.0]]))
+    found = third_moment_frames(Moments(body.raw, body.about, Measure.VOLUME, error))
+    for row, shift in ((0, 3.0), (1, 0.0)):
+        second = raw[row, [4, 7, 9]] / raw[row, 0]
+        units = np.array([[np.sqrt(second[i]) * second[k] for k in range(3)] for i in range(3)])
+        errors = 3.0 * shift * 1e-5 / raw[row, 0] / units
+        rounding = 4.0 * 1e-5 / (raw[row, 0] * second.sum()) + 8.0 * 2.0**-52
+        gaps = -np.diff(second / second.sum())
+        tilts = np.zeros((3, 3))
+        tilts[0, 1] = tilts[1, 0] = rounding / gaps[0]
+        tilts[1, 2] = tilts[2, 1] = rounding / gaps[1]
+        tilts[0, 2] = tilts[2, 0] = rounding / gaps.sum()
+        sizes = np.zeros((3, 3))
+        sizes[0, 0] = abs((0.3, -0.2)[row])
+        worst = (sizes + errors).max(axis=1)
+        assert close(found.skewness_error[row], NOISE + 3.0 * tilts @ worst + errors.diagonal(), 1e-8)
+
+
+def decided_by_plain_rules(size, error, noise, fixed):
+    """Of one body: whether each fixed axis is scored by a moment that is clear, ahead of which none is doubtful, or by
+    none; and whether the weakest of three scores is further from each other one than twice their bounds."""
+    scores = []
+    for axis in range(3):
+        clear = [size[axis, k] - error[axis, k] > noise[axis, k] for k in range(3)]
+        none = [size[axis, k] + error[axis, k] <= noise[axis, k] for k in range(3)]
+        if fixed[axis] and not clear[0] and not all(a or b for a, b in zip(clear, none)):
+            return False
+        if fixed[axis] and any(clear):
+            scores.append((size[axis, clear.index(True)], error[axis, clear.index(True)]))
+    if len(scores) < 3:
+        return True
+    (low, low_error), *others = sorted(scores)
+    return all(bool(size - low > 2.0 * (low_error + error)) for size, error in others)
+
+
+def test_of_three_scores_the_largest_may_be_the_weakest_where_its_bound_is_wide():
+    size, error, noise = np.zeros((1, 3, 3)), np.full((1, 3, 3), 0.1), np.ones((1, 3, 3))
+    size[0, :, 0] = 3.0, 4.0, 5.0
+    for bound, decided in ((0.85, True), (0.95, False)):
+        error[0, 2, 0] = bound
+        assert _are_decided(size, error, noise, np.ones((1, 3), bool)).tolist() == [decided]
+
+
+def test_each_of_many_bodies_is_decided_by_itself():
+    rng, count = np.random.default_rng(11), 4000
+    size = rng.choice([0.0, 0.4, 1.0, 2.0, 2.3, 3.0, 5.0], (count, 3, 3), p=[0.3, 0.1, 0.05, 0.15, 0.1, 0.15, 0.15])
+    size += 1e-3 * rng.random(size.shape)
+    error = rng.choice([0.01, 0.05, 0.3], size.shape, p=[0.6, 0.3, 0.1])
+    noise, fixed = rng.choice([0.5, 1.5], size.shape), rng.random((count, 3)) < 0.8
+    fixed[: count // 2] = True
+    size[: count // 2, :, 0] = rng.choice([2.5, 2.54, 2.7, 4.0], (count // 2, 3))
+    wanted = [decided_by_plain_rules(*one) for one in zip(size, error, noise, fixed)]
+    assert _are_decided(size, error, noise, fixed).tolist() == wanted
+    assert 0.2 < np.mean(wanted) < 0.8

@@ -198,6 +198,30 @@ def test_a_square_plate_rests_on_both_sides_equally():
     assert refusal.value.finding.code == "center_outside_hull"
 
 
+@pytest.mark.parametrize(
+    "out, code", [(-0.1, "no_stable_pose"), (0.19, "no_stable_pose"), (0.21, "center_outside_hull")]
+)
+@pytest.mark.parametrize("way", [(1, 0), (0, 1), (-1, 0), (0, -1)])
+def test_beside_a_plate_a_center_may_be_by_the_tolerance(out, code, way):
+    plate = convex_hull([(x, y, 0.0) for x in (-1.0, 1.0) for y in (-1.0, 1.0)])
+    with refused(code):
+        resting_poses(plate, [*((1.0 + out) * np.array(way)), 0.0], 0.1)
+
+
+@pytest.mark.parametrize("out, is_refused", [(0.19, False), (0.21, True)])
+@pytest.mark.parametrize("axis", range(3))
+@pytest.mark.parametrize("side", [-1.0, 1.0])
+def test_outside_a_cube_a_center_may_be_by_the_tolerance(out, is_refused, axis, side):
+    """It rests on the face across then; to the next ones it would tip."""
+    cube, center = convex_hull(box(2.0, 2.0, 2.0) - 1.0), np.zeros(3)
+    center[axis] = side * (1.0 + out)
+    if is_refused:
+        with refused("center_outside_hull"):
+            resting_poses(cube, center, 0.1)
+    else:
+        assert facing(resting_poses(cube, center, 0.1).normals, -side * np.eye(3)[axis]) in (0, 1)
+
+
 def test_a_center_above_an_edge_is_not_stable():
     """A cube whose center of mass is in its top face: from the sides it tips onto that."""
     normals, shares, margins, _ = poses_of(box(1, 1, 1), np.array([0.5, 0.5, 1.0]))
