@@ -11,8 +11,9 @@ import pytest
 
 pytest.importorskip("bpy")
 from body_moments.core.robots.model import Inertial, Joint, Link, Pose, Robot
+from body_moments.core.robots.stated import Description, StatedInertial, StatedLink
 from body_moments.core.verdict.finding import FileError, finding
-from body_moments.operators.write.robots import from_records, gltf, mjcf, text, usd
+from body_moments.operators.write.robots import from_records, gltf, mjcf, repair, text, usd
 
 from tests.blender.write.test_documents import of_box
 from tests.close import close
@@ -156,3 +157,22 @@ def test_a_motion_has_the_moments_and_axes_in_units_of_the_file_unless_one_is_ze
     for least in (0.0, 1e-30):
         thin = gltf.motion(replace(body, moments=np.array([least, 3.0, 3.0])), 0.1, (1.0, 1.0, 1.0))
         assert ("inertiaDiagonal" in thin, "inertiaOrientation" in thin) == (least > 0.0, least > 0.0)
+
+
+@pytest.mark.parametrize(
+    ("old", "indent"),
+    [
+        ('\n  float physics:mass = 3\n  def Sphere "s" {}\n', "  "),
+        ("\n\t\tfloat physics:mass = 3\n", "\t\t"),
+        (" float physics:mass = 3 ", "    "),
+    ],
+)
+def test_attributes_of_usd_are_repaired_with_the_indent_of_what_is_there(old, indent):
+    inertial = StatedInertial(2.0, np.array([0.1, 0.2, 0.3]), np.diag([2.0, 3.0, 4.0]))
+    link = StatedLink("a", inertial, (), (0, len(old)))
+    description = Description("r", "usd", (link,), old.encode())
+    lines = repair.repaired_copy(description, [(link, inertial)]).decode().split("\n")
+    made = [line for line in lines if "physics:" in line or "newton:" in line]
+    assert len(made) >= 4 and all(line.startswith(indent) and line[len(indent)].isalpha() for line in made)
+    assert "physics:mass = 2" in made[0] and not any("= 3" in line for line in lines)
+    assert any("def Sphere" in line for line in lines[len(made) :]) == ("Sphere" in old)
