@@ -25,6 +25,7 @@ from ..numerics.graph import connected_components
 from ..verdict.finding import MeasureError
 
 PLANE_RTOL = 1e-6  # of the body's extent: corners that far from a plane are on it, margins below are none
+ALIKE_COSINE = 0.5  # of normals: across the edge of a face they differ by more, mostly
 
 
 @dataclass(frozen=True, eq=False)
@@ -174,7 +175,8 @@ def _coplanar(
     """(m,) the face that each triangle is part of, and how many there are.
 
     Neighbors are in one plane where the corner of the smaller one is in the plane of the larger. What is joined so but
-    is not in one plane after all, such as a fine rounding, stays apart.
+    is not in one plane after all, as slivers may join what they are between, is joined once more where neighbors face
+    alike; what is still in no plane, such as a fine rounding, stays apart.
     """
     lengths = np.linalg.norm(double, axis=1)
     triangle, side = np.divmod(np.arange(neighbors.size), 3)
@@ -185,17 +187,24 @@ def _coplanar(
     shared = (corners == triangles[triangle, side][:, None]) | (corners == triangles[triangle, (side + 1) % 3][:, None])
     apart = points[corners[np.arange(len(other)), shared.argmin(axis=1)]] - points[triangles[triangle, 0]]
     unit = double / np.where(lengths > 0.0, lengths, 1.0)[:, None]
-    same_side = np.einsum("ij,ij->i", double[triangle], double[other]) >= 0.0
-    flat = same_side & (np.abs(np.einsum("ij,ij->i", unit[triangle], apart)) <= least)
-    face, count = connected_components(len(triangles), triangle[flat], other[flat])
+    cosine = np.einsum("ij,ij->i", unit[triangle], unit[other])
+    flat = (cosine >= 0.0) & (np.abs(np.einsum("ij,ij->i", unit[triangle], apart)) <= least)
     order = np.argsort(lengths, kind="stable")
-    largest = np.empty(count, np.intp)
-    largest[face[order]] = order  # the last one written is the largest
-    base = largest[face]
-    offsets = points[triangles] - points[triangles[base, 0]][:, None]
-    off = np.abs(np.einsum("ij,ikj->ik", unit[base], offsets)).max(axis=1)
-    bent = np.zeros(count, bool)
-    bent[face[off > 4.0 * least]] = True
-    label = np.where(bent[face], count + np.arange(len(face)), face)
+
+    def joined(pairs: NDArray[np.bool_]) -> tuple[NDArray[np.intp], NDArray[np.bool_]]:
+        """(m,) what each triangle is joined to by these pairs, and whether that is in no plane."""
+        face, count = connected_components(len(triangles), triangle[pairs], other[pairs])
+        largest = np.empty(count, np.intp)
+        largest[face[order]] = order  # the last one written is the largest
+        base = largest[face]
+        offsets = points[triangles] - points[triangles[base, 0]][:, None]
+        off = np.abs(np.einsum("ij,ikj->ik", unit[base], offsets)).max(axis=1)
+        bent = np.zeros(count, bool)
+        bent[face[off > 4.0 * least]] = True
+        return face, bent[face]
+
+    _, bent = joined(flat)
+    face, bent = joined(flat & (~bent[triangle] | (cosine >= ALIKE_COSINE)))
+    label = np.where(bent, len(face) + np.arange(len(face)), face)
     _, label = np.unique(label, return_inverse=True)
     return label.ravel(), int(label.max()) + 1

@@ -441,6 +441,13 @@ PATTERNS = [
         r"\((area|volume)_gradient\(((?!order=).)*\)\)",
         "more derivatives, which are not read",
     ),
+    (r".*statics/support.py ground_axes", r"first @ up", r"\(up @ first\)", "the product of two vectors, either way"),
+    (
+        r".*statics/resting.py _coplanar",
+        r"np\.argsort\(.*, kind=.stable.\)",
+        r".*",
+        "which of the largest triangles tells a face's plane",
+    ),
     (
         r".*any_order_small.py extend_small_moments",
         r"b - a",
@@ -529,9 +536,15 @@ CONSTANTS = [
     ),
     (r".*statics/resting.py resting_poses", r"np\.round\(shares\[kept\], ", "shares that are equal but for rounding"),
     (
-        r".*statics/(resting.py (_faces|_coplanar)|balance.py _center_jacobian|gradient.py _area_shares)",
+        r".*statics/(resting.py (_faces|_coplanar.*)|balance.py _center_jacobian|gradient.py _area_shares)",
         r"np\.where\((length|lengths|double) > 0\.0, \2, ",
         "what is divided is zero",
+    ),
+    (r".*statics/resting.py _coplanar.*", r"points\[triangles\[(triangle|base), ", "any corner is in the plane"),
+    (
+        r".*statics/support.py (find_support|support_of_contacts)",
+        r"down: ArrayLike = \(0\.0, 0\.0, -",
+        "of gravity only the direction counts",
     ),
     (r".*statics/gradient.py .*", r"kinds > ", "of orders 0, 1 and 2 there are 1, 4 and 10 moments"),
     (

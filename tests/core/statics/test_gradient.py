@@ -82,6 +82,27 @@ def test_every_factor_of_an_integrand_adds_eight_roundings_to_its_bound():
     assert close(gradient.error(), scale[:, None] * units, 1e-15)
 
 
+def test_bounds_of_area_derivatives_count_slivers_more_and_sides_besides_the_reach():
+    """Of each triangle twice its longer side from the first corner, by that squared over twice the area if that is
+    more; of one without an area as it is. Each factor moves with a side, which is twice the reach at most."""
+    points = np.array([[0, 0, 0], [3, 0.5, 0], [1, 2, 0.25], [1.5, 0.3, 0.01], [0.5, 1, -1], [1e-3, 0, 0]], float)
+    triangles = np.array([[0, 1, 2], [0, 1, 3], [2, 4, 1], [5, 5, 4], [0, 0, 5]])
+    about = np.array([0.5, 0.25, -0.75])
+    gradient = area_gradient(bodies.surface((points, triangles)), about)
+    scale, reach = np.zeros(6), np.abs(points - about).max(axis=0)
+    for a, b, c in triangles.tolist():
+        sides = points[b] - points[a], points[c] - points[a]
+        length, double = max(np.linalg.norm(side) for side in sides), np.linalg.norm(np.cross(*sides))
+        for corner in (a, b, c):
+            scale[corner] += 2.0 * length * (max(1.0, length**2 / double) if double else 1.0)
+    for column, powers in enumerate(monomials(2)):
+        size = np.prod(reach**powers)
+        for axis in np.flatnonzero(powers):
+            size += powers[axis] * np.prod(reach ** (powers - EYE[axis])) * 2.0 * reach.max()
+        units = (32.0 + 8.0 * powers.sum() + 4.0) * 2.0**-53
+        assert close(gradient.error()[:, column], scale * units * size, 1e-14)
+
+
 def test_a_moment_of_degree_n_grows_with_the_n_plus_third_power(part, kind):
     moments = measured(part, kind)
     gradient = KINDS[kind](bodies.surface(part), moments.about)

@@ -241,6 +241,32 @@ def test_a_round_side_is_no_face():
     assert len(poses.shares) == 1
 
 
+@pytest.mark.parametrize("share, is_face", [(3.9, True), (4.1, False)])
+def test_what_is_bent_by_four_times_the_tolerance_is_no_face(share, is_face):
+    """A block below an arc of 21 strips: the plane of an outer one passes the other end by 80 / 21 of the arc's height.
+    The other faces are what they are either way, though thin triangles of two are in the arc's planes."""
+    height, along = share * 8e-3 * 21.0 / 80.0, np.linspace(-1.0, 1.0, 22)
+    top = np.array([(x, y, -height * x * x) for x in along for y in (-4.0, 4.0)])
+    block = np.array([(x, y, -5.0) for x in (-1.0, 1.0) for y in (-4.0, 4.0)])
+    poses = resting_poses(convex_hull(np.concatenate([top, block])), [0.0, 0.0, -2.5], 1e-3)
+    sides = [(1, 0, 0), (0, 1, 0), (-1, 0, 0), (0, -1, 0), (0, 0, -1), *[(0, 0, 1)] * is_face]
+    margins = [poses.margins[facing(poses.normals, side)] for side in sides]
+    assert close(margins, [2.5 - height, 1.0, 2.5 - height, 1.0, 1.0, 1.0][: len(sides)], 1e-2)
+    assert len(poses.shares) == len(sides)
+
+
+def test_the_ends_of_a_cylinder_of_very_many_sides_are_faces():
+    """Its sides are round within the tolerance, and so thin are the triangles at the rims of its ends that they are in
+    the planes of both."""
+    count, height = 3000, 1.5
+    hull = convex_hull(prism(ring(count, 1.0), height))
+    poses = resting_poses(hull, [0.0, 0.0, height / 2.0], 5e-6)
+    end = (2.0 * pi - 2.0 * count * atan(tan(pi / count) / sqrt(1.0 + (2.0 / height) ** 2))) / (4.0 * pi)
+    for sign in (1.0, -1.0):
+        place = facing(poses.normals, (0.0, 0.0, sign))
+        assert close(poses.shares[place], end, 1e-3) and close(poses.margins[place], cos(pi / count), 1e-4)
+
+
 def test_noise_on_edges_changes_no_face():
     """Corners of a cube doubled by points that stand out by half of the tolerance."""
     corners = box(2, 2, 2) - 1.0

@@ -70,6 +70,38 @@ def test_tolerance_is_relative_to_the_body():
         assert len(find_support(raised, center, tolerance=1.1 * 1e-4 / 6.0).polygon) == 4
 
 
+@pytest.mark.parametrize("share, corners", [(0.99, 2), (1.01, 4)])
+@pytest.mark.parametrize("place", [(0.0, 0.0, 0.0), (-50.0, 0.0, 20.0)])
+def test_tolerance_is_relative_to_the_body_wherever_it_is(share, corners, place):
+    raised = BOX + np.where(BOX[:, :1] > 0.0, (0.0, 0.0, 1e-2), 0.0) + place
+    found = find_support(raised, np.add(place, (2.0, 1.0, 3.0)), tolerance=share * 1e-2 / 6.01)
+    assert len(found.polygon) == corners
+
+
+@pytest.mark.parametrize("turn", [np.eye(3), TURN], ids=["upright", "turned"])
+def test_the_polygon_is_on_the_ground_where_the_body_stands(turn):
+    place = np.array([7.0, -3.0, 11.0])
+    support = find_support(BOX @ turn.T + place, turn @ (2.0, 1.25, 3.0) + place, turn @ (0.0, 0.0, -1.0))
+    wanted = BOX[BOX[:, 2] == 0.0] @ turn.T + place
+    apart = np.linalg.norm(support.polygon[:, None] - wanted, axis=2)
+    assert apart.shape == (4, 4) and apart.min(axis=0).max() < 1e-13 and apart.min(axis=1).max() < 1e-13
+    assert np.abs(support.up - turn[:, 2]).max() < 1e-15
+
+
+@pytest.mark.parametrize(
+    "foot, margin, direction",
+    [
+        ((1.0, 0.5), 0.5, (0, -1)),
+        ((0.25, 1.0), 0.25, (-1, 0)),
+        ((2.0, 1.25), 0.2, (0.6, 0.8)),
+        ((4.0, -2.0), -2.0, (0, -1)),
+    ],
+)
+def test_on_three_legs_a_stool_stands_by_the_nearest_side(foot, margin, direction):
+    support = support_of_contacts([(0, 0, 0), (4, 0, 0), (0, 3, 0)], (*foot, 1.0))
+    assert close(support.margin, margin, EXACT) and np.abs(support.direction - (*direction, 0)).max() < EXACT
+
+
 def test_what_balances_on_an_edge_or_a_point_does_not_stand():
     on_edge = np.array([(0, 0, 0), (0, 2, 0), (1, 0, 1), (1, 2, 1), (-1, 0, 1), (-1, 2, 1)], float)
     support = find_support(on_edge, (0.0, 1.0, 0.6))
