@@ -536,8 +536,8 @@ CONSTANTS = [
     ),
     (r".*statics/resting.py resting_poses", r"np\.round\(shares\[kept\], ", "shares that are equal but for rounding"),
     (
-        r".*statics/(resting.py (_faces|_coplanar.*)|balance.py _center_jacobian|gradient.py _area_shares)",
-        r"np\.where\((length|lengths|double) > 0\.0, \2, ",
+        r".*statics/(resting.py .*|balance.py _center_jacobian|gradient.py _area_shares|support.py polygon_margin)",
+        r"np\.where\(\w+ > 0\.0, \w+(\*\*2)?, ",
         "what is divided is zero",
     ),
     (r".*statics/resting.py _coplanar.*", r"points\[triangles\[(triangle|base), ", "any corner is in the plane"),

@@ -94,12 +94,15 @@ def test_the_polygon_is_on_the_ground_where_the_body_stands(turn):
         ((1.0, 0.5), 0.5, (0, -1)),
         ((0.25, 1.0), 0.25, (-1, 0)),
         ((2.0, 1.25), 0.2, (0.6, 0.8)),
+        ((1.0, -2.0), -2.0, (0, -1)),
         ((4.0, -2.0), -2.0, (0, -1)),
     ],
 )
-def test_on_three_legs_a_stool_stands_by_the_nearest_side(foot, margin, direction):
-    support = support_of_contacts([(0, 0, 0), (4, 0, 0), (0, 3, 0)], (*foot, 1.0))
-    assert close(support.margin, margin, EXACT) and np.abs(support.direction - (*direction, 0)).max() < EXACT
+@pytest.mark.parametrize("size", [1e-6, 1.0, 1e6])
+def test_on_three_legs_a_stool_stands_by_the_nearest_side_or_falls_over_it(foot, margin, direction, size):
+    legs = size * np.array([(0, 0, 0), (4, 0, 0), (0, 3, 0)])
+    support = support_of_contacts(legs, size * np.array((*foot, 1.0)))
+    assert close(support.margin, size * margin, EXACT) and np.abs(support.direction - (*direction, 0)).max() < EXACT
 
 
 def test_what_balances_on_an_edge_or_a_point_does_not_stand():
