@@ -5,8 +5,9 @@
 import bpy
 import numpy as np
 import pytest
+from body_moments.core.verdict.finding import finding
 from body_moments.operators.bodies.assembly import measure_assembly
-from body_moments.operators.session import assembly, results
+from body_moments.operators.session import assembly, reference, results
 from body_moments.operators.write import properties
 from mathutils import Matrix, Vector
 
@@ -135,3 +136,37 @@ def test_members_that_cannot_hold_their_results_are_named_and_the_others_have_th
     assert [(name, found.code) for name, found in failures] == [
         *(("Arm a", "internal_error"), ("box a", "internal_error"), ("box b", "internal_error"))
     ]
+
+
+def test_what_is_stored_and_remembered_of_each_kind_of_member():
+    """Of an object its own results, or why there are none; of what was left out what was known; of no instance any."""
+    parts, root = collection("Parts"), collection("Robot")
+    inner = box(parts, (1, 2, 3), (4, 0, 0), name="inner")
+    shown, sheared = instance(root, parts, location=(5, 0, 0)), instance(root, parts, location=(9, 0, 0))
+    sheared.scale = (0, 1, 1)
+    nothing, good = add(bpy.data.meshes.new("Nothing"), "nothing"), box(root, (1, 1, 1), name="good")
+    left_out, unused = box(root, (1, 1, 1), (3, 3, 3), name="left out"), collection("Unused", root)
+    bare = collection("Bare", root)
+    for obj, holder in ((nothing, root), (add(bpy.data.meshes.new("Bare"), "bare"), bare)):
+        bpy.context.scene.collection.objects.unlink(obj)
+        holder.objects.link(obj)
+    left_out.hide_render = True
+    bpy.context.view_layer.update()
+    before = finding("no_volume")
+    for obj in (good, left_out, shown):
+        results.remember_failure(obj, before)
+    activate(root)
+    measured = measure_assembly(root, bpy.context.evaluated_depsgraph_get())
+    assert assembly.store(bpy.context, measured) == []
+    assert ["body_mass" in one for one in (root, good, inner)] == [True] * 3
+    assert not any("body_mass" in one for one in (shown, sheared, nothing, left_out, unused, bare))
+    assert results.failure(good) is None and results.failure(left_out) == results.failure(shown) == before
+    assert results.failure(nothing) is not None and results.failure(sheared) is None
+    settings = bpy.context.scene.body_moments_reference
+    settings.about = "WORLD"
+    reference.store(root, bpy.context.scene)
+    was = list(root["body_reference_inertia"])
+    good.location.z += 5.0
+    bpy.context.view_layer.update()
+    assembly.store(bpy.context, measure_assembly(root, bpy.context.evaluated_depsgraph_get()))
+    assert list(root["body_reference_inertia"]) != was
