@@ -136,15 +136,12 @@ def _active(scene: Scene, obj: Object, selected: Sequence[Object]) -> Iterator[N
 
 
 def _grid(scene: Scene, shape: tuple[int, int]) -> Curve:
-    """Surface data with one spline of (count_v, count_u) points."""
+    """Surface data with one spline of (count_v, count_u) points, wherever they are."""
     rows, columns = max(shape[0], MIN_LOFTED_POINTS), shape[1]
     data = bpy.data.curves.new("Body Moments Import", "SURFACE")
-    for column in range(columns):
+    for _ in range(columns):
         spline = data.splines.new("NURBS")
         spline.points.add(rows - 1)
-        line = np.zeros((rows, 4), np.float32)
-        line[:, 0], line[:, 1], line[:, 3] = column, np.arange(rows), 1.0
-        spline.points.foreach_set("co", line.ravel())
         spline.points.foreach_set("select", np.ones(rows, np.bool_))
     obj = bpy.data.objects.new("Body Moments Import", data)
     scene.collection.objects.link(obj)

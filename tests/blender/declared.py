@@ -17,7 +17,7 @@ def declaration(cls):
     names = {name for base in cls.__mro__ if base.__module__ != "bpy_types" for name in vars(base)}
     if issubclass(cls, PresetPanel):
         names.discard("bl_label")  # Blender writes the preset's name there
-    for name in sorted(name for name in names if name.startswith("bl_") and not name.startswith("bl_rna")):
+    for name in sorted(name for name in names if name.startswith(("bl_", "preset_")) and not name.startswith("bl_rna")):
         yield "    {:s} = {:s}".format(name, shown(getattr(cls, name)))
     for name, prop in properties(cls):
         yield "    {:s}: {:s}".format(name, prop.function.__name__)
@@ -25,7 +25,7 @@ def declaration(cls):
             if key == "description":
                 yield "        described" if value else "        not described"
             elif key == "items" and not callable(value):
-                yield "        " + ", ".join(item[0] for item in list(value)[:MAX_CHOICES])
+                yield from ("        {:s}: {:s}. {:s}".format(*item[:3]) for item in list(value)[:MAX_CHOICES])
             elif key != "attr":  # Blender's own
                 yield "        {:s} = {:s}".format(key, shown(value))
 

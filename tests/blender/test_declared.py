@@ -23,15 +23,25 @@ PLACES += ["operators.settings.preferences", "operators.settings.overlay"]
 
 
 def by_module():
-    """The classes that have something of each module: those in it, and those that take after one in it."""
+    """The classes that have something of each module: those in it, and those that take a property or a base with
+    properties from it."""
     found = defaultdict(dict)
-    for place in PLACES:
-        module = import_module(ADDON + place)
+    modules = [import_module(ADDON + place) for place in PLACES]
+    properties = {
+        id(value): name
+        for name, module in sorted(sys.modules.items())
+        if name.startswith(ADDON)
+        for value in vars(module).values()
+        if hasattr(value, "keywords")
+    }
+    for module in modules:
         for cls in vars(module).values():
             if isinstance(cls, type) and issubclass(cls, bpy.types.bpy_struct) and cls.__module__ == module.__name__:
-                for base in cls.__mro__:
-                    if base.__module__.startswith(ADDON) and (base is cls or any(declared.properties(base))):
-                        found[base.__module__.replace(".", "/") + ".py"][cls.__name__] = cls
+                places = {base.__module__ for base in cls.__mro__ if base is cls or any(declared.properties(base))}
+                places |= {properties.get(id(prop), "") for _, prop in declared.properties(cls)}
+                for place in places:
+                    if place.startswith(ADDON):
+                        found[place.replace(".", "/") + ".py"][cls.__name__] = cls
     return found
 
 

@@ -77,6 +77,24 @@ PATTERNS = [
         "a rule of more points is as exact",
     ),
     (r"operators/actions/.*", r"(made|mesh)\.free\(\)", r"pass", "what nothing names any more is freed"),
+    (
+        r"operators/actions/setup/node_group.py .*",
+        r".*\.new_socket\(\"\w+\", in_out=.INPUT., .*",
+        r"\(.*\.new_socket\('\w+', socket_type=.*",
+        "the default",
+    ),
+    (
+        r"operators/actions/setup/node_group.py .*",
+        r".*\.new_socket\(.*, socket_type=.NodeSocketFloat.\)",
+        r"\(.*\.new_socket\('\w+', in_out='\w+'\)\)",
+        "the default",
+    ),
+    (
+        r"operators/actions/measure/library.py .*_watch",
+        r"time\.sleep\(_PAUSE\)",
+        r"pass",
+        "how often is looked",
+    ),
     (r".*", r".*\.astype\([^()]*copy=False\)", r"\(.*\.astype\([\w.]+\)\)", "a copy"),
     (
         r".*",

@@ -128,7 +128,7 @@ class OBJECT_OT_body_moments_import_scan(Operator, ImportHelper):
         path = Path(bpy.path.abspath(self.filepath))
         if not path.name or path.is_dir():
             raise FileError("no_import_file")
-        target = path.with_name(path.name[: -len(scan_suffix(path)) or None] + ".vdb")
+        target = path.with_name(path.name[: -len(scan_suffix(path))] + ".vdb")
         scan = self._scan(path)
         matrix, decided = sample_matrix(
             scan, tuple(map(shortest_decimal, self.spacing)) if self.use_spacing else None, None, None
@@ -191,7 +191,7 @@ def _write(module: ModuleType, target: Path, scan: Scan, matrix: NDArray) -> flo
     grid.name, grid.gridClass = GRID_NAME, "fog volume"
     grid.transform = module.createLinearTransform(matrix.T.tolist())
     for start, slab in _slabs(scan):
-        grid.copyFromArray(np.ascontiguousarray(slab, np.float32 if exact else np.float64), ijk=(start, 0, 0))
+        grid.copyFromArray(np.ascontiguousarray(slab), ijk=(start, 0, 0))
     partial = target.with_name("{:s}.{:d}.partial.vdb".format(target.stem, os.getpid()))
     try:
         module.write(str(partial), grid)

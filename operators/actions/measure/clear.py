@@ -7,11 +7,9 @@ from bpy.types import Context, Object, Operator
 
 from ....core.verdict.finding import finding
 from ...scene.transforms import require_editable
-from ...session import staleness
+from ...session import marks, staleness
 from ...write import properties, section
 from .. import selection
-
-SYMMETRY = "body_moments_symmetry"
 
 
 class OBJECT_OT_body_moments_clear(Operator):
@@ -41,7 +39,7 @@ class OBJECT_OT_body_moments_clear(Operator):
         objects = [
             obj
             for obj in context.view_layer.objects.selected
-            if any(key in obj for key in (*properties.DESCRIPTIONS, section.KEY)) or obj.is_property_set(SYMMETRY)
+            if any(key in obj for key in (*properties.DESCRIPTIONS, section.KEY)) or marks.of_symmetry(obj)
         ]
 
         def remove(obj: Object) -> bool:
@@ -49,8 +47,8 @@ class OBJECT_OT_body_moments_clear(Operator):
             staleness.note_edits(obj)
             removed = "MASS" in self.kinds and properties.clear(obj)
             removed |= "SECTION" in self.kinds and section.clear(obj)
-            if "SYMMETRY" in self.kinds and obj.is_property_set(SYMMETRY):
-                obj.property_unset(SYMMETRY)
+            if "SYMMETRY" in self.kinds and marks.of_symmetry(obj):
+                obj.property_unset("body_moments_symmetry")
                 removed = True
             return removed
 

@@ -126,7 +126,7 @@ class OBJECT_OT_body_moments_select_faults(Operator):
 
 def require_editable_mesh(obj: Object) -> None:
     """Raises where what is measured is not what could be edited."""
-    if not obj.is_editable or not obj.data.is_editable:
+    if not obj.data.is_editable:  # nor is it then of a linked object
         raise EditRefusedError("linked_object_data")
     changing = [
         modifier.name
@@ -183,7 +183,7 @@ def _select_elements(obj: Object, elements: dict[str, np.ndarray]) -> None:
     for index in (index for indices in faces for index in indices.tolist()):
         mesh.faces[index].hide_set(False)
         mesh.faces[index].select_set(True)
-    bmesh.update_edit_mesh(obj.data, loop_triangles=False, destructive=False)
+    bmesh.update_edit_mesh(obj.data)
 
 
 CLASSES = (OBJECT_OT_body_moments_select_faults,)

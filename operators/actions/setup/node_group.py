@@ -95,8 +95,8 @@ class _Builder(NamedTuple):
     def sum(self, kind: str, column: float, row: float, faces: NodeSocket, value: NodeSocket) -> NodeSocket:
         node = self.node("GeometryNodeAttributeStatistic", column, row, data_type=kind, domain="FACE")
         self.link(faces, node.inputs["Geometry"])
-        self.link(value, next(socket for socket in node.inputs if socket.name == "Attribute" and socket.enabled))
-        return next(socket for socket in node.outputs if socket.name == "Sum" and socket.enabled)
+        self.link(value, node.inputs["Attribute"])
+        return node.outputs["Sum"]
 
 
 def center_of_mass_group() -> GeometryNodeTree:
@@ -172,10 +172,9 @@ def _corner(make: _Builder, index: int, position: Node, middle: Node) -> NodeSoc
     vertex = make.node("GeometryNodeVertexOfCorner", 5, row)
     make.link(corner.outputs["Corner Index"], vertex.inputs["Corner Index"])
     there = make.node("GeometryNodeFieldAtIndex", 5.5, row, domain="POINT", data_type="FLOAT_VECTOR")
-    make.link(position.outputs["Position"], next(s for s in there.inputs if s.name == "Value" and s.enabled))
+    make.link(position.outputs["Position"], there.inputs["Value"])
     make.link(vertex.outputs["Vertex Index"], there.inputs["Index"])
-    value = next(socket for socket in there.outputs if socket.name == "Value" and socket.enabled)
-    return make.vector("SUBTRACT", 6, row, value, middle.outputs["Vector"]).outputs["Vector"]
+    return make.vector("SUBTRACT", 6, row, there.outputs["Value"], middle.outputs["Vector"]).outputs["Vector"]
 
 
 def _add_marker(context: Context, obj: Object, group: GeometryNodeTree) -> Object:

@@ -148,16 +148,16 @@ class OBJECT_OT_body_moments_rigid_bodies(Operator):
 
         _, failures = selection.apply_to_all(list(by_obj), measure)
         context.view_layer.update()
-        with assembly.kept_up_to_date(context):
-            with tracking_paused():  # Blender reports a rigid body as a change of the shape
-                failures += self._place(context, measured)
-                new = self._add(context, measured)
-                blender = _calculated_masses(context, measured)
-                for obj in new:
-                    obj.rigid_body.mesh_source = "FINAL"  # the mesh that was weighed; Calculate Mass takes the default
-                for obj, one in measured.items():
-                    obj.rigid_body.mass = one.target.mass
-                context.view_layer.update()
+        # Blender reports a rigid body as a change of the shape, and again when results are stored on it
+        with assembly.kept_up_to_date(context), tracking_paused():
+            failures += self._place(context, measured)
+            new = self._add(context, measured)
+            blender = _calculated_masses(context, measured)
+            for obj in new:
+                obj.rigid_body.mesh_source = "FINAL"  # the mesh that was weighed; Calculate Mass takes the default
+            for obj, one in measured.items():
+                obj.rigid_body.mass = one.target.mass
+            context.view_layer.update()
             _store(context, measured)
         return self._report(context, measured, blender, len(bodies), failures)
 

@@ -94,7 +94,8 @@ class OBJECT_OT_body_moments_match_pose(ModalSteps, Operator):
         moved, distances = [], []
         for plan, match in self._plans:  # parents first, for a child moves with its parent
             try:
-                if _move(context, plan):
+                if not _is_there(plan):
+                    reframe.move(context, plan)
                     moved.append(plan.obj)
             except Exception as error:
                 self._failures.append(reports.failure(plan.obj.name_full, error))
@@ -130,13 +131,9 @@ def _plan_move(
     return reframe.Plan(obj, matrix, shape.size / unit, move_only=False), match
 
 
-def _move(context: Context, plan: reframe.Plan) -> bool:
-    """Bring the object there; whether it was elsewhere."""
+def _is_there(plan: reframe.Plan) -> np.bool_:
     off = np.abs(plan.target - world(plan.obj))
-    if off[:3, :3].max() <= 1e-7 and off[:3, 3].max() <= reframe.location_tolerance(plan.obj, plan.size):
-        return False
-    reframe.move(context, plan)
-    return True
+    return off[:3, :3].max() <= 1e-7 and off[:3, 3].max() <= reframe.location_tolerance(plan.obj, plan.size)
 
 
 CLASSES = (OBJECT_OT_body_moments_match_pose,)

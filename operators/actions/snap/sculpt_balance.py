@@ -183,7 +183,7 @@ class _EditedMesh:
             vertices[index].co = points[index].tolist()
         mesh = bmesh.from_edit_mesh(self.obj.data)
         mesh.normal_update()
-        bmesh.update_edit_mesh(self.obj.data, loop_triangles=True, destructive=False)
+        bmesh.update_edit_mesh(self.obj.data)
 
 
 class _GroupedMesh:

@@ -2,12 +2,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """All of a file that an operator of ours may change, by its place, so that two states can be compared."""
 
+import bmesh
 import bpy
 import numpy as np
+from body_moments.operators.session import outcome, stability, staleness
 
 DATA = ("objects", "collections", "materials", "meshes", "curves", "images", "texts", "node_groups", "actions")
 DATA = (*DATA, "armatures", "volumes", "scenes")
-OF_OBJECTS = ("parent", "parent_type", "data", "hide_render", "display_type", "show_in_front")
+OF_OBJECTS = ("parent", "parent_type", "parent_bone", "data", "hide_render", "display_type", "show_in_front")
 
 
 def shown(value):
@@ -91,7 +93,7 @@ def of_object(obj):
     for constraint in obj.constraints:
         yield (
             "{:s} constraint {:s}".format(place, constraint.name),
-            [constraint.type, getattr(constraint, "target", None)],
+            [constraint.type, getattr(constraint, "target", None), constraint.influence],
         )
     for name, body in (("rigid body", obj.rigid_body), ("rigid constraint", obj.rigid_body_constraint)):
         for prop in body.bl_rna.properties if body else ():
@@ -118,6 +120,15 @@ def of_object(obj):
             place + " chosen",
             [sums([each.select for each in part]) for part in (mesh.vertices, mesh.edges, mesh.polygons)],
         )
+    elif obj.type == "MESH" and obj.mode == "EDIT":
+        mesh = bmesh.from_edit_mesh(obj.data)
+        yield place + " points, edited", sums([tuple(vertex.co) for vertex in mesh.verts])
+        for name in ("select", "hide"):
+            parts = (mesh.verts, mesh.edges, mesh.faces)
+            yield (
+                "{:s} {:s}, edited".format(place, name),
+                [sums([getattr(one, name) for one in part]) for part in parts],
+            )
 
 
 def of_nodes(group):
@@ -171,6 +182,7 @@ def state():
         found |= dict(settings("scene." + name, getattr(scene, name)))
     units = scene.unit_settings
     found["scene units"] = [units.system, units.scale_length, units.length_unit, units.mass_unit]
+    found["scene select mode"] = list(scene.tool_settings.mesh_select_mode)
     found["scene cursor"] = [list(row) for row in scene.cursor.matrix]
     slot = scene.transform_orientation_slots[0]
     found["scene orientation"] = [
@@ -194,3 +206,21 @@ def difference(before, after):
             yield "- {:s}".format(place)
         elif old != new:
             yield "  {:s} {:s} -> {:s}".format(place, old, new)
+
+
+def panels():
+    """What the panels say of all this: what is out of date, what was refused."""
+    for obj in bpy.data.objects:
+        reasons = {
+            "results": staleness.stale_reason(obj, bpy.context.scene),
+            "section": staleness.section_stale_reason(obj),
+            "symmetry": staleness.symmetry_stale_reason(obj),
+        }
+        for name, reason in reasons.items():
+            if reason is not None:
+                yield "! objects/{:s} {:s}: {:s}".format(obj.name, name, reason)
+        if stability.is_known(obj):
+            yield "! objects/{:s} stands: {}".format(obj.name, getattr(stability.support(obj), "stands", None))
+    last = outcome.last()
+    if last is not None:
+        yield "! {:s}: {:s}".format(last.action, ", ".join([*(found.code for found in last.findings), *last.objects]))

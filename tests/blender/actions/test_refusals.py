@@ -14,7 +14,7 @@ from mathutils import Matrix, Quaternion
 from tests.blender.actions.assembly.test_assembly import assembly_of_boxes
 from tests.blender.actions.measure.test_section import I_BEAM, flat_mesh
 from tests.blender.actions.rig.test_rig import character
-from tests.blender.actions.scene_state import difference, state
+from tests.blender.actions.scene_state import difference, panels, state
 from tests.blender.actions.test_dialogs import DIGEST
 from tests.blender.actions.test_stability import wedge
 from tests.blender.actions.test_transcripts import edited, empty_tree, parts
@@ -357,7 +357,7 @@ def report(build, operator, options, reported):
         answer = "error: {!s}".format(error).strip()
         assert "Traceback" not in answer, answer
     codes = ["{:s} {}".format(found.code, found.values) for found in reported]
-    lines = [answer, *map(str, reported[:1]), *codes, *difference(before, state())]
+    lines = [answer, *map(str, reported[:1]), *codes, *difference(before, state()), *panels()]
     return [re.sub(DIGEST, "digest", line) for line in lines]
 
 

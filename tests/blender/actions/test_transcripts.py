@@ -17,12 +17,12 @@ from body_moments.operators import PARTS
 from tests.blender.actions.assembly.test_assembly import assembly_of_boxes
 from tests.blender.actions.measure.test_section import I_BEAM, flat_mesh
 from tests.blender.actions.rig.test_rig import character
-from tests.blender.actions.scene_state import difference, state
+from tests.blender.actions.scene_state import difference, panels, state
 from tests.blender.actions.setup.test_remedy_buttons import boxes
 from tests.blender.actions.test_stability import wedge
 from tests.blender.bodies.test_assembly import box_mesh
 from tests.blender.conftest import six_digits
-from tests.blender.objects import add, mesh_body, only, strip_mesh
+from tests.blender.objects import add, measured, mesh_body, only, strip_mesh
 
 pytestmark = pytest.mark.usefixtures("scene")
 OF_BLENDER = re.compile(  # what its exporters and its dependency graph log, and what it weighs
@@ -56,7 +56,7 @@ def trouble():
     locked.lock_location, locked.lock_rotation, locked.lock_scale = ((True, True, True) for _ in range(3))
     cast = add(mesh_body(), "Cast", (0, 8, 0))
     cast.modifiers.new("Cast", "CAST").factor = 0.8
-    child = add(box_mesh(1, 1, 1), "Child", (0, 0, 4))
+    child = add(wedge(), "Child", (0, 0, 4))
     child.parent = body
     keys = add(mesh_body(), "Keys", (0, 0, 9))
     keys.shape_key_add(name="Basis")
@@ -66,6 +66,25 @@ def trouble():
     bpy.ops.object.body_moments_measure()
     damaged["body_center_of_mass"] = "gone"
     only(body, locked, cast, child, keys, strip, damaged, *others)
+
+
+def protected():
+    """Selected things that are not the file's own, wholly or in part, and one that is. All but one are measured."""
+    parts()
+    made = [add(mesh_body(name), name, (0, 9 * place, 0)) for place, name in enumerate(("Linked", "Override", "Mesh"))]
+    only(*made)
+    bpy.ops.object.body_moments_measure()
+    path = bpy.app.tempdir + "protected.blend"
+    bpy.data.libraries.write(path, {*made})
+    bpy.data.batch_remove([*(obj.data for obj in made), *made])
+    with bpy.data.libraries.load(path, link=True) as (_, names):
+        names.objects, names.meshes = ["Linked", "Override"], ["Mesh"]
+    linked, source = names.objects
+    objects = [linked, source.override_create()]
+    for obj in objects:
+        bpy.context.scene.collection.objects.link(obj)
+    objects.append(add(names.meshes[0], "Of a linked mesh", (0, 18, 0)))
+    only(*objects, bpy.data.objects["Wedge"])
 
 
 def assembly():
@@ -103,6 +122,21 @@ def edited(select=3):
     bpy.ops.object.mode_set(mode="EDIT")
 
 
+def near(build):
+    """The cursor is near the center of mass of a body that is alone."""
+
+    def near_it():
+        build()
+        obj = bpy.data.objects["Body"]
+        if obj.mode == "OBJECT":
+            only(obj)
+        unit = bpy.context.scene.unit_settings.scale_length
+        bpy.context.scene.cursor.location = measured(obj).mass_properties.center / unit + (0.01, 0.02, 0.0)
+
+    near_it.__name__ = "near_" + build.__name__
+    return near_it
+
+
 def moving():
     obj = add(wedge(), "Wedge")
     for frame, at in ((1, 0.0), (4, 3.0)):
@@ -125,6 +159,26 @@ def similar():
     for name, scale in (("Copy", (1, 1, 2)), ("Twice", (2, 2, 4)), ("Mirror", (-1, 1, 2))):
         add(bpy.data.objects["Body"].data, name, (0, 9, 0), (0, 0, 1), scale)
     only(*(bpy.data.objects[name] for name in ("Body", "Copy", "Twice", "Mirror")))
+
+
+def similar_ones_measured():
+    similar()
+    bpy.ops.object.body_moments_measure()
+
+
+def symmetric():
+    """Measured bodies whose symmetries were found."""
+    parts()
+    bpy.ops.object.body_moments_find_symmetry()
+
+
+def all_results():
+    """A flat mesh with each kind of results."""
+    obj = add(flat_mesh(I_BEAM), "Beam", location=(1, 2, 3), rotation=(1.5, 0, 0))
+    obj.body_moments.kind = "SHELL"
+    bpy.ops.object.body_moments_measure()
+    bpy.ops.object.body_moments_measure_section()
+    bpy.ops.object.body_moments_find_symmetry()
 
 
 def searched():
@@ -161,7 +215,8 @@ SCENES = {
     "OBJECT_OT_body_moments_assembly_origin": (assembly, empty_tree),
     "OBJECT_OT_body_moments_axis_from_selection": (edited, lambda: edited(2), parts),
     "OBJECT_OT_body_moments_balance_group": (moving,),
-    "OBJECT_OT_body_moments_clear": (parts, flat, stable),
+    "OBJECT_OT_body_moments_align_to_world": (symmetric,),
+    "OBJECT_OT_body_moments_clear": (parts, flat, stable, all_results),
     "OBJECT_OT_body_moments_clear_assembly": (assembly, empty_tree),
     "OBJECT_OT_body_moments_clear_bones": (bones,),
     "OBJECT_OT_body_moments_copy_moments": (computed,),
@@ -169,15 +224,17 @@ SCENES = {
     "OBJECT_OT_body_moments_count_as_union": (faulty,),
     "OBJECT_OT_body_moments_export_bill": (assembly, empty_tree),
     "OBJECT_OT_body_moments_find_similar": (similar,),
-    "OBJECT_OT_body_moments_match_pose": (similar,),
+    "OBJECT_OT_body_moments_match_pose": (similar, similar_ones_measured),
+    "OBJECT_OT_body_moments_measure": (parts, protected),
     "OBJECT_OT_body_moments_measure_as_shell": (faulty,),
     "OBJECT_OT_body_moments_measure_assembly": (assembly, empty_tree),
     "OBJECT_OT_body_moments_measure_bones": (bones,),
     "OBJECT_OT_body_moments_measure_section": (flat, parts),
     "OBJECT_OT_body_moments_physics_rig": (bones,),
     "OBJECT_OT_body_moments_rig_center": (bones,),
+    "OBJECT_OT_body_moments_rigid_bodies": (symmetric,),
     "OBJECT_OT_body_moments_recalculate_outside": (faulty,),
-    "OBJECT_OT_body_moments_sculpt_balance": (edited, parts),
+    "OBJECT_OT_body_moments_sculpt_balance": (edited, parts, near(edited), near(parts)),
     "OBJECT_OT_body_moments_select_faults": (faulty, parts),
     "OBJECT_OT_body_moments_select_found": (searched,),
     "OBJECT_OT_body_moments_select_refused": (refused,),
@@ -254,7 +311,7 @@ def test_an_operator(name, kept, tmp_path, capfd):
     pages, operator = [], operator_of(name)
     properties = operator.get_rna_type().properties.keys()
     for number, options in enumerate(variants(name)):
-        for build in SCENES.get(name, (parts,) if number else (parts, trouble)):
+        for build in dict.fromkeys((*SCENES.get(name, (parts,)), *(() if number else (trouble, protected)))):
             bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
             build()
             folder = tmp_path / "{:d}{:s}".format(number, build.__name__.strip("<>"))
@@ -271,7 +328,7 @@ def test_an_operator(name, kept, tmp_path, capfd):
             said = [re.sub(r"(at )\d\.\d+e-\d+", r"\1rounding", line) for line in said]
             written = " ".join("{:s}={!r}".format(*option) for option in options.items())
             pages.append("=== {:s}: {:s}".format(build.__name__, written))
-            lines = [answer, *said, *difference(before, state()), *files(folder)]
+            lines = [answer, *said, *difference(before, state()), *panels(), *files(folder)]
             pages += [line.replace(str(folder), "FOLDER") for line in lines]
     kept("transcripts/{:s}.txt".format(name.replace("_body_moments", "")), "\n".join(pages))
 

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from body_moments.core.density import grid_moments
 from body_moments.core.scans.formats import read_scan, sample_matrix
+from body_moments.operators.actions.imports import import_scan
 from body_moments.operators.bodies.array import ArrayOptions, measure_array
 from body_moments.operators.bodies.measure_object import measure_object
 from body_moments.operators.read.volume import volume_reading
@@ -64,6 +65,30 @@ def test_samples_that_float32_cannot_hold_stay_exact(tmp_path):
     bpy.context.view_layer.update()
     with volume_reading(obj, bpy.context.evaluated_depsgraph_get()) as reading:
         assert np.array_equal(next(iter(reading.blocks()))[1], values)
+
+
+@pytest.mark.parametrize("finest", [(0, 0, 0), (2, 3, 4), (4, 5, 6), None])
+@pytest.mark.parametrize("planes", [1, 2])
+def test_a_scan_that_is_written_in_slabs_has_all_of_its_samples(planes, finest, tmp_path, monkeypatch):
+    monkeypatch.setattr(import_scan, "SAMPLES_PER_SLAB", 42 * planes + 1)
+    values = samples("f8", 1)
+    if finest is not None:  # what float32 cannot hold, in the first slab, in one between, in the last one
+        values[finest] += 2.0**-30
+    obj = imported(written(tmp_path / "longer.nrrd", nrrd(values)))
+    bpy.context.view_layer.update()
+    assert obj.name == "longer" and (tmp_path / "longer.vdb").is_file()
+    with volume_reading(obj, bpy.context.evaluated_depsgraph_get()) as reading:
+        ((_, found),) = reading.blocks()
+        assert np.array_equal(found, values)
+
+
+def test_what_is_imported_is_selected_alone_and_active(tmp_path):
+    others = [bpy.data.objects.new(name, None) for name in "ab"]
+    for other in others:
+        bpy.context.collection.objects.link(other)
+        other.select_set(True)
+    obj = imported(written(tmp_path / "a.nrrd", nrrd(samples())))
+    assert [*bpy.context.selected_objects] == [obj] and bpy.context.view_layer.objects.active == obj
 
 
 def test_a_raw_file_by_hand_and_a_spacing(tmp_path):

@@ -327,8 +327,8 @@ def test_results_of_bones_drive():
     assert close(location(), 8.0, 1e-6)
 
 
-def test_a_bone_whose_faces_enclose_nothing_has_no_part():
-    """Of a box on two bones, all faces but the lowest go with the upper one."""
+def half_a_box():
+    """A box on two bones: all faces but the lowest go with the upper one."""
     armature = bpy.data.objects.new("Rig", bpy.data.armatures.new("Rig"))
     bpy.context.scene.collection.objects.link(armature)
     bpy.context.view_layer.objects.active = armature
@@ -350,6 +350,11 @@ def test_a_bone_whose_faces_enclose_nothing_has_no_part():
     box.modifiers.new("Armature", "ARMATURE").object = armature
     bpy.context.view_layer.update()
     only(armature)
+    return armature
+
+
+def test_a_bone_whose_faces_enclose_nothing_has_no_part():
+    armature = half_a_box()
     rig = measured(armature)
     lower, upper = sorted(rig.parts, key=lambda part: part.name)
     assert (lower.name, lower.measurement) == ("Lower", None) and lower.refusal.code == "bone_part_impossible"

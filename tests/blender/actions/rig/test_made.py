@@ -1,0 +1,70 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What Add Center of Mass and Create Physics Rig make of each bone, of light ones and of those without a part."""
+
+import bpy
+import numpy as np
+import pytest
+
+from tests.blender.actions.rig.test_rig import character, half_a_box, measured
+from tests.blender.objects import place
+from tests.core import characters as made
+
+pytestmark = pytest.mark.usefixtures("scene")
+
+
+@pytest.mark.parametrize("density", [1000.0, 1e-5])
+def test_each_part_has_an_empty_at_its_center_and_its_share_however_light_it_is(density):
+    bpy.context.scene.unit_settings.scale_length = unit = 0.5
+    armature, _ = character(density=density)
+    armature.location, armature.rotation_euler = (3, 2, 1), (0.1, 0.2, 0.3)
+    bpy.context.view_layer.update()
+    rig = measured(armature)
+    assert bpy.ops.object.body_moments_rig_center() == {"FINISHED"}
+    center = bpy.data.objects["Rig Center of Mass"]
+    gyration = rig.measurement.mass_properties.radii_of_gyration.max() / unit
+    assert center.show_in_front and center.empty_display_type == "SPHERE"
+    assert center.empty_display_size == pytest.approx(0.1 * gyration)
+    assert [one.name for one in center.constraints] == [part.name for part in rig.parts] and len(rig.parts) == 7
+    mass = 0.0
+    for part, constraint in zip(rig.parts, center.constraints, strict=True):
+        mass += part.mass.total
+        assert constraint.type == "COPY_LOCATION" and constraint.influence == pytest.approx(part.mass.total / mass)
+        empty, bone = constraint.target, armature.data.bones[part.name]
+        assert empty.name == "Rig {:s} Center".format(part.name) and empty.hide_get()
+        assert (empty.parent, empty.parent_type, empty.parent_bone) == (armature, "BONE", part.name)
+        assert empty.empty_display_size == pytest.approx(0.1 * bone.length)
+        assert place(empty)[:3, 3] * unit == pytest.approx(part.mass.center, rel=1e-5, abs=1e-5)
+    assert place(center)[:3, 3] * unit == pytest.approx(rig.measurement.mass_properties.center, rel=1e-5, abs=1e-5)
+
+
+def test_bones_without_a_part_are_left_out_and_named(reported):
+    armature = half_a_box()
+    assert [part.name for part in measured(armature).parts] == ["Lower", "Upper"]
+    assert bpy.ops.object.body_moments_rig_center() == {"FINISHED"}
+    (constraint,) = bpy.data.objects["Rig Center of Mass"].constraints
+    assert (constraint.name, constraint.influence) == ("Upper", 1.0)
+    assert bpy.ops.object.body_moments_physics_rig() == {"FINISHED"}
+    assert reported.codes == ["rig_center_added", "physics_rig_created", "bone_parts_impossible"]
+    assert reported.values("physics_rig_created") == {"count": 1, "joints": 0}
+    assert reported.values("bone_parts_impossible") == {"count": 1, "names": ["Lower"]}
+
+
+def test_where_each_bone_has_a_part_no_other_is_named(reported):
+    character()
+    assert bpy.ops.object.body_moments_physics_rig() == {"FINISHED"}
+    assert reported.codes == ["physics_rig_created"]
+    assert reported.values("physics_rig_created") == {"count": len(made.NAMES), "joints": len(made.NAMES) - 1}
+
+
+def test_a_joint_is_at_the_bone_s_head_along_its_axes_a_quarter_as_large(reported):
+    armature, _ = character()
+    armature.location, armature.rotation_euler, armature.scale = (3, 2, 1), (0.1, 0.2, 0.3), (2, 2, 2)
+    bpy.context.view_layer.update()
+    assert bpy.ops.object.body_moments_physics_rig() == {"FINISHED"}
+    joint, bone = bpy.data.objects["Rig arm.L Joint"], armature.data.bones["arm.L"]
+    rest = np.array(armature.matrix_world @ bone.matrix_local)
+    assert np.allclose(place(joint)[:3, 3], rest[:3, 3], 1e-6, 1e-6)
+    assert np.allclose(place(joint)[:3, :3], rest[:3, :3] / 2.0, 1e-5, 1e-6)
+    assert joint.empty_display_size == pytest.approx(0.25 * bone.length * 2.0)
+    assert joint.rigid_body_constraint.type == "GENERIC" and joint.rigid_body_constraint.disable_collisions

@@ -1,0 +1,83 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Node groups of other files and versions, and rigid bodies of which some cannot be what was asked for."""
+
+import bpy
+import pytest
+from body_moments.operators.actions.setup import node_group, rigid_bodies
+from body_moments.operators.session import staleness
+
+from tests.blender.objects import add, mesh_body, only
+
+pytestmark = pytest.mark.usefixtures("scene")
+
+
+def test_a_node_group_that_is_linked_or_of_another_version_is_not_taken(tmp_path):
+    first = node_group.center_of_mass_group()
+    assert node_group.center_of_mass_group() == first
+    path = str(tmp_path / "library.blend")
+    bpy.data.libraries.write(path, {first})
+    bpy.data.node_groups.remove(first)
+    with bpy.data.libraries.load(path, link=True) as (found, names):
+        names.node_groups = [*found.node_groups]
+    (linked,) = names.node_groups
+    assert linked[node_group.KEY] == node_group.VERSION
+    plain = bpy.data.node_groups.new("Plain", "GeometryNodeTree")
+    older = bpy.data.node_groups.new("Older", "GeometryNodeTree")
+    older[node_group.KEY] = node_group.VERSION - 1
+    made = node_group.center_of_mass_group()
+    assert made.library is None and made not in (plain, older) and made[node_group.KEY] == node_group.VERSION
+    assert node_group.center_of_mass_group() == made
+
+
+@pytest.mark.parametrize("frame", ["AXES", "ORIGIN", "KEEP"])
+@pytest.mark.parametrize("is_stored", [False, True])
+def test_a_symmetry_no_longer_holds_where_the_axes_have_turned_and_there_alone(frame, is_stored):
+    obj = add(mesh_body(), "Body", (1, 2, 3), (0.3, 0.2, 0.1))
+    if is_stored:
+        bpy.ops.object.body_moments_measure()
+    bpy.ops.object.body_moments_find_symmetry()
+    assert bpy.ops.object.body_moments_rigid_bodies(frame=frame) == {"FINISHED"}
+    bpy.context.view_layer.update()
+    reason = staleness.symmetry_stale_reason(obj)
+    assert staleness.stale_reason(obj, bpy.context.scene) is None
+    assert (reason is not None) == (frame == "AXES"), reason
+
+
+def test_a_body_that_cannot_have_the_frame_is_named_and_the_others_are_made(reported, monkeypatch):
+    good, held = (add(mesh_body(name), name, (place, 2, 3)) for name, place in (("Good", 1), ("Held", 9)))
+    only(good, held)
+    reframe = rigid_bodies.reframe.reframe
+
+    def refusing(context, plans, step):
+        changed, refused = reframe(context, [plan for plan in plans if plan.obj != held], step)
+        error = rigid_bodies.EditRefusedError("channel_locked", channel="location")
+        return changed, [*refused, *[(plan.obj, error) for plan in plans if plan.obj == held]]
+
+    monkeypatch.setattr(rigid_bodies.reframe, "reframe", refusing)
+    assert bpy.ops.object.body_moments_rigid_bodies() == {"FINISHED"}
+    assert good.rigid_body is not None and held.rigid_body is None
+    assert reported.values("rigid_bodies_made")["count"] == 1
+    assert reported.values("left_unchanged")["count"] == 1 and reported.values("left_unchanged")["total"] == 2
+    assert reported.values("failure")["object"] == "Held" and "channel_locked" in reported.codes
+
+
+@pytest.mark.parametrize(
+    ("system", "scale", "scaled"),
+    [("METRIC", 0.01, True), ("IMPERIAL", 2.0, True), ("METRIC", 1.0, False), ("NONE", 0.01, False)],
+)
+@pytest.mark.parametrize("held", [False, True])
+@pytest.mark.parametrize("operator", ["rigid_bodies", "set_rigid_body_mass"])
+def test_that_masses_are_shown_scaled_is_said_where_there_are_any(operator, system, scale, scaled, held, reported):
+    settings = bpy.context.scene.unit_settings
+    settings.system, settings.scale_length = system, scale
+    obj = add(mesh_body())
+    obj.body_moments.mass_from, obj.body_moments.mass = "MASS", 3.0
+    obj.lock_location = (held,) * 3
+    options = {"add": True, "axes": True} if operator == "set_rigid_body_mass" else {}
+    getattr(bpy.ops.object, "body_moments_" + operator)(**options)
+    is_made = obj.rigid_body is not None
+    assert is_made == (not held or operator == "set_rigid_body_mass")
+    assert ("rigid_body_display_scaled" in reported.codes) == (scaled and is_made)
+    if scaled and is_made:
+        assert reported.values("rigid_body_display_scaled")["factor"] == pytest.approx(scale**3, rel=1e-6)

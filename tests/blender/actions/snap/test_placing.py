@@ -1,0 +1,121 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What snapping operators share: what counts as being there, what is stored again, and from where orientations are
+made."""
+
+from types import SimpleNamespace
+
+import bpy
+import numpy as np
+import pytest
+from body_moments.core.verdict.finding import EditRefusedError
+from body_moments.operators.actions.snap import align, base, empty, orientation
+from body_moments.operators.session import staleness
+
+from tests.blender.bodies.test_assembly import box_mesh
+from tests.blender.objects import add, mesh_body, only
+
+pytestmark = pytest.mark.usefixtures("scene")
+
+
+@pytest.mark.parametrize("center", [(0.0, 0.0, 0.0), (3.0, -40.0, 5.0)])
+@pytest.mark.parametrize("size", [0.01, 20.0])
+@pytest.mark.parametrize("share", [0.99, 1.01])
+def test_an_empty_is_there_within_a_millionth_of_size_and_distance_and_along_principal_axes(center, size, share):
+    frames = []
+    body = SimpleNamespace(size=size, center=np.array(center), is_principal=lambda frame: frames.append(frame) or right)
+    matrix = np.eye(4)
+    matrix[:3, :3] = [[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]
+    matrix[:3, 3] = center
+    matrix[0, 3] -= share * 1e-6 * (size + np.abs(center).max())
+    for right in (True, False):
+        there = empty._is_there(SimpleNamespace(matrix_world=matrix.tolist()), body)
+        assert there is (right and share < 1.0)
+    assert all(np.array_equal(frame, matrix[:3, :3]) for frame in frames) and bool(frames) == (share < 1.0)
+
+
+@pytest.mark.parametrize("order", align.ORDERS)
+def test_an_order_names_the_axes_that_the_principal_ones_go_to_and_mirrors_nothing(order):
+    frame = align.directions(order)
+    assert np.linalg.det(frame) == 1.0
+    signs = [1.0, 1.0, 1.0 if order in ("XYZ", "YZX", "ZXY") else -1.0]
+    for column, letter, sign in zip(frame.T, order, signs, strict=True):
+        assert np.array_equal(column, sign * np.eye(3)["XYZ".index(letter)])
+
+
+def test_what_cannot_be_measured_or_stored_again_keeps_its_numbers_and_the_others_get_theirs(monkeypatch, capfd):
+    names = ("Good", "Fails", "Refused", "Held")
+    objects = [add(mesh_body(name), name, (4 * place, 0, 0)) for place, name in enumerate(names)]
+    plain = add(mesh_body("Plain"), "Plain", (20, 0, 0))
+    only(*objects)
+    bpy.ops.object.body_moments_measure()
+    mass = objects[0]["body_mass"]
+    for obj in objects:
+        obj.scale.z = 2.0
+    measure_many, store_many = base.measure_many, base.results.store_many
+
+    def measured(unknown, *more):
+        errors = {"Fails": ZeroDivisionError("planted failure"), "Refused": EditRefusedError("open_object")}
+        for together in measure_many(unknown, *more):
+            yield [(obj, errors.get(obj.name, found)) for obj, found in together]
+
+    def stored(found, *more):
+        yield from store_many([item for item in found if item[0].name != "Held"], *more)
+        yield objects[3], TypeError("planted refusal")
+
+    monkeypatch.setattr(base, "measure_many", measured)
+    monkeypatch.setattr(base.results, "store_many", stored)
+    base.remeasure(bpy.context, [*objects, plain])
+    bpy.context.view_layer.update()
+    assert [obj["body_mass"] / mass for obj in objects] == pytest.approx([2.0, 1.0, 1.0, 1.0])
+    assert "body_mass" not in plain
+    reasons = [staleness.stale_reason(obj, bpy.context.scene) for obj in objects]
+    assert reasons == [None, *["stale_transform"] * 3]
+    said = capfd.readouterr().err
+    assert "planted failure" in said and "planted refusal" in said and "open_object" not in said
+
+
+@pytest.mark.parametrize("known", [False, True])
+def test_what_is_known_of_an_object_is_stored_without_measuring_it(known, monkeypatch):
+    obj, other = (add(mesh_body(name), name, (place, 0, 0)) for name, place in (("a", 0), ("b", 5)))
+    only(obj, other)
+    bpy.ops.object.body_moments_measure()
+    obj["body_mass"] = other["body_mass"] = 1.0
+    asked, measure_many = [], base.measure_many
+    monkeypatch.setattr(base, "measure_many", lambda found, *more: asked.extend(found) or measure_many(found, *more))
+    found = base.measure_body(obj, bpy.context.evaluated_depsgraph_get(), base.POSE)
+    base.remeasure(bpy.context, [obj, other], {obj: found} if known else {})
+    assert obj["body_mass"] == other["body_mass"] > 1.0 and asked == ([other] if known else [obj, other])
+
+
+def test_nothing_is_evaluated_where_nothing_is_stored(monkeypatch):
+    obj = add(box_mesh(2, 2, 2))
+    monkeypatch.setattr(base, "measure_many", None)
+    base.remeasure(bpy.context, [obj])
+    assert "body_mass" not in obj
+
+
+def window(*kinds):
+    areas = [
+        SimpleNamespace(type=kind, regions=[SimpleNamespace(type="HEADER"), SimpleNamespace(type="WINDOW", of=kind)])
+        for kind in kinds
+    ]
+    return SimpleNamespace(screen=SimpleNamespace(areas=areas))
+
+
+def test_an_orientation_is_made_in_the_view_of_its_window_before_others():
+    own, other, without = window("IMAGE_EDITOR", "VIEW_3D"), window("VIEW_3D"), window("IMAGE_EDITOR")
+    manager = SimpleNamespace(windows=[other, own, without])
+    for current, expected in ((own, own), (other, other), (without, other), (None, other)):
+        place = orientation._view_3d(SimpleNamespace(window=current, window_manager=manager))
+        assert place["window"] is expected and place["area"] in expected.screen.areas
+        assert place["area"].type == place["region"].of == "VIEW_3D" and place["region"].type == "WINDOW"
+    alone = SimpleNamespace(windows=[without])
+    assert orientation._view_3d(SimpleNamespace(window=without, window_manager=alone)) is None
+
+
+def test_without_a_view_it_is_said_that_an_orientation_needs_one(reported, monkeypatch):
+    add(mesh_body())
+    monkeypatch.setattr(orientation, "_view_3d", lambda context: None)
+    assert bpy.ops.object.body_moments_create_orientation() == {"CANCELLED"}
+    assert reported.codes == ["orientation_needs_viewport"]
