@@ -5,7 +5,7 @@
 import numpy as np
 import pytest
 from body_moments.core.mesh import bvh
-from body_moments.core.mesh.bvh import RAY_SLOPES, Bvh, sort_components
+from body_moments.core.mesh.bvh import RAY_SLOPES, Bvh, radix_argsort, sort_components
 
 from tests.core import bodies
 
@@ -46,3 +46,18 @@ def test_where_the_work_runs_out_nothing_is_sure(monkeypatch, limit, is_sure):
     points, triangles = bodies.box()
     tree = tree_of(points, triangles[:4])  # one leaf
     assert tree.winding_numbers(np.full((5, 3), 9.0), np.zeros(5, np.intp), 0.0)[1].tolist() == [is_sure] * 5
+
+
+@pytest.mark.parametrize("values", [[2, 65535, 1, 65535], [65536, 1, 65535, 0, 65536], [65537, 131072, 65536, 131071]])
+def test_integers_are_sorted_by_all_of_their_bits_and_stay_in_order_where_they_are_equal(values):
+    assert radix_argsort(np.array(values)).tolist() == sorted(range(len(values)), key=values.__getitem__)
+    many = np.random.default_rng(0).permutation(np.repeat(np.array(values, np.uint32), 300))
+    assert radix_argsort(many).tolist() == sorted(range(len(many)), key=many.tolist().__getitem__)
+
+
+def test_a_tree_s_places_are_about_the_middle_of_what_was_chosen():
+    """So that what is far away loses no digits."""
+    parts = bodies.joined(bodies.box((1, 2, 3), (2, 4, 7)), bodies.box((8, 9, 7), (9, 9.5, 8)), bodies.box())
+    shell = np.repeat([0, 1, 2], 12)
+    tree = Bvh(parts[0], sort_components(*parts, shell, 3), np.array([True, True, False]))
+    assert tree.origin.tolist() == [5.0, 5.75, 5.5]

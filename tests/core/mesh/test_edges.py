@@ -364,3 +364,14 @@ def test_of_faces_of_two_kinds_without_numbers_no_edges_are_named(less):
     assert edges_from_mesh(triangles, triangles.all_triangles()[0]) is not None
     assert edges_from_mesh(replace(triangles, **{less: None}), triangles.all_triangles()[0]) is None
     assert edges_from_mesh(whole, whole.all_triangles()[0]) is None  # pentagons, of which triangles are parts
+
+
+@pytest.mark.parametrize("gap", range(6))
+def test_a_face_that_has_no_corners_or_corners_that_have_no_face_prove_nothing(gap):
+    whole = mesh(CORNERS, SIDES.tolist())
+    assert closed_side_faces(whole) is not None
+    faces = whole.quad_faces + (whole.quad_faces >= gap)
+    assert closed_side_faces(replace(whole, quad_faces=faces)) is None
+    for count in (20 + gap // 2, 25 + gap):
+        corners, edges = (np.resize(array, count) for array in (whole.corner_vertices, whole.corner_edges))
+        assert closed_side_faces(replace(whole, corner_vertices=corners, corner_edges=edges)) is None

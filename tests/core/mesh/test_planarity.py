@@ -8,14 +8,15 @@ from functools import partial
 
 import numpy as np
 import pytest
-from body_moments.core.mesh.planarity import PLANAR_RTOL, ZERO_AREA_RTOL, PlanarityAccumulator
+from body_moments.core.mesh.planarity import PLANAR_RTOL, ZERO_AREA_RTOL, PlanarityAccumulator, stack_planarity
 from body_moments.core.mesh.surface import Surface
+from body_moments.core.mesh.surface_stack import SurfaceStack
 from body_moments.core.polyhedron import integration
 from body_moments.core.polyhedron import third_order as polyhedron
 from body_moments.core.solid.measure_solid import measure_solid
 
 from tests.close import close
-from tests.core.bodies import mesh, ring, rotation
+from tests.core.bodies import CORNERS, SIDES, mesh, ring, rotation
 
 polyhedron_moments = partial(integration.polyhedron_moments, allow_open=True)  # of faces as they are
 
@@ -54,12 +55,18 @@ def quads(kind, dtype):
     loose = points[faces].reshape(-1, 3)  # each quad with corners of its own, so that they can be bent one by one
     faces = np.arange(len(loose)).reshape(-1, 4)
     a, b, _, d = (loose[k::4].copy() for k in range(4))
-    scale = np.exp(rng.uniform(-4.0, 0.0, (len(faces), 1)))
+    scale = np.exp(rng.uniform(-4.0, 0.0, (len(faces), 1))) if kind != "folded" else 0.5
     b, d = a + (b - a) * scale, a + (d - a) * scale
     c = b + d - a  # flat
     normal = np.cross(b - a, d - a)
     if kind == "bent":
         c += normal * rng.uniform(-5.0, 5.0, (len(c), 1))
+    if kind == "folded":  # two triangles that nearly make up for each other, bent by about their own limit
+        size = np.linalg.norm(normal, axis=1)[:, None]
+        c[::5] = (a + 1.5 * (b - a) - 1.45 * (d - a) + 1e-5 * normal / size)[::5]
+    if kind == "bare":  # but for a trace of an area, on one side
+        b[::17] = a[::17] + 3e-7 * ((b - a) / np.linalg.norm(b - a, axis=1)[:, None])[::17]
+        c[::17] = b[::17] + (d - a)[::17]
     if kind in ("some", "all sorts"):
         c[::7] += (normal * rng.uniform(-5.0, 5.0, (len(c), 1)))[::7]
         c[1::7] += (normal * 1e-6 * rng.uniform(-200.0, 200.0, (len(c), 1)))[1::7]  # about the limit
@@ -97,6 +104,78 @@ def test_what_the_sums_show_is_what_looking_at_each_face_gives(kind, dtype, monk
         assert (found[0], found[2]) == (bent, bare)
         assert close(found[1], spread, rel=1e-11)
     assert (bent > 0) == (kind != "flat") and (len(bare) > 200) == (kind == "all sorts")
+
+
+@pytest.mark.parametrize("kind", ["folded", "bare"])
+def test_faces_that_are_folded_or_have_no_area_are_looked_at_where_all_others_are_flat(kind):
+    surface = quads(kind, np.float64)
+    witness = PlanarityAccumulator(surface, 1e-6)
+    a, b, c, d = (surface.points[surface.quads[:, k]] for k in range(4))
+    normals = np.cross(b - a, c - a), np.cross(c - a, d - a)
+    lengths, folded = np.linalg.norm(normals, axis=2), np.flatnonzero((normals[0] * normals[1]).sum(axis=1) <= 0.0)
+    assert len(folded) == (360 if kind == "folded" else 0) and (lengths.sum(axis=0).min() < 1e-8) == (kind == "bare")
+    witness.add_quads(0, lengths, ((b - a) * np.cross(c - a, d - b)).sum(axis=1), folded, np.empty((2, len(a))))
+    assert len(witness.quads[0].undecided) < 500
+    found, (bent, spread, bare) = witness.planarity(), one_by_one(surface, 1e-6)
+    assert (found.non_planar_count, found.degenerate_faces.tolist()) == (bent, bare)
+    assert close(found.volume_spread, spread, rel=1e-9)
+    assert (bent == 360, len(bare)) == ((True, 0) if kind == "folded" else (False, 106))
+
+
+@pytest.mark.parametrize("error", [0.0, 1e-7, 1e-5])
+@pytest.mark.parametrize("start", [0, 4096])
+def test_only_what_lies_between_the_bounds_of_the_limit_is_looked_at(error, start):
+    """A quad's normal is between 0.7 of its triangles' together and all of that, and the size of each between the least
+    and the largest one."""
+    sides = np.array([[0.01, 0.03], [3.0, 1.0], [0.0, 25.0], [1.0, 0.5]])
+    sums = sides.sum(axis=1)
+    low = 0.7 * sums * (8.0 * error + PLANAR_RTOL * np.sqrt(0.7 * sums.min()))
+    high = sums * (8.0 * error + PLANAR_RTOL * np.sqrt(sums.max()))
+    volumes = np.stack([0.999 * low, 1.001 * low, 0.999 * high, 1.001 * high], axis=1) * [1.0, -1.0, 1.0, -1.0]
+    witness = PlanarityAccumulator(quads("flat", np.float64), error)
+    lengths = np.repeat(sides.T, 4, axis=1)
+    witness.add_quads(start, lengths, volumes.ravel().copy(), np.arange(0), np.empty((2, 16)))
+    found = witness.quads[start]
+    assert (found.count, found.non_planar_count) == (16, 4)
+    assert found.undecided.tolist() == [start + 4 * face + k for face in range(4) for k in (1, 2)]
+    assert close(found.volume_spread, np.abs(volumes[:, 3]).sum(), rel=1e-14)
+
+
+@pytest.mark.parametrize("size", [1.0, 2.0**-30, 2.0**30])
+@pytest.mark.parametrize(
+    "dtype, height, is_bent",
+    [(np.float64, 2.7, False), (np.float64, 3.0, True), (np.float32, 3.2, False), (np.float32, 4.8, True)],
+)
+def test_a_quad_is_bent_from_a_millionth_of_its_size_and_eight_times_what_storing_moves_it_by_on(
+    size, dtype, height, is_bent
+):
+    """Of a unit square with one corner raised the diagonals span 2, so that it is flat up to 2 √2 millionths, and as
+    float32 up to 8 √3 / 2^24 · 2 more, half a step of the coordinates by axis."""
+    points = np.array(CORNERS, float)
+    points[(points == 1.0).all(axis=1), 2] += 1e-6 * height
+    surface = mesh(size * points, SIDES.tolist(), dtype)
+    error = float(np.linalg.norm(surface.coordinate_error))
+    stack = stack_planarity(
+        SurfaceStack.of([mesh(CORNERS, SIDES.tolist(), np.float32), mesh(size * points, SIDES.tolist(), np.float32)])
+    )
+    found = PlanarityAccumulator(surface, error).planarity()
+    assert found.non_planar_count == is_bent and (found.volume_spread > 0.0) == is_bent
+    if dtype is np.float32:
+        assert stack.non_planar_counts.tolist() == [0, int(is_bent)]
+        assert stack.volume_spread.tolist() == [0.0, found.volume_spread]
+
+
+def test_a_sliver_of_a_quad_has_an_area_where_its_halves_have_none():
+    """Each half is less high than storing may have moved it, both together are higher: in a stack as by itself."""
+    points = np.concatenate([CORNERS, [[0.0, 0.0, 0.0], [0.5, -7e-8, 0.0], [1.0, 0.0, 0.0], [0.5, 7e-8, 0.0]]])
+    sliver = mesh(points, [*SIDES.tolist(), [8, 9, 10, 11], [0, 1, 2]], np.float32)
+    error = float(np.linalg.norm(sliver.coordinate_error))
+    assert 7e-8 < error < 1.4e-7
+    found = PlanarityAccumulator(sliver, error).planarity()
+    stack = stack_planarity(SurfaceStack.of([sliver, mesh(CORNERS, SIDES.tolist(), np.float32)]))
+    assert not len(found.degenerate_faces) and not stack.has_degenerate.any()
+    flat = replace(sliver, points=sliver.points * np.array([1.0, 0.0, 1.0], np.float32))
+    assert stack_planarity(SurfaceStack.of([sliver, flat])).has_degenerate.tolist() == [False, True]
 
 
 @pytest.mark.parametrize("scale", [2.0**-10, 2.0**5])
