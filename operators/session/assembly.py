@@ -138,7 +138,7 @@ def kept_up_to_date(context: Context) -> Iterator[None]:
     for root, bodies in before.items():
         member, mark = members_of(root, depsgraph), marks.parse(properties.fingerprint(root))
         now = _member_bodies(member)
-        if mark is None or structure_hash(member) != mark.settings or bodies.keys() != now.keys():
+        if mark is None or bodies.keys() != now.keys():
             continue
         if any(staleness.stale_reason(obj, scene) for obj in now):
             continue
