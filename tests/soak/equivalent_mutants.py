@@ -348,12 +348,6 @@ PATTERNS = [
     ),
     (r".*density/threshold.py (RULES|MAX_CUT_CELLS)", r"\d+", r"\d+", "which rules are compared, of how many cells"),
     (
-        r".*density/positivity.py MAX_LOCATED_POINTS|.*density/smooth_threshold.py MAX_SAMPLES",
-        r"\d+",
-        r"\d+",
-        "when more is given up",
-    ),
-    (
         r".*fourier/(grid.py MAX_POINTS_PER_SIDE|nufft.py ALIASED_ORDERS|polygon.py SERIES_TERMS)",
         r"\d+",
         r"\d+",
@@ -584,7 +578,6 @@ CONSTANTS = [
         r"margin = \(spline_order \+ ",
         "more of the background, where no body is",
     ),
-    (r".*density/threshold.py ", r"MAX_PARTS, MIN_PARTS = ", "when more is given up"),
     (r".*streams/stl.py TEXT_PER_TRIANGLE", r"= ", "how many triangles a text has is estimated"),
     (r".*streams/stl.py StlFile.__init__", r"TEXT_PER_TRIANGLE \+ ", "how many triangles a text has is estimated"),
     (
@@ -646,7 +639,7 @@ CONSTANTS = [
     (r".*fourier/grid.py _points_per_side", r"np\.geomspace\(.*", "how fine and long the table is"),
     (r".*nurbs/patch_moments.py integrand_in_blocks", r"step = .*", "how much is computed at a time"),
     (r".*nurbs/patch_moments.py ", r"SLOPE_POINTS, SLOPE_SPANS = .*", "how fine a rule is, and how much at a time"),
-    (r".*nurbs/patch_moments.py (MAX_DEPTH|MIN_DIVISOR)", r"= ", "when more is given up"),
+    (r".*nurbs/patch_moments.py MIN_DIVISOR", r"= ", "any number that is next to nothing"),
     (r".*cad/obj.py has_surfaces", r"(file\.read\((1 << )?|block\[-)", "how much is read at a time"),
     (r".*cad/iges.py _spline_piece", r"part\[[01]\] != knots\[-?", "the ends' knots are the same there"),
     (r".*numerics/graph.py _trees", r"for start in range\(", "the first node is the first root"),
@@ -668,6 +661,8 @@ CONSTANTS = [
     (r".*plane/polygon.py _crossing_pairs", r"(size|cell) = .*", "how coarse the grid is"),
     (r".*plane/polygon.py _crossing_pairs", r"within // tall\[edge\]\) \* \(", "which other edges are compared"),
     (r".*plane/polygon.py _twice_the_area", r"points\[edges\[(0, )?", "a closed outline has its area from anywhere"),
+    (r".*nurbs/patch_topology.py _pair_sides", r"part, odd, size = .*, \[", "it is set before it is read"),
+    (r".*nurbs/patch_topology.py _pair_sides.root", r"turn = ", "whether two are turned alike is all that is read"),
     (r".*nurbs/creases.py _normals", r"patch\.points\[(0, )?", "slopes do not depend on the origin"),
     (r".*mass_properties.py _propagate_errors", r"\bshift\[", "for both kinds of errors it is the same"),
     (

@@ -4,6 +4,7 @@
 
 import numpy as np
 import pytest
+from body_moments.core.density import positivity
 from body_moments.core.density.polynomial import parse_polynomial
 from body_moments.core.density.positivity import find_negative_point
 
@@ -57,6 +58,17 @@ def test_only_what_lies_in_the_body_counts():
     assert found("(x - 5.5)**2 + (y - 5.5)**2 - 3", ANGLE) == (None, True)  # between the arms
     (value, place), unsure = found("(x*y)**8 - 1000", ANGLE)  # a millionth of what there is between the arms
     assert value == -1000.0 and place[0] * place[1] == 0.0 and not unsure
+
+
+@pytest.mark.parametrize("text", ["x**2 + y**2 + z**2 - 0.5", "x**2 + y**2 + z**2 - 2.5"])
+def test_the_first_24_places_are_looked_for_in_the_body(monkeypatch, text):
+    """Where the density is least, or where it is most if some of the surface is negative."""
+    asked = []
+    monkeypatch.setattr(positivity, "winding_number", lambda _points, _triangles, at: asked.append(at) or 0.0)
+    found(text, BOX)
+    values = np.sort([float(parse_polynomial(text)(at[None])[0]) for at in asked])
+    grid = np.sort(parse_polynomial(text)(-1.0 + 2.0 * positivity.GRID_STEPS))
+    assert len(asked) == 24 and np.array_equal(values, grid[:24] if text.endswith("0.5") else grid[-24:])
 
 
 @pytest.mark.parametrize("least, is_found", [(-0.8e-6, False), (-1.2e-6, True)])

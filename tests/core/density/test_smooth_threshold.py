@@ -94,6 +94,24 @@ def test_beside_a_background_a_body_reaches_as_far_as_its_spline(monkeypatch, or
     assert close(found.volume.total, alone.volume.total, rel=1e-9)
 
 
+@pytest.mark.parametrize("count, grids", [(116_508, 3), (116_509, 2)])
+def test_the_finest_grid_has_up_to_two_to_the_twenty_fourth_samples(monkeypatch, count, grids):
+    """Of 2 by 2 by so many the second has 3 by 3 by nearly twice as many, and the next eight times that, about."""
+    body, shapes = smooth_threshold.threshold_body(np.ones((2, 2, 2)), 0.5, 0), []
+    assert (8 * 9 * (2 * count - 1) <= 1 << 24) == (grids == 3)
+    monkeypatch.setattr(smooth_threshold, "TOLERANCE", -1.0)
+    monkeypatch.setattr(smooth_threshold, "spline_values", lambda *asked: np.broadcast_to(1.0, finer(*asked)))
+    monkeypatch.setattr(
+        smooth_threshold, "threshold_body", lambda values, *_rest, **_named: shapes.append(values.shape) or body
+    )
+    smooth_threshold_body(np.broadcast_to(1.0, (2, 2, count)), 0.5, 4, order=0)
+    assert shapes == [(2**n + 1, 2**n + 1, 2**n * (count - 1) + 1) for n in range(grids)]
+
+
+def finer(samples, _order, parts):
+    return [parts * (count - 1) + 1 for count in samples.shape]
+
+
 @pytest.mark.parametrize("most, grids", [(8 * 21**3 - 1, 2), (8 * 21**3, 3), (8 * 41**3 - 1, 3), (8 * 41**3, 4)])
 def test_grids_are_refined_while_the_next_may_have_as_many_samples(monkeypatch, most, grids):
     """The next has eight times as many, about; none is near enough here."""

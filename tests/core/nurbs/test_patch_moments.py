@@ -457,6 +457,19 @@ def test_cells_are_cut_so_often_and_at_once_where_a_weight_hides_what_lies_betwe
     assert counts[::2] == counts[1::2] and counts[0] == 1 and counts[2] == 4 and len(counts) == 2 * (depth + 1)
 
 
+def test_a_cell_is_cut_14_times(rules):
+    """Where one part in each of its parts has a kink."""
+
+    def kinked(cells, _rule):
+        terms = np.zeros((1, 3, len(cells)))  # a moment, a size, a kink
+        terms[:, 1], terms[:, 2, 0] = 1.0, 1.0
+        return terms
+
+    cells = next(cells_of([uneven_patch(1.0)], ORIGIN))
+    assert not patch_moments.integrate_adaptively([cells], kinked, np.ones(1), 1e-9).converged
+    assert [count for count, _ in rules] == [1, 1, *[4, 4] * 14]
+
+
 def fixed_area(cells, points, order):
     (s, along, across), weights = cells.evaluate(((points,), (points,)))
     length = np.linalg.norm(np.cross(along, across, axis=0), axis=0)

@@ -1,0 +1,81 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Which sides of patches are joined where more than two meet: patches around one edge, joined elsewhere or not."""
+
+import numpy as np
+import pytest
+from body_moments.core.nurbs.patch_topology import _pair_sides
+
+EDGE = np.array([[0.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, 0.0, 2.0]])
+
+
+def joined(around, joints=(), alike=()):
+    """Which patches are joined at the edge, and how many sides coincide with more than one.
+
+    around: of each patch in which direction it lies (degrees) and whether it runs along the edge forward. joints: pairs
+    of patches that another side of each joins, and whether one must turn for that. alike: pairs whose curves run the
+    same way at the edge; others run against each other, which fits where both run forward.
+    """
+    count = len(around)
+    points = np.zeros((4 * count, len(EDGE), 3))
+    forward = np.ones(4 * count, bool)
+    for k, (degrees, ahead) in enumerate(around):
+        out = np.array([np.cos(np.radians(degrees)), np.sin(np.radians(degrees)), 0.0])
+        points[4 * k] = EDGE
+        points[4 * k + 1 : 4 * k + 4] = EDGE + 4.0 * out
+        forward[4 * k] = ahead
+    pairs = [(0.0, 4 * i, 4 * j, (i, j) in alike) for i in range(count) for j in range(i + 1, count)]
+    free = [[4 * k + 1, 4 * k + 2, 4 * k + 3] for k in range(count)]
+    others = [(0.25, *sorted((free[i].pop(), free[j].pop())), turns) for i, j, turns in joints]
+    left, right, same, gap, crowded = _pair_sides(sorted(pairs + others), points, np.arange(4 * count) // 4, forward)
+    assert (gap == np.where((left % 4 == 0) & (right % 4 == 0), 0.0, 0.25)).all() and len(left) == len(same)
+    found = [(int(i) // 4, int(j) // 4) for i, j in zip(left, right) if i % 4 == j % 4 == 0]
+    assert len(found) + len(joints) == len(left)
+    return sorted(found), crowded
+
+
+CHAIN = [(0, 1, False), (1, 2, False), (2, 3, False)]
+F, B = True, False  # which run forward; those that run alike fit here, as their curves run against each other
+
+
+@pytest.mark.parametrize(
+    "around, joints, expected",
+    [
+        # of one body those that fit, though others are as near or nearer
+        ([(0, F), (10, B), (20, F), (30, B)], CHAIN, [(0, 2), (1, 3)]),
+        ([(0, F), (10, F), (20, B), (30, B)], CHAIN, [(0, 1), (2, 3)]),
+        ([(0, F), (40, F), (20, B), (30, F)], CHAIN, [(0, 2), (1, 3)]),
+        # those that are turned by what joins them fit as if they faced the other way
+        ([(0, F), (10, F), (20, F), (30, F)], [(0, 1, True), (1, 2, True), (2, 3, True)], [(0, 2), (1, 3)]),
+        ([(0, F), (10, F), (20, F), (30, F)], [(0, 1, False), (1, 2, True), (2, 3, False)], [(0, 1), (2, 3)]),
+        # what fits within a body comes before a patch by itself, and that before another body, sharper as they may be
+        ([(0, F), (60, F), (10, F)], [(0, 1, False)], [(0, 1)]),
+        ([(10, F), (0, F), (60, F)], [(1, 2, False)], [(1, 2)]),
+        ([(0, F), (10, F), (60, F), (120, B), (180, B)], [(0, 3, False), (1, 4, False)], [(1, 2), (3, 4)]),
+        ([(60, F), (10, F), (0, F), (120, B), (180, B)], [(1, 3, False), (2, 4, False)], [(0, 1), (3, 4)]),
+        # patches by themselves are no sharper than other bodies
+        ([(0, F), (50, F), (60, F), (90, B)], [(2, 3, False)], [(0, 3), (1, 2)]),
+        ([(0, F), (10, F), (60, F), (90, B)], [(2, 3, False)], [(0, 3), (1, 2)]),
+        # what fits comes before what must turn, and that before what would make a body of one side only
+        ([(0, F), (10, B), (60, F)], [], [(0, 2)]),
+        ([(0, F), (10, B), (60, B)], [(0, 1, False)], [(1, 2)]),
+        ([(0, F), (10, B), (60, F), (130, B)], [(0, 1, False), (2, 3, False)], [(0, 2), (1, 3)]),
+        ([(0, F), (10, B), (170, B)], [(0, 1, False), (1, 2, True)], [(0, 2)]),
+        # even that is joined where nothing else is left
+        ([(0, F), (10, B), (20, B), (40, B)], CHAIN, [(0, 3), (1, 2)]),
+        # patches that lie on each other come after those that fit
+        ([(0, F), (0.05, F), (60, F), (300, F)], CHAIN, [(0, 3), (1, 2)]),
+        ([(0, F), (0.06, F), (60, F), (300, F)], CHAIN, [(0, 1), (2, 3)]),
+        ([(0, F), (0.05, F), (60, B)], [], [(0, 1)]),
+        ([(0, F), (0.05, F), (60, B)], CHAIN[:2], [(0, 1)]),
+    ],
+)
+def test_of_sides_that_meet_those_are_joined_that_turn_the_fewest_and_of_these_the_sharpest(around, joints, expected):
+    found, crowded = joined(around, joints)
+    assert (found, crowded) == (expected, len(around))
+
+
+def test_sides_that_meet_no_others_are_joined_whatever_they_are():
+    for around in ([(0, F), (90, F)], [(0, F), (90, B)], [(0, F), (0, F)]):
+        assert joined(around) == ([(0, 1)], 0)
+    assert joined([(0, F)]) == ([], 0)
