@@ -46,13 +46,11 @@ def _inner_crease_angle(patch: Patch) -> float:
     """The largest angle at its inner knots."""
     worst = 0.0
     for axis, space in enumerate(patch.spaces):
-        knots = np.asarray(space.knots)
         inner = space.intervals[1:, 0]
-        sharp = np.array([np.count_nonzero(knots == knot) >= space.order - 1 for knot in inner], bool)
-        if not sharp.any():
+        if not len(inner):
             continue
         across = patch.spaces[1 - axis].uniform_parameters(SAMPLES_PER_SIDE), None
-        before, after = ((inner[sharp], spans[sharp]) for spans in (space.spans[:-1], space.spans[1:]))
+        before, after = ((inner, spans) for spans in (space.spans[:-1], space.spans[1:]))
         normals_before, normals_after = (
             _normals(patch, *((parameters, across) if axis == 0 else (across, parameters)))
             for parameters in (before, after)

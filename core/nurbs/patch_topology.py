@@ -339,12 +339,13 @@ def _find_loops(
     """Open sides in turn, each set with whether it ends where it began."""
     ahead = forward[free]
     begin, end = (points[free, np.where(ahead, source, target)] for source, target in ((0, -1), (-1, 0)))
-    i, j = _close_pairs(np.concatenate([begin, end]), 2.0 * tolerance)
+    limit = 2.0 * tolerance
+    i, j = _close_pairs(np.concatenate([begin, end]), limit)
     count = len(free)
     i, j = np.concatenate([i, j]), np.concatenate([j, i])  # both ways
     meet = (i >= count) & (j < count)
     i, j = i[meet] - count, j[meet]
-    close = np.linalg.norm(end[i] - begin[j], axis=1) <= 2.0 * tolerance
+    close = np.linalg.norm(end[i] - begin[j], axis=1) <= limit
     onward: list[list[int]] = [[] for _ in range(count)]
     for source, target in sorted(zip(i[close].tolist(), j[close].tolist())):
         onward[source].append(target)

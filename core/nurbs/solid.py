@@ -306,7 +306,9 @@ def measure_sheet(
     size = patches_size(patches)
     reach = size + max(abs(inner), abs(outer)) + 4.0 * stored
     area = with_area_error(area, area_slope(patches), stored, reach)
-    sheet = with_swept_error(sheet, stored * 2.0 * sheet.total / reach, reach)
+    # it grows with its area, in layers that are at most so thick on average
+    thickness = max(abs(outer - inner), sheet.total / (area.total or 1.0))
+    sheet = replace(sheet, input_error=thickness * area.input_error)
     return sheet, area, fine and converged
 
 

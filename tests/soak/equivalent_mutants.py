@@ -379,6 +379,12 @@ PATTERNS = [
         r"\(\(spline_order \+ 1\) \* 2\)",
         "more of the background, where no body is",
     ),
+    (
+        r".*nurbs/patch_topology.py _pair_sides.join",
+        r"\(a, b\) if size\[a\] >= size\[b\] .*|size\[a\] >= size\[b\]",
+        r".*",
+        "which of two stands for both",
+    ),
     (r".*plane/polygon.py boundary_edges", r"net\[:, None\] < 0", r".* <= 0\)", "what adds up to zero is left out"),
     (r".*scans/scan.py PACKED", r"\d+", r"\d+", "how much is unpacked at a time"),
     (
@@ -661,6 +667,8 @@ CONSTANTS = [
     (r".*plane/polygon.py _crossing_pairs", r"(size|cell) = .*", "how coarse the grid is"),
     (r".*plane/polygon.py _crossing_pairs", r"within // tall\[edge\]\) \* \(", "which other edges are compared"),
     (r".*plane/polygon.py _twice_the_area", r"points\[edges\[(0, )?", "a closed outline has its area from anywhere"),
+    (r".*nurbs/solid.py assess", r"reach = size \+ ", "a looser bound"),
+    (r".*nurbs/solid.py measure_sheet", r"area\.total or ", "what is divided is zero"),
     (r".*nurbs/patch_topology.py _pair_sides", r"part, odd, size = .*, \[", "it is set before it is read"),
     (r".*nurbs/patch_topology.py _pair_sides.root", r"turn = ", "whether two are turned alike is all that is read"),
     (r".*nurbs/creases.py _normals", r"patch\.points\[(0, )?", "slopes do not depend on the origin"),

@@ -4,7 +4,11 @@
 
 import numpy as np
 import pytest
-from body_moments.core.nurbs.patch_topology import _pair_sides
+from body_moments.core.numerics.bspline import SplineSpace, clamped_space
+from body_moments.core.nurbs.patch import Patch
+from body_moments.core.nurbs.patch_topology import _find_loops, _pair_sides, find_topology
+
+from tests.close import close
 
 EDGE = np.array([[0.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, 0.0, 2.0]])
 
@@ -79,3 +83,56 @@ def test_sides_that_meet_no_others_are_joined_whatever_they_are():
     for around in ([(0, F), (90, F)], [(0, F), (90, B)], [(0, F), (0, F)]):
         assert joined(around) == ([(0, 1)], 0)
     assert joined([(0, F)]) == ([], 0)
+
+
+def arc(start, length, inner):
+    """A band around z, from a circle of radius 1 to another one, in chords; along its other sides it is open."""
+    angles = start + length * np.linspace(0.0, 1.0, 41)
+    circle = np.stack([np.cos(angles), np.sin(angles), np.zeros(41)], axis=1)
+    space = SplineSpace((0.0, *map(float, range(41)), 40.0), 2, 41)
+    return Patch((space, clamped_space(2)), np.stack([circle, circle * inner[0] + [0.0, 0.0, inner[1]]], axis=1))
+
+
+@pytest.mark.parametrize("gap, is_joined", [(1.9, True), (2.1, False), (3.0, False)])
+def test_a_side_has_no_ends_where_they_are_within_twice_the_tolerance(gap, is_joined):
+    """Else it coincides with no side that begins elsewhere."""
+    tolerance = 0.01
+    length = 2.0 * np.arcsin(gap * tolerance / 2.0)
+    bands = [
+        arc(0.0, 2.0 * np.pi - length, (1.0, 1.0)),
+        arc(np.pi / 80.0 + 1.0, 2.0 * np.pi - length, (0.5, 0.0)),
+    ]
+    found = find_topology(bands, tolerance)
+    assert found.number == (1 if is_joined else 2)
+
+
+@pytest.mark.parametrize("off, is_joined", [(0.9, True), (1.1, False)])
+@pytest.mark.parametrize("place", [0, 1, 2, 4])
+@pytest.mark.parametrize("turned", [False, True])
+def test_sides_coincide_within_the_tolerance_all_along(off, is_joined, place, turned):
+    """Two sheets side by side, of which the second's side is off somewhere."""
+    along = np.stack([np.zeros(5), np.arange(5.0), np.zeros(5)], axis=1)
+    space = SplineSpace((0.0, *map(float, range(5)), 4.0), 2, 5)
+    first = Patch((space, clamped_space(2)), np.stack([along, along - [1.0, 0.0, 0.0]], axis=1))
+    side = along + (np.arange(5)[:, None] == place) * np.array([0.0, 0.0, off * 0.01])
+    points = np.stack([side, along + [1.0, 0.0, 0.0]], axis=1)
+    second = Patch((space, clamped_space(2)), points[::-1] if turned else points)
+    found = find_topology([first, second], 0.01)
+    assert found.number == (1 if is_joined else 2)
+    assert found.misoriented_sides == (is_joined and not turned)
+    if is_joined:
+        assert close(found.seam_gap, off * 0.01 * 4.0, 1e-3)
+
+
+@pytest.mark.parametrize("gap, count", [(1.9, 1), (2.1, 0), (3.9, 0)])
+def test_open_sides_follow_each_other_within_twice_the_tolerance(gap, count):
+    """A square, of which one side begins so far from the end of the one before: else it is no loop."""
+    corners = np.array([(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (1.0, 1.0, 0.0), (0.0, 1.0, 0.0)])
+    points = np.stack([np.stack([corners[k], corners[(k + 1) % 4]]) for k in range(4)])[:, None]
+    points = np.concatenate(
+        [points[..., :1, :] * (1 - t) + points[..., 1:, :] * t for t in np.linspace(0, 1, 5)], axis=2
+    )
+    points = points[:, 0]
+    points[2, :, 2] += gap * 0.01 * np.linspace(1.0, 0.0, 5)
+    loops = _find_loops(points, np.arange(4), np.ones(4, bool), 0.01)
+    assert sum(complete for _, complete in loops) == count

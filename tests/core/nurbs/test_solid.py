@@ -9,6 +9,7 @@ import pytest
 from body_moments.core.moments.moments import monomials
 from body_moments.core.numerics.bspline import SplineSpace, clamped_space
 from body_moments.core.nurbs import patch_topology as closure
+from body_moments.core.nurbs import solid
 from body_moments.core.nurbs.creases import sharpest_crease
 from body_moments.core.nurbs.curve import Curve
 from body_moments.core.nurbs.patch import Patch
@@ -398,6 +399,26 @@ def test_creases_within_patches_and_between_them_are_found(patches, degrees):
     for move in (np.eye(4), np.diag([-1e-4, 1e-4, 1e-4, 1.0])):
         own = [patch.transform(move) for patch in patches]
         assert np.degrees(sharpest_crease(own, find_topology(own, 1e-12))) == pytest.approx(degrees, abs=1e-6)
+
+
+def test_of_what_is_flat_nothing_is_left_of_its_rounding():
+    """A sheet that is bent by less than what counts, which by itself has some volume."""
+    bent = flat([(3, 0, 0), (4, 0, 0), (4, 1, 1e-9), (3, 1, 0)])
+    found = measure_patches([bent])
+    assert volume_moments([bent, *found.topology.loops[0].caps], 3, found.volume.about)[0].total != 0.0
+    assert codes(found) == ["flat_surface"] and not found.volume.raw.any()
+
+
+@pytest.mark.parametrize("most, each", [(1_000_000, 48), (2 * 12 * 3 * 5 * 400, 20), (2 * 12 * 3 * 5 * 64, 8)])
+def test_parts_whose_samples_cross_are_sampled_as_finely_as_there_may_be_triangles(monkeypatch, most, each):
+    """Two boxes of twelve faces together, of 3 by 5 spans each; beside a third one that crosses none."""
+    knots = (((1 / 3, 2 / 3), (0.2, 0.4, 0.6, 0.8)),) * 6
+    boxes = [box((1.0, 1.0, 1.0), (place, 0.0, 0.0), inner=knots) for place in (0.0, 0.5, 9.0)]
+    asked, classify = [], solid._classify_parts
+    monkeypatch.setattr(solid, "MAX_TRIANGLES", most)
+    monkeypatch.setattr(solid, "_classify_parts", lambda *given: asked.append(given[2]) or classify(*given))
+    measure_patches(sum(boxes, []), order=0)
+    assert asked == ([8] if each == 8 else [8, each])
 
 
 def test_a_flat_part_beside_a_body_is_left_out_and_said():
