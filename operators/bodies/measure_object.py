@@ -76,12 +76,11 @@ def measure_body(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, options:
             if point is not None:
                 measurement, body = point_measurement(point, request)
                 return Measured(measurement, point, body)
-            for kind in KINDS:
-                reading = kind.read(request) if request.options.kind in kind.MEASURED_AS else None
-                if reading is not None:
-                    body = with_given(kind.body(reading, request), reading, request)
-                    return Measured(measurement_of(reading, body, request), reading, body)
-            raise AssertionError("the last kind reads or refuses")
+            kinds = (kind for kind in KINDS if request.options.kind in kind.MEASURED_AS)
+            found = ((kind, kind.read(request)) for kind in kinds)
+            kind, reading = next((kind, reading) for kind, reading in found if reading is not None)  # the last refuses
+            body = with_given(kind.body(reading, request), reading, request)
+            return Measured(measurement_of(reading, body, request), reading, body)
     except MeasureError as error:
         error.about(obj.name)
         raise

@@ -33,7 +33,7 @@ from ...core.solid.solid_stack import (
     measure_stack,
     small_moments_to_order,
 )
-from ...core.verdict.finding import Finding, MeasureError
+from ...core.verdict.finding import Finding
 from ...core.verdict.health import DefectiveElements, MeshHealth
 from ...core.verdict.method import Method, Verdict
 from ..read.fingerprint import fingerprint, surface_digest, transform_keys
@@ -57,7 +57,7 @@ class MeshShape:
     solids : SolidStack, optional
         Which it was measured with; its row is the same.
     alone : SolidIntegrals, optional
-        What it came to by itself. None of both where it could not be measured.
+        What it came to by itself.
     """
 
     surface: Surface
@@ -98,9 +98,9 @@ class MeshShape:
         return with_known(found[0], solid.volume)
 
 
-def measure_shapes(shapes: list[MeshShape]) -> tuple[Moments, Moments] | None:
-    """Measure shapes in their own coordinates: volumes to third order and areas, stacked by row. One that cannot be
-    measured has no row; None where none can be."""
+def measure_shapes(shapes: list[MeshShape]) -> tuple[Moments, Moments]:
+    """Measure shapes, whose points are finite, in their own coordinates: volumes to third order and areas, stacked by
+    row."""
     small = [shape for shape in shapes if can_be_stacked(shape.surface)]
     volumes: list[Moments] = []
     areas: list[Moments] = []
@@ -113,16 +113,13 @@ def measure_shapes(shapes: list[MeshShape]) -> tuple[Moments, Moments] | None:
     others = []
     for shape in shapes:
         if shape.solids is None:
-            try:
-                solid = shape.alone = measure_solid(shape.surface)
-            except MeasureError:  # the objects are refused one by one, with the reason
-                continue
+            solid = shape.alone = measure_solid(shape.surface)
             shape.row, shape.method, shape.findings = len(small) + len(others), METHODS[solid.method], solid.findings
             others.append(solid)
     if others:
         volumes.append(stack_moments([solid.volume for solid in others]))
         areas.append(stack_moments([solid.area for solid in others]))
-    return (_joined(volumes), _joined(areas)) if volumes else None
+    return _joined(volumes), _joined(areas)
 
 
 def _joined(stacks: list[Moments]) -> Moments:
@@ -292,13 +289,10 @@ def measure_members(
 ) -> MeasuredStack | None:
     """Measure objects together: those whose shapes can be measured and whose numbers are certain; None where there are
     none. unit: meters per Blender unit. axes: as in `MeasureOptions`."""
-    measured = measure_shapes(shapes)
-    if measured is None:
-        return None
-    own, own_area = measured
+    own, own_area = measure_shapes(shapes)
     which = np.array([member.shape.row for member in members])
     matrices = np.array([member.matrix for member in members], np.float64)
-    usable = (which >= 0) & np.isfinite(matrices).all(axis=(1, 2))
+    usable = np.isfinite(matrices).all(axis=(1, 2))
     usable &= own.raw[which, 0] > own.rounding_error[which, 0]
     usable[usable] = ~are_singular(matrices[usable, :3, :3])
     members, matrices, which = _chosen(members, usable), matrices[usable], which[usable]

@@ -13,7 +13,7 @@ from body_moments.core.mesh.surface import Surface
 from body_moments.core.numerics.rotations import rotation_matrix
 from body_moments.core.robots.model import Inertial, Link, Pose, Robot, Shape
 from body_moments.core.verdict.finding import FileError, Severity
-from body_moments.operators.bodies.audit import Auditor, _primitive
+from body_moments.operators.bodies.audit import Auditor, _measured, _primitive
 from body_moments.operators.read.robots.descriptions import read_description
 from body_moments.operators.read.robots.paths import Roots
 from body_moments.operators.write.messages import severity
@@ -511,3 +511,21 @@ def test_shapes_that_bound_nothing_certain_are_no_reference(tmp_path):
             (found,) = audit(path).links
             assert [one.code for one in found.findings] == codes, name
             assert found.density is None and found.repaired is None
+
+
+def test_a_shape_has_moments_where_what_it_bounds_is_certain_and_is_turned_as_its_file_says():
+    points, triangles = box((0, 0, 0), (1, 2, 3))
+    upright = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
+    piece = _measured(Surface(points, triangles=triangles), upright)
+    assert close(piece.moments.total, 6.0, 1e-14) and np.array_equal(piece.points, points)
+    turned = piece.turned()
+    assert close(turned.moments.total, 6.0, 1e-14) and close(turned.moments.center, [0.5, -1.5, 1.0], 1e-14)
+    assert np.abs(turned.points - points @ upright.T).max() == 0.0 and turned.upright is None
+    plain = _measured(Surface(points, triangles=triangles))
+    assert plain.upright is None and plain.turned() is plain
+    beyond = points.copy()
+    beyond[0, 0] = np.nan
+    for uncertain in (Surface(points, triangles=triangles[:3]), Surface(beyond, triangles=triangles)):
+        piece = _measured(uncertain, upright)
+        assert piece.moments is None and piece.upright is upright and len(piece.points) == 8
+        assert piece.turned().moments is None and len(piece.turned().points) == 8

@@ -4,15 +4,19 @@
 
 import json
 from fractions import Fraction
+from types import SimpleNamespace
 
 import bpy
 import numpy as np
 import pytest
+from body_moments.core.inertia.principal_frame import OwnMoments
 from body_moments.core.mesh.surface import Surface
+from body_moments.core.moments.moments import Measure, Moments
 from body_moments.core.verdict.finding import EditRefusedError
 from body_moments.operators.bodies import mesh
 from body_moments.operators.bodies.hull import object_hull
 from body_moments.operators.bodies.measure_object import measure_object
+from body_moments.operators.bodies.measurement import _frame_moments
 from body_moments.operators.settings.options import MeasureOptions
 
 from tests.blender.findings import refused, said
@@ -668,3 +672,21 @@ def test_a_point_has_no_hull():
     obj = add({"points": [(1, 2, 3)] * 3, "faces": [(0, 1, 2)]})
     with refused("hull_without_extent"):
         object_hull(obj, bpy.context.evaluated_depsgraph_get())
+
+
+@pytest.mark.parametrize("own", [False, True])
+@pytest.mark.parametrize("name", ["raw", "rounding_error"])
+@pytest.mark.parametrize("value", [np.inf, np.nan])
+def test_axes_that_need_moments_beyond_the_range_of_numbers_are_refused(value, name, own):
+    asked = []
+
+    def answer(order, area):
+        asked.append((order, area))
+        return OwnMoments(moments, np.zeros(1, np.intp)) if own else moments
+
+    moments = Moments(np.ones(84), np.zeros(3), Measure.VOLUME)
+    body = SimpleNamespace(moments_for_axes=answer)
+    assert getattr(_frame_moments(body, True), "moments", moments) is moments and asked == [(6, True)]
+    getattr(moments, name)[-1] = value
+    with refused("object_too_large"):
+        _frame_moments(body, False)

@@ -9,7 +9,8 @@ bpy = pytest.importorskip("bpy")
 from body_moments.core.shape.signature import Signature, similarity
 from body_moments.core.verdict.finding import MeasureError
 from body_moments.operators.bodies import stack_signature
-from body_moments.operators.bodies.shape import NoShapeError, surface_shape_of
+from body_moments.operators.bodies.many import measure_many
+from body_moments.operators.bodies.shape import SURFACE_OPTIONS, NoShapeError, surface_shape_of
 from body_moments.operators.bodies.stack_signature import signed_in_turn
 
 from tests.blender.bodies.test_many import KINDS, shards
@@ -89,3 +90,24 @@ def test_the_surfaces_shape_of_sheets_that_are_patches_is_refused_with_their_mea
         surface_shape_of(obj, bpy.context.evaluated_depsgraph_get())
     assert caught.value.finding.code == "signature_needs_polygons" and caught.value.subject == obj.name
     assert close(caught.value.measurement.mass_properties.mass, 4.0 * np.pi, rel=1e-6)
+
+
+def test_of_a_stack_of_bodies_that_need_care_each_is_signed_alone():
+    """Boxes with a flipped face."""
+    corners = [(x, y, z) for x in (0, 1) for y in (0, 2) for z in (0, 3)]
+    faces = [(0, 1, 3, 2)[::-1], (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+    boxes = []
+    for size in (1.0, 2.0):
+        mesh = bpy.data.meshes.new("Box")
+        mesh.from_pydata([[size * x for x in corner] for corner in corners], [], faces)
+        boxes.append(bpy.data.objects.new("Box", mesh))
+        bpy.context.scene.collection.objects.link(boxes[-1])
+    bpy.context.view_layer.update()
+    depsgraph = bpy.context.evaluated_depsgraph_get()
+    signed = signed_in_turn(boxes, depsgraph, ORDER)
+    for obj in boxes:
+        found, wanted = signed(obj).signature(ORDER), surface_shape_of(obj, depsgraph).signature(ORDER)
+        assert close(found.zernike, wanted.zernike, 1e-12) and close(found.size, wanted.size, 1e-12)
+    in_stack = {found.stack for _, found in next(iter(measure_many(boxes, depsgraph, SURFACE_OPTIONS)))}
+    for one in in_stack:
+        assert stack_signature.stack_signatures(one, ORDER) == [None] * len(one.members)

@@ -2,17 +2,21 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """--fourier where no transform comes of it: the reason is an entry, the body is measured all the same."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
 pytest.importorskip("bpy")
-from body_moments.core.verdict.finding import QueryError, finding
+from body_moments.core.verdict.finding import QueryError, ReadError, finding
 from body_moments.operators import batch
+from body_moments.operators.bodies.fourier import ObjectTransform
 from body_moments.operators.command import fourier
 from body_moments.operators.command.option_types import MAX_GRID
 
 from tests.blender import batch_files as files
 from tests.blender.batch_files import run, sentence
+from tests.blender.findings import refused
 
 pytestmark = pytest.mark.usefixtures("scene")
 
@@ -93,3 +97,13 @@ def test_as_many_wave_vectors_may_be_named_as_the_largest_grid_has(tmp_path, cap
     assert batch.main(["measure", "--fourier", str(tmp_path / "f.npz"), "--q", str(path)], channel=-1) == 2
     cause = finding("wave_vectors_too_many", count=count, limit=MAX_GRID**3)
     assert sentence("usage_value", option="q", cause=cause.as_record()) in capfd.readouterr().err
+
+
+def test_what_is_refused_while_a_transform_is_found_is_about_its_object():
+    def steps():
+        yield 0.5
+        raise ReadError("object_too_large")
+
+    transform = ObjectTransform("Part", SimpleNamespace(steps=steps), 1.0, ())
+    with refused("object_too_large", "Part"):
+        list(transform.steps())

@@ -708,3 +708,30 @@ def test_a_text_without_outlines_has_no_curves():
     obj = add(text_of(""))
     with refusal("no_curve", obj.name):
         text_curves(obj, bpy.context.evaluated_depsgraph_get())
+
+
+def test_curves_that_polygons_leave_out_are_left_out_of_the_region_too():
+    """Of resolution 1 a lens of two points is a line there and back."""
+    bpy.ops.curve.primitive_bezier_circle_add()
+    obj = bpy.context.object
+    obj.data.dimensions, obj.data.fill_mode = "2D", "BOTH"
+    lens = obj.data.splines.new("BEZIER")
+    lens.bezier_points.add(1)
+    for point, x in zip(lens.bezier_points, (3.0, 5.0)):
+        point.co, point.handle_left, point.handle_right = (x, 0, 0), (x, 2 * x - 8, 0), (x, 8 - 2 * x, 0)
+    lens.use_cyclic_u = True
+    both = region_of(obj)
+    assert len(both.curves) == 2 and both.moments(0).total > np.pi + 1.0
+    lens.resolution_u = 1
+    alone = region_of(obj)
+    assert not alone.curves and close(alone.moments(0).total, np.pi, rel=0.02)
+
+
+def test_moments_of_a_region_of_curves_beyond_the_range_of_numbers_are_refused():
+    bpy.ops.curve.primitive_bezier_circle_add()
+    obj = bpy.context.object
+    obj.data.dimensions, obj.data.fill_mode, obj.scale = "2D", "BOTH", (1e15, 1e15, 1.0)
+    region = region_of(obj)
+    assert region.curves and close(region.moments(2).total, np.pi * 1e30, rel=1e-3)
+    with refusal("moments_overflow", order=24):
+        region.moments(24)
