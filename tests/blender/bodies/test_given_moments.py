@@ -1,0 +1,154 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The moments of parts whose mass is given: each number and each bound, and both sides of what is possible."""
+
+from types import SimpleNamespace
+
+import bpy
+import numpy as np
+import pytest
+from body_moments.core.moments.moments import SECOND_MOMENT_INDEX, Measure, Moments, U, monomials
+from body_moments.operators.bodies.given import _is_outside, given_moments, properties_of
+from body_moments.operators.bodies.measure_object import measure_object
+from body_moments.operators.settings.given import GivenPart
+from body_moments.operators.settings.options import MeasureOptions
+
+from tests.blender.findings import refused, said
+from tests.close import close
+
+pytestmark = pytest.mark.usefixtures("scene")
+
+LOCATION = np.array([1.0, -2.0, 3.0])
+TURN = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
+INERTIA = np.array([[3.0, 0.1, -0.2], [0.1, 4.0, 0.3], [-0.2, 0.3, 5.0]])
+
+
+def cloud(order=4):
+    """The volume of five points with weights, about another point, with bounds that are all different."""
+    rng = np.random.default_rng(5)
+    points, weights = rng.normal(size=(5, 3)), rng.uniform(1.0, 2.0, 5)
+    raw = weights @ (points[:, None] ** monomials(order)).prod(axis=2)
+    bounds = 1e-9 * (1.0 + np.arange(len(raw)))
+    return Moments(raw, np.array([7.0, 8.0, 9.0]), Measure.VOLUME, bounds, 5.0 * bounds)
+
+
+def test_without_geometry_a_mass_is_a_point_at_its_origin():
+    found, findings = given_moments(2.5, GivenPart(), TURN, LOCATION, None)
+    assert found.measure == Measure.MASS and np.array_equal(found.about, LOCATION) and not findings
+    assert found.raw.tolist() == [2.5] + 19 * [0.0]
+    assert not found.rounding_error.any() and not found.input_error.any()
+
+
+def test_a_mass_that_is_given_is_spread_like_the_geometry():
+    geometry = cloud()
+    found, findings = given_moments(2.5, GivenPart(), TURN, LOCATION, geometry)
+    central, factor = geometry.truncate(3).about_center(), 2.5 / geometry.total
+    assert not findings and np.array_equal(found.about, central.about) and found.order == 3
+    for name, first in (("raw", 2.5), ("rounding_error", U * 2.5), ("input_error", 0.0)):
+        row = getattr(found, name)
+        assert row[0] == first and close(row[1:], getattr(central, name)[1:] * factor, 1e-15)
+
+
+@pytest.mark.parametrize("geometry", [None, cloud()])
+def test_a_center_that_is_given_is_in_the_parts_own_frame(geometry):
+    plain, _ = given_moments(2.5, GivenPart(), TURN, LOCATION, geometry)
+    found, findings = given_moments(2.5, GivenPart(np.array([0.5, 0.25, -1.0])), TURN, LOCATION, geometry)
+    assert [one.code for one in findings] == ["center_given"]
+    assert found.about.tolist() == [0.75, -1.5, 2.0]
+    for name in ("raw", "rounding_error", "input_error"):
+        row, kept = getattr(found, name), getattr(plain, name)
+        assert not row[1:4].any() and row[0] == kept[0] and np.array_equal(row[4:], kept[4:])
+
+
+@pytest.mark.parametrize("geometry", [None, cloud()])
+def test_an_inertia_that_is_given_has_second_moments_along_the_worlds_axes_and_no_third(geometry):
+    plain, _ = given_moments(2.5, GivenPart(), TURN, LOCATION, geometry)
+    found, findings = given_moments(2.5, GivenPart(inertia=INERTIA), TURN, LOCATION, geometry)
+    assert [one.code for one in findings] == ["inertia_given"] and np.array_equal(found.about, plain.about)
+    second = found.raw[SECOND_MOMENT_INDEX]
+    assert close(np.trace(second) * np.eye(3) - second + 100.0, TURN @ INERTIA @ TURN.T + 100.0, 1e-15)
+    assert np.array_equal(second, second.T) and not found.raw[10:].any()
+    assert np.array_equal(found.raw[:4], plain.raw[:4])
+    assert close(found.rounding_error[4:10], 16.0 * U * 12.0, 1e-15) and not found.rounding_error[10:].any()
+    assert not found.input_error[4:].any() and np.array_equal(found.input_error[:4], plain.input_error[:4])
+
+
+def test_a_tensor_may_miss_what_is_possible_by_its_last_digits_and_no_more():
+    for excess, possible in ((7e-6, True), (9e-6, False)):  # half of it is a moment below zero, and 4 the trace
+        tensor = TURN @ np.diag([2.0 + excess, 1.0, 1.0]) @ TURN.T
+        if possible:
+            found, _ = given_moments(1.0, GivenPart(inertia=tensor), np.eye(3), LOCATION, None)
+            assert np.linalg.eigvalsh(found.raw[SECOND_MOMENT_INDEX]).min() > -1e-15
+        else:
+            with refused("given_inertia_impossible", moments=[1.0, 1.0, 2.0 + excess]):
+                given_moments(1.0, GivenPart(inertia=tensor), np.eye(3), LOCATION, None)
+    for mass in (0.0, -1.0):
+        with refused("zero_mass"):
+            given_moments(mass, GivenPart(), TURN, LOCATION, cloud())
+
+
+def test_a_center_is_outside_where_no_box_around_a_part_has_it():
+    matrix = np.eye(4)
+    matrix[:3, :3], matrix[:3, 3] = TURN @ np.diag([1.0, 2.0, 4.0]), (10.0, 0.0, 0.0)
+    surface = SimpleNamespace(box=np.array([(0.0, 0.0, 0.0), (1.0, 1.0, 1.0)]))
+    reading = SimpleNamespace(parts=[SimpleNamespace(surface=surface, matrices=np.array([np.eye(4), matrix]))])
+    for unit in (1.0, 0.5):  # the second is from 8 to 10 along x, to 1 along y, to 4 along z
+        for point, outside in (
+            ((0.5, 0.5, 0.5), False),
+            ((1.0 + 4e-7, 0.5, 0.5), False),
+            ((1.0 + 1e-6, 0.5, 0.5), True),
+            ((0.5, 0.5, -1e-6), True),
+            ((9.0, 0.5, 3.9), False),
+            ((8.0 - 3e-6, 0.5, 2.0), True),
+            ((9.0, 1.5, 2.0), True),
+            ((5.0, 0.5, 0.5), True),
+        ):
+            assert _is_outside(unit * np.array(point), reading, unit) is outside, (unit, point)
+    assert _is_outside(np.zeros(3), SimpleNamespace(), 1.0) is False
+
+
+def test_a_point_has_no_axes_of_its_own_and_bounds_of_its_place():
+    point, _ = given_moments(2.5, GivenPart(), TURN, LOCATION, None)
+    found = properties_of(point, TURN)
+    assert (found.mass, found.center.tolist(), found.inertia.tolist()) == (2.5, LOCATION.tolist(), 3 * [[0.0] * 3])
+    assert np.array_equal(found.principal.axes, TURN) and not found.principal.is_unique
+    assert not found.principal.moments.any() and found.principal.symmetry == "isotropic"
+    assert found.principal.finding.code == "axes_all_free"
+    assert found.rounding_error == {"mass": 0.0, "center": 24.0 * U, "inertia": 0.0}
+    assert found.input_error == {"mass": 0.0, "center": 0.0, "inertia": 0.0}
+    body, _ = given_moments(2.5, GivenPart(inertia=INERTIA), np.eye(3), LOCATION, None)
+    assert close(properties_of(body, np.eye(3)).inertia + 100.0, INERTIA + 100.0, 1e-15)
+
+
+@pytest.mark.parametrize("with_inertia", [False, True])
+def test_an_empty_that_stands_for_a_part_is_measured_as_that(with_inertia):
+    bpy.context.scene.unit_settings.scale_length = 0.5
+    obj = bpy.data.objects.new("Motor", None)
+    bpy.context.scene.collection.objects.link(obj)
+    obj.location, obj.rotation_euler = (2.0, 4.0, 6.0), (0.0, 0.0, np.pi / 2.0)
+    settings = obj.body_moments
+    settings.mass_from, settings.mass, settings.use_center, settings.given_center = "MASS", 2.5, True, (1.0, 0.0, 0.0)
+    if with_inertia:
+        settings.use_inertia = True
+        settings.given_inertia_diagonal, settings.given_inertia_products = (3.0, 4.0, 5.0), (0.0, 0.0, 0.0)
+    bpy.context.view_layer.update()
+    found = measure_object(obj, bpy.context.evaluated_depsgraph_get())
+    assert (found.name, found.type, found.kind, str(found.method)) == ("Motor", "EMPTY", "point", "given")
+    assert (found.density, found.thickness, found.volume, found.area) == (0.0, 0.0, 0.0, 0.0)
+    assert found.density_from.code == "density_from_mass" and found.mass_moments[1] == 1.0
+    assert found.health.closed is False and found.health.components == 0
+    assert found.location.tolist() == [1.0, 2.0, 3.0] and np.abs(found.rotation - TURN).max() < 1e-6
+    body = found.mass_properties
+    assert body.mass == 2.5 and np.abs(body.center - (1.0, 2.5, 3.0)).max() < 1e-6
+    assert np.abs(body.inertia - (np.diag([4.0, 3.0, 5.0]) if with_inertia else 0.0)).max() < 1e-5
+    assert said(found).keys() == {"center_given", *(["inertia_given"] if with_inertia else [])}
+    for moments, measure in ((found.volume_moments, Measure.VOLUME), (found.area_moments, Measure.AREA)):
+        assert moments.measure == measure and not moments.raw.any() and len(moments.raw) == 20
+        assert np.array_equal(moments.about, found.mass_moments[0].about)
+    rounding, moved = body.rounding_error, body.input_error
+    assert found.error_bound == {
+        **{"volume": 0.0, "area": 0.0, "center_of_mass": rounding["center"], "inertia": rounding["inertia"]},
+        "input": {"volume": 0.0, "area": 0.0, "center_of_mass": moved["center"], "inertia": moved["inertia"]},
+    }
+    other = measure_object(obj, bpy.context.evaluated_depsgraph_get(), MeasureOptions(mass=7.0))
+    assert other.mass_properties.mass == 7.0 and other.fingerprint != found.fingerprint
