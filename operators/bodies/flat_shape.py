@@ -49,11 +49,6 @@ class FlatShape:
     has_surface = True
 
     @property
-    def name(self) -> str:
-        """Of the object."""
-        return self.region.name
-
-    @property
     def rotation(self) -> NDArray[np.float64]:
         """(3, 3) the object frame's axes."""
         return self.region.rotation

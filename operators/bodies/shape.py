@@ -53,11 +53,6 @@ class Shape:
     threads: int = 1
 
     @property
-    def name(self) -> str:
-        """Of the object."""
-        return self.measurement.name
-
-    @property
     def rotation(self) -> NDArray[np.float64]:
         """(3, 3) the object frame's axes."""
         return self.measurement.rotation

@@ -698,3 +698,50 @@ def test_a_packed_volume_is_read_from_the_file_that_it_is_in(tmp_path):
     assert obj.data.packed_file is not None
     vdb.openvdb().write(str(tmp_path / "a.vdb"), [vdb_grid(2 * ONES)])
     assert measure(obj).mass_properties.mass == truth > 0.0
+
+
+@pytest.mark.parametrize("matrix", [np.eye(4), SHEARED], ids=["plain", "sheared"])
+def test_nodes_sample_the_box_that_blender_shows_with_room_for_rounding(tmp_path, matrix):
+    obj = volume_object(tmp_path / "a.vdb", vdb_grid(ONES))
+    low, high = np.array([0.2, -1.4, 2.0]), np.array([3.7, 5.5, 4.0])  # in voxels, of which the last ones are whole
+    corners = np.array([[ends[i] for i, ends in zip(which, zip(low, high))] for which in np.ndindex(2, 2, 2)])
+    grid = SimpleNamespace(name="density", data_type="FLOAT", matrix_object=matrix)
+    found = sample_grid.SampledGrid(obj, depsgraph(), grid, corners @ matrix[:3, :3].T + matrix[:3, 3])
+    assert np.array_equal(found.to_object, matrix) and found.level_set is None and found.background == 0.0
+    assert (found.low <= [-1, -3, 1]).all() and (found.low >= [-1, -3, 0]).all()  # which rounding may make one less
+    end = found.low + found.shape
+    assert (end >= [6, 8, 6]).all() and (end <= [6, 8, 7]).all()
+
+
+@pytest.mark.parametrize(("planes", "voxels"), [(1, 1), (1, 2 * 12 * 12 - 1), (2, 2 * 12 * 12), (12, 1 << 21)])
+def test_nodes_sample_as_many_planes_at_a_time_as_fit(tmp_path, monkeypatch, planes, voxels):
+    by_nodes(monkeypatch)
+    monkeypatch.setattr(sample_grid, "VOXELS_PER_BLOCK", voxels)
+    values = random_values(np.float32, (8, 8, 8)) + 1.0
+    obj = volume_object(tmp_path / "a.vdb", vdb_grid(values))
+    with volume_reading(obj, depsgraph()) as reading:
+        assert reading.shape == (12, 12, 12)
+        blocks = list(reading.blocks())
+        assert [start for start, _ in blocks] == [(k, 0, 0) for k in range(0, 12, planes)]
+        assert [block.shape for _, block in blocks] == (12 // planes) * [(planes, 12, 12)]
+        inner = tuple(slice(-low, 8 - low) for low in reading.low)
+        assert np.array_equal(dense(reading)[inner], values) and np.count_nonzero(dense(reading)) == 512
+
+
+def test_the_scene_that_nodes_are_evaluated_in_is_at_the_frame_that_is_shown_and_calls_nobody():
+    called, shown = [], bpy.context.scene
+    handlers = [bpy.app.handlers.frame_change_pre, bpy.app.handlers.frame_change_post]
+    for functions in handlers:
+        functions.append(lambda *_: called.append(True))
+    kept = [functions[:] for functions in handlers]
+    try:
+        shown.frame_set(7, subframe=0.25)
+        assert len(called) == 2
+        other = bpy.data.scenes.new("Other")
+        layer = sample_grid._layer_at_frame_of(shown, other)
+        assert (other.frame_current, other.frame_subframe) == (7, 0.25) and len(called) == 2
+        assert layer in other.view_layers.values() and len(other.view_layers) == 2
+        assert [functions[:] for functions in handlers] == kept
+    finally:
+        for functions in handlers:
+            functions.pop()
