@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 from ..mesh.convex_hull import convex_polygon
 
 CONTACT_RTOL = 1e-6  # of the body's extent: points that high above the lowest one touch the ground
+ON_EDGE = 4.0 * float(np.finfo(np.float64).eps)  # of the corners' distances: what rounding makes of none
 
 
 @dataclass(frozen=True, eq=False)
@@ -192,7 +193,7 @@ def polygon_margin(corners: NDArray[np.float64]) -> tuple[float, NDArray[np.floa
     closest = corners + share[:, None] * along
     distances = np.linalg.norm(closest, axis=1)
     nearest = int(distances.argmin())
-    if distances[nearest] > 0.0:
+    if distances[nearest] > ON_EDGE * np.abs(corners).max():
         return -float(distances[nearest]), -closest[nearest] / distances[nearest]
     side = along[nearest] / lengths[nearest] if lengths[nearest] > 0.0 else np.array([0.0, -1.0])
     return 0.0, np.array([side[1], -side[0]])

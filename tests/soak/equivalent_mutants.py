@@ -366,6 +366,7 @@ PATTERNS = [
         "more terms of a series than are needed",
     ),
     (r".*fourier/triangle_kernel.py MAX_SERIES_SQUARE", r"1\.0", r"2\.0", "which of two forms is taken"),
+    (r".*statics/support.py ON_EDGE", r"4\.0", r"8\.0", "another number as small"),
     (r".*numerics/graph.py connected_neighbors", r"other < own", r"\(other >= own\)", "each link from its other end"),
     (
         r".*streams/ply.py PlyFile.pieces",

@@ -118,6 +118,19 @@ def test_what_balances_on_an_edge_or_a_point_does_not_stand():
     assert not find_support(on_point, (0.0, 0.0, 0.5)).stands
 
 
+@pytest.mark.parametrize("size", [1e-6, 0.3, 1e6])
+@pytest.mark.parametrize("shares", [(-1.0, 2.0), (0.0, 1.0)], ids=["within", "at an end"])
+def test_from_just_above_a_line_it_falls_across_and_from_a_point_anywhere_on_the_ground(size, shares):
+    ends = size * np.array([[share, 2.0 * share, 0.0] for share in shares])
+    support = support_of_contacts(ends, (0.0, 0.0, size))
+    assert support.margin == 0.0 and support.height == size
+    across = support.direction @ (1.0, 2.0, 0.0)
+    assert close(np.linalg.norm(support.direction), 1.0, EXACT) and abs(across) < EXACT and support.direction[2] == 0.0
+    support = support_of_contacts(np.zeros((1, 3)), (0.0, 0.0, size))
+    assert support.margin == 0.0 and close(np.linalg.norm(support.direction), 1.0, EXACT)
+    assert support.direction[2] == 0.0
+
+
 def test_the_margin_of_a_disc_is_that_of_its_polygon():
     count = 2000
     angles = 2.0 * pi / count * np.arange(count)
