@@ -123,6 +123,12 @@ PATTERNS = [
     ),
     (r"operators/actions/.*", r"(made|mesh)\.free\(\)", r"pass", "what nothing names any more is freed"),
     (
+        r"operators/bodies/shape.py SurfaceDistance.__init__",
+        r"np\.argsort\(.*, kind=.stable.\)",
+        r"\(np\.argsort\(((?!kind=).)*\)\)",
+        "which of equally far points are taken",
+    ),
+    (
         r"operators/actions/setup/node_group.py .*",
         r".*\.new_socket\(\"\w+\", in_out=.INPUT., .*",
         r"\(.*\.new_socket\('\w+', socket_type=.*",
@@ -527,6 +533,12 @@ CONSTANTS = [
     (r".*finite/numbers.py _large", r"ord\(\"0\"\)\) < ", "more is looked at closely, and found to be no number"),
     (r".*command/output.py claim_stdout", r"channel = -", "any negative number is no descriptor"),
     (r"operators/bodies/hull.py object_hull", r"len\(part\.matrices\) > ", "the hull of hulls is that of their points"),
+    (
+        r"operators/bodies/audit.py _ball",
+        r"turn = .*\(1\.0 \+ ",
+        "other points that are spread as well hold the ball too",
+    ),
+    (r"operators/read/sample_grid.py SampledGrid.__init__", r"sample\(low - ", "any place beyond the grid"),
     (r"operators/(read|scene|bodies)/.*", r"\bedges=", "read, and not looked at where nothing is to be proved closed"),
     (r"operators/session/shown.py _shown_now", r"last is None or last\[", "what was found is found once more"),
     (r".*session/listing.py _listing", r"lines = \[", "each is written over"),

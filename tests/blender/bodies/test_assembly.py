@@ -392,3 +392,15 @@ def test_inside_of_an_instance_what_is_not_rendered_or_only_cuts_is_left_out():
         assert close(assembly.measurement.mass_properties.mass, 8000.0 + 7000.0, 1e-6)
         setattr(inner, name, False)
     assert shown.name == "Instance"
+
+
+def test_empties_without_children_are_point_masses_or_nothing():
+    made = collection()
+    root, group = empty(made, "Root"), empty(made, "Group")
+    for name, mass, parent in (("Motor", 2.0, root), ("Bare", None, root), ("Screw", 1.0, group)):
+        empty(made, name, mass=mass).parent = parent
+    group.parent = root
+    bpy.context.view_layer.update()
+    found = members_of(root, bpy.context.evaluated_depsgraph_get())
+    kinds = [(member.name, member.kind.name, [below.name for below in member.members]) for member in found.members]
+    assert kinds == [("Group", "EMPTY", ["Screw"]), ("Motor", "POINT", [])]
