@@ -90,6 +90,33 @@ def test_frames_of_a_stack_are_those_of_each():
             assert getattr(found.principal, name) == getattr(alone.principal, name)
 
 
+def test_one_body_or_some_are_taken_out_of_a_stack():
+    """Of one the numbers are Python's own."""
+    parts = stack_moments([SIXTH[name].truncate(3) for name in ("wedge", "box", "cube")])
+    stack = MassProperties.of_stack(
+        parts, np.array([2.0, 3.0, 5.0]), np.tile(np.eye(3), (3, 1, 1)), third_moment_frames(parts)
+    )
+    some, one = stack.at([2, 0]), stack.at(2)
+    assert (
+        some.mass.tolist() == [stack.mass[2], stack.mass[0]] and type(one.mass) is float and one.mass == stack.mass[2]
+    )
+    assert (some.center == stack.center[[2, 0]]).all() and (one.center == stack.center[2]).all()
+    assert (some.inertia == stack.inertia[[2, 0]]).all() and (one.inertia == stack.inertia[2]).all()
+    for name in ("rounding_error", "input_error"):
+        for key, values in getattr(stack, name).items():
+            assert getattr(some, name)[key].tolist() == [values[2], values[0]]
+            assert type(getattr(one, name)[key]) is float and getattr(one, name)[key] == values[2]
+    frames, alone = some.principal, one.principal
+    assert frames.is_unique.tolist() == [False, True] and alone.is_unique is False
+    assert frames.symmetry.tolist() == ["isotropic", "asymmetric"] and alone.symmetry == "isotropic"
+    assert frames.undetermined_axes.tolist() == [(0, 1, 2), ()] and alone.undetermined_axes == (0, 1, 2)
+    assert [found and found.code for found in frames.finding] == ["axes_all_free", None]
+    assert alone.finding.code == "axes_all_free"
+    for entry in ("moments", "axes"):
+        assert (getattr(frames, entry) == getattr(stack.principal, entry)[[2, 0]]).all()
+        assert (getattr(alone, entry) == getattr(stack.principal, entry)[2]).all()
+
+
 @pytest.mark.parametrize("name", PARTS)
 def test_copies_share_the_axes_of_their_shape(name):
     """Wherever a copy stands, however it is turned, scaled and mirrored: its frame is its shape's, turned with it."""
