@@ -96,7 +96,7 @@ def classify_pairs(
     pierced, unfinished = intersecting_pairs(tree, small[open_question], large[open_question], tolerance)
     through[open_question] = pierced
     unsure = ~(within | without)
-    unsure[open_question] |= unfinished & ~pierced
+    unsure[open_question] |= unfinished
     inside = within & ~through & ~unsure
     pair = np.stack([small, large], axis=1)
     opposite = components.volume[small] * components.volume[large] < 0.0

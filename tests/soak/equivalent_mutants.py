@@ -81,6 +81,12 @@ PATTERNS = [
         "edges that are searched are those that the mesh names",
     ),
     (
+        r".*solid/close_components.py find_unclosable_components",
+        r"np\.any\(edges\.count > 2\) and .*|edges\.count > 2|mesh\.number > 1",
+        r"\(np\.any\(.*\) or .*\)|\(np\.any\(edges\.count > 2\)\)|\(mesh\.number >=? 1\)|\(edges\.count (<=|>=) 2\)",
+        "the edges of components, found once more, are the same",
+    ),
+    (
         r".*solid/closedness.py integrate_and_prove",
         r"partial\(.*",
         r"\(partial\(polyhedron_moments, surface, area_order=3 if shell else 0, "
@@ -97,7 +103,7 @@ PATTERNS = [
     ),
     (
         r".*offset/(walls.py OffsetSolid\.(self_intersects|_overlaps)|wall_moments.py wall_moments)",
-        r"(\w+\.)?(triangles|start|stop) \+ count",
+        r"(self\.triangles|start|stop) \+ count",
         r"\(.* - count\)",
         "the same point, counted from the end",
     ),
@@ -648,6 +654,7 @@ CONSTANTS = [
     ),
     (r".*shape/flat_pose.py flat_symmetry", r"np\.empty\(\(0, ", "an empty array"),
     (r".*shape/flat_pose.py NEWTON_STEPS", r"= ", "how long is searched"),
+    (r".*solid/orientation.py orient_components", r"counted = np\.ones\(", "of one component, one is read"),
     (r".*solid/solid_stack.py _stand_apart", r"apart = ", "which bodies are measured by themselves, as well"),
     (r".*shape/zernike.py radial_power", r"np\.float64\), order \+ ", "a term more of a tail"),
     (r".*mesh/edges.py edges_from_mesh", r"width = int\(triangles\.max\(\)\) \+ ", "room for a vertex more"),

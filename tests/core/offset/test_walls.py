@@ -570,3 +570,18 @@ def test_at_a_limit_nothing_is_allowed_but_no_wall():
     for inward, outward in ((1.0, 0.0), (0.0, 1.0), (1e-9, 0.0), (0.0, 1e-9)):
         with pytest.raises(ValueError, match="folds over"):
             narrow.moments(inward, outward)
+
+
+@pytest.mark.parametrize("gap, meet", [(0.0109, True), (0.0112, False)])
+def test_the_tip_of_a_spike_that_pierces_another_side_is_found_however_little_of_it_there_is(gap, meet):
+    """A sheet that is bent to a C, with a spike in the lower side that points at the upper one: while each side moves
+    by 0.001 its tip goes ahead by ten times as much. Hardly a point within the wall is in what pierces."""
+    x, y = 0.3, 0.1
+    lower = [(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)]
+    base = [(x - 0.1, y - 0.1, 0), (x + 0.1, y - 0.1, 0), (x + 0.1, y + 0.1, 0), (x - 0.1, y + 0.1, 0)]
+    points = np.array([*lower, *base, (x, y, 1 - gap), (1, -1, 1), (1, 1, 1), (-1, 1, 1), (-1, -1, 1)], float)
+    ring = bodies.split([(k, (k + 1) % 4, (k + 1) % 4 + 4, k + 4) for k in range(4)])
+    spike = [(k + 4, (k + 1) % 4 + 4, 8) for k in range(4)]
+    sheet = np.concatenate([ring, spike, bodies.split([(2, 1, 9, 10), (10, 9, 12, 11)])])
+    found = offset_solid(bodies.surface((points, sheet)))
+    assert found.self_intersects(0.0, 1e-3) == meet

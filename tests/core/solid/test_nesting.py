@@ -10,7 +10,14 @@ from body_moments.core.mesh.bvh import Bvh, sort_components
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.solid import nesting
 from body_moments.core.solid.measure_solid import measure_solid
-from body_moments.core.solid.nesting import ComponentRelations, cavity_host, classify_pairs, orient_nested_components
+from body_moments.core.solid.nesting import (
+    ComponentRelations,
+    cavity_host,
+    classify_pairs,
+    orient_nested_components,
+    self_overlaps,
+)
+from body_moments.core.solid.orientation import ComponentComparison
 from hypothesis import given
 
 from tests.close import close
@@ -277,3 +284,34 @@ def test_of_equally_deep_containers_the_last_is_the_innermost_in_whatever_order_
     for seed in range(3):
         found = ComponentRelations(np.random.default_rng(seed).permutation(pairs), np.empty((0, 2), np.intp), 0)
         assert cavity_host(found, np.arange(40) == 0)[0] == 39
+
+
+@pytest.mark.parametrize(
+    "pierced, expected", [(False, (set(), set(), 1)), (True, (set(), {(0, 1)}, 0))], ids=["not yet", "already"]
+)
+def test_a_pair_that_is_too_much_work_is_undecided_but_where_it_was_found_before(monkeypatch, pierced, expected):
+    """What the samples say is not enough for it."""
+    assert relation(OUTER, INNER) == ({(1, 0)}, set(), 0)
+    monkeypatch.setattr(nesting, "intersecting_pairs", lambda *_: (np.array([pierced]), np.array([True])))
+    assert relation(OUTER, INNER) == expected
+
+
+def test_of_no_components_none_overlaps_itself():
+    points, shells = shells_of(OUTER, INNER)
+    assert self_overlaps(points, shells, np.zeros(2, bool), TOUCH) is False
+
+
+def test_a_cavity_that_breaks_through_does_not_hide_another_body_that_overlaps_its_own():
+    """Pairs are told apart by both of their numbers."""
+    parts = [
+        OUTER,
+        inverted(box((-1, -1, -1), (3, 1, 1))),
+        box((-10, -10, -10), (-1.5, 10, 10)),
+        box((9, 0, 0), (10, 1, 1)),
+    ]
+    points, shells = shells_of(*parts)
+    found = ComponentComparison.from_relations(
+        shells, classify_pairs(points, shells, np.ones(4, bool), TOUCH), np.ones(4, bool)
+    )
+    assert found.breaking.tolist() == [False, True, False, False]
+    assert found.intersecting.tolist() == [True, False, True, False]
