@@ -26,7 +26,7 @@ def require_rigid_world(scene: Scene, joints: bool = False) -> None:
 def add_rigid_bodies(context: Context, objects: Sequence[Object], type: str = "ACTIVE") -> None:
     """Make meshes rigid bodies, all by one operator."""
     if objects:
-        with context.temp_override(object=objects[0], active_object=objects[0], selected_objects=objects):
+        with context.temp_override(object=objects[0], selected_objects=objects):
             bpy.ops.rigidbody.objects_add(type=type)
 
 
@@ -53,7 +53,7 @@ def _active(context: Context, obj: Object) -> Iterator[None]:
     before = objects.active
     objects.active = obj
     try:
-        with context.temp_override(object=obj, active_object=obj, selected_objects=[obj]):
+        with context.temp_override(object=obj):
             yield
     finally:
         objects.active = before

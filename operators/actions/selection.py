@@ -25,7 +25,7 @@ def selected_measurable(context: Context) -> list[Object]:
     """
     copy_defaults(context.scene)
     objects = [obj for obj in context.view_layer.objects.selected if measurable(obj)]
-    return sorted(objects, key=lambda obj: sum(1 for _ in ancestors(obj)))
+    return sorted(objects, key=lambda obj: len([*ancestors(obj)]))
 
 
 def poll_selection(cls: type[Operator], context: Context, any_mode: bool = False) -> bool:

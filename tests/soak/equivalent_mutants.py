@@ -147,6 +147,12 @@ PATTERNS = [
         "the default",
     ),
     (
+        r"operators/scene/transforms.py euler_angles",
+        r"first \+ pi",
+        r"\(first - pi\)",
+        "the same turn, the other way",
+    ),
+    (
         r"operators/actions/measure/library.py .*_watch",
         r"time\.sleep\(_PAUSE\)",
         r"pass",

@@ -38,6 +38,16 @@ def posed(mode, seed=1):
     return obj
 
 
+@pytest.mark.parametrize("mode", ORDERS)
+def test_of_two_equally_near_ones_the_angles_are_taken_whose_first_turn_is_not_turned_back(mode):
+    """Angles of 0.6, 0.3 and 0.6 half turns, and those of -0.4, 0.7 and -0.4, are as near to none."""
+    i, j, k = ("XYZ".index(letter) for letter in mode)
+    angles = np.empty(3)
+    angles[[i, j, k]] = np.array([0.6, 0.3, 0.6]) * np.pi
+    found = transforms.euler_angles(transforms.euler_matrix(angles, mode), mode, np.zeros(3))
+    assert np.abs(found - angles).max() < 1e-12
+
+
 @pytest.mark.parametrize("mode", MODES)
 def test_the_basis_is_blenders_and_can_be_set(mode):
     obj = posed(mode)

@@ -68,3 +68,22 @@ def test_a_joint_is_at_the_bone_s_head_along_its_axes_a_quarter_as_large(reporte
     assert np.allclose(place(joint)[:3, :3], rest[:3, :3] / 2.0, 1e-5, 1e-6)
     assert joint.empty_display_size == pytest.approx(0.25 * bone.length * 2.0)
     assert joint.rigid_body_constraint.type == "GENERIC" and joint.rigid_body_constraint.disable_collisions
+
+
+def test_a_joint_turns_as_far_as_the_inverse_kinematics_of_its_bone():
+    armature, _ = character()
+    bone = armature.pose.bones["arm.L"]
+    bone.lock_ik_x = bone.use_ik_limit_x = bone.use_ik_limit_y = True
+    bone.ik_min_x, bone.ik_max_x, bone.ik_min_y, bone.ik_max_y = -1.0, 1.0, -0.5, 0.25
+    bone.ik_min_z, bone.ik_max_z = -0.125, 0.75
+    assert bpy.ops.object.body_moments_physics_rig() == {"FINISHED"}
+    joint = bpy.data.objects["Rig arm.L Joint"].rigid_body_constraint
+    found = {
+        axis: [getattr(joint, name.format(axis)) for name in ("limit_ang_{}_lower", "limit_ang_{}_upper")]
+        for axis in "xyz"
+    }
+    assert [joint.use_limit_ang_x, joint.use_limit_ang_y, joint.use_limit_ang_z] == [True, True, False]
+    assert found == {"x": [0.0, 0.0], "y": [-0.5, 0.25], "z": [-0.125, 0.75]}
+    for axis in "xyz":
+        assert getattr(joint, "use_limit_lin_" + axis)
+        assert [getattr(joint, "limit_lin_{}_{}".format(axis, end)) for end in ("lower", "upper")] == [0.0, 0.0]

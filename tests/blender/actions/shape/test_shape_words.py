@@ -12,6 +12,7 @@ from body_moments.core.shape.symmetry import Symmetry
 from body_moments.operators.actions.shape import find_similar, find_symmetry, match_pose
 from body_moments.operators.bodies.shape import surface_shape_of
 
+from tests.blender.actions.shape.test_shape import prism
 from tests.blender.objects import add, mesh_body, only
 
 pytestmark = pytest.mark.usefixtures("scene")
@@ -142,3 +143,34 @@ def test_bodies_of_a_library_that_have_no_signature_are_named_and_others_compare
     assert bpy.ops.object.body_moments_find_in_library(filepath=path) == {"FINISHED"}
     assert reported.codes[:2] == ["shapes_compared", "none_similar"] and "nearest_shape" not in reported.codes
     assert not len(bpy.context.scene.body_moments_search.found)
+
+
+def test_of_many_elements_of_a_symmetry_the_first_are_stored():
+    bpy.ops.mesh.primitive_cylinder_add(vertices=20)
+    assert bpy.ops.object.body_moments_find_symmetry() == {"FINISHED"}
+    stored = bpy.context.object.body_moments_symmetry
+    assert stored.group == "D20h" and len(stored.elements) == find_symmetry.MAX_STORED_ELEMENTS == 32
+    assert [one.order for one in stored.elements[:2]] == [20, 2]
+
+
+def test_of_many_shapes_the_nearest_are_listed(monkeypatch):
+    obj = add(mesh_body())
+    signature = surface_shape_of(obj, bpy.context.evaluated_depsgraph_get()).signature(find_similar.DESCRIPTOR_ORDER)
+    likeness = find_similar.similarity(signature, signature)
+    ranked = [(find_similar.Entry(str(number), "", signature), likeness) for number in range(25)]
+    search = SimpleNamespace(scaled=False, mirrored=False)
+    find_similar._SearchMixin.store_results(search, bpy.context, ranked, "parts.jsonl")
+    found = bpy.context.scene.body_moments_search
+    assert [row.name for row in found.found] == [str(number) for number in range(find_similar.MAX_LISTED_BODIES)]
+    assert len(found.found) == 20 and (found.wanted, found.looked_at) == (obj.name, "parts.jsonl")
+
+
+@pytest.mark.parametrize(("factor", "verdict"), [(1.0, "copy"), (3.0, "scaled_copy")])
+def test_the_surface_of_a_copy_of_another_size_decides_about_its_hand_as_well(factor, verdict):
+    wanted = prism("Wanted", [(0, 0), (3, 0), (1, 1)])
+    prism("Other", [(0, 0), (3, 0), (1, 1)], location=(30, 0, 0)).scale = (factor,) * 3
+    bpy.context.view_layer.update()
+    only(wanted)
+    assert bpy.ops.object.body_moments_find_similar() == {"FINISHED"}
+    (row,) = bpy.context.scene.body_moments_search.found
+    assert (row.name, row.verdict) == ("Other", verdict) and row.scale == pytest.approx(factor)

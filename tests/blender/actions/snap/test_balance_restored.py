@@ -107,3 +107,21 @@ def test_an_object_that_shows_others_at_its_vertices_is_refused_for_that(reporte
     bpy.context.scene.cursor.location = (0.05, 0.0, 0.0)
     assert balance() == {"CANCELLED"} and "balance_instances" in reported.codes
     assert np.array_equal(points(obj), before)
+
+
+def test_faces_look_where_they_look_after_the_move():
+    """Blender keeps normals and boxes until it is told that a mesh has changed."""
+    obj = figure()
+    group(obj)
+    kept = [tuple(polygon.normal) for polygon in obj.data.polygons], [tuple(corner) for corner in obj.bound_box]
+    bpy.context.scene.cursor.location = (0.05, 0.0, 0.0)
+    assert balance() == {"FINISHED"}
+    bpy.context.view_layer.update()
+    now = points(obj)
+    for polygon in obj.data.polygons:
+        own = now[[*polygon.vertices]]
+        normal = np.cross(own, np.roll(own, -1, axis=0)).sum(axis=0)
+        assert np.allclose(polygon.normal, normal / np.linalg.norm(normal), 1e-5, 1e-5)
+    box = np.array([tuple(corner) for corner in obj.bound_box])
+    assert np.allclose([box.min(axis=0), box.max(axis=0)], [now.min(axis=0), now.max(axis=0)], 1e-6, 1e-6)
+    assert kept[0] != [tuple(polygon.normal) for polygon in obj.data.polygons]

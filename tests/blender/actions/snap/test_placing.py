@@ -119,3 +119,37 @@ def test_without_a_view_it_is_said_that_an_orientation_needs_one(reported, monke
     monkeypatch.setattr(orientation, "_view_3d", lambda context: None)
     assert bpy.ops.object.body_moments_create_orientation() == {"CANCELLED"}
     assert reported.codes == ["orientation_needs_viewport"]
+
+
+def about_z(angle):
+    return np.array([[np.cos(angle), -np.sin(angle), 0.0], [np.sin(angle), np.cos(angle), 0.0], [0.0, 0.0, 1.0]])
+
+
+def target(moments, shape_axes=(), is_unique=False):
+    inertia = np.diag(np.array(moments, float))
+    return base.SnapTarget(
+        None, np.zeros(3), np.eye(3), inertia, np.array([1.0, 5.0, 2.0]), 1.0, None, shape_axes, is_unique
+    )
+
+
+@pytest.mark.parametrize("share", [0.99, 1.01])
+def test_axes_are_principal_as_long_as_products_and_order_hold_to_rounding(share):
+    assert target((1, 2, 3)).size == 5.0
+    limit = 6.0 * base.DIAGONAL_RTOL
+    assert target((1, 2, 3)).is_principal(about_z(share * limit)) is (share < 1.0)
+    limit = 5.0 * base.DIAGONAL_RTOL  # the larger of two moments comes first by this
+    assert target((1, 1 + share * limit, 3)).is_principal(about_z(np.pi / 2)) is (share < 1.0)
+    assert not target((1, 2, 3)).is_principal(about_z(np.pi / 2))
+
+
+def test_axes_that_nothing_fixes_may_turn_by_less_than_a_third_and_others_as_the_shape_allows():
+    free = target((1, 1, 3))
+    assert free.is_principal(about_z(np.radians(119.0))) and not free.is_principal(about_z(np.radians(121.0)))
+    assert not target((1, 2, 3)).is_principal(np.diag([-1.0, -1.0, 1.0]))
+    cube, unique = (target((1, 1, 1), (0, 1, 2), is_unique) for is_unique in (False, True))
+    for turn in (np.diag([-1.0, -1.0, 1.0]), about_z(np.pi / 2)):
+        assert cube.is_principal(turn) and not unique.is_principal(turn)
+    assert not cube.is_principal(about_z(np.pi / 4))
+    for one in (cube, unique):
+        assert one.is_principal(about_z(0.99 * base.MAX_DIRECTION_NOISE))
+        assert not one.is_principal(about_z(1.01 * base.MAX_DIRECTION_NOISE))
