@@ -660,6 +660,7 @@ CONSTANTS = [
     ),
     (r".*shape/flat_pose.py flat_symmetry", r"np\.empty\(\(0, ", "an empty array"),
     (r".*shape/flat_pose.py NEWTON_STEPS", r"= ", "how long is searched"),
+    (r".*mesh/welding.py _first_of_clusters", r"np\.ndindex\((2, )*", "a shift by a whole cell more"),
     (r".*solid/orientation.py orient_components", r"counted = np\.ones\(", "of one component, one is read"),
     (r".*solid/solid_stack.py _stand_apart", r"apart = ", "which bodies are measured by themselves, as well"),
     (r".*shape/zernike.py radial_power", r"np\.float64\), order \+ ", "a term more of a tail"),

@@ -7,7 +7,7 @@ import pytest
 from body_moments.core.plane import directed_edges, region_moments
 from body_moments.core.shape.disc_zernike import disc_zernike
 from body_moments.core.shape.flat_pose import MIRROR, flat_symmetry, holds_by_moments, turns_about_normal
-from body_moments.core.shape.symmetry import Symmetry, confirm, symmetry
+from body_moments.core.shape.symmetry import Symmetry, _around_axis, confirm, symmetry
 
 from tests.core import bodies, shapes
 from tests.core.recursion import moments
@@ -166,3 +166,30 @@ def test_the_moments_of_a_flat_shape_hold_for_its_turns_and_its_mirrors(mirrored
     for k, turn in enumerate(turns_about_normal(np.pi / 6.0 * np.arange(12))):
         assert holds(turn) == (k % 4 == 0)
         assert holds(turn @ MIRROR) == (mirrored and k % 4 == 0)
+
+
+@pytest.mark.parametrize("sides", [1, 2, 3, 4, 5, 6, 7])
+@pytest.mark.parametrize("seed", [None, 2])
+def test_the_turns_about_an_axis_are_those_that_corners_have_however_few(sides, seed):
+    """A rim of pairs of corners, each pair of a large and a small one, above one another: turns alone, and what turns
+    them over."""
+    turn = np.eye(3) if seed is None else bodies.rotation(seed)
+    angle = 2.0 * np.pi / sides * np.arange(sides)
+    rim = [
+        [r * np.cos(angle + by), r * np.sin(angle + by), np.full(sides, z)]
+        for r, by in ((1.0, 0.1), (0.9, 0.4))
+        for z in (-0.5, 0.5)
+    ]
+    points = np.concatenate(rim, axis=1).T @ turn.T
+
+    def holds(operation):
+        image = points @ operation.T
+        return bool((np.linalg.norm(image[:, None] - points, axis=2).min(axis=1) < 1e-9).all())
+
+    found = [one for one in _around_axis(points, turn[:, 2], holds) if holds(one)]
+    for k in range(sides):
+        c, s = np.cos(2.0 * np.pi * k / sides), np.sin(2.0 * np.pi * k / sides)
+        for way in (1.0, -1.0):  # across, too
+            true = turn @ np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, way]]) @ turn.T
+            assert min(np.abs(one - true).max() for one in found) < 1e-9
+    assert len(found) == 2 * sides

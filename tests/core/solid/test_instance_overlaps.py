@@ -97,3 +97,16 @@ def test_bodies_may_reach_into_each_other_by_what_float32_may_have_moved_them(st
         shift = (1.0 - steps * 2.0**-13, 0.25, 0.25)
         maps = places(size * np.eye(3), (size * np.eye(3), size * np.array(shift)))
         assert bool(len(compare_places([(whole, maps)]).overlapping)) is overlap
+
+
+@pytest.mark.parametrize("here", range(3))
+@pytest.mark.parametrize("count", [1, 2])
+def test_whichever_of_its_places_is_within_another_solid_it_is_found(here, count):
+    """Places are numbered over all solids: two of different solids are never taken for one."""
+    far = [(np.eye(3), (9.0 * k, 0.0, 0.0)) for k in (1, 2, 3)]
+    inner = places(*(np.eye(3) if k == here else one for k, one in enumerate(far)))
+    outer = places(np.eye(3), *((np.eye(3), (0.0, 9.0 * k, 0.0)) for k in range(1, count)))
+    found = compared((cube(1.0), outer), (cube(0.25), inner))
+    assert found.nested.tolist() == [[1, 0]] and not len(found.overlapping)
+    found = compared((cube(1.0), outer), (cube(0.5, (1.0, 0.25, 0.125)), inner))
+    assert found.overlapping.tolist() == [[0, 0], [1, 0]] and not len(found.nested)
