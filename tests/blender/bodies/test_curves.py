@@ -11,6 +11,7 @@ import pytest
 from body_moments.core.moments.moments import monomials
 from body_moments.operators.bodies.measure_object import measure_body, measure_object
 from body_moments.operators.read import curves, measurable
+from body_moments.operators.read.deformation import FALLOFFS
 from body_moments.operators.settings.options import MeasureOptions
 from body_moments.operators.write.documents import to_json
 from body_moments.operators.write.record import record
@@ -517,3 +518,16 @@ def test_a_spline_whose_points_are_one_is_as_its_polygon():
         spline = data.splines.new(kind)
         (spline.points if kind == "NURBS" else spline.bezier_points).add(4)
         assert curves._is_straight(spline) is True and not curves.is_round(add(data))
+
+
+def test_a_hook_falls_off_as_its_curve_says_from_one_to_nothing():
+    """At a quarter of the radius: three quarters of the way from there."""
+    near, root = 0.75, 0.75**0.5
+    expected = {
+        **{"CONSTANT": 1.0, "LINEAR": near, "SHARP": near**2, "ROOT": root, "INVERSE_SQUARE": 1.0 - 0.25**2},
+        **{"SMOOTH": 3.0 * near**2 - 2.0 * near**3, "SPHERE": (1.0 - 0.25**2) ** 0.5},
+    }
+    assert FALLOFFS.keys() == expected.keys()
+    for name, value in expected.items():
+        ends = (1.0, 1.0 if name == "CONSTANT" else 0.0)
+        assert np.abs(FALLOFFS[name](np.array([0.0, 0.25, 1.0])) - (ends[0], value, ends[1])).max() < 1e-15, name

@@ -421,8 +421,13 @@ def test_progress_is_a_bar_or_a_line_now_and_then(monkeypatch):
         """What is written after each of these: seconds later, what has ended."""
 
         class Stream(io.StringIO):
+            flushed = 0
+
             def isatty(self):
                 return is_terminal
+
+            def flush(self):
+                self.flushed = len(self.getvalue())
 
         stream = Stream()
         monkeypatch.setattr(sys, "stderr", stream)
@@ -432,8 +437,13 @@ def test_progress_is_a_bar_or_a_line_now_and_then(monkeypatch):
             for status in ended:
                 found.add(status)
             found.show()
+            assert not is_terminal or stream.flushed == len(stream.getvalue())
             yield stream.getvalue()[place:]
             place = len(stream.getvalue())
+        found.clear()
+        drawn = len(stream.getvalue())
+        found.clear()  # which is gone already
+        assert drawn == len(stream.getvalue())
         found.finish()
         yield stream.getvalue()[place:]
 
@@ -461,6 +471,8 @@ def test_progress_is_a_bar_or_a_line_now_and_then(monkeypatch):
     assert found[:3] == [start + bars[0], "", start + bars[1]] and found[3].startswith(
         start + "body_moments: 1 file in"
     )
+    at_once = sentence("progress_files", done=4, total=10, rate=1000.0, left="0 s", failed=0)
+    assert [*shown(True, 10, 3, [(0.0, ["ok"])])][0] == start + "[{:.<24}] {}".format("#" * 9, at_once)[:59]
     for seconds, text in (
         (0.4, "0 s"),
         (59.4, "59 s"),
