@@ -525,6 +525,12 @@ PATTERNS = [
     ),
     (r".*statics/support.py ground_axes", r"first @ up", r"\(up @ first\)", "the product of two vectors, either way"),
     (
+        r".*fourier/grid.py GridTransform._counts",
+        r"not len\(tried\) or np\.array_equal\(fewer, before\)",
+        r".*",
+        "what was compared before, or is nothing, is compared to the same end",
+    ),
+    (
         r".*statics/resting.py _coplanar",
         r"np\.argsort\(.*, kind=.stable.\)",
         r".*",
@@ -633,6 +639,7 @@ CONSTANTS = [
         r"down: ArrayLike = \(0\.0, 0\.0, -",
         "of gravity only the direction counts",
     ),
+    (r".*statics/mixes.py fit_mixes", r"range\(DEGREE \+ ", "what is of a higher degree is left out"),
     (r".*statics/gradient.py .*", r"kinds > ", "of orders 0, 1 and 2 there are 1, 4 and 10 moments"),
     (
         r".*density/spline_grid.py _moments_about",

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which harmonic about an axis fixes the two others: the first that is clear, else the first that is more than noise."""
+"""Which harmonic about an axis fixes the other axes: the first clear one, else the first that is more than noise."""
 
 from dataclasses import replace
 
@@ -8,11 +8,14 @@ import numpy as np
 import pytest
 from body_moments.core.inertia.canonical_frame import (
     CLEAR_HARMONIC,
+    FrameRule,
     SecondMomentAxes,
+    _candidates,
     _clear_harmonic,
     _fix_rotation_about_axis,
     _normalization,
 )
+from body_moments.core.inertia.third_moment_frames import HALF_TURN_SIGNS
 from body_moments.core.moments.affine_maps import rotate_moments
 from body_moments.core.moments.moments import Moments, monomials
 from body_moments.core.moments.monomials import monomial_index
@@ -93,3 +96,54 @@ def test_of_several_directions_those_are_kept_about_which_the_harmonic_is_as_lar
     frames, harmonic, turn = _fix_rotation_about_axis(central, spread, np.array([np.eye(3), lean]), 2)
     assert harmonic == (3, 1, 0) and len(frames) == count and (frames[0] == np.eye(3)).all()
     assert close(turn, 2.0 * least / size, 1e-9)
+
+
+def moments_of(known):
+    """Of total one; {powers: value} along the coordinate axes, the others are zero."""
+    raw = np.zeros(84)
+    raw[0] = 1.0
+    for powers, value in known.items():
+        raw[monomial_index(*powers)] = value
+    return Moments(raw, np.zeros(3))
+
+
+@pytest.mark.parametrize("axis, free", [(0, (1, 2)), (2, (0, 1))])
+@pytest.mark.parametrize("count", [1, 2, 4])
+def test_about_a_fixed_axis_one_frame_is_looked_at_for_each_way_that_it_may_point(axis, free, count):
+    spread = SecondMomentAxes(AXES, SIZE, free, 0.0, 3e-7)
+    starts = AXES * HALF_TURN_SIGNS[:count, None]
+    ways = sorted({float(signs[axis]) for signs in HALF_TURN_SIGNS[:count]})
+    frames, revolution_axes, tilt, rule = _candidates(moments_of({}), spread, starts)
+    assert sorted(np.rint(frames[:, :, axis] @ AXES[:, axis]).tolist()) == ways
+    assert revolution_axes == (axis,) and tilt == 3e-7 and rule == FrameRule(0, axis, None, 1.0)
+    for m, k, sign in ((3, 0, 1.0), (4, 0, -1.0), (2, 1, 1.0)):
+        powers = [tuple(np.roll((m - i, i, k), axis + 1)) for i in range(m + 1)]
+        angles = 2.0 * np.pi * np.arange(m) / m + 0.1
+        local = np.zeros(84)
+        local[0] = 1.0
+        for i, place in enumerate(powers):  # of m points around the axis, as far as the extents are equal
+            local[monomial_index(*place)] = 0.3 * (np.cos(angles) ** (m - i) * np.sin(angles) ** i).mean()
+        central = Moments(rotate_moments(local, 6, AXES), np.zeros(3))
+        even = replace(spread, size=np.ones(3))
+        frames, revolution_axes, tilt, rule = _candidates(central, even, starts)
+        assert revolution_axes == () and len(frames) == m * len(ways)
+        assert rule == FrameRule(0, axis, (m + k, m, k), sign) and tilt > 3e-7
+
+
+@pytest.mark.parametrize("size", [0.5, 3e-3])
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_a_body_that_is_cubic_in_fourth_order_has_the_axes_of_a_cube_however_weakly_it_is(size, sign):
+    """E[(u·x)⁴] is extreme along six axes, and the other way along eight diagonals."""
+    known = {powers: sign * size for powers in ((4, 0, 0), (0, 4, 0), (0, 0, 4))}
+    spread = SecondMomentAxes(np.eye(3), np.ones(3), (0, 1, 2), 0.0)
+    frames, revolution_axes, tilt, rule = _candidates(moments_of(known), spread, np.eye(3)[None])
+    assert revolution_axes == () and rule == FrameRule(4, 2, (4, 4, 0), sign) and len(frames) == 24
+    assert np.abs(np.sort(np.abs(frames), axis=1) - [[0], [0], [1]]).max() < 1e-9
+    assert 0.0 < tilt < 0.1 * 3e-3 / size
+
+
+def test_a_body_that_is_the_same_in_all_directions_has_none():
+    spread = SecondMomentAxes(AXES, np.ones(3), (0, 1, 2), 0.0, 3e-7)
+    frames, revolution_axes, tilt, rule = _candidates(moments_of({}), spread, np.eye(3)[None])
+    assert (frames == AXES[None]).all() and revolution_axes == (0, 1, 2) and tilt == 0.0
+    assert rule == FrameRule(0, 2, None, 1.0)

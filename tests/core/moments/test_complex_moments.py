@@ -78,3 +78,14 @@ def test_flusser_s_basis_to_order_twelve_with_its_names():
         assert one.is_complex == (p > q) and one.degree == (2 if (p, q) == (1, 1) else max(p + q, 3 if p > q else 2))
         assert one.input_error > 0.0
     assert {"c11", "c21 c12", "c20 c12²", "c10,2 c12⁸", "c12,0 c12¹²"} <= {one.name for one in found}
+
+
+def test_what_storing_may_change_of_invariants_is_what_its_bounds_add():
+    """Nothing where there are none; of c11 they add up."""
+    for invariants in (hu_invariants, flusser_invariants):
+        own, wider = invariants(of_points(6)), invariants(of_points(6, input_error=1e-6))
+        assert [one.input_error for one in own] == [0.0] * len(own)
+        assert [one.rounding_error for one in own] == [one.rounding_error for one in wider]
+        c11 = next(one for one in wider if one.name in ("φ1", "c11"))
+        assert abs(c11.input_error - 2e-6) < 1e-12
+        assert all(0.0 < one.input_error < 1e-3 for one in wider)

@@ -7,7 +7,9 @@ import pytest
 from body_moments.core.numerics import arrays
 from body_moments.core.numerics.arrays import (
     GOLDEN_RATIO_64,
+    batches,
     first_occurrence,
+    following_pairs,
     hash_uint64,
     power_table,
     segment_ranges,
@@ -75,3 +77,35 @@ def test_of_different_rows_fewer_than_half_lose_their_slot_in_each_round(monkeyp
         assert first_occurrence(*rows).tolist() == list(range(1000))
         rounds = hashed[columns:]
         assert all(2 * later < earlier for earlier, later in zip([1000, *rounds], rounds)) and len(rounds) < 12
+
+
+@pytest.mark.parametrize("columns", [1, 2, 3])
+@pytest.mark.parametrize("kinds", [1, 3, 40, 10**6])
+def test_the_first_of_equal_rows_is_found_by_their_bits(columns, kinds):
+    rows = np.random.default_rng(kinds).integers(0, kinds, (columns, 500)).astype(np.int64) << 40
+    seen = {}
+    truth = [seen.setdefault(row, i) for i, row in enumerate(zip(*rows.tolist()))]
+    assert first_occurrence(*rows).tolist() == truth
+    zeros = np.array([0.0, -0.0, 0.0, np.nan, np.nan])
+    assert first_occurrence(zeros).tolist() == [0, 1, 0, 3, 3]
+
+
+@pytest.mark.parametrize("size", [0.5, 1.0, 3.0, 7.5, 100.0])
+def test_batches_are_as_many_whole_items_as_their_size_allows_but_one_at_least(size):
+    weights = np.array([1.0, 2.0, 0.0, 4.0, 9.0, 0.5, 0.5, 0.5, 3.0])
+    found, start = list(batches(weights, size)), 0
+    for part in found:
+        assert part.start == start < part.stop and part.step is None
+        start, own = part.stop, weights[part]
+        assert len(own) == 1 or own.sum() < size + own[-1]
+        if part.stop < len(weights):
+            assert own.sum() + weights[part.stop] >= size
+    assert start == len(weights) and not list(batches(weights[:0], size))
+
+
+@pytest.mark.parametrize("size", [1, 4, 100])
+def test_following_pairs_are_each_item_with_as_many_next_ones(size):
+    order, counts = np.array([7, 3, 9, 1, 4, 0]), np.array([2, 0, 3, 1, 1, 0])
+    pairs = [pair for a, b in following_pairs(order, counts, size) for pair in zip(a.tolist(), b.tolist())]
+    assert pairs == [(7, 3), (7, 9), (9, 1), (9, 4), (9, 0), (1, 4), (4, 0)]
+    assert not list(following_pairs(order, np.zeros(6, int), size))

@@ -62,3 +62,35 @@ def test_a_rotation_that_takes_x_to_an_axis(rotation):
         found = along_x(axis)
         assert np.array_equal(found[:, 0], axis) and np.linalg.det(found) > 0.0
         assert np.abs(found.T @ found - np.eye(3)).max() <= 2e-15
+
+
+def test_half_turns_and_thirds_of_a_turn_in_stacks_are_exact_and_have_no_negative_zeros():
+    """About x, y, z and between them; of half a turn the largest component is positive."""
+    s = np.sqrt(0.5)
+    known = np.array(
+        [
+            [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]],
+            [[0.5, 0.5, 0.5, 0.5], [0.5, -0.5, 0.5, 0.5], [0.5, 0.5, -0.5, 0.5], [0.5, 0.5, 0.5, -0.5]],
+            [[s, s, 0, 0], [s, -s, 0, 0], [s, 0, -s, 0], [s, 0, 0, s]],
+            [[0, 0.8, -0.6, 0], [0, -0.6, 0.8, 0], [0, 0, -0.6, 0.8], [0, 0.8, 0, -0.6]],
+        ]
+    )
+    matrices = rotation_matrix(known * 3.0)
+    assert matrices.shape == (4, 4, 3, 3)
+    w, v = known[..., 0, None, None], known[..., 1:]
+    across = np.cross(v[..., None, :], np.eye(3)).swapaxes(-1, -2)  # what v × does to a vector
+    rodrigues = (2.0 * w * w - 1.0) * np.eye(3) + 2.0 * v[..., :, None] * v[..., None, :] + 2.0 * w * across
+    assert np.abs(matrices - rodrigues).max() <= 1e-15
+    found = quaternion(matrices)
+    assert found.shape == (4, 4, 4) and np.abs(found - known).max() <= 1e-15
+    assert not np.signbit(quaternion(np.rint(matrices[:2]))[(known[:2] == 0.0)]).any()
+
+
+@pytest.mark.parametrize("largest", range(4))
+def test_a_quaternion_has_all_its_digits_whichever_of_its_components_is_the_largest(largest):
+    rng = np.random.default_rng(largest)
+    known = 1e-6 * rng.normal(size=(100, 4))
+    known[:, largest] = 1.0
+    known /= np.linalg.norm(known, axis=1, keepdims=True)
+    known *= np.where(known[:, :1] >= 0.0, 1.0, -1.0)
+    assert np.abs(quaternion(rotation_matrix(known)) - known).max() <= 3e-16

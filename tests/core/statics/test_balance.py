@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.polyhedron import polyhedron_moments
-from body_moments.core.statics.balance import _center_jacobian, _Fans, _limited_moves, balance
+from body_moments.core.statics.balance import _center_jacobian, _Fans, _limited_moves, _Problem, balance
 from body_moments.core.statics.gradient import area_gradient, volume_gradient
 from body_moments.core.verdict.finding import MeasureError
 
@@ -151,6 +151,19 @@ def test_a_point_that_is_too_far_is_refused():
         balance(bodies.surface(part), upper(part, 0.9), (5.0, 0.0, 0.0), across=HORIZONTAL)
     with refused("balance_folds_faces"):  # a limit that is not what stands against it is not blamed
         balance(bodies.surface(part), upper(part, 0.5), (0.0, 0.0, -0.5), limit=4.0, shell=True)
+
+
+@pytest.mark.parametrize("size", [1e-6, 1.0, 1e6])
+def test_faces_that_would_be_turned_over_are_counted_but_slivers(size):
+    """Both go to the other side; a sliver is one whose height is a billionth of its side."""
+    for thin, count in ((0.5e-9, 1), (2e-9, 2)):
+        points = np.array([[0, 0, 0], [1, 0, 0], [0.5, 1, 0], [0, 2, 0], [1, 2, 0], [0.5, 2.0 + thin, 0]])
+        problem = _Problem(Surface.from_triangles(size * points, [[0, 1, 2], [3, 4, 5]]), True, np.eye(3), np.zeros(3))
+        moved = size * points
+        moved[[2, 5], 1] = -size, size
+        with refused("balance_folds_faces", count=count):
+            problem.check(moved, np.array([2, 5]))
+        problem.check(size * points, np.array([2, 5]))
 
 
 @pytest.mark.parametrize("height", [1.0, 1e3, 1e6])

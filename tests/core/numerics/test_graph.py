@@ -1,0 +1,73 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Connected components, in blocks of any size, are what a walk from node to node finds."""
+
+import numpy as np
+import pytest
+from body_moments.core.numerics import graph
+from body_moments.core.numerics.graph import connected_components, connected_neighbors
+
+
+def walked(count, a, b):
+    """The component of each node, numbered in the order of their first nodes."""
+    links = [[] for _ in range(count)]
+    for i, j in zip(a.tolist(), b.tolist()):
+        links[i].append(j)
+        links[j].append(i)
+    component, number = [-1] * count, 0
+    for first in range(count):
+        if component[first] < 0:
+            waiting, component[first] = [first], number
+            while waiting:
+                for other in links[waiting.pop()]:
+                    if component[other] < 0:
+                        component[other] = number
+                        waiting.append(other)
+            number += 1
+    return component, number
+
+
+@pytest.fixture(params=[(3 << 16, 1 << 14), (12, 8)], ids=["whole", "in blocks"])
+def blocks(monkeypatch, request):
+    monkeypatch.setattr(graph, "EDGES_PER_BLOCK", request.param[0])
+    monkeypatch.setattr(graph, "NODES_PER_BLOCK", request.param[1])
+
+
+@pytest.mark.usefixtures("blocks")
+@pytest.mark.parametrize("count, links", [(1, 0), (5, 0), (40, 15), (60, 50), (200, 150), (200, 260), (300, 2000)])
+@pytest.mark.parametrize("seed", range(3))
+def test_components_are_those_of_a_walk(count, links, seed):
+    a, b = np.random.default_rng(seed).integers(0, count, (2, links))
+    component, number = connected_components(count, a, b)
+    assert (component.tolist(), number) == walked(count, a, b)
+
+
+@pytest.mark.usefixtures("blocks")
+@pytest.mark.parametrize("kind", ["chain", "backwards", "zigzag"])
+def test_long_paths_are_one_component(kind):
+    """And a second one beside them."""
+    order = {
+        "chain": np.arange(100),
+        "backwards": np.arange(100)[::-1],
+        "zigzag": np.stack([np.arange(50), 99 - np.arange(50)], axis=1).ravel(),
+    }[kind]
+    a, b = np.append(order[:-1], 101), np.append(order[1:], 100)
+    component, number = connected_components(102, a, b)
+    assert number == 2 and component.tolist() == [0] * 100 + [1, 1]
+
+
+@pytest.mark.usefixtures("blocks")
+@pytest.mark.parametrize("parts, size", [(1, 30), (2, 30), (4, 7), (25, 3), (3, 60)])
+@pytest.mark.parametrize("seed", [None, 0, 1, 2], ids=["in order", "0", "1", "2"])
+@pytest.mark.parametrize("dtype", [np.int32, np.int64])
+def test_neighbors_seen_from_both_ends_are_joined(parts, size, seed, dtype):
+    """Rings of nodes in any order: each has two neighbors."""
+    count = parts * size
+    order = np.arange(count) if seed is None else np.random.default_rng(seed).permutation(count)
+    place = np.arange(count)
+    ahead = place - place % size + (place % size + 1) % size
+    neighbors = np.empty((count, 2), dtype)
+    neighbors[order, 0], neighbors[order[ahead], 1] = order[ahead], order
+    component, number = connected_neighbors(neighbors)
+    assert (component.tolist(), number) == walked(count, order, order[ahead])
+    assert number == parts
