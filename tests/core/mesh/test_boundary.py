@@ -4,7 +4,7 @@
 
 import numpy as np
 import pytest
-from body_moments.core.mesh.boundary import BoundarySum
+from body_moments.core.mesh.boundary import KEYS, BoundarySum
 from body_moments.core.mesh.edges import find_edges
 from body_moments.core.mesh.surface import Surface
 
@@ -83,3 +83,7 @@ def test_minus_zero_is_zero_and_float32_is_the_number_it_is():
 def test_many_faces_are_taken_in_blocks():
     points, triangles = sphere(7)
     assert len(triangles) > 65536 and closes(Surface(points, triangles)) and not closes(Surface(points, triangles[1:]))
+
+
+def test_keys_are_odd_so_that_no_product_forgets_a_bit():
+    assert len(set(KEYS.tolist())) == 6 and all(key % 2 == 1 for key in KEYS.tolist())
