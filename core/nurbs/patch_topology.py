@@ -247,14 +247,12 @@ def _pair_sides(
 def _close_pairs(keys: NDArray, limit: float) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
     """Pairs of rows i < j of (n, d) that differ by no more than a limit in any column: their projections on a line that
     is parallel to nothing are neighbors."""
-    if not len(keys):
-        return np.empty(0, np.intp), np.empty(0, np.intp)
-    keys = keys - keys[0]
+    keys = keys - keys[:1]
     slope = 1.0 / np.sqrt(np.arange(2.0, 2.0 + keys.shape[1]))
     line = (keys * slope).sum(axis=1)
     order = np.argsort(line, kind="stable")
     line = line[order]
-    count = np.searchsorted(line, line + (limit * slope.sum() + 1e-12 * np.abs(line).max()), side="right")
+    count = np.searchsorted(line, line + (limit * slope.sum() + 1e-12 * np.abs(line).max(initial=0.0)), side="right")
     count -= np.arange(1, len(line) + 1)
     pairs = []
     for i, j in following_pairs(order, count, PAIRS_PER_BATCH):
@@ -320,8 +318,7 @@ def _orient_patches(
         neighbors[j].append((i, flip))
     flipped, visited, conflict = np.zeros(count, bool), np.zeros(count, bool), []
     for first in range(count):
-        pending = [] if visited[first] else [first]
-        visited[first] = True
+        pending, visited[first] = [first], True
         while pending:
             i = pending.pop()
             for j, flip in neighbors[i]:

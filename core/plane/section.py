@@ -229,7 +229,7 @@ def _axes(normal: NDArray, prefer: NDArray) -> tuple[NDArray[np.float64], str]:
 
 
 def region(
-    plane: Plane, points: NDArray, triangles: NDArray, faces: NDArray, error: float = 0.0
+    plane: Plane, points: NDArray, triangles: NDArray, faces: NDArray, error: float
 ) -> tuple[NDArray[np.intp], int]:
     """(m, 2) the directed edges of the region that triangles near the plane cover, points at one place taken as one,
     and how many faces look against the plane and were turned.

@@ -399,6 +399,12 @@ PATTERNS = [
         "more of the background, where no body is",
     ),
     (
+        r".*nurbs/patch_topology.py _close_pairs",
+        r"1\.0 / np\.sqrt\(.*|np\.argsort\(line, kind=.stable.\)",
+        r"\(1\.0 \* .*|\(np\.argsort\(line\)\)",
+        "along which line they are compared, in which order",
+    ),
+    (
         r".*nurbs/patch_topology.py _pair_sides.join",
         r"\(a, b\) if size\[a\] >= size\[b\] .*|size\[a\] >= size\[b\]",
         r".*",
@@ -702,6 +708,13 @@ CONSTANTS = [
     (r".*plane/polygon.py _crossing_pairs", r"(size|cell) = .*", "how coarse the grid is"),
     (r".*plane/polygon.py _crossing_pairs", r"within // tall\[edge\]\) \* \(", "which other edges are compared"),
     (r".*plane/polygon.py _twice_the_area", r"points\[edges\[(0, )?", "a closed outline has its area from anywhere"),
+    (
+        r".*nurbs/patch_topology.py _close_pairs",
+        r"(slope = |max\(initial=|limit \* slope\.sum\(\) \+ )",
+        "along which line they are compared, and more of them",
+    ),
+    (r".*nurbs/patch_topology.py _coincident_sides", r"axis=1\)(\[arcs\])?, ", "more of them are compared"),
+    (r".*nurbs/patch_topology.py _cap_loop", r"full_matrices=", "what is not read"),
     (r".*nurbs/solid.py assess", r"reach = size \+ ", "a looser bound"),
     (r".*nurbs/solid.py measure_sheet", r"area\.total or ", "what is divided is zero"),
     (r".*nurbs/patch_topology.py _pair_sides", r"part, odd, size = .*, \[", "it is set before it is read"),

@@ -5,10 +5,12 @@
 import numpy as np
 import pytest
 from body_moments.core.numerics.bspline import SplineSpace, clamped_space
+from body_moments.core.nurbs.creases import sharpest_crease
 from body_moments.core.nurbs.patch import Patch
-from body_moments.core.nurbs.patch_topology import _find_loops, _pair_sides, find_topology
+from body_moments.core.nurbs.patch_topology import _find_loops, _orient_patches, _pair_sides, find_topology
 
 from tests.close import close
+from tests.core.nurbs.test_solid import flat
 
 EDGE = np.array([[0.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, 0.0, 2.0]])
 
@@ -136,3 +138,54 @@ def test_open_sides_follow_each_other_within_twice_the_tolerance(gap, count):
     points[2, :, 2] += gap * 0.01 * np.linspace(1.0, 0.0, 5)
     loops = _find_loops(points, np.arange(4), np.ones(4, bool), 0.01)
     assert sum(complete for _, complete in loops) == count
+
+
+def test_patches_turn_to_face_as_the_first_of_theirs_and_those_that_cannot_are_told():
+    draw = np.random.default_rng(3)
+    for _ in range(40):
+        count = int(draw.integers(1, 7))
+        left, right = draw.integers(0, count, (2, int(draw.integers(0, 9))))
+        faces = draw.random(count) < 0.5
+        wrong = draw.random(len(left)) < 0.2 * (draw.random() < 0.5)
+        flipped, conflict = _orient_patches(count, left, right, faces[left] ^ faces[right] ^ wrong)
+        off = flipped[left] ^ flipped[right] != faces[left] ^ faces[right] ^ wrong
+        assert set(conflict.tolist()) == {*left[off].tolist(), *right[off].tolist()}
+        links = [set(pair) for pair in zip(left.tolist(), right.tolist())]
+        for first in range(count):
+            reached = {first}
+            while more := set().union(*(link for link in links if link & reached)) - reached:
+                reached |= more
+            assert not flipped[min(reached)]
+            if not any(wrong[k] for k, link in enumerate(links) if link <= reached):
+                assert flipped[first] == faces[first] ^ faces[min(reached)] and first not in conflict
+
+
+def twisted(way, turned):
+    """Over the y axis to one side of it, and as steep at y as y is large; along y or against it."""
+    corners = [(0.0, 0.0, 0.0), (way, 0.0, 0.0), (way, 1.0, way), (0.0, 1.0, 0.0)]
+    patch = flat(corners)
+    return Patch(patch.spaces, patch.points[:, ::-1]) if turned else patch
+
+
+@pytest.mark.parametrize("turns", [(False, False), (True, False), (False, True), (True, True)])
+@pytest.mark.parametrize("axes", [(0, 0), (1, 0), (0, 1), (1, 1)])
+def test_normals_are_compared_where_sides_meet_however_they_run(turns, axes):
+    """Of one smooth sheet, whose normal turns along the seam."""
+    patches = [
+        patch.reverse_orientation() if axis else patch
+        for patch, axis in zip((twisted(1.0, turns[0]), twisted(-1.0, turns[1])), axes)
+    ]
+    topology = find_topology(patches, 1e-9)
+    assert len(topology.seams) == 1 and sharpest_crease(patches, topology) < 1e-7
+    bent = [patches[0], patches[1].transform(np.diag([1.0, 1.0, -1.0, 1.0]))]
+    assert close(sharpest_crease(bent, find_topology(bent, 1e-9)), np.pi / 2.0, 1e-9)
+
+
+@pytest.mark.parametrize("order", [1, -1])
+def test_where_a_patch_has_no_normal_there_is_no_crease(order):
+    """A triangle beside a square, and its corner on their seam a side that is a point."""
+    triangle = flat([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 1, 0)])
+    square = flat([(-1, 0, 0), (0, 0, 0), (0, 1, 0), (-1, 1, 0)])
+    patches = [triangle, square][::order]
+    topology = find_topology(patches, 1e-9)
+    assert len(topology.seams) == 1 and sharpest_crease(patches, topology) < 1e-7

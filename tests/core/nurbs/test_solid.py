@@ -458,6 +458,15 @@ def test_only_sides_between_the_same_ends_are_compared_point_by_point(monkeypatc
     assert found.volume.total == pytest.approx(400.0 * one.volume.total, rel=1e-12)
 
 
+def test_sides_that_coincide_parameter_by_parameter_are_not_compared_point_by_point(monkeypatch):
+    """Whichever way they run."""
+    monkeypatch.setattr(closure, "_overlapping_sides", None)
+    for patches in (box(), box(orders=((3, 4), *((2, 2),) * 5)), box(inner=(((0.5,), (0.25, 0.5)),) * 6)):
+        even = [patch.reverse_orientation() if k % 2 else patch for k, patch in enumerate(patches)]
+        for facing in (patches, even):
+            assert measure_patches(facing, order=0).health.closed
+
+
 def shifts(each, step):
     for i in range(each):
         for j in range(each):

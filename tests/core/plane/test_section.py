@@ -193,6 +193,32 @@ def test_wide_bounds_do_not_make_every_axis_of_an_angle_a_principal_one(error):
     assert section.moduli[2] == pytest.approx(section.principal[0] / np.abs(across).max())
 
 
+def test_moments_about_a_point_that_are_off_by_so_much_bound_what_is_made_of_them():
+    """Any moments within their bounds; where the area may be half as large nothing is known of quotients."""
+    draw = np.random.default_rng(5)
+    for _ in range(20):
+        raw = np.array([2.0, *draw.normal(size=2) * 0.1, *draw.uniform(3.0, 4.0, 3)])
+        delta = draw.uniform(0.0, 0.1, 6)
+        bounds = _bounds(raw, np.zeros(2), delta)
+        assert bounds["area"] == delta[0]
+
+        def made_of(moments):
+            center = moments[1:3] / moments[0]
+            squares = np.array([center[0] ** 2, center[0] * center[1], center[1] ** 2])
+            return center, moments[3:] - moments[0] * squares
+
+        center, second = made_of(raw)
+        for signs in draw.choice([-1.0, 1.0], (60, 6)):
+            other_center, other_second = made_of(raw + signs * delta)
+            assert np.linalg.norm(other_center - center) <= bounds["centroid"]
+            assert np.abs(other_second - second).max() <= bounds["second"]
+        assert bounds["centroid"] <= 0.2 and bounds["second"] <= 0.2
+    for area, is_known in ((0.99, True), (1.01, False)):
+        delta = np.array([area, 0.1, 0.2, 0.3, 0.4, 0.5])
+        bounds = _bounds(raw, np.zeros(2), delta)
+        assert bounds["area"] == area and np.isfinite([bounds["centroid"], bounds["second"]]).all() == is_known
+
+
 SQUARE = (lifted(np.array(rectangle(0, 0, 1, 1), float)), np.array([[0, 1, 2], [0, 2, 3]]))
 
 

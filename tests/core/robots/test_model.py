@@ -82,6 +82,17 @@ def test_inertials_add_by_the_theorem_of_parallel_axes():
     assert np.abs(total.axes @ np.diag(total.moments) @ total.axes.T - tensor).max() <= 1e-13
 
 
+@pytest.mark.parametrize("scale", [1e-12, 1.0, 1e12])
+def test_principal_axes_give_the_tensor_within_eight_units_of_its_largest_entry(scale):
+    """Nearer ones stay as they are given."""
+    true = inertial(3, scale)
+    for off, stays in ((0.9e-15, True), (2.5e-15, False)):
+        moments = true.moments * 1.0
+        moments[2] += off * np.abs(true.inertia).max()
+        found = Inertial.with_agreeing_axes(scale, true.center, true.inertia, moments, true.axes)
+        assert (found.axes == true.axes).all() == stays
+
+
 def test_principal_axes_that_do_not_give_the_tensor_are_found_anew():
     true, off = inertial(3), bodies.rotation(1)
     exact = Inertial.with_agreeing_axes(1.7, true.center, true.inertia, true.moments, true.axes)

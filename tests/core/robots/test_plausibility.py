@@ -113,6 +113,16 @@ def test_the_distance_from_scattered_points_is_no_more_than_that_of_the_nearest(
 
 
 @pytest.mark.parametrize("size", [1e-3, 1.0, 1e3])
+@pytest.mark.parametrize("share", [1e-2, 1e-9, 1e-10, 1e-11])
+def test_next_to_a_corner_the_distance_is_that_from_it(size, share):
+    """But for what is rounding of the size."""
+    hull = Hull(size * (CUBE - 1.0))  # a corner at the origin
+    away = hull.size * share
+    assert close(hull.distance(np.full(3, away / 3.0**0.5)), away, 1e-9)
+    assert hull.distance(np.full(3, 1e-3 * hull.size * 1e-10)) == 0.0 == hull.distance(np.zeros(3))
+
+
+@pytest.mark.parametrize("size", [1e-3, 1.0, 1e3])
 def test_the_distance_is_found_within_a_billionth_of_the_size(size):
     """The nearest corner's own plane leaves a tenth of a millionth to gain."""
     slope = 1e-7
