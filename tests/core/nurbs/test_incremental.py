@@ -12,7 +12,7 @@ from body_moments.core.nurbs.incremental import IncrementalPatchMoments
 from body_moments.core.nurbs.patch import Patch
 from body_moments.core.nurbs.patch_moments import area_moments, volume_moments
 from body_moments.core.nurbs.solid import measure_patches
-from body_moments.core.nurbs.tracked_solid import TrackedSolid
+from body_moments.core.nurbs.tracked_solid import TrackedSolid, _rule_error_at_random
 from body_moments.core.papers.soldea_elber_rivlin_2002_phi import phi, phi_moments
 
 from tests.close import close
@@ -357,3 +357,18 @@ def test_a_followed_body_that_is_flat_now_is_measured_anew_and_followed_again(ax
         assert body.measure.method == "open" and codes(body.measure) == codes(measure_patches([flat]))
     assert not body.update([patch]) and body.update([patch])
     assert_same(body, measure_patches([patch]))
+
+
+@pytest.mark.parametrize("weight", [0.5, 3.0, 20.0])
+def test_a_rule_s_error_is_that_of_points_at_random_by_what_a_moment_could_be(weight):
+    """Their area, times how far they reach to the power of the moment, and once more."""
+    weights = np.ones((4, 3))
+    weights[1, 1] = weight
+    spaces, points = (clamped_space(4), clamped_space(3)), np.random.default_rng(0).uniform(-1.0, 1.0, (4, 3, 3))
+    scattered = Patch(spaces, points, weights)
+    tables = IncrementalPatchMoments(scattered, 3, np.zeros(3)).moments(points, weights).raw
+    off = np.abs(tables - volume_moments([scattered], 3, np.zeros(3))[0].raw)
+    reach, degree = np.linalg.norm(points, axis=2).max(), monomials(3).sum(axis=1)
+    truth = (off / (area_moments([scattered], 0)[0].total * reach ** (degree + 1.0))).max()
+    found = _rule_error_at_random(Patch(spaces, np.ones((4, 3, 3)), weights))
+    assert close(found, truth, 1e-3)
