@@ -15,7 +15,7 @@ CONSTANT = r"True|False|\d[\d.]*(e-?\d+)?"
 
 # names of constants: the reason
 NAMES = {
-    r"_PER_(BLOCK|BATCH|CHUNK|SLAB|TASK|THREAD|STACK)$|^_?BLOCK|_BLOCK$|_ROWS$|_IN_CACHE$|^SAMPLES$": "how much is "
+    r"_PER_(BLOCK|BATCH|CHUNK|SLAB|TASK|THREAD|STACK)$|^_?BLOCK|_BLOCK$|_ROWS$|_IN_CACHE$": "how much is "
     "computed or read at a time",
     r"^(FIRST_SAMPLES|GRID_CELLS)$": "in which order things are compared, of which all are",
     r"^(LINE_SLOPES|RAY_SLOPES|LATTICE_SHIFT|COLUMN_SLOPE)$": "which lines are looked along",
@@ -411,6 +411,7 @@ PATTERNS = [
         "which of two stands for both",
     ),
     (r".*plane/polygon.py boundary_edges", r"net\[:, None\] < 0", r".* <= 0\)", "what adds up to zero is left out"),
+    (r"operators/scene/dependents.py SAMPLES", r"64", r"65", "how many of a body's points are compared"),
     (r".*scans/scan.py PACKED", r"\d+", r"\d+", "how much is unpacked at a time"),
     (
         r".*cad/obj.py _indices",

@@ -361,6 +361,15 @@ def test_some_triangles_show_where_a_body_is(tmp_path, small_blocks, monkeypatch
         assert np.array_equal(low, some.min(axis=(0, 1))) and np.array_equal(high, some.max(axis=(0, 1)))
 
 
+@pytest.mark.parametrize("count, step", [(5, 1), (999, 1), (1999, 1), (2000, 2), (2999, 2), (3000, 3)])
+def test_a_thousand_triangles_and_fewer_than_twice_as_many_show_where_a_body_is(tmp_path, count, step):
+    points = np.random.default_rng(count).normal(size=(3 * count, 3)).astype(np.float32)
+    (tmp_path / "a.stl").write_bytes(stl((points, np.arange(3 * count).reshape(-1, 3))))
+    some = points.reshape(-1, 3, 3)[::step]
+    low, high = open_mesh_file(tmp_path / "a.stl").sampled_box()
+    assert np.array_equal(low, some.min(axis=(0, 1))) and np.array_equal(high, some.max(axis=(0, 1)))
+
+
 @pytest.mark.parametrize("name", FORMS)
 def test_the_number_of_faces_is_known_before_they_are_read_or_nearly(tmp_path, name):
     part = moved(sphere(2))
