@@ -23,7 +23,7 @@ POLE_RTOL = 1e-9  # of the largest: what normals at a pole are
 
 def sharpest_crease(patches: Sequence[Patch], topology: PatchTopology) -> float:
     """The largest angle, in radians, between the normals on both sides of a crease, 0 where there is none."""
-    worst = max((_inner_crease_angle(patch) for patch in patches), default=0.0)
+    worst = max(_inner_crease_angle(patch) for patch in patches)
     for left, right in topology.seams.tolist():
         first_side, second_side = (
             _along_side(patches[k // 4], *SIDES[k % 4][:2]) * (-1.0 if topology.flipped[k // 4] else 1.0)

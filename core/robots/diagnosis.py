@@ -166,7 +166,7 @@ def _times(values: ArrayLike, factor: float) -> NDArray[np.float64]:
     """The product, by a division where that keeps the decimals that the file has."""
     inverse = round(1.0 / factor)
     values = np.asarray(values, np.float64)
-    return values / inverse if factor < 1.0 and 1.0 / inverse == factor else values * factor
+    return values / inverse if inverse and 1.0 / inverse == factor else values * factor
 
 
 Change = tuple[str, dict, StatedInertial]

@@ -41,6 +41,13 @@ PATTERNS = [
         "indices of eight bytes",
     ),
     (r".*shape/symmetry.py _around_axis", r"n // 2", r"\(n \* 2\)", "the same turns, the other way"),
+    (
+        r".*nurbs/creases.py sharpest_crease",
+        r"_along_side\(.* \* \(-1\.0 if .*",
+        r"\(_along_side\(.* / \(-1\.0 if .*",
+        "times -1 is by -1",
+    ),
+    (r".*robots/plausibility.py MAX_STEPS", r"200", r"201", "what is found after any step is a bound"),
     (r".*robots/plausibility.py Hull.distance", r"break", r"continue", "it finds the same until it has no more steps"),
     (
         r".*robots/plausibility.py Hull.distance",
@@ -161,7 +168,7 @@ PATTERNS = [
     (r".*", r".*\.astype\([^()]*copy=False\)", r"\(.*\.astype\([\w.]+\)\)", "a copy"),
     (
         r".*",
-        r".* > MAX_(CUT_CELLS|SINGLE_UPDATES|EDGE_PAIRS|END_PAIRS|WAITING|FACES_HIGH_ORDER|DIGESTED_FACES)",
+        r".* > MAX_(CUT_CELLS|SINGLE_UPDATES|EDGE_PAIRS|END_PAIRS|FACES_HIGH_ORDER|DIGESTED_FACES)",
         r"\(.* >= MAX_\w+\)",
         "how much is computed or kept at a time",
     ),
@@ -718,7 +725,7 @@ CONSTANTS = [
     (r".*nurbs/patch_topology.py _cap_loop", r"full_matrices=", "what is not read"),
     (r".*nurbs/solid.py assess", r"reach = size \+ ", "a looser bound"),
     (r".*nurbs/solid.py measure_sheet", r"area\.total or ", "what is divided is zero"),
-    (r".*nurbs/patch_topology.py _pair_sides", r"part, odd, size = .*, \[", "it is set before it is read"),
+    (r".*nurbs/patch_topology.py _pair_sides", r"part, odd, size = [^\[]*\[", "it is set before it is read"),
     (r".*nurbs/patch_topology.py _pair_sides.root", r"turn = ", "whether two are turned alike is all that is read"),
     (r".*nurbs/creases.py _normals", r"patch\.points\[(0, )?", "slopes do not depend on the origin"),
     (r".*mass_properties.py _propagate_errors", r"\bshift\[", "for both kinds of errors it is the same"),

@@ -7,6 +7,8 @@ import pytest
 from body_moments.core.density import threshold
 from body_moments.core.density.threshold_cells import Cells
 
+from tests.close import close
+
 
 @pytest.mark.parametrize("count, left", [(1, 4096), (2, 1024), (1024, 65_536), (1025, 8200)])
 def test_of_each_cell_there_are_64_parts_on_average_and_8192_more_of_all(monkeypatch, count, left):
@@ -21,3 +23,9 @@ def test_of_each_cell_there_are_64_parts_on_average_and_8192_more_of_all(monkeyp
     sums = threshold._Sums(0, False, False, np.eye(3))
     sums.add_cut_cells(alike[np.zeros(count, int)], 0.5)
     assert given_up == [left]
+
+
+def test_a_mass_is_measured_where_it_is_asked_for():
+    samples = np.full((2, 2, 2), 3.0)
+    assert threshold.threshold_body(samples, 1.0).mass is None
+    assert close(threshold.threshold_body(samples, 1.0, with_density=True).mass.total, 3.0, 1e-14)

@@ -273,13 +273,35 @@ def test_bodies_that_touch_are_told_from_each_other_though_their_patches_face_an
         assert "ambiguous_patch_sides" in codes(found)
 
 
-def test_a_patch_of_one_side_only_is_open():
-    """A Möbius band closes upon itself the wrong way round."""
+def band_of_one_side():
+    """A Möbius band, which closes upon itself the wrong way round."""
     turns = np.linspace(0.0, 2.0 * np.pi, 17)
     arm = np.stack([np.cos(turns) * np.cos(turns / 2), np.sin(turns) * np.cos(turns / 2), np.sin(turns / 2)], axis=1)
     middle = np.stack([3.0 * np.cos(turns), 3.0 * np.sin(turns), 0.0 * turns], axis=1)
     space = SplineSpace((0.0, *map(float, range(17)), 16.0), 2, 17)
-    found = measure_patches([Patch((space, clamped_space(2)), np.stack([middle - arm, middle + arm], axis=1))])
+    return Patch((space, clamped_space(2)), np.stack([middle - arm, middle + arm], axis=1))
+
+
+@pytest.mark.parametrize("size", [0.1, 1.0])
+@pytest.mark.parametrize("turned", [False, True])
+def test_what_is_open_has_no_less_than_no_volume(size, turned):
+    """A small ball beside a band of one side only, and the ball as a cavity in nothing."""
+    ball = sphere().transform(np.diag([size, size, size, 1.0]))
+    found = measure_patches([ball.reverse_orientation() if turned else ball, band_of_one_side()])
+    assert found.method == "open" and found.health.inverted_components == turned
+    assert abs(found.volume.total / (BALL * size**3) - 1.0) <= 1e-13
+    assert found.signs.tolist() == [-1.0 if turned else 1.0, 0.0]
+
+
+@pytest.mark.parametrize("size", [1e-3, 1.0, 1e3])
+def test_the_share_of_caps_is_that_of_the_area_at_any_size(size):
+    found = measure_patches([tube().transform(np.diag([size, size, size, 1.0]))])
+    assert abs(found.health.cap_area_share - 0.5) <= 1e-6
+    assert found.area.total == pytest.approx(4.0 * np.pi * size**2, rel=1e-12)
+
+
+def test_a_patch_of_one_side_only_is_open():
+    found = measure_patches([band_of_one_side()])
     assert found.method == "open" and not found.health.closed
     assert codes(found) == ["open_patch_sides"]
 

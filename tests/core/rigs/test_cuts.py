@@ -33,6 +33,10 @@ def is_closed(surface):
     return not any(sides.values())
 
 
+def test_of_no_triangles_there_are_no_pieces():
+    assert bone_pieces(np.eye(3), np.zeros((0, 3), int), np.zeros(0, int)) == []
+
+
 @pytest.mark.parametrize("name", CHARACTERS)
 def test_pieces_are_closed_and_their_moments_add_up_to_the_whole(name, monkeypatch):
     for limit in ("MAX_SMALL_TRIANGLES", "MAX_TRIANGLES_EXACT_THIRD"):

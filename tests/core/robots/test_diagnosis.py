@@ -9,7 +9,7 @@ from math import degrees, radians
 import numpy as np
 import pytest
 from body_moments.core.numerics.rotations import quaternion
-from body_moments.core.robots.diagnosis import INERTIA_UNITS, LENGTH_UNITS, Reference, diagnose
+from body_moments.core.robots.diagnosis import INERTIA_UNITS, LENGTH_UNITS, Reference, _times, diagnose
 from body_moments.core.robots.stated import StatedInertial, rotation_of_angles
 from body_moments.core.verdict.finding import finding
 
@@ -208,3 +208,21 @@ def test_decimals_of_the_file_stay_decimals():
     assert 2300.0 * 1e-3 != 2.3 == diagnose(replace(TRUTH, mass=2300.0), [REFERENCE]).repaired.mass
     stated = of_inertia(INERTIA, CENTER / 0.0254)
     assert (diagnose(stated, [REFERENCE]).repaired.center == stated.center * 0.0254).all()
+
+
+@pytest.mark.parametrize("value", [9.0, 0.029])
+def test_a_number_of_a_file_keeps_its_decimals_in_another_unit(value):
+    """A thousandth of it is what a thousand goes into it, and not the product with 0.001, which rounds twice."""
+    for factor, truth in (
+        (1e-3, value / 1000.0),
+        (1e-2, value / 100.0),
+        (1e-6, value / 1e6),
+        (1.0, value),
+        (0.0254, value * 0.0254),
+        (1000.0, value * 1000.0),
+        (1e6, value * 1e6),
+        (1.5, value * 1.5),
+        (0.6, value * 0.6),
+    ):
+        assert _times([value, -value], factor).tolist() == [truth, -truth]
+    assert value * 1e-3 != value / 1000.0
