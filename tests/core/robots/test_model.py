@@ -103,6 +103,12 @@ def test_principal_axes_that_do_not_give_the_tensor_are_found_anew():
     tilt = rotation_of_angles(1e-9, 0.0, 0.0)
     rod = Inertial.with_agreeing_axes(1.0, Z, np.diag([1e-20, 1.0, 1.0]), np.array([3e-20, 1.0, 1.0 + 1e-16]), tilt)
     assert rod.moments[0] == 3e-20 and rod.moments[2] <= rod.moments[0] + rod.moments[1]
+    for scale in (2.0**-40, 2.0**40):
+        tensor, moments = agreeing.inertia * scale, np.array([1.0, 2.0, 3.0]) * scale
+        scaled = Inertial.with_agreeing_axes(1.7, true.center, tensor, moments, off)
+        assert close(scaled.moments, agreeing.moments * scale, 1e-14)
+        tensor, moments = np.diag([1e-20, 1.0, 1.0]) * scale, np.array([3e-20, 1.0, 1.0 + 1e-16]) * scale
+        assert Inertial.with_agreeing_axes(1.0, Z, tensor, moments, tilt).moments[0] == 3e-20 * scale
 
 
 def free(kind="rotate", **limits):
