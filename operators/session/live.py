@@ -236,8 +236,7 @@ def _measure(obj: Object, followed: _Followed, depsgraph: Depsgraph) -> tuple[Me
     (part,) = reading.parts
     splines = part.splines
     assert splines is not None
-    matrix = part.matrices[0].copy()
-    matrix[:3] *= unit
+    matrix = part.matrices[0] * unit  # but for its last row, which says nothing
     patches = [patch.transform(matrix) for patch in splines.patches]
     if np.linalg.det(matrix) < 0.0:
         patches = [patch.reverse_orientation() for patch in patches]

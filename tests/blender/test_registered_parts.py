@@ -3,6 +3,7 @@
 """Parts are registered in their order and removed in reverse, all of them or none; who listens to what is kept."""
 
 import importlib
+import sys
 from types import SimpleNamespace
 
 import bpy
@@ -93,6 +94,17 @@ def test_objects_carry_settings_where_the_add_on_is_not_registered(monkeypatch, 
     (tmp_path / "a.obj").write_text("v 0 0 0\n")
     with pytest.raises(ZeroDivisionError):
         batch._measure(["measure", str(tmp_path / "a.obj"), "--no-supervisor"], -1, True)
+
+
+def test_files_are_measured_by_children_beside_the_file_that_is_open(monkeypatch):
+    from body_moments.operators.command import supervised
+
+    asked = []
+    monkeypatch.setattr(supervised, "measure", lambda *given: asked.append(given) or 7)
+    for blender, opened in ((SimpleNamespace(data=SimpleNamespace(filepath="a.blend")), "a.blend"), (None, None)):
+        monkeypatch.setitem(sys.modules, "bpy", blender)
+        assert batch._measure(["measure", "b.obj"], 3, False) == 7
+        assert asked[-1][0].files and asked.pop()[1:] == (3, opened)
 
 
 def listeners():
