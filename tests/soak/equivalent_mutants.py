@@ -581,6 +581,7 @@ CONSTANTS = [
     (r".*density/threshold.py threshold_body", r"// ", "a reference point near the middle"),
     (r".*density/piecewise_mass.py _block_size", r"TRIANGLES_PER_BLOCK \* ", "how much is computed at a time"),
     (r".*moments/normalized.py normalize", r"trace = .* else ", "not read"),
+    (r".*third_order_kernel.py _BlockCalls.__init__", r"self\.room = spare\[:, ", "where a value is stored"),
     (r".*solid_harmonics.py harmonic_moments", r"in range\(order // 2 \+ ", "of no degree is left any l"),
     (r".*moments/images.py sum_of_images", r"block = max\(.*", "how much is computed at a time"),
     (

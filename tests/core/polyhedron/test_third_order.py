@@ -539,7 +539,8 @@ def test_long_and_thin_quads_on_the_edge_of_the_rule_are_decided_in_float32(plan
     points = (np.stack(place, axis=1).reshape(-1, 3) @ axes).astype(np.float32)
     quads = np.arange(len(points)).reshape(-1, 4)
     assert 10 < flipped_quads(points, quads).sum() < 90
-    assert cut_alike(points, quads)
+    for scale in (1.0, 2.0**-9, 2.0**13):
+        assert cut_alike(points * np.float32(scale), quads)
 
 
 def test_area_alone_equals_the_zeroth_shell_moment(path):
