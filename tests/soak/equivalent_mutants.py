@@ -47,6 +47,12 @@ PATTERNS = [
         r"\(_along_side\(.* / \(-1\.0 if .*",
         "times -1 is by -1",
     ),
+    (
+        r".*robots/plausibility.py _nearest_shares",
+        r"wanted - shares",
+        r"\(wanted \+ shares\)",
+        "as shares are made to add up to one, shorter steps the same way",
+    ),
     (r".*robots/plausibility.py MAX_STEPS", r"200", r"201", "what is found after any step is a bound"),
     (r".*robots/plausibility.py Hull.distance", r"break", r"continue", "it finds the same until it has no more steps"),
     (

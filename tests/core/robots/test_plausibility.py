@@ -4,7 +4,7 @@
 
 import numpy as np
 import pytest
-from body_moments.core.robots.plausibility import Hull, impossible
+from body_moments.core.robots.plausibility import Hull, _nearest_shares, impossible
 from body_moments.core.robots.stated import StatedInertial
 
 from tests.close import close
@@ -110,6 +110,38 @@ def test_the_distance_from_scattered_points_is_no_more_than_that_of_the_nearest(
     corner = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 0.0]])
     assert close(Hull(corner).distance(np.array([0.25, 0.25, -0.5])), 0.5, 1e-12)
     assert close(Hull(corner[1:2]).distance(np.zeros(3)), 1.0, 1e-12)
+
+
+@pytest.mark.parametrize("corners", [2, 3, 4])
+def test_a_step_to_the_nearest_point_of_a_plane_ends_at_the_first_side_and_comes_nearer(corners):
+    draw = np.random.default_rng(corners)
+    for _ in range(200):
+        points = draw.normal(size=(corners, 3)) + draw.normal(size=3)
+        shares = draw.dirichlet(np.ones(corners))
+        chosen, found = _nearest_shares(points, list(range(corners)), shares)
+        nearest = found @ points[chosen]
+        assert (found > 0.0).all() and close(found.sum(), 1.0, 1e-12)
+        assert np.abs((points[chosen] - nearest) @ nearest).max() <= 1e-12  # nothing is left along the plane of those
+        assert np.linalg.norm(nearest) <= np.linalg.norm(shares @ points) * (1.0 + 1e-12)
+        assert chosen == chosen_by_steps(points, shares)
+
+
+def chosen_by_steps(points, shares):
+    """Step by step toward the nearest point of the plane, as far as to the first corner whose share falls to zero."""
+    left = list(range(len(points)))
+    while True:
+        gram = np.block([[points[left] @ points[left].T, np.ones((len(left), 1))], [np.ones(len(left)), 0.0]])
+        wanted = (
+            np.linalg.solve(gram, [*[0.0] * len(left), 1.0])[:-1]
+            if len(left) < 4
+            else np.linalg.solve(np.vstack([points[left].T, np.ones(4)]), [0.0, 0.0, 0.0, 1.0])
+        )
+        ways = [(have / (have - want), k) for k, (have, want) in enumerate(zip(shares, wanted)) if want <= 0.0]
+        if not ways:
+            return left
+        way, first = min(ways)
+        shares = np.delete(shares + way * (wanted - shares), first)
+        del left[first]
 
 
 @pytest.mark.parametrize("size", [1e-3, 1.0, 1e3])
