@@ -147,6 +147,7 @@ PATTERNS = [
         "a rule of more points is as exact",
     ),
     (r"operators/actions/.*", r"(made|mesh)\.free\(\)", r"pass", "what nothing names any more is freed"),
+    (r"operators/command/simplex.py answer", r"turned \* np\.tile\(signs.*", r"\(turned / .*", "times -1 is by -1"),
     (
         r"operators/bodies/shape.py SurfaceDistance.__init__",
         r"np\.argsort\(.*, kind=.stable.\)",

@@ -531,3 +531,16 @@ def test_a_hook_falls_off_as_its_curve_says_from_one_to_nothing():
     for name, value in expected.items():
         ends = (1.0, 1.0 if name == "CONSTANT" else 0.0)
         assert np.abs(FALLOFFS[name](np.array([0.0, 0.25, 1.0])) - (ends[0], value, ends[1])).max() < 1e-15, name
+
+
+def test_pieces_of_a_straight_line_are_straight_each_by_its_own_length():
+    """What float32 leaves of a long one is more than a short one's length."""
+    data = bpy.data.curves.new("Line", "CURVE")
+    spline = data.splines.new("BEZIER")
+    spline.bezier_points.add(2)
+    way = np.array([0.3, 0.7, 0.9])
+    for point, (before, at, after) in zip(spline.bezier_points, [(-1, 0, 2e-4), (5e-4, 1e-3, 200), (700, 999, 1400)]):
+        point.handle_left, point.co, point.handle_right = before * way, at * way, after * way
+    assert curves._is_straight(spline) is True
+    spline.bezier_points[0].handle_right = 2e-4 * way + (1e-8, 0.0, 0.0)
+    assert curves._is_straight(spline) is False

@@ -176,3 +176,17 @@ def test_attributes_of_usd_are_repaired_with_the_indent_of_what_is_there(old, in
     assert len(made) >= 4 and all(line.startswith(indent) and line[len(indent)].isalpha() for line in made)
     assert "physics:mass = 2" in made[0] and not any("= 3" in line for line in lines)
     assert any("def Sphere" in line for line in lines[len(made) :]) == ("Sphere" in old)
+
+
+@pytest.mark.parametrize("length", range(1, 6))
+def test_a_binary_gltf_has_chunks_of_whole_words_and_keeps_the_others(length):
+    document = {"name": "x" * length}
+    other = struct.pack("<II", 8, 0x004E4942) + b"12345678"
+    data = gltf.to_glb('{"a": 1}')
+    data = struct.pack("<III", 0x46546C67, 2, len(data) + len(other)) + data[12:] + other
+    for made, rest in ((gltf.replace_json(data, document), other), (gltf.to_glb(json.dumps(document)), b"")):
+        magic, version, total, size, kind = struct.unpack_from("<IIIII", made)
+        assert (magic, version, total, kind) == (0x46546C67, 2, len(made), 0x4E4F534A)
+        text = made[20 : 20 + size]
+        assert size % 4 == 0 and size - len(text.rstrip(b" ")) < 4 and json.loads(text) == document
+        assert made[20 + size :] == rest and gltf.read_json(made) == document

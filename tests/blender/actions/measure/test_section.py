@@ -271,6 +271,15 @@ def test_curves_that_enclose_nothing_are_refused_and_open_splines_left_out():
     assert refused(add(text_of("")), "section_no_outline_text")
 
 
+@pytest.mark.parametrize("few", [[(9, 9)], [(9, 9), (8, 8)]])
+@pytest.mark.parametrize("comes_first", [False, True])
+def test_a_spline_of_too_few_points_is_no_outline_wherever_it_stands(few, comes_first):
+    outlines = [square(0, 0, 1), few]
+    section, _, findings = section_of(add(curve_of(*(outlines[::-1] if comes_first else outlines))))
+    assert close(section.area, 1.0, rel=1e-6)
+    assert said(findings)["section_splines_open"] == {"count": 1}
+
+
 def test_a_curve_that_is_not_filled_is_measured_and_said():
     curve = curve_of(square(0, 0, 3))
     curve.fill_mode = "NONE"
