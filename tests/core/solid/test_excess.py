@@ -65,3 +65,25 @@ def test_lines_that_meet_nothing_say_nothing():
     )
     assert (found.volume.tolist(), found.unsure.tolist()) == ([0.0, 0.0], [1.0, 1.0])
     assert found.second_moment.tolist() == [0.0, 0.0]
+
+
+@pytest.mark.parametrize("crossed", [0, 1])
+def test_bodies_are_measured_one_by_one_and_of_those_that_no_line_meets_nothing_is_known(crossed):
+    low, high = np.zeros((2, 3)), np.array([[1.0, 2.0, 3.0], [8.0, 6.0, 4.0]])
+    grids = LineGrids.over_boxes(low, high, np.array([64, 64]))
+    one = crossings()
+    moved = Crossings(one.body + crossed, one.row, one.column, one.triangle, one.along, one.sign, np.ones(2, np.intp))
+    found = measure_excess(moved, grids, np.array([0.0625, 0.0625]))
+    truth, unsure = np.zeros(2), np.ones(2)
+    truth[crossed], unsure[crossed] = 10.0 * np.prod(grids.cell[crossed]), 1.0 / 6.0
+    assert close(found.volume, truth, rel=1e-12) and close(found.unsure, unsure, rel=1e-12)
+    assert (found.second_moment > 0.0).tolist() == [crossed == 0, crossed == 1]
+
+
+def test_where_as_much_is_inside_as_is_inside_out_neither_is_too_much():
+    grids = LineGrids.over_boxes(np.zeros((1, 3)), np.ones((1, 3)), np.array([64]))
+    zero = np.zeros(4, np.intp)
+    along, sign = np.array([-1.0, 0.5, -1.0, 0.5]), np.array([1, -1, -1, 1])
+    both = Crossings(zero, zero, np.array([0, 0, 1, 1]), zero, along, sign, np.array([1]))
+    found = measure_excess(both, grids, np.zeros(1))
+    assert (found.volume.tolist(), found.unsure.tolist()) == ([0.0], [0.0])
