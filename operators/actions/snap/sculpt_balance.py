@@ -215,7 +215,7 @@ class _GroupedMesh:
         """(n, 3) where the vertices go."""
         self.is_changed = True
         self.mesh.attributes["position"].data.foreach_set("vector", np.ascontiguousarray(points).ravel())
-        self.mesh.update()
+        self.mesh.vertices[0].co = self.mesh.vertices[0].co  # tells Blender, which keeps normals and a box
 
 
 def _balance_mesh(

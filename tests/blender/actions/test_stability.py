@@ -147,6 +147,16 @@ def test_what_lies_already_is_left_alone(scene):
     assert bpy.ops.object.body_moments_rest_on_ground(pose=0) == {"CANCELLED"}
 
 
+@pytest.mark.parametrize("size", [1.0, 1e-3])
+@pytest.mark.parametrize("angle", [5e-4, 1e-5])
+def test_what_lies_at_the_right_height_and_is_turned_a_little_is_laid(scene, size, angle):
+    place = {"location": (0.0, 0.0, 0.5 * size), "rotation": (angle, 0.0, 0.0), "scale": (size,) * 3}
+    obj = objects.add(box((3.0, 3.0, 1.0), (-1.5, -1.5, -0.5)), **place)
+    assert bpy.ops.object.body_moments_rest_on_ground(pose=0) == {"FINISHED"}
+    assert np.abs(objects.place(obj)[:3, :3] / size - np.eye(3)).max() < 2e-6
+    assert bpy.ops.object.body_moments_rest_on_ground(pose=0) == {"CANCELLED"}
+
+
 def test_pose_0_is_the_nearest(scene):
     obj = objects.add(box((4.0, 2.0, 6.0)), rotation=(0.1, 0.05, 0.0), location=(0.0, 0.0, 2.0))
     bpy.ops.object.body_moments_rest_on_ground(pose=0)

@@ -1,13 +1,15 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The bill of masses, column by column: levels, what counts, shares, densities, findings, where a mass is given and
-below it."""
+below it; and assemblies that cannot hold results."""
 
 import csv
 
 import bpy
 import pytest
+from body_moments.operators.actions.assembly import assembly
 
+from tests.blender.actions.test_refusals import linked_assembly
 from tests.blender.bodies.test_assembly import box
 from tests.blender.objects import add, strip_mesh
 
@@ -80,3 +82,12 @@ def test_each_row_has_its_own_findings_and_method(rows):
     assert notes["Given"] == "The mass of the assembly is given: 500 kg." and "lipped face" in notes["Free"]
     assert not any(notes[name] for name in ("Inner", "In Inner", "In Given", "Strip"))
     assert not any(row["left_out"] for row in rows.values())
+
+
+def test_an_assembly_that_cannot_hold_results_is_not_measured_first(monkeypatch, reported):
+    linked_assembly()
+    asked = []
+    monkeypatch.setattr(assembly, "measure_members", lambda *words: asked.append(words) or iter(()))
+    with pytest.raises(RuntimeError):
+        bpy.ops.object.body_moments_measure_assembly()
+    assert reported.codes == ["refused", "linked_results"] and not asked

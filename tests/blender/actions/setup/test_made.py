@@ -3,11 +3,12 @@
 """Node groups of other files and versions, and rigid bodies of which some cannot be what was asked for."""
 
 import bpy
+import numpy as np
 import pytest
 from body_moments.operators.actions.setup import node_group, rigid_bodies
 from body_moments.operators.session import staleness
 
-from tests.blender.objects import add, mesh_body, only
+from tests.blender.objects import add, mesh_body, only, seen
 
 pytestmark = pytest.mark.usefixtures("scene")
 
@@ -81,3 +82,27 @@ def test_that_masses_are_shown_scaled_is_said_where_there_are_any(operator, syst
     assert ("rigid_body_display_scaled" in reported.codes) == (scaled and is_made)
     if scaled and is_made:
         assert reported.values("rigid_body_display_scaled")["factor"] == pytest.approx(scale**3, rel=1e-6)
+
+
+def test_what_was_sculpted_on_faces_stays_where_it_is_when_they_are_reversed():
+    """Multires keeps its moves by the corners of faces, whose order is the other way round then."""
+    bpy.ops.mesh.primitive_cube_add()
+    obj = bpy.context.object
+    obj.data.flip_normals()
+    multires = obj.modifiers.new("Multires", "MULTIRES")
+    bpy.ops.object.multires_subdivide(modifier=multires.name, mode="SIMPLE")
+    shape = bpy.data.meshes.new_from_object(obj.evaluated_get(bpy.context.evaluated_depsgraph_get()))
+    for vertex in shape.vertices:
+        x, y, z = vertex.co
+        vertex.co = (x + 0.2 * y * y + 0.1 * z, y + 0.15 * z * x, z + 0.1 * x + 0.05 * y)
+    other = add(shape, "Shape", select=False)
+    only(obj, other)
+    assert bpy.ops.object.multires_reshape(modifier=multires.name) == {"FINISHED"}
+    before = sorted(map(tuple, np.round(seen(obj), 4)))
+    assert len(before) == 26
+    multires.show_viewport = False
+    only(obj)
+    assert bpy.ops.object.body_moments_recalculate_outside() == {"FINISHED"}
+    multires.show_viewport = True
+    bpy.context.view_layer.update()
+    assert np.abs(np.array(sorted(map(tuple, np.round(seen(obj), 4)))) - before).max() < 3e-4
