@@ -586,6 +586,7 @@ CONSTANTS = [
     (r"operators/read/sample_grid.py SampledGrid.__init__", r"sample\(low - ", "any place beyond the grid"),
     (r"operators/(read|scene|bodies)/.*", r"\bedges=", "read, and not looked at where nothing is to be proved closed"),
     (r"operators/session/shown.py _shown_now", r"last is None or last\[", "what was found is found once more"),
+    (r"operators/session/live.py _measure", r"norm\(matrix\[:", "the first three numbers of the last row are 0"),
     (r".*session/listing.py _listing", r"lines = \[", "each is written over"),
     (r"panels/.*", r"\balign=", "whether the corners between two rows are round"),
     (r".*mesh/side_pairs.py _paired_by_sorting", r"high << np.uint64\(", "of vertices there are fewer than 2^30"),

@@ -228,6 +228,20 @@ def test_the_budget_is_that_of_the_preferences_where_there_are_some(monkeypatch)
     assert close(live._budget(), 1e-3 * default, 1e-12)
 
 
+def test_control_points_are_as_exact_wherever_their_object_is(monkeypatch):
+    """As their object's coordinates are: the bound on these grows with its scale and the unit, not with its place."""
+    given, tracked_solid = [], live.TrackedSolid
+    monkeypatch.setattr(live, "TrackedSolid", lambda *them: given.append(them[1]) or tracked_solid(*them))
+    bpy.ops.surface.primitive_nurbs_surface_sphere_add()
+    obj, scene = bpy.context.object, bpy.context.scene
+    for location, scale, unit in (((0, 0, 0), 1.0, 1.0), ((300, 0, -400), 1.0, 1.0), ((0, 0, 0), 2.0, 0.125)):
+        obj.location, obj.scale, scene.unit_settings.scale_length = location, (scale,) * 3, unit
+        bpy.context.view_layer.update()
+        live.start(obj, bpy.context.evaluated_depsgraph_get())
+        assert given[0] > 0.0 and close(given[-1], given[0] * scale * unit, 1e-6)
+    assert len(given) == 3
+
+
 @pytest.mark.parametrize("given_mass", [False, True])
 def test_what_is_scaled_has_its_area_and_its_density(given_mass, clock):
     obj = add(mesh_body(), location=(1, 2, 3))
