@@ -72,6 +72,8 @@ def mistakes():
         yield "products_sign", {"products": products}, of_inertia(with_products(signs, INERTIA))
         own = along(turn, turn)
         yield "products_sign", {"products": products}, replace(own, tensor=with_products(signs, own.tensor))
+        wrong = turn.T @ with_products(signs, INERTIA) @ turn
+        yield "products_sign", {"products": products}, replace(own, tensor=wrong)
         axes = [axis for axis, sign in zip("xyz", signs) if sign < 0.0]
         yield "center_sign", {"axes": axes}, of_inertia(INERTIA, CENTER * signs)
     for axis in range(3):
