@@ -298,7 +298,7 @@ def _transform_mesh(mesh: bpy.types.Mesh, change: Matrix4) -> None:
     exact_keys = [_transform_points(key, "co", change) for key in keys]
     # Blender's own transform also turns custom normals; its float32 coordinates are replaced by the
     # exact ones.
-    mesh.transform(Matrix(change), shape_keys=True)
+    mesh.transform(Matrix(change))
     if exact is not None:
         mesh.attributes["position"].data.foreach_set("vector", exact)
     for key, points in zip(keys, exact_keys):

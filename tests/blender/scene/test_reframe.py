@@ -409,3 +409,16 @@ def test_a_place_that_is_reached_at_once_takes_one_evaluation():
         steps += 1
     assert steps == 2
     assert np.abs(np.array(obj.matrix_world) - target).max() < 1e-5
+
+
+def test_free_normals_turn_with_the_points():
+    mesh = add(mesh_body()).data
+    normals = np.random.default_rng(1).normal(size=(len(mesh.loops), 3))
+    normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+    mesh.attributes.new("custom_normal", "FLOAT_VECTOR", "CORNER").data.foreach_set("vector", normals.ravel())
+    turn = np.array([[0.36, 0.48, -0.8], [-0.8, 0.6, 0.0], [0.48, 0.64, 0.6]])
+    change = np.eye(4)
+    change[:3, :3] = turn
+    reframe.transform_data(mesh, change)
+    found = np.array([tuple(corner.vector) for corner in mesh.corner_normals])
+    assert np.abs(found - normals @ turn.T).max() < 1e-5

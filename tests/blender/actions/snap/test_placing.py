@@ -153,3 +153,23 @@ def test_axes_that_nothing_fixes_may_turn_by_less_than_a_third_and_others_as_the
     for one in (cube, unique):
         assert one.is_principal(about_z(0.99 * base.MAX_DIRECTION_NOISE))
         assert not one.is_principal(about_z(1.01 * base.MAX_DIRECTION_NOISE))
+
+
+def test_an_empty_that_cannot_be_placed_is_as_it_was_parent_and_size_and_all(reported):
+    obj, other = add(mesh_body()), add(mesh_body("Other"), "Other", (9, 0, 0))
+    only(obj)
+    assert bpy.ops.object.body_moments_add_empty(parent=False) == {"FINISHED"}
+    made = next(one for one in bpy.data.objects if one.type == "EMPTY")
+    made.parent, made.matrix_parent_inverse = other, other.matrix_world.inverted()
+    limit = made.constraints.new("LIMIT_LOCATION")
+    limit.use_max_x, limit.max_x = True, 0.0
+    obj.location.x += 5.0
+    bpy.context.view_layer.update()
+    names = (*empty.RESTORED_PROPERTIES, "matrix_parent_inverse", "location", "rotation_quaternion", "scale")
+    before = {name: getattr(made, name) for name in names}
+    before = {
+        name: value.copy() if hasattr(value, "copy") and name != "parent" else value for name, value in before.items()
+    }
+    assert bpy.ops.object.body_moments_add_empty(parent=True, size=3.0) == {"CANCELLED"}
+    assert "empty_constrained" in reported.codes
+    assert {name: getattr(made, name) for name in names} == before
