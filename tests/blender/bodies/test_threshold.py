@@ -193,3 +193,14 @@ def test_a_body_of_negative_or_of_too_large_densities_says_which(tmp_path):
     huge.body_moments.grid_as, huge.body_moments.threshold_fill = "THRESHOLD", "GRID"
     with refused("mass_overflow", huge.name):
         measure(huge)
+
+
+@pytest.mark.parametrize(("side", "other", "step"), [(64, 64, 1), (65, 64, 2), (128, 128, 2), (129, 128, 3)])
+def test_a_grid_that_follows_a_slider_has_at_most_as_many_values_as_a_cube_of_64(side, other, step):
+    """Of larger ones every second or third of each axis is taken."""
+    values = np.arange(side * other * other, dtype=np.int32).reshape(side, other, other)
+    matrix = np.array([[0.5, 0.1, 0.0, 3.0], [0.0, 0.25, 0.2, -2.0], [0.3, 0.0, 1.0, 0.5], [0.0, 0.0, 0.0, 1.0]])
+    grid = threshold_module.ThresholdGrid("Grid", values, matrix, None)
+    found = grid.coarse()
+    assert (found is grid) == (step == 1) and np.array_equal(found.values, values[::step, ::step, ::step])
+    assert np.array_equal(found.matrix, matrix * [step, step, step, 1.0])

@@ -3,6 +3,7 @@
 """Instances are read as one surface with many places, exactly those that Blender draws."""
 
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -10,6 +11,7 @@ import pytest
 bpy = pytest.importorskip("bpy")
 
 from body_moments.operators.read import measurable_objects, read_object
+from body_moments.operators.read.instances import InstanceCollector
 
 from tests.blender.findings import refused, said
 from tests.blender.read_bodies import (
@@ -440,3 +442,16 @@ def test_what_the_choice_of_instances_leaves_out_is_not_there():
 
     nodes(host, build)
     check(host, 4)
+
+
+def test_what_has_no_surface_is_counted_once_for_each_place():
+    found = InstanceCollector(None, None)
+    curves, points = SimpleNamespace(curves=range(3)), SimpleNamespace(points=range(9))
+    for count in (2, 5):
+        found._count_surfaceless(SimpleNamespace(curves=curves, pointcloud=points, volume=object()), count)
+    assert found.left_out == {"kind_curves": 21, "kind_points": 63, "kind_volumes": 7}
+    nothing = SimpleNamespace(curves=SimpleNamespace(curves=()), pointcloud=SimpleNamespace(points=()), volume=None)
+    other = InstanceCollector(None, None)
+    other._count_surfaceless(nothing, 3)
+    other._count_surfaceless(SimpleNamespace(curves=None, pointcloud=None, volume=None), 3)
+    assert not other.left_out

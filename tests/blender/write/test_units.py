@@ -6,6 +6,7 @@ import itertools
 from math import inf, nan
 
 import pytest
+from body_moments.operators.write import messages
 from body_moments.operators.write.units import GROUPS, LENGTHS, MASSES, SI_UNITS, Units, column, number, rounded_up
 
 VALUES = (0.0, 3e-19, 1.25e-7, 0.000999999, 0.0123456789, 0.99999951, 1.0, 12345.6789, -98765.4321, 6.02214e9, 2.5e12)
@@ -56,3 +57,7 @@ def test_densities_have_units_of_their_own(density, system):
 def test_bounds_are_rounded_upward():
     for bound, shown in ((0.0, 0.0), (1.2, 1.2), (1.2000001, 1.3), (9.91e-7, 1e-6), (1.01962, 1.1), (inf, inf)):
         assert rounded_up(bound) == shown
+
+
+def test_places_at_zero_have_no_sign():
+    assert messages._Formatter(str, None).format_field([-0.0, 0.0, -1.5], "point") == "(0 m, 0 m, -1.5 m)"
