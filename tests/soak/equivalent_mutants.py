@@ -107,6 +107,12 @@ PATTERNS = [
         "with how many threads is summed; where faces are looked at",
     ),
     (r".*shape/flat_pose.py flat_symmetry", r"operations @ mirror", r"\(mirror @ operations\)", "the same mirrors"),
+    (
+        r".*shape/flat_pose.py _best_angles",
+        r"np\.argsort\(.*, kind=.stable.\)",
+        r"\(np\.argsort\(-overlap\[peaks\]\)\)",
+        "which of equally good turns is tried first",
+    ),
     (r".*shape/zernike.py radial_power", r"n - l", r"\(n \+ l\)", "the sign of all terms alike"),
     (
         r".*shape/(zernike.py descriptor_error|flat_signature.py flat_signature)",
