@@ -455,3 +455,12 @@ def test_what_has_no_surface_is_counted_once_for_each_place():
     other._count_surfaceless(nothing, 3)
     other._count_surfaceless(SimpleNamespace(curves=None, pointcloud=None, volume=None), 3)
     assert not other.left_out
+
+
+def test_what_has_no_surface_in_an_instanced_geometry_is_counted_too():
+    found, points = InstanceCollector(None, None), SimpleNamespace(points=range(4))
+    geometry = SimpleNamespace(
+        mesh=None, curves=None, pointcloud=points, volume=None, instances_pointcloud=lambda: None
+    )
+    found._add_geometry_set(geometry, np.zeros((2, 4, 4)))
+    assert found.left_out == {"kind_points": 8} and found.parts() == []
