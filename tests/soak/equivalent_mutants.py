@@ -113,6 +113,12 @@ PATTERNS = [
         r"\(np\.argsort\(-overlap\[peaks\]\)\)",
         "which of equally good turns is tried first",
     ),
+    (
+        r".*shape/registration.py best_rotation",
+        r"np\.argsort\(least, kind=.stable.\)",
+        r"\(np\.argsort\(least\)\)",
+        "which of those that are as near by their first points is looked at first",
+    ),
     (r".*shape/zernike.py radial_power", r"n - l", r"\(n \+ l\)", "the sign of all terms alike"),
     (
         r".*shape/(zernike.py descriptor_error|flat_signature.py flat_signature)",
