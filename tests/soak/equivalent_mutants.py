@@ -119,6 +119,13 @@ PATTERNS = [
         r"\(np\.argsort\(least\)\)",
         "which of those that are as near by their first points is looked at first",
     ),
+    (
+        r".*shape/zernike.py zernike_quadrature",
+        r"POINTS_PER_BLOCK // len\(u\)",
+        r"\(POINTS_PER_BLOCK \* len\(u\)\)",
+        "how much is computed at a time",
+    ),
+    (r".*density/threshold_cells.py _square", r"square if not \(.*", r"\(square \+ .*", "zeros are added"),
     (r".*shape/zernike.py radial_power", r"n - l", r"\(n \+ l\)", "the sign of all terms alike"),
     (
         r".*shape/(zernike.py descriptor_error|flat_signature.py flat_signature)",
@@ -688,6 +695,8 @@ CONSTANTS = [
         r"block\.min\(\) >= ",
         "what is nowhere negative is its own absolute value",
     ),
+    (r".*density/spline_grid.py _absolute_moments", r"np\.arange\(order \+ ", "a power that nothing reads"),
+    (r".*density/voxel_fill.py inside_moments", r"units = (40 \+ )?|math\.log2\(terms \+ ", "a looser bound"),
     (r".*density/threshold_cells.py Cells.column_axes", r"steps\.min\(axis=2\) \+ ", "which of several axes is taken"),
     (
         r".*offset/directions.py .*",
@@ -696,6 +705,7 @@ CONSTANTS = [
     ),
     (r".*offset/directions.py _corner_geometry", r"np\.where\(solid, double, ", "not read"),
     (r".*offset/walls.py _Prisms.swept", r"self\.double > 0\.0, self\.double, ", "what is divided is zero"),
+    (r".*shape/zernike.py zernike_quadrature", r"step = max\(", "how much is computed at a time, at least"),
     (r".*offset/wall_moments.py _strip_moments", r"step = max\(", "how much is computed at a time, at least"),
     (
         r".*mesh/planarity.py PlanarityAccumulator.add_triangles",
@@ -711,6 +721,7 @@ CONSTANTS = [
     (r".*shape/flat_pose.py NEWTON_STEPS", r"= ", "how long is searched"),
     (r".*mesh/welding.py _first_of_clusters", r"np\.ndindex\((2, )*", "a shift by a whole cell more"),
     (r".*solid/self_intersection.py measure_excess", r"int\(of_part\.max\(\)\) \+ ", "room for a part more"),
+    (r".*solid/shared_walls.py wall_links", r"int\(wall\.max\(\)\) \+ ", "room for a wall more"),
     (r".*solid/orientation.py orient_components", r"counted = np\.ones\(", "of one component, one is read"),
     (r".*solid/solid_stack.py _stand_apart", r"apart = ", "which bodies are measured by themselves, as well"),
     (r".*shape/zernike.py radial_power", r"np\.float64\), order \+ ", "a term more of a tail"),
@@ -741,6 +752,7 @@ CONSTANTS = [
     (r".*robots/plausibility.py Hull.distance", r"shifted\*\*", "with which of the points it begins"),
     (r".*plane/region_moments.py _swept", r"np\.vander\(column, order \+ ", "a power that nothing reads"),
     (r".*plane/polygon.py boundary_edges", r"net\[:, None\] < ", "what adds up to zero is left out"),
+    (r".*plane/polygon.py _crossing_pairs", r"length\[length == 0\.0\] = ", "what is divided is zero"),
     (r".*plane/polygon.py _crossing_pairs", r"(size|cell) = .*", "how coarse the grid is"),
     (r".*plane/polygon.py _crossing_pairs", r"within // tall\[edge\]\) \* \(", "which other edges are compared"),
     (r".*plane/polygon.py _twice_the_area", r"points\[edges\[(0, )?", "a closed outline has its area from anywhere"),

@@ -220,6 +220,18 @@ def test_a_sheared_grid_gives_the_area_and_the_moments_of_the_sheared_body():
         threshold_body(samples, -5.3, matrix=np.diag([1.0, 1.0, 0.0, 1.0]))
 
 
+@pytest.mark.parametrize("along, across", [(0, 1), (0, 2), (1, 2), (1, 0), (2, 0), (2, 1)])
+def test_the_area_of_a_plane_s_piece_is_that_of_its_corners_whichever_two_axes_are_sheared(along, across):
+    matrix = np.diag([1.0, 1.5, 0.75, 1.0])
+    matrix[along, across] = 0.5
+    x, y, z = np.meshgrid(*[np.arange(8.0)] * 3, indexing="ij")
+    found = threshold_body(-(x + 2 * y + 3 * z), -5.3, matrix=matrix)
+    corners = np.diag([5.3, 2.65, 5.3 / 3.0]) @ matrix[:3, :3].T
+    area = np.linalg.norm(np.cross(corners[1] - corners[0], corners[2] - corners[0])) / 2.0
+    assert close(found.area.total, area, rel=1e-10)
+    assert close(found.area.center, corners.mean(axis=0), rel=1e-10)
+
+
 def test_beyond_the_grid_is_nothing_or_the_background():
     samples = np.full((2, 2, 2), 3.0)
     alone = threshold_body(samples, 1.0)

@@ -7,7 +7,8 @@ import pytest
 from body_moments.core.mesh import bvh
 from body_moments.core.mesh.bvh import RAY_SLOPES, Bvh, radix_argsort, sort_components
 
-from tests.core import bodies
+from tests.close import close
+from tests.core import bodies, shapes
 
 RAY = np.array([*RAY_SLOPES, 1.0])
 TOLERANCE = 1e-6
@@ -38,6 +39,18 @@ def test_a_place_on_the_surface_is_not_sure_without_a_tolerance():
     tree = tree_of(*bodies.box((0.0, 0.0, 0.0), (1.0, 2.0, 4.0)))
     places = np.array([[0.5, 0.75, 4.0], [0.5, 0.75, 0.0], [0.5, 0.75, 1.0]]) - tree.origin
     assert tree.winding_numbers(places, np.zeros(3, np.intp), 0.0)[1].tolist() == [False, False, True]
+
+
+@pytest.mark.parametrize("turn", range(3))
+def test_distances_from_a_box_have_their_closed_form_inside_and_outside(turn):
+    low, high = np.roll([1.0, 2.0, 3.0], turn), np.roll([2.0, 4.0, 7.0], turn)
+    tree = tree_of(*shapes.refined(shapes.refined(bodies.box(low, high), 0), 1))
+    places = np.random.default_rng(turn).uniform(2.0 * low - high, 2.0 * high - low, (300, 3))
+    outside = np.linalg.norm(np.maximum(np.maximum(low - places, places - high), 0.0), axis=1)
+    inside = np.minimum(places - low, high - places).min(axis=1)
+    assert 5 < np.count_nonzero(inside > 0.0) < 295
+    found = tree.distances(places - tree.origin, np.zeros(300, np.intp))
+    assert close(found, np.where(inside > 0.0, inside, outside), rel=1e-12)
 
 
 @pytest.mark.parametrize("limit, is_sure", [(4, False), (5, True)])

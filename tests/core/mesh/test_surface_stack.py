@@ -67,6 +67,17 @@ def test_edges_that_join_other_vertices_close_nothing(edges):
     assert found.is_closed.tolist() == [True, False, True] and not found.is_open.any()
 
 
+def test_coordinates_are_as_inexact_as_the_largest_of_their_surface_up_to_the_largest_there_is():
+    """Which has the step of 2^127, half of which is 2^103."""
+    largest = np.finfo(np.float32).max
+    ends = [(-largest, 1.0, 3.0), (0.0, largest, -(2.0**127)), (1.0, -7.0, 2.0**-100)]
+    boxes = [replace(BOX, points=(CORNERS * np.array(end)).astype(np.float32)) for end in ends]
+    exponents = [[103, -24, -23], [-150, 103, 103], [-24, -22, -124]]
+    found = SurfaceStack.of(boxes).coordinate_error
+    assert np.array_equal(found, np.ldexp(1.0, exponents))
+    assert np.array_equal(found, [surface.coordinate_error for surface in boxes])
+
+
 @pytest.mark.parametrize(
     "lacking",
     [

@@ -4,9 +4,11 @@
 
 import json
 from dataclasses import replace
+from math import factorial, pi, sqrt
 
 import numpy as np
 import pytest
+from body_moments.core.moments.moments import U
 from body_moments.core.plane import directed_edges, region_moments
 from body_moments.core.shape.flat_signature import flat_signature
 from body_moments.core.shape.library import (
@@ -170,7 +172,7 @@ def test_a_record_gives_the_signature_back():
     again = Signature.from_record(json.loads(json.dumps(plain(found.as_record()))))
     for name in PARTS:
         assert np.array_equal(getattr(found, name), getattr(again, name))
-    assert again.size == found.size
+    assert again.size == found.size and list(found.as_record()) == ["size", *PARTS]
     assert [len(getattr(found, name)) for name in PARTS] == [37, 121, 12, 47]  # what libraries on disk hold
 
 
@@ -181,7 +183,30 @@ def test_a_flat_record_gives_the_signature_back_and_moments_beyond_order_20_add_
     for name in PARTS:
         assert np.array_equal(getattr(found, name), getattr(again, name))
         assert np.array_equal(getattr(found, name), getattr(more, name))
+    assert list(found.as_record()) == ["dimension", "size", *PARTS]
     assert again.dimension == 2 and [len(getattr(found, name)) for name in PARTS] == [40, 121, 0, 27]
+
+
+@pytest.mark.parametrize("order", [6, 8, 12])
+def test_a_flat_signature_s_error_is_what_eight_units_of_rounding_make_of_it(order):
+    """Of a shape in the unit disc no c_pq is the sum of more than 2^(s/2) times its area, s = p + q."""
+    edges = directed_edges([range(6)])
+    points = np.array([[0, 0], [3, 0.25], [2.5, 1], [1, 1], [1.25, 2.5], [0, 2.0]]) / 4.0
+    moments = region_moments(points, edges, order).about_center()
+    radius = float(np.linalg.norm(points - moments.about[:2], axis=1).max())
+    found = flat_signature(moments, radius)
+
+    def most(n, m):
+        """Of |A_nm|, by the sizes of the coefficients of R_nm."""
+        last = (n - m) // 2
+        sizes = (
+            (factorial(n - k) / factorial(k) / factorial(last + m - k) / factorial(last - k), n - 2 * k)
+            for k in range(last + 1)
+        )
+        return sqrt((n + 1) / pi) * sum(size * 2.0 ** (s / 2.0) for size, s in sizes)
+
+    limit = max(most(n, m) for n in range(order + 1) for m in range(n % 2, n + 1, 2))
+    assert U * found.zernike.max() < found.error < 8.0 * U * limit * moments.total / radius**2
 
 
 @pytest.mark.parametrize("damage", [{"zernike": []}, {"size": None}, {"chirality": [1.0]}, {"invariants": [None, "x"]}])
