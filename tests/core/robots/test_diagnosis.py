@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from body_moments.core.numerics.rotations import quaternion
 from body_moments.core.robots.diagnosis import INERTIA_UNITS, LENGTH_UNITS, Reference, _times, diagnose
-from body_moments.core.robots.stated import StatedInertial, rotation_of_angles
+from body_moments.core.robots.stated import Description, StatedInertial, rotation_of_angles
 from body_moments.core.verdict.finding import finding
 
 from tests.close import close
@@ -228,3 +228,7 @@ def test_a_number_of_a_file_keeps_its_decimals_in_another_unit(value):
     ):
         assert _times([value, -value], factor).tolist() == [truth, -truth]
     assert value * 1e-3 != value / 1000.0
+
+
+def test_a_description_is_in_meters_and_kilograms_where_its_file_names_no_units():
+    assert Description("arm", "urdf", ()).scales == {"length": 1.0, "mass": 1.0}
