@@ -696,7 +696,7 @@ CONSTANTS = [
         "what is nowhere negative is its own absolute value",
     ),
     (r".*density/spline_grid.py _absolute_moments", r"np\.arange\(order \+ ", "a power that nothing reads"),
-    (r".*density/voxel_fill.py inside_moments", r"units = (40 \+ )?|math\.log2\(terms \+ ", "a looser bound"),
+    (r".*density/voxel_fill.py inside_moments", r"(units = (40 \+ )?|math\.log2\(terms \+ )", "a looser bound"),
     (r".*density/threshold_cells.py Cells.column_axes", r"steps\.min\(axis=2\) \+ ", "which of several axes is taken"),
     (
         r".*offset/directions.py .*",
