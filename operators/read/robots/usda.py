@@ -79,8 +79,7 @@ class _Parser:
         return self.tokens[self.index][0] if self.index < len(self.tokens) else ""
 
     def take(self) -> tuple[str, int]:
-        if self.index >= len(self.tokens):
-            raise FileError("usda_invalid", line=self.text.count("\n") + 1)
+        """The next token and where it stands. Raises IndexError where the text ends."""
         self.index += 1
         return self.tokens[self.index - 1]
 

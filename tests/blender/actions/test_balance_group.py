@@ -262,6 +262,9 @@ def test_a_signal_says_when_the_center_leaves_the_support_polygon(scene):
     assert empty["body_balance_inside"] == 1
     scene.frame_set(1)
     assert empty["body_balance_inside"] == 0
+    shown = empty.id_properties_ui("body_balance_inside").as_dict()
+    assert (shown["min"], shown["max"]) == (0, 1)
+    assert shown["description"] == "Whether the center is over the support polygon"
 
 
 @pytest.mark.parametrize(("reach", "distance"), [(0.0, 0.02), (0.005, 0.005)])

@@ -354,6 +354,8 @@ def test_what_cannot_be_measured_says_why(tmp_path):
     empty = linked(bpy.data.objects.new("Empty", bpy.data.volumes.new("Empty")))
     with refused("volume_without_grids"):
         measure(empty)
+    with refused("volume_without_grids", "Empty"), volume_reading(empty, bpy.context.evaluated_depsgraph_get()):
+        pass
     missing = linked(bpy.data.objects.new("Missing", bpy.data.volumes.new("Missing")))
     missing.data.filepath = str(tmp_path / "none.vdb")
     with pytest.raises(MeasureError) as caught:

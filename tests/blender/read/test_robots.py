@@ -234,3 +234,11 @@ def test_a_usd_layer_is_only_so_deep(tmp_path):
     depth = xml.MAX_DEPTH + 2  # the outermost one counts as none
     layer = "#usda 1.0\n" + 'def Xform "a" {\n' * depth + "}\n" * depth
     assert refusal(read_description, write(tmp_path / "a.usda", layer)) == "xml_too_large"
+
+
+def test_an_element_of_xml_ends_behind_its_last_tag_whether_it_has_one_or_two():
+    texts = [b"<b></b>", b"<b/>", b'<b x="/>"></b >', b'<b x="/>"/>', b"<b>/></b>", b"<b><c/></b>"]
+    data = b"<a>" + b" ".join(texts) + b"</a>\n"
+    root = xml.parse(data)
+    assert [data[node.start : node.end] for node in root.children] == texts
+    assert data[root.start : root.end] == data[:-1]

@@ -12,7 +12,7 @@ import pytest
 
 pytest.importorskip("bpy")
 import bpy
-from body_moments.operators.session import live, posed, results, updates
+from body_moments.operators.session import handlers, live, posed, results, updates
 from body_moments.operators.session.shown import shown_body
 from body_moments.operators.session.trust import Trust
 from mathutils import Euler, Matrix
@@ -382,3 +382,13 @@ def test_nothing_is_due_once_the_add_on_is_gone():
     live.unregister()
     assert not bpy.app.timers.is_registered(live._tick)
     live.unregister()
+
+
+def test_what_was_computed_of_an_object_is_out_of_date_once_its_numbers_are_new():
+    obj = add(mesh_body())
+    start(obj)
+    depsgraph = bpy.context.evaluated_depsgraph_get()
+    for _ in range(2):
+        before = handlers.generation()
+        live.update(obj, depsgraph)
+        assert handlers.generation() > before

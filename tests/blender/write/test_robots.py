@@ -128,6 +128,11 @@ def test_a_document_without_a_body_is_no_robot():
     assert robot.links == () and robot.joints == () and robot.name == "r"
 
 
+@pytest.mark.parametrize(("file", "name"), [("/a/Arm.v2.blend", "Arm.v2"), (None, "robot"), ("", "robot")])
+def test_a_robot_is_called_like_its_file(file, name):
+    assert from_records.robot_of_document({"file": file, "objects": [record("a", 0.0)]})[0].name == name
+
+
 def test_poses_that_are_the_same_are_known():
     assert text.is_identity(Pose())
     assert not text.is_identity(Pose(np.array([0.0, 0.0, 1e-300])))

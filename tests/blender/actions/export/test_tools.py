@@ -71,6 +71,7 @@ def test_the_audit_of_what_is_right_writes_no_copy(tmp_path, reported):
     path.write_text(BOX.format("5333.3333333333333"), encoding="utf-8")
     assert bpy.ops.import_scene.body_moments_audit(filepath=str(path), write_copy=True) == {"FINISHED"}
     assert [file.name for file in tmp_path.iterdir()] == ["r.urdf"]
+    assert reported.codes == ["audit_done", "audit_text"]
     (tmp_path / "r.urdf.audit.html").mkdir()
     with pytest.raises(RuntimeError):
         bpy.ops.import_scene.body_moments_audit(filepath=str(path), write_page=True)

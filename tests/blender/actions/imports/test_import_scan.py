@@ -59,10 +59,13 @@ def test_no_sample_is_lost_and_ct_numbers_go_by_the_table(tmp_path):
     assert measure(obj).volume == pytest.approx(values.size)
 
 
-def test_samples_that_float32_cannot_hold_stay_exact(tmp_path):
-    values = samples("f8") + 2.0**-30
+@pytest.mark.parametrize(("finer", "kind"), [(0.0, "FLOAT"), (2.0**-30, "DOUBLE")])
+def test_samples_that_float32_cannot_hold_stay_exact_and_others_take_half_the_room(tmp_path, finer, kind):
+    values = samples("f8") + finer
     obj = imported(written(tmp_path / "a.nrrd", nrrd(values)))
     bpy.context.view_layer.update()
+    obj.data.grids.load()
+    assert [grid.data_type for grid in obj.data.grids] == [kind]
     with volume_reading(obj, bpy.context.evaluated_depsgraph_get()) as reading:
         assert np.array_equal(next(iter(reading.blocks()))[1], values)
 

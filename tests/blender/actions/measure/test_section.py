@@ -744,3 +744,17 @@ def test_moments_of_a_region_of_curves_beyond_the_range_of_numbers_are_refused()
     assert region.curves and close(region.moments(2).total, np.pi * 1e30, rel=1e-3)
     with refusal("moments_overflow", order=24):
         region.moments(24)
+
+
+def test_of_several_meshes_in_edit_mode_those_with_selected_faces_are_measured(reported):
+    sheets = [add(flat_mesh(square(0, 0, 1), square(5, 0, 2)), name) for name in "ab"]
+    for sheet, number in zip(sheets, (None, 1)):
+        edit_with_square(sheet, number)
+        bpy.ops.object.mode_set(mode="OBJECT")
+    only(*sheets)
+    bpy.ops.object.mode_set(mode="EDIT")
+    assert [sheet.data.total_face_sel for sheet in sheets] == [0, 1]
+    assert bpy.ops.object.body_moments_measure_section() == {"FINISHED"}
+    assert reported.codes == ["measured_section"]
+    assert stored(sheets[0]) is None and stored(sheets[1]) is not None
+    bpy.ops.object.mode_set(mode="OBJECT")
