@@ -824,7 +824,7 @@ def reason(mutant: Mutant) -> str:
             return why
     if re.fullmatch(CONSTANT, before):
         for where, left, why in CONSTANTS:
-            if re.fullmatch(where, place) and re.search(left + "$", ahead):
+            if re.fullmatch(where, place) and re.search("(?:{})$".format(left), ahead):
                 return why
     return EQUIVALENT.get(mutant.key, "")
 
