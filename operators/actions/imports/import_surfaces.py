@@ -74,7 +74,7 @@ class OBJECT_OT_body_moments_import_surfaces(Operator, ImportHelper):
         if names:
             return [Path(bpy.path.abspath(self.directory), name) for name in names]
         path = Path(bpy.path.abspath(self.filepath))
-        return [path] if path.name and not path.is_dir() else []
+        return [] if path.is_dir() else [path]
 
     def _import(self, context: Context, path: Path) -> tuple[list[Object], list[Finding]]:
         """The objects of a file, and what was done and decided."""

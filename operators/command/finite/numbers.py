@@ -120,7 +120,7 @@ def _line(data: Data, start: int, place: int) -> tuple[int, int]:
     """Where the line begins and ends that holds a place, as far as it reaches. A backslash at its end continues it."""
     lowest, highest = max(start, place - _REACH), min(place + _REACH, len(data))
     begin = max(data.rfind(b"\n", lowest, place) + 1, lowest)
-    while begin - 2 > lowest and data[begin - 2 : begin] == b"\\\n":
+    while begin > lowest and data[begin - 2 : begin] == b"\\\n":
         begin = max(data.rfind(b"\n", lowest, begin - 1) + 1, lowest)
     end = place
     while end < highest:
@@ -145,7 +145,7 @@ def bad_in_text(
         line = data[begin:done].replace(b"\\\n", b" ")
         words = list(coordinates(line, begin))
         bad = sum(not is_finite(word) for word in words)
-        if not words and begin > start and data[begin - 1 : begin] != b"\n":
+        if not words and begin > start and (data[begin - 1 : begin] != b"\n" or data[begin - 2 : begin] == b"\\\n"):
             bad = 1  # in the middle of a line, nobody knows what it is
         if bad and not count:
             first = begin

@@ -412,6 +412,19 @@ def test_a_line_goes_on_behind_each_backslash_at_an_end(tmp_path):
     assert checked(path) is None
 
 
+@pytest.mark.parametrize("reach", range(5, 30))
+def test_a_word_is_found_wherever_the_part_of_its_line_that_is_looked_at_begins(tmp_path, monkeypatch, reach):
+    """At a backslash, behind it, behind what it continues, or anywhere else; and at the beginning of the file."""
+    monkeypatch.setattr(finite.numbers, "_REACH", reach)
+    path = tmp_path / "t.obj"
+    for before in ("", "v 0 0 0\n"):
+        for text in ("v 1 \\\n23 \\\n\\\nnan", "v 1234 \\\n2345 nan", "\\\nv 12 nan 0"):
+            files.write_text(path, before + text + "\nv 0 0 1\n")
+            assert checked(path).values["count"] == 1
+    files.write_text(path, "vn 1 \\\n2 nan\n")
+    assert (checked(path) is None) == (reach >= 9)  # up to the beginning of its line
+
+
 @pytest.mark.parametrize("length", [5000, 1 << 20, 3 << 20])
 @pytest.mark.parametrize("name", ["t.obj", "t.ply", "t.stl"])
 def test_a_word_is_found_however_far_from_the_beginning_of_its_line(tmp_path, name, length):
