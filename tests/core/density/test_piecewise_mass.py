@@ -327,3 +327,13 @@ def test_mended_bodies_have_parts_that_add_up_too(make):
     total = np.sum([one.raw for one in part_moments(parts, solid.volume)], axis=0)
     assert np.allclose(total, solid.volume.raw, rtol=1e-12, atol=1e-12 * np.abs(solid.volume.raw).max())
     assert parts.face.max() < 1 + np.unique(parts.face[parts.face >= 0]).size
+
+
+@pytest.mark.parametrize("far", range(6))
+def test_the_reach_is_that_of_the_farthest_corner(monkeypatch, far):
+    """In whichever triangle and block it is, on either side."""
+    monkeypatch.setattr(piecewise_mass, "CORNERS_PER_BLOCK", 2)
+    points = np.random.default_rng(1).uniform(-1.0, 1.0, (18, 3)).astype(np.float32)
+    points[3 * far + far % 3] = -8.0, 16.0, 32.0
+    reach = piecewise_mass._reach(points, np.arange(18).reshape(6, 3), np.array([1.0, 2.0, -4.0]))
+    assert close(reach, [9.0, 14.0, 36.0], rel=1e-15)

@@ -126,3 +126,14 @@ def test_grids_are_refined_while_the_next_may_have_as_many_samples(monkeypatch, 
     )
     smooth_threshold_body(samples, 0.0, 4, order=0)
     assert shapes == [(10 * 2**n + 1,) * 3 for n in range(grids)]
+
+
+@pytest.mark.parametrize("order", [2, 3, 4])
+def test_the_background_goes_on_around_the_grid(order):
+    """As many values of it as the spline has there make the same body as the samples alone."""
+    samples = np.random.default_rng(order).uniform(1.0, 2.0, (3, 4, 3))
+    margin = (order + 1) // 2
+    found = smooth_threshold_body(samples, 0.5, order, order=1, background=-3.0)
+    padded = smooth_threshold_body(np.pad(samples, margin, constant_values=-3.0), 0.5, order, order=1)
+    assert close(found.volume.total, padded.volume.total, rel=1e-13) and not found.clipped
+    assert close(found.volume.center, padded.volume.center - margin, rel=1e-12)

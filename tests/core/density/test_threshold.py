@@ -390,3 +390,36 @@ def test_the_surface_has_its_area_where_nothing_changes_along_an_axis(axis, leve
     )
     assert close(found.area.total, float(length), rel=1e-8)
     assert close(found.volume.center[axis], 0.5, rel=1e-11) and close(found.area.center[axis], 0.5, rel=1e-9)
+
+
+@pytest.mark.parametrize("order", [0, 1, 2, 3, 4, 5])
+def test_parts_of_cells_that_lie_inside_are_integrated_exactly(order):
+    """A box whose density rises along all axes at once."""
+    sums = threshold._Sums(order, True, False, np.eye(3))
+    i, j, k = np.ogrid[:2, :2, :2]
+    corners = (1.0 + i) * (2.0 - j) * (1.0 + 3.0 * k)
+    origin, size = np.array([0.25, -0.5, 1.0]), 0.5
+    sums._add_boxes(threshold.Cells(corners[None], origin[None], np.array([size])), 3.0)
+
+    def mean(at, start, slope, power):
+        """Of (start + slope u) (at + size u)^power over u from 0 to 1."""
+        line = np.polynomial.Polynomial([start, slope]) * np.polynomial.Polynomial([at, size]) ** power
+        return line.integ()(1.0)
+
+    volume, mass = np.zeros((2, len(monomials(order))))
+    for number, powers in enumerate(monomials(order).tolist()):
+        plain = [mean(at, 1.0, 0.0, power) for at, power in zip(origin, powers)]
+        rising = [mean(at, *line, power) for at, line, power in zip(origin, ((1, 1), (2, -1), (1, 3)), powers)]
+        volume[number] = size**3 * np.prod(plain)
+        mass[number] = size**3 * (3.0 * np.prod(plain) + np.prod(rising))
+    for found, truth, measure in ((sums.volume, volume, "volume"), (sums.mass, mass, "mass")):
+        assert (np.abs(found - truth) <= sums.error(measure)).all()
+        assert close(found[0], truth[0], rel=1e-15 * 8)
+
+
+def test_cut_cells_are_those_with_corners_on_both_sides():
+    values = np.random.default_rng(3).normal(size=(9, 8, 7))
+    inside = np.pad(values, 1, constant_values=-1.0) >= 0.25
+    corners = np.lib.stride_tricks.sliding_window_view(inside, (2, 2, 2)).sum(axis=(3, 4, 5))
+    found = threshold_body(values, 0.25, order=0, background=-1.0)
+    assert found.cut_cells == np.count_nonzero((corners > 0) & (corners < 8))

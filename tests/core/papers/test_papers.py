@@ -18,6 +18,7 @@ from body_moments.core.papers import zhang_chen_2001 as zhang_chen
 from body_moments.core.papers.soldea_elber_rivlin_2002_phi import phi
 from body_moments.core.polyhedron import polyhedron_moments
 
+from tests.close import close
 from tests.core import exact, rational
 
 F = Fraction
@@ -154,6 +155,10 @@ def test_the_moments_about_a_point_are_those_of_the_moved_body():
 
 
 def test_many_triangles_at_once_in_floats_agree_with_fractions_and_with_the_add_on():
+    flat = np.array([(0.0, 0.0, 1.0), (1.0, 0.0, 1.0), (0.0, 2.0, 1.0)])
+    volume, surface = sheynin_tuzikov.triangle_moments(flat, np.array([[0, 1, 2]]), 1)
+    assert close(volume, [1 / 3, 1 / 12, 1 / 6, 1 / 4], rel=1e-15)  # of the cone from the origin
+    assert close(surface, [1.0, 1 / 3, 2 / 3, 1.0], rel=1e-15)
     points, faces = prism()
     cut = triangles(points, faces)
     floats = np.array(points, float)

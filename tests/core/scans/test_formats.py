@@ -300,6 +300,12 @@ def nifti_with(offset: int, form: str, *numbers) -> bytes:
         (nifti(values(), quaternion=(0.6, 0.8, 0.01, 0, 0, 0)), "nifti_rotation", {}),
         (nifti(values(), quaternion=(0, 0, 0, 0, np.inf, 0)), "nifti_rotation", {}),
         (nifti_with(112, "f", float("inf")), "scan_scaling", {}),
+        (nifti_with(112, "2f", 1.0, float("inf")), "scan_scaling", {}),
+        (
+            nifti(values(), spacing=(0, 0, 0), quaternion=(0, 0, 0, 1, 2, 3)),
+            "nifti_spacing",
+            {"x": 0.0, "y": 0.0, "z": 0.0},
+        ),
         (nifti_with(80, "f", 0.0), "nifti_spacing", {"x": 0.0, "y": 1.0, "z": 1.0}),
         (nifti(values(), sform=np.zeros((3, 4))), "scan_placement", {}),
         (nifti(values(), sform=np.full((3, 4), np.nan)), "scan_placement", {}),
