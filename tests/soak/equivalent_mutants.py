@@ -764,6 +764,7 @@ CONSTANTS = [
     (r".*nurbs/patch_topology.py _coincident_sides", r"axis=1\)(\[arcs\])?, ", "more of them are compared"),
     (r".*nurbs/patch_topology.py _cap_loop", r"full_matrices=", "what is not read"),
     (r".*nurbs/solid.py assess", r"reach = size \+ ", "a looser bound"),
+    (r".*read/section.py _axes", r"matrix\[:, :", "the last column is no shorter than one"),
     (r".*nurbs/solid.py measure_sheet", r"area\.total or ", "what is divided is zero"),
     (r".*nurbs/patch_topology.py _pair_sides", r"part, odd, size = [^\[]*\[", "it is set before it is read"),
     (r".*nurbs/patch_topology.py _pair_sides.root", r"turn = ", "whether two are turned alike is all that is read"),
