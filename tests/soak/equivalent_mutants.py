@@ -449,6 +449,12 @@ PATTERNS = [
         r".*",
         "which of two stands for both",
     ),
+    (
+        r".*plane/polygon.py _crossing_pairs",
+        r"2 \* GRID_CELLS",
+        r"\(2 / GRID_CELLS\)",
+        "cells that share a number give more pairs, which are looked at like all others",
+    ),
     (r".*plane/polygon.py boundary_edges", r"net\[:, None\] < 0", r".* <= 0\)", "what adds up to zero is left out"),
     (r"operators/scene/dependents.py SAMPLES", r"64", r"65", "how many of a body's points are compared"),
     (r".*scans/scan.py PACKED", r"\d+", r"\d+", "how much is unpacked at a time"),

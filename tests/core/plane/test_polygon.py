@@ -426,3 +426,12 @@ def test_an_edge_that_a_ray_runs_along_is_not_met_beyond_its_end(scale):
     corners = [(0, 0), (1, rise), (1, -1), (1.125, -1), (1.125, 1 + rise), (0, 1 + rise)]
     found = find_defects(scale * np.array(corners), directed_edges([range(6)]))
     assert found == OutlineDefects(0, False, False)
+
+
+@pytest.mark.parametrize("y, overlapping", [(0.0, True), (0.5, False), (-0.5, False)])
+def test_a_stroke_there_and_back_overlaps_only_on_a_side(y, overlapping):
+    """There one of its two edges has the outside to its left and the inside to its right."""
+    points = np.array([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0), (0.25, y), (0.75, y)])
+    edges = np.array([(0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 4)])
+    found = find_defects(points, edges)
+    assert found.overlapping == overlapping and not found.negative and found.crossings == 0

@@ -56,6 +56,17 @@ def test_pieces_are_closed_and_their_moments_add_up_to_the_whole(name, monkeypat
     assert all(piece.moments().total > 0.0 for piece in pieces)
 
 
+@pytest.mark.parametrize("name", CHARACTERS)
+def test_faces_come_first_in_their_order(name):
+    character = CHARACTERS[name]
+    bone = np.random.default_rng(1).integers(0, 3, len(character.triangles))
+    pieces = bone_pieces(character.points, character.triangles, bone)
+    assert [piece.bone for piece in pieces] == [0, 1, 2]
+    for piece in pieces:
+        faces = piece.surface.points[piece.surface.triangles[: piece.face_count]]
+        assert np.array_equal(faces, character.points[character.triangles[bone == piece.bone]])
+
+
 @pytest.mark.parametrize("cells", [1, 3])
 def test_a_skeleton_of_boxes_gives_each_bone_its_box(cells):
     pieces = cut(made.box_skeleton(cells))
