@@ -40,7 +40,7 @@ def end_with(watched: int) -> None:
     fcntl.fcntl(watched, fcntl.F_SETOWN, os.getpid())
     fcntl.fcntl(watched, fcntl.F_SETFL, fcntl.fcntl(watched, fcntl.F_GETFL) | os.O_ASYNC)
     ready = select.poll()
-    ready.register(watched, 0)  # that the other end is closed already is reported in any case
+    ready.register(watched, select.POLLHUP)  # where the other end is closed already
     if ready.poll(0):
         os._exit(0)
 

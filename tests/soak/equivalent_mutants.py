@@ -601,6 +601,8 @@ CONSTANTS = [
     (r".*", r"\breshape\(([^()]|\([^()]*\))*-", "numpy finds out a length from any negative number"),
     (r"operators/bodies/bare_file.py bare_reading", r"kind, np\.eye\(", "where no object is, its matrix is not read"),
     (r".*finite/numbers.py _large", r"ord\(\"0\"\)\) < ", "more is looked at closely, and found to be no number"),
+    (r".*supervisor/lifeline.py end_with", r"ready\.poll\(", "a thousandth of a second is waited"),
+    (r".*supervisor/lifeline.py Lifeline.__init__", r"ThreadPoolExecutor\(", "room for a thread that nothing starts"),
     (r".*command/output.py claim_stdout", r"channel = -", "any negative number is no descriptor"),
     (r"operators/bodies/hull.py object_hull", r"len\(part\.matrices\) > ", "the hull of hulls is that of their points"),
     (

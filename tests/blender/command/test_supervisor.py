@@ -664,8 +664,11 @@ def test_a_whole_run_is_followed_and_stopped(tmp_path, monkeypatch, stubborn):
 
 
 def test_a_run_ends_with_the_window_that_has_started_it():
-    """A window that has gone already, and one that goes later; without one nothing is watched."""
-    code = "import runpy; runpy.run_path({!r})['end_with_window'](); import os; os.write(1, b'.'); {}"
+    """A window that has gone already, and one that goes later, also where the signal of that was ignored; without one
+    nothing is watched.
+    """
+    code = "import signal; signal.signal(signal.SIGIO, signal.SIG_IGN); "
+    code += "import runpy; runpy.run_path({!r})['end_with_window'](); import os; os.write(1, b'.'); {}"
     for closed_before in (True, False):
         watched, kept = os.pipe()
         words = [sys.executable, "-c", code.format(lifeline.__file__, "import time; time.sleep(600)")]
@@ -827,6 +830,7 @@ def test_where_a_thread_listens_messages_come_and_their_end_is_that_of_the_proce
     monkeypatch.setattr(sys, "stdin", SimpleNamespace(buffer=io.BytesIO(b"".join(lines))))
     channel = Channel()
     line = lifeline.Lifeline(channel.writing, 5)
+    assert int(Path("/proc/self/oom_score_adj").read_text()) >= 500  # where memory runs out it goes first
     messages = line.messages()
     assert [next(messages) for _ in lines] == [{"number": number} for number in range(3)]
     assert over.wait(60) and ended == [0]
@@ -850,12 +854,12 @@ def test_a_file_has_its_time_and_no_longer(monkeypatch):
 
 
 def test_where_there_are_no_descriptors_to_control_nothing_is_watched(monkeypatch):
-    monkeypatch.setattr(lifeline, "fcntl", None)
-    lifeline.end_with(-1)
     monkeypatch.setattr(lifeline, "BY_SIGNAL", False)
     monkeypatch.setenv(lifeline.WINDOW, "-1")
     lifeline.end_with_window()
     assert lifeline.WINDOW not in os.environ
+    monkeypatch.setattr(lifeline, "fcntl", None)
+    lifeline.end_with(-1)
 
 
 def test_an_idle_child_that_ends_is_nobodys_fault(tmp_path, fake):
