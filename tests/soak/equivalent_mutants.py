@@ -40,6 +40,12 @@ PATTERNS = [
         r"\(np\.arange\(((?!dtype).)*\)\)",
         "indices of eight bytes",
     ),
+    (
+        r".*write/robots/repair.py with_principal_axes",
+        r"axes \* \(1\.0, 1\.0, np\.sign\(np\.linalg\.det\(axes\)\)\)",
+        r"\(axes / .*",
+        "times -1 is by -1",
+    ),
     (r".*shape/symmetry.py _around_axis", r"n // 2", r"\(n \* 2\)", "the same turns, the other way"),
     (
         r".*nurbs/creases.py sharpest_crease",
@@ -603,6 +609,8 @@ CONSTANTS = [
     (r".*finite/numbers.py _large", r"ord\(\"0\"\)\) < ", "more is looked at closely, and found to be no number"),
     (r".*supervisor/lifeline.py end_with", r"ready\.poll\(", "a thousandth of a second is waited"),
     (r".*supervisor/lifeline.py Lifeline.__init__", r"ThreadPoolExecutor\(", "room for a thread that nothing starts"),
+    (r".*write/thumbnail.py thumbnail", r"steps \+ \(right, up, ", "how deep an axis is, which is drawn over the body"),
+    (r".*write/whole_file.py whole_file", r"os\.O_WRONLY \|.*\"O_BINARY\", ", "the number of O_WRONLY, which is there"),
     (r".*command/output.py claim_stdout", r"channel = -", "any negative number is no descriptor"),
     (r"operators/bodies/hull.py object_hull", r"len\(part\.matrices\) > ", "the hull of hulls is that of their points"),
     (

@@ -81,6 +81,7 @@ def test_a_child_on_windows_is_a_group_of_its_own_without_a_pipe_to_watch(monkey
     _, kept = processes.start(["blender", "child"], tmp_path / "work", tmp_path / "log")
     assert kept is None and given["command"] == ["blender", "child"] and given["pass_fds"] == ()
     assert given["creationflags"] == 0x200 and not given["start_new_session"]
+    assert given["env"]["TEMP"] == str(tmp_path / "work") and (tmp_path / "work").is_dir()
     ended = []
     one = SimpleNamespace(kill=lambda: ended.append("killed"), wait=lambda seconds: ended.append("waited for"))
     processes.kill([one], gently=True)

@@ -8,6 +8,7 @@ import base64
 import json
 import re
 import zlib
+from dataclasses import replace
 from math import inf
 
 import bpy
@@ -239,6 +240,26 @@ def test_reports_of_stored_numbers(kept, scene):
     kept("reports.txt", "\n".join(texts))
 
 
+def picture(url):
+    """The bytes of a thumbnail, and its pixels."""
+    data = base64.b64decode(url.removeprefix("data:image/png;base64,"))
+    start, end = data.index(b"IDAT") + 4, data.index(b"IEND") - 8
+    rows = np.frombuffer(zlib.decompress(data[start:end]), np.uint8).reshape(SIZE, -1)
+    return data, rows[:, 1:].reshape(SIZE, SIZE, 4)
+
+
+def test_the_axes_of_a_thumbnail_cross_at_the_center_of_mass():
+    """Where it is in the picture; a body that is a point fills the inner four fifths with a length of 1."""
+    right, up = np.array([0.8, -0.6, 0.0]), np.array([0.36, 0.48, 0.8])
+    point, middles = np.array([1.0, 2.0, 3.0]), []
+    for offset in (np.zeros(3), 0.02 * right, 0.03 * up):
+        _, pixels = picture(thumbnail(point[None], np.zeros((1, 3), int), point + offset, TURN))
+        row, column = np.nonzero(pixels[..., 3])
+        middles.append(((column.min() + column.max()) / 2.0, -(row.min() + row.max()) / 2.0))
+    moved = np.subtract(middles[1:], middles[0])
+    assert np.abs(moved - 0.8 * SIZE * np.diag([0.02, 0.03])).max() <= 1.0  # a pixel
+
+
 def test_a_thumbnail(kept):
     """Every second pixel as a letter of its color."""
     corners = np.array([(x, y, z) for x in (0, 1) for y in (0, 2) for z in (0, 3)], float)
@@ -246,11 +267,8 @@ def test_a_thumbnail(kept):
     box = np.array([part for a, b, c, d in quads for part in ((a, b, c), (a, c, d))])
     pages = []
     for triangles in (box, np.zeros((1, 3), int)):
-        url = thumbnail(corners, triangles, np.array([0.5, 1.0, 1.5]), TURN)
-        data = base64.b64decode(url.removeprefix("data:image/png;base64,"))
-        start, end = data.index(b"IDAT") + 4, data.index(b"IEND") - 8
-        rows = np.frombuffer(zlib.decompress(data[start:end]), np.uint8).reshape(SIZE, -1)
-        pixels = rows[::2, 1:].reshape(SIZE // 2, SIZE, 4)[:, ::2]
+        data, pixels = picture(thumbnail(corners, triangles, np.array([0.5, 1.0, 1.5]), TURN))
+        pixels = pixels[::2, ::2]
         colors, place = np.unique(pixels.reshape(-1, 4), axis=0, return_inverse=True)
         letters = np.array([*".abcdefghi"])[place.reshape(pixels.shape[:2])]
         pages += [repr(data[:33]), repr(colors.tolist()), *("".join(row).rstrip(".") for row in letters)]
@@ -299,3 +317,21 @@ def test_a_section_that_somebody_else_has_stored_is_none(scene):
         beam[section.KEY] = wrong
         assert section.stored(beam) is None and section.fingerprint(beam) == ""
     assert section.clear(beam) and not section.clear(beam) and section.stored(beam) is None
+
+
+def test_of_the_axes_of_a_plane_nothing_is_shown_that_single_precision_does_not_hold(scene):
+    from body_moments.operators.write import section
+
+    beam = add(flat_mesh(I_BEAM), "Beam")
+    only(beam)
+    bpy.ops.object.body_moments_measure_section()
+    stored = section.stored(beam)
+    for index, label in ((2, "normal"), (0, ", x"), (1, ", y")):
+        for off, is_shown in ((0.9, False), (1.1, True)):
+            axes = np.eye(3)
+            axes[index - 1, index] = off * 2.5e-7
+            plane = replace(stored.section.plane, axes=axes)
+            text = section.text("Beam", replace(stored, section=replace(stored.section, plane=plane)))
+            (line,) = (line for line in text.splitlines() if "normal (" in line)
+            shown = line.partition(label + " (")[2].partition(")")[0].split(", ")
+            assert (float(shown[index - 1]) != 0.0) == is_shown, line

@@ -115,7 +115,7 @@ def test_what_is_no_gltf_is_refused(data):
 
 
 def record(name, mass=1.0, **link):
-    place = {"position": [0.0, 0.0, 0.0], "rotation": np.eye(3).tolist()}
+    place = {"position": [0.0, 0.0, 0.0], "rotation": [1.0, 0.0, 0.0, 0.0]}
     return {"name": name, "mass": mass, "link": {"parents": [], **place, **link}}
 
 
@@ -126,6 +126,21 @@ def test_a_document_without_a_body_is_no_robot():
     names = ["massless", "bare", "none"]
     assert said == [finding("robot_links_left_out", count=3, links=names), finding("robot_without_links")]
     assert robot.links == () and robot.joints == () and robot.name == "r"
+
+
+@pytest.mark.parametrize(
+    ("type_", "kind", "has_mesh"),
+    [
+        *(("MESH", "solid", True), ("MESH", "shell", True), ("CURVE", "solid", True), ("MESH", "wire", False)),
+        *(("VOLUME", "solid", False), ("EMPTY", "solid", False), ("ARRAY", "solid", False)),
+    ],
+)
+def test_a_link_of_a_surface_has_its_mesh(type_, kind, has_mesh):
+    box = of_box(2.0, (1.0, 2.0, 4.0))
+    entry = {**record("a", 2.0, scale=[1.0] * 3), "type": type_, "kind": kind, "center_of_mass": box.center}
+    entry |= {"inertia": box.inertia, "principal_moments": box.moments, "principal_axes": box.axes}
+    (link,) = from_records.robot_of_records("r", [entry])[0].links
+    assert [(shape.file, shape.sheet) for shape in link.shapes] == [("meshes/a.stl", kind == "shell")] * has_mesh
 
 
 @pytest.mark.parametrize(("file", "name"), [("/a/Arm.v2.blend", "Arm.v2"), (None, "robot"), ("", "robot")])
@@ -195,3 +210,13 @@ def test_a_binary_gltf_has_chunks_of_whole_words_and_keeps_the_others(length):
         text = made[20 : 20 + size]
         assert size % 4 == 0 and size - len(text.rstrip(b" ")) < 4 and json.loads(text) == document
         assert made[20 + size :] == rest and gltf.read_json(made) == document
+
+
+def test_names_in_the_text_of_a_gltf_are_legible():
+    assert gltf.replace_json(b"{}", {"name": "Würfel 立方体"}).decode() == '{\n\t"name": "Würfel 立方体"\n}\n'
+
+
+@pytest.mark.parametrize("data", [b"{}", gltf.to_glb("{}")])
+def test_a_gltf_holds_no_number_that_json_does_not_know(data):
+    with pytest.raises(ValueError):
+        gltf.replace_json(data, {"value": float("nan")})
