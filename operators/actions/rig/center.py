@@ -87,7 +87,6 @@ def _follower(context: Context, made: MadeCollection, armature: Object, part: Bo
     empty.parent, empty.parent_type, empty.parent_bone = armature, "BONE", bone.name
     empty.matrix_parent_inverse = Matrix.Identity(4)
     empty.location = Vector(local) - Vector((0.0, bone.length, 0.0))  # children of a bone start at its tail
-    context.view_layer.update()
     empty.hide_set(True)
     return empty
 

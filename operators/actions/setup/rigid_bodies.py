@@ -11,10 +11,8 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
 import bpy
-import numpy as np
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, StringProperty
 from bpy.types import Context, Menu, Object, Operator
-from numpy.typing import NDArray
 
 from ....core.inertia.mass_properties import combine
 from ....core.inertia.third_moment_frames import EQUAL_AXES
@@ -26,7 +24,7 @@ from ...bodies.measure_object import Measured as MeasuredBody
 from ...bodies.stack import Stacked
 from ...read.tracking import tracking_paused
 from ...scene import reframe
-from ...scene.transforms import require_storable_data, world
+from ...scene.transforms import require_storable_data
 from ...session import assembly, results, staleness
 from ...settings.options import MeasureOptions
 from ...write import properties, reports
@@ -36,8 +34,9 @@ from .. import selection
 from ..modal import progress
 from ..rigid_world import add_joint, add_rigid_bodies, remove_joint, require_rigid_world
 from ..snap import base as snapping
+from ..snap.origin import matrix_at_center
+from ..snap.principal_axes import matrix_along_axes
 
-UNIT_SCALE = 1e-6  # by how much an object's scale may differ from 1
 SHOWN = 12  # bodies in the redo panel
 PROBE_DENSITY = 1e6  # with which Calculate Mass is asked: rigid bodies weigh no less than a gram
 
@@ -167,15 +166,16 @@ class OBJECT_OT_body_moments_rigid_bodies(Operator):
         if self.frame == "KEEP":
             return failures
         move_only = self.frame == "ORIGIN"
+        frame_of = matrix_at_center if move_only else matrix_along_axes
         for _ in range(1 if move_only else 2):  # without its scale what is not flat is cut into other triangles
-            plans = []
+            plans, joints = [], {}
             for obj, one in list(measured.items()):
-                target = _frame(obj, one.target, move_only)
+                target = frame_of(obj, one.target)
                 if target is None:
                     continue
                 try:
                     reframe.check(obj)
-                    _keep_joint(context, obj)
+                    joints[obj] = _joint_in_place(context, obj)
                 except Exception as error:
                     failures.append(reports.failure(obj.name_full, error))
                     del measured[obj]
@@ -183,9 +183,14 @@ class OBJECT_OT_body_moments_rigid_bodies(Operator):
                 plans.append(reframe.Plan(obj, target, one.target.size, move_only=move_only))
             with progress(len(plans)) as step:
                 changed, refused = reframe.reframe(context, plans, step)
+            for plan in changed:
+                if joints[plan.obj] is not None:
+                    remove_joint(context, plan.obj)
             for obj, refusal in refused:
                 failures.append(reports.failure(obj.name_full, refusal))
                 del measured[obj]
+                if joints[obj] is not None:
+                    bpy.data.objects.remove(joints[obj])
             ask = _asked(context, [measured[plan.obj].body for plan in changed])
             for plan in changed:
                 measured[plan.obj] = _measured(context, measured[plan.obj].body, ask)
@@ -306,23 +311,6 @@ def _store(context: Context, measured: dict[Object, Measured]) -> None:
     staleness.mark_up_to_date(context, stored, shapes)
 
 
-def _frame(obj: Object, target: snapping.SnapTarget, move_only: bool) -> NDArray[np.float64] | None:
-    """(4, 4) the matrix that the object is to have; None where it is right as it is."""
-    now = world(obj)
-    at_center = np.abs(now[:3, 3] - target.center).max() <= reframe.location_tolerance(obj, target.size)
-    if move_only:
-        moved = now.copy()
-        moved[:3, 3] = target.center
-        return None if at_center else moved
-    linear = now[:3, :3]
-    is_rotation = np.abs(linear.T @ linear - np.eye(3)).max() <= UNIT_SCALE and np.linalg.det(linear) > 0.0
-    if at_center and is_rotation and target.is_principal(linear):
-        return None
-    frame = np.eye(4)
-    frame[:3, :3], frame[:3, 3] = target.axes, target.center
-    return frame
-
-
 def _calculated_masses(context: Context, measured: dict[Object, Measured]) -> dict[Object, float]:
     """What Blender's Calculate Mass makes of each body with the same density."""
     objects = [part for one in measured.values() for part in (one.body.obj, *one.body.members)]
@@ -333,11 +321,11 @@ def _calculated_masses(context: Context, measured: dict[Object, Measured]) -> di
     return {obj: obj.rigid_body.mass * one.density / PROBE_DENSITY for obj, one in measured.items()}
 
 
-def _keep_joint(context: Context, obj: Object) -> None:
-    """Where the object itself is a joint, whose place its frame is, let an empty be that joint in its place."""
+def _joint_in_place(context: Context, obj: Object) -> Object | None:
+    """Where the object itself is a joint, whose place its frame is, an empty that can be that joint in its place."""
     joint = obj.rigid_body_constraint
     if joint is None:
-        return
+        return None
     empty = bpy.data.objects.new("{:s} Joint".format(obj.name), None)
     for collection in obj.users_collection:
         collection.objects.link(empty)
@@ -348,10 +336,9 @@ def _keep_joint(context: Context, obj: Object) -> None:
     for prop in joint.bl_rna.properties:
         if not prop.is_readonly:
             setattr(copy, prop.identifier, getattr(joint, prop.identifier))
-    context.view_layer.update()
     empty.parent, empty.matrix_parent_inverse = obj, obj.matrix_world.inverted()
-    remove_joint(context, obj)
     context.view_layer.update()
+    return empty
 
 
 def _menu(menu: Menu, _context: Context) -> None:

@@ -78,18 +78,19 @@ class OBJECT_OT_body_moments_align_to_world(Operator):
         return selection.summarize(self, len(moved), len(objects), done, failures, idle=finding("already_aligned"))
 
     def _align(self, context: Context, obj: Object, frame: NDArray) -> bool:
+        """Whether the object had to be moved."""
         reframe.check_movable(obj)
         body = snapping.snap_target(context, obj, self.strict)
         goal = body.center if self.pivot == "CENTER" else np.zeros(3)
         aligned = body.is_principal(frame)
-        if aligned and np.abs(body.center - goal).max() <= reframe.location_tolerance(obj, body.size):
-            return False
-        turn = np.eye(3) if aligned else frame @ body.axes.T
-        target = world(obj)
-        target[:3, :3] = turn @ target[:3, :3]
-        target[:3, 3] = goal + turn @ (target[:3, 3] - body.center)
-        reframe.move(context, reframe.Plan(obj, target, body.size, move_only=aligned))
-        return True
+        is_there = aligned and np.abs(body.center - goal).max() <= reframe.location_tolerance(obj, body.size)
+        if not is_there:
+            turn = np.eye(3) if aligned else frame @ body.axes.T
+            target = world(obj)
+            target[:3, :3] = turn @ target[:3, :3]
+            target[:3, 3] = goal + turn @ (target[:3, 3] - body.center)
+            reframe.move(context, reframe.Plan(obj, target, body.size, move_only=aligned))
+        return not is_there
 
 
 CLASSES = (OBJECT_OT_body_moments_align_to_world,)

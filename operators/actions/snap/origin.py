@@ -33,13 +33,14 @@ class OBJECT_OT_body_moments_origin_to_center(Operator):
         return snapping.reframe_selected(
             self,
             context,
-            _origin_at_center,
+            matrix_at_center,
             finding("origins_moved"),
             move_only=True,
         )
 
 
-def _origin_at_center(obj: Object, body: snapping.SnapTarget) -> np.ndarray | None:
+def matrix_at_center(obj: Object, body: snapping.SnapTarget) -> np.ndarray | None:
+    """Where the object is to be, its origin at the body's center; None where it is."""
     target = world(obj)
     off = np.abs(target[:3, 3] - body.center).max()
     if off <= reframe.location_tolerance(obj, body.size):

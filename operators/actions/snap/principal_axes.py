@@ -15,7 +15,7 @@ from ...scene.transforms import world
 from .. import selection
 from . import base as snapping
 
-UNIT_SCALE = 1e-6
+UNIT_SCALE = 1e-6  # by how much the products of an object's axes may differ from 1 and 0
 
 
 class OBJECT_OT_body_moments_axes_to_principal(Operator):

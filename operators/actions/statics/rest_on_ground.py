@@ -104,12 +104,11 @@ class OBJECT_OT_body_moments_rest_on_ground(Operator):
         target[:3, 3] = body.center + turn @ (target[:3, 3] - body.center)
         target[:3, 3] += (self._ground(context, obj, body.center, down) - poses.heights[place]) * down
         off = np.abs(target - world(obj))
-        if off[:3, :3].max() <= 1e-6 * np.abs(target[:3, :3]).max() and off[:3, 3].max() <= reframe.location_tolerance(
-            obj, size
-        ):
-            return False
-        reframe.move(context, reframe.Plan(obj, target, size, move_only=False))
-        return True
+        is_turned = off[:3, :3].max() > 1e-6 * np.abs(target[:3, :3]).max()
+        is_moved = is_turned or off[:3, 3].max() > reframe.location_tolerance(obj, size)
+        if is_moved:
+            reframe.move(context, reframe.Plan(obj, target, size, move_only=False))
+        return bool(is_moved)
 
     def _ground(self, context: Context, obj: Object, center: NDArray, down: NDArray) -> float:
         """How far the ground is below the center."""

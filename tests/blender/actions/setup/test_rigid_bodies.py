@@ -131,6 +131,38 @@ def test_joints_stay_where_they_are():
     assert np.abs(found[:3, :3] - turn).max() < 1e-5
 
 
+def test_a_body_that_cannot_have_its_frame_stays_the_joint_that_it_was():
+    obj = slanted()
+    bpy.ops.rigidbody.world_add()
+    bpy.ops.rigidbody.constraint_add(type="HINGE")
+    obj.rigid_body_constraint.use_limit_ang_z, obj.lock_location = True, (True, True, True)
+    before = place(obj)
+    assert make() == {"CANCELLED"}
+    assert list(bpy.data.objects) == [obj] and (place(obj) == before).all() and obj.rigid_body is None
+    assert obj.rigid_body_constraint.type == "HINGE" and obj.rigid_body_constraint.use_limit_ang_z
+
+
+def test_what_is_right_and_what_is_refused_do_not_end_the_others():
+    right = box(bpy.context.scene.collection, (4, 2, 1), (0, 0, 0), 1000, "a")
+    instancer, last = slanted("b"), slanted("c")
+    instancer.instance_type, slanted("Child").parent = "VERTS", instancer
+    bpy.context.view_layer.update()
+    only(right, instancer, last)
+    before = place(right), place(instancer)
+    assert make() == {"FINISHED"} and is_what_bullet_takes_it_for(last)
+    assert right.rigid_body is not None and instancer.rigid_body is None
+    assert (place(right) == before[0]).all() and (place(instancer) == before[1]).all()
+
+
+@pytest.mark.parametrize("frame", ["AXES", "ORIGIN", "KEEP"])
+def test_that_axes_were_free_to_choose_is_said_where_they_were_chosen(frame, reported):
+    box(bpy.context.scene.collection, (2, 2, 2), (1, 2, 3), 1000, "Cube")
+    only(bpy.data.objects["Cube"])
+    free = measured(bpy.context.object).mass_properties.principal.finding
+    assert make(frame=frame) == {"FINISHED"}
+    assert (free.code in reported.codes) == (frame == "AXES")
+
+
 def test_what_cannot_be_one_is_left_as_it_is_with_the_reason(reported):
     good, text = slanted("good"), add(bpy.data.curves.new("T", "FONT"), "Text")
     text.data.body, text.data.extrude = "A", 0.5
