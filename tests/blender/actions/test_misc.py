@@ -29,11 +29,17 @@ def test_clear_removes_all_results_of_the_selected_objects_only():
     assert bpy.ops.object.body_moments_clear() == {"CANCELLED"}
 
 
-def test_copy_report_needs_results_and_then_works():
+def test_copy_report_needs_results_and_then_works(tmp_path, capfd):
     add(mesh_body())
     assert not bpy.ops.object.body_moments_copy_report.poll()
     bpy.ops.object.body_moments_measure()
-    assert bpy.ops.object.body_moments_copy_report() == {"FINISHED"}
+    for path in (None, tmp_path / "saved.blend"):
+        if path is not None:
+            bpy.ops.wm.save_as_mainfile(filepath=str(path))
+        capfd.readouterr()
+        assert bpy.ops.object.body_moments_copy_report() == {"FINISHED"}
+        lines = capfd.readouterr().out.splitlines()
+        assert [line for line in lines if line.startswith("File")] == ["File: {}".format(path)] * (path is not None)
     assert bpy.ops.object.body_moments_copy_value(value="3.15", unit="m³") == {"FINISHED"}
     assert bpy.ops.object.body_moments_copy_value() == {"CANCELLED"}
 
@@ -71,15 +77,20 @@ def test_the_empty_of_a_curve_is_at_its_center_though_curves_lay_children_along_
     assert bpy.ops.object.body_moments_add_empty() == {"CANCELLED"}
 
 
-@pytest.mark.parametrize("how", ["parent", "constraint"])
+@pytest.mark.parametrize("how", ["parent", "constraint", "driver"])
 def test_an_empty_that_its_object_follows_is_left_where_it_is(how, reported):
     obj = add(mesh_body())
     bpy.ops.object.body_moments_add_empty(parent=False)
     empty = next(one for one in bpy.data.objects if one.type == "EMPTY")
     if how == "parent":
         obj.parent = empty
-    else:
+    elif how == "constraint":
         obj.constraints.new("CHILD_OF").target = empty
+    else:
+        driver = obj.driver_add("location", 1).driver
+        driver.type, variable = "SUM", driver.variables.new()
+        variable.type, variable.targets[0].id = "TRANSFORMS", empty
+        variable.targets[0].transform_type = "LOC_X"
     obj.location.x += 5.0
     bpy.context.view_layer.update()
     before = place(obj), place(empty)

@@ -119,7 +119,10 @@ def test_what_has_a_hull_and_no_numbers_neither_stands_nor_rests(scene):
 
 def test_a_tipping_object_is_reported(scene, reported):
     obj = objects.add(box((2.0, 2.0, 6.0)), rotation=(0.6, 0.0, 0.0))
+    objects.only(objects.add(box((2.0, 2.0, 6.0)), "Standing", (9.0, 0.0, 0.0)), obj)
     bpy.ops.object.body_moments_stability()
+    assert reported.values("objects_tip") == {"count": 1, "names": [obj.name]}
+    assert reported.values("stability_computed") == {"count": 1, "total": 2}
     assert reported.values("objects_tip")["names"] == [obj.name]
 
 
@@ -207,11 +210,13 @@ def test_a_round_body_says_that_its_hull_is_simplified(scene, reported, monkeypa
 
     monkeypatch.setattr(hull, "MAX_CORNERS", 60)
     from body_moments.operators.actions.statics import stability as action
+    from body_moments.operators.session import stability as session
 
     monkeypatch.setattr(action, "MAX_CORNERS", 60)
     bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=5)
     bpy.ops.object.body_moments_stability()
-    assert 0.0 < reported.values("hull_simplified")["share"] < 0.05
+    gap = session.compute(bpy.context.object, bpy.context.evaluated_depsgraph_get()).gap
+    assert gap > 0.0 and close(reported.values("hull_simplified")["share"], gap / 2.0, 1e-6)
 
 
 def test_instances_stand_on_what_they_show(scene):

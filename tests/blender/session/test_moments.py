@@ -166,6 +166,19 @@ def test_a_shell_shows_its_thin_volume(box):
     assert rows()[0, 0, 0][0] == pytest.approx(22.0, rel=1e-6)
 
 
+def test_a_flat_shell_has_the_moments_of_its_sheet_and_of_its_outline():
+    from body_moments.operators.session.moments import computed_moments
+
+    bpy.ops.mesh.primitive_plane_add(size=2.0)
+    obj = bpy.context.object
+    obj.body_moments.kind, obj.body_moments.thickness = "SHELL", 0.25
+    compute(2)
+    found = computed_moments(obj)
+    assert found.volume.total == pytest.approx(1.0, rel=1e-9)
+    assert found.flat.moments.total == pytest.approx(4.0, rel=1e-9)
+    assert found.not_flat is None
+
+
 def test_an_object_without_a_surface_is_refused_with_the_reason():
     bpy.context.view_layer.objects.active = None
     empty = bpy.data.objects.new("Empty", None)

@@ -6,7 +6,10 @@ from math import pi
 
 import numpy as np
 import pytest
-from body_moments.operators.actions.measure.fourier import OBJECT_OT_body_moments_fourier_run
+from body_moments.operators.actions.measure.fourier import (
+    OBJECT_OT_body_moments_fourier,
+    OBJECT_OT_body_moments_fourier_run,
+)
 
 from tests.blender.actions.test_dialogs import TIMER, Window, stand_in
 from tests.blender.bodies.test_assembly import box_mesh
@@ -39,6 +42,23 @@ def test_the_progress_goes_to_one_and_image_editors_show_the_image(tmp_path, mon
     other = Window()
     other.type = "VIEW_3D"
     assert run(other, tmp_path / "box.npz") == {"FINISHED"} and other.spaces.active.image is None
+
+
+@pytest.mark.parametrize(
+    ("height", "kind", "asked", "proposed"),
+    [
+        (0.0, "SOLID", {}, "FLAT"),
+        (4.0, "SOLID", {}, "BODY"),
+        (0.0, "SHELL", {}, "BODY"),
+        (0.0, "SOLID", {"of": "AREA"}, "AREA"),
+    ],
+)
+def test_the_dialog_proposes_the_flat_shape_of_what_is_flat_unless_something_else_is_asked_for(
+    height, kind, asked, proposed
+):
+    add(box_mesh(1, 2, height), "Box").body_moments.kind = kind
+    operator = stand_in(OBJECT_OT_body_moments_fourier, print, **asked)
+    assert operator.invoke(Window(), None) == {"RUNNING_MODAL"} and operator.of == proposed
 
 
 @pytest.mark.parametrize("largest", [0.0, 3.0])

@@ -8,6 +8,7 @@ from types import SimpleNamespace
 import bpy
 import numpy as np
 import pytest
+from body_moments.core.verdict.finding import finding
 from body_moments.operators.read.curves import text_curves
 from body_moments.operators.read.section import read_section
 
@@ -583,6 +584,18 @@ def test_the_report_says_conventions_and_notes():
     for words in ("Letter", "Ixy = +∫xy dA", "not the torsion constant", "resolution 12", "m⁴"):
         assert words in text
     assert bpy.ops.object.body_moments_copy_section() == {"FINISHED"}
+
+
+def test_a_copied_section_says_that_it_is_out_of_date(scene, capfd):
+    add(flat_mesh(I_BEAM))
+    bpy.ops.object.body_moments_measure_section()
+    for unit, is_stale in ((1.0, False), (0.5, True)):
+        scene.unit_settings.scale_length = unit
+        capfd.readouterr()
+        assert bpy.ops.object.body_moments_copy_section() == {"FINISHED"}
+        text = capfd.readouterr().out
+        assert "Second moments" in text and ("Out of date" in text) == is_stale
+        assert (str(finding("stale_unit_scale")) in text) == is_stale
 
 
 @pytest.mark.parametrize(

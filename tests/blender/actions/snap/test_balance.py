@@ -86,6 +86,10 @@ def test_selected_vertices_move_and_the_center_comes_over_the_cursor():
     assert np.array_equal(points(obj)[~selected], before[~selected]) and moved[selected].sum() > 20
     assert np.abs(center(obj)[:2] - (0.02, 0.01)).max() < 1e-6
     assert 0.0 < abs(center(obj)[2] - height) < 0.3
+    for face in bmesh.from_edit_mesh(obj.data).faces:
+        shown = face.normal.copy()
+        face.normal_update()
+        assert (shown - face.normal).length < 1e-6
     bpy.ops.object.mode_set(mode="OBJECT")
     assert np.abs(center(obj)[:2] - (0.02, 0.01)).max() < 1e-6
     assert np.array_equal([vertex.select for vertex in obj.data.vertices], selected)
