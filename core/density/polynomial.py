@@ -320,7 +320,7 @@ def _to_bernstein(degree: int) -> NDArray[np.float64]:
 
 def _most_curved_axis(net: NDArray) -> int:
     """The axis along which the second differences are largest: it is they by which the net is off the polynomial."""
-    return int(np.argmax([np.abs(np.diff(net, 2, axis)).max(initial=0.0) for axis in range(3)]))
+    return int(np.argmax([np.abs(np.diff(net, 2, axis)).max() for axis in range(3)]))
 
 
 def _halves(net: NDArray, axis: int) -> tuple[NDArray, NDArray]:

@@ -170,9 +170,8 @@ def _slabs(
     step = max(1, CELLS_PER_SLAB // max(samples.shape[1] * samples.shape[2], 1))
     for first in range(0, planes - 1, step):
         last = min(first + step + 1, planes)
-        with np.errstate(invalid="ignore"):  # of NaN that signal
-            slab = np.asarray(samples[max(first - margin, 0) : last - margin], np.float64)
-            slab = slab if value is None else value(slab)
+        slab = np.asarray(samples[max(first - margin, 0) : last - margin], np.float64)
+        slab = slab if value is None else value(slab)
         if background is not None:
             beside = int(first == 0), int(last == planes)
             slab = np.pad(slab, (beside, (1, 1), (1, 1)), constant_values=background)

@@ -114,7 +114,7 @@ def columns_of(corners: NDArray, points: int, metric: NDArray) -> Columns:
     along_x, along_y = step[cell], line[row, 1] - line[row, 0]  # (m, y, z), (m, z)
     floor, ceiling = (line[row, 0] + y[:, None] * along_y).T
     growth = ceiling - floor
-    with np.errstate(divide="ignore", invalid="ignore"):
+    with np.errstate(divide="ignore"):
         level = -floor / growth
     level = np.where(growth == 0.0, np.where(floor >= 0.0, 2.0, -1.0), level)
     crossed = (level >= 0.0) & (level <= 1.0)
@@ -123,7 +123,7 @@ def columns_of(corners: NDArray, points: int, metric: NDArray) -> Columns:
     floor_x, ceiling_x = (along_x[:, 0] + y[:, None] * (along_x[:, 1] - along_x[:, 0])).T
     slope_x = floor_x + level * (ceiling_x - floor_x)
     slope_y = along_y[:, 0] + level * (along_y[:, 1] - along_y[:, 0])
-    with np.errstate(divide="ignore", invalid="ignore"):
+    with np.errstate(divide="ignore"):
         slope = np.where(crossed, np.sqrt(_square(metric, slope_x, slope_y, growth)) / np.abs(growth), 0.0)
     low, high = np.where(rises, level, 0.0), np.where(rises, 1.0, level)
     density, growth = np.ldexp(floor, exponent[cell]), np.ldexp(growth, exponent[cell])
@@ -139,7 +139,7 @@ def _square(metric: NDArray, x: NDArray, y: NDArray, z: NDArray) -> NDArray[np.f
 def _smooth_intervals(low: NDArray, high: NDArray) -> tuple[NDArray[np.intp], NDArray, NDArray]:
     """Cut [0, 1] at the roots of linear functions with the values (n, k) at its ends: row, start and length of each
     interval."""
-    with np.errstate(divide="ignore", invalid="ignore"):
+    with np.errstate(divide="ignore"):
         roots = np.where((low < 0.0) != (high < 0.0), low / (low - high), 0.0)
     edges = np.sort(np.pad(np.clip(roots, 0.0, 1.0), ((0, 0), (1, 0))), axis=1)
     ends = np.pad(edges[:, 1:], ((0, 0), (0, 1)), constant_values=1.0)

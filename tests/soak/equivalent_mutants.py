@@ -601,6 +601,25 @@ PATTERNS = [
         "the determinant of a, b and c in either way, as well within its bound",
     ),
     (r"panels/rows.py DEFAULT_WIDTH", r"\d+", r"\d+", "a pixel of a panel whose width is not known"),
+    (
+        r".*density/threshold.py threshold_body",
+        r"\(shape - 1\) // 2 - margin|shape - 1",
+        r"\(\(shape - 1\) // 2 \+ margin\)|\(shape \+ 1\)",
+        "a reference point near the middle",
+    ),
+    (r".*density/threshold.py _Sums._add_batch", r"break", r"continue", "it goes on to no avail"),
+    (
+        r".*density/(voxel_fill.py inside_moments|spline_tables.py clipped_integrals)",
+        r"\(order \+ 3\) // 2|-\(order \+ degree\) // 2",
+        r"\(\(order \+ 3\) \* 2\)|\(-\(order \+ degree\) \* 2\)",
+        "a rule of more points is as exact",
+    ),
+    (
+        r".*density/smooth_threshold.py spline_values",
+        r"\(order \+ 1\) // 2",
+        r"\(\(order \+ 1\) \* 2\)",
+        "places farther away, where the spline is zero",
+    ),
 ]
 # places of constants, and what stands ahead of them in their line: the reason
 CONSTANTS = [
@@ -627,7 +646,11 @@ CONSTANTS = [
     (r".*mesh/side_pairs.py _paired_by_sorting", r"high << np.uint64\(", "of vertices there are fewer than 2^30"),
     (r".*solid/nesting.py _interior_samples", r"weight = .*", "which places are tried"),
     (r".*shape/(symmetry.py confirm|flat_pose.py holds_by_outline)", r"points\[:: ", "which are looked at first"),
-    (r".*density/threshold.py threshold_body", r"// ", "a reference point near the middle"),
+    (r".*density/threshold.py threshold_body", r"// |about = \(shape - ", "a reference point near the middle"),
+    (r".*density/threshold.py _slabs", r"max\(samples\.shape\[1\] \* .*\], ", "how much is looked at at a time"),
+    (r".*density/threshold.py _Sums._add_columns", r"power_table\((high|low), self\.order \+ ", "not read"),
+    (r".*density/voxel_fill.py inside_moments", r"triangle_rule\(\(order \+ ", "a rule of more points is as exact"),
+    (r".*density/smooth_threshold.py spline_values", r"reach = \(order \+ ", "where the spline is zero"),
     (r".*density/piecewise_mass.py _block_size", r"TRIANGLES_PER_BLOCK \* ", "how much is computed at a time"),
     (r".*moments/normalized.py normalize", r"trace = .* else ", "not read"),
     (r".*third_order_kernel.py _BlockCalls.__init__", r"self\.room = spare\[:, ", "where a value is stored"),
@@ -796,6 +819,7 @@ CONSTANTS = [
 ]
 # functions that make bounds of errors, where a constant factor twice as large gives a bound still
 LOOSER = {
+    "core/density/piecewise_mass.py _reach",
     "core/inertia/canonical_frame.py _normalization",
     "core/inertia/canonical_stack.py _along_axes",
     "core/inertia/reference.py Reference.refer",

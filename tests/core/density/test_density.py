@@ -127,6 +127,21 @@ def test_changes_add_their_own_roundings_to_the_bound():
     assert close(found.rounding_error, changed, rel=1e-12)
 
 
+@pytest.mark.parametrize("axis", range(3))
+@pytest.mark.parametrize("value, order", [(0.5, 2), (0.5, 3), (5.0, 2)])
+@pytest.mark.parametrize("place, is_near", [(6, False), (7, False), (8, True), (12, True), (13, False)])
+def test_moments_of_mass_far_from_the_middle_are_about_a_knot_beside_it(axis, value, order, place, is_near):
+    """A voxel has a variance of 1/12 about its middle: three from the middle of all is 108 of these, two is 48."""
+    values = np.zeros(np.roll([21, 1, 1], axis))
+    values[tuple(np.roll([place, 0, 0], axis))] = value
+    axes = [SplineAxis.uniform(count) for count in values.shape]
+    found = density_moments(values, axes, order)
+    about = np.roll(found.about, -axis)
+    assert about[0] == 10.0 if is_near else abs(about[0] - place) == 0.5
+    assert density_moments(values, axes, 1).about.tolist() == np.roll([10.0, 0.0, 0.0], axis).tolist()
+    check(found, values, axes)
+
+
 def test_bounds_are_not_wild():
     coefficients, axes = spline((4, 4, 4))
     moments = density_moments(coefficients, axes, 2)
@@ -278,8 +293,11 @@ def test_shapes_and_transforms_that_do_not_fit_are_refused():
     axes = [SplineAxis.uniform(2)] * 3
     with pytest.raises(ValueError, match="2, 2, 3"):
         density_moments(np.ones((2, 2, 3)), axes)
-    with refused("grid_transform_singular"):
-        grid_moments(np.ones((2, 2, 2)), (2, 2, 2), np.diag([1.0, 1.0, 0.0, 1.0]))
+    far = np.eye(4)
+    far[1, 3] = np.inf
+    for bad in (np.diag([1.0, 1.0, 0.0, 1.0]), far):
+        with refused("grid_transform_singular"):
+            grid_moments(np.ones((2, 2, 2)), (2, 2, 2), bad)
 
 
 def test_values_are_mapped_before_they_are_summed():

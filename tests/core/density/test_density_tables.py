@@ -121,6 +121,7 @@ def test_a_uniform_function_has_variance_k_twelfths(order):
     "knots, order, domain, text",
     [
         ([0.0, 1.0], 2, None, "few knots"),
+        ([[0.0, 1.0], [0.0, 1.0]], 1, None, "few knots"),
         ([0.0, 2.0, 1.0], 1, None, "ascend"),
         ([0.0, np.nan, 1.0], 1, None, "ascend"),
         ([0.0, 1.0], 0, None, "order"),
@@ -130,6 +131,11 @@ def test_a_uniform_function_has_variance_k_twelfths(order):
 def test_impossible_knots_are_refused(knots, order, domain, text):
     with pytest.raises(ValueError, match=text):
         SplineAxis(np.array(knots), order, domain)
+
+
+def test_more_roundings_are_counted_where_supports_are_cut():
+    axis = SplineAxis.uniform(5, 3)
+    assert axis.rounding_counts(2) == 2 * 4 + 3 * 2 + 6 and axis.clip().rounding_counts(2) == 16 * 3 + 3 * 2 + 64
 
 
 def test_splines_have_an_order_up_to_sixteen():

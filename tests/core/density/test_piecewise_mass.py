@@ -122,6 +122,16 @@ def test_bounds_count_the_roundings_of_what_is_summed_up(monkeypatch, order, per
         assert close(single.input_error - plain.input_error, FLOAT32_HALF_ULP * normals / 2.0 * bounds, rel=1e-6)
 
 
+def test_the_reach_is_no_less_than_it_is():
+    """One and a quarter of what a float near it is rounded by is rounded to one."""
+    points = np.array([[1.0, -1.0, 0.5]] * 3)
+    center = np.array([-1.0, 1.0, 1.0]) * 2.0**-54
+    reach = piecewise_mass._reach(points, np.array([[0, 1, 2]]), center)
+    exactly = [abs(Fraction(p) - Fraction(c)) for p, c in zip(points[0].tolist(), center.tolist())]
+    assert all(Fraction(found) >= true for found, true in zip(reach.tolist(), exactly))
+    assert close(reach, [1.0, 1.0, 0.5], rel=8.0 * U)
+
+
 def part_moments(parts, whole):
     """The volume moments of each part, negative for cavities."""
     triangles = [parts.triangles[parts.part == k] for k in range(parts.number)]

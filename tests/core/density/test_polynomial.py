@@ -6,7 +6,9 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
+from body_moments.core.density import polynomial
 from body_moments.core.density.polynomial import MAX_DEGREE, Polynomial, parse_polynomial
+from body_moments.core.moments.moments import U
 from body_moments.core.verdict.finding import MeasureError
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -46,6 +48,12 @@ def test_what_is_typed_is_taken_exactly(text, terms):
         ("1000 +", "polynomial_syntax_at", "1000 +"),
         ("1000 + sin(z)", "polynomial_not_allowed", "sin(z)"),
         ("1000 + w", "polynomial_unknown_name", "w"),
+        (") + x", "polynomial_syntax_at", ") + x"),
+        ("1 + ) + 2" + 9 * "3", "polynomial_syntax_at", ") + 2" + 9 * "3"),
+        ("1 + ) + 2" + 99 * "3", "polynomial_syntax_at", ") + 2" + 15 * "3"),
+        ("(1 +\n+ ]", "polynomial_syntax", None),
+        ("sin({})".format(35 * "x"), "polynomial_not_allowed", "sin({})".format(35 * "x")),
+        ("sin({})".format(36 * "x"), "polynomial_not_allowed", "sin({}…".format(35 * "x")),
         ("x**y", "polynomial_not_constant", "y"),
         ("x**2.5", "polynomial_exponent", "x**2.5"),
         ("x**-1", "polynomial_exponent", "x**-1"),
@@ -109,9 +117,9 @@ def test_numbers_have_as_many_bits_as_they_may():
 @given(st.lists(SMALL, min_size=1, max_size=20), st.tuples(SMALL, SMALL, SMALL), st.tuples(SMALL, SMALL, SMALL))
 def test_a_shift_is_exact(coefficients, point, place):
     """Small integers need no rounding, so the two values are equal to the bit."""
-    polynomial = Polynomial.from_coefficients(coefficients)
+    typed = Polynomial.from_coefficients(coefficients)
     point, place = np.array(point), np.array(place)
-    assert polynomial.translate(point)([place])[0] == polynomial([point + place])[0]
+    assert typed.translate(point)([place])[0] == typed([point + place])[0]
 
 
 def test_coefficients_come_back():
@@ -132,12 +140,12 @@ def test_coefficients_come_back():
     st.integers(0, 2**31),
 )
 def test_nothing_on_a_box_is_below_the_bound(coefficients, one, other, seed):
-    polynomial = Polynomial.from_coefficients(coefficients)
+    typed = Polynomial.from_coefficients(coefficients)
     low, high = np.minimum(one, other), np.maximum(one, other)
-    bound = polynomial.lower_bound(low, high)
+    bound = typed.lower_bound(low, high)
     places = low + (high - low) * np.random.default_rng(seed).random((200, 3))
-    assert bound <= polynomial(places).min() + 1e-11 * (1.0 + abs(bound))
-    assert bound <= polynomial(np.array([low, high])).min() + 1e-11 * (1.0 + abs(bound))
+    assert bound <= typed(places).min() + 1e-11 * (1.0 + abs(bound))
+    assert bound <= typed(np.array([low, high])).min() + 1e-11 * (1.0 + abs(bound))
 
 
 @pytest.mark.parametrize("text", ["x**2 + 0.01", "(x - y)**2 + z + 1.01", "x**4 - x**2 + 0.26", "1000 + 999*z"])
@@ -162,6 +170,25 @@ def test_what_touches_zero_on_planes_and_lines_is_told_from_what_is_negative(tex
     assert 0.0 > parse_polynomial(text).lower_bound((-1.1, -1.2, -1.3), (1, 1.25, 1.5)) > -2e-7
 
 
+@pytest.mark.parametrize(
+    "text, count",
+    [("1000 + 999*z", 0), ("z - 2", 0), ("(x - 0.4)**2*(y - 0.2)**2*(z + 0.1)**2", 600)],
+)
+def test_a_box_is_halved_while_its_sign_is_in_doubt_and_not_more_often_than_it_may(monkeypatch, text, count):
+    halved, halves = [], polynomial._halves
+    monkeypatch.setattr(polynomial, "_halves", lambda *given: halved.append(1) or halves(*given))
+    parse_polynomial(text).lower_bound((-1.1, -1.2, -1.3), (1.0, 1.25, 1.5))
+    assert len(halved) == count
+
+
+@pytest.mark.parametrize("text, sizes, degree", [("1024", 1024.0, 0), ("1024 - 3*z", 1024.0 + 6.0, 1)])
+def test_from_a_bound_is_taken_what_rounding_may_add_to_all_terms(text, sizes, degree):
+    """64 units of rounding, for each degree, on a box whose coordinates are up to two."""
+    found = parse_polynomial(text).lower_bound((0, 0, 0), (2, 2, 2))
+    units = (1024.0 - 6.0 * degree - found) / (U * sizes)
+    assert abs(units - 64.0 * (degree + 1)) <= 2.0
+
+
 def test_what_is_negative_somewhere_is_never_proven_positive():
     assert parse_polynomial("x**2 - 1e-6").lower_bound((-1, -1, -1), (1, 1, 1)) < 0.0
     assert parse_polynomial("1 - x**17").lower_bound((0, 0, 0), (1.001, 0, 0)) < 0.0
@@ -174,6 +201,6 @@ def test_values_beyond_the_range_of_numbers_are_refused():
 
 
 def test_the_highest_degree_works():
-    polynomial = parse_polynomial("(1 + x + y + z)**{:d}".format(MAX_DEGREE))
-    assert polynomial([[1, 1, 1]])[0] == pytest.approx(4.0**MAX_DEGREE, rel=1e-13)
-    assert polynomial.translate((0.5, 0.25, -1.0))([[0.5, 0.75, 2.0]])[0] == pytest.approx(4.0**MAX_DEGREE, rel=1e-13)
+    typed = parse_polynomial("(1 + x + y + z)**{:d}".format(MAX_DEGREE))
+    assert typed([[1, 1, 1]])[0] == pytest.approx(4.0**MAX_DEGREE, rel=1e-13)
+    assert typed.translate((0.5, 0.25, -1.0))([[0.5, 0.75, 2.0]])[0] == pytest.approx(4.0**MAX_DEGREE, rel=1e-13)

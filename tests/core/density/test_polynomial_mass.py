@@ -12,7 +12,7 @@ from body_moments.core.density.polynomial_mass import local_coordinates, polynom
 from body_moments.core.inertia.mass_properties import MassProperties
 from body_moments.core.mesh.winding import winding_number
 from body_moments.core.moments.images import sum_of_images
-from body_moments.core.moments.moments import Moments
+from body_moments.core.moments.moments import Moments, U
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
@@ -84,6 +84,30 @@ def test_mass_moments_are_exact_within_their_bounds(text, offset):
     assert found.rounding_error[0] <= 1e-12 * abs(size)
 
 
+@pytest.mark.parametrize("count", [1, 2])
+@pytest.mark.parametrize("order", [0, 1])
+def test_the_bound_counts_the_roundings_of_the_density_the_place_and_the_sum(order, count):
+    """Of images moved from (2, -1, 4) to (3, 2, 2), where the density is 140 + 20 u: 12 u for its terms, 8 u for where
+    its origin is, 6 u for where the body is."""
+    raw = np.array([3.0, 0.5, -0.25, 1.5, 7.0, -1.0, 2.0, 6.0, 4.0, 9.0])[: (4, 10)[order]]
+    matrices = np.tile(np.eye(4), (count, 1, 1))
+    matrices[:, :3, 3] = 1.0, 3.0, -2.0
+    found = polynomial_mass_of_images(
+        Moments(raw, np.array([2.0, -1.0, 4.0]), "mass"), parse_polynomial("100 + 20*z"), matrices
+    )
+    values = [140.0 * 3.0 + 20.0 * 1.5]
+    terms, slope = [values[0]], [20.0 * 3.0]
+    if order:
+        values += [140.0 * 0.5 + 20.0 * 2.0, 140.0 * -0.25 + 20.0 * 4.0, 140.0 * 1.5 + 20.0 * 9.0]
+        terms += [140.0 * 0.5 + 20.0 * 2.0, 140.0 * 0.25 + 20.0 * 4.0, 140.0 * 1.5 + 20.0 * 9.0]
+        slope += [20.0 * 0.5, 20.0 * 0.25, 20.0 * 1.5]
+    units = 12.0 * np.array(terms) + 8.0 * (4.0 + 2.0 + 2.0) * np.array(slope)
+    units += (count + 6.0 * order + 8.0) * np.abs(values)
+    units[1:] += 6.0 * np.array([6.0, 6.0, 8.0])[: len(units) - 1] * values[0]
+    assert close(found.raw, count * np.array(values), rel=1e-14)
+    assert close(found.rounding_error, count * units * U, rel=1e-12)
+
+
 def test_a_density_given_far_away_loses_no_digits():
     """(z - 10000)² on a body at 10000: its expanded coefficients cancel to nothing, the rational ones do not."""
     points, triangles = prism((0.0, 0.0, 10000.0))
@@ -152,6 +176,7 @@ def test_a_density_in_own_coordinates_moves_turns_and_mirrors_with_the_body(name
     found = polynomial_mass_of_images(
         moments_of(points, triangles, 5), density, matrix[None], local_coordinates(matrix[None])
     )
+    assert local_coordinates(matrix[None]).shape == (1, 4, 4)
     size = np.linalg.norm(matrix[:3, :3], axis=0)
     scaled = [tuple(point * size) for point in np.array(points)]
     rigid = matrix.copy()

@@ -128,6 +128,22 @@ def test_grids_are_refined_while_the_next_may_have_as_many_samples(monkeypatch, 
     assert shapes == [(10 * 2**n + 1,) * 3 for n in range(grids)]
 
 
+def test_a_third_of_what_two_grids_differ_by_is_added_to_the_finer_one_and_is_the_bound(monkeypatch):
+    """The first two, where they are near enough; their difference is four thirds of what is added, then."""
+    samples = 9.0 - (X[:, None, None] ** 2 + X[:, None] ** 2 + X**2)
+    grids, body = [], smooth_threshold.threshold_body
+    monkeypatch.setattr(smooth_threshold, "TOLERANCE", 1.0)
+    monkeypatch.setattr(
+        smooth_threshold, "threshold_body", lambda *rest, **named: grids.append(body(*rest, **named)) or grids[-1]
+    )
+    found = smooth_threshold_body(samples, 0.0, 4, order=0)
+    coarse, fine = (grid.volume for grid in grids)
+    difference = fine.total - coarse.total
+    assert close(found.volume.total, fine.total + difference / 3.0, rel=1e-14)
+    added = found.volume.rounding_error[0] - fine.rounding_error[0]
+    assert close(added, abs(difference) * 4.0 / 3.0, rel=1e-9)
+
+
 @pytest.mark.parametrize("order", [2, 3, 4])
 def test_the_background_goes_on_around_the_grid(order):
     """As many values of it as the spline has there make the same body as the samples alone."""

@@ -12,6 +12,7 @@ from body_moments.core.moments.moments import U, monomials
 from body_moments.core.verdict.finding import MeasureError
 
 from tests.close import close
+from tests.core.findings import refused
 
 RNG = np.random.default_rng(11)
 
@@ -137,6 +138,7 @@ def test_a_half_space_is_exact_with_its_density_and_its_face(axis, sign):
     assert close(found.volume.total, 12.0 * (high - low), rel=1e-14)
     assert close(found.area.total, 12.0, rel=1e-14)
     assert close(found.mass.total, sign * 6.0 * (high**2 - low**2), rel=1e-14)
+    assert (found.volume.measure, found.area.measure, found.mass.measure) == ("volume", "area", "mass")
     assert close(found.volume.center[axis], (low + high) / 2.0, rel=1e-14)
     assert close(found.area.center[axis], 2.25, rel=1e-14)
     assert close(found.mass.center[axis], 2.0 / 3.0 * (high**3 - low**3) / (high**2 - low**2), rel=1e-14)
@@ -216,8 +218,11 @@ def test_a_sheared_grid_gives_the_area_and_the_moments_of_the_sheared_body():
     assert close(mapped.volume.total, plain.volume.total * abs(np.linalg.det(matrix[:3, :3])), rel=1e-12)
     assert close(mapped.volume.center, matrix[:3, :3] @ plain.volume.center + matrix[:3, 3], rel=1e-13)
     assert mapped.mass.total < 0.0  # these densities are negative
-    with pytest.raises(MeasureError):
-        threshold_body(samples, -5.3, matrix=np.diag([1.0, 1.0, 0.0, 1.0]))
+    far = np.eye(4)
+    far[1, 3] = np.inf
+    for bad in (np.diag([1.0, 1.0, 0.0, 1.0]), far):
+        with refused("grid_transform_singular"):
+            threshold_body(samples, -5.3, matrix=bad)
 
 
 @pytest.mark.parametrize("along, across", [(0, 1), (0, 2), (1, 2), (1, 0), (2, 0), (2, 1)])
@@ -255,6 +260,18 @@ def test_slabs_and_batches_change_nothing(monkeypatch):
     for name in ("volume", "area", "mass"):
         assert close(getattr(parts, name).raw, getattr(whole, name).raw, rel=1e-12)
     assert parts.cut_cells == whole.cut_cells
+
+
+def test_cut_cells_wait_until_there_are_more_than_may_be_kept(monkeypatch):
+    """Three in each of eight slabs."""
+    sizes, add = [], threshold._Sums.add_cut_cells
+    monkeypatch.setattr(threshold, "CELLS_PER_SLAB", 1)
+    monkeypatch.setattr(threshold, "MAX_CUT_CELLS", 7)
+    monkeypatch.setattr(
+        threshold._Sums, "add_cut_cells", lambda sums, cells, at: sizes.append(len(cells.size)) or add(sums, cells, at)
+    )
+    found = threshold_body(np.broadcast_to(np.arange(3.0)[:, None], (9, 3, 4)), 1.25, order=0)
+    assert sizes == [9, 9, 6] and found.cut_cells == 24 and close(found.volume.total, 8 * 3 * 0.75, rel=1e-14)
 
 
 @pytest.mark.parametrize("background", [None, -1.0])
@@ -323,6 +340,53 @@ def test_sizes_of_cut_cells_are_the_most_that_their_moments_can_be(order):
         assert (estimate <= 1e-12 * np.abs(reach).sum() * 13.0).all()
         assert (np.abs(units - (60.0 + 8.0 * order + math.log2(1.0 + sums.terms))) < 1e-3).all()
     assert 2 <= sums.terms <= 2 * 12**2
+
+
+def test_what_is_left_counts_by_half_at_its_middle_and_altogether_in_the_bounds():
+    sums, powers = threshold._Sums(3, True, False, 4.0 * np.eye(3)), monomials(3)
+    corners = np.broadcast_to(np.array([-1.0, 3.0]), (2, 2, 2, 2))
+    origin, size = np.array([[3.0, -2.0, 5.0], [-4.0, 1.0, -0.5]]), np.array([1.0, 0.5])
+    sums._give_up(threshold.Cells(corners, origin, size), -10.0)
+    half = np.prod((origin + size[:, None] / 2.0)[:, None] ** powers, axis=2).T @ [0.5, 0.0625]
+    assert close(sums.volume, half, rel=1e-14) and close(sums.mass, -10.0 * half, rel=1e-14)
+    reach = np.prod((np.abs(origin) + size[:, None])[:, None] ** powers, axis=2).T
+    assert close(sums.volume_estimate, reach @ [1.0, 0.125], rel=1e-14)
+    assert close(sums.area_estimate, reach @ [6.0 * 2.0, 6.0 * 2.0 * 0.25], rel=1e-14)
+    assert close(sums.mass_estimate, reach @ [13.0, 13.0 * 0.125], rel=1e-14)
+
+
+def test_a_cell_is_cut_where_one_of_its_estimates_is_too_large(monkeypatch):
+    allowed, of_area = 1e-7, 2.0 * threshold.AREA_TOLERANCE
+    estimates = np.array([[1.0, 1.001, 0.5, 0.5], [0.5, 0.5, 1.0, 1.001]]) * [[allowed], [of_area]]
+    compare = threshold.compare_rules
+
+    def compared(cells, turn, rules, metric):
+        return compare(cells, turn, rules, metric)[0], estimates[:, cells.origin[:, 0].astype(int)]
+
+    monkeypatch.setattr(threshold, "compare_rules", compared)
+    corners = np.broadcast_to(np.array([-1.0, 3.0]), (4, 2, 2, 2))
+    sums = threshold._Sums(0, False, False, 4.0 * np.eye(3))
+    origin = np.arange(4.0)[:, None] * [1.0, 0.0, 0.0]
+    rest = sums._add_batch(threshold.Cells(corners, origin, np.ones(4)), 1.0, allowed)
+    assert rest.origin[:, 0].tolist() == [1.0, 3.0] and close(sums.volume, [1.5], rel=1e-14)
+    assert close(sums.volume_estimate, [1.5 * allowed], rel=1e-14)
+    assert close(sums.area_estimate, [1.5 * of_area], rel=1e-14)
+
+
+@pytest.mark.parametrize("tolerance, last", [(2.0**-31, 2.0**-11), (1.001 * 2.0**-31, 2.0**-10)])
+def test_cells_are_cut_until_less_is_left_than_what_rules_may_differ_by(monkeypatch, tolerance, last):
+    """In each of two cells by that share of the half of them, and of what lies inside altogether. Of one of them a
+    part at its corner is left again and again."""
+    asked, left = [], []
+    monkeypatch.setattr(threshold, "TOLERANCE", tolerance)
+    monkeypatch.setattr(
+        threshold._Sums, "_add_batch", lambda _sums, cells, _threshold, allowed: asked.append(allowed) or cells[:1]
+    )
+    monkeypatch.setattr(threshold._Sums, "_give_up", lambda _sums, cells, _threshold: left.extend(cells.size))
+    sums, corners = threshold._Sums(0, False, False, np.eye(3)), np.full((2, 2, 2, 2), -1.0)
+    corners[:, 0, 0, 0], sums.volume[0] = 0.0, 3.0
+    sums.add_cut_cells(threshold.Cells(corners, np.zeros((2, 3)), np.ones(2)), 1.0)
+    assert left == [last] and set(asked) == {2.0 * tolerance}
 
 
 @pytest.mark.parametrize("order", [1, 3, 6])
