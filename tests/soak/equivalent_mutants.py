@@ -838,6 +838,30 @@ EQUIVALENT: dict[tuple[str, str, str, str], str] = {
         "(2.0 ** 27 - 1.0)",
     ): "one splits numbers into two of 26 bits as the other does",
     (
+        "operators/actions/measure/moments.py",
+        "_compute",
+        "MeasureOptions(order=order, surface=True, threads=THREADS)",
+        "(MeasureOptions(order=order, surface=True))",
+    ): "with how many threads moments are summed, which are the same",
+    (
+        "operators/actions/snap/sculpt_balance.py",
+        "_read_surface",
+        "read_object(obj, context.evaluated_depsgraph_get(), edges=False)",
+        "(read_object(obj, context.evaluated_depsgraph_get()))",
+    ): "edges are read as well, and not looked at",
+    (
+        "operators/actions/snap/empty.py",
+        "_moved",
+        "parent is not None and not _is_there(empty, body)",
+        "(parent is not None or not _is_there(empty, body))",
+    ): "what is there is put there once more, and without a parent its place is what was set before",
+    (
+        "operators/actions/snap/base.py",
+        "reframe_objects.plans_of",
+        "CENTER if move_only else POSE",
+        "(POSE)",
+    ): "axes are measured as well, and not looked at",
+    (
         "operators/scene/reframe.py",
         "_transform_mesh",
         "mesh.update()",

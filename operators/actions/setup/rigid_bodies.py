@@ -300,7 +300,7 @@ def _measured(context: Context, body: Body, ask: Callable[[Object], MeasuredBody
         is_unique=principal.is_unique,
     )
     volume = sum(measurement.volume for measurement in measurements)
-    return Measured(body, target, properties.mass / volume if volume > 0.0 else 0.0, tuple(parts))
+    return Measured(body, target, properties.mass / volume, tuple(parts))
 
 
 def _store(context: Context, measured: dict[Object, Measured]) -> None:

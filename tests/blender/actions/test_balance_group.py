@@ -238,7 +238,7 @@ def test_what_becomes_flat_ends_it(scene, reported, by):
     assert reported.codes == ["no_volume" if by == "shape key" else "zero_scale"] and not groups()
 
 
-def test_a_signal_says_when_the_center_leaves_the_support_polygon(scene):
+def test_a_signal_says_when_the_center_leaves_the_support_polygon(scene, reported):
     """A weight that slides over a foot from -2 to 2: over the foot as long as their common center is within ±1."""
     foot = objects.add(box((2.0, 2.0, 0.1), (-1.0, -1.0, 0.0)), "Foot")
     weight = objects.add(box((1.0, 1.0, 1.0), (-0.5, -0.5, 0.0)), "Weight")
@@ -258,6 +258,7 @@ def test_a_signal_says_when_the_center_leaves_the_support_polygon(scene):
     share = 1.0 / 1.4
     expected = (np.abs(share * (-2.03 + 0.1 * (path.frames - 1))) < 1.0) & (path.frames < 31)
     assert path.inside.tolist() == expected.tolist()
+    assert reported.values("balance_group_inside") == {"count": np.count_nonzero(expected), "total": 41}
     scene.frame_set(20)
     assert empty["body_balance_inside"] == 1
     scene.frame_set(1)

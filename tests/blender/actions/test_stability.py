@@ -100,9 +100,12 @@ def test_an_edit_puts_it_out_of_date(scene):
 
     obj = objects.add(box((4.0, 2.0, 6.0)))
     bpy.ops.object.body_moments_stability()
-    obj.data.vertices[0].co.x -= 1.0
+    for vertex in obj.data.vertices[:4]:
+        vertex.co.x -= 1.0
     obj.data.update()
     assert support(obj) is None and stability.is_stale(obj)
+    bpy.ops.object.body_moments_stability()
+    assert close(obj["body_volume"], 60.0, BLENDER) and support(obj).stands
 
 
 def test_what_has_a_hull_and_no_numbers_neither_stands_nor_rests(scene):
@@ -123,7 +126,6 @@ def test_a_tipping_object_is_reported(scene, reported):
     bpy.ops.object.body_moments_stability()
     assert reported.values("objects_tip") == {"count": 1, "names": [obj.name]}
     assert reported.values("stability_computed") == {"count": 1, "total": 2}
-    assert reported.values("objects_tip")["names"] == [obj.name]
 
 
 @pytest.mark.parametrize("rotation", [(0.3, 1.1, -0.4), (2.0, 0.2, 3.0)])

@@ -13,7 +13,7 @@ from body_moments.operators.actions.snap import align, base, empty, orientation
 from body_moments.operators.session import staleness
 
 from tests.blender.bodies.test_assembly import box_mesh
-from tests.blender.objects import add, mesh_body, only
+from tests.blender.objects import add, mesh_body, only, place
 
 pytestmark = pytest.mark.usefixtures("scene")
 
@@ -173,3 +173,19 @@ def test_an_empty_that_cannot_be_placed_is_as_it_was_parent_and_size_and_all(rep
     assert bpy.ops.object.body_moments_add_empty(parent=True, size=3.0) == {"CANCELLED"}
     assert "empty_constrained" in reported.codes
     assert {name: getattr(made, name) for name in names} == before
+
+
+@pytest.mark.parametrize("operator", ["axes_to_principal", "rigid_bodies"])
+@pytest.mark.parametrize(("scale", "is_kept"), [((4,) * 3, True), ((5,) * 3, False), ((4, 4, 5), False)])
+def test_a_scale_that_is_one_but_for_rounding_stays(scale, is_kept, operator):
+    """By 4 and by 5 last places, of which products of axes have twice as many."""
+    wanted = 1.0 + np.array(scale) * 2.0**-23
+    obj = add(box_mesh(4, 2, 1), "Box", scale=wanted)
+    getattr(bpy.ops.object, "body_moments_" + operator)()
+    assert (np.array(obj.scale, np.float64) == (wanted if is_kept else 1.0)).all()
+
+
+def test_a_cube_that_is_mirrored_gets_axes_that_are_not():
+    obj = add(box_mesh(2, 2, 2), "Cube", scale=(-1, 1, 1))
+    assert bpy.ops.object.body_moments_axes_to_principal() == {"FINISHED"}
+    assert np.linalg.det(place(obj)[:3, :3]) > 0.0
