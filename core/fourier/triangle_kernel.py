@@ -190,7 +190,7 @@ class PhaseMeans:
         np.multiply(cosine, phase, out=cosine)
         np.multiply(sine, phase, out=sine)
         small = np.flatnonzero(square < MAX_SERIES_SQUARE)
-        series = self._series_of_pairs(small, vectors, a, b, c) if len(small) else None
+        series = self._series_of_pairs(small, vectors, a, b, c)
         results = []
         for wave in (sine, cosine):
             total = np.zeros_like(a)
@@ -202,8 +202,7 @@ class PhaseMeans:
         np.maximum(square, MAX_SERIES_SQUARE / 2.0, out=square)
         real, imaginary = (np.divide(total, square, out=total) for total in results)
         np.subtract(real, 0.5, out=real)
-        if series is not None:
-            real.reshape(-1)[small], imaginary.reshape(-1)[small] = series
+        real.reshape(-1)[small], imaginary.reshape(-1)[small] = series
         return real, imaginary
 
     def _series_of_pairs(

@@ -211,7 +211,8 @@ PATTERNS = [
         "how much is computed or kept at a time",
     ),
     (
-        r".*(any_order.py .*|any_order_kernel.py absolute_sums|plane/region_moments.py BOUND_ROUNDING)",
+        r".*(any_order.py .*|any_order_kernel.py absolute_sums|sheared_areas.py area_of_images|"
+        r"plane/region_moments.py BOUND_ROUNDING)",
         r"1e-9",
         r"1\.0000000000000002e-06",
         "a looser bound",
@@ -602,6 +603,12 @@ PATTERNS = [
     ),
     (r"panels/rows.py DEFAULT_WIDTH", r"\d+", r"\d+", "a pixel of a panel whose width is not known"),
     (
+        r".*fourier/triangle_kernel.py SortedTriangles._sort",
+        r"\(?\(?a \+ b \+ c\).*|a \+ b( \+ c)?|MORTON_CELLS / 2\.0",
+        r".*",
+        "the order in which triangles are summed",
+    ),
+    (
         r".*density/threshold.py threshold_body",
         r"\(shape - 1\) // 2 - margin|shape - 1",
         r"\(\(shape - 1\) // 2 \+ margin\)|\(shape \+ 1\)",
@@ -647,6 +654,13 @@ CONSTANTS = [
     (r".*solid/nesting.py _interior_samples", r"weight = .*", "which places are tried"),
     (r".*shape/(symmetry.py confirm|flat_pose.py holds_by_outline)", r"points\[:: ", "which are looked at first"),
     (r".*density/threshold.py threshold_body", r"// |about = \(shape - ", "a reference point near the middle"),
+    (r".*solid/nesting.py _interior_samples", r"depth = .* - k % ", "which places are tried"),
+    (
+        r".*solid/closedness.py integrate_and_prove",
+        r"MIN_TRIANGLES_PER_THREAD\) > |ThreadPoolExecutor\(",
+        "whether the proof runs beside the sums or after them",
+    ),
+    (r".*fourier/triangle_kernel.py SortedTriangles._sort", r"cell = .*", "the order in which triangles are summed"),
     (r".*density/threshold.py _slabs", r"max\(samples\.shape\[1\] \* .*\], ", "how much is looked at at a time"),
     (r".*density/threshold.py _Sums._add_columns", r"power_table\((high|low), self\.order \+ ", "not read"),
     (r".*density/voxel_fill.py inside_moments", r"triangle_rule\(\(order \+ ", "a rule of more points is as exact"),
@@ -827,6 +841,7 @@ LOOSER = {
     "core/plane/section.py _bounds",
     "core/plane/section.py projection_rounding",
     "core/polyhedron/any_order_kernel.py absolute_sums",
+    "core/polyhedron/sheared_areas.py area_of_images",
     "operators/bodies/given.py given_moments",
 }
 # (module, function, before, after): the reason

@@ -181,6 +181,12 @@ def test_normals_are_compared_where_sides_meet_however_they_run(turns, axes):
     assert close(sharpest_crease(bent, find_topology(bent, 1e-9)), np.pi / 2.0, 1e-9)
 
 
+@pytest.mark.parametrize("inner", [((0.5,), ()), ((), (0.5,))])
+def test_a_patch_that_is_a_line_has_no_crease_at_its_knots(inner):
+    line = flat([(0, 0, 0), (1, 0, 0), (1, 0, 0), (0, 0, 0)], inner=inner)
+    assert sharpest_crease([line], find_topology([line], 1e-9)) == 0.0
+
+
 @pytest.mark.parametrize("order", [1, -1])
 def test_where_a_patch_has_no_normal_there_is_no_crease(order):
     """A triangle beside a square, and its corner on their seam a side that is a point."""

@@ -254,3 +254,5 @@ def test_facets_of_simplices_close_and_the_outer_ones_bound_with_or_without_sign
     assert closes(square, ring) and not closes(square, ring[1:])
     assert sorted(outer_facets(square, [*ring, [0, 2], [2, 0]]).tolist()) == sorted(ring)
     assert sorted(outer_facets(square, [*ring, [0, 2], [0, 2]]).tolist()) == sorted([*ring, [0, 2], [0, 2]])
+    again = [*square, [0, 0]]  # from a point to itself is no side
+    assert sorted(outer_facets(again, [[0, 4], *ring]).tolist()) == sorted(ring) and closes(again, [[0, 4], *ring])

@@ -253,6 +253,17 @@ def test_boxes_welded_along_a_face_or_an_edge_are_closed():
         assert result.health.components == 2 and result.health.non_manifold_edges == 1 and result.health.closed
 
 
+@pytest.mark.parametrize("turn", [lambda part: part, inverted])
+def test_copied_faces_are_named_without_the_walls_of_two_bodies(turn):
+    """Two boxes welded along a face, of which one may be inside out, and a fin on an edge of one, twice."""
+    points, triangles = welded(joined(CUBE, turn(box((1, 0, 0), (2, 1, 1)))))
+    low, high = (int(np.flatnonzero((points == [0.0, 0.0, z]).all(axis=1))[0]) for z in (0.0, 1.0))
+    fin = [[low, high, len(points)]]
+    result = verdict((np.concatenate([points, [[-1.0, -1.0, 0.5]]]), np.concatenate([triangles, fin, fin])))
+    (copies,) = [found for found in result.findings if found.code.startswith("duplicate_faces")]
+    assert copies == Finding("duplicate_faces_counted", {"count": 1}) and copies.elements.tolist() == [25]
+
+
 def test_an_inner_wall_makes_a_box_open():
     points, triangles = welded(joined(CUBE, box((1, 0, 0), (2, 1, 1))))
     triangles = triangles[np.sort(np.unique(np.sort(triangles, axis=1), axis=0, return_index=True)[1])]
