@@ -44,7 +44,7 @@ def integral_of_basis(knots: Sequence[Number], i: int, k: int, power: int, t: Nu
     Fraction(1, 1)
     """
     last = knots[i + k]
-    knots = [*knots[: i + k + 1], *(last + 1 + j for j in range(k + power + 2))]
+    knots = [*knots[: i + k + 1], *(last + 1 + j for j in range(k + power))]
     m = max(j for j in range(i, i + k) if knots[j] <= t)
 
     def delta(x: int, y: int) -> Number:

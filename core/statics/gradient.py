@@ -150,7 +150,7 @@ def _gradient(surface: Surface, about: NDArray, order: int, shares: Callable) ->
     points = surface.points.astype(np.float64)
     triangles, _ = surface.all_triangles()
     out, scale = np.zeros((3 * kinds, len(points))), np.zeros(len(points))
-    valence = int(np.bincount(triangles.ravel(), minlength=1).max(initial=0))
+    valence = int(np.bincount(triangles.ravel(), minlength=1).max())
     for start in range(0, len(triangles), TRIANGLES_PER_BLOCK):
         part = triangles[start : start + TRIANGLES_PER_BLOCK].astype(np.intp)
         low = int(part.min())

@@ -51,7 +51,7 @@ class StlFile:
         self._binary = len(head) == HEAD and size == HEAD + RECORD * count
         if not self._binary and not head.lstrip().lower().startswith(b"solid"):
             raise FileError("stl_size")
-        self.face_count = count if self._binary else size // TEXT_PER_TRIANGLE + 1
+        self.face_count = count if self._binary else size // TEXT_PER_TRIANGLE
 
     def sampled_box(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Return a box of some of the triangles; of a text that of its first ones."""

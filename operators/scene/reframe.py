@@ -120,7 +120,7 @@ def reframe(
         for group in _groups(plan for plan in plans if plan.obj not in carried_out)
     ):
         again: list[list[Plan]] = []
-        run_change(context, run_together(attempt(group, again if len(beside) > 1 else None) for group in beside))
+        run_change(context, run_together(attempt(group, again) for group in beside))
         for group in again:
             for plan in group:
                 plan.findings.clear()

@@ -46,6 +46,13 @@ PATTERNS = [
         r"\(axes / .*",
         "times -1 is by -1",
     ),
+    (
+        r".*soldea_elber_rivlin_2002_phi.py _integrals",
+        r".* // 2",
+        r"\(.* \* 2\)",
+        "more points of a rule that is exact with these",
+    ),
+    (r".*polyhedron/sheared_areas.py area_of_images", r"1e-9", r"1\.0+2e-06", "a looser bound"),
     (r".*shape/symmetry.py _around_axis", r"n // 2", r"\(n \* 2\)", "the same turns, the other way"),
     (
         r".*nurbs/creases.py sharpest_crease",

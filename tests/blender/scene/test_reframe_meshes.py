@@ -206,6 +206,19 @@ def test_changes_are_alike_as_all_pairs_say(seed):
     assert reframe_meshes._alike(changes, reach, within.tolist()) == groups
 
 
+@pytest.mark.parametrize("kept", [False, True])
+def test_a_mesh_that_is_also_kept_in_the_file_goes_on_being_its_object_s(kept):
+    obj = parts(1)[0]
+    twins, mesh = [one for one in bpy.data.objects if one != obj], obj.data
+    bpy.data.batch_remove(twins)
+    mesh.use_fake_user = kept
+    target = reframe.world(obj)
+    target[:3, 3] += 1.0
+    plan = reframe.Plan(obj, target, 3.0, True)
+    assert reframe_meshes.reframe_own_meshes(bpy.context, [plan]) == [obj]
+    assert obj.data == mesh and not plan.findings and len(bpy.data.meshes) == 1
+
+
 @pytest.mark.parametrize("with_normals", [False, True])
 def test_a_mesh_whose_change_ends_in_an_error_is_as_before(with_normals, monkeypatch):
     """And those before it: points, winding and custom normals."""

@@ -226,13 +226,14 @@ def test_missing_text_and_damaged_files_are_refused(tmp_path):
         read_positions(path, "z", 3)
 
 
-def test_whole_numbers_and_one_sample(tmp_path):
+def test_whole_numbers_two_samples_and_one(tmp_path):
     path = saved(tmp_path, np.array([0, 1, 5], np.int16))
     assert read_positions(path, "z", 3).tolist() == [0.0, 1.0, 5.0]
     for axis, other in (("x", 1), ("y", 2), ("z", 0)):
         rows = read_all_positions({axis: path}, (3, 3, 3))
         assert rows["xyz".index(axis)].tolist() == [0.0, 1.0, 5.0] and rows[other] is None
         assert sum(row is None for row in rows) == 2
+    assert read_positions(saved(tmp_path, np.array([1.0, 4.0]), "two.npy"), "x", 2).tolist() == [1.0, 4.0]
     with pytest.raises(FileError) as caught:
         read_positions(saved(tmp_path, np.array([1.0]), "one.npy"), "x", 1)
     assert caught.value.finding.code == "positions_of_one_sample"

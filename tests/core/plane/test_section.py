@@ -393,6 +393,15 @@ def test_a_plane_lies_amid_its_points_whichever_way_most_faces_or_the_caller_loo
     assert abs(np.cross(found, [1.0, 0.0, 0.0]) @ plane.axes[:, 0]) <= 1e-15  # in the plane of the normal and X
 
 
+@pytest.mark.parametrize("more", [[], [[0, 0, 1], [0, 1, 0]]])
+@pytest.mark.parametrize("place", [0, 2**30])
+def test_a_tilted_plane_is_as_flat_far_away_and_faces_without_an_area_have_no_side(more, place):
+    points = np.array([[0, 0, 0], [1, 0, 0], [1, 4, 3], [0, 4, 3]], float) + place
+    plane = fit_plane(points, np.array([[0, 1, 2], [0, 2, 3], *more]), np.eye(3), np.full(3, place))
+    assert np.abs(plane.axes[:, 2] - [0.0, -0.6, 0.8]).max() <= 1e-15
+    assert plane.out_of_plane <= 1e-15 and np.abs(plane.origin - place).max() <= 1e-15
+
+
 @pytest.mark.parametrize("share, is_flat", [(0.99, True), (1.01, False)])
 @pytest.mark.parametrize("error", [0.0, 1e-4])
 @pytest.mark.parametrize("size", [1.0, 1e-3, 1e3])

@@ -234,6 +234,12 @@ def test_a_triangle_without_area_and_a_loose_vertex_give_nothing():
         assert np.isfinite(other.error()).all()
 
 
+def test_of_no_points_there_are_no_derivatives():
+    for derive in KINDS.values():
+        nothing = derive(bodies.surface((np.zeros((0, 3)), np.zeros((0, 3), int))), np.zeros(3))
+        assert len(nothing.by_vertex) == len(nothing.error()) == 0
+
+
 def test_a_mesh_of_many_blocks_is_derived_as_one(monkeypatch):
     part = bodies.moved(bodies.sphere(3), SHEAR)
     whole = volume_gradient(bodies.surface(part), np.zeros(3)).by_vertex
