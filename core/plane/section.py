@@ -208,14 +208,13 @@ def fit_plane(
     normal = total / np.sqrt(total @ total)
     if (vectors @ normal).sum() < 0.0 if facing is None else facing @ normal < 0.0:
         normal = -normal
-    middle = used.min(axis=0) / 2.0 + used.max(axis=0) / 2.0
-    heights = (used - middle) @ normal
+    heights = (used - used[0]) @ normal
     level = float(heights.min() + heights.max()) / 2.0
     off = float(np.ptp(heights)) / 2.0
     if off > PLANAR_RTOL * size + 4.0 * error:
         raise MeasureError("section_not_flat", share=off / size)
     axes, named = _axes(normal, prefer)
-    distance = float((middle - origin) @ normal) + level
+    distance = float((used[0] - origin) @ normal) + level
     return Plane(origin + distance * normal, axes, off, named)
 
 

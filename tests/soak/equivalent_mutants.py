@@ -52,6 +52,7 @@ PATTERNS = [
         r"\(.* \* 2\)",
         "more points of a rule that is exact with these",
     ),
+    (r".*plane/section.py fit_plane", r"facing @ normal", r"\(normal @ facing\)", "a product of two vectors"),
     (r".*polyhedron/sheared_areas.py area_of_images", r"1e-9", r"1\.0+2e-06", "a looser bound"),
     (r".*shape/symmetry.py _around_axis", r"n // 2", r"\(n \* 2\)", "the same turns, the other way"),
     (
