@@ -57,7 +57,7 @@ def reading_findings(obj, gathered: InstanceCollector, depsgraph) -> Iterator[Fi
     hidden = hidden_reason(obj, depsgraph)
     if hidden:
         yield finding("hidden_object_measured", cause=hidden.as_record())
-    if obj.parent is not None and instanced_by_parent(obj):
+    if instanced_by_parent(obj):
         yield finding("instanced_by_parent", parent=obj.parent.name)
     for evaluated, splines in gathered.splines.items():
         for result in _spline_findings(evaluated, splines):

@@ -226,8 +226,7 @@ def _spline_outlines(obj, resolution: int | None) -> tuple[NDArray[np.float32], 
         mesh.edges.foreach_get("vertices", edges.reshape(-1))
         copy.to_mesh_clear()
     finally:
-        bpy.data.objects.remove(copy)
-        bpy.data.curves.remove(data)
+        bpy.data.curves.remove(data)  # and the object with it
     # Each spline is a row of points; the edge that closes it leads back from its last one to its first.
     closing = edges[edges[:, 1] < edges[:, 0]].tolist()
     loops = [np.arange(first, last + 1) for last, first in closing if last - first >= 2]

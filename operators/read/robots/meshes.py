@@ -23,6 +23,10 @@ from .usda import fan
 _TRIANGLE = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 _VERTEX = re.compile(rb"vertex\s+(\S+)\s+(\S+)\s+(\S+)", re.IGNORECASE)
 _COMPONENTS = {5120: "i1", 5121: "u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
+_DAMAGE = (
+    *(ValueError, IndexError, KeyError, TypeError, OverflowError, RecursionError, struct.error),
+    AttributeError,  # of JSON that has a text or a number where others have an object
+)
 Arrays = tuple[NDArray[np.floating], NDArray[np.integer]]
 
 
@@ -47,7 +51,7 @@ def read_mesh(path: Path) -> tuple[Surface, NDArray[np.float64] | None]:
         raise FileError("mesh_too_large", name=path.name)
     try:
         points, triangles, *upright = reader(data)
-    except (ValueError, IndexError, KeyError, TypeError, struct.error, OverflowError, RecursionError) as error:
+    except _DAMAGE as error:
         raise FileError("mesh_damaged", name=path.name, error=type(error).__name__) from error
     if not len(triangles) or len(triangles) > MAX_TRIANGLES:
         raise FileError("mesh_too_large" if len(triangles) else "mesh_empty", name=path.name)

@@ -12,7 +12,7 @@ from pathlib import Path
 
 from ....core.verdict.finding import FileError
 
-_SCHEME = re.compile(r"([A-Za-z][A-Za-z0-9+.-]+):(?://)?(.*)", re.DOTALL)
+_SCHEME = re.compile(r"([A-Za-z][A-Za-z0-9+.-]+):(?://)?(.*)", re.DOTALL)  # of one letter are drives
 MAX_LEVELS = 4  # folders up to where a package may begin
 
 
@@ -45,10 +45,10 @@ class Roots:
         name = name.replace("\\", "/")
         match = _SCHEME.fullmatch(name)
         scheme, rest = (match[1].lower(), match[2]) if match else ("", name)
-        if scheme not in ("", "package", "model", "file") and len(scheme) > 1:
+        if scheme not in ("", "package", "model", "file"):
             raise FileError("mesh_on_network", name=name)
         outside = False
-        for path in self._candidates(scheme, rest if len(scheme) != 1 else name):
+        for path in self._candidates(scheme, rest):
             real = Path(os.path.realpath(path))
             if not self.anywhere and not any(real.is_relative_to(folder) for folder in self.folders):
                 outside = True

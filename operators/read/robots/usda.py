@@ -127,11 +127,8 @@ class _Parser:
     def attribute(self, prim: Prim) -> None:
         """A statement: words, and after an equals sign a value."""
         words: list[str] = []
-        while self.peek() not in ("=", "}", "", ";") and self.peek() not in _SPECIFIERS:
-            token, position = self.take()
-            words.append(token)
-            if self.peek() == "(" or "\n" in self.text[position : self.tokens[self.index][1]]:
-                break
+        while self.peek() not in ("=", "}", ";", "(") and self.peek() not in _SPECIFIERS:
+            words.append(self.take()[0])
         if self.peek() != "=":  # metadata in brackets may follow, as it may behind a value
             if self.peek() == ";":
                 self.take()
@@ -249,7 +246,7 @@ def _inertial(prim: Prim, local: NDArray, scales: Mapping[str, float]) -> Stated
     axes = prim.vector("physics:principalAxes", (1.0, 0.0, 0.0, 0.0))
     axes = axes if axes.any() else np.array([1.0, 0.0, 0.0, 0.0])
     unit, kilograms = scales["length"], scales["mass"]
-    placed = (local[:3, :3] @ center + local[:3, 3]) * unit
+    placed = local[:3, :3] @ center * unit
     tensor = np.diag(diagonal) * unit**2 * kilograms
     return StatedInertial(float(mass[0]) * kilograms, placed, tensor, rotation_matrix(axes), None, tuple(axes.tolist()))
 

@@ -119,6 +119,8 @@ def test_objects_that_share_a_mesh_share_a_part():
     for index in range(9):
         link("Copy", first.data, members).location = (0.0, 0.0, 3.0 * index)
     cube("Other", members)
+    first.data.materials.append(None)
+    first.material_slots[0].link = "OBJECT"  # of which nobody has asked
     reading = check(empty("Instancer", members), 11)
     assert sorted(len(part.matrices) for part in reading.parts) == [1, 10]
 

@@ -216,6 +216,12 @@ def test_urdf(tmp_path, seed):
     check_repair(tmp_path, description)
 
 
+def test_an_empty_pose_of_a_quaternion_is_no_turn(tmp_path):
+    one = '<sdf><model><link><pose/><inertial><pose rotation_format="quat_xyzw"/></inertial></link></model></sdf>'
+    inertial = read(tmp_path, one).links[0].inertial
+    assert inertial.center.tolist() == [0.0, 0.0, 0.0] and inertial.quaternion == (1.0, 0.0, 0.0, 0.0)
+
+
 @SEEDS
 def test_sdf(tmp_path, seed):
     rng = np.random.default_rng(seed)

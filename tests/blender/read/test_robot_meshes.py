@@ -198,6 +198,9 @@ def test_glb(tmp_path, seed):
         changed("nodes", 1, "children", value=[0]),
         changed("nodes", 1, "children", value=[9]),
         changed("scene", value=5),
+        changed("scenes", 1, value="a"),
+        changed("nodes", 2, value="a"),
+        changed("bufferViews", 0, value="a"),
     ):
         assert refusal(path, content) == "mesh_damaged"
 
@@ -288,6 +291,14 @@ def test_collada(tmp_path, seed):
         content.format(unit, up, geometries, "1 2 3", steps, scene),
     ):
         assert refusal(path, wrong.encode()) == "mesh_damaged"
+
+
+def test_collada_sources_without_numbers_have_no_points(tmp_path):
+    geometry = '<COLLADA><library_geometries><geometry><mesh><source id="a"/><vertices id="v"><input '
+    geometry += 'semantic="POSITION" source="#a"/></vertices><triangles><input semantic="VERTEX" source="#v"/>'
+    geometry += "<p>{}</p></triangles></mesh></geometry></library_geometries></COLLADA>"
+    assert refusal(tmp_path / "a.dae", geometry.format("0 1 2").encode()) == "mesh_damaged"
+    assert refusal(tmp_path / "a.dae", geometry.format("").encode()) == "mesh_empty"
 
 
 def test_collada_nodes_in_a_circle_end(tmp_path, monkeypatch):

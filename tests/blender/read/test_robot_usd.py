@@ -238,6 +238,12 @@ def test_usd_that_says_little_means_what_the_schemas_say(tmp_path):
     assert (refused.value.finding.code, refused.value.finding.values) == ("usda_invalid", {"line": 1})
 
 
+def test_usd_statements_without_a_value_end_where_the_next_one_begins(tmp_path):
+    inside = "float a\nfloat3 b (\ndoc = 1\n)\nfloat physics:mass = 3\nfloat3 physics:diagonalInertia = (2, 3, 4); "
+    (link,) = bodies(tmp_path, BODY.format("b", inside + 'int c; int[] d\ndef Cube "e" {}\nint f'))
+    assert link.inertial.mass == 3.0 and [one.shape.kind for one in link.shapes] == ["box"]
+
+
 def test_usd_operations_of_other_counts_do_nothing(tmp_path):
     wrong = {
         **{"translate:a": "(1, 2)", "scale:b": "(2, 2, 2, 2)", "orient:c": "(1, 1, 0)", "orient:d": "(0, 0, 0, 0)"},

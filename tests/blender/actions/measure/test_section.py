@@ -182,6 +182,13 @@ def test_nested_outlines_of_a_curve_are_holes_and_islands_whichever_way_they_run
     assert (section.outlines, section.holes) == (3, 1)
 
 
+def test_different_resolutions_of_splines_are_said_as_a_range():
+    curve = curve_of(square(0, 0, 4), square(5, 0, 4), square(10, 0, 4), kind="NURBS")
+    for spline, resolution in zip(curve.splines, (7, 3, 5)):
+        spline.resolution_u = resolution
+    assert said(section_of(add(curve))[2])["section_drawn_as_polygons"]["resolution"] == "3–7"
+
+
 def test_holes_of_letters_count_and_letters_add_up():
     obj = add(text_of("A"))
     single, _, findings = section_of(obj)
