@@ -11,6 +11,7 @@ turned. Front lies on front: no shape is turned over.
 from __future__ import annotations
 
 from collections.abc import Callable
+from itertools import count
 
 import numpy as np
 from numpy.typing import NDArray
@@ -151,14 +152,15 @@ def _mirrors(zernike: NDArray, points: NDArray) -> NDArray[np.float64]:
     outermost corner to another one, for prisms of many sides."""
     radius = np.hypot(*points.T)
     outer = points[radius > (1.0 - 1e-4) * radius.max()]
-    corners = np.unique(np.round(np.arctan2(*outer.T[::-1]), 5))[: 2 * MAX_AXIS_ORDER]
+    corners = np.arctan2(*outer.T[::-1])
+    corners = corners[np.unique(np.round(corners, 5), return_index=True)[1][: 2 * MAX_AXIS_ORDER]]
     angles = np.concatenate([_best_angles(zernike.conj(), zernike), corners[0] + corners])
     return turns_about_normal(angles) @ MIRROR
 
 
 def _best_angles(source: NDArray, target: NDArray) -> NDArray[np.float64]:
     """(k,) where the overlap of the turned source with the target has its maxima, the largest first."""
-    order = next(n for n in range(len(source) + 1) if len(disc_degrees(n)) == len(source))
+    order = next(n for n in count() if len(disc_degrees(n)) == len(source))
     m = np.array([m for _, m in disc_degrees(order)])
     terms = target.conj() * source
     weights = np.array([terms[m == k].sum() for k in range(order + 1)])

@@ -182,7 +182,8 @@ def _around_axis(points: NDArray, axis: NDArray, holds: Callable[[NDArray], bool
     ]
     flat = points - np.outer(points @ axis, axis)
     radius = np.linalg.norm(flat, axis=1)
-    outer = np.unique(np.round(flat[radius > (1.0 - 1e-4) * radius.max()] / radius.max(), 5), axis=0)
+    outer = flat[radius > (1.0 - 1e-4) * radius.max()] / radius.max()
+    outer = outer[np.unique(np.round(outer, 5), axis=0, return_index=True)[1]]
     x = outer[0] - axis * (axis @ outer[0])
     x /= np.linalg.norm(x)
     across = np.stack([np.cross(axis, x), x])

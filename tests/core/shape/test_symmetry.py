@@ -6,7 +6,13 @@ import numpy as np
 import pytest
 from body_moments.core.plane import directed_edges, region_moments
 from body_moments.core.shape.disc_zernike import disc_zernike
-from body_moments.core.shape.flat_pose import MIRROR, flat_symmetry, holds_by_moments, turns_about_normal
+from body_moments.core.shape.flat_pose import (
+    MIRROR,
+    flat_symmetry,
+    holds_by_moments,
+    holds_by_outline,
+    turns_about_normal,
+)
 from body_moments.core.shape.symmetry import Symmetry, _around_axis, confirm, symmetry
 
 from tests.core import bodies, shapes
@@ -36,7 +42,88 @@ def test_what_is_round_to_sixth_order_gets_the_folds_that_its_corners_have(name)
     image = bodies.moved(part, bodies.rotation(5), (1, 2, 3))
     found = symmetry(moments(image, 6))
     assert found.group == group
-    assert on_geometry(image, found).group == exact
+    for tolerance in (1e-6, 1e-10):
+        assert on_geometry(image, found, tolerance).group == exact
+
+
+@pytest.mark.parametrize("tolerance", [1e-4, 1e-10])
+def test_a_polygon_whose_sides_its_moments_do_not_show_has_the_mirror_lines_of_its_corners(tolerance):
+    angle = 0.3 + 2.0 * np.pi / 23 * np.arange(23)
+    corners = np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    zernike = disc_zernike(region_moments(corners, directed_edges([range(23)]), 8), 1.0)
+
+    def distance(places):
+        return np.linalg.norm(places[:, None, :2] - corners, axis=2).min(axis=1)
+
+    holds = holds_by_outline(np.pad(corners, ((0, 0), (0, 1))), distance, tolerance)
+    assert flat_symmetry(zernike, 8, corners, np.eye(3), holds).group == "C23v"
+
+
+def about(axis, n):
+    """The turn about an axis by an n-th of a whole one."""
+    x, y, z = np.array(axis) / np.linalg.norm(axis)
+    c, s = np.cos(2.0 * np.pi / n), np.sin(2.0 * np.pi / n)
+    return (
+        c * np.eye(3)
+        + s * np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+        + (1.0 - c) * np.outer([x, y, z], [x, y, z])
+    )
+
+
+def group_of(generators):
+    """All products of some matrices."""
+    found = [np.eye(3)]
+    for one in found:  # which grows
+        for other in generators:
+            product = other @ one
+            if min(np.abs(product - known).max() for known in found) > 1e-6:
+                found.append(product)
+    return np.array(found)
+
+
+X, Y, Z, DIAGONAL = [1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 1]
+ACROSS, UPRIGHT, INVERSION = np.diag([1.0, 1.0, -1.0]), np.diag([1.0, -1.0, 1.0]), -np.eye(3)
+GOLDEN = (1.0 + 5.0**0.5) / 2.0
+POINT_GROUPS = {
+    "C1": (1, []),
+    "Cs": (2, [ACROSS]),
+    "Ci": (2, [INVERSION]),
+    "C3": (3, [about(Z, 3)]),
+    "C2h": (4, [about(Z, 2), ACROSS]),
+    "C3h": (6, [about(Z, 3), ACROSS]),
+    "C2v": (4, [about(Z, 2), UPRIGHT]),
+    "C4v": (8, [about(Z, 4), UPRIGHT]),
+    "S4": (4, [about(Z, 4) @ ACROSS]),
+    "S6": (6, [about(Z, 6) @ ACROSS]),
+    "S8": (8, [about(Z, 8) @ ACROSS]),
+    "D2": (4, [about(Z, 2), about(X, 2)]),
+    "D5": (10, [about(Z, 5), about(X, 2)]),
+    "D2h": (8, [about(Z, 2), about(X, 2), ACROSS]),
+    "D3h": (12, [about(Z, 3), about(X, 2), ACROSS]),
+    "D4h": (16, [about(Z, 4), about(X, 2), ACROSS]),
+    "D2d": (8, [about(Z, 4) @ ACROSS, about(X, 2)]),
+    "D3d": (12, [about(Z, 6) @ ACROSS, about(X, 2)]),
+    "D4d": (16, [about(Z, 8) @ ACROSS, about(X, 2)]),
+    "T": (12, [about(Z, 2), about(DIAGONAL, 3)]),
+    "Th": (24, [about(Z, 2), about(DIAGONAL, 3), INVERSION]),
+    "Td": (24, [about(Z, 4) @ ACROSS, about(DIAGONAL, 3)]),
+    "O": (24, [about(Z, 4), about(DIAGONAL, 3)]),
+    "Oh": (48, [about(Z, 4), about(DIAGONAL, 3), INVERSION]),
+    "I": (60, [about([0, 1, GOLDEN], 5), about(DIAGONAL, 3)]),
+    "Ih": (120, [about([0, 1, GOLDEN], 5), about(DIAGONAL, 3), INVERSION]),
+}
+
+
+@pytest.mark.parametrize("name", POINT_GROUPS)
+@pytest.mark.parametrize("seed", [None, 3])
+def test_point_groups_have_their_schoenflies_symbols(name, seed):
+    order, generators = POINT_GROUPS[name]
+    turn = np.eye(3) if seed is None else bodies.rotation(seed)
+    operations = turn @ group_of(generators) @ turn.T
+    assert len(operations) == order
+    found = Symmetry(operations, np.empty((0, 3)), 6)
+    assert found.group == name
+    assert found.has_center == any(np.abs(one + np.eye(3)).max() < 1e-9 for one in operations)
 
 
 @pytest.mark.parametrize("sides, group", [(128, "D128h"), (129, "D43h")])
