@@ -41,12 +41,12 @@ class BoundarySum:
     """
 
     def __init__(self) -> None:
-        self._total = np.zeros(1, np.uint64)
+        self._total = np.zeros((), np.uint64)
 
     @property
     def is_zero(self) -> bool:
         """Whether all sides that were added cancel: the faces close, wherever they were split."""
-        return not self._total[0]
+        return not self._total
 
     def add(self, piece: Surface | NDArray[np.floating]) -> None:
         """Add the faces of a piece, or (m, 3, 3) corners of triangles. Points at the same place are one."""
@@ -87,11 +87,11 @@ def _hash_places(points: NDArray[np.floating]) -> NDArray[np.uint64]:
     return hashes
 
 
-def _sum_of_sides(start: NDArray[np.uint64], stop: NDArray[np.uint64]) -> NDArray[np.uint64]:
-    """(1,) the sum over sides, each a hash of both its ends times their difference."""
+def _sum_of_sides(start: NDArray[np.uint64], stop: NDArray[np.uint64]) -> np.uint64:
+    """The sum over sides, each a hash of both its ends times their difference."""
     sides = start ^ stop
     sides *= KEYS[3]
     sides ^= sides >> HALF
     sides *= KEYS[4]
     sides *= start - stop
-    return np.add.reduce(sides, keepdims=True)
+    return np.add.reduce(sides)

@@ -33,7 +33,7 @@ def disc_zernike(moments: Moments, radius: float) -> NDArray[np.complex128]:
     moments: of area, about the disc's center, with z = 0. radius: of the disc.
     """
     degree = monomials(moments.order).sum(axis=1)
-    scaled = Moments(moments.raw / radius ** (degree + 2.0), np.zeros(3), moments.measure)
+    scaled = Moments(moments.raw / radius ** (degree + 2.0), moments.about, moments.measure)
     c = {key: entry.value for key, entry in complex_moments(scaled).items()}
     return np.array(
         [

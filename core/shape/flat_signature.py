@@ -63,7 +63,7 @@ def flat_signature(moments: Moments, radius: float) -> Signature:
     size = sqrt((moments[2, 0, 0] + moments[0, 2, 0]) / moments.total)
     low = moments.truncate(INVARIANT_ORDER)
     degree = monomials(INVARIANT_ORDER).sum(axis=1)
-    scaled = Moments(low.raw / size**degree / moments.total, np.zeros(3), low.measure)
+    scaled = Moments(low.raw / size**degree / moments.total, low.about, low.measure)
     c = {key: entry.value for key, entry in complex_moments(scaled).items()}
     couplings: NDArray[np.complex128] = np.array(
         [c[a] * c[b].conjugate() for a, b in pairs()] + [c[a] * c[b] * c[d].conjugate() for a, b, d in triples()]

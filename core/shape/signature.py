@@ -110,12 +110,13 @@ class Signature:
             lengths = _lengths(dimension)
         except (KeyError, TypeError, ValueError, OverflowError) as error:
             raise FileError("signature_unrecognized") from error
-        if not (
+        is_complete = (
             (np.abs(np.concatenate(arrays)) < MAX_DESCRIPTOR).all()  # not where one is NaN
             and 1.0 / MAX_SIZE < result.size < MAX_SIZE
             and len(result.zernike)
             and (len(result.invariants), len(result.chirality)) == lengths
-        ):
+        )
+        if not is_complete:
             raise FileError("signature_incomplete")
         return result
 

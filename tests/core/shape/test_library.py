@@ -4,6 +4,7 @@
 
 import os
 
+import numpy as np
 import pytest
 from body_moments.core.shape import library
 from body_moments.core.shape.library import Entry, Similarity, classify, rank, read_library
@@ -18,6 +19,12 @@ def test_a_ten_thousandth_in_shape_or_size_is_what_a_careless_export_changes(han
         assert classify(Likeness(shape, 1.0 + 0.99e-4 * way, 0.0, hand)) == Similarity(copy)
         assert classify(Likeness(shape, 1.0 + 1.01e-4 * way, 0.0, hand)) == Similarity(scaled)
     assert classify(Likeness(1.01e-4, 1.0, 0.0, hand)) == Similarity.SIMILAR
+
+
+def test_a_shape_is_the_same_to_a_ten_thousandth_and_similar_to_a_tenth():
+    for limit, within, beyond in ((1e-4, "copy", "similar"), (0.1, "similar", "different")):
+        assert classify(Likeness(limit, 1.0, 0.0, False)) == Similarity(within)
+        assert classify(Likeness(np.nextafter(limit, 1.0), 1.0, 0.0, False)) == Similarity(beyond)
 
 
 @pytest.mark.parametrize("apart, order", [(4e-13, ["first", "second"]), (2e-12, ["second", "first"])])

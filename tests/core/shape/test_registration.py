@@ -87,3 +87,13 @@ def test_what_no_rotation_lays_on_the_other_to_a_thousandth_is_a_mirror_image_wh
         found = matching.match(body, body, residual, size)
     assert found.is_mirror_image is is_mirror_image
     assert (found.max_distance, found.mean_distance) == (left, left / 2.0)
+
+
+@pytest.mark.parametrize("way", [[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]])
+def test_half_turns_about_the_axes_are_tried_for_noise_may_decide_a_sign(way):
+    """The body tells one way alone; here what is left is least after a half turn more."""
+    body = moments(shapes.WEDGE, 6).about_center()
+    axes = np.linalg.eigh(body.second())[1]
+    wanted = axes @ np.diag(way).astype(float) @ axes.T
+    found = matching.match(body, body, lambda turn, _: np.abs(turn - wanted).max(axis=1), 1.0)
+    assert np.abs(found.rotation - wanted).max() < 1e-9

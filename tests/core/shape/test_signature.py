@@ -185,6 +185,7 @@ def test_a_flat_record_gives_the_signature_back_and_moments_beyond_order_20_add_
         assert np.array_equal(getattr(found, name), getattr(more, name))
     assert list(found.as_record()) == ["dimension", "size", *PARTS]
     assert again.dimension == 2 and [len(getattr(found, name)) for name in PARTS] == [40, 121, 0, 27]
+    assert np.abs(found.chirality).min() > 1e-6  # this shape has a hand by each of them
 
 
 @pytest.mark.parametrize("order", [6, 8, 12])
@@ -245,15 +246,23 @@ def test_numbers_of_a_record_may_be_as_large_as_their_squares_are_numbers(name, 
 
 def test_a_library_has_entries_and_a_finding_for_each_body_without_a_signature(tmp_path):
     shape = plain(signed(shapes.WEDGE, 6).as_record())
-    records = [{"name": "A", "signature": shape}, {"name": "B", "signature": None}, {"name": "C"}]
+    damaged = {**shape, "size": 0.0}
+    records = [
+        {"name": "A", "signature": shape},
+        {"name": "B", "signature": None},
+        {"name": "C"},
+        {"name": "D", "signature": damaged},
+    ]
+    last = {"objects": [{"name": "E", "signature": shape}]}
     path = tmp_path / "parts.jsonl"
-    lines = [json.dumps({"file": "ä.blend", "objects": records}, ensure_ascii=False), "", json.dumps({"objects": []})]
+    lines = [json.dumps({"file": "ä.blend", "objects": records}, ensure_ascii=False), "", json.dumps(last)]
     path.write_text("\n".join(lines), encoding="utf-8")
     entries, missing = read_library(path)
-    assert [entry.label for entry in entries] == ["ä.blend:A"]
+    assert [entry.label for entry in entries] == ["ä.blend:A", "E"]
     assert missing == [
         Finding("record_without_shape", {"name": "ä.blend:B"}),
         Finding("record_without_signature", {"name": "ä.blend:C"}),
+        Finding("record_without_signature", {"name": "ä.blend:D"}),
     ]
 
 

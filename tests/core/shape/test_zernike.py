@@ -11,6 +11,7 @@ from body_moments.core.moments.moments import monomials
 from body_moments.core.moments.solid_harmonics import couple, harmonic_moments
 from body_moments.core.shape.disc_zernike import MAX_DISC_ORDER, _radial, disc_degrees
 from body_moments.core.shape.zernike import (
+    degrees,
     descriptor_error,
     descriptors,
     radial_power,
@@ -132,6 +133,17 @@ def test_what_left_out_orders_may_change_is_all_that_parseval_leaves_them(radius
     scale = (4.0 * pi) ** 2 / 3.0
     assert close(power, scale * known, 1e-12)
     assert close(bound, scale * (2.0 * np.sqrt(known * tail) + tail), 1e-11)
+
+
+def test_the_power_at_high_frequencies_is_that_of_exact_bessel_functions():
+    """Of Ω_00 alone: 4π/√3 (j_1(q)/q)², and of Ω_20 alone the same of √7 j_3(q)/q."""
+    q = np.array([40.0, 150.5, 400.25])
+    sine, cosine = np.sin(q), np.cos(q)
+    j1, j3 = (sine / q - cosine) / q, ((15.0 / q**3 - 6.0 / q) * sine - (15.0 / q**2 - 1.0) * cosine) / q
+    scale = (4.0 * pi) ** 2 / 3.0
+    for n, j in ((0, j1), (2, j3)):
+        one = {(k, l): np.full(2 * l + 1, 0.1 * (k == n and l == 0) + 0j) for k, l in degrees(n)}
+        assert close(radial_power(one, q)[0], scale * (2 * n + 3) * (0.1 * j / q) ** 2, 1e-10)
 
 
 def test_the_power_of_a_box_is_the_mean_of_its_products_of_sincs():

@@ -757,6 +757,11 @@ def test_indices_in_any_byte_order_name_their_points(kind):
         Surface.from_triangles(CUBE[0], CUBE[1].astype(kind) + np.array(1, kind))
 
 
+def test_complex_coordinates_are_refused():
+    with pytest.raises(ValueError, match="coordinates must be real"):
+        Surface.from_triangles(CUBE[0].astype(complex), CUBE[1])
+
+
 @pytest.mark.parametrize("shell", [False, True])
 def test_the_area_has_what_is_flat_and_encloses_nothing(shell):
     points, quads = ring(12, 8)
