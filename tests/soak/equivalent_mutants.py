@@ -624,6 +624,12 @@ PATTERNS = [
     ),
     (r".*statics/support.py ground_axes", r"first @ up", r"\(up @ first\)", "the product of two vectors, either way"),
     (
+        r".*statics/rest_on_ground.py .*",
+        r"across @ start|\(point - center\) @ down",
+        r"\((start @ across|down @ \(point - center\))\)",
+        "the product of two vectors, either way",
+    ),
+    (
         r".*fourier/grid.py GridTransform._counts",
         r"not len\(tried\) or np\.array_equal\(fewer, before\)",
         r".*",
@@ -685,7 +691,11 @@ CONSTANTS = [
         "other points that are spread as well hold the ball too",
     ),
     (r"operators/read/sample_grid.py SampledGrid.__init__", r"sample\(low - ", "any place beyond the grid"),
-    (r"operators/(read|scene|bodies)/.*", r"\bedges=", "read, and not looked at where nothing is to be proved closed"),
+    (
+        r"operators/(read|scene|bodies|actions/snap)/.*",
+        r"\bedges=",
+        "read, and not looked at where nothing is to be proved closed",
+    ),
     (r"operators/session/shown.py _shown_now", r"last is None or last\[", "what was found is found once more"),
     (r"operators/session/live.py _measure", r"norm\(matrix\[:", "the first three numbers of the last row are 0"),
     (r".*session/listing.py _listing", r"lines = \[", "each is written over"),

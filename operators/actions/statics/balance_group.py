@@ -214,7 +214,7 @@ class OBJECT_OT_body_moments_balance_group(ModalSteps, Operator):
         if empty is None:
             empty = bpy.data.objects.new("Balance", None)
             empty.empty_display_type, empty.show_in_front = "SPHERE", True
-            empty.empty_display_size = 0.05 * max(1e-6, float(np.ptp(path.centers, axis=0).max()))
+            empty.empty_display_size = 0.05 * float(np.ptp(path.centers, axis=0).max())
             empty[balance_groups.GROUP] = balance_groups.group_text(self._objects)
             scene.collection.objects.link(empty)
         balance_groups.store(empty, path, self._supports)

@@ -11,6 +11,7 @@ from types import SimpleNamespace
 
 import bpy
 import pytest
+from body_moments.core.verdict.finding import finding
 from body_moments.operators.actions import modal as stepwise
 from body_moments.operators.actions.measure import copy
 
@@ -353,6 +354,33 @@ def test_the_cursor_shows_no_progress_any_more_where_a_step_fails(monkeypatch):
         step(1)
         raise ZeroDivisionError
     assert window.said == ["progress 0 3", "done 1", "progress ends"]
+
+
+@pytest.mark.parametrize(("away", "worked"), [(0.0, 0.1), (0.05, 0.1), (0.5, 0.5), (1.0, 1.0), (7.0, 1.0)])
+def test_between_two_events_is_worked_as_long_as_the_window_took_within_limits(away, worked, monkeypatch):
+    now, tick = [100.0], 2.0**-6
+    monkeypatch.setattr(stepwise, "perf_counter", lambda: now[0])
+
+    def steps():
+        while True:
+            now[0] += tick
+            yield 0.0
+
+    operator, window = stepwise.ModalSteps(), Window()
+    operator.PROGRESS, operator._steps = finding("progress_measuring"), steps()
+    operator.start_modal(window, 1.0)
+    for _ in range(2):
+        now[0] += away
+        began = now[0]
+        assert operator.modal(window, TIMER) == {"RUNNING_MODAL"}
+        assert worked <= now[0] - began < worked + tick
+
+
+def test_what_has_nothing_to_do_is_done_as_a_whole():
+    operator, window = stepwise.ModalSteps(), Window()
+    operator.PROGRESS = finding("progress_measuring")
+    assert operator.start_modal(window, 0) == {"RUNNING_MODAL"}
+    assert ["100%" in line for line in window.said if line.startswith("status")] == [True]
 
 
 COPIED_IN = {

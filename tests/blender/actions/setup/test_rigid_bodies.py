@@ -105,6 +105,17 @@ def test_a_parent_with_its_children_is_one_compound():
     assert close(root.rigid_body.mass, 7850 * 8, 1e-6)
 
 
+def test_a_compound_whose_axes_are_free_keeps_those_of_its_parent():
+    scene = bpy.context.scene.collection
+    root, child = box(scene, (2, 2, 2), (0, 0, 0), 1000, "root"), box(scene, (1, 1, 1), (0, 0, 0), 500, "child")
+    child.parent, root.rotation_euler, root.location = root, (0.1, 0.2, 0.3), (1, 2, 3)
+    bpy.context.view_layer.update()
+    only(root, child)
+    turn = place(root)[:3, :3]
+    assert make() == {"FINISHED"} and root.rigid_body.collision_shape == "COMPOUND"
+    assert np.abs(place(root)[:3, :3] - turn).max() < 1e-6
+
+
 def test_joints_stay_where_they_are():
     first, second = slanted("a"), slanted("b")
     hinge = bpy.data.objects.new("Hinge", None)

@@ -176,11 +176,19 @@ def test_an_empty_that_cannot_be_placed_is_as_it_was_parent_and_size_and_all(rep
 
 
 @pytest.mark.parametrize("operator", ["axes_to_principal", "rigid_bodies"])
-@pytest.mark.parametrize(("scale", "is_kept"), [((4,) * 3, True), ((5,) * 3, False), ((4, 4, 5), False)])
-def test_a_scale_that_is_one_but_for_rounding_stays(scale, is_kept, operator):
-    """By 4 and by 5 last places, of which products of axes have twice as many."""
+@pytest.mark.parametrize(
+    ("rotation", "scale", "is_kept"),
+    [
+        ((0, 0, 0), (4, 4, 4), True),
+        ((0, 0, 0), (5, 5, 5), False),
+        ((-np.arcsin(3.0**-0.5), np.pi / 4, 0), (0, 0, 2), True),
+        ((-np.arcsin(3.0**-0.5), np.pi / 4, 0), (0, 0, 8), False),
+    ],
+)
+def test_a_scale_that_is_one_but_for_rounding_stays(rotation, scale, is_kept, operator):
+    """By so many last places; by twice as many products of axes differ from one."""
     wanted = 1.0 + np.array(scale) * 2.0**-23
-    obj = add(box_mesh(4, 2, 1), "Box", scale=wanted)
+    obj = add(box_mesh(4, 2, 1), "Box", rotation=rotation, scale=wanted)
     getattr(bpy.ops.object, "body_moments_" + operator)()
     assert (np.array(obj.scale, np.float64) == (wanted if is_kept else 1.0)).all()
 
