@@ -171,9 +171,7 @@ class _Reader:
         """Whether the outer boundary is that of the surface's own domain."""
         (outer,) = integers(fields[3:], 1)
         _, base, curve, _, _ = integers(self._text.fields(self._entry(outer, PARAMETER_CURVE)), 5)
-        if base != surface:
-            return False
-        pieces = self._pieces(curve, 0, iter(range(MAX_PIECES)))
+        pieces = self._pieces(curve, 0, iter(range(MAX_PIECES))) if base == surface else None
         return pieces is not None and trims_nothing(pieces, spline.domain)
 
     def _pieces(self, pointer: int, depth: int, left: Iterator[int]) -> list[Piece] | None:

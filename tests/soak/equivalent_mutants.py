@@ -324,6 +324,18 @@ PATTERNS = [
         r"\(self\._has_grown\(child\)\)",
         "where nothing is left to do a child may end",
     ),
+    (
+        r".*supervisor/pool.py Pool._give",
+        r"child\.measured \+= 1",
+        r"child\.measured -= 1",
+        "whether it is none, and every sixteenth, is all that is read",
+    ),
+    (
+        r"operators/bodies/wall.py _orient_outward",
+        r"polyhedron_moments\(.*, allow_open=True\)",
+        r"\(polyhedron_moments\(((?!allow_open).)*\)\)",
+        "what was proved closed is found so once more",
+    ),
     (r".*supervisor/pool.py Pool._pause", r"(?!return|max).*", r".*", "how often is looked"),
     (r".*supervisor/pool.py Pool._receive", r"self\._give\(child\)", r"pass", "the next step gives it"),
     (
@@ -682,6 +694,7 @@ CONSTANTS = [
     (r".*supervisor/lifeline.py end_with", r"ready\.poll\(", "a thousandth of a second is waited"),
     (r".*supervisor/lifeline.py Lifeline.__init__", r"ThreadPoolExecutor\(", "room for a thread that nothing starts"),
     (r".*write/thumbnail.py thumbnail", r"steps \+ \(right, up, ", "how deep an axis is, which is drawn over the body"),
+    (r"panels/overlay/view.py View.pixels", r"== 0\.0, ", "where a point beside the eye is has no meaning"),
     (r".*write/whole_file.py whole_file", r"os\.O_WRONLY \|.*\"O_BINARY\", ", "the number of O_WRONLY, which is there"),
     (r".*command/output.py claim_stdout", r"channel = -", "any negative number is no descriptor"),
     (r"operators/bodies/hull.py object_hull", r"len\(part\.matrices\) > ", "the hull of hulls is that of their points"),
@@ -907,6 +920,7 @@ LOOSER = {
     "core/polyhedron/any_order_kernel.py absolute_sums",
     "core/polyhedron/sheared_areas.py area_of_images",
     "operators/bodies/given.py given_moments",
+    "operators/write/flat_record.py SHIFT_ROUNDINGS",
 }
 # (module, function, before, after): the reason
 EQUIVALENT: dict[tuple[str, str, str, str], str] = {

@@ -151,7 +151,12 @@ def test_shards_of_all_kinds_together_are_those_alone():
 
 def test_what_is_given_for_all_counts_for_each():
     objects = shards(2)
-    for options in (MeasureOptions(density=2700.0, unit_scale=0.001, pose=True), MeasureOptions(mass=3.0)):
+    for options in (
+        MeasureOptions(density=2700.0, unit_scale=0.001, pose=True),
+        MeasureOptions(mass=3.0),
+        MeasureOptions(kind="shell", thickness=0.001),
+        MeasureOptions(overlap="union"),
+    ):
         pairs, depsgraph = all_outcomes(objects, options)
         for obj, found in pairs:
             assert_same(found, alone(obj, depsgraph, options))

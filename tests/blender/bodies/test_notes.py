@@ -39,6 +39,15 @@ def test_flat_instances(side, ending):
     assert close(found.volume, 1.0, rel=1e-6)
 
 
+@pytest.mark.parametrize(("share", "ending"), [(0.1, "_slightly"), (0.6, "")])
+def test_flat_instances_count_by_their_area_times_the_size_of_all(share, ending):
+    """Beside a body of 8; all of them reach over about 4.1."""
+    side = (share * 8e-4) ** 0.5
+    sheet = {"points": [(3, 0, 0), (3 + side, 0, 0), (3 + side, side, 0), (3, side, 0)], "faces": [(0, 1, 2, 3)]}
+    found = measure(collection_of(add(box((0, 0, 0), (2, 2, 2))), add(sheet)))
+    assert [*said(found)] == ["flat_instance_sources" + ending]
+
+
 @SIDES
 def test_duplicate_faces_of_shells(side, ending):
     corners = [(3 + x * side, y * side, 0) for y in range(2) for x in range(3)]

@@ -409,6 +409,9 @@ def test_how_processes_end_is_said():
     expected = 1024 * (int(rollup["Anonymous:"]) + int(rollup["Swap:"]))
     assert abs(processes.memory_of(os.getpid()) - expected) < 0.3 * expected and len(kept)
     assert processes.memory_of(2**22 + 1) is None
+    ended = subprocess.Popen(["true"])
+    os.waitid(os.P_PID, ended.pid, os.WEXITED | os.WNOWAIT)  # it is listed still, and has no memory
+    assert processes.memory_of(ended.pid) is None and ended.wait() == 0
     assert 0.5 * expected < processes._memory_by_tool(os.getpid()) and processes._memory_by_tool(2**22 + 1) is None
 
 
@@ -869,6 +872,7 @@ def test_an_idle_child_that_ends_is_nobodys_fault(tmp_path, fake):
         found.wait_until_ready()
         (child,) = found._children
         assert found._receive(child, {}, b"stray") == []
+        child.folder.rmdir()  # as where somebody else cleans up
         os.kill(child.process.pid, signal.SIGKILL)
         while found._children:
             assert found.step() == []

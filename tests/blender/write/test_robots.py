@@ -128,6 +128,18 @@ def test_a_document_without_a_body_is_no_robot():
     assert robot.links == () and robot.joints == () and robot.name == "r"
 
 
+def of_surface(name, type_="MESH", kind="solid", **link):
+    box = of_box(2.0, (1.0, 2.0, 4.0))
+    entry = {**record(name, 2.0, scale=[1.0] * 3, **link), "type": type_, "kind": kind, "center_of_mass": box.center}
+    return entry | {"inertia": box.inertia, "principal_moments": box.moments, "principal_axes": box.axes}
+
+
+def test_a_link_hangs_on_the_nearest_one_above_that_has_a_mass():
+    records = [of_surface("a"), of_surface("b", parents=["b", "gone", "a"]), of_surface("c", parents=["gone"])]
+    joints = from_records.robot_of_records("r", records)[0].joints
+    assert [(joint.parent, joint.child) for joint in joints] == [("a", "b")]
+
+
 @pytest.mark.parametrize(
     ("type_", "kind", "has_mesh"),
     [
@@ -136,10 +148,7 @@ def test_a_document_without_a_body_is_no_robot():
     ],
 )
 def test_a_link_of_a_surface_has_its_mesh(type_, kind, has_mesh):
-    box = of_box(2.0, (1.0, 2.0, 4.0))
-    entry = {**record("a", 2.0, scale=[1.0] * 3), "type": type_, "kind": kind, "center_of_mass": box.center}
-    entry |= {"inertia": box.inertia, "principal_moments": box.moments, "principal_axes": box.axes}
-    (link,) = from_records.robot_of_records("r", [entry])[0].links
+    (link,) = from_records.robot_of_records("r", [of_surface("a", type_, kind)])[0].links
     assert [(shape.file, shape.sheet) for shape in link.shapes] == [("meshes/a.stl", kind == "shell")] * has_mesh
 
 

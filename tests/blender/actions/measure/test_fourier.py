@@ -9,7 +9,9 @@ pytest.importorskip("bpy")
 import bpy
 from body_moments.core.fourier import instances as fourier_body
 from body_moments.core.fourier.wave_vectors import FrequencyGrid
+from body_moments.core.mesh.surface import Surface
 from body_moments.operators import batch
+from body_moments.operators.bodies import fourier
 from body_moments.operators.bodies.fourier import object_transform
 from body_moments.operators.command import fourier as command
 from body_moments.operators.settings.options import MeasureOptions
@@ -103,6 +105,19 @@ def test_a_wall_of_real_thickness_is_refused_with_the_remedy():
     with refused("fourier_of_wall", box.name):
         transform(box, options=thick)
     assert close(transform(box, np.zeros((1, 3)), thick, area=True)[0].values[0], 22.0, rel=1e-14)
+
+
+def test_a_grid_is_as_long_as_the_box_around_turned_instances():
+    """Of a unit cube about (2, 0, 0): one where it is, one a quarter turn about z later, one of three more along y; and
+    one that rises by 3 along x.
+    """
+    corners = np.array([(x, y, z) for x in (1.5, 2.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)])
+    matrices = np.array([np.eye(4)] * 4)
+    matrices[1, :2, :2] = (0.0, -1.0), (1.0, 0.0)
+    matrices[2, 1, 3] = matrices[3, 2, 0] = 3.0
+    surface = Surface.from_triangles(corners, np.array([(0, 1, 2), (5, 6, 7)]))
+    for count, length in ((1, 1.0), (2, 3.0), (3, 4.0), (4, 8.5)):
+        assert close(fourier._extent([(surface, matrices[:count])]), length, rel=1e-15)
 
 
 @pytest.mark.parametrize("kind", ["solid", "shell"])
