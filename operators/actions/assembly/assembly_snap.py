@@ -95,7 +95,6 @@ class OBJECT_OT_body_moments_assembly_empty(_SnapToAssembly, Operator):
         unit = shortest_decimal(context.scene.unit_settings.scale_length)
         empty.empty_display_size = max(float(body.radii_of_gyration.max()) / unit, 1e-3)
         empty.matrix_world = Matrix(frame)
-        context.view_layer.update()
         return [finding("empty_at_assembly", assembly=root.name)]
 
 

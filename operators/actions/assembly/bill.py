@@ -3,6 +3,7 @@
 """Export Bill of Masses: an assembly's tree as a table, measured as it is now."""
 
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import bpy
@@ -37,20 +38,25 @@ def bill_rows(part: MemberBody, mass: float, level: int = 0, counted: bool = Tru
     measurement = part.measurement
     findings = part.findings if measurement is None else measurement.findings
     reason = part.member.left_out or part.refusal
-    yield BillRow(
+    row = BillRow(
         level=level,
         name=part.member.name,
         type=part.member.kind.value.lower(),
         counted=counted and moments is not None,
         method="" if measurement is None else str(measurement.method),
-        share=None if moments is None or not counted else moments.total / mass,
-        density=moments.total / part.volume if moments is not None and part.volume > 0.0 else None,
-        volume=part.volume if moments is not None else None,
-        area=part.area if moments is not None else None,
-        properties=None if moments is None else properties_of(moments, np.eye(3)),
         findings=findings,
         left_out=reason,
     )
+    if moments is not None:
+        row = replace(
+            row,
+            share=moments.total / mass if counted else None,
+            density=moments.total / part.volume if part.volume else None,
+            volume=part.volume,
+            area=part.area,
+            properties=properties_of(moments, np.eye(3)),
+        )
+    yield row
     given = any(found.code == "assembly_mass_given" for found in part.findings)
     for member in part.parts:
         yield from bill_rows(member, mass, level + 1, counted and not given)

@@ -174,6 +174,35 @@ def test_cursor_empty_and_offset_go_to_the_center():
     assert close(root.instance_offset, center, 1e-6)
 
 
+@pytest.mark.parametrize("side, size", [(2e-3, 1e-3), (8e-3, 8e-3 / 6.0**0.5)])
+def test_the_empty_of_a_tiny_assembly_stays_large_enough_to_see(side, size):
+    """A cube's radius of gyration is its side over the root of six."""
+    root = collection("Tiny")
+    box(root, (side, side, side))
+    activate(root)
+    assert bpy.ops.object.body_moments_assembly_empty() == {"FINISHED"}
+    (made,) = [obj for obj in bpy.context.scene.objects if obj.type == "EMPTY"]
+    assert close(made.empty_display_size, size, 1e-5)
+
+
+def test_an_empty_of_a_library_is_not_moved(reported):
+    root = assembly_of_boxes()
+    bpy.ops.object.body_moments_assembly_empty()
+    (made,) = [obj for obj in bpy.context.scene.objects if obj.type == "EMPTY"]
+    path = bpy.app.tempdir + "frame.blend"
+    bpy.data.libraries.write(path, {root, made})
+    bpy.data.batch_remove([*bpy.data.objects, *bpy.data.meshes, *bpy.data.collections])
+    with bpy.data.libraries.load(path, link=True) as (_, names):
+        names.collections, names.objects = ["Robot"], ["Robot Principal Frame"]
+    bpy.context.scene.collection.children.link(names.collections[0])
+    bpy.context.scene.collection.objects.link(names.objects[0])
+    bpy.context.view_layer.update()
+    activate(names.collections[0])
+    with pytest.raises(RuntimeError):
+        bpy.ops.object.body_moments_assembly_empty()
+    assert reported.codes[-1] == "linked_object"
+
+
 def test_the_bill_of_masses_is_a_table_of_all_members(tmp_path):
     root = assembly_of_boxes()
     box(root, (1, 1, 1), name="=out").hide_render = True

@@ -10,7 +10,7 @@ import pytest
 from body_moments.operators.actions.assembly import assembly
 
 from tests.blender.actions.test_refusals import linked_assembly
-from tests.blender.bodies.test_assembly import box
+from tests.blender.bodies.test_assembly import box, empty
 from tests.blender.objects import add, strip_mesh
 
 pytestmark = pytest.mark.usefixtures("scene")
@@ -42,7 +42,12 @@ def rows(tmp_path):
     layer = bpy.context.view_layer
     layer.active_layer_collection = layer.layer_collection.children["Whole"]
     layer.update()
-    path = tmp_path / "bill.csv"
+    return exported(tmp_path)
+
+
+def exported(folder):
+    """The rows of the bill of the active collection, by name."""
+    path = folder / "bill.csv"
     assert bpy.ops.object.body_moments_export_bill(filepath=str(path)) == {"FINISHED"}
     with path.open(encoding="utf-8", newline="") as file:
         return {row["name"]: row for row in csv.DictReader(file)}
@@ -71,6 +76,18 @@ def test_shares_and_densities_are_those_of_what_counts(rows):
         assert float(rows[name]["volume"]) == pytest.approx(volume)
         assert float(rows[name]["density"]) == pytest.approx(masses[name] / volume)
     assert float(rows["Free"]["area"]) == pytest.approx(22.0)
+
+
+def test_what_has_no_volume_has_no_density(tmp_path):
+    whole = collection("Whole", bpy.context.scene.collection)
+    box(whole, (1, 2, 3), name="Box")
+    empty(whole, "Point", (1, 2, 3), mass=5.0)
+    layer = bpy.context.view_layer
+    layer.active_layer_collection = layer.layer_collection.children["Whole"]
+    layer.update()
+    rows = exported(tmp_path)
+    assert (rows["Point"]["mass"], rows["Point"]["volume"], rows["Point"]["density"]) == ("5.0", "0.0", "")
+    assert float(rows["Point"]["share"]) == pytest.approx(5.0 / 6005.0, abs=0.0)
 
 
 def test_each_row_has_its_own_findings_and_method(rows):

@@ -97,6 +97,19 @@ def test_collections_are_links_with_all_that_they_hold(tmp_path):
     assert (tmp_path / "meshes" / "arm.stl").stat().st_size == 84 + 2 * 50 * 20
 
 
+def test_the_links_of_a_collections_exporter_are_the_collections_in_it(tmp_path):
+    upper, fore, tool = pair()
+    robot, arm, hand = (bpy.data.collections.new(name) for name in ("Robot", "Arm", "Hand"))
+    bpy.context.scene.collection.children.link(robot)
+    for obj, collection in ((upper, arm), (tool, hand)):
+        robot.children.link(collection)
+        bpy.context.scene.collection.objects.unlink(obj)
+        collection.objects.link(obj)
+    export("urdf", tmp_path / "robot.urdf", links="COLLECTION", collection="Robot", geometry="NONE")
+    root = ElementTree.parse(tmp_path / "robot.urdf").getroot()
+    assert {"Arm", "Hand"} <= {link.get("name") for link in root.iter("link")}
+
+
 @pytest.mark.parametrize("unit", [1.0, 0.001])
 def test_usd_is_blenders_geometry_under_a_layer_of_masses(tmp_path, unit):
     bpy.context.scene.unit_settings.scale_length = unit
