@@ -103,27 +103,28 @@ def _path(empty: Object) -> Path | None:
     keys = [keys for axis in range(3) if (keys := _keys(curves, "location", axis)) is not None]
     if len(keys) < 3 or len({len(axis_keys) for axis_keys in keys}) != 1:
         return None
+    centers = np.stack([axis_keys[:, 1] for axis_keys in keys], axis=1)
     signal = _keys(curves, '["{:s}"]'.format(INSIDE), 0)
-    inside = None if signal is None or len(signal) != len(keys[0]) else signal[:, 1] > 0.5
-    return Path(keys[0][:, 0], np.stack([axis_keys[:, 1] for axis_keys in keys], axis=1), inside)
+    inside = None if signal is None or len(signal) != len(centers) else signal[:, 1] > 0.5
+    return Path(keys[0][:, 0], centers, inside)
 
 
 def _curves(empty: Object):
     """The empty's F-curves, of an action of its own."""
-    animation = empty.animation_data or empty.animation_data_create()
+    animation = empty.animation_data_create()
     if animation.action is None:
         animation.action = bpy.data.actions.new(empty.name)
     action = animation.action
     if animation.action_slot is None:
         animation.action_slot = action.slots.new("OBJECT", empty.name)
     layer = action.layers[0] if action.layers else action.layers.new("Layer")
-    strip = layer.strips[0] if layer.strips else layer.strips.new(type="KEYFRAME")
+    strip = layer.strips[0] if layer.strips else layer.strips.new()
     return strip.channelbag(animation.action_slot, ensure=True).fcurves
 
 
 def _existing_curves(empty: Object) -> Iterable[FCurve]:
     animation = empty.animation_data
-    if animation is None or animation.action is None or animation.action_slot is None:
+    if animation is None or animation.action_slot is None:
         return ()
     for layer in animation.action.layers:
         for strip in layer.strips:

@@ -11,7 +11,6 @@ update function, leaves the results out of date.
 from __future__ import annotations
 
 from dataclasses import replace
-from math import isfinite
 
 from bpy.types import Context, Object, PropertyGroup, Scene
 
@@ -68,7 +67,7 @@ def follow_density(obj: Object, scene: Scene) -> None:
     if numbers is None:
         return
     extent = properties.optional(obj, "body_length") or numbers[2][0]
-    if not extent or not numbers[0][0] > 0.0:
+    if not extent:
         return
     if any(found.code == "inertia_given" for found in properties.findings(obj)):
         return  # which no mass multiplies
@@ -86,12 +85,13 @@ def follow_density(obj: Object, scene: Scene) -> None:
     settings = obj.body_moments
     is_mass_given = settings.mass_from == "MASS"
     density = shortest_decimal(settings.mass) / extent if is_mass_given else given_density(obj, scene)
-    if not 0.0 < density * extent / mass < float("inf") or not isfinite(density * extent):
+    mass_now = density * extent
+    if not 0.0 < mass_now < float("inf"):
         return
     properties.store_scaled(
         obj,
         0.0 if settings.kind == "WIRE" else density,
-        density * extent,
+        mass_now,
         findings,
         ":".join(mark._replace(settings=now)),
     )
@@ -120,7 +120,7 @@ def _findings(obj: Object, scene: Scene) -> list[Finding]:
 
 
 def _on_density(settings: PropertyGroup, context: Context) -> None:
-    if isinstance(settings.id_data, Object) and context.scene is not None and not tracking_paused.depth:
+    if context.scene is not None and not tracking_paused.depth:
         follow_density(settings.id_data, context.scene)
 
 

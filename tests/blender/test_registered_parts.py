@@ -15,7 +15,7 @@ from body_moments.operators.settings import hooks
 
 pytestmark = pytest.mark.usefixtures("registered")
 LISTS = {name: getattr(handlers, name) for name in ("on_update", "before_undo", "on_undo", "on_load", "on_save")}
-LISTS |= {name: getattr(hooks, name) for name in ("on_change", "on_part_change")}
+LISTS |= {name: getattr(hooks, name) for name in vars(hooks) if name.startswith("on_")}
 
 
 def part(name, told, error=None):

@@ -29,6 +29,16 @@ def path_of(empty):
     return balance_groups.path(empty)
 
 
+def curves_of(empty):
+    return empty.animation_data.action.layers[0].strips[0].channelbag(empty.animation_data.action_slot).fcurves
+
+
+def support_of(empty, frame):
+    from body_moments.operators.session import balance_groups
+
+    return balance_groups.support(empty, frame)
+
+
 def groups():
     from body_moments.operators.session import balance_groups
 
@@ -259,6 +269,8 @@ def test_a_signal_says_when_the_center_leaves_the_support_polygon(scene, reporte
     expected = (np.abs(share * (-2.03 + 0.1 * (path.frames - 1))) < 1.0) & (path.frames < 31)
     assert path.inside.tolist() == expected.tolist()
     assert reported.values("balance_group_inside") == {"count": np.count_nonzero(expected), "total": 41}
+    assert support_of(empty, 20).stands and not support_of(empty, 1).stands and len(support_of(empty, 1).polygon) == 4
+    assert support_of(empty, 31) is None and support_of(foot, 20) is None
     scene.frame_set(20)
     assert empty["body_balance_inside"] == 1
     scene.frame_set(1)
@@ -286,6 +298,8 @@ def test_what_is_as_near_to_the_ground_as_the_contact_distance_touches_it(scene,
 def test_the_frame_and_the_selection_stay_and_one_empty_is_made(scene):
     first = objects.add(objects.mesh_body(), "First")
     second = objects.add(objects.mesh_body(), "Second", location=(4.0, 0.0, 0.0))
+    objects.add(None, "Other Empty")
+    objects.add(objects.strip_mesh(), "Strip")["body_balance_group"] = "First\nSecond"
     objects.only(first, second)
     scene.frame_set(7)
     for end in (10, 5):
@@ -294,8 +308,9 @@ def test_the_frame_and_the_selection_stay_and_one_empty_is_made(scene):
         }
         assert scene.frame_current == 7
         assert first.select_get() and second.select_get() and bpy.context.object == first
-        (empty,) = groups()
+        (empty,) = groups()  # an empty without a path is none, nor is a mesh that was given the same property
         assert path_of(empty).frames.tolist() == list(range(2, end + 1))
+        assert path_of(empty) is path_of(empty)
     assert np.abs(np.ptp(path_of(empty).centers, axis=0)).max() == 0.0
     assert not any(obj.animation_data for obj in (first, second))
 
@@ -362,26 +377,45 @@ def test_a_path_is_that_of_the_empty_s_own_keys(scene):
         found = balance_groups.path(empty)
         assert found.frames.tolist() == path.frames.tolist() and found.inside.tolist() == path.inside.tolist()
         assert np.array_equal(found.centers, path.centers.astype(np.float32))
+        for curve in curves_of(empty):  # a handle lies between its keys where the interpolation is changed
+            for key in curve.keyframe_points:
+                assert key.handle_left[0] < key.co[0] < key.handle_right[0]
     action = first.animation_data.action
     bare.animation_data_create().action = action
     assert bare.animation_data.action_slot is None and balance_groups.path(bare) is None
     bare.animation_data.action_slot = action.slots.new("OBJECT", "Bare")
     balance_groups.handlers.count_change()
     assert balance_groups.path(bare) is None
+    assert len(balance_groups.path(first).frames) == 5
     without = balance_groups.Path(frames[:4], rng.normal(size=(4, 3)), None)
     balance_groups.store(first, without, [None] * 4)
     found = balance_groups.path(first)
     assert found.frames.tolist() == frames[:4].tolist() and found.inside is None
     assert balance_groups.INSIDE not in first
-    layer = action.layers[0]
-    curves = layer.strips[0].channelbag(first.animation_data.action_slot).fcurves
+    curves = curves_of(first)
     assert sorted((curve.data_path, curve.array_index) for curve in curves) == [("location", i) for i in range(3)]
     curves.remove(curves[0])
     balance_groups.handlers.count_change()
     assert balance_groups.path(first) is None
-    keys = next(
-        curve
-        for curve in layer.strips[0].channelbag(first.animation_data.action_slot).fcurves
-        if curve.array_index == 2
-    ).keyframe_points
+    keys = next(curve for curve in curves_of(first) if curve.array_index == 2).keyframe_points
     assert len(keys) == 4 and len(balance_groups.path(second).frames) == 5
+    first.animation_data.action = None
+    balance_groups.handlers.count_change()
+    assert balance_groups.path(first) is None
+
+
+@pytest.mark.parametrize("index", [None, 0, 1, 2])
+def test_of_curves_of_which_a_key_was_removed_there_is_no_path_or_no_signal(scene, index):
+    from body_moments.operators.session import balance_groups
+
+    empty = objects.add(None, "Empty")
+    path = balance_groups.Path(np.arange(5.0), np.ones((5, 3)), np.ones(5, bool))
+    balance_groups.store(empty, path, [None] * 5)
+    curve = curves_of(empty).find("location" if index is not None else '["body_balance_inside"]', index=index or 0)
+    curve.keyframe_points.remove(curve.keyframe_points[4])
+    balance_groups.handlers.count_change()
+    found = balance_groups.path(empty)
+    if index is None:
+        assert len(found.frames) == 5 and found.inside is None
+    else:
+        assert found is None

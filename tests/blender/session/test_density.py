@@ -9,8 +9,9 @@ import pytest
 pytest.importorskip("bpy")
 import bpy
 from body_moments.core.verdict.finding import finding
+from body_moments.operators.read.tracking import tracking_paused
 from body_moments.operators.session import results, staleness
-from body_moments.operators.session.density import with_default_note
+from body_moments.operators.session.density import follow_density, with_default_note
 from body_moments.operators.session.shown import shown_body
 from body_moments.operators.session.trust import Trust
 from body_moments.operators.write import properties
@@ -187,6 +188,8 @@ def test_a_density_that_varies_is_measured_again():
     assert reason(obj) == "stale_settings" and stored(obj) == before
     obj.body_moments.density_from, obj.body_moments.mass_from = "POLYNOMIAL", "DENSITY"
     assert reason(obj) is None
+    obj.body_moments.mass = 3.0  # is not what it weighs
+    assert reason(obj) is None and stored(obj) == before
 
 
 def by_keyframes(obj, name, values):
@@ -228,6 +231,44 @@ def test_zero_and_unheard_of_densities_leave_the_numbers():
     obj.body_moments.density = 0.0
     assert reason(obj) == "stale_settings" and stored(obj) == before
     obj.body_moments.density = 500.0
+    assert_as_measured(obj)
+
+
+@pytest.mark.parametrize(
+    ("key", "value"),
+    [("body_fingerprint", ""), ("body_fingerprint", None), ("body_volume", 0.0), ("body_mass", 0.0)],
+)
+def test_numbers_of_which_nothing_can_be_made_stay(key, value):
+    obj, other = add(mesh_body()), add(mesh_body(), "Other")
+    measure(obj)
+    obj[key] = "v0" + obj[key].partition(":")[1] + obj[key].partition(":")[2] if value is None else value
+    before = stored(obj)
+    obj.body_moments["density"] = 2000.0  # as no update function sees it
+    follow_density(obj, bpy.context.scene)
+    follow_density(other, bpy.context.scene)
+    assert stored(obj) == before and stored(other) == {}
+
+
+def test_a_density_that_is_tried_is_not_followed():
+    obj = add(mesh_body())
+    measure(obj)
+    before = stored(obj)
+    with tracking_paused():
+        obj.body_moments.density = 2000.0
+    assert stored(obj) == before
+
+
+def test_the_note_on_an_unset_density_goes_and_comes_with_the_default_of_the_scene():
+    obj, wire = add(mesh_body()), circle()
+    wire.body_moments.kind = "WIRE"
+    measure(obj, wire)
+    settings = bpy.context.scene.body_moments
+    for material, noted in (("Copper", False), ("NONE", True), ("Copper", False)):
+        settings.default_material = material
+        assert ("density_default_kept" in obj["body_findings"]) is noted
+        assert obj["body_density"] == (1000.0 if noted else 8960.0)
+        assert "linear_density_default_kept" in wire["body_findings"]
+        assert reason(obj) is None and reason(wire) is None
     assert_as_measured(obj)
 
 
