@@ -262,10 +262,9 @@ def _in_plane(computed: ComputedMoments, about: str, frame: str, order: int, ref
 
 def _in_frame(computed: ComputedMoments, of: str, about: str, frame: str, order: int) -> Moments:
     moments = _of(computed, of).truncate(order)
-    rotation = np.eye(3) if frame == "WORLD" else computed.rotation
     origin = moments.center if about != "ORIGIN" else np.zeros(3) if frame == "WORLD" else computed.location
     if frame == "OBJECT":
-        moments = moments.in_frame(rotation, origin)
+        moments = moments.in_frame(computed.rotation, origin)
     if about == "NORMALIZED":
         return normalize(moments, "gyration" if of == "MASS" else "size")
     return moments if frame == "OBJECT" else moments.about_point(origin)

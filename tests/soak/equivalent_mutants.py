@@ -52,6 +52,12 @@ PATTERNS = [
         r"\(.* \* 2\)",
         "more points of a rule that is exact with these",
     ),
+    (
+        r".*rigs/dominance.py dominant_bones",
+        r"np\.bincount\(face\)\[face\] > 1",
+        r"\(np\.bincount\(face\)\[face\] >= 1\)",
+        "of one bone the nearest is that bone",
+    ),
     (r".*plane/section.py fit_plane", r"facing @ normal", r"\(normal @ facing\)", "a product of two vectors"),
     (r".*polyhedron/sheared_areas.py area_of_images", r"1e-9", r"1\.0+2e-06", "a looser bound"),
     (

@@ -117,9 +117,9 @@ class OBJECT_OT_body_moments_copy_moments(Operator):
     @classmethod
     def poll(cls, context: Context) -> bool:
         obj = _active(cls, context)
-        if obj is not None and computed_moments(obj) is None:
-            reports.unavailable(cls, finding("poll_compute_moments"))
-        return obj is not None and computed_moments(obj) is not None
+        if obj is None:
+            return False
+        return computed_moments(obj) is not None or reports.unavailable(cls, finding("poll_compute_moments"))
 
     def execute(self, context: Context) -> set[str]:
         settings, computed = context.scene.body_moments, computed_moments(context.object)

@@ -279,6 +279,10 @@ def test_a_cache_that_is_gone_is_an_error(tmp_path, kind):
     assert len(found["objects"]) == 1
     (error,) = found["errors"]
     assert error["name"] is None and "points." in error["reason"]
+    if kind == "MESH_SEQUENCE_CACHE":  # of a sequence each frame has a file of its own
+        bpy.data.cache_files[0].is_sequence = True
+        assert document(files.save(tmp_path / "part.blend"))["errors"] == []
+        bpy.data.cache_files[0].is_sequence = False
     bpy.context.scene.objects[0].modifiers[0].show_viewport = False
     assert document(files.save(tmp_path / "part.blend"))["errors"] == []
 

@@ -9,7 +9,8 @@ import bmesh
 import body_moments
 import bpy
 from body_moments.operators.read import fingerprint, instances
-from body_moments.operators.session import handlers, staleness
+from body_moments.operators.session import handlers, marks, staleness
+from body_moments.operators.write import properties, section
 
 from tests.blender.objects import add, mesh_body, only
 
@@ -52,6 +53,23 @@ def instancer(name, member):
     empty = link(bpy.data.objects.new(name, None))
     empty.instance_type, empty.instance_collection, empty.location = "COLLECTION", collection, (0, 20, 0)
     return empty
+
+
+def test_only_the_marks_that_are_named_become_those_of_edited_geometry():
+    obj = add(mesh_body())
+    measure(obj)
+    first = properties.fingerprint(obj)
+    second, third = (":".join(marks.Mark(*first.split(":"))._replace(geometry=name)) for name in ("2", "3"))
+    obj[section.KEY] = {"fingerprint": second}
+    obj.body_moments_symmetry.fingerprint = third
+    before = marks.of_object(obj)
+    assert before == [first, second, third]
+    for place, mark in enumerate(before):
+        marks.write_edited(obj, [mark])
+        after = marks.of_object(obj)
+        assert [i for i in range(3) if after[i] != before[i]] == [place]
+        assert marks.parse(after[place]).geometry == marks.EDITED
+        before = after
 
 
 @pytest.mark.parametrize("comparable", [True, False])
