@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """All of a file that an operator of ours may change, by its place, so that two states can be compared."""
 
+import re
+
 import bmesh
 import bpy
 import numpy as np
@@ -9,6 +11,7 @@ from body_moments.operators.session import outcome, stability, staleness
 
 DATA = ("objects", "collections", "materials", "meshes", "curves", "images", "texts", "node_groups", "actions")
 DATA = (*DATA, "armatures", "volumes", "scenes")
+GEOMETRY = r"^v1:[\da-f]{12}:"  # at the start of a fingerprint: its last bits are the processor's
 OF_OBJECTS = ("parent", "parent_type", "parent_bone", "data", "hide_render", "display_type", "show_in_front")
 
 
@@ -30,6 +33,8 @@ def shown(value):
         return "[{:s}]".format(", ".join(map(shown, sorted(value) if isinstance(value, set) else value)))
     if isinstance(value, bpy.types.ID):
         return value.name
+    if isinstance(value, str):
+        return repr(re.sub(GEOMETRY, "v1:geometry:", value))
     return repr(value)
 
 
