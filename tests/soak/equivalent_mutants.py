@@ -53,6 +53,12 @@ PATTERNS = [
         "more points of a rule that is exact with these",
     ),
     (
+        r".*mesh/bvh.py Bvh.distances",
+        r"np\.minimum\.at\(nearest, place\[occupied\], most\[occupied\]\)",
+        r"pass",
+        "more is looked at, of which the nearest is found",
+    ),
+    (
         r".*rigs/dominance.py dominant_bones",
         r"np\.bincount\(face\)\[face\] > 1",
         r"\(np\.bincount\(face\)\[face\] >= 1\)",
@@ -698,6 +704,7 @@ CONSTANTS = [
     (r"operators/bodies/bare_file.py bare_reading", r"kind, np\.eye\(", "where no object is, its matrix is not read"),
     (r".*finite/numbers.py _large", r"ord\(\"0\"\)\) < ", "more is looked at closely, and found to be no number"),
     (r".*supervisor/lifeline.py end_with", r"ready\.poll\(", "a thousandth of a second is waited"),
+    (r".*command/option_types.py count", r"int\(text\[:", "a longer text is refused anyway"),
     (r".*supervisor/lifeline.py Lifeline.__init__", r"ThreadPoolExecutor\(", "room for a thread that nothing starts"),
     (r".*write/thumbnail.py thumbnail", r"steps \+ \(right, up, ", "how deep an axis is, which is drawn over the body"),
     (r"panels/overlay/view.py View.pixels", r"== 0\.0, ", "where a point beside the eye is has no meaning"),

@@ -141,11 +141,13 @@ def test_without_a_parent_that_is_measured_the_next_one_above_is_taken():
     assert (joint.find("parent").get("link"), joint.find("child").get("link")) == ("Upper", "Tool")
 
 
-def test_inertials_alone_name_no_mesh():
+def test_inertials_alone_name_no_mesh(tmp_path):
     arm()
     for name in ("urdf", "sdf", "mjcf", "usd", "gltf"):
         found = text("measure", "--format", name, "--inertial-only")
         assert "mesh" not in found and "joint" not in found.lower() and "Fore" in found
+    text("measure", "--format", "urdf", "--inertial-only", "--meshes", "--output", str(tmp_path / "robot.urdf"))
+    assert [path.name for path in tmp_path.iterdir()] == ["robot.urdf"]
 
 
 def test_meshes_are_written_beside_the_file_along_the_axes_of_their_links(tmp_path):

@@ -191,6 +191,13 @@ def test_a_face_without_an_area_has_its_first_corner_in_the_place_of_its_foot():
         assert durso.perpendicular_feet(line, [face]) == [line[face[0]]]
 
 
+def test_a_face_without_an_area_adds_nothing_to_a_tensor():
+    points, faces = prism()
+    for formula in durso.FORMULAS:
+        whole = durso.tensor(points, faces, formula)
+        assert np.all(durso.tensor(points, [(0, 1, 0), *faces], formula) == whole)
+
+
 def test_durso_holds_at_any_order_with_any_apex_in_the_face():
     points, faces = prism()
     truth = sheynin_tuzikov.volume_moments(points, faces, 5)

@@ -67,6 +67,14 @@ def test_what_float32_may_have_moved_is_bounded():
     assert 0.0 < off < found.input_error[0] < 1e-5 * found.total
 
 
+def test_faces_that_are_points_may_have_had_the_area_of_the_largest_triangle_of_their_box_each():
+    h, count = 1e-3, 20
+    points, triangles = np.zeros((3, 3)), np.tile(np.arange(3), (count, 1))
+    found = area_of_images(Surface(points, triangles, displacement=np.full(3, h)), np.eye(3)[None])
+    largest = np.sqrt(3.0) / 4.0 * (2.0 * np.sqrt(2.0) * h) ** 2  # of three corners of a cube of side 2h
+    assert found.total == 0.0 and count * largest <= found.input_error[0] <= 8.0 * count * largest
+
+
 def test_many_maps_and_faces_go_in_blocks(monkeypatch):
     from body_moments.core.polyhedron import sheared_areas as images
 

@@ -584,6 +584,9 @@ def test_other_files_are_refused(tmp_path):
         measured(tmp_path, "a.stl", stl((np.zeros((0, 3)), np.zeros((0, 3), int))))
     with refused("file_without_objects", suffix=".ply"):
         measured(tmp_path, "a.ply", header(*POINTS) + b"0 0 0\n" * 4)
+    with refused("file_without_objects", suffix=".ply"):  # one number is no list of vertices
+        numbers = header(*POINTS, "element face 1", "property int vertex_indices")
+        measured(tmp_path, "a.ply", numbers + b"0 0 0\n" * 4 + b"0\n")
     (tmp_path / "a.stl").rename(tmp_path / "b.STL")
     assert open_mesh_file(str(tmp_path / "b.STL")).face_count == 0
 
