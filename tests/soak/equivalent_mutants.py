@@ -646,6 +646,18 @@ PATTERNS = [
         r"\((area|volume)_gradient\(((?!order=).)*\)\)",
         "more derivatives, which are not read",
     ),
+    (
+        r"operators/read/robots/usda.py _inertial",
+        r"local\[:3, :3\] @ center",
+        r"\(center @ local\[:3, :3\]\)",
+        "what a body's axes leave of its matrix is a symmetric stretch",
+    ),
+    (
+        r"operators/read/mesh.py _loop_triangles",
+        r"SINGLE_ACCESS_COST \* len\(indices\) < len\(triangles\)",
+        r"\(SINGLE_ACCESS_COST \* len\(indices\) (<=|>=) len\(triangles\)\)",
+        "whether triangles are read one by one or all at once",
+    ),
     (r".*statics/support.py ground_axes", r"first @ up", r"\(up @ first\)", "the product of two vectors, either way"),
     (
         r".*statics/rest_on_ground.py .*",

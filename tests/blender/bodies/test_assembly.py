@@ -404,3 +404,14 @@ def test_empties_without_children_are_point_masses_or_nothing():
     found = members_of(root, bpy.context.evaluated_depsgraph_get())
     kinds = [(member.name, member.kind.name, [below.name for below in member.members]) for member in found.members]
     assert kinds == [("Group", "EMPTY", ["Screw"]), ("Motor", "POINT", [])]
+
+
+def test_what_is_parented_to_an_instance_is_below_it_beside_its_collection():
+    made, shown = collection(), bpy.data.collections.new("Shown")
+    root, instancer = empty(made, "Root"), empty(made, "Instancer")
+    box(shown, (1, 1, 1), name="Inside")
+    instancer.instance_type, instancer.instance_collection, instancer.parent = "COLLECTION", shown, root
+    box(made, (1, 1, 1), name="Child").parent = instancer
+    bpy.context.view_layer.update()
+    (found,) = members_of(root, bpy.context.evaluated_depsgraph_get()).members
+    assert found.kind.name == "INSTANCE" and [below.name for below in found.members] == ["Shown", "Child"]

@@ -102,7 +102,8 @@ def test_what_is_not_rendered_and_operands_drawn_as_wire_are_left_out_and_listed
         cut = body.modifiers.new("Cut", "BOOLEAN")
         cut.object, cut.solver = operand, "FLOAT" if bpy.app.version >= (5, 0) else "FAST"
         operand.location.x += 10.0 + 10.0 * number
-    body.modifiers.new("Empty", "BOOLEAN")
+    for kind in ("OBJECT", "COLLECTION"):
+        body.modifiers.new("Empty", "BOOLEAN").operand_type = kind
     cutter.display_type, joined.display_type, helper.display_type = "WIRE", "BOUNDS", "WIRE"
     blank.hide_render = joined.hide_render = True
     bpy.ops.object.light_add()

@@ -292,6 +292,18 @@ def test_an_object_hidden_by_its_eye_is_read_with_its_modifiers_and_said():
     assert len(read(obj).parts[0].surface.quads) == 18
 
 
+def test_what_hides_an_object_is_asked_of_the_view_layer_that_is_read():
+    obj, scene = doubled("Body"), bpy.context.scene
+    second = scene.view_layers.new("Second")
+    second.update()
+    for hides, cause in ((second, "hidden_in_viewport"), (bpy.context.view_layer, None)):
+        for layer in (second, bpy.context.view_layer):
+            obj.hide_set(layer == hides, view_layer=layer)
+        second.update()
+        found = said(read_object(obj, second.depsgraph)).get("hidden_object_measured")
+        assert (found and found["cause"]["code"]) == cause
+
+
 def hidden(name):
     return finding("collection_hidden", collection=name).as_record()
 
@@ -407,6 +419,19 @@ def test_different_levels_for_the_render_are_said():
     assert read(obj).findings == []
 
 
+def test_the_resolution_of_the_render_is_said_along_each_axis_that_there_is():
+    both = ["render_resolution_u_differs", "render_resolution_v_differs"]
+    for add, codes in (
+        (bpy.ops.surface.primitive_nurbs_surface_sphere_add, both),
+        (bpy.ops.curve.primitive_nurbs_circle_add, both[:1]),
+    ):
+        add()
+        data = bpy.context.object.data
+        data.render_resolution_u, data.render_resolution_v = data.resolution_u + 1, data.resolution_v + 1
+        found = _render_differences(bpy.context.object, bpy.context.scene)
+        assert [one.code for one in found] == codes
+
+
 def differences(obj):
     return said(read(obj))["render_differs"]["differences"]
 
@@ -515,7 +540,8 @@ def test_the_rotation_is_decomposed_and_orthonormal_to_the_last_digits():
 def test_a_transform_that_flattens_is_told_from_one_that_is_small(scale, singular):
     obj = cube()
     obj.scale, obj.rotation_euler = scale, (0.4, 0.5, 0.6)
-    assert read(obj).all_singular == singular
+    found = read(obj)
+    assert (found.all_singular, found.singular_instance_count) == (singular, int(singular))
 
 
 def test_a_shear_that_flattens_is_singular():

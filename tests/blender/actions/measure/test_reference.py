@@ -178,6 +178,11 @@ def test_it_is_copied_with_its_bounds(capsys):
     assert "about the axis (kg·m²) " + repr(float(about((0, 0, 0))[2, 2]))[:12] in text and "rounding" in text
 
 
+def test_a_choice_keeps_the_letters_of_a_name():
+    choice = ReferenceChoice("OBJECT", "Körper")
+    assert "Körper" in choice.text and ReferenceChoice.parse(choice.text) == choice
+
+
 def test_an_object_without_results_is_refused_by_name():
     obj = measured_box()
     bpy.ops.object.body_moments_clear()

@@ -13,7 +13,13 @@ from body_moments.operators.bodies.measure_object import measure_object
 from body_moments.operators.bodies.rig import measure_rig
 from body_moments.operators.read import read_object
 from body_moments.operators.read.links import bone_freedom, bone_parents
-from body_moments.operators.read.rig import RestBones, require_armature, vertex_weights
+from body_moments.operators.read.rig import (
+    RestBones,
+    hanging_objects,
+    require_armature,
+    skinned_objects,
+    vertex_weights,
+)
 from body_moments.operators.session import handlers, results, shown
 from body_moments.operators.session import rig as session
 from body_moments.operators.session.robot_links import bone_links
@@ -401,6 +407,17 @@ def test_the_overlay_draws_the_whole_where_the_parts_are_posed():
     )
     found = (now.axes * (now.mass * now.gyration**2)) @ now.axes.T
     assert np.abs(found - inertia).max() < 1e-12 * np.abs(inertia).max() and np.linalg.det(now.axes) > 0.0
+
+
+def test_how_a_mesh_is_parented_to_an_armature_tells_whether_it_is_its_skin_or_hangs_on_a_bone():
+    armature, skin = character()
+    for kind in ("OBJECT", "ARMATURE", "BONE"):
+        obj = bpy.data.objects.new(kind, box_mesh(1, 1, 1))
+        bpy.context.scene.collection.objects.link(obj)
+        obj.parent, obj.parent_type, obj.parent_bone = armature, kind, "head"
+    skinned = skinned_objects(armature, bpy.context.scene.objects)
+    assert [obj.name for obj in skinned] == ["ARMATURE", skin.name]
+    assert [(obj.name, bone) for obj, bone in hanging_objects(armature, skinned)] == [("BONE", "head")]
 
 
 def test_what_is_left_out_of_a_character_is_said():
