@@ -716,6 +716,7 @@ CONSTANTS = [
     (r"operators/bodies/bare_file.py bare_reading", r"kind, np\.eye\(", "where no object is, its matrix is not read"),
     (r".*finite/numbers.py _large", r"ord\(\"0\"\)\) < ", "more is looked at closely, and found to be no number"),
     (r".*supervisor/lifeline.py end_with", r"ready\.poll\(", "a thousandth of a second is waited"),
+    (r".*solid/nesting.py surfaces_intersect", r"int\(component\[-1\]\) \+ ", "one surface more, without triangles"),
     (r".*command/option_types.py count", r"int\(text\[:", "a longer text is refused anyway"),
     (r".*supervisor/lifeline.py Lifeline.__init__", r"ThreadPoolExecutor\(", "room for a thread that nothing starts"),
     (r".*write/thumbnail.py thumbnail", r"steps \+ \(right, up, ", "how deep an axis is, which is drawn over the body"),

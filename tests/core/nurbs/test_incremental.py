@@ -215,6 +215,16 @@ def test_a_followed_body_may_go_far_away_grow_and_shrink(scale, far):
     assert np.abs(central.raw[squares] / anew.raw[squares] - 1.0).max() <= 1e-9
 
 
+def test_the_bound_of_a_followed_area_is_the_same_share_of_bodies_of_any_size():
+    shares = []
+    for scale in (2.0**-10, 1.0, 2.0**10):
+        body = TrackedSolid([moved(torus(), scale)])
+        assert body.update([moved(torus(), 1.5 * scale)])
+        area = body.measure.area
+        shares.append(area.rounding_error[0] / area.total)
+    assert 0.0 < shares[0] < 1e-9 and close(shares, shares[0], 1e-9)
+
+
 def test_a_followed_body_does_not_drift():
     """Every control point far away and back again, one after the other, in a thousand steps."""
     rng, ring = np.random.default_rng(0), torus()

@@ -68,6 +68,21 @@ def test_a_block_of_cubes_whichever_are_inside_out(seed):
         assert codes(result) == ["inverted_components"] * bool(turned.any())
 
 
+@pytest.mark.parametrize("bent, flat", [(2e-5, True), (2e-4, False)])
+@pytest.mark.parametrize("scale", [1e-3, 1.0, 1e3])
+def test_a_wall_is_flat_where_the_sum_of_its_normals_is_shorter_by_a_billionth_at_most(bent, flat, scale):
+    """Two cubes whose common side is cut along either diagonal, and bent by moving one of its corners out of it."""
+    row = [ROW[0], (ROW[1][0], np.concatenate([ROW[1][1][:8], [[0, 4, 2], [4, 6, 2]], ROW[1][1][10:]]))]
+    points, triangles = welded(joined(*row))
+    points = points.copy()
+    points[(points == [1.0, 1.0, 1.0]).all(axis=1), 0] += bent
+    edges = find_edges(triangles)
+    first, second = edges.manifold_side_pairs()
+    piece, _ = connected_components(len(triangles), first // 3, second // 3)
+    layer, _ = _layers(points * scale, edges, triangles, np.arange(len(triangles)), piece)
+    assert sorted(layer) == [0] * 20 + ([1, 1, 2, 2] if flat else [0] * 4)
+
+
 def test_a_wall_of_one_layer_is_open_as_ever():
     result = measure_solid(surface(welded(joined(ROW[0], without(ROW[1], 8, 9)))))
     assert result.method == "open" and codes(result) == ["non_manifold_components"]
