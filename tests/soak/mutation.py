@@ -349,6 +349,10 @@ class Project:
                 seconds = answer["seconds"]
                 answer = self._outcome(mutant, job, further)
                 answer["seconds"] += seconds
+            declared = self._declaring(mutant)
+            if declared and not mutant.is_imported and answer["outcome"] in MISSED:
+                # what it is in may run while the module is imported, too
+                answer = self.ask(_by_file(declared), 20.0 + sum(10.0 * self.seconds[name] for name in declared))
         finally:
             path.write_text(text, encoding="utf-8")
             os.utime(path, ns=(status.st_atime_ns, status.st_mtime_ns))
@@ -372,8 +376,7 @@ class Project:
             module = mutant.path[:-3].replace("/", ".")
             importers = {file for file, text in self.texts.items() if module in text}
             names |= {name for name in self.seconds if name.partition("::")[0] in importers}
-            declared = "[body_moments/{:s}]".format(mutant.path)
-            names |= {name for name in self.seconds if name.endswith(declared)}
+            names.update(self._declaring(mutant))
             names = names.union(*(tests for (path, _), tests in self.tests_of.items() if path == mutant.path))
         else:
             names |= self.tests_of.get((mutant.path, mutant.line), set())
@@ -387,6 +390,10 @@ class Project:
         done = set(first)
         further = self._quick((name for name in sorted_names if name in names and name not in done), FURTHER_SECONDS)
         return first, list(further)
+
+    def _declaring(self, mutant: mutants.Mutant) -> list[str]:
+        """The tests of what the classes of its module declare."""
+        return [name for name in self.seconds if name.endswith("[body_moments/{:s}]".format(mutant.path))]
 
     def _quick(self, names: Iterable[str], seconds: float) -> Iterator[str]:
         """The first ones, for as many seconds; at least one."""
