@@ -263,8 +263,7 @@ def _steep_side_windings(points: NDArray, edges: NDArray, chosen: NDArray, touch
     # of the edges that a ray may meet
     share = min(1.0, float((high - low).mean()) / height + RAYS_PER_BLOCK / len(edges))
     chosen = chosen[:: max(1, int(len(chosen) * len(edges) * max(share, 1.0 / RAYS_PER_BLOCK) / MAX_EDGE_PAIRS))]
-    middle = (start[chosen] + end[chosen]) / 2.0
-    chosen = chosen[np.argsort(middle[:, 1], kind="stable")]
+    chosen = chosen[np.argsort((start[chosen] + end[chosen])[:, 1], kind="stable")]
     middle = (start[chosen] + end[chosen]) / 2.0
     rays_per_block = max(1, min(RAYS_PER_BLOCK, PAIRS_PER_BLOCK // len(edges)))
     left, right = np.zeros((2, len(chosen)), np.int64)
