@@ -41,6 +41,8 @@ def with_area_error(area: Moments, slope: float, stored: float, reach: float) ->
     -------
     Moments
     """
+    if reach == 0.0:
+        return area  # of patches in one point, of which stored coordinates have no digits
     return with_swept_error(area, stored * (slope + area.total / reach), reach)
 
 

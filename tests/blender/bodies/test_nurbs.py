@@ -466,6 +466,35 @@ def test_numbers_follow_an_edit_while_live_is_on():
     assert live.current_numbers(obj) is None
 
 
+@pytest.mark.parametrize(
+    "settings",
+    [
+        {},
+        {"kind": "SHELL", "thickness": 0.01},
+        {"overlap": "UNION"},
+        {"density_from": "POLYNOMIAL", "density_polynomial": "1000 + 20*x"},
+    ],
+)
+@pytest.mark.parametrize("scale", [(0.5, 0.7, 0.6), (-0.5, 0.7, 0.6), (0.0, 0.0, 0.0)])
+def test_live_numbers_are_those_of_every_kind_and_scale(settings, scale):
+    obj = primitive("torus")
+    obj.scale = scale
+    for name, value in settings.items():
+        setattr(obj.body_moments, name, value)
+    bpy.context.view_layer.update()
+    bpy.ops.object.body_moments_live()
+    found = live.current_numbers(obj)
+    if not any(scale):
+        with refused(found.refusal.code, "SurfTorus"):
+            measured(obj)
+        return
+    truth = measured(obj)
+    assert str(found.measurement.method) == str(truth.method)
+    assert found.measurement.error_bound.get("estimated") == truth.error_bound.get("estimated")
+    assert close(found.measurement.volume, truth.volume, rel=1e-11)
+    assert close(found.measurement.mass_properties.mass, truth.mass_properties.mass, rel=1e-11)
+
+
 def test_live_numbers_follow_hooks_keys_transforms_and_frames():
     obj = primitive("sphere")
     hook = add(None, "Hook", select=False)
