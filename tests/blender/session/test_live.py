@@ -64,7 +64,7 @@ def assert_current(obj, inertia=True, rel=1e-6):
 
 
 def with_key(name="Body"):
-    obj = add(mesh_body(), name, location=(3, -1, 2), rotation=(0.3, 0.2, 1.0), scale=(1, 2, -0.5))
+    obj = add(mesh_body(), name, location=(3, -1, 2), rotation=(0.3, 0.2, 1.0), scale=(1, 2, -0.7))
     obj.shape_key_add(name="Basis")
     key = obj.shape_key_add(name="Key")
     for i in range(3):
@@ -101,7 +101,9 @@ def test_an_object_that_moves_is_not_measured(unit, given_mass, monkeypatch):
     assert close(live.current_numbers(obj).measurement.area, measured(obj).area, 1e-12)
 
 
-def test_what_deforms_has_volume_and_center_at_every_frame_and_all_when_it_stops(monkeypatch):
+@pytest.mark.parametrize("unit", [1.0, 0.001])
+def test_what_deforms_has_volume_and_center_at_every_frame_and_all_when_it_stops(unit, monkeypatch):
+    bpy.context.scene.unit_settings.scale_length = unit
     obj = with_key()
     start(obj)
     before = list(obj.keys())
@@ -219,9 +221,13 @@ def test_an_instancer_follows_what_it_shows(monkeypatch):
     empty.instance_type, empty.instance_collection = "COLLECTION", collection
     update()
     start(empty)
+    update()
+    scheduled = []
+    monkeypatch.setattr(live, "_schedule", scheduled.append)
     member.data.vertices[0].co.x -= 1.0
     member.data.update()
     update()
+    assert scheduled == [0.0]
     assert tick(monkeypatch) is None
     assert_current(empty)
 
@@ -381,14 +387,15 @@ def test_nothing_is_due_once_the_add_on_is_gone():
     bpy.app.timers.register(live._tick, first_interval=1000.0)
     live.unregister()
     assert not bpy.app.timers.is_registered(live._tick)
+    assert live._note_updates not in handlers.on_update
     live.unregister()
 
 
-def test_what_was_computed_of_an_object_is_out_of_date_once_its_numbers_are_new():
+def test_what_was_computed_of_an_object_is_out_of_date_once_its_numbers_are_new_or_gone():
     obj = add(mesh_body())
     start(obj)
     depsgraph = bpy.context.evaluated_depsgraph_get()
-    for _ in range(2):
+    for change in (lambda: live.update(obj, depsgraph), lambda: live.update(obj, depsgraph), lambda: live.stop(obj)):
         before = handlers.generation()
-        live.update(obj, depsgraph)
+        change()
         assert handlers.generation() > before

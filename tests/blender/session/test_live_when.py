@@ -69,7 +69,9 @@ def redraw(*objects):
     for obj in objects:
         live._followed[obj].first_order = 1.0, np.ones(3)
     live._follow_at_once(events(), {obj.session_uid for obj in objects})
-    return [obj.name for obj in objects if live._followed[obj].first_order is not None]
+    now = [(obj.name, live._followed[obj].first_order) for obj in objects]
+    assert all(numbers is None or numbers[0] == 2.0 for _, numbers in now)  # those of before are never left
+    return [name for name, numbers in now if numbers is not None]
 
 
 def test_the_quickest_are_followed_as_far_as_the_budget_lasts_and_the_others_soon(bodies, clock):
@@ -87,15 +89,19 @@ def test_the_quickest_are_followed_as_far_as_the_budget_lasts_and_the_others_soo
     assert redraw(bodies[0]) == ["A"] and live._followed[bodies[2]].first_order is None
 
 
-def test_the_only_pass_of_a_redraw_may_take_some_budgets_and_a_busy_moment_is_not_for_ever(bodies, clock):
+@pytest.mark.parametrize("budget", [1.0, 0.25])
+def test_the_only_pass_of_a_redraw_may_take_some_budgets_and_a_busy_moment_is_not_for_ever(
+    budget, bodies, clock, monkeypatch
+):
+    monkeypatch.setattr(live, "_budget", lambda: budget)
     obj, other = bodies[:2]
-    done, followed = passes(clock, obj, 5.0), live._followed[obj]
-    followed.pass_seconds = 5.0
+    done, followed = passes(clock, obj, 5.0 * budget), live._followed[obj]
+    followed.pass_seconds = 5.0 * budget
     assert redraw(obj) == ["A"] and done == [obj]
-    followed.pass_seconds = 5.125
+    followed.pass_seconds = 5.125 * budget
     assert redraw(obj) == [] and done == [obj]
     assert redraw(obj) == ["A"] and done == [obj, obj]
-    followed.pass_seconds = 40.0
+    followed.pass_seconds = 40.0 * budget
     tries = next(count for count in range(1, 20) if redraw(obj))
     assert 4 <= tries <= 10
     live._followed[other].surface, live._followed[other].pass_seconds = None, 0.0
@@ -218,6 +224,15 @@ def test_what_is_sculpted_is_measured_between_strokes(timer, bodies):
         assert tick(A=0.5) == (None, ["evaluated", "A", *REDRAWN])
     finally:
         bpy.ops.object.mode_set(mode="OBJECT")
+
+
+def test_the_timer_knows_how_long_measuring_took(bodies, clock, monkeypatch):
+    def measure(*given, measure=live.measure_body):
+        clock.now += 0.5
+        return measure(*given)
+
+    monkeypatch.setattr(live, "measure_body", measure)
+    assert live.update(bodies[0], bpy.context.evaluated_depsgraph_get()).seconds == 0.5
 
 
 def test_the_budget_is_that_of_the_preferences_where_there_are_some(monkeypatch):
