@@ -213,7 +213,8 @@ def invariants(computed: ComputedMoments, of: str, order: int) -> list[Invariant
     if order < HU_ORDER:
         raise ReadError("invariants_order", order=HU_ORDER)
     moments = normalize(_of(computed, of).truncate(order))
-    found = [*hu_invariants(moments), *(one for one in flusser_invariants(moments) if one.degree > HU_ORDER)]
+    with np.errstate(over="ignore", invalid="ignore"):
+        found = [*hu_invariants(moments), *(one for one in flusser_invariants(moments) if one.degree > HU_ORDER)]
     if not np.isfinite([(abs(one.value), one.rounding_error, one.input_error) for one in found]).all():
         raise ReadError("moments_overflow", order=order)
     return found
@@ -243,7 +244,8 @@ def _of(computed: ComputedMoments, of: str) -> Moments:
     moments = {"VOLUME": computed.volume, "SURFACE": computed.area, "MASS": computed.mass, "FLAT": flat}[of]
     if moments is None:
         if of == "FLAT":
-            raise ReadError(computed.not_flat or "moments_of_flat")
+            assert computed.not_flat is not None
+            raise ReadError(computed.not_flat)
         raise ReadError("mass_moments_unknown" if computed.volume else "moments_of_flat", order=computed.order)
     return moments
 

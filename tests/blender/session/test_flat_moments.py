@@ -3,6 +3,7 @@
 """The sub-panel of moments, over the area of flat shapes: of faces, curves and text, in their own plane."""
 
 import csv
+import re
 from fractions import Fraction
 from math import factorial
 
@@ -31,6 +32,7 @@ def table():
     text = moments_table.as_csv(
         moments_table.computed_moments(bpy.context.object), group.moments_of, group.moments_about, group.frame
     )
+    assert "\r" not in text
     comment, *lines = text.splitlines()
     return comment, list(csv.DictReader(lines))
 
@@ -176,6 +178,61 @@ def test_the_panel_lists_moments_and_invariants_to_fourth_order():
     settings(moments_about="INVARIANT")
     shown = labels(drawn())
     assert "φ7" in shown and "c40 c12⁴" in shown and "Order 3" in shown
+
+
+def test_each_invariant_is_shown_under_its_degree_with_all_digits_of_the_copy():
+    from body_moments.operators.session import moments as moments_table
+
+    only(sheet(L_SHAPE))
+    settings(moments_of="FLAT", moments_about="INVARIANT")
+    compute(6)
+    copied = {row["invariant"]: [float(row["real"]), float(row["imaginary"])] for row in table()[1]}
+    degrees, missing = moments_table.current_numbers(bpy.context.object, bpy.context.scene)
+    assert missing is None and [degree.degree for degree in degrees] == [2, 3, 4]
+    assert [row[0] for degree in degrees[:2] for row in degree.rows] == ["φ1", "φ2", "φ3", "φ4", "φ5", "φ6", "φ7"]
+    assert [row[0] for row in degrees[2].rows] == ["c40 c12⁴", "c31 c12²", "c22"]
+    for name, shown, exact in (row for degree in degrees for row in degree.rows):
+        is_complex = "c12" in name
+        assert list(map(float, exact.split())) == copied[name][: 1 + is_complex]
+        assert shown.endswith(" i") == is_complex and all(number != "0" for number in re.findall("[0-9.]+", shown))
+
+
+def test_invariants_that_vanish_are_shown_as_zero():
+    """A rectangle of sides a, b has φ1 = (a/b + b/a)/12, φ2 = ((a/b − b/a)/12)², and no moments of third order."""
+    from body_moments.operators.session import moments as moments_table
+
+    only(sheet([(0.1, 0.3), (3.1, 0.3), (3.1, 1.3), (0.1, 1.3)]))
+    settings(moments_of="FLAT", moments_about="INVARIANT")
+    compute(4)
+    degrees, _ = moments_table.current_numbers(bpy.context.object, bpy.context.scene)
+    shown = {name: text for degree in degrees for name, text, _ in degree.rows}
+    assert close(float(shown["φ1"]), 10.0 / 36.0, 1e-5) and close(float(shown["φ2"]), (8.0 / 36.0) ** 2, 1e-5)
+    assert {shown["φ{:d}".format(i)] for i in range(3, 8)} == {"0"} and shown["c40 c12⁴"] == "0 + 0 i"
+
+
+def test_invariants_beyond_the_range_of_numbers_are_refused_not_copied():
+    """c30,0 c12³⁰ grows with the sixtieth power of length by width."""
+    only(sheet([(0, 0), (1024, 0), (0, 1 / 1024)]))
+    settings(moments_of="FLAT", moments_about="INVARIANT")
+    compute(30)
+    with pytest.raises(MeasureError) as refusal:
+        table()
+    assert refusal.value.finding == finding("moments_overflow", order=30)
+
+
+def test_moments_in_the_plane_are_about_the_foot_of_the_reference():
+    from body_moments.operators.session import moments as moments_table
+
+    obj = sheet(L_SHAPE)
+    only(obj)
+    settings(moments_of="FLAT", moments_about="REFERENCE")
+    compute(2)
+    bpy.context.scene.body_moments_reference.about = "CURSOR"
+    bpy.context.scene.cursor.location = (2.0, -1.0, 5.0)
+    degrees, _ = moments_table.current_numbers(obj, bpy.context.scene)
+    shown = {name: float(exact) for degree in degrees for name, _, exact in degree.rows}
+    for name, p, q in (("1", 0, 0), ("x", 1, 0), ("y", 0, 1), ("x²", 2, 0), ("xy", 1, 1), ("y²", 0, 2)):
+        assert close(shown[name], float(truth(p, q, (2, -1))), 1e-12), name
 
 
 def test_what_is_not_flat_and_what_is_flat_say_which_domain_to_choose():

@@ -3,6 +3,7 @@
 """The sub-panel of moments: computed by a button, shown to order 4, copied whole."""
 
 import csv
+from dataclasses import replace
 from types import SimpleNamespace
 
 import bpy
@@ -53,8 +54,8 @@ def rows():
     text = moments_table.as_csv(
         moments_table.computed_moments(bpy.context.object), group.moments_of, group.moments_about, group.frame
     )
-    comment, *lines = text.splitlines()
-    assert comment.startswith("# ")
+    assert text.startswith("# ") and "\r" not in text
+    _, *lines = text.splitlines()
     return {
         tuple(int(row[axis]) for axis in "pqr"): tuple(float(row[key]) for key in ("moment", "rounding", "float32"))
         for row in csv.DictReader(lines)
@@ -208,6 +209,16 @@ def test_a_wire_is_refused_with_the_reason(reported):
     obj.body_moments.kind = "WIRE"
     assert bpy.ops.object.body_moments_compute_moments() == {"CANCELLED"}
     assert reported.codes == ["wire_without_moments"]
+
+
+def test_moments_of_a_mass_that_is_not_known_to_their_order_are_refused_with_the_reason(box):
+    from body_moments.operators.session import moments as moments_table
+
+    compute(5)
+    unknown = replace(moments_table.computed_moments(box), mass=None)
+    with pytest.raises(MeasureError) as refusal:
+        moments_table.in_frame(unknown, "MASS", "CENTER", "WORLD", 4)
+    assert refusal.value.finding == finding("mass_moments_unknown", order=5)
 
 
 def test_a_wall_has_moments_to_any_order(box):

@@ -26,7 +26,7 @@ def of_sum(*parts_and_bounds):
     return [found[name] for name in BOUND_KEYS]
 
 
-@pytest.mark.parametrize(("volume", "share"), [(4.0, 0.25 / 4.0), (0.0, 0.5 / 8.0)])
+@pytest.mark.parametrize(("volume", "share"), [(4.0, 0.25 / 4.0), (0.5, 0.25 / 0.5), (0.0, 0.5 / 8.0)])
 def test_one_body_is_off_by_its_own_bounds(volume, share):
     """Its mass by a share of it, that of the volume, or of the area where there is no volume."""
     mass, off, inertia = 3.0, 1e-3, 2e-3
