@@ -288,15 +288,29 @@ def test_a_density_that_lies_on_the_mesh_counts_as_its_geometry(source):
 
 
 def test_numbers_of_before_an_edit_are_out_of_date_when_the_add_on_is_enabled_again():
-    obj, other = add(mesh_body()), add(mesh_body(), "Other")
-    measure(obj, other)
+    obj, other, third = (add(mesh_body(), name) for name in ("Body", "Other", "Third"))
+    measure(obj, other, third)
     edit(obj)
+    only(other)
     bpy.ops.object.body_moments_find_symmetry()
     edit(other)
     body_moments.unregister()
     body_moments.register()
     assert (reason(obj), reason(other)) == ("stale_geometry",) * 2
     assert staleness.symmetry_stale_reason(other) == "stale_geometry"
+    assert reason(third) is None
+    edit(third)  # updates are counted anew since then
+    assert reason(third) == "stale_geometry"
+
+
+def test_what_was_computed_is_out_of_date_once_an_edit_is_noted_or_results_are_stored_again():
+    obj = add(mesh_body())
+    measure(obj)
+    edit(obj)
+    for change in (lambda: reason(obj), lambda: staleness.mark_object(obj), lambda: staleness.mark_object(obj)):
+        before = handlers.generation()
+        change()
+        assert handlers.generation() > before
 
 
 def test_measuring_does_not_make_the_symmetry_of_another_shape_hold_again():

@@ -8,6 +8,7 @@ import bmesh
 import bpy
 import numpy as np
 import pytest
+from body_moments.core.polyhedron.first_order import volume_and_center
 from body_moments.core.verdict.finding import ReadError
 from body_moments.operators.bodies.measure_object import measure_object
 from body_moments.operators.bodies.rig import measure_rig
@@ -368,6 +369,23 @@ def test_a_bone_whose_faces_enclose_nothing_has_no_part():
     assert close(upper.measurement.mass_properties.mass, rig.measurement.mass_properties.mass, 1e-12)
     assert [*bone_links(bpy.context, "robot", [armature]).pieces] == ["Upper"]
     assert [(name, found.code) for name, found in session.store(rig)] == [("Lower", lower.refusal.code)]
+
+
+def test_the_surface_of_a_link_is_what_its_inertial_is_of_however_characters_are_turned():
+    armatures = []
+    for location, rotation in (((5, -3, 2), (0.4, -0.7, 1.9)), ((-40, 3, 1), (-1.1, 0.3, 0.8))):
+        armature, _ = character()
+        armature.location, armature.rotation_euler = location, rotation
+        armatures.append(armature)
+    bpy.context.view_layer.update()
+    made_links = bone_links(bpy.context, "robot", armatures)
+    labels = ["{}:{}".format(armature.name, name) for armature in armatures for name in made.NAMES]
+    assert sorted(link.name for link in made_links.robot.links) == sorted(labels)
+    for label in labels:
+        inertial = made_links.robot.link(label).inertial
+        volume, center = volume_and_center(made_links.surface(bpy.context, label))
+        assert close(1000.0 * volume, inertial.mass, 1e-5)
+        assert np.linalg.norm(center - inertial.center) < 1e-5 * np.cbrt(volume)
 
 
 def test_a_bone_that_cannot_hold_its_results_is_named_and_the_others_have_theirs(monkeypatch):
