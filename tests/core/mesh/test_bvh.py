@@ -1,11 +1,11 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Winding numbers by rays: of a box, and where they are not sure."""
+"""Winding numbers by rays: of a box, and where they are not sure; how deep triangles go through each other."""
 
 import numpy as np
 import pytest
 from body_moments.core.mesh import bvh
-from body_moments.core.mesh.bvh import RAY_SLOPES, Bvh, radix_argsort, sort_components
+from body_moments.core.mesh.bvh import RAY_SLOPES, Bvh, intersecting_pairs, radix_argsort, sort_components
 
 from tests.close import close
 from tests.core import bodies, shapes
@@ -74,3 +74,64 @@ def test_a_tree_s_places_are_about_the_middle_of_what_was_chosen():
     shell = np.repeat([0, 1, 2], 12)
     tree = Bvh(parts[0], sort_components(*parts, shell, 3), np.array([True, True, False]))
     assert tree.origin.tolist() == [5.0, 5.75, 5.5]
+
+
+@pytest.mark.parametrize("order", [[0, 1, 2], [2, 0, 1], [0, 2, 1]])
+@pytest.mark.parametrize(
+    "start, end, depth",
+    [
+        ((1.5, 0.5, -2.0), (1.5, 0.5, 1.0), 0.5),  # from the side along x
+        ((0.25, 1.0, -1.0), (0.25, 1.0, 3.0), 0.25),  # from that along y
+        ((2.0, 1.0, -1.0), (2.0, 1.0, 1.0), 0.4),  # from the slanted one
+        ((1.0, 1.25, -3.0), (1.0, 0.05, 1.0), 0.35),  # where it crosses at three quarters of its way
+        ((1.0, 1.0, -0.3), (1.0, 1.0, 2.0), 0.3),  # in which it begins just below
+        ((1.0, 1.0, -2.0), (1.0, 1.0, 0.3), 0.3),  # ends just above
+        ((1.0, 2.0, -0.15), (1.0, -1.0, 0.15), 0.05),  # leaves just above
+        ((1.0, -1.0, -0.15), (1.0, 2.0, 0.15), 0.05),  # and comes just below
+    ],
+)
+def test_a_needle_goes_through_a_triangle_as_deep_as_the_triangle_and_the_needle_reach(start, end, depth, order):
+    """A triangle with sides of 3, 4 and 5 in the plane z = 0; beyond its sides the needle may be as low as it is."""
+    flat = np.array([[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 3.0, 0.0]])[order]
+    for needle in ([start, end, end], [end, start, start]):
+        needle = np.array(needle) + [[0.0] * 3, [0.0] * 3, [1e-7, -1e-7, 0.0]]
+        points = 7.0 * np.concatenate([flat, needle]) @ bodies.rotation(4).T + [5.0, -8.0, 2.0]
+        components = sort_components(points, np.arange(6).reshape(2, 3), np.arange(2), 2)
+        tree = Bvh(points, components, np.ones(2, bool))
+        for share in (0.999, 1.001):
+            for pair in ([0, 1], [1, 0]):
+                found = intersecting_pairs(tree, *np.array(pair)[:, None], 7.0 * share * depth)
+                assert [array.tolist() for array in found] == [[share < 1.0], [False]]
+
+
+@pytest.mark.parametrize("limit", [40, 10_000_000])
+@pytest.mark.parametrize("seed", range(3))
+def test_of_many_parts_those_intersect_that_have_an_edge_through_the_other(seed, limit, monkeypatch):
+    """Boxes of many triangles, each pair against all of its triangles one by one; what is not known for want of work is
+    said, and what is found nonetheless is so."""
+    monkeypatch.setattr(bvh, "MAX_BOX_PAIRS", limit)
+    rng = np.random.default_rng(seed)
+    halves = rng.uniform(0.2, 0.8, (6, 3))
+    boxes = [shapes.refined(bodies.box(-half, half), k) for k, half in enumerate(halves)]
+    boxes = [bodies.moved(part, bodies.rotation(k), rng.uniform(-1.0, 1.0, 3)) for k, part in enumerate(boxes)]
+    points, triangles = bodies.joined(*boxes)
+    owner = np.repeat(np.arange(6), [len(part[1]) for part in boxes])
+    tree = Bvh(points, sort_components(points, triangles, owner, 6), np.ones(6, bool))
+    one, other = np.triu_indices(6, 1)
+    found, unfinished = intersecting_pairs(tree, one, other, 1e-9)
+    truth = [crossed(boxes[i], boxes[j]) or crossed(boxes[j], boxes[i]) for i, j in zip(one, other)]
+    assert 2 < sum(truth) < 14 and unfinished.any() == (limit == 40)
+    assert (found == truth)[~unfinished].all() and not (found & ~np.array(truth)).any()
+
+
+def crossed(part, other):
+    """Whether an edge of one goes through a triangle of the other."""
+    start, end = (part[0][np.roll(part[1], k, axis=1).ravel()][:, None] for k in (0, 1))
+    a, b, c = (other[0][other[1][:, k]] for k in range(3))
+
+    def volume(p, q, r, s):
+        return (np.cross(q - p, r - p) * (s - p)).sum(axis=-1)
+
+    sides = np.sign([volume(a, b, c, start), -volume(a, b, c, end)])
+    around = np.sign([volume(start, end, a, b), volume(start, end, b, c), volume(start, end, c, a)])
+    return bool(((sides[0] == sides[1]) & (np.ptp(around, axis=0) == 0)).any())
