@@ -690,12 +690,6 @@ PATTERNS = [
         r".*",
         "the order in which triangles are summed",
     ),
-    (
-        r".*density/threshold.py threshold_body",
-        r"\(shape - 1\) // 2 - margin|shape - 1",
-        r"\(\(shape - 1\) // 2 \+ margin\)|\(shape \+ 1\)",
-        "a reference point near the middle",
-    ),
     (r".*density/threshold.py _Sums._add_batch", r"break", r"continue", "it goes on to no avail"),
     (
         r".*density/(voxel_fill.py inside_moments|spline_tables.py clipped_integrals)",
@@ -742,7 +736,6 @@ CONSTANTS = [
     (r".*mesh/side_pairs.py _paired_by_sorting", r"high << np.uint64\(", "of vertices there are fewer than 2^30"),
     (r".*solid/nesting.py _interior_samples", r"weight = .*", "which places are tried"),
     (r".*shape/(symmetry.py confirm|flat_pose.py holds_by_outline)", r"points\[:: ", "which are looked at first"),
-    (r".*density/threshold.py threshold_body", r"// |about = \(shape - ", "a reference point near the middle"),
     (r".*solid/nesting.py _interior_samples", r"depth = .* - k % ", "which places are tried"),
     (
         r".*solid/closedness.py integrate_and_prove",

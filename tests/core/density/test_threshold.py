@@ -396,6 +396,20 @@ def test_the_bound_counts_the_roundings_of_whole_cells_and_of_the_map(order):
     assert close(found.total, 60.0, rel=1e-14) and close(found.rounding_error[0], units * U * 60.0, rel=1e-9)
 
 
+@pytest.mark.parametrize("background", [None, 0.0])
+@pytest.mark.parametrize("shape", [(5, 8, 11), (2, 3, 12)])
+def test_moments_are_about_a_sample_in_the_middle_of_the_grid(shape, background):
+    """Far from a body they would lose digits to its distance."""
+    matrix = np.diag([2.0, -3.0, 5.0, 1.0])
+    matrix[:3, 3] = 100.0, 200.0, 300.0
+    for placed in (None, matrix):
+        body = threshold_body(np.full(shape, 2.0), 1.0, 1, placed, background, with_density=True)
+        linear, offset = (np.eye(3), np.zeros(3)) if placed is None else (matrix[:3, :3], matrix[:3, 3])
+        for found in (body.volume, body.area, body.mass):
+            sample = np.linalg.solve(linear, found.about - offset)
+            assert (np.abs(2.0 * sample - np.array(shape) + 1.0) <= 1.0).all() and (sample == np.rint(sample)).all()
+
+
 def test_nothing_inside_everything_inside_and_bad_samples():
     samples = RNG.uniform(size=(3, 4, 5))
     assert threshold_body(samples, 2.0).volume.total == 0.0 and not threshold_body(samples, 2.0).clipped
