@@ -4,11 +4,13 @@
 
 import json
 from dataclasses import replace
+from itertools import combinations_with_replacement
 from math import factorial, pi, sqrt
 
 import numpy as np
 import pytest
 from body_moments.core.moments.moments import U
+from body_moments.core.numerics.quadrature import triangle_rule
 from body_moments.core.plane import directed_edges, region_moments
 from body_moments.core.shape.flat_signature import flat_signature
 from body_moments.core.shape.library import (
@@ -186,6 +188,42 @@ def test_a_flat_record_gives_the_signature_back_and_moments_beyond_order_20_add_
     assert list(found.as_record()) == ["dimension", "size", *PARTS]
     assert again.dimension == 2 and [len(getattr(found, name)) for name in PARTS] == [40, 121, 0, 27]
     assert np.abs(found.chirality).min() > 1e-6  # this shape has a hand by each of them
+
+
+@pytest.mark.parametrize("turn", [1.0, np.exp(0.7j), -1j])
+@pytest.mark.parametrize("scale", [1e-4, 1.0, 30.0])
+@pytest.mark.parametrize("is_mirrored", [False, True])
+def test_flat_invariants_are_products_of_complex_moments_however_a_shape_lies(turn, scale, is_mirrored):
+    """c_pq = E[z^p conj(z)^q] of z about the centroid by the radius of gyration; of two of them with one p - q, and of
+    three, one of which has the p - q of both others."""
+    corners = np.array([0.0, 3.0 + 0.25j, 2.5 + 1.0j, 1.0 + 1.0j, 1.25 + 2.5j, 2.0j])
+    shares, weights = triangle_rule(8)
+    pieces = [corners[[0, k, k + 1]] for k in range(1, 5)]
+    double = [((b - a).conjugate() * (c - a)).imag for a, b, c in pieces]
+    z, mass = np.array(pieces) @ shares, np.array(double)[:, None] * weights
+    mass /= mass.sum()
+    z = z - (mass * z).sum()
+    size = np.sqrt((mass * np.abs(z) ** 2).sum())
+    z /= size
+    c = {(n - q, q): (mass * z ** (n - q) * z.conj() ** q).sum() for n in range(7) for q in range(n // 2 + 1)}
+    turning = [(p, q) for p, q in c if p > q and p + q > 1]
+    low = [key for key in turning if sum(key) < 5]
+    pairs = [(a, b) for a, b in combinations_with_replacement(turning, 2) if a[0] - a[1] == b[0] - b[1]]
+    couplings = [c[a] * c[b].conjugate() for a, b in pairs]
+    is_chiral = [a != b for a, b in pairs]
+    for a, b in combinations_with_replacement(low, 2):
+        thirds = [key for key in turning if key[0] - key[1] == a[0] + b[0] - a[1] - b[1]]
+        couplings += [c[a] * c[b] * c[key].conjugate() for key in thirds]
+        is_chiral += [True] * len(thirds)
+    couplings = np.array(couplings)
+
+    placed = scale * turn * (corners.conj()[::-1] if is_mirrored else corners)
+    points = np.stack([placed.real, placed.imag], axis=1)
+    moments = region_moments(points, directed_edges([range(6)]), 6).about_center()
+    found = flat_signature(moments, 3.0 * scale)
+    assert close(found.invariants, [c[2, 2].real, c[3, 3].real, *couplings.real], 1e-11)
+    assert close(found.chirality, (-1.0 if is_mirrored else 1.0) * couplings.imag[is_chiral], 1e-10)
+    assert close(found.size, scale * size, 1e-13) and len(found.fourier) == 0
 
 
 @pytest.mark.parametrize("order", [6, 8, 12])
