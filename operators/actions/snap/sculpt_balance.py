@@ -149,13 +149,8 @@ class _Target:
 def _horizontal_directions(scene: bpy.types.Scene) -> NDArray[np.float64]:
     """(2, 3) the two directions across gravity, or across Z where there is none."""
     down = np.array(scene.gravity, np.float64) if scene.use_gravity else np.zeros(3)
-    if not down.any():
-        down = np.array((0.0, 0.0, -1.0))
-    down /= np.linalg.norm(down)
-    farthest: NDArray[np.float64] = np.eye(3)[np.argmin(np.abs(down))]
-    side = np.cross(down, farthest)
-    side /= np.linalg.norm(side)
-    return np.array([side, np.cross(down, side)])
+    axis: NDArray[np.float64] = down if down.any() else np.eye(3)[2]
+    return np.linalg.svd(axis[None])[2][1:]
 
 
 class _EditedMesh:
@@ -165,7 +160,7 @@ class _EditedMesh:
         self.obj, self.is_changed = obj, False
         vertices = self._vertices()
         self.start = np.array([vertex.co[:] for vertex in vertices], np.float32).reshape(-1, 3)
-        selected = np.fromiter((vertex.select and not vertex.hide for vertex in vertices), bool, len(vertices))
+        selected = np.fromiter((vertex.select for vertex in vertices), bool, len(vertices))
         self.movable = np.flatnonzero(selected)
         self.weights = np.ones(len(self.movable))
         if not len(self.movable):
@@ -309,9 +304,7 @@ def _read_surface(context: Context, obj: Object, mesh: _EditedMesh | _GroupedMes
         raise EditRefusedError("balance_zero_scale")
     if reading.instance_count > 1:
         raise EditRefusedError("balance_instances")
-    if mesh is not None and not (
-        part.surface.points.shape == mesh.start.shape and np.array_equal(part.surface.points, mesh.start)
-    ):
+    if mesh is not None and not np.array_equal(part.surface.points, mesh.start):
         shown = [modifier.name for modifier in obj.modifiers if modifier.show_viewport]
         raise (
             EditRefusedError("balance_modified", modifiers=shown)

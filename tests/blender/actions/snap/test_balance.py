@@ -31,6 +31,17 @@ def figure(**more):
     return add(mesh, "Figure", **more)
 
 
+def split(mesh):
+    """The same faces, each with vertices of its own."""
+    work = bmesh.new()
+    work.from_mesh(mesh)
+    bmesh.ops.split_edges(work, edges=work.edges)
+    made = bpy.data.meshes.new("Split")
+    work.to_mesh(made)
+    work.free()
+    return made
+
+
 def points(obj):
     if obj.mode == "EDIT":
         return np.array([v.co[:] for v in bmesh.from_edit_mesh(obj.data).verts], np.float64)
@@ -263,7 +274,10 @@ class TestRefused:
         numbers = properties.numbers(obj)
         edit(obj, lambda co: co.z > 0.8)
         bpy.context.scene.cursor.location = (50.0, 0.0, 0.0)
-        unchanged(obj, points(obj), "balance_short_by_limit", reported)
+        before = points(obj)
+        unchanged(obj, before, "balance_short_by_limit", reported)
+        size = np.linalg.norm(np.ptp(before, axis=0))  # the limit where none is given
+        assert close(reported.values("balance_short_by_limit")["limit"], size, rel=1e-6)
         bpy.ops.object.mode_set(mode="OBJECT")
         assert properties.numbers(obj) == numbers
 
@@ -290,6 +304,12 @@ class TestRefused:
         mesh.faces.ensure_lookup_table()
         bmesh.ops.delete(mesh, geom=mesh.faces[:1], context="FACES")
         bmesh.update_edit_mesh(obj.data)
+        unchanged(obj, points(obj), "balance_unclean", reported)
+
+    def test_a_mesh_whose_faces_share_no_vertices(self, reported):
+        obj = figure()
+        obj.data = split(obj.data)
+        edit(obj)
         unchanged(obj, points(obj), "balance_unclean", reported)
 
     def test_shape_keys(self, reported):
@@ -333,12 +353,36 @@ def test_modifiers_that_leave_the_mesh_as_it_is_are_no_obstacle():
 
 
 @pytest.mark.usefixtures("over_cursor")
-def test_other_users_of_the_mesh_are_reported(reported):
+def test_the_wall_of_what_is_a_solid_is_no_obstacle():
     obj = figure()
-    add(obj.data, "Other", select=False)
+    obj.body_moments.wall = "INWARD"
     edit(obj)
     assert balance() == {"FINISHED"}
+    assert np.abs(center(obj)[:2] - (0.05, 0.0)).max() < 1e-6
+
+
+@pytest.mark.usefixtures("over_cursor")
+def test_other_users_of_the_mesh_are_reported_and_their_numbers_are_out_of_date(reported):
+    obj = figure()
+    other = add(obj.data, "Other")
+    only(obj, other)
+    bpy.ops.object.body_moments_measure()
+    only(obj)
+    group(obj)
+    assert balance() == {"FINISHED"}
     assert "balance_mesh_shared" in reported.codes
+    bpy.context.view_layer.update()
+    reasons = [staleness.stale_reason(one, bpy.context.scene) for one in (obj, other)]
+    assert reasons == [None, "stale_geometry"]
+
+
+@pytest.mark.usefixtures("over_cursor")
+def test_a_fake_user_of_the_mesh_is_no_object(reported):
+    obj = figure()
+    obj.data.use_fake_user = True
+    edit(obj)
+    assert balance() == {"FINISHED"}
+    assert reported.codes == ["balanced"]
 
 
 @pytest.mark.usefixtures("over_cursor")

@@ -3,6 +3,7 @@
 """Sculpt Balance where it does not come there after it has moved something, what it says of moves, and how little it
 moves."""
 
+from contextlib import contextmanager
 from dataclasses import replace
 from itertools import pairwise
 
@@ -12,6 +13,7 @@ import pytest
 from body_moments.core.statics.balance import balance as least_moves
 from body_moments.operators.actions.snap import sculpt_balance
 from body_moments.operators.read import read_object
+from body_moments.operators.session import staleness
 
 from tests.blender.actions.snap.test_balance import balance, center, edit, figure, group, points, world
 from tests.blender.bodies.test_assembly import box_mesh
@@ -27,12 +29,29 @@ def object_mode():
         bpy.ops.object.mode_set(mode="OBJECT")
 
 
+@contextmanager
+def told_of(mesh):
+    """The changes of a mesh's geometry that Blender is told of."""
+    changes = []
+
+    def note(_scene, depsgraph):
+        changes.extend(one for one in depsgraph.updates if one.id.original == mesh and one.is_updated_geometry)
+
+    bpy.app.handlers.depsgraph_update_post.append(note)
+    try:
+        yield changes
+    finally:
+        bpy.app.handlers.depsgraph_update_post.remove(note)
+
+
 @pytest.mark.parametrize("way", ["edited", "grouped"])
 def test_where_no_attempt_comes_there_all_is_put_back(way, monkeypatch, reported):
     obj = figure()
     bpy.ops.object.body_moments_measure()
     (edit if way == "edited" else group)(obj)
     before, was, attempts = points(obj), center(obj), []
+    reason = staleness.stale_reason(obj, bpy.context.scene)
+    assert way == "edited" or reason is None
 
     def missing(*words, **more):
         attempts.append(more["limit"])
@@ -40,7 +59,10 @@ def test_where_no_attempt_comes_there_all_is_put_back(way, monkeypatch, reported
         return replace(found, points=found.points + np.array([0.1, 0.0, 0.0]))
 
     monkeypatch.setattr(sculpt_balance, "balance", missing)
-    assert balance() == {"CANCELLED"}
+    with told_of(obj.data) as changes:
+        assert balance() == {"CANCELLED"}
+    assert len(changes) == 7  # of each attempt, and that all is as before
+    assert staleness.stale_reason(obj, bpy.context.scene) == reason
     assert "balance_triangulation_varies" in reported.codes and len(attempts) == sculpt_balance.MAX_ATTEMPTS == 6
     assert np.array_equal(points(obj), before) and np.array_equal(center(obj), was)
     assert np.array_equal(points(obj), before)
@@ -60,6 +82,31 @@ def test_the_moves_that_are_reported_are_those_in_the_world(way, reported):
     assert said["distance"] == pytest.approx(moves.max(), rel=1e-5)
     assert said["start"] == pytest.approx(was) and said["end"] == pytest.approx(center(obj))
     assert said["end"][:2] == pytest.approx(was[:2] + [0.05, 0.025], rel=1e-5)
+
+
+@pytest.mark.parametrize("scale", [0.01, 100.0])
+@pytest.mark.parametrize("share", [0.9, 1.1])
+def test_it_is_there_within_a_millionth_of_the_size_and_four_roundings_of_the_farthest_coordinate(
+    scale, share, monkeypatch
+):
+    obj = figure(location=(0.0, 15.0 * scale, 0.0), scale=(scale,) * 3)
+    edit(obj)
+    found = world(obj, points(obj))
+    tolerance = 1e-6 * np.linalg.norm(np.ptp(found, axis=0)) + 4.0 * 2.0**-23 * np.abs(found).max()
+
+    def beside(surface, movable, target, **more):
+        return least_moves(surface, movable, target + np.array([share * tolerance, 0.0, 0.0]), **more)
+
+    monkeypatch.setattr(sculpt_balance, "balance", beside)
+    target = center(obj) + np.array([0.05, 0.02, 0.0]) * scale
+    assert balance(target="POINT", point=target) == ({"FINISHED"} if share < 1.0 else {"CANCELLED"})
+
+
+def test_a_coordinate_of_a_small_body_is_reported_as_it_is(reported):
+    obj = add(box_mesh(0.02, 0.02, 0.02), "Box")
+    edit(obj, lambda co: co.z > 0.0)
+    assert balance(target="POINT", point=(0.002, 1e-6, 0.0)) == {"FINISHED"}
+    assert reported.values("balanced")["end"][:2] == pytest.approx([0.002, 1e-6], rel=0.05)
 
 
 def test_a_coordinate_below_rounding_is_reported_as_none(reported):
