@@ -24,6 +24,7 @@ from ...write import properties, reports
 from .. import selection
 from .assembly import TARGET, measured_assembly
 
+PLACE_RTOL = 4e-6  # what float32 matrices leave of places
 FRAME_OF = "principal_frame_of_assembly"  # ID property of an empty: the collection or empty whose frame it shows
 
 
@@ -128,8 +129,8 @@ def _move_parent(context: Context, empty: Object, center: NDArray) -> None:
     inverses = {child: child.matrix_parent_inverse.copy() for child in children}
     places = {child: world(child) for child in empty.children_recursive}
     was = world(empty)
-    size = float(np.abs([place[:3, 3] - center for place in places.values()]).max(initial=0.0))
-    tolerance = 4e-6 * max(size, float(np.abs(center).max()), 1e-9)
+    size = float(np.abs([place[:3, 3] - center for place in places.values()]).max())
+    tolerance = PLACE_RTOL * max(size, float(np.abs(center).max()))
     with tracking_paused():
         try:
             target = was.copy()
@@ -140,7 +141,7 @@ def _move_parent(context: Context, empty: Object, center: NDArray) -> None:
             for child in children:
                 child.matrix_parent_inverse = Matrix(change @ np.array(inverses[child], np.float64))
             context.view_layer.update()
-            moved = [child for child, place in places.items() if np.abs(world(child) - place).max() > tolerance]
+            moved = [child for child, place in places.items() if not _is_at(child, place, tolerance)]
             if np.abs(world(empty)[:3, 3] - center).max() > tolerance:
                 raise EditRefusedError("location_constrained", subject=empty.name)
             if moved:
@@ -151,6 +152,12 @@ def _move_parent(context: Context, empty: Object, center: NDArray) -> None:
             saved.restore()
             context.view_layer.update()
             raise
+
+
+def _is_at(obj: Object, place: NDArray, tolerance: float) -> bool:
+    """Whether an object is there: within `tolerance`, and turned and scaled so to rounding."""
+    off = np.abs(world(obj) - place)
+    return bool(off[:3, 3].max() <= tolerance and off[:3, :3].max() <= PLACE_RTOL * np.abs(place[:3, :3]).max())
 
 
 def _refresh(context: Context, root: Root) -> None:

@@ -161,7 +161,52 @@ def test_an_empty_with_children_carries_their_total_and_moves_to_its_center():
     assert total.count == 2 and close(total.body.mass, mass, 1e-6)
 
 
-def test_cursor_empty_and_offset_go_to_the_center():
+@pytest.mark.parametrize("size", [1.0, 1e-3])
+def test_children_however_they_are_held_stay_where_they_are_at_any_size(size):
+    root = empty(bpy.context.scene.collection, "Root", np.array([0.3, 0.2, 0.1]) * size)
+    root.rotation_euler = (0.1, 0.2, 0.3)
+    for number in range(3):
+        sides, at = np.array([1, 2, 1]) * size, np.array([number, 2 * number, -1]) * size
+        child = box(bpy.context.scene.collection, sides, at, rotation=(0.3 * number, number, 2))
+        child.parent, child.matrix_parent_inverse = root, Matrix.Rotation(0.7, 4, (1, 2, 3))
+    bpy.context.view_layer.update()
+    only(root)
+    before = {child: place(child) for child in root.children}
+    assert bpy.ops.object.body_moments_assembly_origin(target="OBJECT") == {"FINISHED"}
+    assert np.abs(place(root)[:3, 3]).max() > size
+    for child, was in before.items():
+        off = np.abs(place(child) - was)
+        assert off[:3, 3].max() < 1e-5 * size and off[:3, :3].max() < 1e-6
+
+
+@pytest.mark.parametrize("share", [0.8, 1.25])
+@pytest.mark.parametrize("at", [0.3, 10.0])
+def test_children_that_would_move_by_more_than_rounding_are_left_with_their_empty(at, share, reported):
+    """Cubes a unit away from their center, one of which follows a little of the way of the empty, which is a unit."""
+    root = empty(bpy.context.scene.collection, "Root", (at, 1, 0))
+    children = [box(bpy.context.scene.collection, (0.5, 0.5, 0.5), (at + x, 0, 0)) for x in (-1, 1)]
+    bpy.context.view_layer.update()
+    for child in children:
+        child.parent, child.matrix_parent_inverse = root, root.matrix_world.inverted()
+    follow = children[0].constraints.new("COPY_LOCATION")
+    follow.target, follow.use_x, follow.use_z = root, False, False
+    follow.influence = share * 4e-6 * max(1.0, at)
+    bpy.context.view_layer.update()
+    only(root)
+    before = [obj.matrix_world.copy() for obj in (root, *children)]
+    if share < 1.0:
+        assert bpy.ops.object.body_moments_assembly_origin(target="OBJECT") == {"FINISHED"}
+        assert abs(root.matrix_world.translation.y) < 1e-4
+        return
+    with pytest.raises(RuntimeError):
+        bpy.ops.object.body_moments_assembly_origin(target="OBJECT")
+    assert reported.values("children_would_move") == {"names": [children[0].name]}
+    assert [obj.matrix_world for obj in (root, *children)] == before
+
+
+@pytest.mark.parametrize("unit", [1.0, 0.5])
+def test_cursor_empty_and_offset_go_to_the_center(unit):
+    bpy.context.scene.unit_settings.scale_length = unit
     root = assembly_of_boxes()
     _, center, _ = boxes_inertia(BOXES)
     assert bpy.ops.view3d.body_moments_cursor_to_assembly(rotate=True) == {"FINISHED"}
@@ -174,9 +219,11 @@ def test_cursor_empty_and_offset_go_to_the_center():
     assert close(root.instance_offset, center, 1e-6)
 
 
+@pytest.mark.parametrize("unit", [1.0, 0.5])
 @pytest.mark.parametrize("side, size", [(2e-3, 1e-3), (8e-3, 8e-3 / 6.0**0.5)])
-def test_the_empty_of_a_tiny_assembly_stays_large_enough_to_see(side, size):
+def test_the_empty_of_a_tiny_assembly_stays_large_enough_to_see(side, size, unit):
     """A cube's radius of gyration is its side over the root of six."""
+    bpy.context.scene.unit_settings.scale_length = unit
     root = collection("Tiny")
     box(root, (side, side, side))
     activate(root)
