@@ -181,7 +181,7 @@ def assess(
     volumes = [moments * sign for _, moments, _, sign in turned_parts]
     volume = sum_moments(volumes) if volumes else measured[0][0] * 0.0
     is_open = bool(topology.unclosable.any() or not verdict.solid.any())
-    whole_sign = -1.0 if is_open and volume.total < 0.0 else 1.0
+    whole_sign = -1.0 if volume.total < 0.0 else 1.0  # open, or of cavities that overlap each other
     volume = replace(volume, raw=whole_sign * volume.raw)
     reach = size + 4.0 * stored
     # caps move with their boundaries

@@ -134,12 +134,6 @@ PATTERNS = [
         "where there are no quads, all of them",
     ),
     (
-        r".*solid/weld_open_parts.py _find_open_parts",
-        r"edges_from_mesh\(.* else None|edges or find_edges\(.*\)",
-        r"None|\(find_edges\(.*\)\)",
-        "edges that are searched are those that the mesh names; none is named twice in a valid mesh",
-    ),
-    (
         r".*solid/close_components.py find_unclosable_components",
         r"np\.any\(edges\.count > 2\) and .*|edges\.count > 2|mesh\.number > 1",
         r"\(np\.any\(.*\) or .*\)|\(np\.any\(edges\.count > 2\)\)|\(mesh\.number >=? 1\)|\(edges\.count (<=|>=) 2\)",

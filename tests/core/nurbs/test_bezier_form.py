@@ -98,6 +98,16 @@ def test_a_part_has_its_own_ends_and_an_end_near_a_knot_is_that_knot():
             bezier_patches(patch, (wrong, None))
 
 
+@pytest.mark.parametrize("off, is_knot", [(0.9e-12, True), (-0.9e-12, True), (1.1e-12, False), (-1.1e-12, False)])
+@pytest.mark.parametrize("low, high", [(-8.0, -4.0), (4.0, 8.0)])
+def test_an_end_is_a_knot_within_a_trillionth_of_the_domain(off, is_knot, low, high):
+    space = SplineSpace((low, low, low + 1.0, high, high), 2, 3)
+    patch = Patch((space, clamped_space(2)), [[(x, y, 0) for y in (0, 1)] for x in (0, 1, 2)])
+    (found,) = bezier_patches(patch, ((low, low + 1.0 + off * (high - low)), None))
+    assert len(found.points) == (2 if is_knot or off < 0.0 else 3)
+    assert (found.points[1, 0, 0] == 1.0) == (is_knot or off > 0.0)
+
+
 def test_a_jump_makes_two_patches():
     s, t = SplineSpace((0.0, 0.0, 1.0, 1.0, 2.0, 2.0), 2, 4), clamped_space(2)
     points = np.array([[[x, y, 0.0] for y in (0.0, 1.0)] for x in (0.0, 1.0, 5.0, 6.0)])

@@ -62,11 +62,18 @@ F, B = True, False  # which run forward; those that run alike fit here, as their
         # patches by themselves are no sharper than other bodies
         ([(0, F), (50, F), (60, F), (90, B)], [(2, 3, False)], [(0, 3), (1, 2)]),
         ([(0, F), (10, F), (60, F), (90, B)], [(2, 3, False)], [(0, 3), (1, 2)]),
+        # and a body of three is none by itself
+        (
+            [(300, F), (0, B), (310, F), (280, F), (10, B), (180, B)],
+            [*CHAIN[:2], (3, 4, False)],
+            [(0, 2), (1, 3), (4, 5)],
+        ),
         # what fits comes before what must turn, and that before what would make a body of one side only
         ([(0, F), (10, B), (60, F)], [], [(0, 2)]),
         ([(0, F), (10, B), (60, B)], [(0, 1, False)], [(1, 2)]),
         ([(0, F), (10, B), (60, F), (130, B)], [(0, 1, False), (2, 3, False)], [(0, 2), (1, 3)]),
         ([(0, F), (10, B), (170, B)], [(0, 1, False), (1, 2, True)], [(0, 2)]),
+        ([(0, F), (10, F), (60, B)], [(0, 1, True)], [(1, 2)]),
         # even that is joined where nothing else is left
         ([(0, F), (10, B), (20, B), (40, B)], CHAIN, [(0, 3), (1, 2)]),
         # patches that lie on each other come after those that fit

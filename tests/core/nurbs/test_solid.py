@@ -293,6 +293,17 @@ def test_what_is_open_has_no_less_than_no_volume(size, turned):
     assert found.signs.tolist() == [-1.0 if turned else 1.0, 0.0]
 
 
+def test_cavities_that_take_away_more_than_there_is_leave_no_less_than_no_volume():
+    """Two that overlap each other, of which each is as large as can be: as of meshes."""
+    holes = [turned(box((9.0, 9.0, 9.0), (at, at, at))) for at in (0.25, 0.5)]
+    found = measure_patches(box((10.0, 10.0, 10.0), (0.0, 0.0, 0.0)) + sum(holes, []))
+    assert codes(found) == ["cavities_subtracted", "components_overlap"]
+    assert abs(found.volume.total / (2.0 * 9.0**3 - 10.0**3) - 1.0) <= 1e-13
+    assert found.signs.tolist() == [-1.0] * 18
+    facing = volume_moments(found.patches, 3, found.volume.about)[0]
+    assert np.abs(facing.raw - found.volume.raw).max() <= 1e-12 * np.abs(found.volume.raw).max()
+
+
 @pytest.mark.parametrize("size", [1e-3, 1.0, 1e3])
 def test_the_share_of_caps_is_that_of_the_area_at_any_size(size):
     found = measure_patches([tube().transform(np.diag([size, size, size, 1.0]))])

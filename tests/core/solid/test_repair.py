@@ -167,6 +167,19 @@ def test_only_what_a_meshs_own_edges_prove_is_left_as_it_is():
     assert two.number == 2 and len(two.triangles) == 24 and np.bincount(two.component).tolist() == [12, 12]
 
 
+@pytest.mark.parametrize("is_open", [False, True])
+def test_a_quad_s_diagonal_along_an_edge_of_other_faces_is_none_of_a_mesh_that_names_its_edges(is_open):
+    """Two tents on one floor, whose ridge is its diagonal, perhaps without a wall."""
+    points = np.array([[0, 0, 0], [2, 0, 0], [2, 2, 0], [0, 2, 0], [1.5, 0.5, 1], [0.5, 1.5, 1]], float)
+    faces = [[0, 3, 2, 1], [1, 2, 4], [2, 0, 4], [2, 3, 5], [3, 0, 5], [0, 2, 5], [0, 1, 4]]
+    tents = mesh(points, faces[: len(faces) - is_open])
+    assert {(0, 3, 2), (0, 2, 1)} <= set(map(tuple, tents.all_triangles()[0].tolist()))
+    result = measure_solid(tents)
+    assert result.method == ("capped" if is_open else "exact") and close(result.volume.total, 4.0 / 3.0, rel=1e-14)
+    assert result.health.components == 1 and not result.health.non_manifold_edges
+    assert result.health.boundary_edges == 3 * is_open
+
+
 @pytest.mark.parametrize("of", ["triangles", "quads"])
 def test_faces_of_one_kind_without_edges_prove_themselves_closed(of):
     """In arrays, from no mesh: their sides have to be found first."""
