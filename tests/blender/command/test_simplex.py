@@ -13,7 +13,9 @@ import numpy as np
 import pytest
 from body_moments.core.polyhedron import facets_of
 from body_moments.operators import batch
+from body_moments.operators.command import simplex
 
+from tests.blender.batch_files import sentence
 from tests.blender.command.test_process import script
 from tests.records import valid
 
@@ -40,7 +42,9 @@ def test_moments_of_a_corner_in_n_dimensions_are_fractions(tmp_path, capfd, dime
         arrays = {"points": points, "simplices": facets, "signs": signs}
     np.savez(tmp_path / "a.npz", **arrays)
     assert batch.main(["simplex", str(tmp_path / "a.npz"), "--order", str(order)], channel=1) == 0
-    record = valid(json.loads(capfd.readouterr().out))
+    text = capfd.readouterr().out
+    record = valid(json.loads(text))
+    assert text == json.dumps(record, indent=1) + "\n"  # one number a line
     assert record["dimension"] == dimension and record["closed"] is True
     powers = [row for row in itertools.product(range(order + 1), repeat=dimension) if sum(row) <= order]
     assert len(record["moments"]) == len(powers)
@@ -83,6 +87,16 @@ def test_wrong_files_and_options_are_said(tmp_path, capfd):
         {"points": np.eye(14, 13), "simplices": [range(14)]},
         {"points": points, "simplices": [[0, 1], [1, 2]], "signs": [1, 2]},
         {"points": np.array([object()]), "simplices": [[0]]},
+        {"points": np.arange(3.0), "simplices": [[0], [1]]},
+        {"points": points[None], "simplices": [[0, 1, 2]]},
+        {"points": points + 0j, "simplices": [[0, 1, 2]]},
+        {"points": np.zeros((3, 0)), "simplices": [[0]]},
+        {"points": points, "simplices": [0, 1, 2]},
+        {"points": points, "simplices": [[0, 1, 2, 0]]},
+        {"points": points, "simplices": np.zeros((0, 3), int)},
+        {"points": points, "simplices": [[0, 1, -1]]},
+        {"points": points, "simplices": [[0, 1], [1, 2]], "signs": [1]},
+        {"points": points, "simplices": [[0, 1], [1, 2]], "signs": [[1, 1]]},
     ):
         np.savez(tmp_path / "a.npz", **arrays)
         assert batch.main(["simplex", str(tmp_path / "a.npz")], channel=1) == 1
@@ -94,10 +108,18 @@ def test_wrong_files_and_options_are_said(tmp_path, capfd):
     assert batch.main(["simplex", str(tmp_path / "missing.npz")], channel=1) == 1
     assert "missing.npz: The file cannot be read: No such file or directory.\n" in capfd.readouterr().err
     np.savez(tmp_path / "a.npz", points=np.eye(9, 8), simplices=[range(9)])
-    assert batch.main(["simplex", str(tmp_path / "a.npz"), "--order", "30"], channel=1) == 1
     assert batch.main(["simplex", str(tmp_path / "a.npz"), "--about", "1,2"], channel=1) == 1
     for words in (["--order", "31"], ["--about", "1,x"], []):
         assert batch.main(["simplex", *([str(tmp_path / "a.npz")] if words else []), *words], channel=1) == 2
+
+
+def test_more_moments_than_a_million_are_too_many(tmp_path, capfd):
+    """To order n in 12 dimensions there are as many as ways to choose n of n + 12."""
+    np.savez(tmp_path / "a.npz", points=np.eye(13, 12), simplices=[range(13)])
+    assert math.comb(22, 10) < simplex.MAX_MOMENTS == 2**20 < math.comb(23, 11)
+    assert batch.main(["simplex", str(tmp_path / "a.npz"), "--order", "11"], channel=1) == 1
+    expected = sentence("simplex_too_many", dimension=12, order=11, limit=simplex.MAX_MOMENTS)
+    assert expected in capfd.readouterr().err
 
 
 def test_the_boundary_of_full_simplices_is_what_is_outside(tmp_path):

@@ -162,9 +162,9 @@ def region(context):
     """Let panels draw there, in a font whose letters are all of one width."""
     from body_moments.panels import density, rows, settings
 
-    blf = SimpleNamespace(sized=0.0)
-    blf.size = lambda _font, size: setattr(blf, "sized", size)
-    blf.dimensions = lambda _font, text: (LETTER * blf.sized * len(text), blf.sized)
+    sizes = {}  # of each font
+    blf = SimpleNamespace(size=sizes.__setitem__)
+    blf.dimensions = lambda font, text: (LETTER * sizes[font] * len(text), sizes[font])
     stand_in = SimpleNamespace(context=context)
     rows._wrapped.cache_clear()
     with ExitStack() as patches:

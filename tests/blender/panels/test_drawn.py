@@ -433,6 +433,10 @@ def test_assembly(book):
     for title, order in (("first", found), ("last", found[::-1])):
         settings.rows["out"].findings = properties.findings_text(order)
         book.draw("A member with two findings, the worst one " + title, "assembly")
+    first = settings.rows[0]
+    first.findings, settings.active_row = properties.findings_text(found[:1]), 0
+    book.draw("The first member, with a finding", "assembly")
+    first.findings = ""
     mass, root["body_mass"] = root["body_mass"], "gone"
     book.draw("Damaged numbers", "assembly")
     root["body_mass"], method, root["body_method"] = mass, root["body_method"], "exact"

@@ -150,6 +150,50 @@ def test_discs_are_made_where_they_are_seen_and_named_where_axes_are_long(view):
         assert np.abs(view.pixels(points.astype(float)) - view.size / 2.0).max() < view.size.max() + 500.0
 
 
+@pytest.mark.parametrize("scale", [1.0, 2.0])
+def test_discs_are_made_up_to_a_margin_around_the_view_and_named_from_a_length_on(view, scale):
+    """Both in pixels of the screen; a body that reaches farther is made farther away too."""
+    from body_moments.panels.overlay.bodies import Bodies
+    from body_moments.panels.overlay.glyphs import digits, discs
+    from body_moments.panels.overlay.lines import MARGIN, MIN_NAMED, disc_triangles
+
+    view = replace(view, view=np.eye(4))
+    pixel = view.pixel_sizes(np.array([[0.0, 0.0, -8.0]]))[0]  # the view's middle is in the middle
+
+    def count(away, reach):
+        center = np.array([[(view.size[0] / 2.0 + away) * pixel[0], 0.0, -8.0]])
+        gyration = np.full((1, 3), reach * pixel.max())
+        body = Bodies(center, np.eye(3)[None], gyration, np.zeros(1, np.intp))
+        return len(disc_triangles(body, view, scale, True)[0])
+
+    disc = discs().corners.shape[1]
+    for reach, named in ((0.0, 0), (scale * MIN_NAMED - 0.1, 0), (scale * MIN_NAMED + 0.1, 3), (300.0, 3)):
+        wanted = disc + named * digits().corners.shape[1]
+        edge = reach + scale * MARGIN
+        assert [count(away, reach) for away in (-100.0, edge - 0.1, edge + 0.1)] == [wanted, wanted, 0]
+
+
+def test_each_disc_is_that_of_its_body_alone_the_named_ones_last(view):
+    """The nearest of each kind above the others, and of those that are as far away the last one."""
+    from body_moments.panels.overlay.bodies import Bodies
+    from body_moments.panels.overlay.lines import disc_triangles
+
+    count = 40
+    number = np.arange(count)
+    places = np.stack([np.linspace(-1.0, 1.0, count), np.linspace(0.5, -0.5, count), -8.0 + number % 2], axis=1)
+    view = replace(view, view=np.eye(4))
+    is_named = number % 3 == 0
+    gyration = np.where(is_named, 1.0, 1e-3)[:, None].repeat(3, axis=1)
+    bodies = Bodies(places, np.tile(np.eye(3), (count, 1, 1)), gyration, number % 5)
+    order = np.lexsort((number, places[:, 2], is_named))
+    alone = [disc_triangles(bodies.chosen(np.arange(count) == body), view, 1.0, True) for body in order]
+    points, colors, triangles = disc_triangles(bodies, view, 1.0, True)
+    starts = np.cumsum([0, *(len(one) for one, _, _ in alone)])
+    assert (points == np.concatenate([one for one, _, _ in alone])).all()
+    assert (colors == np.concatenate([tints for _, tints, _ in alone], axis=1)).all()
+    assert (triangles == np.concatenate([one + start for (_, _, one), start in zip(alone, starts)])).all()
+
+
 def test_only_what_has_moved_is_looked_at_again(scene, monkeypatch):
     from body_moments.operators.session import handlers
     from body_moments.panels.overlay import bodies
