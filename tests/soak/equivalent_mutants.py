@@ -200,6 +200,13 @@ PATTERNS = [
     ),
     (r".*solid/nesting.py _interior_samples", r"k \* 0\.\d+", r"\(k / .*\)", "which places are tried"),
     (r".*offset/walls.py first_positive_root", r"16\.0", r"32\.0", "a looser bound"),
+    (r".*offset/walls.py (_Prisms.swept|_propagate_error)", r"8\.0", r"16\.0", "a looser bound"),
+    (
+        r".*offset/(walls.py OffsetSolid.moments|wall_moments.py wall_moments)",
+        r"(self\.swept_bound|row) @ s \*\* np\.arange\(4\)",
+        r"\(s .*",
+        "a product of two vectors",
+    ),
     (r".*offset/walls.py offset_solid", r"4\.0", r"8\.0", "a looser bound"),
     (r".*offset/walls.py offset_solid", r"jacobian\[.* \* signs\[.*", r"\(.* / signs\[.*", "times -1 is by -1"),
     (r".*offset/directions.py (MAXIMIN_STEPS|SMOOTHING_STEPS|)", r"400", r"401", "how long is searched"),
@@ -686,6 +693,12 @@ PATTERNS = [
     ),
     (r".*density/threshold.py _Sums._add_batch", r"break", r"continue", "it goes on to no avail"),
     (
+        r".*canonical_frame.py _maximize_on_sphere",
+        r"degree\*\*2",
+        r"\(degree \* 2\)",
+        "a direction that is hardly curved takes longer steps still",
+    ),
+    (
         r".*density/(voxel_fill.py inside_moments|spline_tables.py clipped_integrals)",
         r"\(order \+ 3\) // 2|-\(order \+ degree\) // 2",
         r"\(\(order \+ 3\) \* 2\)|\(-\(order \+ degree\) \* 2\)",
@@ -835,6 +848,17 @@ CONSTANTS = [
     (r".*offset/directions.py _corner_geometry", r"np\.where\(solid, double, ", "not read"),
     (r".*offset/walls.py _Prisms.swept", r"self\.double > 0\.0, self\.double, ", "what is divided is zero"),
     (
+        r".*offset/walls.py (OffsetSolid._overlaps|_weld_equal)",
+        r"np\.roll\((self\.)?triangles, ",
+        "the same sides, run the other way",
+    ),
+    (r".*offset/walls.py OffsetSolid._overlaps", r"part\[triangles\[:, ", "any corner is of the face's part"),
+    (r".*offset/walls.py OffsetSolid.self_intersects", r"np\.tile\(np\.arange\(count\), ", "room for more points"),
+    (r".*offset/walls.py offset_solid", r"np\.zeros\(\(3, 7\)\), np\.zeros\(\(", "a row that is not read"),
+    (r".*offset/directions.py _smooth_in_plane", r"sides\[:, 0\], sides\[:, ", "any two sides span the triangle"),
+    (r".*offset/directions.py _smooth_in_plane", r"SMOOTHING_RTOL\*\*", "it goes on to no avail"),
+    (r".*offset/directions.py _maximin_direction", r"np\.sqrt\(", "how fast shares change"),
+    (
         r".*shape/zernike.py _spherical_bessel",
         r"top = order \+ (20 \+ int\()?",
         "with which order the recursion begins",
@@ -919,6 +943,7 @@ CONSTANTS = [
         "anything but zero, of which nothing comes",
     ),
     (r".*canonical_frame.py _extreme_directions", r"(noise = |max\()", "a looser bound"),
+    (r".*density/voxel_fill.py inside_moments", r"volume, terms = 0\.0, ", "of no pieces nothing is summed"),
     (r".*shared_search.py _frames_alike", r"STEP\), ", "of what is not searched for"),
 ]
 # functions that make bounds of errors, where a constant factor twice as large gives a bound still

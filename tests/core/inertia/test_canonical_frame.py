@@ -322,6 +322,19 @@ def test_where_a_circle_of_directions_is_extreme_its_axis_is_taken(parts, cosine
     assert abs(a) < 2.0 * b * cosine and close((b / (3.0 * b - a)) ** 0.5, cosine, rel=1e-12)
 
 
+@pytest.mark.parametrize("bend", [0.3, 0.01])
+@pytest.mark.parametrize("size", [1.0, 0.03])
+def test_a_direction_about_which_moments_hardly_change_one_way_is_found_to_rounding(size, bend):
+    """E[(u·x)⁴] is w⁴ + (2 - bend) w² u² + w² v² along turned axes, so that it falls off by the bend along u."""
+    turn, raw = bodies.rotation(8), np.zeros(84)
+    raw[[0, 4, 7, 9]] = 1.0
+    for powers, value in (((0, 0, 4), 1.0), ((2, 0, 2), (2.0 - bend) / 6.0), ((0, 2, 2), 1.0 / 6.0)):
+        raw[monomial_index(*powers)] = size * value
+    found = equivalent_frames(Moments(raw, np.zeros(3)).in_frame(turn.T, np.zeros(3)))
+    assert found.rule.extreme == 4 and found.revolution_axes == ()
+    assert np.abs(np.abs(found.frames[:, :, 2] @ turn) - [0.0, 0.0, 1.0]).max() < 1e-10
+
+
 def test_an_axis_that_is_itself_extreme_stays_a_direction_that_can_be_refined():
     """A = 60 and B = 22, as above."""
     body = cloud(*((weight, points @ bodies.rotation(6).T) for weight, points in rings(44.0**0.5, (1, 4.0), (5, -1.0))))
