@@ -218,7 +218,7 @@ def _measure(
     power = (exponent * (degree + measure)).astype(np.int32)
     with np.errstate(over="ignore"):
         raw, error = np.ldexp(raw * factor, power), np.ldexp(error * factor, power)
-    if not np.isfinite(raw).all():
+    if not np.isfinite([raw, error]).all():
         raise MeasureError("moments_overflow", order=int(order))
     return SimplexMoments(raw, center, order, error + np.finfo(np.float64).smallest_subnormal)
 

@@ -122,6 +122,16 @@ def test_more_moments_than_a_million_are_too_many(tmp_path, capfd):
     assert expected in capfd.readouterr().err
 
 
+def test_moments_whose_bounds_are_beyond_the_range_of_numbers_are_refused(tmp_path, capfd):
+    """Those of odd order about the middle of a square are zero, however large it is."""
+    square = np.array([[1, 1], [-1, 1], [-1, -1], [1, -1]])
+    for scale, order, code in ((1e106, 1, 0), (1e109, 1, 1), (1e109, 0, 0), (1e160, 0, 1)):
+        np.savez(tmp_path / "a.npz", points=scale * square, simplices=[[0, 1], [1, 2], [2, 3], [3, 0]])
+        assert batch.main(["simplex", str(tmp_path / "a.npz"), "--order", str(order)], channel=1) == code
+        said = capfd.readouterr()
+        assert bool(said.out) == (not code) and (sentence("moments_overflow", order=order) in said.err) == bool(code)
+
+
 def test_the_boundary_of_full_simplices_is_what_is_outside(tmp_path):
     square = np.array([[0, 0], [1, 0], [1, 1], [0, 1]], float)
     for simplices in ([[0, 1, 2], [0, 2, 3]], [[0, 1, 2], [0, 3, 2]]):
