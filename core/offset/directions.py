@@ -93,6 +93,7 @@ def offset_directions(
     right = np.stack([mean(short * column) for column in normals.T], axis=1)
     values, axes = np.linalg.eigh(system)
     tilt = np.stack([_group_maximum(row.repeat(3), corner, count) for row in noise[solid].T])
+    noisy = tilt.sum(axis=0)
     thinnest = 1.0 / np.sqrt(np.maximum(-_group_maximum(-weight / total[corner], corner, count), np.finfo(float).tiny))
 
     def solved(least: float) -> tuple[NDArray, NDArray, NDArray]:
@@ -108,7 +109,7 @@ def offset_directions(
         return vectors, off, 2.0 * gain * np.linalg.norm(vectors, axis=1) + gain**2 * off
 
     vectors, off, gain = solved(SAME_PLANE_RTOL)
-    rough = off > UNEVEN_RTOL + 4.0 * (tilt[0] + tilt[1]) * np.linalg.norm(vectors, axis=1)
+    rough = off > UNEVEN_RTOL + 4.0 * noisy * np.linalg.norm(vectors, axis=1)
     if rough.any():
         smooth, spread, residual = solved(LEAST_SQUARES_RTOL)
         vectors[rough], gain[rough], off[rough] = smooth[rough], residual[rough], spread[rough]
@@ -116,7 +117,7 @@ def offset_directions(
         behind = np.flatnonzero(rough & (low < MIN_ADVANCE))
         if len(behind):
             _maximin_direction(vectors, behind, low, corner, weight, normals)
-    flat = values <= np.maximum(RANK_RTOL, (8.0 * (tilt[0] + tilt[1])) ** 2)[:, None] * values[:, 2:]
+    flat = values <= np.maximum(RANK_RTOL, (8.0 * noisy) ** 2)[:, None] * values[:, 2:]
     flat &= (total > np.finfo(float).tiny)[:, None] & ~rough[:, None]
     if flat.any():
         vectors = _smooth_in_plane(points, triangles[solid], vectors, np.einsum("nij,nj,nkj->nik", axes, flat, axes))

@@ -7,7 +7,13 @@ import pytest
 from body_moments.core.numerics.bspline import SplineSpace, clamped_space
 from body_moments.core.nurbs.creases import sharpest_crease
 from body_moments.core.nurbs.patch import Patch
-from body_moments.core.nurbs.patch_topology import _find_loops, _orient_patches, _pair_sides, find_topology
+from body_moments.core.nurbs.patch_topology import (
+    _close_pairs,
+    _find_loops,
+    _orient_patches,
+    _pair_sides,
+    find_topology,
+)
 
 from tests.close import close
 from tests.core.nurbs.test_solid import flat
@@ -145,6 +151,20 @@ def test_open_sides_follow_each_other_within_twice_the_tolerance(gap, count):
     points[2, :, 2] += gap * 0.01 * np.linspace(1.0, 0.0, 5)
     loops = _find_loops(points, np.arange(4), np.ones(4, bool), 0.01)
     assert sum(complete for _, complete in loops) == count
+
+
+@pytest.mark.parametrize("far", [0, 2**50, -(2**52)])
+@pytest.mark.parametrize("limit", [0, 1, 3])
+def test_keys_are_close_that_differ_by_no_more_than_the_limit_wherever_they_are(limit, far):
+    """In units of which those far away have none smaller."""
+    rng = np.random.default_rng(0)
+    for width in (1, 3, 6):
+        keys = far + rng.integers(-4, 5, (60, width))
+        found = set(zip(*(side.tolist() for side in _close_pairs(keys.astype(float), float(limit)))))
+        apart = np.abs(keys[:, None] - keys).max(axis=2)
+        assert found == set(map(tuple, np.argwhere(np.triu(apart <= limit, 1)).tolist()))
+    alike = _close_pairs(np.full((4, 2), float(far)), 0.0)
+    assert sorted(zip(*(side.tolist() for side in alike))) == [(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)]
 
 
 def test_patches_turn_to_face_as_the_first_of_theirs_and_those_that_cannot_are_told():

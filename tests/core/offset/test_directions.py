@@ -143,6 +143,52 @@ def test_a_cube_s_vertices_move_as_if_it_were_scaled_however_it_is_cut(part):
     assert 0.4999 < offset_solid(bodies.surface(part)).inward <= 0.5
 
 
+@pytest.mark.parametrize("seed", range(3))
+def test_a_cube_s_vertices_move_as_if_it_were_scaled_however_unevenly_it_is_cut(seed):
+    """No two of its triangles are alike; what is within a side, and along an edge, lies anywhere there."""
+    points, triangles = fine_cube(4)
+    inside = (points > 0.0) & (points < 1.0)
+    points = points + inside * np.random.default_rng(seed).uniform(-0.07, 0.07, points.shape)
+    found = offset_directions(points, triangles)
+    assert np.abs(found.vectors - 2.0 * (points - 0.5)).max() < 2e-11
+
+
+@pytest.mark.parametrize("share, is_met", [(0.9, True), (1.1, False)])
+@pytest.mark.parametrize("stored", [1e-5, 1e-6])
+def test_four_planes_are_met_but_for_four_times_what_they_may_be_turned_by(share, is_met, stored):
+    """A low pyramid whose top is not over the middle of its floor; it is as deep as makes its planes meet, or a little
+    more. Where they cannot be met it goes along their mean, as a round surface's point does."""
+    height, right, left = 0.1, 0.8, 2.0
+
+    def measured(depth):
+        floor = [[-left, -depth, 0], [right, -depth, 0], [right, depth, 0], [-left, depth, 0]]
+        points = np.array([[0, 0, height], *floor])
+        corners = points[np.array([[0, i, i % 4 + 1] for i in range(1, 5)])]
+        first, second = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+        normals = np.cross(first, second)
+        double = np.linalg.norm(normals, axis=1)
+        normals /= double[:, None]
+        weight = np.arctan2(double, np.einsum("ij,ij->i", first, second))
+        root = np.sqrt(weight / weight.sum())
+        met = np.linalg.lstsq(root[:, None] * normals, root, rcond=None)[0]
+        off = np.sqrt((root**2) @ (normals @ met - 1.0) ** 2)
+        longest = np.max([np.linalg.norm(corners[:, k] - corners[:, k - 1], axis=1) for k in range(3)], axis=0)
+        limit = 1e-6 + 4.0 * (2.0 * stored * longest / double).max() * np.linalg.norm(met)
+        return points, met, off / limit
+
+    slopes = np.array([[height, 0.0, right], [-height, 0.0, left]])
+    slopes /= np.linalg.norm(slopes, axis=1)[:, None]
+    ahead = np.linalg.lstsq(slopes[:, [0, 2]], np.ones(2), rcond=None)[0][1]
+    low = height / np.sqrt(ahead**2 - 1.0)  # as deep as makes all four meet
+    high = 2.0 * low
+    for _ in range(60):
+        middle = (low + high) / 2.0
+        low, high = (middle, high) if measured(middle)[2] < share else (low, middle)
+    points, met, _ = measured(low)
+    vector = offset_directions(points, np.array([[0, i, i % 4 + 1] for i in range(1, 5)]), stored).vectors[0]
+    assert abs(met[0]) > 1e-2 and (np.abs(vector - met).max() < 1e-9) == is_met
+
+
 def roof(angle, n=8):
     """A finely cut cube whose top has a crease at a quarter of its width."""
     points, triangles = fine_cube(n)

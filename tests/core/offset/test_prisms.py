@@ -227,8 +227,8 @@ def test_what_strips_along_a_boundary_sweep_is_their_length_by_their_height():
     points, triangles = SQUARE[0] * [3.0, 5.0, 1.0], SQUARE[1]
     vectors = np.array([[0, 0, 2.0], [0, 0, 7.0], [0, 0, 4.0], [0, 0, 1.0]])
     long, turned = 3 * 7 + 5 * 7 + 3 * 4 + 5 * 2, 5 * 7 + 3 * 7 + 3 * 4 + 1 * 2
-    for stored, slide in ((2.0, 0.0), (0.0, 3.0), (8.0, 16.0)):
-        found = walls._swept_by_strips(points, vectors, triangles, stored, slide)
+    for corner, (stored, slide) in enumerate(((2.0, 0.0), (0.0, 3.0), (8.0, 16.0))):
+        found = walls._swept_by_strips(points, vectors, np.roll(triangles, corner, axis=1), stored, slide)
         assert close(found, np.array([0.0, long * stored, turned * stored + long * slide, turned * slide]), rel=1e-14)
     assert not walls._swept_by_strips(*(bodies.box()[0],) * 2, bodies.box()[1], 1.0, 1.0).any()
 
@@ -291,6 +291,27 @@ def test_what_rounding_of_points_and_directions_sweeps_is_some_roundings_of_what
     share = found.swept_rounding / (6.0 * np.array([*truth, normals[2] * way]))
     assert (share >= 2.0).all() and np.ptp(share) <= 1e-6 and (share <= 8.0).all()
     assert not found.swept_bound.any()
+
+
+@pytest.mark.parametrize("size", [1.0, 2.0**20, 2.0**-20])
+def test_what_rounding_sweeps_of_a_sheet_that_turns_is_across_its_faces_and_along_its_rim(monkeypatch, size):
+    """A right triangle of sides 3 and 4, one corner of which rises three times as fast: later normals lie across."""
+    points, triangles = size * np.array([[0, 0, 0], [3, 0, 0], [0, 4, 0]], float), np.array([[0, 1, 2]])
+    vectors = np.array([[0, 0, 1], [0, 0, 3], [0, 0, 1]], float)
+    none = np.zeros((2, 3))
+    found = patched(
+        monkeypatch, (points, triangles), vectors=vectors, tangential_error=none, normal_error=none
+    ).swept_rounding
+    normals, long, turned = (12.0 * size**2, 8.0 * size), (3 * 3 + 5 * 3 + 4 * 1) * size, 2 * 3 + 2 * 3
+    place, way = found[0] / normals[0], found[3] / turned / 2.0
+    truth = [
+        normals[0] * place,
+        (normals[1] * place + normals[0] * way) / 2.0 + long * place,
+        normals[1] * way / 2.0 + turned * place + long * 2.0 * way,
+        turned * 2.0 * way,
+    ]
+    assert close(found, truth, rel=1e-9)
+    assert 2.0 * U <= place / (2.5 * size) <= 8.0 * U and 2.0 * U <= way / 3.0 <= 8.0 * U
 
 
 @pytest.mark.parametrize("worst", [0, 3])

@@ -21,6 +21,7 @@ from tests.core.findings import refused
 from tests.core.strategies import holds, seeds
 
 SIDES = ("inward", "outward", "centered")
+SQUARE = np.array([(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (1.0, 1.0, 0.0), (0.0, 1.0, 0.0)])
 SHEAR = np.array([[1.0, 0.4, -0.2], [0.1, 0.7, 0.3], [0.0, -0.25, 1.5]])
 
 
@@ -276,6 +277,7 @@ def test_noise_on_a_flat_side_does_not_send_its_edge_sliding():
         (bodies.with_flipped(cube(), 0), "wall_inconsistent_faces"),
         (bodies.moebius(), "wall_inconsistent_faces"),
         (bodies.welded(bodies.joined(bodies.box(), bodies.box((0, 1, 1), (1, 2, 2)))), "wall_non_manifold"),
+        ((bodies.CORNERS, np.array([[0, 1, 2], [1, 0, 3], [0, 1, 4]])), "wall_non_manifold"),
         ((np.zeros((3, 3)), np.array([[0, 1, 2]])), "no_face_area"),
     ],
 )
@@ -284,12 +286,25 @@ def test_what_has_no_side_is_refused_with_the_remedy(part, code):
         offset_solid(bodies.surface(part))
 
 
-def test_edges_that_make_no_wall_are_named_by_the_vertices_given():
-    points, triangles = bodies.welded(bodies.joined(bodies.box(), bodies.box((0, 1, 1), (1, 2, 2))))
+@pytest.mark.parametrize(
+    "part, code, edges",
+    [
+        (
+            bodies.welded(bodies.joined(bodies.box(), bodies.box((0, 1, 1), (1, 2, 2)))),
+            "wall_non_manifold",
+            [[[0, 1, 1], [1, 1, 1]]],
+        ),
+        ((SQUARE, np.array([[0, 1, 2], [0, 3, 2]])), "wall_inconsistent_faces", [[[0, 0, 0], [1, 1, 0]]]),
+    ],
+)
+def test_edges_that_make_no_wall_are_named_by_the_vertices_given(part, code, edges):
+    points, triangles = part
+    given = np.concatenate([np.full((3, 3), 9.0), points])
     with pytest.raises(MeasureError) as caught:
-        offset_solid(bodies.surface((np.concatenate([np.full((3, 3), 9.0), points]), triangles + 3)))
-    (edge,) = caught.value.finding.elements
-    assert points[edge - 3].tolist() == [[0, 1, 1], [1, 1, 1]]
+        offset_solid(bodies.surface((given, triangles + 3)))
+    finding = caught.value.finding
+    assert (finding.code, finding.values) == (code, {"count": len(edges)})
+    assert given[finding.elements].tolist() == edges
 
 
 def test_the_first_order_is_the_area_and_a_thin_wall_is_a_thin_shell():
@@ -425,7 +440,8 @@ def test_a_finely_cut_sheet_keeps_its_rim():
 def test_needles_alone_are_swept_without_a_direction():
     points = np.array([[0, 0, 0], [1, 0, 0], [0.5, 1e-12, 0]])
     found = offset_solid(bodies.surface((points, np.array([[0, 1, 2]]))))
-    assert found.degenerate_triangles == 1 and found.outward == np.inf
+    assert found.degenerate_triangles == 1 and found.outward == found.inward == np.inf
+    assert (found.outward_at, found.inward_at, found.min_ratio, found.max_ratio) == (-1, -1, 1.0, 1.0)
     assert found.moments(0.0, 1.0).total == 0.0
 
 
@@ -472,7 +488,7 @@ def clamp():
     return points, bodies.split(np.array(quads))
 
 
-SHEET = (np.array([(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (1.0, 1.0, 0.0), (0.0, 1.0, 0.0)]), bodies.split([(0, 1, 2, 3)]))
+SHEET = SQUARE, bodies.split([(0, 1, 2, 3)])
 OUTER, INNER = bodies.box((0, 0, 0), (4, 4, 4)), bodies.box((1, 1, 1), (3, 3, 3))
 
 
@@ -553,16 +569,49 @@ def test_at_a_limit_nothing_is_allowed_but_no_wall():
             narrow.moments(inward, outward)
 
 
-@pytest.mark.parametrize("gap, meet", [(0.0109, True), (0.0112, False)])
-def test_the_tip_of_a_spike_that_pierces_another_side_is_found_however_little_of_it_there_is(gap, meet):
-    """A sheet that is bent to a C, with a spike in the lower side that points at the upper one: while each side moves
-    by 0.001 its tip goes ahead by ten times as much. Hardly a point within the wall is in what pierces."""
+@pytest.mark.parametrize("side", SIDES)
+@pytest.mark.parametrize("size", [1e-3, 1.0, 1e3])
+@pytest.mark.parametrize("far", [0.0, 1e4])
+@pytest.mark.parametrize("thickness, touching", [(0.25, 1.1e-6), (1e-5, 1e-8)])
+def test_walls_may_reach_into_each_other_by_a_millionth_of_what_they_are_all_together(
+    side, size, far, thickness, touching
+):
+    """Of sheets that face each other, 1.1 wide together; and by a thousandth of their own thickness if that is less."""
+    points, triangles = bodies.grid(2)
+    lower, upper = (rows[:, ::-1] if side == "inward" else rows for rows in (triangles, triangles[:, ::-1]))
+    for overlap, meet in ((0.9 * touching, False), (1.1 * touching, True)):
+        gap = (1.0 if side == "centered" else 2.0) * thickness - overlap
+        corners, faces = bodies.joined((points, lower), (points + [0.1, 0.1, gap], upper))
+        found = offset_solid(bodies.surface((size * (corners + [far, 0.0, 0.0]), faces)))
+        assert found.self_intersects(*split_thickness(side, size * thickness)) == meet
+
+
+def test_what_is_left_without_the_arrays_has_the_same_moments():
+    found = offset_solid(bodies.surface(bodies.box()))
+    bare = found.drop_arrays()
+    assert [len(array) for array in (bare.points, bare.vectors, bare.triangles)] == [0, 0, 0]
+    assert np.array_equal(bare.moments(0.1, 0.2).raw, found.moments(0.1, 0.2).raw)
+
+
+@pytest.mark.parametrize("inverted", [False, True])
+@pytest.mark.parametrize(
+    "faces_down, gap, meet",
+    [(True, 0.0109, True), (True, 0.0112, False), (False, 0.0099, True), (False, 0.0102, False)],
+)
+def test_the_tip_of_a_spike_that_pierces_another_side_is_found_however_little_of_it_there_is(
+    faces_down, gap, meet, inverted
+):
+    """A sheet with a spike that points at another sheet: while each side moves by 0.001 its tip goes ahead by ten times
+    as much, to where the other sheet faces it, or to its back, which stays. Hardly a point within the wall is in what
+    pierces."""
     x, y = 0.3, 0.1
     lower = [(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)]
     base = [(x - 0.1, y - 0.1, 0), (x + 0.1, y - 0.1, 0), (x + 0.1, y + 0.1, 0), (x - 0.1, y + 0.1, 0)]
     points = np.array([*lower, *base, (x, y, 1 - gap), (1, -1, 1), (1, 1, 1), (-1, 1, 1), (-1, -1, 1)], float)
     ring = bodies.split([(k, (k + 1) % 4, (k + 1) % 4 + 4, k + 4) for k in range(4)])
     spike = [(k + 4, (k + 1) % 4 + 4, 8) for k in range(4)]
-    sheet = np.concatenate([ring, spike, bodies.split([(2, 1, 9, 10), (10, 9, 12, 11)])])
-    found = offset_solid(bodies.surface((points, sheet)))
-    assert found.self_intersects(0.0, 1e-3) == meet
+    bend = bodies.split([(2, 1, 9, 10)])  # so that what faces the spike is one sheet with it
+    upper = bodies.split([(10, 9, 12, 11)])
+    sheet = np.concatenate([ring, spike, *([bend, upper] if faces_down else [upper[:, ::-1]])])
+    found = offset_solid(bodies.surface((points, sheet[:, ::-1] if inverted else sheet)))
+    assert found.self_intersects(*((1e-3, 0.0) if inverted else (0.0, 1e-3))) == meet

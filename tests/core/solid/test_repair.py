@@ -180,6 +180,16 @@ def test_a_quad_s_diagonal_along_an_edge_of_other_faces_is_none_of_a_mesh_that_n
     assert result.health.boundary_edges == 3 * is_open
 
 
+@pytest.mark.parametrize("place", [0, 3, 6])
+def test_a_face_that_names_a_vertex_twice_hides_no_crack_of_a_mesh_that_names_its_edges(place):
+    points = np.concatenate([CUBE[0], CUBE[0][SIDES[0]] + 1e-8])
+    cube = [[8, 9, 10, 11], *SIDES[1:].tolist()]
+    cube.insert(place, [0, 0, 1])
+    result = measure_solid(mesh(points, cube))
+    assert result.health.welded and result.method == "exact" and not result.health.boundary_edges
+    assert result.health.degenerate_faces == 1 and close(result.volume.total, 1.0, rel=1e-6)
+
+
 @pytest.mark.parametrize("of", ["triangles", "quads"])
 def test_faces_of_one_kind_without_edges_prove_themselves_closed(of):
     """In arrays, from no mesh: their sides have to be found first."""
