@@ -6,6 +6,7 @@ import csv
 import io
 
 import bpy
+import mathutils
 import pytest
 from body_moments.operators.write import documents
 
@@ -91,6 +92,68 @@ def test_assemblies_that_are_assets_are_measured_where_metadata_are_asked_for_an
         (made,) = tmp_path.glob("*.body_moments.blend")
         bpy.ops.wm.open_mainfile(filepath=str(made))
         assert close(bpy.data.collections["Robot"].asset_data["body_mass"], entry["mass"], 1e-14)
+
+
+def test_assets_that_have_geometry_and_no_numbers_are_named(tmp_path):
+    """Objects, collections and meshes; of what is no asset, is linked, or has no geometry nothing is expected."""
+    library = files.box_file(tmp_path / "library.blend")
+    bpy.data.objects[files.BOX_NAME].asset_mark()
+    bpy.data.meshes[files.BOX_NAME].asset_mark()
+    files.save(tmp_path / "library.blend")
+    files.empty_scene()
+    box, _ = files.add_box("Box"), files.add_box("No Asset").hide_set(True)
+    hidden, instancer, lamp = (
+        files.add_box("Hidden"),
+        bpy.data.objects.new("Instancer", None),
+        bpy.data.lights.new("L", "SUN"),
+    )
+    instancer.instance_type, instancer.instance_collection = "COLLECTION", collection("Boxes")
+    instancer.instance_collection.objects.link(hidden)
+    lamp, empty = bpy.data.objects.new("Lamp", lamp), bpy.data.objects.new("Empty", None)
+    for obj in (instancer, lamp, empty):
+        bpy.context.scene.collection.objects.link(obj)
+    for obj in (hidden, instancer):
+        obj.hide_render = True
+    mesh = bpy.data.meshes.new("Mesh")
+    for asset in (box, hidden, instancer, lamp, empty, mesh, instancer.instance_collection, collection("None")):
+        asset.asset_mark()
+    with bpy.data.libraries.load(library, link=True) as (_, wanted):
+        wanted.objects = [files.BOX_NAME]
+    path = saved(tmp_path)
+    found = files.values(document(path, "--asset-metadata", "copy")["total"], "assets_not_measured")
+    assert found == {"names": ["Boxes", "Hidden", "Instancer", "Mesh"]}
+    found = files.values(
+        document(path, "--asset-metadata", "copy", "--object", "No Asset")["total"], "assets_not_measured"
+    )
+    assert found == {"names": ["Box", "Boxes", "Hidden", "Instancer", "Mesh"]}
+
+
+def test_what_is_in_the_metadata_of_an_asset_is_in_its_own_frame(tmp_path):
+    """And the file itself is saved where that is asked for, and where there is something to save."""
+    box = files.add_box("Box", center=(0, 0, 0))
+    box.location, box.rotation_euler = (1.0, 2.0, 3.0), (0.3, 0.2, 0.1)
+    box.data.transform(mathutils.Matrix.Translation((0.5, 0.25, 0.125)))
+    plain = saved(tmp_path)
+    kept = plain.read_bytes()
+    for where in ("file", "copy"):
+        line = files.run("--asset-metadata", where, plain)
+        assert (
+            not line.has_saved and not line.errors and [*tmp_path.iterdir()] == [plain] and plain.read_bytes() == kept
+        )
+    box = bpy.data.objects["Box"]
+    box.asset_mark()
+    path = saved(tmp_path)
+    for where, target in (("copy", tmp_path / "file.body_moments.blend"), ("file", path)):
+        line = files.run("--asset-metadata", where, path)
+        assert line.has_saved == (target == path) and not line.errors
+        (entry,) = line.documents[0]["objects"]
+        bpy.ops.wm.open_mainfile(filepath=str(target))
+        data = bpy.data.objects["Box"].asset_data
+        for name in ("mass", "volume", "area"):
+            assert data["body_" + name] == entry[name]
+        assert close([*data["body_principal_moments"]], entry["principal_moments"], 1e-14)
+        assert close([*data["body_center_of_mass"]], (0.5, 0.25, 0.125), 1e-6) and data["body_method"] == "exact"
+        assert "body_mass" not in bpy.data.objects["Box"]
 
 
 @pytest.mark.parametrize("where", ["combined.measure_assembly", "combined.measure_rig"])
