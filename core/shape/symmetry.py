@@ -126,7 +126,7 @@ def symmetry(
         )
     first = alike.frames[0]
     operations = [frame @ first.T for frame in alike.frames]
-    if len(alike.values) == len(mirrored.values) and (np.abs(alike.values - mirrored.values) <= alike.noise).all():
+    if (np.abs(alike.values - mirrored.values) <= alike.noise).all():
         operations += [-frame @ first.T for frame in mirrored.frames]
     axes = first.T[list(alike.revolution_axes)]
     operations = np.array(operations)

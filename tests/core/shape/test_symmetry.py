@@ -2,8 +2,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The group of every body by its symbol, first by moments, then as its geometry has it."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
+from body_moments.core.inertia.axial_harmonics import axial_harmonics
+from body_moments.core.mesh.surface import Surface
 from body_moments.core.plane import directed_edges, region_moments
 from body_moments.core.shape.disc_zernike import disc_zernike
 from body_moments.core.shape.flat_pose import (
@@ -44,6 +48,21 @@ def test_what_is_round_to_sixth_order_gets_the_folds_that_its_corners_have(name)
     assert found.group == group
     for tolerance in (1e-6, 1e-10):
         assert on_geometry(image, found, tolerance).group == exact
+
+
+@pytest.mark.parametrize("share, is_asked", [(1e-3, True), (0.1, False)])
+def test_of_a_body_whose_axis_is_hardly_known_no_harmonics_about_it_are_asked(share, is_asked):
+    """As storing its points may have changed that share of its volume."""
+    part = shapes.prism(7, 6.0)
+    found, asked = moments(part, 6), []
+    rough = replace(found, input_error=np.append(share * found.total, np.zeros(83)))
+
+    def axial(frame):
+        asked.append(frame)
+        return axial_harmonics([Surface.from_triangles(*part)], found.center, frame, area=False)
+
+    told = symmetry(rough, axial=axial)
+    assert (told.group, told.order) == (("D7h", 30) if is_asked else ("D∞h", 6)) and len(asked) == is_asked
 
 
 @pytest.mark.parametrize("tolerance", [1e-4, 1e-10])
