@@ -126,7 +126,7 @@ class OBJECT_OT_body_moments_import_scan(Operator, ImportHelper):
         if module is None:
             raise FileError("openvdb_missing")
         path = Path(bpy.path.abspath(self.filepath))
-        if not path.name or path.is_dir():
+        if path.is_dir():
             raise FileError("no_import_file")
         target = path.with_name(path.name[: -len(scan_suffix(path))] + ".vdb")
         scan = self._scan(path)

@@ -137,7 +137,7 @@ class OBJECT_OT_body_moments_measure(ModalSteps, bpy.types.Operator):
         warnings = [
             finding("object_warnings", object=obj.name_full, causes=[cause.as_record() for cause in causes])
             for obj, measured in self._results
-            if measured.findings and (causes := of_severity(measured.findings, Severity.WARNING, Severity.ERROR))
+            if (causes := of_severity(measured.findings, Severity.WARNING, Severity.ERROR))
         ]
         tried = stored + len(self._failures)
         done = [finding("measured_several", count=stored, total=tried)] if tried > 1 else []

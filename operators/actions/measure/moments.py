@@ -131,7 +131,7 @@ class OBJECT_OT_body_moments_copy_moments(Operator):
         except MeasureError as error:
             selection.report(self, reports.failure(computed.name, error))
             return {"CANCELLED"}
-        copy_text(self, context, text, finding("moments_copied", count=max(0, text.count("\n") - 2)))
+        copy_text(self, context, text, finding("moments_copied", count=text.count("\n") - 2))
         return {"FINISHED"}
 
 

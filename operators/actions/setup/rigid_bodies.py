@@ -17,7 +17,7 @@ from bpy.types import Context, Menu, Object, Operator
 from ....core.inertia.mass_properties import combine
 from ....core.inertia.third_moment_frames import EQUAL_AXES
 from ....core.numerics.float32 import shortest_decimal
-from ....core.verdict.finding import EditRefusedError, Finding, finding
+from ....core.verdict.finding import EditRefusedError, Finding, MeasureError, finding
 from ....core.verdict.method import Verdict
 from ...bodies.many import measured_in_turn
 from ...bodies.measure_object import Measured as MeasuredBody
@@ -269,17 +269,13 @@ def _asked(context: Context, bodies: Iterable[Body]) -> Callable[[Object], Measu
 def _measured(context: Context, body: Body, ask: Callable[[Object], MeasuredBody | Stacked]) -> Measured:
     """A body as it is now. EditRefusedError where it can be no rigid body."""
     require_rigid_world(context.scene, joints=body.obj.rigid_body_constraint is not None)
-    measurements, parts = [], []
-    for part in (body.obj, *body.members):
-        require_storable_data(part, "library_override_mass")
-        if part.type != "MESH":
-            raise EditRefusedError("rigid_body_needs_mesh", subject=part.name)
-        measured = ask(part)
-        measurement = measured.measurement
-        parts.append((part, measured))
-        if measurement.method.verdict == Verdict.OPEN:
-            raise EditRefusedError("open_object", subject=part.name)
-        measurements.append(measurement)
+    parts = [(body.obj, _measured_part(body.obj, ask))]
+    for part in body.members:
+        try:
+            parts.append((part, _measured_part(part, ask)))
+        except MeasureError as error:
+            raise EditRefusedError("refused", object=part.name_full, cause=error.finding.as_record()) from error
+    measurements = [measured.measurement for _, measured in parts]
     properties = measurements[0].mass_properties
     if body.members:
         moments = [measurement.mass_moments for measurement in measurements]
@@ -301,6 +297,17 @@ def _measured(context: Context, body: Body, ask: Callable[[Object], MeasuredBody
     )
     volume = sum(measurement.volume for measurement in measurements)
     return Measured(body, target, properties.mass / volume, tuple(parts))
+
+
+def _measured_part(part: Object, ask: Callable[[Object], MeasuredBody | Stacked]) -> MeasuredBody | Stacked:
+    """An object of a body as it is now. EditRefusedError where it can be part of no rigid body."""
+    require_storable_data(part, "library_override_mass")
+    if part.type != "MESH":
+        raise EditRefusedError("rigid_body_needs_mesh")
+    measured = ask(part)
+    if measured.measurement.method.verdict == Verdict.OPEN:
+        raise EditRefusedError("open_object")
+    return measured
 
 
 def _store(context: Context, measured: dict[Object, Measured]) -> None:

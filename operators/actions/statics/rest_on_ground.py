@@ -114,7 +114,8 @@ class OBJECT_OT_body_moments_rest_on_ground(Operator):
         """How far the ground is below the center."""
         if self.ground == "LOWEST":
             support = stability.support(obj, context.scene)
-            return 0.0 if support is None else support.height
+            assert support is not None  # it is known as its poses are
+            return support.height
         point = np.array(context.scene.cursor.location, np.float64) if self.ground == "CURSOR" else np.zeros(3)
         return float((point - center) @ down)
 

@@ -301,12 +301,12 @@ def test_the_frame_and_the_selection_stay_and_one_empty_is_made(scene):
     objects.add(None, "Other Empty")
     objects.add(objects.strip_mesh(), "Strip")["body_balance_group"] = "First\nSecond"
     objects.only(first, second)
-    scene.frame_set(7)
+    scene.frame_set(7, subframe=0.25)
     for end in (10, 5):
         assert bpy.ops.object.body_moments_balance_group(use_scene_range=False, frame_start=2, frame_end=end) == {
             "FINISHED"
         }
-        assert scene.frame_current == 7
+        assert scene.frame_float == 7.25
         assert first.select_get() and second.select_get() and bpy.context.object == first
         (empty,) = groups()  # an empty without a path is none, nor is a mesh that was given the same property
         assert path_of(empty).frames.tolist() == list(range(2, end + 1))
@@ -326,8 +326,10 @@ def test_a_collection_is_followed(scene):
     assert groups()[0]["body_balance_group"] == obj.name
 
 
-def test_masses_given_for_a_nested_collection_count(scene):
-    """A cube of 1000 kg at 0, and one in a collection that weighs 3000 kg at 4."""
+@pytest.mark.parametrize("unit", [1.0, 0.5])
+def test_masses_given_for_a_nested_collection_count(scene, unit):
+    """A cube of water at 0, and one in a collection that weighs three times as much at 4."""
+    scene.unit_settings.scale_length = unit
     outer, inner = bpy.data.collections.new("Outer"), bpy.data.collections.new("Inner")
     scene.collection.children.link(outer)
     outer.children.link(inner)
@@ -335,11 +337,41 @@ def test_masses_given_for_a_nested_collection_count(scene):
         obj = objects.add(box((1.0, 1.0, 1.0), (-0.5, -0.5, -0.5)), location=(place, 0.0, 0.0))
         collection.objects.link(obj)
         scene.collection.objects.unlink(obj)
-    inner.body_moments.mass_from, inner.body_moments.mass = "MASS", 3000.0
+    inner.body_moments.mass_from, inner.body_moments.mass = "MASS", 3000.0 * unit**3
     bpy.context.view_layer.update()
     arguments = {"use_scene_range": False, "frame_start": 1, "frame_end": 2}
     assert bpy.ops.object.body_moments_balance_group(collection="Outer", **arguments) == {"FINISHED"}
     assert close(path_of(groups()[0]).centers[:, 0], 3.0, 1e-6)
+
+
+def test_of_a_collection_its_instances_are_followed_and_not_what_they_show(scene):
+    shown, parts = bpy.data.collections.new("Shown"), bpy.data.collections.new("Parts")
+    scene.collection.children.link(parts)
+    obj = objects.add(box((1.0, 1.0, 1.0), (-0.5, -0.5, -0.5)))
+    shown.objects.link(obj)
+    scene.collection.objects.unlink(obj)
+    for place in (1.0, 5.0):
+        instancer = objects.add(None, "At {:g}".format(place), location=(place, 0.0, 0.0))
+        instancer.instance_type, instancer.instance_collection = "COLLECTION", shown
+        parts.objects.link(instancer)
+    bpy.context.view_layer.update()
+    arguments = {"use_scene_range": False, "frame_start": 1, "frame_end": 2}
+    assert bpy.ops.object.body_moments_balance_group(collection="Parts", **arguments) == {"FINISHED"}
+    assert groups()[0]["body_balance_group"] == "At 1\nAt 5"
+    assert close(path_of(groups()[0]).centers[:, 0], 3.0, 1e-6)
+
+
+def test_what_has_no_mass_or_is_not_in_the_view_layer_is_not_followed(scene, reported):
+    obj, camera = objects.add(objects.mesh_body()), objects.add(bpy.data.cameras.new("Camera"), "Camera")
+    objects.only(obj, camera)
+    arguments = {"use_scene_range": False, "frame_start": 1, "frame_end": 2}
+    assert bpy.ops.object.body_moments_balance_group(**arguments) == {"FINISHED"}
+    assert groups()[0]["body_balance_group"] == obj.name
+    bpy.data.collections.new("Parts").objects.link(obj)
+    scene.collection.objects.unlink(obj)
+    with pytest.raises(RuntimeError):
+        bpy.ops.object.body_moments_balance_group(collection="Parts", **arguments)
+    assert reported.codes[-1] == "balance_group_empty_group"
 
 
 @pytest.mark.parametrize("arguments", [{}, {"collection": "Nowhere"}, {"contacts": "Nowhere"}, {"contacts": "Lamps"}])

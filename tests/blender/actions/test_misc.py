@@ -421,6 +421,8 @@ def test_presets_keep_every_setting_that_is_no_object():
         assert (kept if isinstance(kept, (str, float, int)) else [*kept]) == (
             given if isinstance(given, (str, float, int)) else [*given]
         ), name
+    with open(path, encoding="utf-8") as file:
+        assert "density_volume" not in file.read()  # it is an object of this file
     bpy.ops.object.body_moments_preset_add(name="All of It", remove_name=True)
 
 

@@ -4,6 +4,7 @@
 
 import bpy
 import pytest
+from body_moments.operators.session import staleness
 
 from tests.blender.actions.setup.test_remedy_buttons import boxes
 from tests.blender.objects import add, mesh_body, only
@@ -45,6 +46,17 @@ def test_only_the_chosen_results_are_cleared():
     assert "body_mass" in obj and not obj.is_property_set("body_moments_symmetry")
     assert bpy.ops.object.body_moments_clear(kinds={"SECTION"}) == {"CANCELLED"}
     assert bpy.ops.object.body_moments_clear() == {"FINISHED"} and "body_mass" not in obj
+
+
+def test_an_edit_just_before_results_are_cleared_still_counts_for_the_others():
+    obj = add(mesh_body())
+    bpy.ops.object.body_moments_measure()
+    bpy.ops.object.body_moments_find_symmetry()
+    obj.data.vertices[0].co.x += 0.5
+    obj.data.update()
+    assert bpy.ops.object.body_moments_clear(kinds={"MASS"}) == {"FINISHED"}
+    bpy.context.view_layer.update()
+    assert staleness.symmetry_stale_reason(obj) == "stale_geometry"
 
 
 def test_an_empty_has_the_form_and_size_that_were_asked_for():

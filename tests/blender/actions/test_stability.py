@@ -205,6 +205,7 @@ def test_open_and_empty_objects_are_refused_by_name(scene, reported):
     scene.collection.objects[0].scale.x = 0.0
     bpy.context.view_layer.update()
     assert bpy.ops.object.body_moments_rest_on_ground() == {"CANCELLED"}
+    assert "objects_tip" not in reported.codes
 
 
 def test_a_round_body_says_that_its_hull_is_simplified(scene, reported, monkeypatch):
@@ -271,3 +272,13 @@ def test_what_points_the_opposite_way_makes_a_half_turn(start):
     turn = shortest_turn(start, -start)
     assert np.abs(turn @ start + start).max() < 1e-15 and np.abs(turn @ turn - np.eye(3)).max() < 1e-15
     assert abs(np.linalg.det(turn) - 1.0) < 1e-14 and np.abs(turn @ turn.T - np.eye(3)).max() < 1e-14
+
+
+@pytest.mark.parametrize("angle", [1e-4, 1e-6])
+def test_what_points_nearly_the_opposite_way_is_turned_there(angle):
+    from body_moments.operators.actions.statics.rest_on_ground import shortest_turn
+
+    start, across = np.array([0.6, 0.0, -0.8]), np.array([0.0, 1.0, 0.0])
+    end = np.sin(angle) * across - np.cos(angle) * start
+    turn = shortest_turn(start, end)
+    assert np.abs(turn @ start - end).max() < 1e-8 and np.abs(turn @ turn.T - np.eye(3)).max() < 1e-14

@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A scan becomes a Volume object that weighs what the file does."""
 
+from types import SimpleNamespace
+
 import bpy
 import numpy as np
 import pytest
@@ -50,6 +52,7 @@ def test_an_imported_scan_weighs_what_the_file_does(tmp_path, unit):
 
 def test_no_sample_is_lost_and_ct_numbers_go_by_the_table(tmp_path):
     values = samples("f4", -1000)
+    values[0, 0, :2] = -1000.0, -999.0
     obj = imported(written(tmp_path / "ct.nrrd", nrrd(values, "spacings: 1 1 1")))
     assert obj.body_moments.values_from == "TABLE"
     bpy.context.view_layer.update()
@@ -83,6 +86,16 @@ def test_a_scan_that_is_written_in_slabs_has_all_of_its_samples(planes, finest, 
     with volume_reading(obj, bpy.context.evaluated_depsgraph_get()) as reading:
         ((_, found),) = reading.blocks()
         assert np.array_equal(found, values)
+
+
+@pytest.mark.parametrize(("limit", "planes"), [(84, [2, 2, 1]), (83, [1] * 5), (10, [1] * 5), (1000, [5])])
+def test_as_many_planes_are_looked_at_at_a_time_as_there_is_room_for(limit, planes, monkeypatch):
+    monkeypatch.setattr(import_scan, "SAMPLES_PER_SLAB", limit)
+    scan = SimpleNamespace(samples=samples(), slope=0.5, intercept=3.0)
+    slabs = [*import_scan._slabs(scan)]
+    assert [len(slab) for _, slab in slabs] == planes
+    assert [start for start, _ in slabs] == [sum(planes[:index]) for index in range(len(planes))]
+    assert np.array_equal(np.concatenate([slab for _, slab in slabs]), scan.samples * 0.5 + 3.0)
 
 
 def test_what_is_imported_is_selected_alone_and_active(tmp_path):
@@ -119,9 +132,10 @@ def test_what_cannot_be_imported_leaves_nothing(tmp_path, reported):
     written(tmp_path / "b.vdb", b"mine")
     assert refusal(good) == "file_exists"
     assert (tmp_path / "b.vdb").read_bytes() == b"mine"
-    bad = samples()
-    bad[1, 1, 1] = np.inf
-    assert refusal(written(tmp_path / "c.nrrd", nrrd(bad))) == "scan_non_finite"
+    for value in (np.inf, -np.inf, np.nan):
+        bad = samples()
+        bad[1, 1, 1] = value
+        assert refusal(written(tmp_path / "c.nrrd", nrrd(bad))) == "scan_non_finite"
     assert (len(bpy.data.objects), len(bpy.data.volumes)) == before
     packed = bytearray(nrrd(samples(), encoding="gzip"))
     packed[-5] ^= 1

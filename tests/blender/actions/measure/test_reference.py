@@ -122,6 +122,32 @@ def test_what_is_stored_follows_the_next_measurement():
     assert "body_reference" not in obj
 
 
+def test_what_is_driven_by_it_follows_when_it_is_stored():
+    obj = measured_box()
+    choose("AXIS", first=(0, 0, 0), second=(0, 0, 2))
+    bpy.ops.object.body_moments_store_reference()
+    driven = bpy.data.objects.new("Driven", None)
+    bpy.context.scene.collection.objects.link(driven)
+    driver = driven.driver_add("location", 0).driver
+    variable = driver.variables.new()
+    variable.type, variable.targets[0].id, variable.targets[0].data_path = "SINGLE_PROP", obj, '["body_axis_inertia"]'
+    driver.type = "SUM"
+    for second, entry in (((0, 0, 2), 2), ((2, 0, 0), 0)):
+        choose("AXIS", second=second)
+        bpy.ops.object.body_moments_store_reference()
+        bpy.context.view_layer.update()
+        assert close(driven.matrix_world.translation.x, about((0, 0, 0))[entry, entry], 1e-6)
+
+
+def test_what_was_not_measured_has_nothing_to_store(reported):
+    measured_box()
+    bpy.ops.object.body_moments_clear()
+    reported.clear()
+    with pytest.raises(RuntimeError):
+        bpy.ops.object.body_moments_store_reference()
+    assert reported.codes == ["no_stored_results"]
+
+
 def test_an_assembly_is_referred_too():
     root = collection()
     box(root, SIZE, AT, DENSITY)

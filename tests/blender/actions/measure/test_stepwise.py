@@ -16,6 +16,7 @@ from body_moments.operators.actions.shape.find_symmetry import OBJECT_OT_body_mo
 from body_moments.operators.actions.shape.match_pose import OBJECT_OT_body_moments_match_pose
 from body_moments.operators.session import results
 
+from tests.blender.actions.shape.test_shape import prism
 from tests.blender.actions.test_dialogs import ESC, MOUSE, TIMER, stand_in
 from tests.blender.objects import add, mesh_body, only, place
 
@@ -126,6 +127,18 @@ def test_esc_within_an_object_leaves_everything_as_it_was(cls, count):
         shares = [float(text.split(": ")[1].partition("%")[0]) for text in window.status[:-1]]
         assert shares == sorted(shares) and 0.0 <= shares[-1] <= 100.0
     assert result == {"FINISHED"} and steps > 4
+
+
+def test_the_progress_of_a_search_that_looks_at_surfaces_only_rises():
+    wanted = prism("Wanted", [(0, 0), (3, 0), (1, 1)])
+    for number in range(2):
+        prism("Copy", [(0, 0), (3, 0), (1, 1)], location=(9 * number, 0, 0))
+    only(wanted)
+    operator, window = pressed(OBJECT_OT_body_moments_find_similar, select=True, mirrored=False, scaled=False)
+    assert finished(operator, window) == {"FINISHED"} and len(operator._mirror_images) == 2
+    shares = [float(text.split(": ")[1].partition("%")[0]) for text in window.status[:-1]]
+    assert shares == sorted(shares) and shares[-1] <= 100.0
+    assert {share // 50.0 for share in shares[1:-1] if 0.0 < share % 50.0 < 25.0} == {0.0, 1.0}  # within each of both
 
 
 @pytest.mark.parametrize("cls", [OBJECT_OT_body_moments_match_pose, OBJECT_OT_body_moments_find_similar])

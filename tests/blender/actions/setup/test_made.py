@@ -8,7 +8,7 @@ import pytest
 from body_moments.operators.actions.setup import node_group, rigid_bodies
 from body_moments.operators.session import staleness
 
-from tests.blender.objects import add, mesh_body, only, seen
+from tests.blender.objects import add, mesh_body, only, seen, strip_mesh
 
 pytestmark = pytest.mark.usefixtures("scene")
 
@@ -47,6 +47,9 @@ def test_a_symmetry_no_longer_holds_where_the_axes_have_turned_and_there_alone(f
 
 def test_a_body_that_cannot_have_the_frame_is_named_and_the_others_are_made(reported, monkeypatch):
     good, held = (add(mesh_body(name), name, (place, 2, 3)) for name, place in (("Good", 1), ("Held", 9)))
+    only(held)
+    bpy.ops.rigidbody.world_add()
+    bpy.ops.rigidbody.constraint_add(type="HINGE")
     only(good, held)
     reframe = rigid_bodies.reframe.reframe
 
@@ -61,6 +64,33 @@ def test_a_body_that_cannot_have_the_frame_is_named_and_the_others_are_made(repo
     assert reported.values("rigid_bodies_made")["count"] == 1
     assert reported.values("left_unchanged")["count"] == 1 and reported.values("left_unchanged")["total"] == 2
     assert reported.values("failure")["object"] == "Held" and "channel_locked" in reported.codes
+    assert held.rigid_body_constraint.type == "HINGE" and [obj.name for obj in bpy.data.objects] == ["Good", "Held"]
+
+
+def test_of_a_compound_the_member_that_is_refused_is_named(reported):
+    root = add(mesh_body(), "Root")
+    for name, data, code in (
+        ("Text", bpy.data.curves.new("Text", "FONT"), "rigid_body_needs_mesh"),
+        ("Strip", strip_mesh(), "open_object"),
+    ):
+        member = add(data, name)
+        member.parent = root
+        only(root, member)
+        reported.clear()
+        assert bpy.ops.object.body_moments_rigid_bodies() == {"CANCELLED"} and root.rigid_body is None
+        assert [reported.values(kind)["object"] for kind in ("failure", "refused")] == ["Root", name]
+        assert reported.codes[-1] == code
+        bpy.data.objects.remove(member)
+
+
+@pytest.mark.parametrize("active", [None, "Empty"])
+def test_where_no_body_is_active_the_node_group_alone_is_added(active, reported):
+    if active:
+        only(add(None, active))
+    else:
+        bpy.context.view_layer.objects.active = None
+    assert bpy.ops.object.body_moments_add_nodes() == {"FINISHED"}
+    assert reported.codes == ["node_group_added"] and len(bpy.data.node_groups) == 1
 
 
 @pytest.mark.parametrize(

@@ -130,6 +130,7 @@ def test_an_accepted_warning_is_a_note_here_in_records_and_when_measured_again()
     assert bpy.ops.object.body_moments_accept(code="components_nested", accepted=False) == {"FINISHED"}
     assert findings_of(obj, "warning") == ["components_nested"] and obj["body_warnings"]
     assert bpy.ops.object.body_moments_accept(code="components_nested", accepted=False) == {"CANCELLED"}
+    assert bpy.ops.object.body_moments_accept(code="") == {"CANCELLED"}
 
 
 def test_errors_cannot_be_accepted_away():

@@ -109,6 +109,18 @@ def test_what_lies_on_the_active_object_already_is_not_moved_again_and_counts(re
     assert np.allclose(other["body_inertia"], first["body_inertia"], 1e-5, 1e-5 * max(first["body_inertia"]))
 
 
+@pytest.mark.parametrize("unit", [1e-3, 1.0, 1e3])
+@pytest.mark.parametrize("share", [0.5, 2.0])
+def test_how_near_a_pose_has_to_be_goes_by_the_size_in_the_scene_s_unit(unit, share):
+    bpy.context.scene.unit_settings.scale_length = unit
+    first, other = add(mesh_body(), "First"), add(mesh_body(), "Other")
+    size = surface_shape_of(first, bpy.context.evaluated_depsgraph_get()).size / unit
+    only(first, other)
+    other.location.x = away = share * 4e-7 * size
+    assert bpy.ops.object.body_moments_match_pose() == {"FINISHED"}
+    assert (other.location.x == np.float32(away)) == (share < 1.0)
+
+
 def library(path, *records):
     text = json.dumps({"file": "parts.blend", "objects": [*records]}, default=list)
     path.write_text(text, encoding="utf-8")

@@ -12,8 +12,9 @@ from body_moments.core.verdict.finding import EditRefusedError
 from body_moments.operators.actions.snap import align, base, empty, orientation
 from body_moments.operators.session import staleness
 
+from tests.blender.actions.test_refusals import linked_assembly
 from tests.blender.bodies.test_assembly import box_mesh
-from tests.blender.objects import add, mesh_body, only, place
+from tests.blender.objects import add, measured, mesh_body, only, place
 
 pytestmark = pytest.mark.usefixtures("scene")
 
@@ -173,6 +174,84 @@ def test_an_empty_that_cannot_be_placed_is_as_it_was_parent_and_size_and_all(rep
     assert bpy.ops.object.body_moments_add_empty(parent=True, size=3.0) == {"CANCELLED"}
     assert "empty_constrained" in reported.codes
     assert {name: getattr(made, name) for name in names} == before
+
+
+def test_a_mesh_with_the_mark_of_an_empty_is_not_moved():
+    obj, other = add(mesh_body()), add(mesh_body("Other"), "Other", (9, 0, 0))
+    other[empty.OBJECT_KEY] = obj
+    only(obj)
+    assert bpy.ops.object.body_moments_add_empty() == {"FINISHED"}
+    assert tuple(other.location) == (9.0, 0.0, 0.0) and other.parent is None
+    assert [one.parent for one in bpy.data.objects if one.type == "EMPTY"] == [obj]
+
+
+@pytest.mark.parametrize("overridden", [False, True])
+def test_an_empty_is_not_put_into_a_collection_of_a_library(overridden):
+    linked_assembly()
+    scene = bpy.context.scene
+    (collection,) = scene.collection.children
+    if overridden:
+        collection = collection.override_hierarchy_create(scene, bpy.context.view_layer)
+    obj = next(one for one in collection.objects if one.name == "b0")
+    only(obj)
+    assert bpy.ops.object.body_moments_add_empty(parent=False) == {"FINISHED"}
+    (made,) = [one for one in bpy.data.objects if one.type == "EMPTY" and one.get(empty.OBJECT_KEY) == obj]
+    assert [*made.users_collection] == [scene.collection]
+
+
+@pytest.mark.parametrize(
+    ("operator", "options"),
+    [
+        ("object.body_moments_add_empty", {"parent": False}),
+        ("object.body_moments_create_orientation", {}),
+        ("view3d.body_moments_cursor_to_center", {"rotate": True}),
+    ],
+)
+def test_the_axes_of_a_cube_are_its_sides_and_it_is_said_that_they_were_free(operator, options, reported):
+    obj = add(box_mesh(2, 2, 2), "Cube", (1, 2, 3), (0.3, 0.4, 0.5))
+    for vertex in obj.data.vertices:
+        vertex.co.x += 1.0
+    sides, free = place(obj)[:3, :3], measured(obj).mass_properties.principal.finding
+    scene = bpy.context.scene
+    category, name = operator.split(".")
+    assert getattr(getattr(bpy.ops, category), name)(**options) == {"FINISHED"}
+    frames = {
+        "add_empty": lambda: bpy.data.objects["Cube Principal Frame"].matrix_world,
+        "create_orientation": lambda: scene.transform_orientation_slots[0].custom_orientation.matrix,
+        "cursor_to_center": lambda: scene.cursor.matrix,
+    }
+    axes = np.array(frames[name.removeprefix("body_moments_")]())[:3, :3]
+    cosines = np.abs(sides.T @ axes)
+    assert np.abs(cosines - np.round(cosines)).max() < 1e-5
+    assert reported.codes[1:] == [free.code]
+    if "cursor" in name:
+        reported.clear()
+        assert bpy.ops.view3d.body_moments_cursor_to_center() == {"FINISHED"} and reported.codes == ["cursor_moved"]
+
+
+def test_the_cursor_has_nowhere_to_go_where_nothing_has_mass(reported):
+    only(add(None, "Empty"))
+    assert bpy.ops.view3d.body_moments_cursor_to_center() == {"CANCELLED"}
+    assert reported.codes == ["nothing_measurable"]
+
+
+def test_an_orientation_of_the_same_name_is_replaced():
+    slot = bpy.context.scene.transform_orientation_slots[0]
+    for number in range(2):
+        obj = add(mesh_body(), rotation=(0.3, 0.4, number))
+        assert bpy.ops.object.body_moments_create_orientation(name="Mine") == {"FINISHED"}
+        axes = measured(obj).mass_properties.principal.axes
+        assert slot.custom_orientation.name == "Mine"
+        assert np.abs(np.array(slot.custom_orientation.matrix) - axes).max() < 1e-6
+
+
+def test_orders_are_named_by_where_each_axis_points():
+    prop = bpy.ops.object.body_moments_align_to_world.get_rna_type().properties["order"]
+    assert [item.identifier for item in prop.enum_items] == [*align.ORDERS]
+    for item in prop.enum_items:
+        first, second, third = item.identifier
+        sign = "−" if align.directions(item.identifier)[:, 2].min() < 0.0 else ""
+        assert item.name == f"1 → {first}, 2 → {second}, 3 → {sign}{third}"
 
 
 @pytest.mark.parametrize("operator", ["axes_to_principal", "rigid_bodies"])
