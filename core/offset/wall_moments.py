@@ -87,7 +87,7 @@ def _strip_moments(corners: NDArray[np.float64], about: NDArray[np.float64], ord
     table = monomials(order)
     sums = np.zeros((2, len(table)))
     nodes, weights = gauss_legendre((order + 4) // 2)
-    u, w = (grid.ravel() for grid in np.meshgrid(nodes, nodes, indexing="ij"))
+    u, w = (grid.ravel() for grid in np.meshgrid(nodes, nodes))
     weight = np.multiply.outer(weights, weights).ravel()
     share = np.stack([(1 - u) * (1 - w), u * (1 - w), u * w, (1 - u) * w])
     along, across = np.stack([1 - w, w]), np.stack([1 - u, u])

@@ -202,6 +202,12 @@ PATTERNS = [
     (r".*offset/walls.py first_positive_root", r"16\.0", r"32\.0", "a looser bound"),
     (r".*offset/walls.py (_Prisms.swept|_propagate_error)", r"8\.0", r"16\.0", "a looser bound"),
     (
+        r".*offset/wall_moments.py _strip_moments",
+        r"\(order \+ 4\) // 2|NODES_PER_BLOCK // .*",
+        r"\(.* \* .*",
+        "a rule of more points is as exact; how much is computed at a time",
+    ),
+    (
         r".*offset/(walls.py OffsetSolid.moments|wall_moments.py wall_moments)",
         r"(self\.swept_bound|row) @ s \*\* np\.arange\(4\)",
         r"\(s .*",
@@ -869,6 +875,8 @@ CONSTANTS = [
     (r".*shape/zernike.py _spherical_bessel", r"large\] \*= ", "a factor of all rows, which is taken out again"),
     (r".*shape/zernike.py zernike_quadrature", r"step = max\(", "how much is computed at a time, at least"),
     (r".*offset/wall_moments.py _strip_moments", r"step = max\(", "how much is computed at a time, at least"),
+    (r".*offset/wall_moments.py _strip_moments", r"gauss_legendre\(\(order \+ ", "a rule of more points is as exact"),
+    (r".*offset/wall_moments.py _strip_moments", r"np\.ones\(\(order \+ ", "room for a power more"),
     (
         r".*mesh/planarity.py PlanarityAccumulator.add_triangles",
         r"len\(normal\), (0, )?",

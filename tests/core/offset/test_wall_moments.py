@@ -3,11 +3,13 @@
 """Walls to any order: against fractions, and against a quadrature of the prisms that make them."""
 
 import math
+from dataclasses import replace
 from fractions import Fraction
 
 import numpy as np
 import pytest
 from body_moments.core.mesh.surface import Surface
+from body_moments.core.moments.moments import U
 from body_moments.core.moments.monomials import monomials
 from body_moments.core.numerics.quadrature import gauss_legendre, triangle_rule
 from body_moments.core.offset import offset_solid, wall_moments
@@ -114,6 +116,45 @@ def test_strips_that_are_far_beyond_their_size_are_within_their_bounds(size):
     for powers, value, bound in zip(monomials(3).tolist(), found.raw, found.rounding_error):
         assert abs(Fraction(value) - strip_truth(corners, powers)) <= Fraction(bound)
         assert bound <= 1e-12 * size**2
+
+
+@pytest.mark.parametrize("patches, per_block", [(1, 1 << 14), (4, 16), (16, 4)])
+def test_what_rounding_leaves_of_a_strip_is_some_units_of_its_sides_products_by_how_far_they_are(
+    monkeypatch, patches, per_block
+):
+    """Of a parallelogram in the positive octant, and more of the same, of which few points are added up at a time."""
+    monkeypatch.setitem(_strip_moments.__globals__, "NODES_PER_BLOCK", per_block)
+    low, along, across = np.array([1.0, 2.0, 4.0]), np.array([1.0, 3.0, 0.5]), np.array([0.25, 1.0, 7.0])
+    corners = np.stack([low, low + along, low + along + across, low + across])
+    found = _strip_moments(np.repeat(corners[:, None], patches, axis=1), np.zeros(3), 1)
+    mixed = [
+        along[1] * across[2] + along[2] * across[1],
+        along[2] * across[0] + along[0] * across[2],
+        along[0] * across[1] + along[1] * across[0],
+    ]
+    nodes, weights = gauss_legendre(4)
+    place = low + nodes[:, None, None] * along + nodes[:, None] * across
+    share = np.multiply.outer(weights, weights)
+    size = [(share * np.prod(place**powers, axis=2) * (place @ mixed)).sum() * patches for powers in monomials(1)]
+    degree = monomials(1).sum(axis=1)
+    added = 4.0 * patches / max(1, per_block // 4)  # for each, how many sums of so many points
+    assert close(found.rounding_error, (8.0 * degree + 64.0 + added) * U * size / (degree + 3.0), rel=1e-9)
+
+
+@pytest.mark.parametrize("inward, outward", [(0.0, 0.25), (0.5, 2.0), (2.0, 0.5)])
+def test_the_errors_of_higher_moments_are_what_is_swept_by_how_far_that_is(inward, outward):
+    wall = offset_solid(Surface(grid(1)[0], grid(1)[1]))
+    reach, moved, rounded = np.array([[1.0, 2.0, 3.0], [0.5, 0.25, 0.125]]), [1.0, 2.0, 3.0, 4.0], [8.0, 7.0, 6.0, 5.0]
+    given = replace(wall, reach=reach, swept_bound=np.array(moved), swept_rounding=np.array(rounded))
+    found, known = wall_moments(given, inward, outward, 6), given.moments(inward, outward)
+    far = np.prod((reach[0] + max(inward, outward) * reach[1]) ** monomials(6), axis=1)
+    for errors, swept, own in (
+        (found.input_error, moved, known.input_error),
+        (found.rounding_error, rounded, known.rounding_error),
+    ):
+        assert np.array_equal(errors[:20], own)
+        bound = far[20:] * sum(c * s**k for s in (inward, outward) for k, c in enumerate(swept))
+        assert (bound <= errors[20:]).all() and (errors[20:] <= bound * (1.0 + 1e-7)).all()
 
 
 @pytest.mark.parametrize("order", range(4))
