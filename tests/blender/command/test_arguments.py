@@ -274,6 +274,7 @@ def test_each_command_has_help_and_refuses_what_it_does_not_know(command, capsys
         text = out.read().decode()
     assert text.startswith("usage: body_moments {} ".format(command)) and "show this help message" in text
     epilogs = {"measure": "exit code: 0 all measured", "audit": "exit code: 0 nothing but notes"}
+    epilogs |= {"simplex": "exit code: 0 measured, 1 the file cannot be measured"}
     assert "\n" + epilogs.get(command, "\n") in text  # lines of their own
     for words in (["x", "--unknown"], ["x", "--hel"]):
         more = ["--to", "y"] if command == "similar" else []

@@ -213,6 +213,19 @@ def test_a_wrong_question_is_wrong_usage(tmp_path, capsys):
     assert "--format jsonl" in printed
 
 
+def test_bodies_of_one_name_are_told_apart_by_their_files(tmp_path):
+    add_box("Box")
+    path, _ = shape_file(tmp_path)
+    library = json.loads(path.read_text(encoding="utf-8"))
+    paths = [tmp_path / "first.jsonl", tmp_path / "second.jsonl"]
+    for path, name in zip(paths, "ab"):
+        path.write_text(json.dumps({**library, "file": name + ".blend"}) + "\n", encoding="utf-8")
+    for asked, other in ("ab", "ba"):
+        code, text = ask(tmp_path, *paths, "--to", asked + ".blend:Box")
+        assert code == 0 and [line.split()[-1] for line in text.splitlines()[1:]] == [other + ".blend:Box"]
+    assert ask(tmp_path, *paths, "--to", "c.blend:Box")[0] == 2
+
+
 def test_records_without_a_signature_are_named(tmp_path, capsys):
     add_box("Box")
     path = tmp_path / "plain.jsonl"

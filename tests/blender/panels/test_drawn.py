@@ -543,6 +543,9 @@ def test_section(book):
     add(flat_mesh(square(-2000, -1999.99, 4000)), "Large")
     bpy.ops.object.body_moments_measure_section()
     book.draw("A large square, not quite in the middle", "section")
+    add(flat_mesh(square(0, 0, 0.1)), "Small")
+    bpy.ops.object.body_moments_measure_section()
+    book.draw("A small square", "section")
 
 
 def test_shape(book):
