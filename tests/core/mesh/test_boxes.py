@@ -41,6 +41,29 @@ def test_boxes_that_share_a_side_do_not_meet_and_a_flat_one_meets_what_it_cuts()
     )
 
 
+@pytest.mark.parametrize("margin", [0.0, 0.25, 0.5])
+@pytest.mark.parametrize("turn", range(3))
+def test_pairs_overlap_by_more_than_the_margin_along_every_axis(margin, turn):
+    """On a lattice of quarters, where many overlap by just that; all are told as long as there are not too many."""
+    rng = np.random.default_rng(turn)
+    low = np.roll(rng.integers(0, 16, (60, 3)) * (0.25, 0.25, 0.5), turn, axis=1)
+    high = low + 0.25 * rng.integers(1, 9, (60, 3))
+    one, other, left_out = boxes.overlapping_box_pairs(low, high, margin, 10_000)
+    common = np.minimum(high[:, None], high) - np.maximum(low[:, None], low)
+    truth = {(i, j) for i in range(60) for j in range(i) if common[i, j].min() > margin}
+    assert sorted((max(pair), min(pair)) for pair in zip(one, other)) == sorted(truth)
+    assert left_out == 0 and len(truth) > 5
+
+
+@pytest.mark.parametrize("most, pairs", [(1, 9), (9, 9), (10, 17), (17, 17), (18, 24), (44, 44), (45, 45), (46, 45)])
+def test_no_more_pairs_are_looked_for_than_there_may_be_and_what_is_left_out_is_counted(monkeypatch, most, pairs):
+    """Of ten boxes that all overlap, those with the first one, with the second one and so on."""
+    monkeypatch.setattr(boxes, "PIECE", 1)
+    low = 0.01 * np.arange(10.0)[:, None] * np.ones(3)
+    one, other, left_out = boxes.overlapping_box_pairs(low, low + 1.0, 0.0, most)
+    assert len(one) == len(other) == pairs and left_out == 45 - pairs
+
+
 @pytest.mark.parametrize("size", [1, 4, 1000])
 def test_following_pairs_are_all_of_them_in_pieces(size):
     rng = np.random.default_rng(0)

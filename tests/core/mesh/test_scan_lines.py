@@ -152,3 +152,36 @@ def test_each_of_several_bodies_has_the_one_line_through_its_point():
     for body, end in zip(found.body, ends):
         if body < 2:
             assert min(np.abs(end - low[body]).min(), np.abs(end - high[body]).min()) <= 1e-14 * 10.0
+
+
+def test_lines_run_along_the_same_axis_however_a_processor_sorts_what_is_equal(monkeypatch):
+    sort = np.argsort
+
+    def argsort(values, axis=-1, kind=None):
+        if kind:
+            return sort(values, axis=axis, kind="stable")
+        return values.shape[axis] - 1 - sort(np.flip(values, axis), axis=axis, kind="stable")
+
+    monkeypatch.setattr(np, "argsort", argsort)
+    high = np.array([[1.0, 1.0, 1.0], [2.0, 3.0, 3.0], [4.0, 1.0, 4.0]])
+    grids = LineGrids.over_boxes(np.zeros((3, 3)), high, np.full(3, 400))
+    assert grids.axes.tolist() == [[0, 1, 2], [1, 2, 0], [0, 2, 1]]
+
+
+@pytest.mark.parametrize("sides", [(4.0, 2.0, 1.0), (1.0, 9.0, 3.0), (2.0, 0.0, 2.0), (0.0, 5.0, 0.0), (0.0, 0.0, 0.0)])
+@pytest.mark.parametrize("lines", [576, 2000])
+def test_a_box_has_about_as_many_lines_through_it_as_are_asked_for_and_none_is_beyond_the_grid(sides, lines):
+    """Along its shortest side; however flat it is."""
+    low = np.array([7.0, -3.0, 50.0])
+    grids = LineGrids.over_boxes(low[None], (low + sides)[None], np.array([lines]))
+    assert (np.diff(np.array(sides)[grids.axes[0]]) <= 0.0).all()
+    corners = low + np.array(list(np.ndindex(2, 2, 2))) * sides
+    row, column, along = grids.places(corners, None)
+    assert (row > 0.0).all() and (row < grids.rows - 1).all()
+    assert (column > 0.0).all() and (column < grids.columns - 1).all()
+    assert np.abs(along).max() == min(sides) / 2.0
+    slopes, cell = np.array(LINE_SLOPES), grids.cell[0]
+    width = np.array(sides)[grids.axes[0]][:2] + slopes * min(sides)  # across the lines
+    if width.min() > 0.0:
+        assert abs(np.prod(width / cell) / lines - 1.0) < 0.05 and 0.9 < cell[0] / cell[1] < 1.1
+    assert (cell > 0.0).all()

@@ -3,7 +3,15 @@
 """Points that are near to each other are found, and those alone."""
 
 import numpy as np
-from body_moments.core.mesh.welding import first_at_near_position, may_have_neighbor, same_vertices_groups
+import pytest
+from body_moments.core.mesh.welding import (
+    first_at_near_position,
+    may_have_neighbor,
+    same_vertices_groups,
+    vertex_tolerance,
+)
+
+from tests.close import close
 
 
 def test_only_points_that_stand_alone_have_no_neighbor():
@@ -28,6 +36,26 @@ def test_whichever_way_a_neighbor_within_reach_lies_it_is_noticed():
     assert may_have_neighbor(np.concatenate([points, beside]), 1e-6).all()
     alone = may_have_neighbor(points, 1e-6)
     assert alone.sum() < 10
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+def test_vertices_move_by_a_thousandth_of_the_smallest_triangle_around_them_at_most(dtype):
+    """Each triangle is as large as its longest side: 5, 13.3 and 0.5."""
+    points = np.array([[0, 0, 0], [3, 0, 0], [0, 4, 0], [0, 5, 12], [0, 4, 0.5], [0.25, 4, 0.25], [9, 9, 9]], dtype)
+    triangles = np.array([[0, 1, 2], [0, 3, 1], [2, 5, 4]])
+    found = vertex_tolerance(points, triangles, np.array([6, 3, 0, 4, 2, 1]), 0.01)
+    sides = [np.sqrt(178.0), 5.0, 0.5, 0.5, 5.0]
+    assert close(found, [0.01, *np.minimum(0.01, 1e-3 * np.array(sides))], 1e-7)
+    assert close(vertex_tolerance(points, triangles, np.array([3, 1]), 1.0), [1e-3 * 178.0**0.5, 5e-3], 1e-7)
+
+
+@pytest.mark.parametrize("tolerances, is_one", [((1.0, 1.0), True), ((0.5, 1.0), False), ((1.0, 0.5), False)])
+@pytest.mark.parametrize("way", [(0.9, 0.0, 0.0), (0.0, -0.9, 0.0), (0.5, 0.5, -0.5)])
+def test_points_are_one_where_both_may_move_as_far(tolerances, is_one, way):
+    """Others, far away, may move farther or are on their own."""
+    places = np.array([[40.0, 0.0, 0.0], [0.0, 0.0, 0.0], way, [-30.0, 9.0, 2.0], [-30.0, 9.0, 3.9]])
+    found = first_at_near_position(places, np.array([1.0, *tolerances, 2.0, 2.0]))
+    assert found.tolist() == [0, 1, 1 if is_one else 2, 3, 3]
 
 
 def test_faces_share_a_group_where_they_have_the_same_vertices_and_nowhere_else():
