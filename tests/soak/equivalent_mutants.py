@@ -729,6 +729,13 @@ CONSTANTS = [
     (r".*write/thumbnail.py thumbnail", r"steps \+ \(right, up, ", "how deep an axis is, which is drawn over the body"),
     (r"panels/overlay/view.py View.pixels", r"== 0\.0, ", "where a point beside the eye is has no meaning"),
     (r".*write/whole_file.py whole_file", r"os\.O_WRONLY \|.*\"O_BINARY\", ", "the number of O_WRONLY, which is there"),
+    (r".*command/saving.py Place._save", r"file\.read\(", "what is behind the mark is not looked at"),
+    (r".*supervisor/whole_run.py WholeRun.__init__", r"FileNotFoundError\(", "its text is told, not its number"),
+    (
+        r".*finite/fbx.py _check_ascii_fbx",
+        r"max\(0, colon - ",
+        "how far back the name of an array is looked for, at least",
+    ),
     (r".*command/output.py claim_stdout", r"channel = -", "any negative number is no descriptor"),
     (r"operators/bodies/hull.py object_hull", r"len\(part\.matrices\) > ", "the hull of hulls is that of their points"),
     (
@@ -1000,6 +1007,18 @@ EQUIVALENT: dict[tuple[str, str, str, str], str] = {
         "CENTER if move_only else POSE",
         "(POSE)",
     ): "axes are measured as well, and not looked at",
+    (
+        "operators/command/inputs.py",
+        "_holds",
+        "return False",
+        "return None",
+    ): "neither is true",
+    (
+        "panels/overlay/draw.py",
+        "_key",
+        "context.space_data.local_view is not None",
+        "(context.space_data.local_view is None)",
+    ): "the one tells keys apart where the other does",
     (
         "operators/scene/reframe.py",
         "_transform_mesh",
