@@ -188,8 +188,7 @@ def _shows_collection(obj: Object) -> bool:
     """Whether an instance of a collection has no density and no mass of its own."""
     settings = obj.body_moments
     return (
-        obj.type == "EMPTY"
-        and obj.instance_collection is not None
+        obj.instance_type == "COLLECTION"
         and (settings.mass_from, settings.density_from, settings.kind) == ("DENSITY", "VALUE", "SOLID")
         and not settings.is_property_set("density")
     )

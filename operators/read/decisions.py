@@ -182,13 +182,12 @@ def _render_differences(obj, scene, exact: bool = False) -> Iterator[Finding]:
                 share = system.settings.display_percentage / 100.0
                 yield finding("render_particles_differ", modifier=modifier.name, share=share)
     data = obj.data
-    for axis, code in (("u", "render_resolution_u_differs"), ("v", "render_resolution_v_differs")):
-        rendered = getattr(data, "render_resolution_" + axis, 0)
-        shown = getattr(data, "resolution_" + axis, 0)
-        if exact:
-            break
-        if rendered and rendered != shown and (axis == "u" or obj.type == "SURFACE"):
-            yield finding(code, viewport=shown, render=rendered)
+    if not exact and obj.type in {"CURVE", "FONT", "SURFACE"}:
+        axes = (("u", "render_resolution_u_differs"), ("v", "render_resolution_v_differs"))
+        for axis, code in axes if obj.type == "SURFACE" else axes[:1]:
+            shown, rendered = getattr(data, "resolution_" + axis), getattr(data, "render_resolution_" + axis)
+            if rendered not in (0, shown):
+                yield finding(code, viewport=shown, render=rendered)
     if obj.type == "META" and data.resolution != data.render_resolution:
         yield finding(
             "render_resolution_differs",

@@ -29,8 +29,8 @@ from .reading import NO_VALUES, FaceAttributes, Part, SplineReading, float64_mat
 from .splines import spline_reading
 from .visibility import GEOMETRY_TYPES, blends_keys, edit_modifiers, evaluated_geometry
 
-# Blender stops here too (MAX_DUPLI_RECUR).
-MAX_DEPTH = 8
+# Blender stops here too (MAX_DUPLI_RECUR - 1).
+MAX_DEPTH = 7
 
 
 class _NeedsInstanceList(Exception):
@@ -45,7 +45,7 @@ class InstanceCollector:
     sources: the original objects that were read, without the first.
     vanished_count: how many instances are scaled to nothing.
     splines: of each evaluated surface object that was read, its patches, None where its mesh has to do.
-    drawn: the original objects of other kinds than meshes whose own polygons were read.
+    drawn: the original objects whose own polygons were read.
     collections: the original collections that it instances, as far as Blender's own list was not needed.
     materials, attribute, edges: whether the faces' materials are wanted, the name of the vertices' attribute, and
         whether the edges at the corners are.
@@ -162,7 +162,7 @@ class InstanceCollector:
     def _add_instances(self, geometry, matrices: NDArray) -> bool:
         """Add what the geometry set instances at every place of it; whether there was anything."""
         cloud = geometry.instances_pointcloud()
-        if cloud is None or not len(cloud.points):
+        if cloud is None:  # so it is where there are none
             return False
         count = len(cloud.points)
         flat = np.empty(16 * count, np.float32)
@@ -209,9 +209,7 @@ class InstanceCollector:
             if shows_itself(original, True):
                 self._add_own_geometry(self.root, geometry, instance_matrix)
         for instance in self.depsgraph.object_instances:
-            if not instance.is_instance or instance.parent != self.root:
-                continue
-            if instance.object.type != "MESH" or not instance.show_self:
+            if instance.parent != self.root or instance.object.type != "MESH" or not instance.show_self:
                 continue
             source, mesh = instance.instance_object, instance.object.data
             matrix = float64_matrix(instance.matrix_world)[None]
@@ -219,7 +217,7 @@ class InstanceCollector:
             key = self._surface_key(mesh, source)
             if key in self._surfaces:
                 self._matrices[key].append(matrix)
-            elif source.type == "MESH" and source.data == mesh:
+            elif source.data == mesh:
                 # Not the mesh itself: its subdivision may have been left to the graphics card.
                 self._add_mesh(mesh, self._geometry(source).mesh, matrix, source)
             else:
@@ -228,7 +226,7 @@ class InstanceCollector:
     def _add_mesh(self, key: Hashable, mesh, matrices: NDArray, owner=None) -> None:
         """Add a mesh; owner: the evaluated object whose material slots it is shown with."""
         if mesh is not None:
-            if owner is not None and owner.original.type != "MESH" and len(mesh.polygons):
+            if owner is not None and len(mesh.polygons):
                 self.drawn[owner.original] = None
             self._add_surface(self._surface_key(key, owner), lambda: self._read(mesh, owner), matrices, owner)
 
@@ -299,7 +297,7 @@ def _slots(mesh, owner) -> tuple:
     slots = list(mesh.materials)
     if owner is not None:
         if not slots:  # a copy of an edit mesh has none of its own
-            slots = list(getattr(owner.original.data, "materials", None) or ())
+            slots = list(owner.original.data.materials)
         for i, material in _object_slots(owner):
             slots += [None] * (i + 1 - len(slots))
             slots[i] = material

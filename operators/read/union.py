@@ -62,7 +62,7 @@ def _mesh(points: np.ndarray, triangles: np.ndarray) -> bpy.types.Mesh:
     mesh.loops.foreach_set("vertex_index", triangles.astype(np.int32).ravel())
     mesh.polygons.add(len(triangles))
     mesh.polygons.foreach_set("loop_start", np.arange(0, triangles.size, 3, dtype=np.int32))
-    mesh.update(calc_edges=True)
+    mesh.update()
     return mesh
 
 

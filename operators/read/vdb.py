@@ -101,12 +101,8 @@ class VdbGrid:
 
     def polygons(self) -> Surface:
         """The surface where a level set is zero, in the object's coordinates, facing outward."""
-        points, triangles, quads = self._grid.convertToPolygons(isovalue=0.0, adaptivity=0.0)
-        return Surface(
-            np.ascontiguousarray(points, np.float32),
-            triangles=np.ascontiguousarray(triangles[:, ::-1], np.int32),
-            quads=np.ascontiguousarray(quads[:, ::-1], np.int32),
-        )
+        points, _triangles, quads = self._grid.convertToPolygons()  # there are quads alone unless it adapts
+        return Surface(np.ascontiguousarray(points, np.float32), quads=np.ascontiguousarray(quads[:, ::-1], np.int32))
 
 
 def _cells(low: NDArray, end: NDArray, size: int) -> Iterator[tuple[int, int, int]]:

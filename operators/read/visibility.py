@@ -42,7 +42,7 @@ def measurable(obj) -> bool:
         # As a wire it needs none, and as a shell what closed curves bound is one.
         settings = getattr(obj, "body_moments", None)
         return _curve_has_surface(obj) or (settings is not None and settings.kind != "SOLID")
-    return obj.type in SURFACE_TYPES or obj.type == "VOLUME" or (obj.type in GEOMETRY_TYPES and _has_nodes(obj))
+    return obj.type in SURFACE_TYPES or obj.type == "VOLUME" or _has_nodes(obj)
 
 
 def shows_flat_region(obj) -> bool:

@@ -177,7 +177,7 @@ def _open_grid(obj, volume: _OwnedVolume, grid, depsgraph, findings: list[Findin
     if path:
         yield VdbGrid(path, grid.name)
         return
-    with tempfile.TemporaryDirectory(prefix="body_moments_", dir=bpy.app.tempdir or None) as folder:
+    with tempfile.TemporaryDirectory(prefix="body_moments_", dir=bpy.app.tempdir) as folder:
         path = os.path.join(folder, "volume.vdb")
         try:
             volume.data.grids.save(filepath=path)
@@ -188,9 +188,7 @@ def _open_grid(obj, volume: _OwnedVolume, grid, depsgraph, findings: list[Findin
 
 def _unchanged_file(obj, volume: _OwnedVolume) -> str | None:
     """The file that the grids are read from, where nothing has changed them since."""
-    if obj.type != "VOLUME" or any(modifier.show_viewport for modifier in obj.modifiers):
+    if any(modifier.show_viewport for modifier in obj.modifiers) or obj.data.packed_file is not None:
         return None
-    if getattr(obj.data, "packed_file", None) is not None:
-        return None
-    path = bpy.path.abspath(volume.data.grids.frame_filepath, library=obj.data.library)
+    path = volume.data.grids.frame_filepath
     return path if os.path.isfile(path) else None

@@ -256,6 +256,10 @@ def test_an_empty_with_a_given_mass_stands_for_its_children_in_a_collection():
     assembly = measured(root)
     assert close(assembly.measurement.mass_properties.mass, 2010.0, 1e-14)
     assert [part.member.name for part in assembly.root.parts] == ["Part", "other"]
+    child.parent = None
+    assembly = measured(root)
+    assert close(assembly.measurement.mass_properties.mass, 3000.0, 1e-14)
+    assert [part.member.name for part in assembly.root.parts] == ["child", "other"]
 
 
 def test_nothing_is_refused_by_name():

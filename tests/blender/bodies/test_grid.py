@@ -188,6 +188,7 @@ def test_the_temporary_folder_is_empty_afterwards(tmp_path, monkeypatch):
     monkeypatch.setattr(vdb.VdbGrid, "__init__", watched)
     measure(fog)
     assert seen and not os.path.exists(os.path.dirname(seen[0]))
+    assert seen[0].startswith(os.path.join(bpy.app.tempdir, "body_moments_"))
 
 
 TRANSFORMS = {
@@ -364,6 +365,8 @@ def test_what_cannot_be_measured_says_why(tmp_path):
     nothing = volume_object(tmp_path / "a.vdb", vdb_grid(np.zeros((4, 4, 4), np.float32)))
     with refused("grid_empty", nothing.name):
         measure(nothing)
+    source = vdb.VdbGrid(str(tmp_path / "a.vdb"), "density")
+    assert source.low.tolist() == source.shape.tolist() == [0, 0, 0]
     bad = vdb_grid(np.ones((4, 4, 4), np.float32))
     bad.getAccessor().setValueOn((1, 1, 1), float("nan"))
     with refused("density_non_finite"):
@@ -470,8 +473,10 @@ def test_voxels_made_coarser_by_simplify_are_said(tmp_path):
         coarse = measure(with_nodes(obj))
         assert coarse.mass_properties.center != pytest.approx(own.mass_properties.center, rel=1e-3)
         assert said(coarse)["grid_simplified"] == {"share": 0.25}
+        for render.use_simplify, render.simplify_volumes in ((True, 1.0), (False, 0.25)):
+            assert "grid_simplified" not in said(measure(obj))
     finally:
-        render.use_simplify = False
+        render.use_simplify, render.simplify_volumes = False, 1.0
 
 
 @pytest.mark.parametrize("value", [np.inf, -np.inf, np.nan])
@@ -616,9 +621,13 @@ def test_no_voxels_can_be_written_where_the_disk_is_full(monkeypatch):
 def test_the_module_is_found_under_either_name_or_said_to_be_missing(monkeypatch, name):
     monkeypatch.setitem(sys.modules, "openvdb", None)
     monkeypatch.setitem(sys.modules, "pyopenvdb", None)
-    assert vdb.openvdb() is None
+    asked = []
+    monkeypatch.setattr(bpy.utils, "expose_bundled_modules", lambda: asked.append(name), raising=False)
+    assert vdb.openvdb() is None and asked == [name]  # Blender's own modules are hidden until then
     module = ModuleType(name)
     monkeypatch.setitem(sys.modules, name, module)
+    assert vdb.openvdb() is module
+    monkeypatch.delattr(bpy.utils, "expose_bundled_modules")  # of an older Blender
     assert vdb.openvdb() is module
 
 
@@ -656,6 +665,17 @@ def test_what_nodes_cannot_sample_needs_openvdb(tmp_path):
     for diagonal in ((0.0, 0.0, 0.0, 0.0), (1.0, 0.0, 1.0, 1.0)):
         with refused("grid_transform_singular"):
             sample_grid.SampledGrid(obj, depsgraph(), fake_grid("FLOAT", diagonal), corners)
+
+
+@pytest.mark.parametrize(("version", "knows_whole_numbers"), [((4, 5, 9), False), ((5, 0, 0), True)])
+def test_nodes_sample_floats_alone_before_blender_5(tmp_path, monkeypatch, version, knows_whole_numbers):
+    obj = volume_object(tmp_path / "a.vdb", vdb_grid(ONES))
+    monkeypatch.setattr(sample_grid, "bpy", SimpleNamespace(app=SimpleNamespace(version=version)))
+    monkeypatch.setattr(sample_grid, "MAX_VOXELS", 0)  # of those that it knows it gets as far as that
+    for kind in ("INT", "BOOLEAN", "FLOAT"):
+        is_known = knows_whole_numbers or kind == "FLOAT"
+        with refused("grid_too_large_without_openvdb" if is_known else "grid_needs_openvdb", grid="density"):
+            sample_grid.SampledGrid(obj, depsgraph(), fake_grid(kind), [(0, 0, 0), (1, 1, 1)])
 
 
 def test_nodes_that_give_no_values_are_said_to(tmp_path, monkeypatch):

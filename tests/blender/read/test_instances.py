@@ -131,14 +131,15 @@ def test_a_collection_instance_shows_what_the_collection_shows():
         collection("Inner", False),
         collection("Off", False),
     )
-    members.children.link(inner)
     members.children.link(off)
+    members.children.link(inner)
     placed(cube("Shown", members))
     cube("Inside", inner).location = (4.0, 0.0, 0.0)
     cube("Disabled", members).hide_viewport = True
     cube("In Disabled", off)
     both = cube("Both", off)
     inner.objects.link(both)
+    members.objects.link(both)
     off.hide_viewport = True
     members.instance_offset = (0.0, 1.0, 0.0)
     bpy.context.scene.collection.children.unlink(members)
@@ -157,6 +158,33 @@ def test_collection_instances_nest():
     host = placed(cube("Host", high), (0.0, 0.0, 9.0))
     nodes(host, lambda tree, source: on_points(tree, grid(tree, 2), source))
     check(placed(empty("Instancer", high)), 3 + 4)
+
+
+def test_instances_nest_as_deep_as_blender_shows_them():
+    inner = collection("0", False)
+    cube("0", inner)
+    for level in range(1, 12):
+        outer = collection(str(level), False)
+        cube(str(level), outer).location.x = 3.0
+        link("Inner", None, outer).instance_type = "COLLECTION"
+        outer.objects[-1].instance_collection, outer.objects[-1].location.y = inner, 3.0
+        inner = outer
+    check(empty("Instancer", inner), 7)
+
+
+def test_a_collection_is_instanced_where_instancing_is_on_and_there_is_one():
+    members, used = collection("Members", False), collection("Used", False)
+    host = cube("Host", members)
+    host.instance_collection = used
+    cube("Unseen", used)
+    link("Nothing", None, members).instance_type = "COLLECTION"
+    off = link("Off", None, members)
+    off.instance_collection = used
+    check(host_of(members), 1)
+
+
+def host_of(members):
+    return placed(empty("Instancer", members))
 
 
 def test_a_collection_whose_nodes_instance_it_again_ends():
@@ -203,19 +231,54 @@ def test_a_curve_instanced_on_vertices_has_its_bevel():
 
 def test_instances_on_vertices_inside_a_collection_instance():
     members = collection("Members", False)
+    cube("First", members).location.x = -9.0
     parent = placed(cube("Parent", members))
     parent.instance_type = "VERTS"
     cube("Child", members).parent = parent
-    check(placed(empty("Instancer", members)), 9)
+    instancer = host_of(members)
+    check(instancer, 10)
+    parent.show_instancer_for_viewport = False
+    check(instancer, 9)
+
+
+def test_of_what_is_instanced_on_vertices_only_surfaces_count():
+    """Also where another than a cube's own mesh is shown: its nodes give instances of their own."""
+    parent = cube("Parent")
+    parent.instance_type = "VERTS"
+    for name, data in (("Lamp", bpy.data.lights.new("Lamp", "SUN")), ("Nothing", None), ("Body", mesh("Body"))):
+        link(name, data).parent = parent
+    check(parent, 9)
+    body = bpy.data.objects["Body"]
+    nodes(body, lambda tree, source: on_points(tree, grid(tree, 2), node(tree, "GeometryNodeMeshCone").outputs[0]))
+    check(parent, 8 * 4 + 1)
+
+
+def test_an_instancer_that_hides_itself_may_instance_one_on_vertices():
+    parent = placed(cube("Parent"))
+    parent.instance_type = "VERTS"
+    cube("Child").parent = parent
+    host = cube("Host")
+
+    def build(tree, source):
+        one = node(tree, "GeometryNodeObjectInfo", {"Object": parent, "As Instance": True}).outputs["Geometry"]
+        return join(tree, source, one)
+
+    nodes(host, build)
+    count = len(shown(host))
+    host.show_instancer_for_viewport = False
+    check(host, count - 1)
 
 
 def test_a_hidden_instancer_on_vertices_is_refused_not_halved():
     parent = cube("Parent")
     parent.instance_type = "VERTS"
     cube("Child").parent = parent
+    other = bpy.context.scene.view_layers.new("Other")
     parent.hide_set(True)
     with refused("instances_of_hidden_object", "Parent"):
         read_object(parent, depsgraph())
+    other.update()
+    assert read_object(parent, other.depsgraph).instance_count == 9
 
 
 def test_particles_drawn_as_objects_are_the_emitters_record():
@@ -227,13 +290,24 @@ def test_particles_drawn_as_objects_are_the_emitters_record():
     check(emitter, 13)
     emitter.show_instancer_for_viewport = False
     check(emitter, 12)
+    settings.render_type = "PATH"  # which hides it as well
+    with refused("instancer_hidden", "Emitter"):
+        read_object(emitter, depsgraph())
+    assert not len(shown(emitter))
+    emitter.show_instancer_for_viewport, settings.render_type = True, "OBJECT"
+    emitter.modifiers[0].show_viewport = False
+    check(emitter, 1)
+    emitter.hide_set(True)  # of what shows no particles nothing is missing
+    assert read_object(emitter, depsgraph()).instance_count == 1
 
 
 def test_an_instancer_that_hides_itself_shows_its_instances_only():
     host = cube("Host")
     nodes(host, lambda tree, source: join(tree, on_points(tree, grid(tree, 3), source), source))
-    host.show_instancer_for_viewport = False
+    plain = cube("Plain")
+    host.show_instancer_for_viewport = plain.show_instancer_for_viewport = False
     check(host, 9)
+    check(plain, 1)
 
 
 def test_a_nested_instancer_may_hide_itself_too():
@@ -310,18 +384,20 @@ def test_places_that_are_not_finite_are_counted_and_refused():
         read_object(host, depsgraph())
 
 
-def test_instances_scaled_to_nothing_are_left_out_and_said():
+@pytest.mark.parametrize("count", [2, 4])
+def test_instances_scaled_to_nothing_are_left_out_and_said(count):
     host = cube("Host")
 
     def build(tree, source):
         index = tree.nodes.new("GeometryNodeInputIndex").outputs[0]
-        made = node(tree, "GeometryNodeInstanceOnPoints", Points=grid(tree, 2), Instance=source)
+        points = node(tree, "GeometryNodeMeshLine", {"Count": count, "Start Location": (1.0, 0.0, 0.0)}).outputs[0]
+        made = node(tree, "GeometryNodeInstanceOnPoints", Points=points, Instance=source)
         tree.links.new(index, made.inputs["Scale"])
         return made.outputs[0]
 
     nodes(host, build)
     reading = read_object(host, depsgraph())
-    assert [len(part.matrices) for part in reading.parts] == [3]
+    assert [len(part.matrices) for part in reading.parts] == [count - 1]
     assert said(reading) == {"instances_vanished": {"count": 1}}
     assert not reading.all_singular
 
@@ -444,6 +520,31 @@ def test_what_the_choice_of_instances_leaves_out_is_not_there():
 
     nodes(host, build)
     check(host, 4)
+
+
+def test_what_is_picked_of_something_without_instances_is_nothing():
+    host = cube("Host")
+
+    def build(tree, source):
+        picked = node(tree, "GeometryNodeInstanceOnPoints", {"Pick Instance": True}, Points=source, Instance=source)
+        return join(tree, source, picked.outputs[0])
+
+    nodes(host, build)
+    check(host, 1)
+
+
+def test_places_beyond_the_range_of_numbers_are_no_warnings():
+    host = cube("Host")
+
+    def build(tree, source):
+        for _ in range(11):
+            point = node(tree, "GeometryNodePoints", {"Count": 1}).outputs[0]
+            source = on_points(tree, point, source, (1e30, 1e30, 1e30))
+        return source
+
+    nodes(host, build)
+    with refused("non_finite_instances", "Host", count=1, total=1):
+        read_object(host, depsgraph())
 
 
 def test_what_has_no_surface_is_counted_once_for_each_place():

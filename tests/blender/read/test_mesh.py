@@ -9,7 +9,7 @@ bpy = pytest.importorskip("bpy")
 
 import bmesh
 from body_moments.operators.read import read_object
-from body_moments.operators.read.mesh import mesh_surface
+from body_moments.operators.read.mesh import mesh_points, mesh_surface, plain_mesh
 
 from tests.blender.findings import said
 from tests.blender.read_bodies import (
@@ -114,6 +114,69 @@ def test_quads_alone_and_triangles_alone_need_no_face_indices():
     )
 
 
+def test_many_quads_need_no_face_indices_either():
+    side = 250
+    corner = np.arange(side * side).reshape(side, side)[:-1, :-1].reshape(-1, 1)
+    faces = corner + [0, 1, side + 1, side]
+    points = np.array([(x, y, 0) for x in range(side) for y in range(side)])
+    surface = mesh_surface(mesh("Grid", points, faces))
+    assert np.array_equal(surface.quads, faces) and surface.quad_faces is None
+
+
+def test_the_points_of_a_mesh_are_read_where_it_has_these_corners():
+    data = mesh("Quads", CUBE, CUBE_FACES)
+    corners = np.array(CUBE_FACES).reshape(-1)
+    assert np.array_equal(mesh_points(data, corners), CUBE)
+    for other in (corners[:-4], corners[::-1], np.append(corners, 0)):
+        assert mesh_points(data, other) is None
+
+
+def state_of(obj, state):
+    if state == "instancer":
+        obj.instance_type = "VERTS"
+    elif state == "instanced by its parent":
+        obj.parent = cube("Parent")
+        obj.parent.instance_type = "FACES"
+    elif state == "another user in Edit Mode":
+        activate(link("Other", obj.data))
+        bpy.ops.object.mode_set(mode="EDIT")
+    elif state == "Sculpt Mode":
+        activate(obj)
+        bpy.ops.object.mode_set(mode="SCULPT")
+    elif state == "shape keys":
+        obj.shape_key_add(name="Basis")
+    elif state == "a modifier":
+        obj.modifiers.new("Array", "ARRAY").show_viewport = False
+    elif state == "hidden":
+        obj.hide_set(True)
+    elif state == "elsewhere":
+        bpy.context.scene.collection.objects.unlink(obj)
+
+
+STATES = ["instancer", "instanced by its parent", "another user in Edit Mode", "Sculpt Mode", "shape keys"]
+
+
+@pytest.mark.parametrize("state", [*STATES, "a modifier", "hidden", "elsewhere"])
+def test_a_mesh_is_plain_where_reading_has_nothing_to_decide(state):
+    obj = cube()
+    other = bpy.context.scene.view_layers.new("Other")
+    found = plain_mesh(obj, depsgraph())
+    (part,) = read_object(obj, depsgraph()).parts
+    assert surface_triangles(mesh_surface(found)) == surface_triangles(part.surface)
+    state_of(obj, state)
+    assert plain_mesh(obj, depsgraph()) is None
+    if state == "hidden":
+        other.update()
+        assert plain_mesh(obj, other.depsgraph) is not None
+
+
+def test_a_plain_mesh_is_none_of_another_kind_and_may_have_a_parent():
+    curve = link("Curve", bpy.data.curves.new("Curve", "CURVE"))
+    child = cube("Child")
+    child.parent = curve
+    assert plain_mesh(curve, depsgraph()) is None and plain_mesh(child, depsgraph()) is not None
+
+
 def test_a_modified_mesh_is_read_as_evaluated():
     obj = link("Body", mesh("Body", *mixed()))
     obj.modifiers.new("Subdivision", "SUBSURF").levels = 2
@@ -152,6 +215,7 @@ def test_the_arrays_are_copies_that_outlive_the_mesh():
 
 def test_edit_mode_reads_edits_that_nothing_has_told_blender_of():
     obj = cube()
+    obj.use_shape_key_edit_mode = True  # of keys that it has not
     activate(obj)
     bpy.ops.object.mode_set(mode="EDIT")
     depsgraph()
@@ -176,6 +240,9 @@ def test_edit_mode_reads_the_modifiers_that_act_there():
     obj.modifiers.new("Array", "ARRAY").count = 3
     idle = obj.modifiers.new("Idle", "SUBSURF")
     idle.show_in_editmode = False
+    for name, in_edit_mode in (("Off", True), ("Never", False)):
+        hidden = obj.modifiers.new(name, "SUBSURF")
+        hidden.show_viewport, hidden.show_in_editmode = False, in_edit_mode
     drag_a_corner(obj)
     reading = read_object(obj, depsgraph())
     (part,) = reading.parts

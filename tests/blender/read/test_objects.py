@@ -3,6 +3,7 @@
 """What an object gives when it is read, the findings about it, and what is refused."""
 
 import math
+import shutil
 
 import numpy as np
 import pytest
@@ -160,7 +161,7 @@ def test_straight_splines_are_their_polygons_unless_their_bevel_is_round():
 def test_bezier_splines_are_their_polygons_where_their_handles_are_straight(cyclic):
     obj = spline_object("BEZIER", CORNER)
     (spline,) = obj.data.splines
-    spline.use_cyclic_u = cyclic
+    spline.use_cyclic_u, spline.order_u = cyclic, 2  # an order that none but NURBS has
     depsgraph()
     assert not drawn(obj)
     for item, name in ((spline.bezier_points[0], "handle_left"), (spline.bezier_points[-1], "handle_right")):
@@ -186,6 +187,10 @@ def test_a_round_profile_or_taper_of_a_straight_spline_is_said(mode, name):
     obj, other = spline_object("POLY", CORNER, 0.1), spline_object("POLY", CORNER[:3])
     bpy.ops.curve.primitive_bezier_circle_add(radius=0.1)
     obj.data.bevel_mode, other.data.extrude = mode, 0.0
+    if mode == "OBJECT":
+        obj.data.bevel_resolution = 2  # of the profile that it has not
+    else:
+        obj.data.bevel_object = bpy.context.object
     for shape in (other, bpy.context.object):
         setattr(obj.data, name, shape)
         assert drawn(obj) == (shape != other)
@@ -200,10 +205,20 @@ def test_a_curve_that_only_carries_instances_has_no_polygons_to_speak_of():
         made = node(
             tree, "GeometryNodeInstanceOnPoints", Points=points, Instance=node(tree, "GeometryNodeMeshCube").outputs[0]
         )
-        return made.outputs[0]
+        return join(tree, made.outputs[0], node(tree, "GeometryNodeMeshLine").outputs[0])  # which has no faces
 
     nodes(obj, build)
     assert read(obj).instance_count == 10 and not drawn(obj)
+
+
+def test_names_of_metaballs_are_split_as_blender_splits_them():
+    """At the last dot, where a number follows."""
+    names = ["Ball.001", "Ball", "002", "003", "Cup.x", "Cup.y", "Cup.y.004", "a.b.9", "a.b.10"]
+    balls = [metaball(name, 9.0 * number) for number, name in enumerate(names)]
+    sets = [obj.evaluated_get(depsgraph()).evaluated_geometry() for obj in balls]
+    shown = [obj for obj, one in zip(balls, sets) if one.mesh is not None and len(one.mesh.polygons)]
+    assert [obj.name for obj in shown] == ["Ball", "002", "003", "Cup.x", "Cup.y", "a.b.9"]
+    assert measurable_objects(bpy.context.view_layer) == sorted(shown, key=lambda obj: obj.name)
 
 
 def test_the_metaball_with_the_lowest_number_holds_its_familys_polygons():
@@ -256,12 +271,36 @@ def test_what_has_no_faces_is_refused_with_what_it_has():
     assert refused(letters, "lines_only_text")
     letters.data.body = " "
     assert refused(letters, "empty_text")
+    wire = circle_without_fill()
+    wire.modifiers.new("Array", "ARRAY")
+    assert refused(wire, "only_loose_geometry")
+    hidden = link("Hidden", mesh("Nothing", [], []))
+    hidden.show_instancer_for_viewport = False  # of which it is none
+    assert refused(hidden, "no_geometry")
     cloud = link("Cloud", bpy.data.pointclouds.new("Cloud"))
     strands = link("Strands", bpy.data.hair_curves.new("Strands"))
     volume = link("Volume", bpy.data.volumes.new("Volume"))
     for obj in (cloud, strands, volume):
         assert refused(obj, "only_without_surface" if obj == volume else "no_surface")
         assert measurable(obj) == (obj == volume)  # as a grid of densities
+
+
+def circle_without_fill():
+    bpy.ops.curve.primitive_bezier_circle_add()
+    return bpy.context.object
+
+
+def test_a_curve_may_show_a_surface_once_it_is_thick_or_modified():
+    obj, profile = circle_without_fill(), circle_without_fill()
+    for name in ("extrude", "bevel_depth"):
+        for value in (0.1, 0.0):
+            setattr(obj.data, name, value)
+            assert measurable(obj) == (value > 0.0)
+    for mode, shape in (("OBJECT", None), ("OBJECT", profile), ("ROUND", profile)):
+        obj.data.bevel_mode, obj.data.bevel_object = mode, shape
+        assert measurable(obj) == (mode == "OBJECT" and shape is not None)
+    obj.modifiers.new("Array", "ARRAY")
+    assert measurable(obj)
 
 
 def test_a_point_cloud_with_a_surface_from_nodes_is_read():
@@ -334,8 +373,9 @@ def test_an_object_in_a_collection_disabled_in_viewports_is_refused():
     home, inner = collection("Home"), collection("Inner", False)
     home.children.link(inner)
     obj = doubled("Body", inner)
-    home.hide_viewport = True
-    assert refused(obj, "collection_disabled", collection="Home")
+    for one in (home, inner):  # of both the outermost is named
+        one.hide_viewport = True
+        assert refused(obj, "collection_disabled", collection="Home")
 
 
 def test_an_object_whose_collections_are_hidden_for_different_reasons_is_said_to_be():
@@ -346,6 +386,11 @@ def test_an_object_whose_collections_are_hidden_for_different_reasons_is_said_to
     assert said(read(obj))["hidden_object_measured"]["cause"] == hidden("Other")
     layer_of(other).hide_viewport, other.hide_viewport = False, True
     assert refused(obj, "collection_disabled", collection="Other")
+    third = collection("Third")
+    third.objects.link(obj)
+    layer_of(third).hide_viewport = True
+    assert said(read(obj))["hidden_object_measured"]["cause"] == hidden("Third")
+    third.objects.unlink(obj)
     layer_of(home).exclude = False
     assert "hidden_object_measured" not in said(read(obj))
 
@@ -465,6 +510,7 @@ def test_members_of_an_instanced_collection_that_only_the_viewport_or_the_render
     assert read(obj).findings == []
     off, cutter, unused = cube("Off", members), cube("Cutter", members), cube("Unused", members)
     cube("Spare", inner)
+    metaball("Ball", 9.0, members).hide_viewport = True  # which no instance shows
     lamp = link("Lamp", bpy.data.lights.new("Lamp", "SUN"), members)
     for one in (off, lamp, unused):
         one.hide_viewport = True
@@ -606,6 +652,13 @@ def test_linked_objects_and_collections_are_read(tmp_path):
     instancer.instance_type, instancer.instance_collection = "COLLECTION", linked
     assert len(read(instancer).parts[0].surface.quads) == 12
     assert len(measurable_objects(bpy.context.view_layer)) == 3
+    earlier = str(tmp_path / "a library.blend")
+    shutil.copyfile(path, earlier)
+    with bpy.data.libraries.load(earlier, link=True) as (_there, here):
+        here.collections = ["Library"]
+    bpy.context.scene.collection.children.link(here.collections[0])
+    own = bpy.data.objects["Linked", None]
+    assert measurable_objects(bpy.context.view_layer) == [instancer, own, *here.collections[0].objects, obj]
 
 
 @pytest.mark.parametrize("mode", ["SCULPT", "VERTEX_PAINT", "WEIGHT_PAINT", "TEXTURE_PAINT", "EDIT", "OBJECT"])
@@ -620,6 +673,8 @@ def test_reading_keeps_mode_selection_and_active_object(mode):
     assert bpy.context.view_layer.objects.active == obj
     assert bpy.context.selected_objects == [obj]
     assert ("sculpt_mode_modifiers" in said(reading)) == (mode == "SCULPT")
+    obj.modifiers.clear()
+    assert "sculpt_mode_modifiers" not in said(read(obj))
 
 
 def test_dynamic_topology_is_refused_as_its_mesh_cannot_be_seen():
@@ -674,15 +729,19 @@ def test_edit_mode_reads_the_shape_keys_that_it_shows(blended, edited, half, exp
     obj.active_shape_key_index, obj.use_shape_key_edit_mode = edited, blended
     activate(obj)
     bpy.ops.object.mode_set(mode="EDIT")
+    other = link("Other", obj.data)
     reading = read(obj)
     assert reading.parts[0].surface.box[1].tolist() == [half] * 3
-    assert expected in reading.findings
+    single = [] if blended else [expected]
+    assert reading.findings == [finding("edit_mode_shape_keys" if blended else "edit_mode_mesh"), *single]
+    assert "edit_mode_single_shape_key" not in said(read(other))  # which is not the one that is edited
 
 
 def test_a_curve_in_edit_mode_is_read():
     obj = bevelled()
     bpy.ops.object.mode_set(mode="EDIT")
     before = len(read(obj).parts[0].surface.points)
+    assert said(read(obj)).keys() == {"curves_drawn_as_polygons"}
     bpy.ops.curve.subdivide()
     assert len(read(obj).parts[0].surface.points) > before
 
@@ -707,10 +766,14 @@ def test_members_of_an_instanced_collection_are_listed_only_where_they_are_shown
     member = cube("Member", members)
     instancer = link("Instancer")
     instancer.instance_type, instancer.instance_collection = "COLLECTION", members
-    layer = bpy.context.view_layer
-    assert measurable_objects(layer) == [instancer, member]
+    aside = cube("Aside")
+    aside.hide_set(True)
+    layer, other = bpy.context.view_layer, bpy.context.scene.view_layers.new("Other")
+    assert measurable_objects(layer) == [aside, instancer, member]
     layer_of(members).hide_viewport = True
-    assert measurable_objects(layer) == [instancer]
+    assert measurable_objects(layer) == [aside, instancer]
+    assert measurable_objects(other) == [aside, instancer, member]
+    bpy.data.objects.remove(aside)
     layer_of(members).exclude = True
     assert measurable_objects(layer) == [instancer]
     assert len(read(member).parts) == 1
@@ -738,4 +801,18 @@ def test_the_resolution_of_an_ocean_is_said():
     (found,) = _render_differences(obj, bpy.context.scene)
     assert found.code == "render_levels_differ" and found.values == {"modifier": "Sea", "viewport": 3, "render": 5}
     modifier.resolution = 3
+    assert not [*_render_differences(obj, bpy.context.scene)]
+    obj.modifiers.clear()
+    modifier = obj.modifiers.new("Turned", "SCREW")
+    modifier.steps, modifier.render_steps = 5, 6
+    (found,) = _render_differences(obj, bpy.context.scene)
+    assert found.code == "render_levels_differ" and found.values == {"modifier": "Turned", "viewport": 5, "render": 6}
+
+
+def test_the_resolution_of_metaballs_in_the_render_is_said():
+    obj = metaball("Ball")
+    obj.data.resolution, obj.data.render_resolution = 0.4, 0.2
+    (found,) = _render_differences(obj, bpy.context.scene)
+    assert (found.code, found.values) == ("render_resolution_differs", {"viewport": 0.4, "render": 0.2})
+    obj.data.render_resolution = 0.4
     assert not [*_render_differences(obj, bpy.context.scene)]
