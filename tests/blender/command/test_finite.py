@@ -327,6 +327,8 @@ def test_the_vertices_of_an_fbx_of_text_are_looked_at(tmp_path, head):
             said(path, 1, "at_vertex", vertex=2)
     files.write_text(path, text + head + "0,nan,inf,1,0,0,0,1e999,0," + "7" * 45 + ",0,3" + after)
     said(path, 4, "at_vertex", vertex=0)
+    files.write_text(path, "Vertices: 0,0,0,nan,0,0")
+    said(path, 1, "at_vertex", vertex=1)
 
 
 def test_an_fbx_of_blender_is_looked_at(tmp_path):
