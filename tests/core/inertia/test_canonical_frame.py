@@ -108,6 +108,14 @@ def test_a_cube_turned_within_its_object_gets_its_own_axes():
     assert frame.symmetry == "isotropic" and frame.finding.code == "axes_all_free_by_shape"
 
 
+@pytest.mark.parametrize("noise", [1e-5, 1e-2, 0.2])
+def test_a_cube_has_its_own_axes_however_loosely_it_is_looked_at(noise):
+    turn = bodies.rotation(3)
+    found = equivalent_frames(moments(bodies.moved(bodies.box((-1, -1, -1), (1, 1, 1)), turn), 6), noise)
+    cosines = np.sort(np.abs(turn.T @ found.frames), axis=1)
+    assert len(found.frames) == 24 and np.abs(cosines - [[0], [0], [1]]).max() < 1e-10
+
+
 def test_an_octahedron_gets_the_axes_through_its_corners():
     turn = bodies.rotation(6)
     frame, _ = pose(bodies.moved(bodies.sphere(0), turn))

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from body_moments.core.inertia.mass_properties import MassProperties, are_physical, combine
 from body_moments.core.mesh.surface import Surface
-from body_moments.core.moments.moments import SECOND_MOMENT_INDEX, Measure, Moments, monomials, sum_moments
+from body_moments.core.moments.moments import SECOND_MOMENT_INDEX, Measure, Moments, U, monomials, sum_moments
 from body_moments.core.solid.measure_solid import measure_solid
 
 from tests.close import close
@@ -171,6 +171,19 @@ def test_bounds_are_what_the_worst_signs_make_to_first_order():
     )
     found = MassProperties.from_moments(Moments(raw, np.zeros(3), input_error=delta), density)
     assert close(list(found.input_error.values()), expected, rel=1e-6)
+
+
+@pytest.mark.parametrize("about", [(0.0, 0.0, 0.0), (7.0, -300.0, 0.5)])
+def test_of_exact_moments_bounds_are_units_of_rounding_of_what_is_added_up(about):
+    """One of the mass, two of the center's coordinates and six of what inertia is the difference of."""
+    raw, about = box((0.5, -1.0, 2.0), (1.5, 1.5, 4.0)).raw, np.array(about)
+    found = MassProperties.from_moments(Moments(raw, about), 3.0)
+    assert found.input_error == {"mass": 0.0, "center": 0.0, "inertia": 0.0}
+    shift = np.abs(raw[1:4]) / raw[0]
+    second = np.abs(raw[SECOND_MOMENT_INDEX]) + raw[0] * np.outer(shift, shift)
+    inertia = np.linalg.norm(second.trace() * np.eye(3) + second)
+    units = raw[0], 2.0 * np.linalg.norm(np.abs(about) + 2.0 * shift), 6.0 * inertia
+    assert close(list(found.rounding_error.values()), U * np.array([3.0, 1.0, 3.0]) * units, 1e-13)
 
 
 @pytest.mark.parametrize("share, bounded", [(0.499, True), (0.501, False)])
