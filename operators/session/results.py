@@ -150,7 +150,7 @@ def of_object(obj: Object, scene: Scene) -> properties.StoredProperties | None:
 
 def in_world(obj: Object, scene: Scene) -> properties.StoredProperties | None:
     """The same as `of_object`, in the world frame whatever the scene shows."""
-    if live.is_live(obj) or posed.stands_for_meshes(obj) or "body_mass" not in obj:
+    if live.is_live(obj) or posed.stands_for_meshes(obj):
         return _of_object(obj, scene, False)
     key = (updates.last_change(obj), properties.numbers(obj), _unit(scene))
     known = _worlds.get(obj)

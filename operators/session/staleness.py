@@ -246,8 +246,8 @@ def _has_new_geometry(obj: Object, mark: marks.Mark) -> bool:
 
 def _set_edited(obj: Object, mark: str, is_edited: bool) -> None:
     """Note that the geometry of what carries this mark has changed, or that it has not."""
-    noted = _edited.get(obj) or frozenset()
-    if is_edited != (mark in noted) or obj not in _edited:
+    noted = _edited_marks(obj)
+    if is_edited != (mark in noted):
         handlers.count_change()
         _edited[obj] = noted | {mark} if is_edited else noted - {mark}
 
@@ -297,7 +297,7 @@ def _varies(obj: Object) -> bool:
 
 
 def _note_all_edits() -> None:
-    for obj in bpy.data.objects if updates.count() else ():
+    for obj in bpy.data.objects if updates.count() else ():  # while the add-on is enabled Blender gives no data
         note_edits(obj)
 
 

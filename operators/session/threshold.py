@@ -84,8 +84,7 @@ def _current(obj: Object, scene: Scene | None) -> _CachedGrid | None:
     unit = shortest_decimal(scene.unit_settings.scale_length)
     if not same or unit != cached.unit or staleness.is_edited(obj):
         return None
-    usable = obj.body_moments.grid_as == "THRESHOLD" and obj.is_editable and obj.override_library is None
-    return cached if usable else None
+    return cached if obj.body_moments.grid_as == "THRESHOLD" else None
 
 
 def _store(obj: Object, scene: Scene, cached: _CachedGrid, grid: ThresholdGrid, preview: bool) -> bool:

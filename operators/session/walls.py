@@ -83,8 +83,6 @@ def on_wall_setting(settings: PropertyGroup, context: Context) -> None:
         or staleness.is_edited(obj)
         or settings.mass_from == "DENSITY"
         and settings.density_from != "VALUE"
-        or not obj.is_editable
-        or obj.override_library is not None
     ):
         return
     request = Request.of(obj, unit=cached.unit)

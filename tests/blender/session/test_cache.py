@@ -88,6 +88,7 @@ def remember():
     obj.data.vertices[0].co.x -= 1.0
     obj.data.update()
     bpy.context.view_layer.update()
+    assert staleness.is_edited(obj)
     results.remember_failure(obj, finding("no_faces"))
     assert {key for key, cache in caches().items() if not len(cache)} == set()
 
@@ -146,6 +147,43 @@ def test_a_subscriber_that_fails_keeps_no_other_from_being_called(monkeypatch):
     with pytest.raises(TypeError, match="planted"):
         handlers._on_load()
     assert called == ["fail", "last"] and handlers.generation() > before
+
+
+def test_every_change_is_counted_and_moves_are_told_from_all_others():
+    obj, scene = add(mesh_body()), bpy.context.scene
+    bpy.context.view_layer.update()
+
+    def edit():
+        obj.data.vertices[0].co.x -= 1.0
+        obj.data.update()
+        bpy.context.view_layer.update()
+
+    def move():
+        obj.location.x += 1.0
+        bpy.context.view_layer.update()
+
+    def make():
+        scene.collection.objects.link(bpy.data.objects.new("New", None))
+        bpy.context.view_layer.update()
+
+    renderer = SimpleNamespace(mode="RENDER", updates=())
+    for change, moved in (
+        (move, {obj.session_uid}),
+        (edit, None),
+        (move, {obj.session_uid}),
+        (make, None),
+        (lambda: handlers._on_frame(scene, bpy.context.view_layer.depsgraph), None),
+        (lambda: handlers._on_update(scene, renderer), None),
+        (lambda: handlers._on_update(scene), None),
+        (handlers._on_undo, None),
+        (handlers._on_load, None),
+        (handlers.count_change, None),
+        (move, {obj.session_uid}),
+    ):
+        before = handlers.generation()
+        change()
+        assert handlers.generation() > before and handlers.moved_since(before) == moved
+        assert handlers.moved_since(handlers.generation()) == (moved or set())
 
 
 def test_what_was_updated_is_passed_on_once_and_as_original_data(monkeypatch):

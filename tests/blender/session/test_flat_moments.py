@@ -273,3 +273,27 @@ def test_a_flat_shape_has_its_center_in_the_world_and_invariants_within_the_rang
         with pytest.raises(MeasureError) as refusal:
             moments_table.invariants(computed, "FLAT" if code == "invariants_order" else "VOLUME", order)
         assert refusal.value.finding.code == code
+
+
+@pytest.mark.parametrize(
+    ("about", "frame", "words"),
+    [
+        ("ORIGIN", "WORLD", "about the foot of the world frame's origin, in SI units"),
+        ("ORIGIN", "OBJECT", "about the foot of the object frame's origin, in SI units"),
+        ("CENTER", "WORLD", "about the centroid, in SI units"),
+        ("REFERENCE", "WORLD", "about the foot of the reference's origin, in SI units"),
+        ("NORMALIZED", "WORLD", "central, of the shape scaled to an area of 1"),
+        ("INVARIANT", "WORLD", "invariants of the flat shape, from central moments, scaled to an area of 1"),
+    ],
+)
+def test_the_comment_says_about_what_the_moments_of_a_flat_shape_are(about, frame, words):
+    from body_moments.operators.session import moments as moments_table
+
+    obj = sheet(L_SHAPE)
+    only(obj)
+    obj.name = "A, B"
+    compute(3)
+    computed = moments_table.computed_moments(obj)
+    reference = moments_table.reference_of(obj, computed, bpy.context.scene) if about == "REFERENCE" else None
+    comment = moments_table.as_csv(computed, "FLAT", about, frame, reference).splitlines()[0]
+    assert comment.startswith("# A  B: ") and comment.endswith(words) and "," in comment

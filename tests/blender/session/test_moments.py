@@ -329,3 +329,61 @@ def test_the_comment_of_normalized_moments_names_their_scale(box, of, words):
     compute()
     text = moments_table.as_csv(moments_table.computed_moments(box), of, "NORMALIZED", "OBJECT")
     assert words in text.splitlines()[0]
+
+
+@pytest.mark.parametrize(
+    ("of", "about", "frame", "words"),
+    [
+        ("VOLUME", "ORIGIN", "WORLD", "volume moments, world frame, about the frame's origin, in SI units"),
+        ("SURFACE", "CENTER", "OBJECT", "surface moments, object frame, about the center, in SI units"),
+        ("MASS", "REFERENCE", "WORLD", "mass moments, reference frame, about its origin, in SI units"),
+        (
+            "SURFACE",
+            "NORMALIZED",
+            "WORLD",
+            "surface moments, world frame, central, of the body scaled to a surface of 1",
+        ),
+    ],
+)
+def test_the_comment_says_what_the_moments_are_of_in_one_cell(box, of, about, frame, words):
+    from body_moments.operators.session import moments as moments_table
+
+    box.name = "Left, upper; new"
+    compute(2)
+    computed = moments_table.computed_moments(box)
+    reference = moments_table.reference_of(box, computed, bpy.context.scene) if about == "REFERENCE" else None
+    text = moments_table.as_csv(computed, of, about, frame, reference)
+    assert text.splitlines()[0] == "# Left  upper  new: " + words
+    rows = list(csv.DictReader(text.splitlines()[1:]))
+    assert [(row["p"], row["q"], row["r"]) for row in rows[:5]] == [
+        *(("0", "0", "0"), ("1", "0", "0"), ("0", "1", "0"), ("0", "0", "1"), ("2", "0", "0"))
+    ]
+
+
+@pytest.mark.parametrize("frame", ["WORLD", "OBJECT"])
+def test_normalized_moments_of_a_mass_are_those_of_a_unit_mass_with_unit_radius_of_gyration(box, frame):
+    from body_moments.operators.session import moments as moments_table
+
+    box.body_moments.density = 2500.0
+    compute(2)
+    found = moments_table.in_frame(moments_table.computed_moments(box), "MASS", "NORMALIZED", frame, 2)
+    size = np.array((1.0, 2.0, 3.0) if frame == "OBJECT" else (2.0, 1.0, 3.0))
+    second = [found[2, 0, 0], found[0, 2, 0], found[0, 0, 2]]
+    assert close(found[0, 0, 0], 1.0, 1e-12) and close(second, size**2 / (size @ size), 1e-6)
+    assert np.abs([found[1, 0, 0], found[0, 1, 0], found[0, 0, 1], found[1, 1, 0]]).max() < 1e-6
+
+
+def test_what_is_next_to_nothing_beside_others_of_its_degree_or_its_bound_is_shown_as_zero(box):
+    from body_moments.operators.session import moments as moments_table
+
+    compute(1)
+    computed = moments_table.computed_moments(box)
+    settings(moments_of="VOLUME", moments_about="ORIGIN", frame="WORLD")
+    for least, bounds, zeros in ((1e-13, 0.0, [3]), (1e-11, 0.0, []), (1e-11, 1e-10, [3]), (1e-13, 2.0, [1, 2, 3])):
+        raw, rounding = np.array([1e20, 1.0, -1.0, least]), np.array([0.0, bounds, bounds, bounds])
+        volume = replace(computed.volume, raw=raw, about=np.zeros(3), rounding_error=rounding)
+        moments_table.cache_moments(box, replace(computed, volume=volume))
+        degrees, missing = moments_table.current_numbers(box, bpy.context.scene)
+        texts = [text for degree in degrees for _, text, _ in degree.rows]
+        assert missing is None and [place for place, text in enumerate(texts) if text == "0"] == zeros
+        assert [float(exact) for degree in degrees for _, _, exact in degree.rows] == raw.tolist()

@@ -5,6 +5,8 @@
 import bpy
 import numpy as np
 import pytest
+from body_moments.core.statics.mixes import sample_count
+from body_moments.core.verdict.finding import MeasureError
 from body_moments.operators.session import motion
 
 from tests.blender.findings import refused
@@ -71,21 +73,55 @@ def found(followed, obj):
     return followed.mass_and_center(obj, bpy.context.evaluated_depsgraph_get())
 
 
-@pytest.mark.parametrize("frames", [2, 200])
+@pytest.mark.parametrize("frames", [sample_count(2) - 1, sample_count(2)])
 @pytest.mark.parametrize("given", [False, True])
 def test_a_mix_is_sampled_where_that_is_less_work_and_always_what_measuring_gives(frames, given):
     obj = keyed()
     bpy.context.scene.unit_settings.scale_length = 0.1
     if given:
         obj.body_moments.mass_from, obj.body_moments.mass = "MASS", 7.5
+    keys = obj.data.shape_keys.key_blocks
+    keys["Second"].relative_key = keys["First"]
     followed = motion.Motion(frames)
-    for value in (0.0, 0.5, 1.0):
+    for value in (0.0, 0.25, 0.5):  # of more, quads are no longer cut as they were
         obj.data.shape_keys.key_blocks["Second"].value = value
         mass, center = found(followed, obj)
         truth = measured(obj).mass_properties
         assert mass == pytest.approx(truth.mass, rel=1e-6)
         assert center == pytest.approx(np.array(truth.center) / np.float32(0.1), rel=1e-6)
-        assert (followed._followed[obj].mixes is not None) == (frames == 200)
+        assert (followed._followed[obj].mixes is not None) == (frames == sample_count(2))
+
+
+@pytest.mark.parametrize("given", [False, True])
+@pytest.mark.parametrize("kind", ["SOLID", "SHELL"])
+def test_what_only_moves_is_measured_once_and_a_shell_again_where_it_is_stretched(kind, given, monkeypatch):
+    obj, calls, measure_body = add(mesh_body(), location=(1, 2, 3)), [], motion.measure_body
+    bpy.context.scene.unit_settings.scale_length = 0.1
+    obj.body_moments.kind, obj.body_moments.thickness = kind, 0.01
+    if given:
+        obj.body_moments.mass_from, obj.body_moments.mass = "MASS", 7.5
+    monkeypatch.setattr(motion, "measure_body", lambda *them: calls.append(them) or measure_body(*them))
+    followed = motion.Motion(200)
+    for values, count in (
+        ({}, 1),
+        ({"location": (7, -8, 9), "rotation_euler": (0.5, 0.4, 0.3)}, 1),
+        ({"scale": (2, 2, 2)}, 1),
+        ({"scale": (1, 3, -0.5)}, 1 if kind == "SOLID" else 2),
+        ({"scale": (1, 1, 1)}, 1 if kind == "SOLID" else 3),
+    ):
+        for name, value in values.items():
+            setattr(obj, name, value)
+        mass, center = found(followed, obj)
+        assert len(calls) == count
+        truth = measured(obj).mass_properties
+        assert mass == pytest.approx(truth.mass, rel=1e-6)
+        assert center == pytest.approx(np.array(truth.center) / np.float32(0.1), rel=1e-6)
+    if kind == "SOLID":
+        obj.scale.x = 0.0
+        with pytest.raises(MeasureError):
+            found(followed, obj)
+        obj.scale.x = 1.0
+        assert found(followed, obj)[0] == pytest.approx(mass, rel=1e-6)
 
 
 def test_what_is_open_or_welded_is_no_mix():

@@ -1,14 +1,20 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Bounds of the errors of a sum of bodies, where the parts are few enough to tell the sum's by hand."""
+"""Several bodies as one, and the bounds of its errors where the parts are few enough to tell them by hand."""
 
 from types import SimpleNamespace
 
+import bpy
 import numpy as np
 import pytest
-from body_moments.operators.session import results
+from body_moments.core.inertia.mass_properties import combine
+from body_moments.operators.session import handlers, results
+from body_moments.operators.session.shown import shown_body
 from body_moments.operators.write.properties import BOUND_KEYS
 
+from tests.blender.bodies.test_assembly import box, collection
+from tests.blender.objects import add, measured, mesh_body, only, strip_mesh
+from tests.blender.session.test_live import armature_with
 from tests.close import close
 
 pytestmark = pytest.mark.usefixtures("registered")
@@ -45,3 +51,98 @@ def test_two_equal_bodies_that_may_weigh_more_or_less_are_off_by_that_times_how_
     least = 2.0 * share * mass * away**2
     grown = 2.0 * mass * (1.0 + share) * ((away + share * away) ** 2 - away**2)
     assert close(found[3], least + grown, 1e-9)
+
+
+def measure(*objects):
+    only(*objects)
+    assert bpy.ops.object.body_moments_measure() == {"FINISHED"}
+
+
+def total_of(*objects):
+    only(*objects)
+    handlers.count_change()
+    return results.total(bpy.context)
+
+
+def test_the_total_names_what_has_no_numbers_and_what_does_not_hold(scene):
+    bare = add(mesh_body(), "bare")
+    exact, edited, other = (
+        add(mesh_body(), name, (9 * i, 0, 0)) for i, name in enumerate(("exact", "edited", "other"))
+    )
+    doubtful = add(strip_mesh(), "doubtful")
+    other.body_moments.density = 3000.0
+    measure(exact, edited, other, doubtful)
+    edited.data.vertices[0].co.x -= 1.0
+    edited.data.update()
+    bpy.context.view_layer.update()
+    objects = bare, exact, edited, other, doubtful
+    found = total_of(*objects)
+    assert found.count == 4 and found.missing == ("bare",)
+    assert found.stale == ("edited",) and found.doubtful == ("doubtful",)
+    assert "doubtful" in repr([one.values for one in found.findings])
+    for name in ("volume", "area"):
+        assert close(getattr(found, name), sum(obj["body_" + name] for obj in objects[1:]), 1e-12)
+    assert close(found.body.mass, sum(obj["body_mass"] for obj in objects[1:]), 1e-12)
+    whole = total_of(exact, other).body
+    truth = combine([measured(obj).mass_moments for obj in (exact, other)])
+    assert close([whole.mass, *whole.center], [truth.mass, *truth.center], 1e-6)
+    assert np.abs(whole.inertia - truth.inertia).max() <= 1e-6 * truth.inertia.max()
+    exact["body_mass"] = 0.0
+    nothing = total_of(exact)
+    assert nothing.body is None and nothing.count == 1
+    assert shown_body(exact) is None
+
+
+def test_an_assembly_counts_where_nothing_that_it_holds_is_selected_with_it(scene):
+    root = add(None, "a root")
+    parts = [box(collection("Parts " + name), (1, 2, 3), (5 * i, 0, 0), name=name) for i, name in enumerate("bc")]
+    for part in parts:
+        part.parent = root
+    bpy.context.view_layer.update()
+    only(root)
+    assert bpy.ops.object.body_moments_measure_assembly(target="OBJECT") == {"FINISHED"}
+    other = add(mesh_body(), "d other")
+    measure(other)
+    each, rest = parts[0]["body_mass"], other["body_mass"]
+    for chosen, count, mass in (
+        ([root], 1, 2.0 * each),
+        ([root, other], 2, 2.0 * each + rest),
+        ([root, parts[1]], 1, each),
+        ([root, parts[1], other], 2, each + rest),
+        ([*parts, other], 3, 2.0 * each + rest),
+    ):
+        found = total_of(*chosen)
+        assert found.count == count and close(found.body.mass, mass, 1e-6)
+
+
+@pytest.mark.parametrize("unit", [1.0, 0.5])
+def test_an_armature_in_pose_mode_has_the_sum_of_those_meshes_that_have_numbers(unit, scene):
+    scene.unit_settings.scale_length = unit
+    meshes = [add(mesh_body(), name, (4 * i, 0, 0)) for i, name in enumerate("abc")]
+    meshes[1].body_moments.density = 3000.0
+    measure(*meshes[:2])
+    armature = armature_with(*meshes)
+    armature.location, armature.rotation_euler = (1, 2, 3), (0.3, 0.2, 0.1)
+    only(armature)
+    bpy.ops.object.mode_set(mode="POSE")
+    bpy.context.view_layer.update()
+    for density in (1000.0, 500.0):
+        meshes[0].body_moments.density = density
+        shown, parts = results.in_world(armature, scene), [results.in_world(mesh, scene) for mesh in meshes[:2]]
+        assert close(shown.volume, sum(part.volume for part in parts), 1e-12)
+        assert close(shown.area, sum(part.area for part in parts), 1e-12)
+        assert close(shown.body.mass, sum(part.body.mass for part in parts), 1e-12)
+        assert close(shown.density, shown.body.mass / shown.volume, 1e-12)
+    scene.body_moments.frame = "OBJECT"
+    own = results.of_object(armature, scene).body
+    place = np.array(armature.matrix_world, np.float64)
+    assert close(place[:3, :3] @ own.center + unit * place[:3, 3], shown.body.center, 1e-6)
+    truth = place[:3, :3].T @ shown.body.inertia @ place[:3, :3]
+    assert np.abs(own.inertia - truth).max() <= 1e-6 * truth.max()
+    for mesh in meshes[:2]:
+        mesh["body_volume"] = 0.0  # as of a shell without thickness
+    assert results.in_world(armature, scene).density == 0.0 and results.are_meshes_measured(armature, scene)
+    for mesh in meshes[:2]:
+        mesh["body_mass"] = 0.0
+    assert results.in_world(armature, scene) is None and not results.are_meshes_measured(armature, scene)
+    bpy.ops.object.mode_set(mode="OBJECT")

@@ -7,10 +7,14 @@ import pytest
 pytest.importorskip("bpy")
 import bpy
 import numpy as np
+from body_moments.core.verdict.finding import Finding
+from body_moments.core.verdict.method import Method, Verdict
 from body_moments.operators.session import staleness
-from body_moments.operators.session.shown import Trust, shown_body
+from body_moments.operators.session.shown import Trust, changes_alone, shown_body, shown_bone
+from body_moments.operators.session.trust import trust, trust_of
 from mathutils import Matrix
 
+from tests.blender.actions.rig.test_rig import character
 from tests.blender.objects import add, measured, mesh_body, only, strip_mesh
 from tests.close import close
 
@@ -59,3 +63,97 @@ def test_the_verdict_says_what_is_repaired_doubtful_and_out_of_date():
     exact.data.update()
     bpy.context.view_layer.update()
     assert shown_body(exact).verdict == Trust.OUT_OF_DATE and staleness.stale_reason(exact, bpy.context.scene)
+
+
+def test_what_was_out_of_date_while_it_was_scaled_is_not_once_it_is_as_it_was():
+    obj = add(mesh_body(), location=(1, 2, 3))
+    measure(obj)
+    for scale, verdict in ((2.0, Trust.OUT_OF_DATE), (1.0, Trust.EXACT), (3.0, Trust.OUT_OF_DATE), (1.0, Trust.EXACT)):
+        obj.scale.x = scale
+        bpy.context.view_layer.update()
+        assert shown_body(obj).verdict == verdict
+        obj.location.x += 1.0
+        bpy.context.view_layer.update()
+        assert shown_body(obj).verdict == verdict
+    assert_shown(obj)
+
+
+def test_a_scene_shows_an_object_in_its_own_units(scene):
+    obj, other = add(mesh_body(), location=(1, 2, 3)), bpy.data.scenes.new("Other")
+    other.unit_settings.scale_length = 0.5
+    measure(obj)
+    for asked, factor in ((other, 2.0), (scene, 1.0), (None, 1.0)):
+        shown = shown_body(obj, asked)
+        assert close(shown.gyration, factor * shown_body(obj, scene).gyration, 1e-9)
+        assert shown.verdict == (Trust.OUT_OF_DATE if asked == other else Trust.EXACT)
+
+
+def of_nodes(obj):
+    obj.modifiers.new("Nodes", "NODES")
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        of_nodes,
+        lambda obj: setattr(obj, "instance_type", "VERTS"),
+        lambda obj: setattr(obj.body_moments, "density_from", "MATERIALS"),
+        lambda obj: setattr(obj.body_moments, "density_from", "VOLUME"),
+        lambda _obj: bpy.ops.object.body_moments_live(),
+    ],
+)
+def test_a_mesh_that_may_show_or_follow_others_does_not_change_alone(change):
+    obj = add(mesh_body())
+    obj.modifiers.new("Cast", "CAST")
+    assert changes_alone(obj) and not changes_alone(add(None, "Empty"))
+    only(obj)
+    change(obj)
+    assert not changes_alone(obj)
+
+
+@pytest.mark.parametrize(
+    ("verdict", "codes", "wanted"),
+    [
+        (Verdict.EXACT, (), Trust.EXACT),
+        (Verdict.EXACT, ("density_default_kept",), Trust.EXACT),
+        (Verdict.CAPPED, (), Trust.REPAIRED),
+        (Verdict.REORIENTED, (), Trust.REPAIRED),
+        (Verdict.EXACT, ("vertices_welded",), Trust.REPAIRED),
+        (Verdict.EXACT, ("density_default_kept", "holes_capped"), Trust.REPAIRED),
+        (Verdict.CAPPED, ("holes_capped", "members_not_measured"), Trust.DOUBTFUL),
+        (Verdict.OPEN, (), Trust.DOUBTFUL),
+        (Verdict.OPEN, ("holes_capped",), Trust.DOUBTFUL),
+        (None, (), Trust.DOUBTFUL),
+    ],
+)
+def test_the_worst_of_how_it_was_measured_and_what_was_warned_of_counts(verdict, codes, wanted):
+    method = None if verdict is None else Method(verdict)
+    assert trust_of(method, [Finding(code) for code in codes]) == wanted
+
+
+def test_an_armature_that_deforms_nothing_is_not_to_be_trusted(scene):
+    armature = add(bpy.data.armatures.new("Rig"), "Rig")
+    bpy.ops.object.mode_set(mode="POSE")
+    assert trust(armature, scene) == Trust.DOUBTFUL
+    bpy.ops.object.mode_set(mode="OBJECT")
+
+
+@pytest.mark.parametrize("unit", [1.0, 0.5])
+def test_the_part_of_a_bone_is_shown_where_the_bone_is_in_any_unit(unit, scene):
+    scene.unit_settings.scale_length = unit
+    armature, _ = character()
+    assert shown_bone(armature.pose.bones["arm.L"], scene) is None
+    armature.location, armature.rotation_euler = (3, 2, 1), (0.1, 0.2, 0.3)
+    bpy.ops.object.body_moments_measure_bones()
+    bpy.context.view_layer.update()
+    bone = armature.pose.bones["arm.L"]
+    shown, place = shown_bone(bone, scene), np.array(armature.matrix_world @ bone.matrix, np.float64)
+    own = np.array(bone["body_center_of_mass"].to_list()) / unit
+    assert np.abs(shown.center - (place[:3, :3] @ own + place[:3, 3])).max() < 1e-5
+    moments = np.array(bone["body_principal_moments"].to_list())
+    assert close(shown.mass, bone["body_mass"], 1e-12) and shown.verdict == Trust.EXACT
+    assert close(shown.mass * (unit * shown.gyration) ** 2, moments, 1e-9)
+    assert np.abs(shown.axes.T @ shown.axes - np.eye(3)).max() < 1e-6
+    armature.data.bones["arm.L"].use_deform = False
+    bpy.context.view_layer.update()
+    assert shown_bone(armature.pose.bones["arm.L"], scene).verdict == Trust.OUT_OF_DATE

@@ -89,6 +89,9 @@ def test_how_it_stands_is_of_the_place_the_scene_and_the_numbers_of_now(scene):
         update()
         handlers.count_change()
         assert close(stability.support(obj, scene).margin, margin, 1e-5)
+    other = bpy.data.scenes.new("Other")
+    for asked, margin in ((other, 2.0), (scene, 1.0), (None, 1.0), (other, 2.0)):
+        assert close(stability.support(obj, asked).margin, margin, 1e-5)
     generation = handlers.generation()
     stability.forget(obj)
     assert not stability.is_known(obj) and stability.support(obj) is None and handlers.generation() > generation
@@ -114,6 +117,33 @@ def test_an_update_that_shows_the_same_shape_is_no_edit(monkeypatch):
     obj.data.update_tag()
     update()
     assert stability.is_stale(obj) and len(digests) == 3
+
+
+def test_what_has_no_numbers_any_more_stands_nowhere(scene):
+    obj = add(box((4.0, 2.0, 6.0)))
+    bpy.ops.object.body_moments_stability()
+    update()
+    assert stability.support(obj).stands and stability.poses(obj) is not None
+    del obj["body_mass"]
+    handlers.count_change()
+    assert stability.support(obj) is None and stability.poses(obj) is None and stability.is_known(obj)
+
+
+def test_of_what_shows_several_surfaces_or_is_flattened_it_is_not_known_where_the_faults_are():
+    flat = add(boxes(2.0, reverse=[0]), "Flat", scale=(1, 1, 0))
+    flat.body_moments.kind, flat.body_moments.thickness = "SHELL", 0.1
+    shown = bpy.data.collections.new("Shown")
+    bpy.context.scene.collection.children.link(shown)
+    members = [add(boxes(2.0, reverse=[0]), name, location=(9, y, 0)) for y, name in ((0, "a"), (5, "b"))]
+    empty = add(None, "Empty")
+    for member in members:
+        shown.objects.link(member)
+    empty.instance_type, empty.instance_collection = "COLLECTION", shown
+    only(flat, empty, *members)
+    update()
+    bpy.ops.object.body_moments_measure()
+    assert ["body_mass" in obj for obj in (flat, empty, *members)] == [True] * 4
+    assert [faults.of_object(obj) is not None for obj in (flat, empty, *members)] == [False, False, True, True]
 
 
 def test_faults_are_where_they_are_seen_also_of_what_shows_another_object():

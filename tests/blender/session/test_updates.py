@@ -6,7 +6,8 @@ import pytest
 
 pytest.importorskip("bpy")
 import bpy
-from body_moments.operators.session import handlers, staleness, updates
+from body_moments.operators.read import fingerprint
+from body_moments.operators.session import handlers, results, staleness, updates
 
 from tests.blender.objects import add, mesh_body, only
 
@@ -55,6 +56,32 @@ def test_frames_compare_nothing_and_what_they_changed_is_known_afterwards(monkey
     assert [reason(obj) for obj in (deformed, moved, still)] == ["stale_geometry", None, None]
     bpy.context.scene.frame_set(1)
     assert [reason(obj) for obj in (deformed, moved, still)] == [None, None, None]
+
+
+def test_a_setting_that_is_changed_with_the_frame_hides_no_edit(monkeypatch):
+    monkeypatch.setattr(fingerprint, "MAX_DIGESTED_FACES", 0)
+    deformed = deforming("Deformed")
+    measure(deformed)
+    for overlap, frame in (("UNION", 5), ("SIGNED", 6)):
+        deformed.body_moments.overlap = overlap
+        bpy.context.scene.frame_set(frame)
+    assert reason(deformed) == "stale_geometry"
+
+
+def test_a_move_that_undo_takes_back_is_an_update_of_the_object():
+    obj = add(mesh_body())
+    measure(obj)
+    bpy.ops.ed.undo_push(message="Measured")
+    before = results.in_world(obj, bpy.context.scene).body.center
+    obj.location.x += 5.0
+    bpy.context.view_layer.update()
+    bpy.ops.ed.undo_push(message="Moved")
+    assert abs(results.in_world(obj, bpy.context.scene).body.center[0] - before[0] - 5.0) < 1e-5
+    bpy.ops.ed.undo()
+    bpy.context.view_layer.update()
+    obj = bpy.data.objects["Body"]
+    assert updates.last_change(obj) == updates.count() and reason(obj) is None
+    assert abs(results.in_world(obj, bpy.context.scene).body.center - before).max() < 1e-6
 
 
 def test_an_object_made_between_frames_is_not_taken_for_another(monkeypatch):
