@@ -140,6 +140,36 @@ PATTERNS = [
         "the edges of components that share none, found once more, are the same",
     ),
     (
+        r".*nurbs/solid.py _compare_parts",
+        r"len\(parts\) == 1 or not solid\.any\(\)",
+        r"\(.*",
+        "one part alone, and parts without a volume, are in no other and cross none",
+    ),
+    (
+        r".*nurbs/(planar_region.py planar_region|patch_topology.py _cap_loop)",
+        r"np\.linalg\.svd\(.*, full_matrices=False\)",
+        r"\(np\.linalg\.svd\(((?!full).)*\)\)",
+        "what is not read",
+    ),
+    (
+        r".*nurbs/planar_region.py planar_region",
+        r"normal \* np\.sign\(normal\[leading\]\)",
+        r"\(normal / .*",
+        "times -1 is by -1",
+    ),
+    (
+        r".*nurbs/planar_region.py chords_cross",
+        r"MAX_CHORD_PAIRS // len\(a\)",
+        r"\(.* \* .*",
+        "how much is computed at a time",
+    ),
+    (
+        r".*solid/closedness.py integrate_and_prove",
+        r"min\(threads, .* > 1|.* // third_order\.MIN_TRIANGLES_PER_THREAD|len\(surface\.triangles\) \+ 2 \* .*",
+        r".*",
+        "whether the sums and the proof run side by side",
+    ),
+    (
         r".*solid/closedness.py integrate_and_prove",
         r"partial\(.*",
         r"\(partial\(polyhedron_moments, surface, area_order=3 if shell else 0, "
@@ -605,6 +635,12 @@ PATTERNS = [
         "nothing closed is capped",
     ),
     (
+        r".*mesh/surface_stack.py SurfaceStack.connections",
+        r"edges \+ count \* .*",
+        r"\(edges - count \* .*",
+        "the same place, counted from the end",
+    ),
+    (
         r".*canonical_frame.py _maximize_on_sphere",
         r"np.eye\(3\) - points.*",
         r"\(np.eye\(3\) \+ points.*",
@@ -621,6 +657,12 @@ PATTERNS = [
         r"first\.argsort\(axis=1\)",
         r"\(first\.argsort\(\)\)",
         "the last axis is the second",
+    ),
+    (
+        r".*mesh/surface_stack.py SurfaceStack.connections",
+        r"edges \+ count \* .*",
+        r"\(edges - count \* .*",
+        "the same place, counted from the end",
     ),
     (
         r".*canonical_frame.py _maximize_on_sphere",
@@ -698,6 +740,12 @@ PATTERNS = [
         "the order in which triangles are summed",
     ),
     (r".*density/threshold.py _Sums._add_batch", r"break", r"continue", "it goes on to no avail"),
+    (
+        r".*mesh/surface_stack.py SurfaceStack.connections",
+        r"edges \+ count \* .*",
+        r"\(edges - count \* .*",
+        "the same place, counted from the end",
+    ),
     (
         r".*canonical_frame.py _maximize_on_sphere",
         r"degree\*\*2",
@@ -946,6 +994,11 @@ CONSTANTS = [
     (r".*nurbs/patch_topology.py _coincident_sides", r"axis=1\)(\[arcs\])?, ", "more of them are compared"),
     (r".*nurbs/patch_topology.py _cap_loop", r"full_matrices=", "what is not read"),
     (r".*nurbs/solid.py assess", r"reach = size \+ ", "a looser bound"),
+    (r".*nurbs/solid.py _compare_parts", r"max\(spans, ", "where no parts are shared, it is not read"),
+    (r".*nurbs/planar_region.py planar_region", r"np\.zeros\(\(", "rows of zeros"),
+    (r".*nurbs/planar_region.py planar_region", r"full_matrices=", "what is not read"),
+    (r".*nurbs/planar_region.py chords_cross", r"for start in range\(", "the others are compared with it"),
+    (r".*nurbs/planar_region.py chords_cross", r"\[tolerance \* length\[1\]\] \* ", "a limit that is not read"),
     (r".*read/section.py _axes", r"matrix\[:, :", "the last column is no shorter than one"),
     (r".*nurbs/solid.py measure_sheet", r"area\.total or ", "what is divided is zero"),
     (r".*nurbs/patch_topology.py _pair_sides", r"part, odd, size = [^\[]*\[", "it is set before it is read"),
@@ -959,6 +1012,8 @@ CONSTANTS = [
     ),
     (r".*canonical_frame.py _extreme_directions", r"(noise = |max\()", "a looser bound"),
     (r".*density/voxel_fill.py inside_moments", r"volume, terms = 0\.0, ", "of no pieces nothing is summed"),
+    (r".*canonical_frame.py _maximize_on_sphere", r"<= max\(", "after so many steps all have arrived"),
+    (r".*mesh/welding.py may_have_neighbor", r"along = x \* DIRECTION\[", "a shorter direction, as good"),
     (r".*shared_search.py _frames_alike", r"STEP\), ", "of what is not searched for"),
 ]
 # functions that make bounds of errors, where a constant factor twice as large gives a bound still

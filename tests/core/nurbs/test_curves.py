@@ -11,7 +11,7 @@ from body_moments.core.inertia.mass_properties import MassProperties
 from body_moments.core.numerics.bspline import SplineSpace, clamped_space
 from body_moments.core.nurbs.curve import Curve
 from body_moments.core.nurbs.curve_moments import length_moments, plane_moments
-from body_moments.core.nurbs.planar_region import planar_region
+from body_moments.core.nurbs.planar_region import chords_cross, planar_region
 
 from tests.close import close
 from tests.core.exact_splines import ROUND, circle
@@ -139,6 +139,48 @@ def test_a_reversed_curve_is_the_same_run_backwards():
 def test_curves_that_bound_no_region_are_refused(curves, code):
     with refused(code):
         planar_region(curves)
+
+
+@pytest.mark.parametrize("share, is_one", [(0.97, True), (1.03, False)])
+@pytest.mark.parametrize(
+    "size, stored, far",
+    [(1.0, 0.0, 0.0), (2.0**-10, 0.0, 0.0), (2.0**10, 0.0, 0.0), (1.0, 1e-3, 0.0), (1.0, 0.0, 2.0**40)],
+)
+def test_an_outline_is_closed_and_flat_within_four_times_what_its_points_are_known_to(share, is_one, size, stored, far):
+    """A millionth of how far it reaches, what storing moved, and a rounding of where it is."""
+    limit = share * 4.0 * (1e-6 * size + stored + 2.0**-52 * far)
+    square = size * np.array([(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0), (-1, -1, 0)], float) + (far, 0.0, 0.0)
+    gaping, bent = square.copy(), square.copy()
+    gaping[-1, 1] += limit
+    bent[:, 2] += 0.75 * limit * np.array([1, -1, 1, -1, 1])  # the plane leans toward the corner that comes twice
+    for points, code in ((gaping, "curve_open"), (bent, "curves_not_coplanar")):
+        if is_one:
+            assert abs(plane_moments(*planar_region([polyline(points)], stored)).total / (4.0 * size**2) - 1.0) < 0.01
+        else:
+            with refused(code):
+                planar_region([polyline(points)], stored)
+
+
+@pytest.mark.parametrize("other", [1, 2])
+@pytest.mark.parametrize("lean, expected", [(1e-4, 1.0), (-1e-4, -1.0), (1e-7, 1.0), (-1e-7, 1.0)])
+def test_a_normal_points_up_where_it_does_so_by_more_than_a_millionth(lean, expected, other):
+    """Else along y, else along x: of a plane that leans toward y or z."""
+    flat = ring().points
+    along = np.eye(3)[3 - other]
+    across = np.eye(3)[other] - lean * np.eye(3)[0]
+    curve = Curve(ROUND, flat[:, :1] * along + flat[:, 1:2] * across, ring().weights)
+    _, normal = planar_region([curve])
+    assert close(normal[0], expected, 1e-6) and normal[other] * lean * expected > 0.0
+
+
+@pytest.mark.parametrize("share, crosses", [(0.9, False), (1.1, True)])
+@pytest.mark.parametrize("turn", range(3))
+def test_chords_cross_that_reach_over_each_other_by_more_than_the_tolerance(share, crosses, turn):
+    """However long they are: the tip of a small triangle over the side of a large one."""
+    large = np.array([(0.0, 0.0), (100.0, 0.0), (50.0, -50.0)])
+    small = np.array([(49.75, 0.5), (50.25, 0.5), (50.0, -share * 1e-3)])
+    for loops in ([large, np.roll(small, turn, axis=0)], [np.roll(small, turn, axis=0), large[::-1]]):
+        assert chords_cross(loops, 1e-3, touch=False) is crosses
 
 
 def test_lengths_follow_a_similarity_and_no_other_map():

@@ -21,6 +21,7 @@ from body_moments.core.solid import nesting
 from body_moments.core.verdict.finding import Finding
 from hypothesis import given
 
+from tests.close import close
 from tests.core.exact_splines import sphere, torus, tube
 from tests.core.findings import codes, only, refused
 from tests.core.strategies import holds, seeds
@@ -508,18 +509,21 @@ def shifts(each, step):
             yield matrix
 
 
+@pytest.mark.parametrize("size", [2.0**-10, 1.0, 2.0**10])
 @pytest.mark.parametrize("shape", ["flat", "curved"])
 @pytest.mark.parametrize(("width", "ending"), [(0.1, ""), (0.004, "_slightly")])
-def test_caps_that_change_less_than_a_ten_thousandth_have_a_code_of_their_own(shape, width, ending):
+def test_caps_that_change_less_than_a_ten_thousandth_have_a_code_of_their_own(shape, width, ending, size):
     ball = sphere()
     points = ball.points.copy()
     points[:, -1] += width * (points[:, 1] - [0.0, 0.0, -1.0])  # the pole becomes a hole
     if shape == "curved":
         points[:, -1, 2] += width * points[:, 1, 0] * points[:, 1, 1]
-    found = measure_patches([Patch(ball.spaces, points, ball.weights)])
+    found = measure_patches([Patch(ball.spaces, size * points, ball.weights)])
     finding = only(found)
     assert (found.method, finding.code) == ("capped", f"{shape}_patch_holes_capped{ending}")
     assert finding.values["count"] == 1 and 0.0 < finding.values["share"] == found.health.cap_area_share
+    if shape == "curved" and not ending:  # it goes as far out of its plane as its height differs
+        assert 0.0 < finding.values["out_of_plane"] < np.ptp(points[:, -1, 2]) / np.sqrt(12.0)
 
 
 def test_what_float32_has_moved_comes_near_its_bound():
@@ -572,3 +576,76 @@ def test_parts_that_are_too_many_to_compare_are_told(monkeypatch):
     monkeypatch.setattr(nesting, "MAX_COMPONENT_PAIRS", 0)
     found = measure_patches(parts)
     assert [one.values["count"] for one in found.findings if one.code == "overlap_unchecked"] == [3]
+
+
+@pytest.mark.parametrize("size", [2.0**-10, 1.0, 2.0**10])
+@pytest.mark.parametrize("depth", [1e-3, 0.05])
+def test_a_cavity_that_breaks_through_counts_as_it_is_given(depth, size):
+    """Of 0.8 by 0.8 by 0.9, which reaches so far out of a unit box."""
+    cavity = turned(box((0.8 * size, 0.8 * size, 0.9 * size), (0.1 * size, 0.1 * size, -depth * size)))
+    found = measure_patches([*box((size, size, size), (0.0, 0.0, 0.0)), *cavity])
+    finding = only(found)
+    assert (found.method, finding.code, finding.values["count"]) == ("exact", "cavities_break_through", 1)
+    assert close(finding.values["share"], depth / np.linalg.norm([1.0, 1.0, 1.0 + depth]), rel=1e-6)
+    assert close(found.volume.total, 0.424 * size**3, rel=1e-12) and found.health.cavities == 1
+
+
+@pytest.mark.parametrize("share, slight", [(0.99, True), (1.01, False)])
+@pytest.mark.parametrize("size", [2.0**-10, 1.0, 2.0**10])
+def test_patches_are_slight_by_their_boxes_and_what_they_belong_to(share, slight, size):
+    """Two groups with diagonals of 3 and 4, of a body of size 8."""
+    groups = [[flat([(0, 0, 0), (0, side * size, 0), (0, side * size, 0), (0, 0, 0)])] for side in (3.0, 4.0)]
+    volume = 2.0 * 25.0 * 8.0 * size**3 / (share * solid.NEGLIGIBLE)
+    assert solid._are_slight(groups, 8.0 * size, volume) is slight
+
+
+@pytest.mark.parametrize("each", [4, 5])
+def test_how_far_a_surface_may_be_from_chords_between_its_samples_leaves_out_bends_at_knots(each):
+    """Of parabolas z = 3 t² between knots, a quarter of 3 by the step's square; along the other axis it is straight."""
+    steps = np.arange(3 * each + 1) / each
+    span = np.minimum(np.floor(steps), 2.0)
+    height = 3.0 * (steps - span) ** 2 + 3.0 * span  # each begins where the one before ends
+    grid = np.stack(np.broadcast_arrays(steps[:, None], np.arange(4.0), height[:, None]), axis=-1)
+    assert close(solid._sagitta(grid, each), 0.75 / each**2, rel=1e-9)
+    assert solid._sagitta(grid.swapaxes(0, 1), each) < 1e-12
+
+
+def test_gaps_along_seams_are_in_the_bound():
+    """A box one of whose sides is lifted by a millionth of its size, within what counts as touching."""
+    patches, gap = box((1.0, 1.0, 1.0), (0.0, 0.0, 0.0)), 1e-6
+    lift = np.eye(4)
+    lift[2, 3] = gap
+    top = next(k for k, patch in enumerate(patches) if (patch.points[..., 2] == 1.0).all())
+    patches[top] = patches[top].transform(lift)
+    found = measure_patches(patches)
+    assert found.method == "exact" and close(found.volume.input_error[0], 4.0 * gap, rel=1e-6)
+    assert abs(found.volume.total - 1.0) <= found.volume.input_error[0]
+
+
+@pytest.mark.parametrize("stored", [0.1, 0.3])
+def test_bounds_reach_as_far_as_points_may_have_been_moved(stored):
+    """By so much each, from a box whose diagonal is no less than how far any of them is from its middle."""
+    patches = box((1.0, 2.0, 2.0), (0.0, 0.0, 0.0))
+    found = measure_patches(patches, area_order=2, stored=stored)
+    for moments in (found.volume, found.area):
+        reach = np.sqrt(moments.input_error[4] / moments.input_error[0])
+        assert 3.0 + stored <= reach <= 3.0 + 6.0 * stored
+
+
+def test_a_closed_part_beside_an_open_one_needs_no_more_volume_than_by_itself():
+    plate = box((1.0, 1.0, 9e-6), (5.0, 0.0, 0.0))
+    assert measure_patches(plate).method == "exact"
+    found = measure_patches([tube(), *plate])
+    assert codes(found) == ["flat_patch_holes_capped"] and found.signs.tolist() == [1.0] * 7
+
+
+def test_a_surface_without_area_has_no_share_of_caps():
+    found = measure_patches([flat([(0, 0, 0), (1, 0, 0), (1, 0, 0), (0, 0, 0)])])
+    assert codes(found) == ["flat_surface"] and found.health.cap_area_share == 0.0
+
+
+@pytest.mark.parametrize("name, code", [("area_moments", "area"), ("volume_moments", "volume")])
+def test_what_was_not_measured_to_its_tolerance_is_told(monkeypatch, name, code):
+    measured = getattr(solid, name)
+    monkeypatch.setattr(solid, name, lambda *given: (measured(*given)[0], False))
+    assert codes(measure_patches([sphere()])) == [code + "_error_estimate_large"]
