@@ -60,15 +60,16 @@ def thumbnail(
 def _draw(image: NDArray, corners: NDArray, normals: NDArray, areas: NDArray) -> None:
     """Points of the triangles, spread over their areas, the nearest in front; each is shaded by its normal."""
     chance = np.random.default_rng(0)
-    chosen = np.searchsorted(np.cumsum(areas), chance.random(_SAMPLES) * areas.sum()).clip(0, len(areas) - 1)
+    chosen = np.searchsorted(np.cumsum(areas), chance.random(_SAMPLES) * areas.sum())
+    chosen = np.minimum(chosen, len(areas) - 1)  # where the sums are rounded otherwise
     a, b = chance.random((2, _SAMPLES, 1))
     a, b = np.where(a + b > 1.0, 1.0 - a, a), np.where(a + b > 1.0, 1.0 - b, b)
     triangles = corners[chosen]
     spots = triangles[:, 0] + a * (triangles[:, 1] - triangles[:, 0]) + b * (triangles[:, 2] - triangles[:, 0])
     order = np.argsort(-spots[:, 2], kind="stable")  # the farthest first: the last one put at a pixel stays
-    light = np.abs(normals[chosen] @ (0.75, 0.75, -0.35)) / np.maximum(areas[chosen], 1e-300)
+    light = np.abs(normals[chosen] @ (0.75, 0.75, -0.35)) / areas[chosen]
     colors = np.empty((_SAMPLES, 4), np.uint8)
-    colors[:, :3] = _BODY * (0.35 + 0.65 * light[:, None].clip(0.0, 1.0))
+    colors[:, :3] = _BODY * (0.35 + 0.65 * np.minimum(light, 1.0)[:, None])
     colors[:, 3] = 255
     _put(image, spots[order], colors[order])
 

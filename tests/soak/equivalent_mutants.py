@@ -41,6 +41,12 @@ PATTERNS = [
         "indices of eight bytes",
     ),
     (
+        r".*write/thumbnail.py _draw",
+        r"np\.argsort\(.*, kind=.*\)",
+        r"\(np\.argsort\(((?!kind=).)*\)\)",
+        "which of two points that are as far away is in front",
+    ),
+    (
         r".*write/robots/repair.py with_principal_axes",
         r"axes \* \(1\.0, 1\.0, np\.sign\(np\.linalg\.det\(axes\)\)\)",
         r"\(axes / .*",

@@ -20,7 +20,7 @@ from body_moments.core.robots.stated import Description, StatedInertial, StatedL
 from body_moments.core.verdict.finding import finding
 from body_moments.operators.write import documents, text_report
 from body_moments.operators.write.html.report import to_html
-from body_moments.operators.write.robots import audit_report, formats, gltf, shapes, usd
+from body_moments.operators.write.robots import audit_report, formats, gltf, shapes, stl, usd
 from body_moments.operators.write.terminal import visible
 from body_moments.operators.write.thumbnail import SIZE, thumbnail
 
@@ -94,6 +94,20 @@ def test_a_robot_of_one_root_without_remarks(kept):
     whole = robot()
     one = Robot("One", whole.links[:2], whole.joints[:1])
     kept("robots_of_one_root.txt", "\n".join(formats.robot_text(one, name)[0] for name in formats.WRITERS))
+
+
+def test_the_meshes_of_a_robot_are_written_where_its_file_names_them(tmp_path):
+    """Of the links that have surfaces, and of these the shapes that are meshes."""
+    for _ in range(2):  # in place of those of before
+        written = stl.write_meshes(robot(), surface_of, tmp_path / "new")
+        assert written == finding("robot_meshes_written", count=1, folder=str(tmp_path / "new"))
+    (path,) = (one for one in tmp_path.rglob("*") if one.is_file())
+    data, surface = path.read_bytes(), surface_of("base")
+    assert path == tmp_path / "new" / "meshes" / "base.stl" and data[:80] == b"Body Moments".ljust(80, b"\0")
+    rows = np.frombuffer(data[84:], [("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("more", "<u2")])
+    assert len(rows) == int.from_bytes(data[80:84], "little") == 4
+    assert not rows["normal"].any() and not rows["more"].any()
+    assert (rows["corners"] == surface.points[surface.all_triangles()[0]]).all()
 
 
 def test_masses_over_another_layer_and_into_another_file(kept):
@@ -258,6 +272,30 @@ def test_the_axes_of_a_thumbnail_cross_at_the_center_of_mass():
         middles.append(((column.min() + column.max()) / 2.0, -(row.min() + row.max()) / 2.0))
     moved = np.subtract(middles[1:], middles[0])
     assert np.abs(moved - 0.8 * SIZE * np.diag([0.02, 0.03])).max() <= 1.0  # a pixel
+
+
+def test_axes_that_reach_beyond_a_thumbnail_end_at_its_edges():
+    right, up = np.array([0.8, -0.6, 0.0]), np.array([0.36, 0.48, 0.8])
+    point, nothing = np.array([1.0, 2.0, 3.0]), np.zeros((1, 3), int)
+    _, whole = picture(thumbnail(point[None], nothing, point, TURN))
+    wide = np.pad(whole, ((2 * SIZE, 2 * SIZE), (2 * SIZE, 2 * SIZE), (0, 0)))
+    for columns, rows in ((0, 60), (0, -60), (60, 0), (-60, 0), (50, -50), (200, 0)):
+        moved = (columns * right + rows * up) / (0.8 * SIZE)
+        _, pixels = picture(thumbnail(point[None], nothing, point + moved, TURN))
+        assert (pixels == wide[2 * SIZE + rows :, 2 * SIZE - columns :][:SIZE, :SIZE]).all(), (columns, rows)
+
+
+def test_a_triangle_in_a_thumbnail_is_the_darker_the_less_it_faces_the_light():
+    view = np.array([[0.8, -0.6, 0.0], [0.36, 0.48, 0.8], [0.48, 0.64, -0.6]])  # right, up, away from the eye
+    light, full = np.array([0.75, 0.75, -0.35]), np.array([205.0, 208.0, 214.0])
+    for normal in ((0.6, 0.0, -0.8), (0.75, 0.75, -0.35)):  # the second one is of full light
+        normal = np.array(normal) / np.linalg.norm(normal)
+        first = np.cross(normal, (0.0, 1.0, 0.0))
+        corners = np.array([np.zeros(3), first, np.cross(normal, first)]) @ view
+        _, pixels = picture(thumbnail(corners, np.arange(3)[None], corners[1], TURN))
+        shade = full * (0.35 + 0.65 * min(1.0, abs(normal @ light)))
+        colors, counts = np.unique(pixels[pixels[..., 3] > 0], axis=0, return_counts=True)
+        assert np.abs(colors[np.argmax(counts)] - np.array([*shade, 255.0])).max() <= 1.0
 
 
 def test_a_thumbnail(kept):
