@@ -136,7 +136,7 @@ def close_gaps(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     owner = np.concatenate([boundary[filled] // 3, folded.sides // 3])
     if len(caps):
         mesh = mesh.with_caps(caps, owner)
-    return mesh if filled.all() else mesh.with_state(uncapped_sides=boundary[~filled])
+    return mesh.with_state(uncapped_sides=boundary[~filled])
 
 
 def turn_faces(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:

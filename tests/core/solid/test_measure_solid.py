@@ -316,6 +316,20 @@ def test_what_is_flat_encloses_nothing(part, dtype):
     assert codes(result)[-1] == "flat_surface"
 
 
+@pytest.mark.parametrize("turned", [False, True])
+def test_a_plate_that_is_flat_but_for_rounding_is_not_called_inside_out(turned):
+    plate = CUBE[0] * [1.0, 1.0, 1e-15], CUBE[1]
+    result = verdict(inverted(plate) if turned else plate)
+    assert codes(result) == ["flat_surface"] and result.health.inverted_components == 0
+
+
+def test_a_closed_plate_beside_an_open_box_needs_no_more_volume_than_by_itself():
+    plate = moved(CUBE, np.diag([1.0, 1.0, 1e-7]), (5, 0, 0))
+    result = verdict(joined(without(CUBE, *TOP), plate))
+    assert codes(result) == ["holes_capped"] and result.health.components == 2
+    assert verdict(plate).method == "exact" and close(result.volume.total - 1.0, 1e-7, rel=1e-6)
+
+
 @pytest.mark.parametrize("spin", [None, 5])
 def test_a_tube_is_capped_at_both_ends(spin):
     n = 32

@@ -202,6 +202,8 @@ def test_faces_of_one_kind_without_edges_prove_themselves_closed(of):
         assert np.bincount(proven.component, minlength=1).tolist() == ([12, 12] if number == 2 else [0])
     turned = np.concatenate([faces[:1, ::-1], faces[1:]])
     assert prove_closed(Surface(CUBE[0], **{of: faces[1:]})) is prove_closed(Surface(CUBE[0], **{of: turned})) is None
+    of_polygons = {of[:-1] + "_faces": np.arange(len(faces))}
+    assert prove_closed(Surface(CUBE[0], **{of: faces}, **of_polygons)) is None
     mixed = Surface(CUBE[0], CUBE[1][:2], SIDES[1:])
     assert prove_closed(mixed) is None
 

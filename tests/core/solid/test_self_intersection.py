@@ -12,7 +12,22 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.close import close
-from tests.core.bodies import box, inverted, joined, moved, rotation, sphere, split, surface, torus, welded, without
+from tests.core.bodies import (
+    box,
+    grid,
+    inverted,
+    joined,
+    moebius,
+    moved,
+    ring,
+    rotation,
+    sphere,
+    split,
+    surface,
+    torus,
+    welded,
+    without,
+)
 from tests.core.findings import codes, only
 from tests.core.shapes import L_PRISM, STEPPED
 from tests.core.strategies import holds, seeds
@@ -194,6 +209,24 @@ def test_the_order_of_faces_and_points_changes_nothing():
     shuffled = Surface.from_triangles(points[order], number[triangles][rng.permutation(len(triangles))])
     first, second = (only(measure_solid(body)).values["share"] for body in (surface((points, triangles)), shuffled))
     assert close(first, second, rel=1e-12)
+
+
+@pytest.mark.parametrize("part", [grid(3), joined(moebius(), moved(box(), offset=(5, 5, 5)))], ids=["flat", "open"])
+def test_what_is_flat_or_open_is_not_looked_at(part):
+    assert measure_solid(surface(part)).health.self_intersection is Intersection.NOT_CHECKED
+
+
+def test_quads_are_looked_at_along_as_many_lines_as_their_triangles():
+    points, quads = ring(30, 20)
+    points[0] *= -1.5  # through the other side
+    cut = Surface(points, quads=quads)
+    first, second = (measure_solid(body) for body in (cut, Surface(points, cut.all_triangles()[0])))
+    assert first.health.self_intersection is second.health.self_intersection is Intersection.FOUND
+    shares = [
+        next(found.values["share"] for found in body.findings if found.code == "self_intersection")
+        for body in (first, second)
+    ]
+    assert close(shares[0], shares[1], rel=1e-9)
 
 
 def test_what_was_not_looked_at_is_a_note(monkeypatch):
