@@ -60,10 +60,7 @@ def text_curves(obj, depsgraph) -> list[Curve]:
     Raises ReadError where it has none.
     """
     try:
-        curves = [
-            _curve(spline.type, spline.use_cyclic_u, 4, False, False, _control_points(spline), None)
-            for spline in obj.to_curve(depsgraph).splines
-        ]
+        curves = [_curve(*_kind(spline), _control_points(spline), None) for spline in obj.to_curve(depsgraph).splines]
     finally:
         obj.to_curve_clear()
     known = [curve for curve in curves if curve is not None]
@@ -101,6 +98,10 @@ def _is_straight(spline) -> bool:
     return bool((beside <= STRAIGHT_RTOL * lengths.max(axis=1, keepdims=True) ** 2).all())
 
 
+def _kind(spline) -> tuple[str, bool, int, bool, bool]:
+    return spline.type, spline.use_cyclic_u, spline.order_u, spline.use_bezier_u, spline.use_endpoint_u
+
+
 def _control_points(spline) -> NDArray[np.float64]:
     """(n, 3) in the order in which Blender counts them; of a Bézier point both handles, around it."""
     if spline.type != "BEZIER":
@@ -114,18 +115,19 @@ def _control_points(spline) -> NDArray[np.float64]:
 def _spline_curves(evaluated, depsgraph) -> Iterator[Curve | None]:
     """Those of the splines, None for anything but a curve, as shape keys and hooks move them."""
     name, splines = evaluated.original.name, list(evaluated.data.splines)
+    if not splines:
+        return
     control_points = [_control_points(spline) for spline in splines]
-    points = np.concatenate(control_points) if control_points else np.zeros((0, 3))
+    points = np.concatenate(control_points)
     if is_deformed(evaluated):
         points = deform(evaluated, points, depsgraph)
     _require_finite(points, name)
     start = 0
     for spline, row in zip(splines, control_points):
-        kind = (spline.type, spline.use_cyclic_u, spline.order_u, spline.use_bezier_u, spline.use_endpoint_u)
-        weights = weighted_points(spline)[:, 3].astype(np.float64) if spline.type == "NURBS" else None
-        if spline.type == "NURBS" and not _has_known_knots(spline, _curve(*kind, row, weights)):
+        weights = weighted_points(spline)[:, 3].astype(np.float64)  # of a Bézier spline none, nor needed
+        if spline.type == "NURBS" and not _has_known_knots(spline, _curve(*_kind(spline), row, weights)):
             raise ReadError("unknown_knots", subject=name)
-        yield _curve(*kind, points[start : start + len(row)], weights)
+        yield _curve(*_kind(spline), points[start : start + len(row)], weights)
         start += len(row)
 
 
@@ -145,12 +147,14 @@ def _has_known_knots(spline, curve: Curve | None) -> bool:
 
 def _shown_curves(curves, name: str) -> Iterator[Curve | None]:
     """Those of a geometry set, None for anything but a curve."""
-    positions = _values(curves, "position", "vector", 3, 0.0)
-    left, right = (_values(curves, side, "vector", 3, 0.0) for side in ("handle_left", "handle_right"))
-    weights = _values(curves, "nurbs_weight", "value", 1, 1.0)[:, 0]
+    count = len(curves.points)
+    positions, left, right = (
+        _values(curves, attribute, "vector", (count, 3)) for attribute in ("position", "handle_left", "handle_right")
+    )
+    weights = _values(curves, "nurbs_weight", "value", (count, 1), 1.0)[:, 0]
     types, cyclic, orders, knots = (
-        _values(curves, attribute, "value", 1, default, len(curves.curves))[:, 0].astype(int).tolist()
-        for attribute, default in (("curve_type", 0), ("cyclic", 0), ("nurbs_order", 4), ("knots_mode", 0))
+        _values(curves, attribute, "value", (len(curves.curves), 1), *default)[:, 0].astype(int).tolist()
+        for attribute, *default in (("curve_type",), ("cyclic",), ("nurbs_order", 4.0), ("knots_mode",))
     )
     _require_finite(positions, name)
     for number, curve in enumerate(curves.curves):
@@ -182,18 +186,15 @@ def _catmull_rom(points: NDArray, cyclic: bool) -> NDArray[np.float64]:
     return (around[2:] - around[:-2]) / 6.0
 
 
-def _values(curves, name: str, item: str, width: int, default: float, count: int | None = None) -> NDArray[np.float64]:
-    """(n, width) an attribute of the points, or of `count` curves; the default where there is none."""
-    count = len(curves.points) if count is None else count
+def _values(curves, name: str, item: str, shape: tuple[int, int], default: float = 0.0) -> NDArray[np.float64]:
+    """An attribute of the points or the curves; the default where there is none."""
     if name not in curves.attributes:
-        return np.full((count, width), float(default))
+        return np.full(shape, default)
     attribute = curves.attributes[name]
-    values = np.empty(
-        count * width,
-        {"BOOLEAN": bool, "FLOAT": np.float32, "FLOAT_VECTOR": np.float32}.get(attribute.data_type, np.int32),
-    )
-    attribute.data.foreach_get(item, values)
-    return values.reshape(count, width).astype(np.float64)
+    kind = {"BOOLEAN": bool, "FLOAT": np.float32, "FLOAT_VECTOR": np.float32}.get(attribute.data_type, np.int32)
+    values = np.empty(shape, kind)
+    attribute.data.foreach_get(item, values.reshape(-1))
+    return values.astype(np.float64)
 
 
 def _require_finite(positions: NDArray, name: str) -> None:

@@ -78,7 +78,7 @@ def deform(evaluated, points: NDArray, depsgraph) -> NDArray[np.float64]:
     them; what other modifiers do is left out. ReadError where a hook cannot be followed."""
     points = np.asarray(points, np.float64)
     keys = evaluated.data.shape_keys
-    if keys is not None and evaluated.original.mode != "EDIT" and len(keys.key_blocks):
+    if keys is not None and evaluated.original.mode != "EDIT":
         points = _apply_shape_keys(evaluated, keys, points)
     for modifier in spline_modifiers(evaluated.original)[0]:
         if modifier.type == "HOOK":

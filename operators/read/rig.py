@@ -123,15 +123,14 @@ def vertex_weights(obj: Object, part: Part, bones: RestBones, depsgraph: Depsgra
     Vertices give their groups one by one only, in 0.3 s for 100,000.
     """
     number = {name: k for k, name in enumerate(bones.deforming)}
-    groups = [number.get(group.name, -1) for group in obj.vertex_groups]
+    groups = [number.get(group.name) for group in obj.vertex_groups]
     geometry = evaluated_geometry(obj, depsgraph, obj)  # it owns its mesh
     mesh = geometry.mesh
-    if part.source_object_name not in ("", obj.name) or mesh is None or len(mesh.vertices) != len(part.surface.points):
-        return VertexWeights(np.zeros(0, np.intp), np.zeros(0, np.intp), np.zeros(0))
+    is_own = part.source_object_name in ("", obj.name) and mesh is not None
     vertex, bone, weight = [], [], []
-    for index, one in enumerate(mesh.vertices):
+    for index, one in enumerate(mesh.vertices if is_own and len(mesh.vertices) == len(part.surface.points) else ()):
         for entry in one.groups:
-            if groups[entry.group] >= 0:
+            if groups[entry.group] is not None:
                 vertex.append(index)
                 bone.append(groups[entry.group])
                 weight.append(entry.weight)

@@ -165,7 +165,7 @@ def _outlines(obj, depsgraph, resolution: int | None) -> SectionReading:
         triangles = np.concatenate(fans)
         faces = np.arange(len(triangles))
         if filled is not None:
-            a, b, c = (filled.points.astype(np.float64)[filled.all_triangles()[0][:, i], :2] for i in range(3))
+            a, b, c = (filled.points.astype(np.float64)[filled.all_triangles()[0][:, i]] for i in range(3))
             ab, ac = b - a, c - a
             drawn = float(np.abs(ab[:, 0] * ac[:, 1] - ab[:, 1] * ac[:, 0]).sum() / 2.0 * np.sqrt(facing @ facing))
     _require_finite(obj, surface.points)
@@ -211,7 +211,7 @@ def _require_flat_outlines(obj) -> None:
 def _spline_outlines(obj, resolution: int | None) -> tuple[NDArray[np.float32], list[NDArray[np.intp]], int]:
     """(n, 3) the points of the object's splines, those of each closed one, and how many are open."""
     data = obj.data.copy()
-    data.fill_mode = "NONE"
+    data.dimensions, data.fill_mode = "2D", "NONE"
     if resolution is not None:
         for curved in (data, *data.splines):
             curved.resolution_u = resolution

@@ -156,7 +156,7 @@ def _accessor(document: dict, binary: bytes, index: int) -> NDArray:
     view = document["bufferViews"][accessor["bufferView"]]
     if document["buffers"][view.get("buffer", 0)].get("uri") or "sparse" in accessor:
         raise ValueError("buffers")
-    width = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}[accessor["type"]]
+    width = {"SCALAR": 1, "VEC3": 3}[accessor["type"]]
     item = np.dtype((_COMPONENTS[accessor["componentType"]], (width,)))
     stride = view.get("byteStride", item.itemsize)
     offset = view.get("byteOffset", 0) + accessor.get("byteOffset", 0)

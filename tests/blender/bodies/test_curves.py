@@ -3,15 +3,17 @@
 """Curve objects: wires, and the flat regions that closed ones bound, from control points."""
 
 import json
+from itertools import product
 from types import SimpleNamespace
 
 import bpy
 import numpy as np
 import pytest
 from body_moments.core.moments.moments import monomials
+from body_moments.core.nurbs.curve import Curve
 from body_moments.operators.bodies.measure_object import measure_body, measure_object
 from body_moments.operators.read import curves, measurable
-from body_moments.operators.read.deformation import FALLOFFS
+from body_moments.operators.read.deformation import FALLOFFS, spline_modifiers
 from body_moments.operators.settings.options import MeasureOptions
 from body_moments.operators.write.documents import to_json
 from body_moments.operators.write.record import record
@@ -78,14 +80,60 @@ def test_an_ellipse_is_not_a_scaled_length():
     assert measured(obj).length == pytest.approx(exact, rel=1e-8)
 
 
-def test_straight_splines_are_rods():
+@pytest.mark.parametrize("bevel", [0.0, 0.1])
+def test_straight_splines_are_rods(bevel):
     obj = poly([(0, 0, 0), (3, 0, 0), (3, 4, 0)])
-    obj.body_moments.kind = "WIRE"
+    obj.body_moments.kind, obj.data.bevel_depth = "WIRE", bevel
     rods = measured(obj)
     assert rods.length == pytest.approx(7.0)
     assert np.allclose(rods.mass_properties.center, [(1.5 * 3 + 3 * 4) / 7, 8 / 7, 0])
     obj.data.splines[0].use_cyclic_u = True
     assert measured(obj).length == pytest.approx(12.0)
+    for far in (5.0, 7.0):  # each spline has points of its own
+        spline = obj.data.splines.new("POLY")
+        spline.points.add(1)
+        spline.points.foreach_set("co", [far, 0, 0, 1, far, 0, 2, 1])
+    rods = measured(obj)
+    assert rods.length == pytest.approx(16.0) and rods.health.components == 3
+    assert np.allclose(rods.mass_properties.center, [48 / 16, 18 / 16, 4 / 16])
+
+
+FLAGS = list(product((False, True), repeat=3))  # cyclic, with knots of Bézier pieces, to its end points
+
+
+@pytest.mark.parametrize("kind", ["POLY", "BEZIER", "NURBS"])
+def test_splines_and_what_blender_shows_of_them_are_the_same_curves(kind):
+    """Several in one object, of every order and with all flags."""
+    rng = np.random.default_rng(5)
+    data = bpy.data.curves.new("Curves", "CURVE")
+    data.dimensions = "3D"
+    for number, (cyclic, bezier, endpoint) in enumerate(FLAGS):
+        spline = data.splines.new(kind)
+        points = spline.bezier_points if kind == "BEZIER" else spline.points
+        points.add(6 + number % 3)
+        for point in points:
+            if kind == "BEZIER":
+                point.handle_left, point.co, point.handle_right = rng.uniform(-1, 1, (3, 3))
+            else:
+                point.co = (*rng.uniform(-1, 1, 3), rng.uniform(0.5, 2))
+        spline.use_cyclic_u, spline.use_bezier_u, spline.use_endpoint_u = cyclic, bezier, endpoint
+        spline.order_u = 3 + number % 2
+    obj = add(data)
+    depsgraph = bpy.context.evaluated_depsgraph_get()
+    evaluated = obj.evaluated_get(depsgraph)
+    geometry = evaluated.evaluated_geometry()
+    one, other = (
+        list(curves._spline_curves(evaluated, depsgraph)),
+        list(curves._shown_curves(geometry.curves, obj.name)),
+    )
+    assert len(one) == len(FLAGS) and sum(curve is not None for curve in one) >= 6
+    for first, second in zip(one, other, strict=True):
+        assert (first is None) == (second is None)
+        if first is not None:
+            assert (first.space.knots, first.space.order) == (second.space.knots, second.space.order)
+            assert np.array_equal(first.points, second.points)
+            weights = [None if curve.weights is None else curve.weights.tolist() for curve in (first, second)]
+            assert weights[0] == weights[1] and (weights[0] is None) == (kind != "NURBS")
 
 
 @pytest.mark.parametrize("dimensions", ["2D", "3D"])
@@ -377,6 +425,13 @@ def test_points_that_are_nowhere_are_refused(bevel):
     obj.data.splines[0].points[1].co.y = float("nan")
     with refused("non_finite_control_points", obj.name):
         measured(obj)
+    round_one = circle("bezier")
+    round_one.body_moments.kind, round_one.data.bevel_depth = "WIRE", bevel
+    point = round_one.data.splines[0].bezier_points[1]
+    point.handle_left_type = point.handle_right_type = "FREE"
+    point.handle_right.z = float("nan")
+    with refused("non_finite_control_points", round_one.name):
+        measured(round_one)
 
 
 def hooked(obj, **settings):
@@ -412,6 +467,64 @@ def test_a_hook_of_a_bone_moves_as_the_bone_and_one_without_object_not_at_all():
     assert measured(obj).length == pytest.approx(35.0, rel=1e-6)
     modifier.vertex_indices_set([])
     assert measured(obj).length == pytest.approx(7.0, rel=1e-12)
+    modifier.vertex_indices_set([0, 1, 2, 3, 9])  # of points that there were once
+    assert measured(obj).length == pytest.approx(35.0, rel=1e-6)
+
+
+@pytest.mark.parametrize("radius", [2.5, 1.0, 0.0])
+@pytest.mark.parametrize("falloff", ["NONE", *FALLOFFS])
+def test_a_hook_pulls_a_bevelled_wire_as_blender_pulls_it(falloff, radius):
+    """By its strength, and less where it falls off: a radius of zero is none."""
+    obj = poly([(0.5, 0, 0), (1, 0, 0), (2, 1, 0), (3, 0, 0)])
+    obj.body_moments.kind = "WIRE"
+    target, modifier = hooked(obj, falloff_type=falloff, falloff_radius=radius, strength=0.6)
+    modifier.matrix_inverse, target.location, target.scale = Matrix(), (0.5, 1.0, 2.0), (3.0, 1.0, 1.0)
+    modifier.center = (0.25, 0.0, 0.0)
+    shown = measured(obj)
+    obj.data.bevel_depth = 0.01
+    found = measured(obj)
+    assert found.length == pytest.approx(shown.length, rel=1e-5)
+    assert np.abs(found.mass_properties.center - shown.mass_properties.center).max() < 1e-5
+
+
+def test_only_keys_that_have_a_value_move_a_wire():
+    obj = poly([(0, 0, 0), (3, 0, 0)])
+    obj.body_moments.kind, obj.data.bevel_depth = "WIRE", 0.1
+    obj.shape_key_add(name="Basis")
+    for name, x, value, mute in (("Muted", 9, 1.0, True), ("Without", np.nan, 0.0, False), ("Half", 5, 0.5, False)):
+        key = obj.shape_key_add(name=name)
+        key.data[1].co, key.value, key.mute = (x, 0, 0), value, mute
+    blocks = obj.data.shape_keys.key_blocks
+    blocks["Basis"].value, blocks["Basis"].relative_key = 1.0, blocks["Half"]
+    assert measured(obj).length == pytest.approx(4.0, rel=1e-6)
+    obj.show_only_shape_key, obj.active_shape_key_index = True, 3
+    assert measured(obj).length == pytest.approx(5.0, rel=1e-6)
+
+
+def modifier_names(obj):
+    return [[modifier.name for modifier in part] for part in spline_modifiers(obj)]
+
+
+def test_modifiers_move_control_points_up_to_the_first_one_that_makes_a_mesh():
+    obj = poly([(0, 0, 0), (3, 0, 0)])
+    for name, kind in (("Cast", "CAST"), ("Hook", "HOOK"), ("Wave", "WAVE")):
+        obj.modifiers.new(name, kind).show_in_editmode = True
+    assert modifier_names(obj) == [["Cast", "Hook"], ["Wave"]]
+    obj.modifiers["Wave"].use_apply_on_spline = True
+    assert modifier_names(obj) == [["Cast", "Hook", "Wave"], []]
+    obj.modifiers.new("Array", "ARRAY")
+    obj.modifiers.new("Late", "HOOK")
+    obj.modifiers.move(obj.modifiers.find("Late"), 4)
+    assert modifier_names(obj) == [["Cast", "Hook", "Wave"], ["Array", "Late"]]
+    for name in ("Hook", "Wave"):
+        obj.modifiers[name].show_viewport = False
+    assert modifier_names(obj) == [[], ["Cast", "Array", "Late"]]
+    obj.modifiers["Hook"].show_viewport, obj.modifiers["Hook"].show_in_editmode = True, False
+    assert modifier_names(obj) == [["Cast", "Hook"], ["Array", "Late"]]
+    bpy.ops.object.mode_set(mode="EDIT")
+    obj.modifiers["Cast"].show_in_editmode = True
+    assert "Hook" not in modifier_names(obj)[0] + modifier_names(obj)[1]
+    bpy.ops.object.mode_set(mode="OBJECT")
 
 
 @pytest.mark.parametrize("uniform", [False, True])
@@ -470,7 +583,10 @@ def test_knots_are_known_where_they_give_the_length_that_blender_has():
             curves.weighted_points(spline)[:, 3].astype(float),
         )
         length = spline.calc_length(resolution=curves.STEPS_PER_POINT)
-        for share, expected in ((0.0, True), (5e-5, True), (-5e-5, True), (5e-4, False), (-5e-4, False)):
+        for share, expected in (
+            *((0.0, True), (0.98e-4, True), (-0.98e-4, True), (1.05e-4, False), (-1.05e-4, False)),
+            *((5e-4, False), (-5e-4, False)),
+        ):
             asked = []
             other = SimpleNamespace(
                 points=spline.points,
@@ -482,6 +598,11 @@ def test_knots_are_known_where_they_give_the_length_that_blender_has():
             assert curves._has_known_knots(other, curve) is expected, (cyclic, share)
             assert asked == [curves.STEPS_PER_POINT]
     assert curves._has_known_knots(spline, None) is True
+    moved = Curve(curve.space, curve.points + (1e4, 0, 0), curve.weights)
+    for share, expected in ((9e-3, True), (-9e-3, True), (15e-3, False), (-15e-3, False)):
+        far = SimpleNamespace(points=spline.points, use_cyclic_u=False)
+        far.calc_length = lambda resolution, found=(1.0 + share) * length: found
+        assert curves._has_known_knots(far, moved) is expected  # of which float32 has fewer digits
 
 
 @pytest.mark.parametrize("bevel", [0.0, 0.1])
@@ -510,6 +631,27 @@ def test_curves_with_knots_of_their_own_are_refused():
     data.attributes["knots_mode"].data[0].value = curves.CUSTOM_KNOTS_MODE
     with refused("unknown_knots", "Hair"):
         list(curves._shown_curves(data, "Hair"))
+    data.attributes["curve_type"].data[0].value = curves.TYPES.index("POLY")
+    (found,) = curves._shown_curves(data, "Hair")
+    assert found.space.order == 2 and np.array_equal(found.points, points)
+
+
+def test_curves_of_which_nothing_is_said_go_through_their_points_and_are_open():
+    data = bpy.data.hair_curves.new("Hair")
+    data.add_curves([4, 3])
+    for attribute in ("curve_type", "cyclic", "nurbs_order", "knots_mode"):
+        assert attribute not in data.attributes
+    points = np.random.default_rng(3).uniform(-1, 1, (7, 3)).astype(np.float32)
+    data.attributes["position"].data.foreach_set("vector", points.ravel())
+    found = list(curves._shown_curves(data, "Hair"))
+    for curve, own in zip(found, (points[:4], points[4:]), strict=True):
+        assert curve.space.order == 4
+        assert np.abs(curve.evaluate(np.arange(float(len(own)))) - own).max() < 1e-6
+    data.attributes.new("curve_type", "INT8", "CURVE").data.foreach_set("value", [3, 3])
+    assert [curve and curve.space.knots for curve in curves._shown_curves(data, "Hair")] == [
+        curves.blender_space(4, 4, False, False, False).knots,
+        None,
+    ]
 
 
 def test_a_spline_whose_points_are_one_is_as_its_polygon():

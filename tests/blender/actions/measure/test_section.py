@@ -115,6 +115,7 @@ def test_a_turned_object_has_the_section_in_its_own_axes(data, rotation):
 @pytest.mark.parametrize("scale", [(2, 2, 2), (3, 0.5, 1), (-2, 1, 1), (2, 1, -5)])
 def test_scale_also_uneven_and_mirroring_is_measured(data, scale):
     section, _, _ = section_of(add(data(), scale=scale))
+    assert section.plane.axes[:, 2] == pytest.approx((0, 0, np.sign(scale[2])), abs=1e-15)  # as the object's z axis
     a, b = abs(scale[0]), abs(scale[1])
     assert close(section.area, I_AREA * a * b, rel=1e-13)
     assert close(section.second[:2], (I_X * a * b**3, I_Y * b * a**3), rel=1e-13)
@@ -129,8 +130,9 @@ def test_an_object_that_a_zero_scale_has_flattened_keeps_its_own_axes(data, heig
     assert section.plane.x_axis_name == "X"
 
 
-def test_a_sheared_object_is_measured_as_it_is_seen():
-    parent = add(None, "Parent", scale=(2, 1, 1))
+@pytest.mark.parametrize("height", [1.0, 1e-15])
+def test_a_sheared_object_is_measured_as_it_is_seen(height):
+    parent = add(None, "Parent", scale=(2, 1, height))
     obj = add(flat_mesh(square(0, 0, 2)), rotation=(0, 0, math.pi / 4))
     obj.parent = parent
     section, _, _ = section_of(obj)
@@ -265,6 +267,24 @@ def test_what_is_not_an_outline_any_more_is_refused(data, setting, code):
     obj = add(data())
     setattr(obj.data, setting, 0.1)
     assert refused(obj, code)
+    setattr(obj.data, setting, 0.0)
+    obj.data.bevel_object = add(curve_of(square(0, 0, 1)), "Profile")
+    obj.data.bevel_mode = "ROUND"
+    assert section_of(obj)[0].area > 0.0
+    obj.data.bevel_mode = "OBJECT"
+    assert refused(obj, "section_extruded")
+
+
+def test_a_text_of_three_dimensions_is_as_flat_as_others():
+    obj = add(text_of("A"))
+    area = section_of(obj)[0].area
+    obj.data.dimensions = "3D"
+    assert close(section_of(obj)[0].area, area, rel=1e-6)
+
+
+def test_an_outline_may_have_three_points():
+    section, _, _ = section_of(add(curve_of([(0, 0), (4, 0), (0, 3)], square(5, 5, 1))))
+    assert close(section.area, 7.0, rel=1e-14) and section.outlines == 2
 
 
 def test_curves_that_enclose_nothing_are_refused_and_open_splines_left_out():
@@ -292,7 +312,7 @@ def test_a_curve_that_is_not_filled_is_measured_and_said():
     curve = curve_of(square(0, 0, 3))
     curve.fill_mode = "NONE"
     section, _, findings = section_of(add(curve))
-    assert section.area == 9 and "section_not_filled" in said(findings)
+    assert section.area == 9 and said(findings) == {"section_not_filled": {}}
 
 
 def test_a_curve_in_edit_mode_is_measured_as_it_is_now():
@@ -356,6 +376,7 @@ def test_selected_faces_of_a_body_are_a_section_in_any_plane():
     assert section_of(obj)[0].plane.x_axis_name == "Y"  # the x axis stands upright on that side
     selected(obj, lambda face: abs(face.normal.z) > 0.9)
     assert refused(obj, "section_not_flat")
+    assert read_section(obj, bpy.context.evaluated_depsgraph_get()).description == "2 Selected Faces"
     selected(obj, lambda face: False)
     assert refused(obj, "section_no_selected_face")
     bpy.ops.object.mode_set(mode="OBJECT")
