@@ -302,8 +302,10 @@ def test_the_members_of_an_instanced_collection_that_is_excluded_are_in_the_inst
     empty.instance_type, empty.instance_collection = "COLLECTION", collection
     bpy.context.view_layer.layer_collection.children["Parts"].exclude = True
     found = document()
-    assert names(found) == [empty.name] and found["errors"] == []
+    assert names(found) == [empty.name] and found["errors"] == [] and found["left_out"] == []
     assert found["objects"][0]["center_of_mass"] == pytest.approx([5.0, 0.0, 0.0], abs=1e-12)
+    empty.instance_type = "NONE"  # which keeps the collection
+    assert left_out(document()) == {"member": sentence("not_rendered")}
 
 
 def test_a_linked_object_of_the_same_name_has_a_name_of_its_own(tmp_path):
