@@ -135,7 +135,6 @@ class OBJECT_OT_body_moments_rigid_bodies(Operator):
                 if obj.is_editable:
                     obj.body_moments.mass_from, obj.body_moments.density_from = "DENSITY", "VALUE"
                     obj.body_moments.density = self.density
-            context.view_layer.update()
         bodies = _bodies(objects) if self.compounds else [Body(obj) for obj in objects]
         measured: dict[Object, Measured] = {}
         by_obj = {body.obj: body for body in bodies}
@@ -146,7 +145,6 @@ class OBJECT_OT_body_moments_rigid_bodies(Operator):
             measured[obj] = _measured(context, by_obj[obj], ask)
 
         _, failures = selection.apply_to_all(list(by_obj), measure)
-        context.view_layer.update()
         # Blender reports a rigid body as a change of the shape, and again when results are stored on it
         with assembly.kept_up_to_date(context), tracking_paused():
             failures += self._place(context, measured)
@@ -323,7 +321,7 @@ def _calculated_masses(context: Context, measured: dict[Object, Measured]) -> di
     objects = [part for one in measured.values() for part in (one.body.obj, *one.body.members)]
     if not objects:
         return {}
-    with context.temp_override(object=objects[0], active_object=objects[0], selected_objects=objects):
+    with context.temp_override(object=objects[0], selected_objects=objects):
         bpy.ops.rigidbody.mass_calculate(material="Custom", density=PROBE_DENSITY)
     return {obj: obj.rigid_body.mass * one.density / PROBE_DENSITY for obj, one in measured.items()}
 

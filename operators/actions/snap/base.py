@@ -148,8 +148,6 @@ def remeasure(
     measured, fresh, shapes = [(obj, known[obj]) for obj in stored if obj in known], [], {}
     shapes.update((obj, outcome.shape_digest) for obj, outcome in measured if isinstance(outcome, Stacked))
     unknown = [obj for obj in stored if obj not in known]
-    if unknown:
-        context.view_layer.update()
     for together in measure_many(unknown, context.evaluated_depsgraph_get(), POSE):
         for obj, outcome in together:
             if isinstance(outcome, Exception):  # what is stored stays, and the panel shows that it is out of date

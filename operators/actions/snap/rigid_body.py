@@ -68,7 +68,6 @@ class OBJECT_OT_body_moments_set_rigid_body_mass(ModalSteps, Operator):
         self._objects = selection.selected_measurable(context)
         self._bodies: list[snapping.SnapTarget] = []
         self._failures: list[Finding] = []
-        context.view_layer.update()  # edits of before are noted as such
         target_in_turn = snapping.targets_in_turn(context, self._objects)
 
         def measure(obj: Object) -> None:

@@ -9,10 +9,14 @@ import pytest
 pytest.importorskip("bpy")
 import bpy
 import numpy as np
+from body_moments.core.mesh.surface import Surface
 from body_moments.operators.bodies.measure_object import measure_object
+from body_moments.operators.write.robots.stl import to_stl
 
+from tests.blender.actions.test_refusals import linked
 from tests.blender.objects import add, mesh_body, only
 from tests.close import close
+from tests.core.bodies import box as cube
 
 pytestmark = pytest.mark.usefixtures("scene")
 BOX = (
@@ -66,6 +70,37 @@ def test_a_rigid_box_carries_the_object_where_it_is():
     assert bpy.ops.object.body_moments_equal_inertia(rigid_body=True) == {"CANCELLED"}
 
 
+def test_an_object_of_a_library_gets_no_rigid_parent(reported):
+    obj = linked("Linked")
+    bpy.context.scene.collection.objects.link(obj)
+    only(obj)
+    assert bpy.ops.object.body_moments_equal_inertia(rigid_body=True) == {"CANCELLED"}
+    assert "primitive_has_parent" in reported.codes and [*bpy.data.objects] == [obj]
+    assert bpy.ops.object.body_moments_equal_inertia() == {"FINISHED"} and len(bpy.data.objects) == 2
+
+
+@pytest.mark.parametrize("where", ["relative", "absolute"])
+def test_meshes_of_other_folders_are_read_where_that_is_allowed(where, tmp_path):
+    for name in ("robot", "meshes"):
+        (tmp_path / name).mkdir()
+    mesh, path = tmp_path / "meshes" / "part.stl", tmp_path / "robot" / "r.urdf"
+    mesh.write_bytes(to_stl(Surface.from_triangles(*cube((-1, -1, -1), (1, 1, 1)))))
+    file = "part.stl" if where == "relative" else mesh.as_posix()
+    shape = '<mesh filename="{}"/>'.format(file)
+    path.write_text(BOX.format("5333.333333").replace('<box size="2 2 2"/>', shape), encoding="utf-8")
+
+    def is_read(**options):
+        assert bpy.ops.import_scene.body_moments_audit(filepath=str(path), **options) == {"FINISHED"}
+        text = bpy.data.texts[-1]
+        said = text.as_string()
+        bpy.data.texts.remove(text)
+        return "part.stl" not in said
+
+    assert not is_read()
+    assert is_read(root=str(mesh.parent))
+    assert is_read(allow_outside=True) == (where == "absolute")
+
+
 def test_the_audit_of_what_is_right_writes_no_copy(tmp_path, reported):
     path = tmp_path / "r.urdf"
     path.write_text(BOX.format("5333.3333333333333"), encoding="utf-8")
@@ -78,12 +113,15 @@ def test_the_audit_of_what_is_right_writes_no_copy(tmp_path, reported):
     assert reported.codes[-1] == "audit_not_written" and len(bpy.data.texts) == 1
 
 
-def test_the_audit_becomes_a_text_and_a_repaired_copy(tmp_path):
+def test_the_audit_becomes_a_text_and_a_repaired_copy(tmp_path, reported):
     path = tmp_path / "r.urdf"
     path.write_text(BOX.format("5333333"), encoding="utf-8")
     options = {"filepath": str(path), "write_copy": True, "write_page": True}
     assert bpy.ops.import_scene.body_moments_audit(**options) == {"FINISHED"}
+    assert reported.values("audit_done") == {"links": 1, "errors": 1, "warnings": 1, "notes": 0}
+    assert bpy.data.texts["Audit of r.urdf"].current_line_index == 0
     text = bpy.data.texts["Audit of r.urdf"].as_string()
+    assert "r_repaired.urdf" in text
     assert "Multiply the inertia by 0.001" in text and "Impossible" in text
     assert 'ixx="5333.333"' in (tmp_path / "r_repaired.urdf").read_text(encoding="utf-8")
     assert "audit_inertia_unit" in (tmp_path / "r.urdf.audit.html").read_text(encoding="utf-8")
