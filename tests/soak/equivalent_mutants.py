@@ -235,6 +235,12 @@ PATTERNS = [
         "each line, and each part on it, has a number of its own still",
     ),
     (r".*solid/nesting.py _interior_samples", r"k \* 0\.\d+", r"\(k / .*\)", "which places are tried"),
+    (
+        r".*solid/nesting.py classify_pairs",
+        r"components\.volume\[small\] \* .*",
+        r"\(components\.volume\[small\] / .*",
+        "a quotient of two volumes has the sign of their product",
+    ),
     (r".*offset/walls.py first_positive_root", r"16\.0", r"32\.0", "a looser bound"),
     (r".*offset/walls.py (_Prisms.swept|_propagate_error)", r"8\.0", r"16\.0", "a looser bound"),
     (
@@ -442,6 +448,12 @@ PATTERNS = [
         r"1\.0 / RAYS_PER_BLOCK|float\(\(high - low\)\.mean\(\)\) / .*|RAYS_PER_BLOCK / len\(edges\)",
         r".*",
         "of how many edges is looked at both sides",
+    ),
+    (
+        r".*plane/polygon.py _steep_side_windings",
+        r"PAIRS_PER_BLOCK // len\(edges\)",
+        r"\(PAIRS_PER_BLOCK \* .*",
+        "how much is computed at a time",
     ),
     (r".*plane/polygon.py _steep_side_windings", r"up > 0", r"\(up >= 0\)", "what is not crossed adds nothing"),
     (
@@ -708,6 +720,30 @@ PATTERNS = [
         "what a body's axes leave of its matrix is a symmetric stretch",
     ),
     (
+        r"operators/read/instances.py InstanceCollector._add_object",
+        r"not instanced and .*",
+        r"\(original\.instance_type == .*",
+        "an empty alone instances a collection, and it has no geometry that instances anything",
+    ),
+    (
+        r"operators/read/instances.py InstanceCollector._add_own_geometry",
+        r"original\.type == .* and evaluated not in .*",
+        r"\(original\.type == 'SURFACE'\)",
+        "what has been read is read once more",
+    ),
+    (
+        r"operators/read/instances.py InstanceCollector._edit_mode_surface",
+        r"evaluated\.to_mesh_clear\(\)",
+        r"pass",
+        "the copy is freed with the evaluated object",
+    ),
+    (
+        r"operators/read/section.py _outlines",
+        r"np\.cross\(.*\) \* np\.sign\(.*",
+        r"\(np\.cross\(.*\) / np\.sign\(.*",
+        "times a sign is by it",
+    ),
+    (
         r"operators/read/mesh.py _loop_triangles",
         r"SINGLE_ACCESS_COST \* len\(indices\) < len\(triangles\)",
         r"\(SINGLE_ACCESS_COST \* len\(indices\) (<=|>=) len\(triangles\)\)",
@@ -774,6 +810,18 @@ PATTERNS = [
 # places of constants, and what stands ahead of them in their line: the reason
 CONSTANTS = [
     (r".*", r"\breshape\(([^()]|\([^()]*\))*-", "numpy finds out a length from any negative number"),
+    (r"operators/read/section.py _outlines", r"np\.linalg\.det\(linear\) or ", "of which only the sign counts"),
+    (
+        r"operators/read/section.py _spline_outlines",
+        r"return np\.empty\(.*",
+        "where there are no outlines, nothing else is looked at",
+    ),
+    (
+        r"operators/read/curves.py _shown_curves",
+        r"\"nurbs_weight\", \"value\", \(count, 1\), ",
+        "weights that are all the same",
+    ),
+    (r"operators/read/curves.py _join_knots", r"yield (float\()?", "the outermost knots, which no curve depends on"),
     (r"operators/bodies/bare_file.py bare_reading", r"kind, np\.eye\(", "where no object is, its matrix is not read"),
     (r".*finite/numbers.py _large", r"ord\(\"0\"\)\) < ", "more is looked at closely, and found to be no number"),
     (r".*supervisor/lifeline.py end_with", r"ready\.poll\(", "a thousandth of a second is waited"),
@@ -794,15 +842,22 @@ CONSTANTS = [
     (r"operators/bodies/hull.py object_hull", r"len\(part\.matrices\) > ", "the hull of hulls is that of their points"),
     (
         r"operators/bodies/audit.py _ball",
-        r"turn = .*\(1\.0 \+ ",
+        r"(np\.arange\(2000\)|turn = .*\(1\.0) \+ ",
         "other points that are spread as well hold the ball too",
     ),
     (r"operators/read/sample_grid.py SampledGrid.__init__", r"sample\(low - ", "any place beyond the grid"),
+    (
+        r"operators/actions/snap/sculpt_balance.py _balance_mesh",
+        r"\* unit, part\.matrices\[0, :",
+        "points that are moved take three rows",
+    ),
     (
         r"operators/(read|scene|bodies|actions/snap)/.*",
         r"\bedges=",
         "read, and not looked at where nothing is to be proved closed",
     ),
+    (r".*", r"\.astype\(.*copy=", "a copy"),
+    (r"operators/bodies/stream.py StreamBody.moments", r"order if area else ", "of the area nothing is returned"),
     (r"operators/session/shown.py _shown_now", r"last is None or last\[", "what was found is found once more"),
     (r"operators/session/live.py _measure", r"norm\(matrix\[:", "the first three numbers of the last row are 0"),
     (r".*session/listing.py _listing", r"lines = \[", "each is written over"),
