@@ -41,6 +41,12 @@ PATTERNS = [
         "indices of eight bytes",
     ),
     (
+        r".*command/run.py Run.__post_init__",
+        r"MeasureOptions\(.*",
+        r"\(MeasureOptions\(((?!threads=).)*\)\)",
+        "with how many threads moments are summed, which are the same",
+    ),
+    (
         r".*write/thumbnail.py _draw",
         r"np\.argsort\(.*, kind=.*\)",
         r"\(np\.argsort\(((?!kind=).)*\)\)",
@@ -831,6 +837,9 @@ CONSTANTS = [
     (r".*write/thumbnail.py thumbnail", r"steps \+ \(right, up, ", "how deep an axis is, which is drawn over the body"),
     (r"panels/overlay/view.py View.pixels", r"== 0\.0, ", "where a point beside the eye is has no meaning"),
     (r".*write/whole_file.py whole_file", r"os\.O_WRONLY \|.*\"O_BINARY\", ", "the number of O_WRONLY, which is there"),
+    (r".*command/files.py _saved_by", r"(file|unpacked)\.read\(", "what is behind the version is not looked at"),
+    (r".*command/files.py check_file", r"max\((0, size - )?", "how much of the end is looked at"),
+    (r".*command/files.py _check_usdz", r"file\.read\((1 << )?", "how much is read at a time"),
     (r".*command/saving.py Place._save", r"file\.read\(", "what is behind the mark is not looked at"),
     (r".*supervisor/whole_run.py WholeRun.__init__", r"FileNotFoundError\(", "its text is told, not its number"),
     (

@@ -221,6 +221,7 @@ def test_boxes_in_boxes(parts, volume, moment, method, expected):
     "parts, volume, overlapping",
     [
         ([CUBE, box((0.5, 0, 0), (1.5, 1, 1))], 2.0, 2),
+        ([CUBE, box((0.3, 0.1, 0.1), (1.1, 0.9, 0.9))], 1.512, 2),
         ([box((-3, -1, -1), (3, 1, 1)), box((-1, -3, -0.9), (1, 3, 0.9))], 45.6, 2),
         ([CUBE, CUBE], 2.0, 2),
         ([CUBE, CUBE, box((5, 5, 5), (6, 6, 6))], 3.0, 2),
@@ -312,7 +313,7 @@ def test_a_one_sided_surface_is_open(part):
 )
 def test_what_is_flat_encloses_nothing(part, dtype):
     result = verdict(part, dtype)
-    assert result.method == "open" and not result.volume.raw.any()
+    assert result.method == "open" and not result.volume.raw.any() and result.health.cap_area_share == 0.0
     assert codes(result)[-1] == "flat_surface"
 
 
@@ -475,6 +476,7 @@ def test_the_verdict_does_not_depend_on_the_size(part, scale):
         plain, scaled = verdict(part, dtype), verdict((part[0] * scale, part[1]), dtype)
         assert scaled.method == plain.method and codes(scaled) == codes(plain)
         assert close(scaled.volume.total, plain.volume.total * scale**3, rel=1e-6)
+        assert close(scaled.health.cap_area_share, plain.health.cap_area_share, rel=1e-5)
         before, after = (replace(result.health, cap_area_share=0).as_record() for result in (plain, scaled))
         assert before == after
 

@@ -191,6 +191,7 @@ def test_work_that_would_take_too_long_is_left_and_said(monkeypatch):
         ("+++", "---", "-xx", "---"),
         ("+-+-", "----", "----", "-x-x"),
         ("-+-+", "xxxx", "----", "-x-x"),
+        ("-+++", "xx--", "---x", "-x--"),
     ],
 )
 def test_shells_in_shells_are_turned_where_no_material_surrounds_them(signs, turned, nested, cavities):
@@ -234,6 +235,16 @@ def test_caps_in_one_plane_do_not_pierce_each_other_however_thin_their_triangles
     body = measure_solid(Surface(points.astype(np.float32), triangles))
     assert (body.method, body.health.cavities, body.health.overlapping_components) == ("capped", 1, 0)
     assert close(body.volume.total, area, rel=1e-6)
+
+
+@pytest.mark.parametrize("scale", [1e-4, 1.0, 1e4])
+def test_a_copy_is_one_though_its_volume_is_rounded_otherwise(scale):
+    """Its triangles are added up in another order."""
+    points, triangles = moved(sphere(2), scale * rotation(2))
+    copies = [(points, np.random.default_rng(seed).permutation(triangles)) for seed in range(4)]
+    _, shells = shells_of(*copies)
+    assert len(set(shells.volume.tolist())) > 1
+    assert relation(*copies) == (set(), {(i, j) for j in range(4) for i in range(j)}, 0)
 
 
 def test_boxes_that_share_a_thin_slice_still_go_through_each_other():

@@ -106,8 +106,13 @@ def test_a_body_that_meets_itself_at_a_wall_is_closed():
     assert result.method == "exact" and close(result.volume.total, 8.0, rel=1e-12)
 
 
-@pytest.mark.parametrize("gap, reported", [(3e-17, False), (2e-8, False), (1e-6, True)])
-@pytest.mark.parametrize("scale", [1e-6, 1.0, 1e6])
+@pytest.mark.parametrize(
+    "gap, reported, scale",
+    [
+        *((gap, gap == 1e-6, scale) for gap in (3e-17, 2e-8, 5e-8, 1e-6) for scale in (1e-6, 1.0, 1e6)),
+        (1e-6, True, 1e40),  # beyond what float32 has numbers for
+    ],
+)
 def test_welding_what_float32_cannot_tell_apart_is_not_worth_a_word(gap, reported, scale):
     """Along the open edges of a box that has no top, and of the top."""
     top = box()[0], box()[1][2:4]
@@ -116,6 +121,8 @@ def test_welding_what_float32_cannot_tell_apart_is_not_worth_a_word(gap, reporte
     result = measure_solid(surface(part))
     assert result.method == "exact" and result.health.welded
     assert codes(result) == ["vertices_welded_slightly"] * reported
+    if reported:
+        assert close(only(result).values["share"], gap / 3.0**0.5, rel=1e-3)
 
 
 def test_every_wall_has_a_number_of_its_own():
