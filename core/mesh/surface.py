@@ -159,7 +159,7 @@ class Surface:
             points = points.astype(np.float64)
         if not indices_in_range(triangles, len(points)):
             raise ValueError("no such point")
-        return cls(points, triangles if triangles.dtype in (np.int32, np.int64) else triangles.astype(np.int64))
+        return cls(points, triangles)
 
     def all_triangles(self) -> tuple[NDArray[np.integer], NDArray[np.integer]]:
         """Return (m + 2q, 3) triangles with the quads cut as drawn, and the (m + 2q,) face of each."""

@@ -10,9 +10,12 @@ import pytest
 from body_moments.core.density.polynomial import Polynomial, parse_polynomial
 from body_moments.core.density.polynomial_mass import local_coordinates, polynomial_mass_of_images
 from body_moments.core.inertia.mass_properties import MassProperties
+from body_moments.core.mesh.surface import Surface
 from body_moments.core.mesh.winding import winding_number
 from body_moments.core.moments.images import sum_of_images
-from body_moments.core.moments.moments import Moments, U
+from body_moments.core.moments.moments import Moments, U, monomials
+from body_moments.core.moments.monomials import monomial_index
+from body_moments.core.polyhedron import polyhedron_moments
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
@@ -263,3 +266,25 @@ def test_the_winding_number_tells_inside_from_outside():
     assert winding_number(points, triangles, (0.5, 0.5, 0.0)) == pytest.approx(1.0, abs=1e-12)
     assert winding_number(points, triangles, (2.0, 2.0, 0.0)) == pytest.approx(0.0, abs=1e-12)  # in the notch
     assert winding_number(points, triangles[:, ::-1], (0.5, 0.5, 0.0)) == pytest.approx(-1.0, abs=1e-12)
+
+
+@pytest.mark.parametrize("scale", [1e-3, 1.0, 1e4])
+@pytest.mark.parametrize("uneven", [0.0, 4e-6])
+@pytest.mark.parametrize("way", [(0, 1, 0), (-1, 0, 1)])
+def test_what_a_slightly_uneven_map_does_to_each_face_of_a_sheet_is_within_the_bounds(way, uneven, scale):
+    """Some faces grow by more than others, which moments of all of them do not tell."""
+    surface = Surface.from_triangles(*bodies.without(bodies.box((-1, -1, -1), (1, 2, 0.5)), 3))
+    matrix = np.eye(4)
+    stretch = np.diag(1.0 + uneven * np.array(way))
+    matrix[:3, :3], matrix[:3, 3] = scale * bodies.rotation(2) @ stretch, scale * np.array([1.0, 2.0, 3.0])
+    area = polyhedron_moments(surface, area_order=4, allow_open=True)[1]
+    density = Polynomial({(0, 0, 0): Fraction(5), (0, 0, 1): Fraction(1) / Fraction(scale)})
+    found = polynomial_mass_of_images(area, density, np.array([matrix, matrix]))
+    image = surface.transform(matrix[:3, :3], matrix[:3, 3])
+    whole = polyhedron_moments(image, area_order=4, allow_open=True)[1].about_point(found.about)
+    raised = monomial_index(*(monomials(3) + [0, 0, 1]).T)
+    truth = 2.0 * ((5.0 + found.about[2] / scale) * whole.raw[:20] + whole.raw[raised] / scale)
+    size = truth[0] * (3.0 * scale) ** monomials(3).sum(axis=1)
+    off, bound = np.abs(found.raw - truth), found.rounding_error + found.input_error
+    assert (off <= bound + 1e-13 * size).all() and (bound <= (1e-12 + 10.0 * uneven) * size).all()
+    assert bound[0] > 0.5 * uneven * truth[0]

@@ -246,6 +246,19 @@ def test_boxes_that_share_an_edge_are_two_shells_and_boxes_with_a_common_wall_ar
     assert shell_number == 1
 
 
+@pytest.mark.parametrize("first", range(3))
+def test_a_box_that_closes_by_itself_is_a_shell_of_its_own_beside_two_that_share_a_wall(first):
+    """It shares an edge with one of them, and so do the wall and what is around it."""
+    three = [box(), box((1, 0, 0), (2, 1, 1)), box((-1, -1, 0), (0, 0, 1))]
+    corners, triangles = welded(joined(*three[first:], *three[:first]))
+    triangles = triangles[np.sort(np.unique(np.sort(triangles, axis=1), axis=0, return_index=True)[1])]
+    edges, part, number = parts_of(triangles)
+    shell, count = group_components(edges, part, number, np.zeros(len(edges.count), bool))
+    alone = (corners[triangles].mean(axis=1) < 0.0).any(axis=1)
+    assert (number, count, alone.sum()) == (4, 2, 12)
+    assert len(set(shell[alone])) == len(set(shell[~alone])) == 1
+
+
 def test_equal_positions_are_welded_and_minus_zero_is_zero():
     points = soup(sphere(2))[0]
     points[points == 0.0] *= np.where(np.arange(np.count_nonzero(points == 0.0)) % 2, 1.0, -1.0)

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from body_moments.core.inertia.axial_harmonics import axial_harmonics
 from body_moments.core.mesh.surface import Surface
+from body_moments.core.moments.moments import Moments
 from body_moments.core.plane import directed_edges, region_moments
 from body_moments.core.shape.disc_zernike import disc_zernike
 from body_moments.core.shape.flat_pose import (
@@ -21,6 +22,7 @@ from body_moments.core.shape.symmetry import Symmetry, _around_axis, confirm, sy
 
 from tests.core import bodies, shapes
 from tests.core.recursion import moments
+from tests.core.shape.test_zernike import ball
 
 
 def on_geometry(part, found, tolerance=1e-6):
@@ -63,6 +65,14 @@ def test_of_a_body_whose_axis_is_hardly_known_no_harmonics_about_it_are_asked(sh
 
     told = symmetry(rough, axial=axial)
     assert (told.group, told.order) == (("D7h", 30) if is_asked else ("D∞h", 6)) and len(asked) == is_asked
+
+
+def test_a_ball_by_its_moments_has_all_axes_and_one_operation_that_stands_for_all():
+    axial = pytest.fail  # about which axis should it be asked
+    for turn in (np.eye(3), bodies.rotation(3)):
+        found = symmetry(Moments(ball(6, 0.7), np.zeros(3)).in_frame(turn, np.ones(3)), axial=axial)
+        assert (found.group, found.order) == ("K", 6) and np.array_equal(found.operations, np.eye(3)[None])
+        assert np.abs(found.revolution_axes @ found.revolution_axes.T - np.eye(3)).max() < 1e-14
 
 
 @pytest.mark.parametrize("tolerance", [1e-4, 1e-10])
