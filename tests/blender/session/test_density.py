@@ -3,6 +3,8 @@
 """Stored results follow a density that is one number, as measuring again would make them; what changes more than a
 factor leaves them, out of date."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
@@ -10,12 +12,13 @@ pytest.importorskip("bpy")
 import bpy
 from body_moments.core.verdict.finding import finding
 from body_moments.operators.read.tracking import tracking_paused
-from body_moments.operators.session import results, staleness
-from body_moments.operators.session.density import follow_density, with_default_note
+from body_moments.operators.session import reference, results, staleness
+from body_moments.operators.session.density import _on_density, follow_density, with_default_note
 from body_moments.operators.session.shown import shown_body
 from body_moments.operators.session.trust import Trust
 from body_moments.operators.write import properties
 
+from tests.blender.findings import refused
 from tests.blender.objects import add, measured, mesh_body, only
 from tests.close import close
 
@@ -218,6 +221,9 @@ def test_an_animated_or_driven_setting_puts_the_numbers_out_of_date(mass_from, n
     assert reason(obj) == "stale_settings" and stored(obj) == before
     assert shown_body(obj, scene).verdict == Trust.OUT_OF_DATE  # in the list and the panel
     assert results.total(bpy.context).stale == (obj.name,)
+    if name == "density":
+        scene.body_moments.default_material = "Copper"  # which is not its own
+        assert reason(obj) == "stale_settings" and stored(obj) == before
     other.body_moments.density = 2.0  # what is set beside it is followed as ever
     assert reason(other) is None and reason(obj) == "stale_settings" and stored(obj) == before
     scene.frame_set(1)
@@ -236,7 +242,8 @@ def test_zero_and_unheard_of_densities_leave_the_numbers():
 
 @pytest.mark.parametrize(
     ("key", "value"),
-    [("body_fingerprint", ""), ("body_fingerprint", None), ("body_volume", 0.0), ("body_mass", 0.0)],
+    [("body_fingerprint", ""), ("body_fingerprint", None), ("body_volume", 0.0), ("body_mass", 0.0)]
+    + [("body_inertia", "gone")],
 )
 def test_numbers_of_which_nothing_can_be_made_stay(key, value):
     obj, other = add(mesh_body()), add(mesh_body(), "Other")
@@ -249,12 +256,26 @@ def test_numbers_of_which_nothing_can_be_made_stay(key, value):
     assert stored(obj) == before and stored(other) == {}
 
 
+def test_a_given_inertia_is_multiplied_by_no_mass():
+    obj = add(mesh_body())
+    settings = obj.body_moments
+    settings.mass_from, settings.mass, settings.use_inertia = "MASS", 2.0, True
+    settings.given_inertia_diagonal = (3.0, 4.0, 5.0)
+    measure(obj)
+    before = stored(obj)
+    settings.mass = 4.0
+    assert reason(obj) == "stale_settings" and stored(obj) == before
+    settings.mass = 2.0
+    assert reason(obj) is None
+
+
 def test_a_density_that_is_tried_is_not_followed():
     obj = add(mesh_body())
     measure(obj)
     before = stored(obj)
     with tracking_paused():
         obj.body_moments.density = 2000.0
+    _on_density(obj.body_moments, SimpleNamespace(scene=None))
     assert stored(obj) == before
 
 
@@ -303,6 +324,9 @@ def test_a_default_density_leaves_what_is_linked_as_it_was(tmp_path):
     settings = bpy.context.scene.body_moments
     settings.default_material, settings.default_density = "CUSTOM", 2500.0
     assert stored(linked) == before and local["body_density"] == 2500.0 == 2.5 * before["body_density"]
+    with refused("linked_results"):
+        reference.store(linked, bpy.context.scene)
+    assert stored(linked) == before
 
 
 def test_the_note_on_a_density_that_nobody_set_is_made_once():

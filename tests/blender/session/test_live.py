@@ -14,7 +14,7 @@ pytest.importorskip("bpy")
 import bpy
 from body_moments.operators.session import handlers, live, posed, results, updates
 from body_moments.operators.session.shown import shown_body
-from body_moments.operators.session.trust import Trust
+from body_moments.operators.session.trust import Trust, trust
 from mathutils import Euler, Matrix
 
 from tests.blender.objects import add, measured, mesh_body, only
@@ -167,6 +167,19 @@ def flipped(obj):
     obj.data.update()
 
 
+def test_live_numbers_come_before_stored_ones_as_soon_as_they_are_there(monkeypatch):
+    obj = add(mesh_body())
+    only(obj)
+    bpy.ops.object.body_moments_measure()
+    start(obj)
+    obj.data.vertices[0].co.x -= 1.0
+    obj.data.update()
+    update()
+    assert_current(obj, inertia=False)
+    assert tick(monkeypatch) is None
+    assert_current(obj)
+
+
 @pytest.mark.parametrize("change", [other_faces, in_edit_mode, sculpted, flipped])
 def test_an_edit_measures_that_object_alone(change, monkeypatch):
     obj, other = add(mesh_body()), add(mesh_body(), "Other", (9, 0, 0))
@@ -180,6 +193,51 @@ def test_an_edit_measures_that_object_alone(change, monkeypatch):
     assert live.current_numbers(other) is kept
     if bpy.context.mode != "OBJECT":
         bpy.ops.object.mode_set(mode="OBJECT")
+
+
+def test_live_numbers_of_other_settings_are_out_of_date_and_so_is_what_cannot_be_measured_any_more(monkeypatch):
+    obj, scene = add(mesh_body()), bpy.context.scene
+    only(obj)
+    bpy.ops.object.body_moments_measure()
+    start(obj)
+    assert not live.is_stale(obj, scene) and shown_body(obj).verdict == trust(obj, scene) == Trust.EXACT
+    obj.body_moments.density = 2000.0
+    assert live.is_stale(obj, scene) and trust(obj, scene) == Trust.OUT_OF_DATE
+    update()
+    tick(monkeypatch)
+    assert not live.is_stale(obj, scene) and trust(obj, scene) == Trust.EXACT
+    obj.data.clear_geometry()
+    obj.data.update()
+    update()
+    tick(monkeypatch)
+    assert live.current_numbers(obj).measurement is None and not live.is_stale(obj, scene)
+    assert trust(obj, scene) == Trust.OUT_OF_DATE and live.current_properties(obj, scene) is None
+
+
+@pytest.mark.parametrize(
+    "settings",
+    [
+        {},
+        {"kind": "SHELL", "thickness": 0.01},
+        {"overlap": "UNION"},
+        {"density_from": "POLYNOMIAL", "density_polynomial": "1000 + 20*x"},
+    ],
+)
+def test_patches_are_tracked_where_they_bound_a_solid_of_one_density(settings, monkeypatch):
+    bpy.context.scene.unit_settings.scale_length = 0.5
+    bpy.ops.surface.primitive_nurbs_surface_sphere_add(location=(1, 2, 3), rotation=(0.3, 0.2, 0.1))
+    obj = bpy.context.object
+    obj.scale = (-1, 2, 0.5)
+    for name, value in settings.items():
+        setattr(obj.body_moments, name, value)
+    start(obj)
+    assert_current(obj)
+    assert (live._followed[obj].tracked is not None) == (not settings)
+    obj.data.splines[0].points[9].co.x -= 0.25
+    obj.data.update_tag()
+    update()
+    assert tick(monkeypatch) is None
+    assert_current(obj, rel=1e-6 if settings else 1e-4)  # patches are tracked in triangles
 
 
 def shell(obj):

@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Numbers that no longer hold are reported as out of date, whatever made them so, and others are not."""
 
+from types import SimpleNamespace
+
 import pytest
 
 pytest.importorskip("bpy")
@@ -9,7 +11,7 @@ import bmesh
 import body_moments
 import bpy
 from body_moments.operators.read import fingerprint, instances
-from body_moments.operators.session import handlers, marks, staleness
+from body_moments.operators.session import handlers, marks, reference, rig, staleness
 from body_moments.operators.write import properties, section
 
 from tests.blender.objects import add, mesh_body, only
@@ -72,9 +74,12 @@ def test_only_the_marks_that_are_named_become_those_of_edited_geometry():
         before = after
 
 
+@pytest.mark.parametrize("stacked", [True, False])
 @pytest.mark.parametrize("comparable", [True, False])
-def test_numbers_that_undo_brings_back_are_not_those_of_a_later_edit(comparable, monkeypatch):
+def test_numbers_that_undo_brings_back_are_not_those_of_a_later_edit(comparable, stacked, monkeypatch):
     obj = add(mesh_body())
+    if not stacked:
+        obj.modifiers.new("Cast", "CAST").factor = 0.125
     if not comparable:
         monkeypatch.setattr(fingerprint, "MAX_DIGESTED_FACES", 0)
     bpy.ops.ed.undo_push(message="Start")
@@ -301,6 +306,142 @@ def test_numbers_of_before_an_edit_are_out_of_date_when_the_add_on_is_enabled_ag
     assert reason(third) is None
     edit(third)  # updates are counted anew since then
     assert reason(third) == "stale_geometry"
+
+
+def test_no_data_is_looked_at_where_nothing_was_updated(monkeypatch):
+    """Blender gives none to an add-on that fails while it is enabled, and is unregistered then."""
+    measure(add(mesh_body()))
+    handlers._on_load()
+    for module in (staleness, rig):
+        monkeypatch.setattr(module, "bpy", SimpleNamespace())
+    staleness._write_notes()
+    rig._write_notes()
+
+
+def painted(obj):
+    only(obj)
+    bpy.ops.object.mode_set(mode="WEIGHT_PAINT")
+
+
+def of_given_mass(obj):
+    obj.body_moments.mass_from, obj.body_moments.mass, obj.body_moments.density_from = "MASS", 3.0, "MATERIALS"
+
+
+@pytest.mark.parametrize("prepare", [painted, of_given_mass])
+def test_a_setting_that_is_put_back_is_no_edit_of_what_cannot_be_compared(prepare):
+    obj = add(mesh_body())
+    prepare(obj)
+    update()
+    assert bpy.ops.object.body_moments_measure() == {"FINISHED"}
+    for overlap, code in (("UNION", "stale_settings"), ("SIGNED", None)):
+        obj.body_moments.overlap = overlap
+        update()
+        assert reason(obj) == code
+    edit(obj)
+    assert reason(obj) == "stale_geometry"
+    bpy.ops.object.mode_set(mode="OBJECT")
+
+
+@pytest.mark.parametrize("comparable", [True, False])
+def test_a_symmetry_found_after_an_edit_holds_and_the_results_of_before_do_not(comparable, monkeypatch):
+    if not comparable:
+        monkeypatch.setattr(fingerprint, "MAX_DIGESTED_FACES", 0)
+    obj = add(mesh_body())
+    measure(obj)
+    edit(obj)
+    bpy.ops.object.body_moments_find_symmetry()
+    assert (staleness.symmetry_stale_reason(obj), reason(obj)) == (None, "stale_geometry")
+    measure(obj)
+    assert staleness.symmetry_stale_reason(obj) is None
+
+
+def test_a_symmetry_does_not_hold_once_drivers_make_another_shape_of_new_results():
+    obj = add(mesh_body())
+    obj.modifiers.new("Cast", "CAST").factor = 0.0
+    only(obj)
+    bpy.ops.object.body_moments_find_symmetry()
+    driver = obj.driver_add('modifiers["Cast"].factor').driver
+    variable = driver.variables.new()
+    variable.targets[0].id, variable.targets[0].data_path = obj, '["body_volume"]'
+    driver.expression = "0.5 if {:s} > 0.0 else 0.0".format(variable.name)
+    obj["body_volume"] = 0.0
+    update()
+    assert staleness.symmetry_stale_reason(obj) is None
+    bpy.ops.object.body_moments_measure()
+    assert staleness.symmetry_stale_reason(obj) == "stale_geometry"
+
+
+@pytest.mark.parametrize("comparable", [True, False])
+def test_results_hold_again_once_an_edit_is_taken_back_and_measured(comparable, monkeypatch):
+    if not comparable:
+        monkeypatch.setattr(fingerprint, "MAX_DIGESTED_FACES", 0)
+    obj = add(mesh_body())
+    measure(obj)
+    mark, kept = properties.fingerprint(obj), obj.data.vertices[0].co.x
+    edit(obj)
+    assert reason(obj) == "stale_geometry"
+    obj.data.vertices[0].co.x = kept
+    obj.data.update()
+    update()
+    assert reason(obj) == (None if comparable else "stale_geometry")
+    measure(obj)
+    assert properties.fingerprint(obj) == mark
+
+
+@pytest.mark.parametrize("comparable", [True, False])
+def test_a_reference_makes_no_numbers_hold_that_did_not(comparable, monkeypatch):
+    if not comparable:
+        monkeypatch.setattr(fingerprint, "MAX_DIGESTED_FACES", 0)
+    scene, obj = bpy.context.scene, add(mesh_body())
+    measure(obj)
+    reference.store(obj, scene)
+    assert reason(obj) is None
+    obj.update_tag(refresh={"DATA"})
+    update()
+    assert reason(obj) == (None if comparable else "stale_geometry")
+    for change, code in (
+        (edit, "stale_geometry"),
+        (lambda obj: setattr(obj, "scale", (1, 2, 3)), "stale_transform"),
+        (lambda obj: obj.__setitem__("body_fingerprint", ""), "stale_fingerprint"),
+    ):
+        properties.clear(obj)
+        measure(obj)
+        change(obj)
+        update()
+        assert reason(obj) == code
+        reference.store(obj, scene)
+        assert reason(obj) == code and "body_reference_inertia" in obj
+
+
+def test_what_is_edited_is_told_from_what_has_other_settings_or_stands_elsewhere():
+    obj = add(mesh_body())
+    assert staleness.is_edited(obj) and not staleness.has_transform_of_results(obj)
+    for change, is_edited, has_transform in (
+        (lambda: None, False, True),
+        (lambda: setattr(obj, "location", (1, 2, 3)), False, True),
+        (lambda: setattr(obj.body_moments, "overlap", "UNION"), False, True),
+        (lambda: setattr(obj, "scale", (1, 2, 3)), True, False),
+        (lambda: edit(obj), True, True),
+    ):
+        measure(obj)
+        change()
+        update()
+        assert (staleness.is_edited(obj), staleness.has_transform_of_results(obj)) == (is_edited, has_transform)
+
+
+def test_notes_are_written_where_a_file_can_hold_them(tmp_path):
+    obj, path = add(mesh_body()), str(tmp_path / "library.blend")
+    measure(obj)
+    before = properties.fingerprint(obj)
+    bpy.data.libraries.write(path, {obj})
+    with bpy.data.libraries.load(path, link=True) as (_source, target):
+        target.objects = ["Body"]
+    (linked,) = target.objects
+    for one in (obj, linked):
+        staleness._set_edited(one, before, True)
+    staleness._write_notes()
+    assert properties.fingerprint(linked) == before and not linked.is_editable
+    assert marks.parse(properties.fingerprint(obj)) == marks.parse(before)._replace(geometry=marks.EDITED)
 
 
 def test_what_was_computed_is_out_of_date_once_an_edit_is_noted_or_results_are_stored_again():
