@@ -659,6 +659,12 @@ PATTERNS = [
         "nothing closed is capped",
     ),
     (
+        r".*mesh/edges.py closed_side_faces",
+        r"2 \* count",
+        r"\(2 / count\)",
+        "of edges there are fewer than 2^30",
+    ),
+    (
         r".*mesh/surface_stack.py SurfaceStack.connections",
         r"edges \+ count \* .*",
         r"\(edges - count \* .*",
@@ -681,6 +687,12 @@ PATTERNS = [
         r"first\.argsort\(axis=1\)",
         r"\(first\.argsort\(\)\)",
         "the last axis is the second",
+    ),
+    (
+        r".*mesh/edges.py closed_side_faces",
+        r"2 \* count",
+        r"\(2 / count\)",
+        "of edges there are fewer than 2^30",
     ),
     (
         r".*mesh/surface_stack.py SurfaceStack.connections",
@@ -788,6 +800,12 @@ PATTERNS = [
         "the order in which triangles are summed",
     ),
     (r".*density/threshold.py _Sums._add_batch", r"break", r"continue", "it goes on to no avail"),
+    (
+        r".*mesh/edges.py closed_side_faces",
+        r"2 \* count",
+        r"\(2 / count\)",
+        "of edges there are fewer than 2^30",
+    ),
     (
         r".*mesh/surface_stack.py SurfaceStack.connections",
         r"edges \+ count \* .*",
