@@ -884,6 +884,7 @@ CONSTANTS = [
         "read, and not looked at where nothing is to be proved closed",
     ),
     (r".*", r"\.astype\(.*copy=", "a copy"),
+    (r"operators/.*", r"\bthreads: int = ", "with how many threads moments are summed, which are the same"),
     (r"operators/bodies/stream.py StreamBody.moments", r"order if area else ", "of the area nothing is returned"),
     (r"operators/session/shown.py _shown_now", r"last is None or last\[", "what was found is found once more"),
     (r"operators/session/live.py _measure", r"norm\(matrix\[:", "the first three numbers of the last row are 0"),

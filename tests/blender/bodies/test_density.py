@@ -216,6 +216,11 @@ def test_an_empty_slot_takes_the_objects_density_and_a_slot_too_far_the_last_one
     obj.data.materials[1] = None
     bpy.context.view_layer.update()
     assert measure(obj).mass_properties.mass == pytest.approx(STEEL + 1000.0, rel=1e-14)
+    for slot, name in zip(obj.material_slots, ("Cork", "Steel")):
+        slot.link, slot.material = "OBJECT", bpy.data.materials[name]
+        bpy.context.view_layer.update()
+        last = 1000.0 if name == "Cork" else STEEL
+        assert measure(obj).mass_properties.mass == pytest.approx(CORK + last, rel=1e-14)
 
 
 def test_a_cavity_takes_away_the_material_around_it_and_an_insert_adds_up():
@@ -518,6 +523,34 @@ def test_a_density_that_only_may_be_negative_is_said_and_one_that_touches_zero_i
     found = measure(by_polynomial(ring, "(x - 0.9993)**2 + (y - 0.9131)**2 + (z - 0.0717)**2 - 0.0001"))
     assert said(found) == {"density_possibly_negative": {}}
     assert not measure(by_polynomial(ring, "500*z")).findings
+
+
+@pytest.mark.parametrize("count", [50, 51])
+def test_of_more_instances_than_are_looked_at_the_density_may_be_negative(count):
+    """It is not in any of them, but between."""
+    group = bpy.data.collections.new("Group")
+    mesh = add(box((0, 0, 0), (0.5, 0.5, 0.5))).data
+    for number in range(count):
+        group.objects.link(bpy.data.objects.new("Box", mesh))
+        group.objects[-1].location = (number, -number, 0.0)
+    empty = by_polynomial(bpy.data.objects.new("Instancer", None), "x + y", "WORLD")
+    empty.instance_type, empty.instance_collection = "COLLECTION", group
+    bpy.context.scene.collection.objects.link(empty)
+    bpy.context.view_layer.update()
+    found = measure(empty)
+    assert close(found.mass_properties.mass, count * 0.0625, 1e-12)
+    assert said(found) == ({"density_possibly_negative": {}} if count > 50 else {})
+    found = measure(by_polynomial(empty, "1 + 2*x"))  # in its own coordinates each is as the first
+    assert close(found.mass_properties.mass, count * 0.1875, 1e-12) and not found.findings
+
+
+@pytest.mark.parametrize("thickness", [0.5, 2.0**-13])
+def test_the_first_axis_points_where_the_third_moment_of_the_mass_is_positive(thickness):
+    """Of a plate of which the volume about the center of mass is skewed the other way, also where it is so thin that
+    rounding hides how it is across."""
+    plate = add(box((-1, -0.75, 0), (1, 0.75, thickness)))
+    found = measure(by_polynomial(plate, "1000 + 500*x - 1000*x**3")).mass_properties
+    assert found.center[0] < 0.0 and found.principal.axes[0, 0] < -0.999
 
 
 @pytest.mark.parametrize(("segments", "size"), [(128, 1.0), (16, 0.001)])

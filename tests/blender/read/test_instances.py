@@ -522,6 +522,19 @@ def test_what_the_choice_of_instances_leaves_out_is_not_there():
     check(host, 4)
 
 
+def test_an_attribute_is_asked_of_what_has_faces():
+    members = collection("Members")
+    body = cube("Body", members)
+    body.data.attributes.new("density", "FLOAT", "POINT").data.foreach_set("value", range(8))
+    link("Wire", mesh("Wire", [(0, 0, 0), (1, 0, 0)], [], [(0, 1)]), members)
+    instancer = empty("Instancer", members)
+    (part,) = read_object(instancer, depsgraph(), attribute="density").parts
+    assert part.attributes.vertex_values.tolist() == list(range(8)) and not part.attributes.materials
+    with refused("attribute_missing", "Instancer", attribute="mass"):
+        read_object(instancer, depsgraph(), attribute="mass")
+    assert not len(read_object(instancer, depsgraph()).parts[0].attributes.vertex_values)
+
+
 def test_what_is_picked_of_something_without_instances_is_nothing():
     host = cube("Host")
 
