@@ -120,6 +120,7 @@ def test_assets_that_have_geometry_and_no_numbers_are_named(tmp_path):
     with bpy.data.libraries.load(library, link=True) as (_, wanted):
         wanted.objects = [files.BOX_NAME]
     path = saved(tmp_path)
+    assert "assets_not_measured" not in files.codes(document(path)["total"])
     found = files.values(document(path, "--asset-metadata", "copy")["total"], "assets_not_measured")
     assert found == {"names": ["Boxes", "Hidden", "Instancer", "Mesh"]}
     found = files.values(
@@ -154,6 +155,14 @@ def test_what_is_in_the_metadata_of_an_asset_is_in_its_own_frame(tmp_path):
         assert close([*data["body_principal_moments"]], entry["principal_moments"], 1e-14)
         assert close([*data["body_center_of_mass"]], (0.5, 0.25, 0.125), 1e-6) and data["body_method"] == "exact"
         assert "body_mass" not in bpy.data.objects["Box"]
+    bpy.data.objects["Box"].asset_data.pop("body_mass")
+    path = saved(tmp_path)
+    assert files.run("--asset-metadata", "copy").errors == 0  # of what is open no copy is made
+    for words, has_mass in (((), False), (("--asset-metadata", "copy"), True)):
+        assert files.run("--write", *words, path).has_saved
+        bpy.ops.wm.open_mainfile(filepath=str(path))
+        box = bpy.data.objects["Box"]
+        assert "body_mass" in box and ("body_mass" in box.asset_data) == has_mass
 
 
 @pytest.mark.parametrize("where", ["combined.measure_assembly", "combined.measure_rig"])

@@ -105,6 +105,18 @@ def test_an_invisible_usd_prim_is_not_lost_without_a_word(tmp_path):
     assert [entry["name"] for entry in found["objects"] + found["errors"]] == ["Tetra"]
 
 
+def test_what_a_user_has_saved_as_the_startup_file_changes_nothing(tmp_path):
+    path = files.box_file(tmp_path / "part.glb")
+    startup = Path(bpy.utils.user_resource("CONFIG", path="startup.blend", create=False))
+    assert not startup.exists()
+    bpy.context.scene.unit_settings.scale_length = 0.01
+    bpy.ops.wm.save_homefile()
+    try:
+        assert startup.exists() and measured(path)["volume"] == pytest.approx(6.0, rel=1e-6)
+    finally:
+        startup.unlink()
+
+
 def test_several_files_give_their_documents_in_order_and_leave_nothing_behind(tmp_path):
     scaled = files.box_file(tmp_path / "scaled.stl")
     files.empty_scene()
