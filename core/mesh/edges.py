@@ -37,7 +37,7 @@ def closed_side_faces(surface: Surface) -> NDArray[np.int32] | None:
     if sides_at is None:
         return None
     count = int(edges.view("u{:d}".format(edges.itemsize)).max()) + 1  # in which a negative edge is a large one
-    if count > 2 * len(corners) or 2 * count > np.iinfo(edges.dtype).max:
+    if count > 2 * len(corners) or count > np.iinfo(edges.dtype).max // 2:
         return None  # most of them without faces, or too many for their type: the table would cost more than a search
     sides = np.full(2 * count, -1, np.int32)
     for start in range(0, len(corners), EDGES_PER_BLOCK):
