@@ -689,12 +689,6 @@ PATTERNS = [
         "the last axis is the second",
     ),
     (
-        r".*mesh/edges.py closed_side_faces",
-        r"np\.iinfo\(edges\.dtype\)\.max // 2",
-        r"\(.* \* 2\)",
-        "of edges there are fewer than 2^30",
-    ),
-    (
         r".*mesh/surface_stack.py SurfaceStack.connections",
         r"edges \+ count \* .*",
         r"\(edges - count \* .*",
@@ -800,12 +794,6 @@ PATTERNS = [
         "the order in which triangles are summed",
     ),
     (r".*density/threshold.py _Sums._add_batch", r"break", r"continue", "it goes on to no avail"),
-    (
-        r".*mesh/edges.py closed_side_faces",
-        r"np\.iinfo\(edges\.dtype\)\.max // 2",
-        r"\(.* \* 2\)",
-        "of edges there are fewer than 2^30",
-    ),
     (
         r".*mesh/surface_stack.py SurfaceStack.connections",
         r"edges \+ count \* .*",
