@@ -689,12 +689,6 @@ PATTERNS = [
         "the last axis is the second",
     ),
     (
-        r".*mesh/surface_stack.py SurfaceStack.connections",
-        r"edges \+ count \* .*",
-        r"\(edges - count \* .*",
-        "the same place, counted from the end",
-    ),
-    (
         r".*canonical_frame.py _maximize_on_sphere",
         r"\(degree \* MAX_START_GAP\) \*\* 2 / 4\.0",
         r".* \* 4\.0\)",
@@ -795,12 +789,6 @@ PATTERNS = [
     ),
     (r".*density/threshold.py _Sums._add_batch", r"break", r"continue", "it goes on to no avail"),
     (
-        r".*mesh/surface_stack.py SurfaceStack.connections",
-        r"edges \+ count \* .*",
-        r"\(edges - count \* .*",
-        "the same place, counted from the end",
-    ),
-    (
         r".*canonical_frame.py _maximize_on_sphere",
         r"degree\*\*2",
         r"\(degree \* 2\)",
@@ -873,6 +861,7 @@ CONSTANTS = [
     ),
     (r".*", r"\.astype\(.*copy=", "a copy"),
     (r"operators/.*", r"\bthreads: int = ", "with how many threads moments are summed, which are the same"),
+    (r"operators/bodies/stream.py _in_meters", r"unit, unit, unit, ", "the last row is not read"),
     (r"operators/bodies/stream.py StreamBody.moments", r"order if area else ", "of the area nothing is returned"),
     (r"operators/session/shown.py _shown_now", r"last is None or last\[", "what was found is found once more"),
     (r"operators/session/live.py _measure", r"norm\(matrix\[:", "the first three numbers of the last row are 0"),
