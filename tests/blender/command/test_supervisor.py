@@ -546,6 +546,22 @@ def test_a_journal_is_on_the_disk_once_a_second_and_in_the_end(tmp_path, monkeyp
     assert synced == [(at, sizes[at]) for at in (101.001, 102.002, 109.0, 109.0)]
 
 
+def test_a_journal_may_be_read_by_whom_the_system_lets_read_files_and_is_made_where_links_are_followed(
+    tmp_path, monkeypatch
+):
+    for name in ("O_NOFOLLOW", "O_BINARY"):  # which Windows has, or others
+        monkeypatch.delattr(os, name, raising=False)
+    before = os.umask(0)
+    try:
+        with Journal(tmp_path / "journal") as journal:
+            journal.append({"path": "a"}, "ok", 1, 0.0, {}, b'{"n": 1}')
+            assert journal.document("a") == {"n": 1}
+    finally:
+        os.umask(before)
+    assert (tmp_path / "journal").stat().st_mode & 0o777 == 0o666
+    assert json.loads((tmp_path / "journal").read_text())["reads"] == {}
+
+
 def test_a_line_behind_a_torn_one_is_whole(tmp_path):
     path = tmp_path / "journal"
     for rest in (b"", b'{"schema": "body-moments-jou', b"\n"):
