@@ -67,7 +67,7 @@ def _answer(argv: list[str], channel: int, file_needed: bool) -> int:
     except HelpRequested as asked:
         return ALL_MEASURED if output.written(asked.args, None, channel) else SOME_FAILED
     except SystemExit as ended:
-        return int(ended.code or ALL_MEASURED)
+        return WRONG_USAGE if ended.code else ALL_MEASURED
 
 
 def _measure(argv: list[str], channel: int, file_needed: bool) -> int:
@@ -221,7 +221,6 @@ def _run_script() -> None:
     if bpy is None or not bpy.app.module:
         sys.exit(code)
     # The module may hang while the interpreter ends, after it has opened a file of a newer Blender.
-    sys.stderr.flush()
     session = Path(bpy.app.tempdir)
     if session.name.startswith("blender_"):
         with suppress(OSError):
