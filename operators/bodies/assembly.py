@@ -53,6 +53,8 @@ class MemberBody:
         In kg to third order, by the power of an instance's scale that they grow with; empty where nothing counts.
     volume, area, volume_error, area_error : float
         m³ and m², with bounds of their rounding.
+    volume_input, area_input : float
+        What float32 coordinates may have moved of both.
     measured : Measured or Stacked, optional
         Of an object, with its measurement.
     refusal : Finding, optional
@@ -69,6 +71,8 @@ class MemberBody:
     area: float = 0.0
     volume_error: float = 0.0
     area_error: float = 0.0
+    volume_input: float = 0.0
+    area_input: float = 0.0
     measured: Measured | Stacked | None = None
     measurement: Measurement | None = None
     refusal: Finding | None = None
@@ -166,7 +170,6 @@ def assembly_measurement(whole: MemberBody, depsgraph: Depsgraph, unit: float) -
         at = locate(data, depsgraph)
         rotation, location, place = at.rotation, at.location * unit, matrix_hash(data)
     measured = [part.measurement for part in whole.walk() if part.measurement is not None]
-    inputs = [measurement.error_bound["input"] for measurement in measured]
     given = settings_of(data).mass_from == "MASS"
     return combined_measurement(
         name=data.name,
@@ -175,7 +178,7 @@ def assembly_measurement(whole: MemberBody, depsgraph: Depsgraph, unit: float) -
         mass=mass,
         volume=(whole.volume, whole.volume_error),
         area=(whole.area, whole.area_error),
-        inputs=(sum(bound["volume"] for bound in inputs), sum(bound["area"] for bound in inputs)),
+        inputs=(whole.volume_input, whole.area_input),
         rotation=rotation,
         location=location,
         fingerprint=fingerprint(
@@ -274,6 +277,8 @@ def _object_body(member: Member, result: Measured | Stacked | Finding) -> Member
         measurement.area,
         bound["volume"],
         bound["area"],
+        bound["input"]["volume"],
+        bound["input"]["area"],
         measured=result,
         measurement=measurement,
     )
@@ -294,6 +299,8 @@ def _sum(like: MemberBody, bodies: Iterable[MemberBody], parts: tuple[MemberBody
         area=float(np.sum(areas)),
         volume_error=sum(body.volume_error for body in bodies) + len(bodies) * U * float(np.abs(volumes).sum()),
         area_error=sum(body.area_error for body in bodies) + len(bodies) * U * float(np.abs(areas).sum()),
+        volume_input=sum(body.volume_input for body in bodies),
+        area_input=sum(body.area_input for body in bodies),
         parts=parts,
     )
 
@@ -340,12 +347,14 @@ def _instance_body(whole: MemberBody, results: Results, unit: float) -> MemberBo
         power: moments.transform(matrix) * (scale ** (power / 3.0) if power else 1.0)
         for power, moments in whole.masses.items()
     }
-    area, area_error = whole.area * scale ** (2.0 / 3.0), whole.area_error * scale ** (2.0 / 3.0)
+    of_areas = scale ** (2.0 / 3.0)
+    area, area_error, area_input = whole.area * of_areas, whole.area_error * of_areas, whole.area_input * of_areas
     if sheared:
         shown = results[member.data]
         if isinstance(shown, Finding):
             return replace(whole, masses={}, volume=0.0, area=0.0, refusal=shown)
-        area, area_error = shown.measurement.area, shown.measurement.error_bound["area"]
+        bound = shown.measurement.error_bound
+        area, area_error, area_input = shown.measurement.area, bound["area"], bound["input"]["area"]
     return replace(
         whole,
         masses=masses,
@@ -353,4 +362,6 @@ def _instance_body(whole: MemberBody, results: Results, unit: float) -> MemberBo
         area=area,
         volume_error=whole.volume_error * scale,
         area_error=area_error,
+        volume_input=whole.volume_input * scale,
+        area_input=area_input,
     )

@@ -132,7 +132,7 @@ class MeshBody(Body):
 
     solids: tuple[tuple[SolidIntegrals, NDArray[np.float64]], ...] = ()
     sheets: tuple[Surface, ...] = ()
-    threads: int = 1
+    threads: int = field(kw_only=True)
     _known: dict[tuple[int, bool], tuple[Moments, Moments | None]] = field(default_factory=dict)
 
     def moments(self, order: int, area: bool) -> tuple[Moments, Moments | None]:

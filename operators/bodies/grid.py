@@ -19,6 +19,7 @@ from ...core.verdict.finding import Finding, ReadError, finding
 from ...core.verdict.health import MeshHealth
 from ...core.verdict.method import Method, Source, Verdict
 from ..read import Part, Reading
+from ..read.reading import to_si
 from ..read.tracking import tracking_paused
 from ..read.volume import VolumeReading, volume_reading
 from ..settings.digest import density_key, grid_key
@@ -54,8 +55,8 @@ class GridBody(Body):
     matrix: NDArray[np.float64] = field(kw_only=True)
     options: GridOptions = GridOptions()
     background: float | None = None
-    slope: float = 1.0
-    intercept: float = 0.0
+    slope: float = field(kw_only=True)
+    intercept: float = field(kw_only=True)
     positions: Positions = EVEN
 
     def moments(self, order: int, area: bool) -> tuple[Moments, Moments | None]:
@@ -129,12 +130,11 @@ def grid_body(
         return _solid(reading, unit, threads)
     if reading.level_set:
         raise ReadError("grid_is_level_set", grid=reading.grid)
-    scaled = np.diag([unit, unit, unit, 1.0])
     positions = options.positions(reading.grid, reading.low, reading.shape)
     first = np.eye(4)
     first[:3, 3] = [low if row is None else 0.0 for low, row in zip(reading.low, positions)]
     shape = [count if row is None else len(row) for count, row in zip(reading.shape, positions)]
-    matrix = scaled @ reading.matrix @ reading.to_object @ first
+    matrix = to_si(reading.matrix[None], unit)[0] @ reading.to_object @ first
     density = finding(
         "grid_density", grid=reading.grid, samples=list(reading.shape), cause=options.meaning().as_record()
     )

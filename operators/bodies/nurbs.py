@@ -66,10 +66,10 @@ class PatchBody(Body):
     has_surface: ClassVar[bool] = True
 
     reading: Reading = field(kw_only=True)
-    unit: float = 1.0
+    unit: float = field(kw_only=True)
     pieces: tuple[tuple[Part, PatchIntegrals, NDArray[np.float64]], ...] = ()
     polygons: MeshBody | None = None
-    threads: int = 1
+    threads: int = field(kw_only=True)
 
     def moments(self, order: int, area: bool) -> tuple[Moments, Moments | None]:
         """Return the moments to another order."""
@@ -95,7 +95,7 @@ class PatchSheetBody(Body):
 
     any_order: ClassVar[bool] = True
 
-    unit: float = 1.0
+    unit: float = field(kw_only=True)
     parts: tuple[Part, ...] = ()
     polygons: MeshBody | None = None
 
@@ -148,7 +148,7 @@ def nurbs_body(
     thickness: float,
     union: bool,
     threads: int,
-    compare: bool = True,
+    compare: bool,
 ) -> Body:
     """What an object's surfaces bound where some of them are B-spline patches, or the sheets that they are.
 

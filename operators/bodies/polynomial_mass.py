@@ -134,12 +134,12 @@ def _negative_density_note(density: DensityField, pieces: list[_Piece], shell: b
     boxes = np.concatenate(boxes)
     if polynomial.lower_bound(boxes.min(axis=(0, 1)), boxes.max(axis=(0, 1))) >= 0.0:
         return []
-    doubtful = left = 0
+    is_doubtful = False
     for piece in pieces:
         triangles = piece.surface.all_triangles()[0]
         points = piece.surface.points.astype(np.float64)
         fields = piece.fields[np.unique(np.float32(piece.fields), axis=0, return_index=True)[1]]
-        left += max(len(fields) - MAX_CHECKED_INSTANCES, 0)
+        is_doubtful |= len(fields) > MAX_CHECKED_INSTANCES
         for field in fields[:MAX_CHECKED_INSTANCES]:
             worst, is_undecided = find_negative_point(
                 polynomial, points @ field[:3, :3].T + field[:3, 3], triangles, not shell
@@ -148,5 +148,5 @@ def _negative_density_note(density: DensityField, pieces: list[_Piece], shell: b
                 value, place = worst
                 point = [float(x) for x in place]
                 raise ReadError("density_negative", density=float(value), point=point, frame=density.frame)
-            doubtful += is_undecided
-    return [finding("density_possibly_negative")] if doubtful + left else []
+            is_doubtful |= is_undecided
+    return [finding("density_possibly_negative")] if is_doubtful else []

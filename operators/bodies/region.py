@@ -41,7 +41,7 @@ class RegionReading(Reading):
 
     boundary: tuple[Curve, ...] = ()
     normal: NDArray[np.float64] = field(kw_only=True)
-    stored: float = 0.0
+    stored: float = field(kw_only=True)
 
 
 @dataclass(frozen=True, eq=False)

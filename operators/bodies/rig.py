@@ -27,7 +27,7 @@ from ..read.fingerprint import digest, fingerprint, matrix_hash, settings_hash
 from ..read.objects import locate
 from ..read.reading import Part, to_si
 from ..read.rig import RestBones, hanging_objects, pose_bone_of, rest_pose, skinned_objects, vertex_weights
-from ..settings.density import unset_density
+from ..settings.density import is_density_unset, unset_density
 from .body import KNOWN_ORDER
 from .combined import combined_measurement
 from .measure_object import measure_body
@@ -228,7 +228,8 @@ class _Measuring:
             found.verdicts.append(verdict)
             found.surfaces.append((surface, matrix))
         own = obj.body_moments
-        if own.mass_from == "DENSITY" and own.density_from == "VALUE" and not own.is_property_set("density"):
+        by_value = own.mass_from == "DENSITY" and own.density_from == "VALUE"
+        if by_value and is_density_unset(own, self.depsgraph.scene):
             self.unset.append(obj.name)
 
     def _pieces(self, obj: Object, part: Part, shell: bool) -> Iterator[tuple]:

@@ -50,7 +50,7 @@ class Shape:
 
     measurement: Measurement
     body: Body
-    threads: int = 1
+    threads: int
 
     @property
     def rotation(self) -> NDArray[np.float64]:

@@ -50,8 +50,8 @@ class StreamBody(Body):
     any_order: ClassVar[bool] = True
 
     mesh: MeshFile = field(kw_only=True)
-    unit: float = 1.0
-    threads: int = 1
+    unit: float = field(kw_only=True)
+    threads: int = field(kw_only=True)
 
     def moments(self, order: int, area: bool) -> tuple[Moments, Moments | None]:
         """Return the moments to an order; the file is read again where that is more than is known."""

@@ -17,6 +17,7 @@ from ...core.moments.moments import Moments
 from ...core.verdict.finding import Finding, ReadError, finding
 from ...core.verdict.health import MeshHealth
 from ...core.verdict.method import Method, Source, Verdict
+from ..read.reading import to_si
 from ..read.volume import VolumeReading
 from ..settings.grid import GridOptions
 from .body import KNOWN_ORDER, MAX_MASS_MOMENT, Body
@@ -117,7 +118,7 @@ def threshold_grid(reading: VolumeReading, unit: float) -> ThresholdGrid:
         values[i : i + block.shape[0], j : j + block.shape[1], k : k + block.shape[2]] = block
     first = np.eye(4)
     first[:3, 3] = reading.low
-    matrix = np.diag([unit, unit, unit, 1.0]) @ reading.matrix @ reading.to_object @ first
+    matrix = to_si(reading.matrix[None], unit)[0] @ reading.to_object @ first
     return ThresholdGrid(reading.grid, values, matrix, float(reading.background))
 
 

@@ -15,7 +15,7 @@ from ...core.solid.measure_solid import SolidIntegrals
 from ...core.verdict.finding import MeasureError, ReadError, finding
 from ...core.verdict.method import Method, Source, Verdict
 from ...core.verdict.tolerances import NEGLIGIBLE
-from ..read.reading import attribute_to_source
+from ..read.reading import attribute_to_source, to_si
 from ..read.tracking import tracking_paused
 from ..read.volume import VolumeReading, volume_reading
 from ..settings.grid import GridOptions
@@ -65,7 +65,7 @@ def voxel_filled_body(
         raise ReadError("density_grid_is_level_set", subject=name, **names)
     shift = np.eye(4)
     shift[:3, 3] = reading.low - 0.5  # from corners of voxels, not from their centers
-    matrix = np.diag([unit, unit, unit, 1.0]) @ reading.matrix @ reading.to_object @ shift
+    matrix = to_si(reading.matrix[None], unit)[0] @ reading.to_object @ shift
     if min(reading.shape) < 1 or not abs(np.linalg.det(matrix[:3, :3])) > 0.0:
         raise ReadError("density_grid_empty", subject=name, **names)
     inverse = np.linalg.inv(matrix)

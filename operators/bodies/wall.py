@@ -170,7 +170,7 @@ class WallBody(Body):
     any_order: ClassVar[bool] = True
 
     walls: Walls = field(kw_only=True)
-    thickness: float = 0.0
+    thickness: float = field(kw_only=True)
 
     def moments(self, order: int, area: bool) -> tuple[Moments, Moments | None]:
         """Return the moments of the wall, and of the surface itself."""

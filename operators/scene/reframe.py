@@ -122,8 +122,6 @@ def reframe(
         again: list[list[Plan]] = []
         run_change(context, run_together(attempt(group, again) for group in beside))
         for group in again:
-            for plan in group:
-                plan.findings.clear()
             run_change(context, attempt(group))
     return [plan for plan in plans if plan.obj not in refused], list(refused.items())
 

@@ -129,9 +129,7 @@ def _active(scene: Scene, obj: Object, selected: Sequence[Object]) -> Iterator[N
         one.select_set(True, view_layer=layer)
     names = ("object", "active_object", "edit_object")
     lists = ("selected_objects", "selected_editable_objects")
-    with bpy.context.temp_override(
-        scene=scene, view_layer=layer, **dict.fromkeys(names, obj), **dict.fromkeys(lists, list(selected))
-    ):
+    with bpy.context.temp_override(scene=scene, **dict.fromkeys(names, obj), **dict.fromkeys(lists, list(selected))):
         yield
 
 

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 
@@ -39,10 +39,10 @@ class MeasureOptions:
 class ResolvedOptions(MeasureOptions):
     """Options without gaps: what was given, and the object's settings. Of density and mass one at most."""
 
-    kind: str = "solid"
-    thickness: float = 0.0
-    overlap: str = "signed"
-    wall: str = "thin"
+    kind: str = field(kw_only=True)
+    thickness: float = field(kw_only=True)
+    overlap: str = field(kw_only=True)
+    wall: str = field(kw_only=True)
 
     @classmethod
     def of(cls, options: MeasureOptions, **settings: Any) -> ResolvedOptions:

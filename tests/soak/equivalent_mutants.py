@@ -31,7 +31,28 @@ NAMES = {
 }
 # places ("module function"), and the mutant's text before and after it: the reason
 PATTERNS = [
-    (r".*", r".*\*= -1\.0", r".*/= -1\.0", "times -1 is by -1"),
+    (r".*", r".*\*= -1\.0( if .* else 1\.0)?", r".*/= -1\.0( if .* else 1\.0)?", "times -1 is by -1"),
+    (
+        r".*robots/(diagnosis.py (_signs|_transposed)|model.py Inertial.with_agreeing_axes)",
+        r".* \* (signs|flipped|mirror|np\.outer\(mirror, mirror\)|\(1\.0, 1\.0, np\.sign\(.*\)\))",
+        r"\(.* / (signs|flipped|mirror|np\.outer\(mirror, mirror\)|\(1\.0, 1\.0, np\.sign\(.*\)\))\)",
+        "times -1 is by -1",
+    ),
+    (r".*robots/primitives.py BISECTIONS", r"200", r"201", "more digits than there are"),
+    (
+        r".*moments/images.py sum_of_images",
+        r"MAPS_PER_BLOCK \* 20( // len\(moments\.raw\))?",
+        r".*",
+        "how much is computed at a time",
+    ),
+    (r".*triangle_kernel.py SortedTriangles._sort", r"np\.frexp\(.*\)\[1\] \+ 1100", r".*", "in which order is summed"),
+    (r".*triangle_kernel.py _series_terms", r"n \+ 2", r"\(n - 2\)", "more terms than are needed"),
+    (
+        r".*third_order_kernel.py BlockAccumulator._find_flipped",
+        r"square\.max\(axis=0\)",
+        r"\(square\.max\(\)\)",
+        "how many quads are looked at more closely",
+    ),
     (r".*", r"(\([^()]*(\([^()]*\))?[^()]*\) \* )?([\w.]+(\[\w+\])?) @ \3", r"\([\w.\[\]]+ @ .*", "nothing is changed"),
     (r".*", r".* \* HALF_TURN(S|_SIGNS)\[.*", r"\(.* / HALF_TURN(S|_SIGNS)\[.*", "times -1 is by -1"),
     (
@@ -588,6 +609,18 @@ PATTERNS = [
         "cells that share a number give more pairs, which are looked at like all others",
     ),
     (r".*plane/polygon.py boundary_edges", r"net\[:, None\] < 0", r".* <= 0\)", "what adds up to zero is left out"),
+    (
+        r"operators/scene/transforms.py driven_channels",
+        r"action is None or slot is None",
+        r"\(slot is None\)",
+        "a slot is one of an action",
+    ),
+    (
+        r"operators/scene/surface_objects.py _stored",
+        r"np\.linalg\.norm\(spread, axis=2\)",
+        r"\(np\.linalg\.norm\(spread\)\)",
+        "a looser bound",
+    ),
     (r"operators/scene/dependents.py SAMPLES", r"64", r"65", "how many of a body's points are compared"),
     (r".*scans/scan.py PACKED", r"\d+", r"\d+", "how much is unpacked at a time"),
     (
@@ -861,6 +894,8 @@ CONSTANTS = [
     ),
     (r".*", r"\.astype\(.*copy=", "a copy"),
     (r"operators/.*", r"\bthreads: int = ", "with how many threads moments are summed, which are the same"),
+    (r"operators/bodies/rig.py rig_hash", r"bone\.length, ", "from which difference on a bone is another one"),
+    (r"operators/bodies/flat_fourier.py flat_transform", r"region\.moments\(", "the area alone is read"),
     (r"operators/bodies/stream.py _in_meters", r"unit, unit, unit, ", "the last row is not read"),
     (r"operators/bodies/stream.py StreamBody.moments", r"order if area else ", "of the area nothing is returned"),
     (r"operators/session/shown.py _shown_now", r"last is None or last\[", "what was found is found once more"),
@@ -883,7 +918,10 @@ CONSTANTS = [
     (r".*density/smooth_threshold.py spline_values", r"reach = \(order \+ ", "where the spline is zero"),
     (r".*density/piecewise_mass.py _block_size", r"TRIANGLES_PER_BLOCK \* ", "how much is computed at a time"),
     (r".*moments/normalized.py normalize", r"trace = .* else ", "not read"),
-    (r".*third_order_kernel.py _BlockCalls.__init__", r"self\.room = spare\[:, ", "where a value is stored"),
+    (r".*third_order_kernel.py _BlockCalls.__init__", r"(self\.room = spare|heavy)\[:, :?", "where a value is stored"),
+    (r".*rigs/dominance.py _distances", r"np\.where\(length > 0\.0, length, ", "what is divided is zero"),
+    (r".*scans/numpy_files.py read_named_raw", r"int\(size\[:", "more digits than any size has"),
+    (r".*triangle_kernel.py _series_terms", r"n (\+)?= ", "more terms than are needed"),
     (r".*solid_harmonics.py harmonic_moments", r"in range\(order // 2 \+ ", "of no degree is left any l"),
     (r".*moments/images.py sum_of_images", r"block = max\(.*", "how much is computed at a time"),
     (
@@ -1094,6 +1132,7 @@ LOOSER = {
     "core/polyhedron/any_order_kernel.py absolute_sums",
     "core/polyhedron/sheared_areas.py area_of_images",
     "operators/bodies/given.py given_moments",
+    "operators/scene/surface_objects.py _stored",
     "operators/write/flat_record.py SHIFT_ROUNDINGS",
 }
 # (module, function, before, after): the reason

@@ -15,6 +15,7 @@ from mathutils import Matrix
 
 from tests.blender.grids import vdb_grid, volume_object
 from tests.blender.objects import add, mesh_body, only
+from tests.blender.objects import measured as measured_object
 from tests.close import close
 
 pytestmark = pytest.mark.usefixtures("registered", "scene")
@@ -98,6 +99,7 @@ def test_the_total_has_exact_parallel_axis_terms_in_nested_collections():
     assert np.abs(body.inertia - tensor).max() <= 1e-14 * np.abs(tensor).max()
     assert np.abs(body.inertia - tensor).max() <= body.rounding_error["inertia"]
     assert str(assembly.measurement.method) == "assembly" and assembly.measurement.type == "COLLECTION"
+    assert assembly.measurement.health.closed and assembly.measurement.health.components == 3
     (nested,) = [part for part in assembly.root.parts if part.member.name == "Inner"]
     assert close(nested.mass.total, 1000 * 8 + 2700, 1e-14)
 
@@ -177,6 +179,12 @@ def test_an_instance_weighs_as_its_members_do_wherever_it_stands():
     assert close(assembly.measurement.volume, 72.0, 1e-12) and close(assembly.measurement.area, 4 * 34, 1e-12)
     _, _, tensor = boxes_inertia([(7850, (2, 4, 8), (12, 20, 28)), (Fraction(4, 8), (2, 2, 2), (10, 26, 28))])
     assert np.abs(body.inertia - tensor).max() <= 1e-12 * np.abs(tensor).max()
+    bound = assembly.measurement.error_bound
+    made.scale = (1, 1, 1)
+    plain = measured(root).measurement.error_bound
+    for found, own in ((bound, plain), (bound["input"], plain["input"])):
+        assert close(found["volume"], 8.0 * own["volume"], 1e-9) and close(found["area"], 4.0 * own["area"], 1e-9)
+    made.scale = (2, 2, 2)
     made.body_moments.density = 500.0  # its own density: one body
     assert close(measured(root).measurement.mass_properties.mass, 500.0 * 72.0, 1e-12)
 
@@ -190,6 +198,13 @@ def test_an_instance_that_stretches_has_the_area_that_it_shows():
     assembly = measured(root)
     assert close(assembly.measurement.area, 2 * (2 + 3 + 6), 1e-12)
     assert close(assembly.measurement.mass_properties.mass, 6.0, 1e-12)
+    own, bound = measured_object(made).error_bound, assembly.measurement.error_bound
+    assert own["area"] < bound["area"] < own["area"] + 22 * 2.0**-51 and bound["input"]["area"] == own["input"]["area"]
+    made.scale = (1, 1, 1)
+    plain = measured(root).measurement.error_bound
+    for found, first in ((bound, plain), (bound["input"], plain["input"])):
+        assert first["volume"] > 0.0 and close(found["volume"], 6.0 * first["volume"], 1e-9)
+    made.scale = (1, 2, 3)
     parts.objects[0].body_moments.kind = "SHELL"
     with pytest.raises(MeasureError, match="no mass|has a mass"):
         measured(root)
@@ -212,6 +227,8 @@ def test_a_bought_part_has_the_mass_center_and_inertia_that_are_given():
     assert close(body.center, [2.5, 0.25, 0], 1e-14)
     assert np.abs(body.inertia - [[3, 0.5, 0], [0.5, 4, 0.25], [0, 0.25, 5]]).max() <= 1e-14
     assert "members_mass_given" in codes(assembly)
+    sources = [measured(one).measurement.density_from.code for one in (root, part)]
+    assert sources == ["density_from_members", "density_from_mass"]
     part.body_moments.given_inertia_diagonal = (1, 1, 5)
     with pytest.raises(MeasureError):
         measured(part)

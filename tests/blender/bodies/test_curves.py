@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from body_moments.core.moments.moments import monomials
 from body_moments.core.nurbs.curve import Curve
+from body_moments.operators.bodies.flat import flat_region
 from body_moments.operators.bodies.measure_object import measure_body, measure_object
 from body_moments.operators.read import curves, measurable
 from body_moments.operators.read.deformation import FALLOFFS, spline_modifiers
@@ -62,6 +63,18 @@ def test_a_circle_is_a_wire_of_its_length():
     assert measured(obj).mass_properties.mass == pytest.approx(3.0)
 
 
+@pytest.mark.parametrize("exact", [True, False])
+def test_a_flat_curve_has_its_centroid_where_it_lies(exact):
+    obj = circle("bezier")
+    obj.data.dimensions = "2D"
+    obj.location, obj.rotation_euler = (3.0, -4.0, 5.0), (0.3, 0.5, 0.7)
+    bpy.context.view_layer.update()
+    region = flat_region(obj, bpy.context.evaluated_depsgraph_get(), exact=exact)
+    about = region.moments(2).about
+    assert bool(region.curves) == exact and np.abs(region.foot(obj.location) - about).max() < 1e-5
+    assert np.abs(region.plane.origin + region.plane.axes @ about - obj.location).max() < 1e-5
+
+
 @pytest.mark.parametrize("size", [1e-9, 1.0, 1e9])
 @pytest.mark.parametrize("away", [0.0, 1e4])
 @pytest.mark.parametrize("cyclic", [True, False])
@@ -70,6 +83,24 @@ def test_a_wire_is_closed_where_its_ends_meet_whatever_its_size_and_place(cyclic
     obj.body_moments.kind = "WIRE"
     obj.scale, obj.location.x = (size, size, size), away * size
     assert measured(obj).health.closed == cyclic
+
+
+@pytest.mark.parametrize(
+    ("gap", "place", "is_closed"),
+    [
+        (5e-10, {}, True),
+        (2e-9, {}, False),
+        (0.0, {"scale": (1e-4,) * 3, "location": (1e5, 0, 0)}, True),
+        (24 * 2.0**-53 * 1e9, {"scale": (1e-4,) * 3, "location": (1e5, 0, 0)}, True),
+        (48 * 2.0**-53 * 1e9, {"scale": (1e-4,) * 3, "location": (1e5, 0, 0)}, False),
+    ],
+)
+def test_the_ends_of_a_wire_meet_to_its_size_and_to_the_rounding_of_where_it_is(gap, place, is_closed):
+    obj = poly([(0, 0, 0), (1, 0, 0), (1, 1, 0), (gap, 0, 0)], False)
+    obj.body_moments.kind = "WIRE"
+    for name, value in place.items():
+        setattr(obj, name, value)
+    assert measured(obj).health.closed == is_closed
 
 
 def test_an_ellipse_is_not_a_scaled_length():

@@ -252,9 +252,12 @@ def test_members_of_a_collection_are_compared_with_each_other():
     unit = box((0, 0, 0), (1, 1, 1))
     apart = measure(collection_of(add(unit), add(unit, location=(3, 0, 0))))
     assert apart.volume == pytest.approx(2.0) and not apart.findings
-    overlapping = measure(collection_of(add(unit), add(unit, location=(0.5, 0, 0))))
+    both = collection_of(add(unit), add(unit, location=(0.5, 0, 0)))
+    overlapping = measure(both)
     assert overlapping.volume == pytest.approx(2.0) and overlapping.health.overlapping_components
     assert said(overlapping) == {"components_overlap": {"count": 2}}
+    sheets = measure(both, kind="shell", thickness=0.01)
+    assert not sheets.findings and not sheets.health.overlapping_components
 
 
 @pytest.mark.parametrize("limit", [0, 200_000])

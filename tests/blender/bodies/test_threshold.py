@@ -74,13 +74,14 @@ def test_moments_of_any_order_are_those_of_the_body(tmp_path):
     assert measured.area_moments.order == 6
 
 
-def test_a_cubic_spline_is_measured_within_its_bound(tmp_path):
+@pytest.mark.parametrize("spline_order", [3, 4])
+def test_a_spline_is_measured_within_its_bound(tmp_path, spline_order):
     index = np.arange(-6.0, 7.0)
     values = 20.0 - (index[:, None, None] ** 2 + index[:, None] ** 2 + index**2)
     obj = volume_object(tmp_path / "cubic.vdb", vdb_grid(values.astype(np.float32), background=-60.0))
-    obj.body_moments.grid_as, obj.body_moments.threshold, obj.body_moments.spline_order = "THRESHOLD", 0.0, 4
+    obj.body_moments.grid_as, obj.body_moments.threshold, obj.body_moments.spline_order = "THRESHOLD", 0.0, spline_order
     measured = measure(obj)
-    truth = 4.0 / 3.0 * math.pi * 19.0**1.5  # Σ i² B = x² + 1/3
+    truth = 4.0 / 3.0 * math.pi * (20.0 - spline_order / 4.0) ** 1.5  # Σ i² B = x² + order / 12
     assert abs(measured.volume - truth) <= measured.error_bound["volume"] < 1e-3 * truth
     assert measured.error_bound["estimated"]
 

@@ -99,7 +99,9 @@ def test_what_is_outside_of_the_grid_is_empty_and_said(tmp_path):
     assert measure(box, mass=3.0).mass_properties.mass == pytest.approx(3.0)
     assert measure(box, density=2.0).mass_properties.mass == pytest.approx(16.0)
     assert str(measure(box, density=2.0).method) == "exact"
-    box.location = (50, 0, 0)
+    volume.scale, box.location.x = (2, 2, 2), -1.0  # voxels of 8 m³
+    assert said(measure(box))["outside_grid"] == {"share": pytest.approx(0.5)}
+    volume.scale, box.location = (1, 1, 1), (50, 0, 0)
     with refused("density_grid_elsewhere", box.name, object=volume.name, grid="density"):
         measure(box)
     volume.scale = (0, 1, 1)

@@ -227,3 +227,13 @@ def test_five_million_triangles_are_measured_in_little_memory(tmp_path):
     assert entry["health"]["closed"] and entry["method"] == "exact"
     assert abs(entry["volume"] - volume) <= entry["error_bound"]["volume"] + 1e-12 * volume
     assert entry["error_bound"]["volume"] < 1e-10 * volume
+
+
+@pytest.mark.parametrize("size", [2.0**-30, 2.0**60])
+def test_a_mesh_has_a_volume_whatever_its_size(tmp_path, size):
+    points, triangles = part()
+    path, found = tmp_path / "part.stl", []
+    for factor in (1.0, size):
+        path.write_bytes(stl((points * np.float32(factor), triangles)))
+        found.append(stream_bodies.measure_mesh_file(str(path), "part", MeasureOptions()))
+    assert close(found[1].volume, size**3 * found[0].volume, rel=1e-12)

@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Other origins and axes of single objects: data of each kind in float64, refusals, what is put back."""
 
+from types import SimpleNamespace
+
 import bpy
 import numpy as np
 import pytest
@@ -17,7 +19,7 @@ from body_moments.operators.scene.reframe_meshes import (
 from mathutils import Matrix
 
 from tests.blender.findings import refused
-from tests.blender.objects import add, mesh_body, place, seen
+from tests.blender.objects import POINTS, add, mesh_body, place, seen
 from tests.blender.spline_bodies import surface
 
 pytestmark = pytest.mark.usefixtures("scene")
@@ -388,15 +390,43 @@ def test_what_shows_its_own_mesh_and_nothing_else():
 
 def test_points_that_come_to_lie_far_from_their_origin_are_left():
     """To a hundred-thousandth of the size, which float32 steps reach at 84 sizes; each of several by itself."""
-    plans, before = [], []
-    for away, size in ((10.0, 1.0), (60.0, 1.0), (-60.0, 1.0), (110.0, 1.0), (-250.0, 1.0), (250.0, 9.0), (60.0, 0.1)):
-        obj = add(mesh_body(), location=(1.0, 2.0, 3.0))
+    plans, before, is_done = [], [], []
+    for own, scale, away, size, fits in (
+        *((0.0, 1.0, away, 1.0, abs(away) < 100.0) for away in (10.0, 60.0, -60.0, 110.0, -250.0)),
+        (0.0, 1.0, 250.0, 9.0, True),
+        (0.0, 1.0, 60.0, 0.1, False),
+        (60.0, 1.0, 60.0, 1.0, True),  # from far away back to it
+        (60.0, 1.0, -60.0, 1.0, False),
+        (0.0, 50.0, 0.0, 50.0, True),
+    ):
+        obj = add(mesh_body(points=[(x + own, y, z) for x, y, z in POINTS]), location=(1, 2, 3), scale=(scale,) * 3)
         plans.append(Plan(obj, place(obj), size, True))
         plans[-1].target[0, 3] += away
         before.append(seen(obj))
+        is_done.append(fits)
     done = reframe_own_meshes(bpy.context, plans)
-    assert [plan.obj in done for plan in plans] == [True, True, True, False, False, True, False]
+    assert [plan.obj in done for plan in plans] == is_done
     assert max(np.abs(seen(plan.obj) - was).max() for plan, was in zip(plans, before)) < 1e-4
+
+
+@pytest.mark.parametrize(("factor", "is_done"), [(0.85, True), (1.15, False)])
+def test_what_something_else_holds_a_little_elsewhere_or_turned_is_left(factor, is_done):
+    """To some float32 steps, beside one that is larger and farther away."""
+    other = add(mesh_body(), location=(4000.0, 0.0, 0.0), scale=(100.0,) * 3)
+    limit = 4e-7 * 1000.0 + 4.0 * 2.0**-23 * 1000.0
+    for moved, scaled in ((limit, 0.0), (0.0, 2e-6)):
+        obj, held = add(mesh_body(), location=(1.0, 2.0, 3.0)), [factor * moved]
+
+        def update(obj=obj, held=held):
+            if held:  # as a script does on each update
+                obj.location.x += held.pop()
+            bpy.context.view_layer.update()
+
+        plans = [Plan(one, place(one), size, True) for one, size in ((obj, 1000.0), (other, 1e6))]
+        plans[0].target[0, 3], plans[0].target[0, 0] = 1000.0, 1.0 + factor * scaled
+        context = SimpleNamespace(view_layer=SimpleNamespace(update=update))
+        assert reframe_own_meshes(context, plans) == ([obj, other] if is_done else [other])
+        assert (tuple(obj.location) == (1.0, 2.0, 3.0)) != is_done
 
 
 def test_a_place_that_is_reached_at_once_takes_one_evaluation():

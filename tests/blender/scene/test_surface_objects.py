@@ -76,9 +76,9 @@ def test_bodies_come_into_a_collection_and_the_scene_stays_as_it_is():
     bpy.ops.mesh.primitive_cube_add()
     cube, before = bpy.context.object, bpy.context.scene
     into = bpy.data.collections.new("Into")
-    bodies = [SurfaceBody("First", tuple(patches()[:1])), SurfaceBody("Second", tuple(patches()))]
+    bodies = [SurfaceBody("First", tuple(patches()[:2])), SurfaceBody("Second", tuple(patches()))]
     made = surface_objects.import_bodies(bodies, into, 0.5)
     assert [obj.name for obj, _ in made] == [obj.name for obj in into.objects] == ["First", "Second"]
-    assert [len(obj.data.splines) for obj, _ in made] == [1, len(SHAPES)]
+    assert [len(obj.data.splines) for obj, _ in made] == [2, len(SHAPES)]
     assert np.array_equal(stored(made[0][0].data.splines[0])[..., :3], (0.5 * patches()[0].points).astype(np.float32))
     assert bpy.context.scene == before and bpy.context.object == cube and cube.select_get()

@@ -117,9 +117,11 @@ def test_linear_maps_are_rotations_and_scales_of_the_present_signs():
         assert np.array_equal(np.sign(found[:, 1:]), np.sign(scale[:, 1:]))
         assert np.array_equal(np.prod(np.sign(found), axis=1), np.sign(np.linalg.det(linear)))
     shear = np.eye(3)
-    for angle, is_even in ((1.5e-6, True), (3e-6, False)):
+    for angle, is_even in ((1.8e-6, True), (2.2e-6, False)):
         shear[0, 1] = angle
         assert transforms.rotation_and_scale(shear, np.ones(3))[2] == is_even
+        turned_shears = turns @ shear
+        assert (transforms.rotation_and_scale(turned_shears, np.ones((16, 3)))[2] == is_even).all()
     assert not transforms.rotation_and_scale(np.diag([1.0, 0.0, 2.0]), np.ones(3))[2]
 
 
@@ -139,8 +141,9 @@ def test_what_cannot_be_set_is_refused():
     refuses("parent_shears", [[1, 0.1, 0], [0, 1, 0], [0, 0, 1]])
     obj.lock_scale = (False, True, False)
     refuses("channel_locked", np.diag([1.0, 2.0, 1.0]), channel="scale")
-    transforms.set_rotation_and_scale(obj, np.diag([3.0, 1.0, 2.0]))
-    assert tuple(obj.scale) == (3.0, 1.0, 2.0)
+    refuses("channel_locked", np.diag([1.0, 1.0 + 2e-6, 1.0]), channel="scale")
+    transforms.set_rotation_and_scale(obj, np.diag([3.0, 1.0 + 5e-7, 2.0]))
+    assert np.abs(np.array(obj.scale) - (3.0, 1.0, 2.0)).max() < 1e-6
     turn = np.diag([3.0, 1.0, 2.0])[[1, 0, 2]] * ((1,), (-1,), (1,))
     obj.lock_scale, obj.scale = (False,) * 3, (1.0, 1.0, 1.0)
     for mode, locks in (("XYZ", "lock_rotation"), ("QUATERNION", "lock_rotation"), ("AXIS_ANGLE", "lock_rotation")):

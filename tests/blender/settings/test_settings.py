@@ -34,6 +34,7 @@ STATES = {
     "no attribute": {"density_from": "ATTRIBUTE"},
     "volume": {"density_from": "VOLUME"},
     "mass": {"mass_from": "MASS", "mass": 2.0, "use_center": True},
+    "mass, polynomial": {"mass_from": "MASS", "density_from": "POLYNOMIAL", "density_polynomial": "900 + x"},
     "wire": {"kind": "WIRE"},
     "shell": {"kind": "SHELL", "thickness": 0.1},
     "wall": {"kind": "SHELL", "wall": "INWARD"},
@@ -114,6 +115,13 @@ def test_each_setting_changed_alone(kept, kind, states, monkeypatch, scene):
             lines.append("    {:s}: {:s}; calls {:s}".format(name, ", ".join(marks) or "-", ", ".join(called) or "-"))
             bpy.data.batch_remove([again.data, again])
     kept("each_setting_of_a_{:s}.txt".format(kind.lower()), "\n".join(lines))
+
+
+def test_where_a_polynomial_density_comes_from_says_whose_coordinates_are_meant():
+    for frame, text, code in (("OBJECT", " 900 + x", "polynomial"), ("WORLD", "900, 1 ", "coefficients")):
+        settings = set_up("MESH", {"density_from": "POLYNOMIAL", "density_polynomial": text, "density_frame": frame})
+        found = density.density_field(settings.body_moments).polynomial_source()
+        assert found == finding("density_from_" + code, polynomial=text.strip(), frame=frame.lower())
 
 
 def test_what_other_settings_call(monkeypatch, scene):

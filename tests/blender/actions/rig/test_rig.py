@@ -465,6 +465,9 @@ def test_what_is_left_out_of_a_character_is_said():
     told = {found.code: found.values for found in rig.measurement.findings}
     assert told["rig_wall_thin"] == {"sources": [skin.name]}
     assert told["members_density_unset"]["names"] == [skin.name, "part"] or told["members_density_unset"]["count"] == 2
+    bpy.context.scene.body_moments.default_material = "Copper"
+    assert "members_density_unset" not in {found.code for found in measured(armature).measurement.findings}
+    bpy.context.scene.body_moments.default_material = "NONE"
     area = sum(polygon.area for polygon in skin.data.polygons)
     assert close(rig.measurement.mass_properties.mass, 1000.0 * 0.01 * area + part, 1e-5)
     for name, value in (("thickness", 0.0), ("density", 0.0)):
