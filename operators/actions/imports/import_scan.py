@@ -186,8 +186,8 @@ def _write(module: ModuleType, target: Path, scan: Scan, matrix: NDArray) -> flo
             raise FileError("scan_non_finite")
         least = min(least, float(slab.min()))
         exact = exact and np.array_equal(slab.astype(np.float32), slab)
-    background = 0.0 if least >= 0.0 else float(np.floor(least) - 1.0)
-    grid = (module.FloatGrid if exact else module.DoubleGrid)(background)
+    kind, grid_of = (np.float32, module.FloatGrid) if exact else (np.float64, module.DoubleGrid)
+    grid = grid_of(0.0 if least >= 0.0 else float(np.nextafter(kind(least), kind(-np.inf))))
     grid.name, grid.gridClass = GRID_NAME, "fog volume"
     grid.transform = module.createLinearTransform(matrix.T.tolist())
     for start, slab in _slabs(scan):

@@ -50,9 +50,10 @@ def test_an_imported_scan_weighs_what_the_file_does(tmp_path, unit):
     assert close(found.volume, expected.volume, rel=1e-12)
 
 
-def test_no_sample_is_lost_and_ct_numbers_go_by_the_table(tmp_path):
+@pytest.mark.parametrize("least", [-1000.0, -(2.0**24), -(2.0**30)])
+def test_no_sample_is_lost_and_ct_numbers_go_by_the_table(least, tmp_path):
     values = samples("f4", -1000)
-    values[0, 0, :2] = -1000.0, -999.0
+    values[0, 0, :2] = least, -999.0
     obj = imported(written(tmp_path / "ct.nrrd", nrrd(values, "spacings: 1 1 1")))
     assert obj.body_moments.values_from == "TABLE"
     bpy.context.view_layer.update()
