@@ -261,9 +261,10 @@ def _series(square: NDArray, cube: NDArray, terms: int) -> tuple[NDArray, NDArra
 
 
 def _series_terms(radius: float) -> int:
-    """How many terms are needed for |d| up to radius: h_n / (n+2)! is at most radius^n / (2 n!)."""
+    """How many terms are needed for |d| up to radius: |h_n| is at most radius^n. With the largest |d| at 1 the others
+    add up to -1 and have a product p from 0 to 1/4: h_n = (1-p) h_(n-2) + p h_(n-3), which is a mean."""
     n = 4
-    while radius**n / (2.0 * factorial(n)) > 2e-17:
+    while radius**n / factorial(n + 2) > 2e-17:
         n += 2
     return n
 

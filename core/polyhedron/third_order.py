@@ -156,9 +156,8 @@ def _measure_rescaled(
     surface: Surface, exponent: int, threads: int, about: NDArray | None, area: bool, area_moments: bool, exact: bool
 ) -> tuple[Moments, Moments]:
     """The moments by way of a body of about unit size: 2^exponent times smaller, which rounds nothing."""
-    triangles, faces = surface.all_triangles()
     points = np.ldexp(surface.points.astype(np.float64), -exponent)
-    small = Surface(points, triangles, triangle_faces=faces, displacement=np.ldexp(surface.coordinate_error, -exponent))
+    small = Surface(points, surface.all_triangles()[0], displacement=np.ldexp(surface.coordinate_error, -exponent))
     results = []
     about = None if about is None else np.ldexp(about, -exponent)
     for moments in integrate(small, threads, about=about, area=area, area_moments=area_moments, exact=exact):

@@ -53,7 +53,7 @@ class PlyFile:
         """Yield the faces: triangles and quads, and polygons of more sides as fans."""
         for columns in self._blocks(self._faces):
             corners = columns[self._column]
-            if corners.ndim != 2 or corners.shape[1] < 3:
+            if corners.shape[1] < 3:
                 continue
             given = corners
             with np.errstate(invalid="ignore"):  # of a text's NaN

@@ -25,10 +25,10 @@ def polyline(*corners, straight=True):
 def test_once_around_from_any_corner_in_either_sense(first, way):
     corners = [(A, B, C, D)[(first + way * step) % 4] for step in range(5)]
     assert trims_nothing(lines(*corners), DOMAIN) and trims_nothing([polyline(*corners)], DOMAIN)
-    assert not trims_nothing(lines(*corners, *corners[1:]), DOMAIN)  # twice
-    assert not trims_nothing(lines(*corners[:-1]), DOMAIN)  # open
-    assert not trims_nothing(lines(*corners[:3], corners[1], corners[0]), DOMAIN)  # there and back
-    assert not trims_nothing(lines(*corners[:2], *corners[:1], *corners[1:]), DOMAIN)
+    assert trims_nothing(lines(*corners, *corners[1:]), DOMAIN) is False  # twice
+    assert trims_nothing(lines(*corners[:-1]), DOMAIN) is False  # open
+    assert trims_nothing(lines(*corners[:3], corners[1], corners[0]), DOMAIN) is False  # there and back
+    assert trims_nothing(lines(*corners[:2], *corners[:1], *corners[1:]), DOMAIN) is False
 
 
 @pytest.mark.parametrize("share, is_near", [(0.9, True), (1.1, False)])
@@ -60,17 +60,17 @@ def test_a_smooth_curve_stays_along_one_side(share, is_near, side):
         smooth = polyline(corners[0], control, corners[1], straight=False)
         assert trims_nothing([smooth, *lines(*corners[1:])], DOMAIN) == is_near
     bent = polyline(*corners[:3], straight=False)
-    assert not trims_nothing([bent, *lines(*corners[2:])], DOMAIN)
+    assert trims_nothing([bent, *lines(*corners[2:])], DOMAIN) is False
     assert trims_nothing([polyline(*corners[:3]), *lines(*corners[2:])], DOMAIN)
 
 
 def test_an_edge_across_the_domain_trims_though_its_ends_lie_on_sides():
     middle = (A + B) / 2.0
-    assert not trims_nothing(lines(A, middle, (C + D) / 2.0, D, A), DOMAIN)
-    assert not trims_nothing(lines(A, C, D, A), DOMAIN)
+    assert trims_nothing(lines(A, middle, (C + D) / 2.0, D, A), DOMAIN) is False
+    assert trims_nothing(lines(A, C, D, A), DOMAIN) is False
 
 
 @pytest.mark.parametrize("domain", [((1.0, 1.0), (-2.0, 6.0)), ((1.0, 3.0), (6.0, -2.0))])
 def test_a_domain_of_no_size_is_trimmed_and_so_is_one_without_a_curve(domain):
-    assert not trims_nothing(lines(A, B, C, D, A), domain)
-    assert not trims_nothing([], DOMAIN)
+    assert trims_nothing(lines(A, B, C, D, A), domain) is False
+    assert trims_nothing([], DOMAIN) is False

@@ -5,12 +5,14 @@
 import math
 import time
 import tracemalloc
+from fractions import Fraction
 from functools import partial
 
 import numpy as np
 import pytest
 from body_moments.core.fourier import transform as fourier
 from body_moments.core.fourier.transform import Transform, run_to_completion, solid_transform, surface_transform
+from body_moments.core.fourier.triangle_kernel import _series, _series_terms
 from body_moments.core.fourier.wave_vectors import FrequencyGrid
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.polyhedron import integration
@@ -84,6 +86,45 @@ def test_slivers_are_right_to_1e_15_of_area_times_length(squash, truth):
         total = polyhedron_moments(bodies.surface(part), area_order=0)[1].total
         assert error.max() <= 1e-15 * total * length(part)
         assert (error <= found.error).all()
+
+
+def mean_less_half(corners):
+    """∫ exp(-i s) over the unit triangle, whose phases add up to zero, less 1/2, in fractions."""
+    a, b, _ = map(Fraction, corners)
+    square, cube = a * a + a * b + b * b, a * b * -(a + b)
+    terms = [Fraction(1), Fraction(0), square]
+    for _ in range(50):
+        terms.append(square * terms[-2] + cube * terms[-3])
+    real = sum((-1) ** (n // 2) * terms[n] / math.factorial(n + 2) for n in range(2, 50, 2))
+    imaginary = sum((-1) ** (n // 2 + 1) * terms[n] / math.factorial(n + 2) for n in range(3, 50, 2))
+    return float(real) + 1j * float(imaginary)
+
+
+@pytest.mark.parametrize("radius", np.geomspace(0.05, 2.0, 25))
+def test_the_series_has_the_terms_that_show(radius):
+    for a, b in ((1.0, -1.0), (1.0, -0.5), (-1.0, 0.5), (1.0, -0.75)):
+        corners = radius * a, radius * b, -(radius * a + radius * b)
+        square, cube = corners[0] ** 2 + corners[0] * corners[1] + corners[1] ** 2, np.prod(corners)
+        found = np.array(_series(np.array([square]), np.array([cube]), _series_terms(radius)))[:, 0]
+        exact = mean_less_half(corners)
+        truth = np.array([exact.real, exact.imag])
+        assert (np.abs(found - truth) <= 5e-17 + 4.0 * U * np.abs(truth)).all()
+
+
+@pytest.mark.parametrize("across", [2.0**-10, 1.0, 128.0])
+@pytest.mark.parametrize("phases", [(1.0, -0.5), (1.0, -1.0), (0.75, 0.25), (-0.75, -0.25), (1.0, 0.0)])
+def test_a_triangle_across_the_waves_is_as_exact_next_to_where_the_series_ends_as_elsewhere(phases, across):
+    """Where the squares of the three phases add up to 1, and where the corners are 3 apart."""
+    phases = np.array([*phases, -sum(phases)])
+    for size in (1.0 / np.linalg.norm(phases), 3.0 / np.ptp(phases)):
+        for near in (0.5, 0.9, 0.999, 1.001):
+            points = np.zeros((3, 3))
+            points[:, 0] = np.round(phases * size * near * 2**30) / 2**30
+            points[:, 1] = (0.0, across, -across)
+            points[0, 0] = -points[1, 0] - points[2, 0]
+            area = np.linalg.norm(np.cross(points[1] - points[0], points[2] - points[0])) / 2.0
+            found = surface_transform(Surface(points, np.array([[0, 1, 2]])), [[1.0, 0.0, 0.0]]).values[0]
+            assert abs(found / area - 1.0 - 2.0 * mean_less_half(points[:, 0].tolist())) <= 6e-16
 
 
 def test_a_mesh_with_needles_and_corners_in_line_is_right(truth):
@@ -210,6 +251,9 @@ def test_points_that_no_face_uses_cost_no_digits():
     q = np.random.default_rng(3).normal(size=(30, 3)) * 5
     found = solid_transform(Surface(*part), q).values
     assert np.abs(found - box_spectrum((0, 0, 0), (1, 1.5, 0.7), q)).max() <= 2e-15
+    part[0][-1] = (9.0, -4.0, 5.0)
+    found = solid_transform(Surface(*part), q * 1e-23).values
+    assert close(found.real, 1.05, rel=1e-14) and close(found.imag, -1.05e-23 * (q @ (0.5, 0.75, 0.35)), rel=1e-12)
 
 
 def test_threads_change_nothing():

@@ -84,6 +84,12 @@ def test_half_turns_and_thirds_of_a_turn_in_stacks_are_exact_and_have_no_negativ
     found = quaternion(matrices)
     assert found.shape == (4, 4, 4) and np.abs(found - known).max() <= 1e-15
     assert not np.signbit(quaternion(np.rint(matrices[:2]))[(known[:2] == 0.0)]).any()
+    far = np.array([[1.0, 0.0, 0.0], [0.0, -0.5, 0.75**0.5], [0.0, -(0.75**0.5), -0.5]])  # 240° about x
+    for axis in range(3):
+        found = quaternion(np.roll(far, (axis, axis), (0, 1)))
+        across = [0, 1, 2, 3][1:][:axis] + [0, 1, 2, 3][axis + 2 :]
+        assert np.abs(found[[0, axis + 1]] - (0.5, -(0.75**0.5))).max() <= 1e-15
+        assert not found[across].any() and not np.signbit(found[across]).any()
 
 
 @pytest.mark.parametrize("largest", range(4))

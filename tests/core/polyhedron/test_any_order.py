@@ -189,6 +189,17 @@ def test_of_large_meshes_the_third_order_is_exact_on_request_alone(monkeypatch):
     assert second[0].rounding_error.max() < 1e-12 and np.array_equal(second[0].rounding_error, second[1].rounding_error)
 
 
+@pytest.mark.parametrize("kind", ["i4", "i8", "f2", "f4", ">f4", ">f8"])
+@pytest.mark.parametrize("order", [2, 6])
+def test_corners_may_be_numbers_of_any_kind(path, order, kind):
+    points, faces = octahedron()
+    corners = 4.0 * points[faces]
+    truth = polyhedron_moments([corners], order, area_order=order)
+    found = polyhedron_moments([corners.astype(kind)], order, area_order=order)
+    for right, made in zip(truth, found):
+        assert np.array_equal(made.about, right.about) and (np.abs(made.raw - right.raw) <= right.rounding_error).all()
+
+
 @pytest.mark.parametrize("order", [2, 6])
 def test_pieces_make_the_whole(path, order):
     points, quads = grid_torus(12, 8, noise=0.05)

@@ -562,7 +562,7 @@ def test_area_of_slivers_keeps_its_digits():
 def test_memory_is_bounded_by_blocks():
     import tracemalloc
 
-    points, quads = grid_torus(500, 400)
+    points, quads = grid_torus(300, 200)
     loose = np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
     for surface in (Surface(points, loose), Surface(points.astype(np.float32), quads=quads)):
         for threads in (1, 2):

@@ -130,6 +130,35 @@ def test_caps_go_with_the_faces_beside_them():
     assert (bones_of_caps(triangles, foot, given) == bone).all()
 
 
+def test_a_cut_is_closed_to_its_centroid_wherever_it_is():
+    """Of two cones that meet in a ring of many edges, whose middles are far larger than what they differ by."""
+    count, shift = 1 << 14, np.array([2.0**30, -(2.0**31), 2.0**29])
+    angle = 2.0 * np.pi / count * np.arange(count)
+    ring = np.stack([np.cos(angle), np.sin(angle), 0.0 * angle], axis=1)
+    points = np.round(np.concatenate([ring, [[0.0, 0.0, 1.0], [0.0, 0.0, -1.0]]]) * 2**20) / 2**20 + shift
+    here = np.arange(count)
+    after = (here + 1) % count
+    upper, lower = (
+        np.stack([here, after, 0 * here + count], axis=1),
+        np.stack([after, here, 0 * here + count + 1], axis=1),
+    )
+    for piece in bone_pieces(points, np.concatenate([upper, lower]), np.repeat([0, 1], count)):
+        assert (np.abs(piece.surface.points[-1] - shift) <= np.spacing(np.abs(shift))).all()
+
+
+def test_pieces_may_be_off_by_what_storing_moved_their_points():
+    points, triangles = made.box_skeleton().points, made.box_skeleton().triangles
+    bone = np.arange(len(triangles)) % 2
+    moved = np.array([1e-3, 2e-3, 5e-4])
+    for exact, stored in zip(
+        bone_pieces(points, triangles, bone), bone_pieces(points, triangles, bone, displacement=moved), strict=True
+    ):
+        assert not exact.moments().input_error.any()
+        same = Surface(exact.surface.points, exact.surface.triangles, displacement=moved)
+        wanted = polyhedron_moments(same, exact=True)[0].input_error
+        assert (wanted > 0.0).all() and (stored.moments().input_error == wanted).all()
+
+
 def test_a_cut_far_from_the_origin_is_as_exact_as_near():
     character = made.humanoid()
     faces, corners = character.corners

@@ -9,7 +9,7 @@ from math import degrees, radians
 import numpy as np
 import pytest
 from body_moments.core.numerics.rotations import quaternion
-from body_moments.core.robots.diagnosis import INERTIA_UNITS, LENGTH_UNITS, Reference, _times, diagnose
+from body_moments.core.robots.diagnosis import Reference, _times, diagnose
 from body_moments.core.robots.stated import Description, StatedInertial, rotation_of_angles
 from body_moments.core.verdict.finding import finding
 
@@ -22,6 +22,8 @@ AXES = bodies.rotation(5)
 INERTIA = MASS * AXES @ np.diag([0.017, 0.029, 0.036]) @ AXES.T
 TRUTH = StatedInertial(MASS, CENTER, INERTIA)
 REFERENCE = Reference(MASS / DENSITY, CENTER, INERTIA / MASS, (ORIGIN,))
+LENGTH_UNITS = (1e-3, 1e-2, 0.0254, 1e3, 1e2, 1.0 / 0.0254)  # mm, cm, inches, and the other way round
+INERTIA_UNITS = (1e-3, 1e-6, 1e-9, 1e-4, 1e-7, 1e3, 1e6, 1e9, 1e4, 1e7)  # g·m², kg·mm², g·mm², kg·cm², g·cm²
 
 
 def square(arm):

@@ -100,15 +100,16 @@ def test_principal_axes_that_do_not_give_the_tensor_are_found_anew():
     agreeing = Inertial.with_agreeing_axes(1.7, true.center, true.inertia, np.array([1.0, 2.0, 3.0]), off)
     assert np.abs(agreeing.axes @ np.diag(agreeing.moments) @ agreeing.axes.T - true.inertia).max() <= 1e-15
     assert np.linalg.det(agreeing.axes) > 0.0 and close(agreeing.moments, true.moments, 1e-14)
-    tilt = rotation_of_angles(1e-9, 0.0, 0.0)
-    rod = Inertial.with_agreeing_axes(1.0, Z, np.diag([1e-20, 1.0, 1.0]), np.array([3e-20, 1.0, 1.0 + 1e-16]), tilt)
+    tilt, rod_moments = rotation_of_angles(0.0, 0.0, 1e-9), np.array([3e-20, 1.0, 1.0 + 2.0**-51])
+    rod = Inertial.with_agreeing_axes(1.0, Z, np.diag([1e-20, 1.0, 1.0]), rod_moments, tilt)
     assert rod.moments[0] == 3e-20 and rod.moments[2] <= rod.moments[0] + rod.moments[1]
     for scale in (2.0**-40, 2.0**40):
         tensor, moments = agreeing.inertia * scale, np.array([1.0, 2.0, 3.0]) * scale
         scaled = Inertial.with_agreeing_axes(1.7, true.center, tensor, moments, off)
         assert close(scaled.moments, agreeing.moments * scale, 1e-14)
-        tensor, moments = np.diag([1e-20, 1.0, 1.0]) * scale, np.array([3e-20, 1.0, 1.0 + 1e-16]) * scale
-        assert Inertial.with_agreeing_axes(1.0, Z, tensor, moments, tilt).moments[0] == 3e-20 * scale
+        tensor = np.diag([1e-20, 1.0, 1.0]) * scale
+        scaled = Inertial.with_agreeing_axes(1.0, Z, tensor, rod_moments * scale, tilt)
+        assert (scaled.moments == rod.moments * scale).all()
 
 
 def free(kind="rotate", **limits):

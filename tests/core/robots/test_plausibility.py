@@ -4,7 +4,7 @@
 
 import numpy as np
 import pytest
-from body_moments.core.robots.plausibility import Hull, _nearest_shares, impossible
+from body_moments.core.robots.plausibility import Hull, _nearest_shares, _sphere, impossible
 from body_moments.core.robots.stated import StatedInertial
 
 from tests.close import close
@@ -68,6 +68,29 @@ def test_masses_and_moments_are_positive_and_no_moment_exceeds_the_sum_of_the_ot
     assert found.values["moment"] == -0.5
 
 
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("scale", [1e-9, 1.0, 1e9])
+def test_a_moment_that_is_zero_to_rounding_is_called_zero(seed, scale):
+    for moment, near in ((0.0, 0.0), (-1e-13, 0.1)):
+        tensor = scale * np.diag([moment, 1.0, 1.0])
+        (found,) = impossible(StatedInertial(1.0, np.zeros(3), tensor, bodies.rotation(seed)), None)
+        assert found.code == "inertial_not_positive" and close(found.values["moment"], moment * scale, near)
+
+
+def test_mass_that_spreads_too_far_between_the_axes_is_found_by_directions_all_around():
+    """An octahedron is thinnest along the diagonals, of a third of the variance that it allows along its axes."""
+    directions, draw = _sphere(400), np.random.default_rng(2).normal(size=(1000, 3))
+    assert directions.shape == (400, 3) and close((directions**2).sum(axis=1), 1.0, 1e-14)
+    draw /= np.linalg.norm(draw, axis=1)[:, None]
+    assert (draw @ directions.T).max(axis=1).min() > np.cos(0.14)
+    assert (directions @ directions.T - 2.0 * np.eye(400)).max() < np.cos(0.15)
+    octahedron = Hull(np.concatenate([np.eye(3), -np.eye(3)]))
+    (found,) = impossible(StatedInertial(1.0, np.zeros(3), np.eye(3)), octahedron)  # a variance of a half everywhere
+    direction = np.array(found.values["direction"])
+    assert found.code == "inertial_spread_outside" and close(direction @ direction, 1.0, 1e-12)
+    assert np.abs(direction).min() > 0.55 and close(found.values["factor"], 0.5 / np.abs(direction).max() ** 2, 1e-12)
+
+
 @pytest.mark.parametrize("size", [1e-3, 1.0, 1e3])
 @pytest.mark.parametrize("turn", [np.eye(3), bodies.rotation(8)])
 def test_the_center_lies_in_the_hull_and_the_mass_spreads_no_further(size, turn):
@@ -110,6 +133,19 @@ def test_the_distance_from_scattered_points_is_no_more_than_that_of_the_nearest(
     corner = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 0.0]])
     assert close(Hull(corner).distance(np.array([0.25, 0.25, -0.5])), 0.5, 1e-12)
     assert close(Hull(corner[1:2]).distance(np.zeros(3)), 1.0, 1e-12)
+
+
+@pytest.mark.parametrize("corners", [1, 2, 3])
+def test_the_distance_is_that_from_the_corner_edge_or_face_in_front_of_all_other_points(corners):
+    draw = np.random.default_rng(corners)
+    for seed in range(40):
+        height, points = draw.uniform(0.5, 2.0), draw.normal(size=(30, 3))
+        points[:, 2] = height + np.abs(points[:, 2])
+        points[:corners, 2] = height
+        shares = draw.dirichlet(np.ones(corners))  # of the point in front of the origin
+        points[:corners, :2] -= shares @ points[:corners, :2]
+        hull = Hull(points @ bodies.rotation(seed).T)
+        assert abs(hull.distance(np.zeros(3)) - height) <= 2e-9 * hull.size
 
 
 @pytest.mark.parametrize("corners", [2, 3, 4])

@@ -279,6 +279,8 @@ def nifti_with(offset: int, form: str, *numbers) -> bytes:
         (b"", "file_damaged", damage("damage_header", bytes=348)),
         (b"x" * 400, "nifti_unrecognized", {}),
         (nifti(values())[:-1], "file_damaged", damage("damage_too_short", bytes=239, total=240)),
+        (nifti_with(344, "4s", b"n+2\0"), "nifti_unrecognized", {}),
+        (nifti_with(0, "i", 349), "nifti_unrecognized", {}),
         (nifti_with(344, "4s", b"ni1\0"), "nifti_header_of_pair", {}),
         (nifti_with(40, "h", 9), "nifti_dimensions", {"dimensions": 9}),
         (nifti_with(40, "8h", 4, 3, 4, 5, 2, 1, 1, 1), "scan_dimensions", {"dimensions": 4}),

@@ -107,6 +107,12 @@ def test_raw_samples_of_a_shape_that_is_given_are_limited_too(tmp_path):
     assert refused.value.finding.code == "file_exceeds_limit"
 
 
+def test_a_limit_above_the_usual_one_holds_for_samples_without_a_header(tmp_path):
+    path = sparse(tmp_path / "a_2049x2048x2048_uint8.raw", 2049 << 22)
+    assert refusal(path).code == "file_exceeds_limit"
+    assert read_scan(path, Limits(samples=2049 << 22)).samples.shape == (2049, 2048, 2048)
+
+
 def test_small_files_that_ask_for_terabytes_are_refused_at_once(tmp_path):
     raw = sparse(tmp_path / "a_4096x4096x4096_uint8.raw", 1 << 36)
     header = struct.pack("<I", (1 << 32) - 9)

@@ -140,7 +140,7 @@ def test_faces_of_any_number_of_sides(tmp_path, small_blocks, order, extra):
     same(found, truth)
     prism = np.array([[x, y, z] for z in (0, 1) for x, y in ((0, 0), (2, 0), (3, 1), (2, 2), (0, 2))], float)
     sides = [[k, (k + 1) % 5, 5 + (k + 1) % 5, 5 + k] for k in range(5)]
-    found = measured(tmp_path, "b.ply", ply(prism, [[4, 3, 2, 1, 0], [5, 6, 7, 8, 9], *sides, [1, 2]], order))
+    found = measured(tmp_path, "b.ply", ply(prism, [[1, 2], [4, 3, 2, 1, 0], [5, 6, 7, 8, 9], *sides, [1, 2]], order))
     assert found.closed and close([found.volume.total, found.area.total], [5.0, 16.0 + 2.0**1.5 - 0.0], rel=1e-12)
 
 
