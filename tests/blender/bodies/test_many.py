@@ -183,6 +183,32 @@ def test_slices_change_nothing(monkeypatch):
         assert_same(found, again)
 
 
+@pytest.mark.parametrize(
+    ("max_objects", "max_faces", "linked", "sizes"),
+    [
+        (5, 1000, False, [5, 5, 2]),
+        (1000, 15, False, [3, 3, 3, 3]),
+        (1000, 11, False, [3, 3, 3, 3]),
+        (1000, 11, True, [12]),
+    ],
+)
+def test_so_many_objects_and_faces_are_measured_together(monkeypatch, max_objects, max_faces, linked, sizes):
+    """Prisms of two triangles and three quads; those of a mesh count once."""
+    monkeypatch.setattr(many, "MAX_OBJECTS_PER_STACK", max_objects)
+    monkeypatch.setattr(many, "MAX_FACES_PER_STACK", max_faces)
+    objects = []
+    for height in range(1, 13):
+        points, faces = s.prism(s.regular(3), height=float(height))
+        mesh = bpy.data.meshes.new("Prism")
+        mesh.from_pydata(np.asarray(points).tolist(), [], [list(map(int, face)) for face in faces])
+        objects.append(bpy.data.objects.new("Prism", objects[0].data if linked and objects else mesh))
+        bpy.context.scene.collection.objects.link(objects[-1])
+    bpy.context.view_layer.update()
+    together = list(measure_many(objects, bpy.context.evaluated_depsgraph_get()))
+    assert [len(some) for some in together] == sizes
+    assert all(isinstance(found, Stacked) for some in together for _, found in some)
+
+
 def test_a_stack_that_fails_measures_each_alone(monkeypatch, capfd):
     objects = shards(1)
     whole, _ = all_outcomes(objects)

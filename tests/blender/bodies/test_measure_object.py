@@ -13,7 +13,7 @@ from body_moments.core.inertia.principal_frame import OwnMoments
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.moments.moments import Measure, Moments
 from body_moments.core.verdict.finding import EditRefusedError
-from body_moments.operators.bodies import mesh
+from body_moments.operators.bodies import measurement, mesh
 from body_moments.operators.bodies.hull import object_hull
 from body_moments.operators.bodies.measure_object import measure_object
 from body_moments.operators.bodies.measurement import _frame_moments
@@ -693,3 +693,14 @@ def test_axes_that_need_moments_beyond_the_range_of_numbers_are_refused(value, n
     getattr(moments, name)[-1] = value
     with refused("object_too_large"):
         _frame_moments(body, False)
+
+
+@pytest.mark.parametrize(
+    ("limit", "options", "is_said"),
+    [(6, {}, False), (5, {}, True), (5, {"pose": True}, False), (5, {"axes": False}, False)],
+)
+def test_axes_of_many_faces_come_from_third_order_and_where_that_leaves_a_choice_it_is_said(
+    monkeypatch, limit, options, is_said
+):
+    monkeypatch.setattr(measurement, "MAX_FACES_HIGH_ORDER", limit)
+    assert said(measure(add(box()), **options)).keys() == ({"axes_from_third_order"} if is_said else set())

@@ -236,4 +236,7 @@ def test_a_mesh_has_a_volume_whatever_its_size(tmp_path, size):
     for factor in (1.0, size):
         path.write_bytes(stl((points * np.float32(factor), triangles)))
         found.append(stream_bodies.measure_mesh_file(str(path), "part", MeasureOptions()))
+    corners = points.astype(float)[triangles]
+    assert close(found[0].volume, abs(np.linalg.det(corners - points[0]).sum()) / 6.0, rel=1e-12)
+    assert close(found[0].mass_properties.mass, 1000.0 * found[0].volume, rel=1e-14)
     assert close(found[1].volume, size**3 * found[0].volume, rel=1e-12)
