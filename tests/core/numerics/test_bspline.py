@@ -4,7 +4,7 @@
 
 from fractions import Fraction
 from itertools import product
-from math import factorial
+from math import comb, factorial
 
 import numpy as np
 import pytest
@@ -63,12 +63,69 @@ def test_a_cyclic_direction_ends_as_it_begins():
 
 
 @pytest.mark.parametrize(
-    "knots, order, count",
-    [((0, 0, 1, 1), 2, 3), ((0, 1, 0, 1), 2, 2), ((0, 0, 0, 0), 2, 2), ((0, 0, float("nan"), 1), 2, 2), ((0, 1), 2, 1)],
+    "knots, order, count, reason",
+    [
+        ((0, 0, 1, 1), 2, 3, "too few"),
+        ((0, 0, 1, 1), 2, 0, "too few"),
+        ((0, 1), 2, 1, "too few"),
+        ((0, 1, 2), 2, 1, "too few"),
+        ((0, 1), 0, 1, "too few"),
+        ((0, 1, 0, 1), 2, 2, "ascend"),
+        ((0, 0, float("nan"), 1), 2, 2, "ascend"),
+        ((0, 0, 1, float("inf")), 2, 2, "ascend"),
+        ((0, 0, 0, 0), 2, 2, "empty domain"),
+        ((0, 1, 1, 2), 2, 2, "empty domain"),
+    ],
 )
-def test_knots_that_make_no_space_are_refused(knots, order, count):
-    with pytest.raises(ValueError):
+def test_knots_that_make_no_space_are_refused(knots, order, count, reason):
+    with pytest.raises(ValueError, match=reason):
         SplineSpace(tuple(float(knot) for knot in knots), order, count)
+
+
+def test_the_smallest_spaces_are_a_constant_and_a_line():
+    assert SplineSpace((2.0, 5.0), 1, 1).collocation_matrix(np.array([2.0, 3.0, 5.0])).tolist() == [[1.0]] * 3
+    line = SplineSpace((2.0, 2.0, 4.0, 4.0), 2, 2)
+    assert line.collocation_matrix(np.array([2.0, 3.0, 4.0])).tolist() == [[1.0, 0.0], [0.5, 0.5], [0.0, 1.0]]
+    assert line.end_weights.tolist() == [[1.0, 0.0], [0.0, 1.0]] and line.active_controls.tolist() == [[0, 1]]
+
+
+@pytest.mark.parametrize(
+    "knots, order, jumps",
+    [
+        ((0, 0, 0, 1, 1, 1), 3, False),
+        ((0, 0, 0, 0, 1, 1, 1, 1), 3, False),  # at an end of the domain
+        ((0, 0, 0, 1, 1, 2, 2, 2), 3, False),
+        ((0, 0, 0, 1, 1, 1, 2, 2, 2), 3, True),
+        ((0, 1, 1, 2, 3, 4), 2, False),
+        ((0, 1, 2, 3, 3, 4), 2, False),
+        ((0, 1, 2, 2, 3, 4), 2, True),
+        ((0, 0, 1, 2, 3, 3), 2, False),
+    ],
+)
+def test_curves_may_jump_at_inner_knots_as_often_as_the_order_says(knots, order, jumps):
+    space = SplineSpace(tuple(map(float, knots)), order, len(knots) - order)
+    assert space.is_discontinuous is jumps
+
+
+def test_parameters_and_spans_are_those_between_different_knots():
+    space = SplineSpace((0.0, 0.0, 1.0, 1.0, 3.0, 3.0), 2, 4)
+    assert space.spans.tolist() == [1, 3] and space.intervals.tolist() == [[0.0, 1.0], [1.0, 3.0]]
+    assert space.uniform_parameters(2).tolist() == [0.0, 0.5, 1.0, 2.0, 3.0]
+    assert space.find_spans(np.array([-1.0, 0.0, 0.9, 1.0, 2.9, 3.0, 9.0])).tolist() == [1, 1, 1, 3, 3, 3, 3]
+
+
+@pytest.mark.parametrize("space", SPACES)
+def test_a_span_in_bezier_form_is_what_it_was(space):
+    """By Bernstein's polynomials."""
+    degree, share = space.order - 1, np.linspace(0.0, 1.0, 9)  # eighths, which round nothing
+    bernstein = np.stack([comb(degree, b) * share**b * (1 - share) ** (degree - b) for b in range(degree + 1)], axis=1)
+    for span, (low, high), weights in zip(space.spans, space.intervals, space.bezier_extraction):
+        found = bernstein @ weights
+        wanted = space.derivatives(np.full(9, span), low + share * (high - low), 0)[0]
+        assert np.abs(found - wanted).max() <= 1e-13
+        part = space.bezier_weights(np.array([span]), np.array([[low + 0.25 * (high - low), high]]))[0]
+        wanted = space.derivatives(np.full(9, span), low + (0.25 + 0.75 * share) * (high - low), 0)[0]
+        assert np.abs(bernstein @ part - wanted).max() <= 1e-13
 
 
 @pytest.mark.parametrize("points", [1, 2, 5, 12, 27])

@@ -121,6 +121,8 @@ def test_nifti_places(tmp_path):
     turned = nifti(values(), spacing=(2, 3, 4), quaternion=(1, 0, 0, 5, 6, 7), qfac=-1.0)
     scan = read_scan(written(tmp_path / "q.nii", turned))
     assert np.array_equal(scan.matrix[:3], [[2, 0, 0, 5], [0, -3, 0, 6], [0, 0, 4, 7]])
+    turned = nifti(values(), spacing=(2, 3, 4), quaternion=(1, 0, 0, 5, 6, 7), qfac=0.0)  # which stands for 1
+    assert np.array_equal(read_scan(written(tmp_path / "q.nii", turned)).matrix[2], [0, 0, -4, 7])
     third = (1 / 3) ** 0.5 * np.sin(np.pi / 3)  # a third of a turn about (1, 1, 1): x to y to z
     scan = read_scan(written(tmp_path / "t.nii", nifti(values(), quaternion=(third, third, third, 0, 0, 0))))
     assert np.allclose(scan.matrix[:3, :3], [[0, 0, 1], [1, 0, 0], [0, 1, 0]], atol=1e-7)
@@ -129,13 +131,20 @@ def test_nifti_places(tmp_path):
 def test_a_nifti_file_without_any_spacing_is_not_placed(tmp_path):
     scan = read_scan(written(tmp_path / "n.nii", nifti(values(), spacing=(0, 0, 0))))
     assert np.array_equal(scan.matrix, np.eye(4)) and not scan.is_placed
+    series = bytearray(nifti(values(), spacing=(0, 0, 0)))
+    struct.pack_into("<f", series, 92, 2.5)  # seconds between volumes
+    assert not read_scan(written(tmp_path / "n.nii", series)).is_placed
     assert read_scan(written(tmp_path / "s.nii", nifti(values(), spacing=(2, 3, 4)))).is_placed
 
 
 def test_nifti_scales_and_has_a_fourth_dimension_of_one(tmp_path):
-    scan = read_scan(written(tmp_path / "a.nii", nifti(values("i2"), slope=2.0, intercept=-1024.0, dims=4)))
-    assert (scan.slope, scan.intercept) == (2.0, -1024.0)
-    assert scan.samples.shape == (3, 4, 5)
+    for dims in (4, 7):
+        scan = read_scan(written(tmp_path / "a.nii", nifti(values("i2"), slope=2.0, intercept=-1024.0, dims=dims)))
+        assert (scan.slope, scan.intercept) == (2.0, -1024.0)
+        assert scan.samples.shape == (3, 4, 5)
+    scan = read_scan(written(tmp_path / "a.nii", nifti(values(), slope=0.0, intercept=5.0)))
+    assert (scan.slope, scan.intercept) == (1.0, 0.0)
+    assert np.array_equal(read_scan(written(tmp_path / "a.nii", nifti_with(72, "h", 0))).samples, values())
 
 
 def test_nrrd_places(tmp_path):
@@ -153,8 +162,13 @@ def test_nrrd_places(tmp_path):
     )
     assert np.array_equal(scan.matrix[:3], [[0.5, 0.25, 0, -9], [0, -2, 0.125, 8], [0, 0, 3, 7]])
     assert scan.is_placed and scan.unit == 1e-3
-    scan = read_scan(written(tmp_path / "b.nrrd", nrrd(values(), "spacings: 0.5 2 3", "axis mins: 1 2 3")))
-    assert np.array_equal(scan.matrix[:3], [[0.5, 0, 0, 1], [0, 2, 0, 2], [0, 0, 3, 3]])
+    for spacings in ("0.5 -2 3", "0.5 -2 3 nan"):
+        head = nrrd(values(), "spacings: " + spacings, "axismins: 1 2 3")
+        scan = read_scan(written(tmp_path / "b.nrrd", head))
+        assert np.array_equal(scan.matrix[:3], [[0.5, 0, 0, 1], [0, -2, 0, 2], [0, 0, 3, 3]])
+    head = nrrd(values(), "space directions: (1,0,0) (0,2,0) (0,0,3)", "space origin: none")
+    scan = read_scan(written(tmp_path / "c.nrrd", head))
+    assert np.array_equal(scan.matrix, np.diag([1, 2, 3, 1])) and scan.is_placed
 
 
 @pytest.mark.parametrize(
@@ -282,7 +296,8 @@ def nifti_with(offset: int, form: str, *numbers) -> bytes:
         (nifti_with(344, "4s", b"n+2\0"), "nifti_unrecognized", {}),
         (nifti_with(0, "i", 349), "nifti_unrecognized", {}),
         (nifti_with(344, "4s", b"ni1\0"), "nifti_header_of_pair", {}),
-        (nifti_with(40, "h", 9), "nifti_dimensions", {"dimensions": 9}),
+        (nifti_with(40, "h", 8), "nifti_dimensions", {"dimensions": 8}),
+        (nifti_with(40, "h", 1), "scan_dimensions", {"dimensions": 1}),
         (nifti_with(40, "8h", 4, 3, 4, 5, 2, 1, 1, 1), "scan_dimensions", {"dimensions": 4}),
         (nifti_with(42, "h", -3), "scan_size", {"samples": [-3, 4, 5]}),
         (
@@ -309,6 +324,8 @@ def nifti_with(offset: int, form: str, *numbers) -> bytes:
             {"x": 0.0, "y": 0.0, "z": 0.0},
         ),
         (nifti_with(80, "f", 0.0), "nifti_spacing", {"x": 0.0, "y": 1.0, "z": 1.0}),
+        (nifti(values(), spacing=(2, 0, 0)), "nifti_spacing", {"x": 2.0, "y": 0.0, "z": 0.0}),
+        (nifti(values(), spacing=(0, 0, 2)), "nifti_spacing", {"x": 0.0, "y": 0.0, "z": 2.0}),
         (nifti(values(), sform=np.zeros((3, 4))), "scan_placement", {}),
         (nifti(values(), sform=np.full((3, 4), np.nan)), "scan_placement", {}),
         (nifti(values(), sform=np.eye(3, 4) + [0, 0, 0, np.inf]), "scan_placement", {}),
@@ -350,6 +367,8 @@ def nrrd_with(old: str, new: str) -> bytes:
         (nrrd(values(), "byte skip: -1", encoding="gzip"), "nrrd_skip_from_end", {}),
         (nrrd_with("endian: little\n", ""), "nrrd_endian_missing", {}),
         (nrrd(values(), "spacings: 1 0 1"), "nrrd_spacings", {}),
+        (nrrd(values(), "spacings: 1 1 inf"), "nrrd_spacings", {}),
+        (nrrd(values(), "spacings: 1 2"), "nrrd_spacings", {}),
         (nrrd(values(), "spacings: nan nan nan"), "nrrd_spacings", {}),
         (nrrd(values(), "space directions: (1,0,0) (2,0,0) (0,0,1)"), "scan_placement", {}),
         (nrrd(values(), "space directions: (1,0,0) (0,1,0)"), "nrrd_space_directions", {}),
@@ -366,6 +385,8 @@ def nrrd_with(old: str, new: str) -> bytes:
         (nrrd(values(), "data file: a b c"), "nrrd_data_file_missing", {"file": "a b c"}),
         (nrrd(values(), "byte skip: a"), "nrrd_field_not_numbers", {"field": "byte skip", "text": "a"}),
         (nrrd(values(), "byte skip: -7"), "nrrd_field_not_one_number", {"field": "byte skip"}),
+        (nrrd(values(), "byte skip: 1 2"), "nrrd_field_not_one_number", {"field": "byte skip"}),
+        (nrrd(values(), "line skip:"), "nrrd_field_not_one_number", {"field": "line skip"}),
         (nrrd(values(), "line skip: 9999"), "file_damaged", damage("damage_lines")),
     ],
 )

@@ -34,6 +34,7 @@ def test_a_refusal_is_a_sentence_that_names_its_subject_and_the_remedy():
     error = ReadError("non_finite_vertices", count=2, total=8).about("Cube").about("Other")
     assert isinstance(error, MeasureError) and not isinstance(error, ValueError)
     assert str(error).startswith("Cube: 2 of 8 vertices have") and error.reason == str(error)[6:]
+    assert repr(ReadError(error.finding)) == repr(error) == "ReadError('non_finite_vertices')"
 
 
 def test_without_the_table_the_code_speaks(monkeypatch):
