@@ -11,6 +11,7 @@ from bpy.types import Context, Object, Scene, UILayout
 from ..core.verdict.finding import finding
 from ..operators.read.visibility import GEOMETRY_TYPES
 from ..operators.session import walls as wall_slider
+from ..operators.settings.given import shows_collection
 from ..operators.settings.preferences import default_material
 from ..operators.settings.properties import density_field_name
 from ..operators.write.translations import CONTEXT
@@ -37,7 +38,7 @@ class DensityPanel:
 
 
 def _has_density(obj: Object) -> bool:
-    return obj.type in GEOMETRY_TYPES or obj.instance_collection is not None
+    return obj.type in GEOMETRY_TYPES or shows_collection(obj)
 
 
 def material_row(layout: UILayout, context: Context, obj: Object) -> None:

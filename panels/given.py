@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from bpy.types import Context, PropertyGroup, UILayout
 
+from ..operators.settings.given import shows_collection
 from .places import in_both_places
 from .settings import setting
 
@@ -37,7 +38,7 @@ class GivenPanel:
 
 
 def _may_be_point(obj) -> bool:
-    return obj.type == "EMPTY" and obj.instance_collection is None
+    return obj.type == "EMPTY" and not shows_collection(obj)
 
 
 def given_rows(layout: UILayout, settings: PropertyGroup) -> None:

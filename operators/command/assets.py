@@ -13,6 +13,7 @@ import bpy
 from ...core.measurement import Measurement
 from ...core.verdict.finding import FileError, Finding, finding
 from ..read.assembly import Root
+from ..settings.given import shows_collection
 from ..supervisor.listing import COPY_SUFFIX
 from ..write.whole_file import partial_file, replace
 from .files import reason
@@ -57,7 +58,7 @@ def _without_numbers(known: set[Root]) -> Iterator[Finding]:
 def _has_geometry(root: Root) -> bool:
     if isinstance(root, bpy.types.Collection):
         return any(map(_has_geometry, root.all_objects))
-    return root.type in _WITH_GEOMETRY or root.instance_collection is not None
+    return root.type in _WITH_GEOMETRY or shows_collection(root)
 
 
 def save_copy(path: str) -> None:

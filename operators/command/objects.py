@@ -13,6 +13,7 @@ import bpy
 from ...core.verdict.finding import Finding, finding
 from ..read import measurable, measurable_objects
 from ..read.total_caveats import left_out_reasons
+from ..settings.given import shows_collection
 
 
 def failure(name: str | None, reason: Finding) -> dict[str, Any]:
@@ -57,8 +58,7 @@ def _excluded(scene: bpy.types.Scene, layer: bpy.types.ViewLayer) -> set[bpy.typ
     """The scene's measurable objects outside of its view layer, but for the members of instanced
     collections, which the instancers' records hold.
     """
-    instancers = [obj for obj in scene.objects if obj.instance_type == "COLLECTION"]
-    instanced = {obj.instance_collection for obj in instancers} - {None}
+    instanced = {obj.instance_collection for obj in scene.objects if shows_collection(obj)}
     members = {member for collection in instanced for member in collection.all_objects}
     return {obj for obj in {*scene.objects} - {*layer.objects} - members if measurable(obj)}
 

@@ -18,7 +18,7 @@ from bpy.types import Depsgraph, Object
 from numpy.typing import NDArray
 
 from ...core.verdict.finding import Finding, finding
-from ..settings.given import is_point_mass
+from ..settings.given import is_point_mass, shows_collection
 from .instances import MAX_DEPTH
 from .reading import float64_matrix
 from .total_caveats import left_out_reasons, operands_of
@@ -80,7 +80,7 @@ class Member:
 def is_assembly(data: Root) -> bool:
     """Return whether it is a collection, or an empty that stands for its children."""
     return isinstance(data, bpy.types.Collection) or (
-        data.type == "EMPTY" and data.instance_collection is None and bool(data.children)
+        data.type == "EMPTY" and not shows_collection(data) and bool(data.children)
     )
 
 
@@ -144,7 +144,7 @@ class _Walk:
         """What an object's children show."""
         members: list[Member] = []
         for child in sorted(self.of_parent.get(parent, ()), key=_name):
-            if child.type == "EMPTY" and child.instance_collection is None and child in self.of_parent:
+            if child.type == "EMPTY" and not shows_collection(child) and child in self.of_parent:
                 members.append(self.empty(child, depth))
                 continue
             of_child, below = self.object(child, parent.name, depth), self.children(child, depth)
@@ -162,7 +162,7 @@ class _Walk:
         reason = self._left_out(obj)
         if reason is not None and not (kind == MemberKind.POINT and reason.code == "not_rendered"):
             return [Member(obj, kind, left_out=reason)]
-        if _shows_collection(obj) and depth < MAX_DEPTH:
+        if _shows_members(obj) and depth < MAX_DEPTH:
             source = obj.instance_collection
             offset = np.eye(4)
             offset[:3, 3] = -np.array(source.instance_offset, np.float64)
@@ -184,11 +184,11 @@ class _Walk:
         return hidden_reason(obj, self.depsgraph) or reason
 
 
-def _shows_collection(obj: Object) -> bool:
+def _shows_members(obj: Object) -> bool:
     """Whether an instance of a collection has no density and no mass of its own."""
     settings = obj.body_moments
     return (
-        obj.instance_type == "COLLECTION"
+        shows_collection(obj)
         and (settings.mass_from, settings.density_from, settings.kind) == ("DENSITY", "VALUE", "SOLID")
         and not settings.is_property_set("density")
     )

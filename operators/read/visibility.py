@@ -15,7 +15,7 @@ from collections.abc import Iterator
 from itertools import islice
 
 from ...core.verdict.finding import Finding, ReadError, finding
-from ..settings.given import is_point_mass
+from ..settings.given import is_point_mass, shows_collection
 
 GEOMETRY_TYPES = {
     "MESH",
@@ -34,8 +34,8 @@ SURFACE_TYPES = {"MESH", "CURVE", "SURFACE", "META", "FONT"}
 def measurable(obj) -> bool:
     """Whether the object is of a kind that may show a surface: cheap enough for a poll, so it
     promises nothing more."""
-    if obj.instance_type == "COLLECTION":
-        return obj.instance_collection is not None
+    if shows_collection(obj):
+        return True
     if obj.type == "EMPTY":
         return is_point_mass(obj)
     if obj.type == "CURVE":
@@ -73,9 +73,7 @@ def measurable_objects(view_layer) -> list:
     objects = [obj for obj in objects if obj.type != "META" or obj in mothers]
     hidden = {obj for obj in objects if not obj.visible_get(view_layer=view_layer)}
     if hidden:
-        instanced = {obj.instance_collection for obj in view_layer.objects if obj.instance_type == "COLLECTION"} - {
-            None
-        }
+        instanced = {obj.instance_collection for obj in view_layer.objects if shows_collection(obj)}
         hidden &= {member for collection in instanced for member in collection.all_objects}
         objects = [obj for obj in objects if obj not in hidden]
     return sorted(objects, key=lambda obj: (obj.name, obj.library.filepath if obj.library else ""))

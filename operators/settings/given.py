@@ -55,15 +55,15 @@ class GivenPart:
         return repr(values) if self else ""
 
 
+def shows_collection(obj: Object) -> bool:
+    """Return whether the object instances a collection: one stays chosen after its instancing was switched off."""
+    return obj.instance_type == "COLLECTION" and obj.instance_collection is not None
+
+
 def is_point_mass(obj: Object) -> bool:
     """Return whether an object without any geometry stands for a part whose mass is given."""
     settings = getattr(obj, "body_moments", None)  # none where the add-on is not registered
-    return (
-        obj.type == "EMPTY"
-        and obj.instance_collection is None
-        and settings is not None
-        and settings.mass_from == "MASS"
-    )
+    return obj.type == "EMPTY" and not shows_collection(obj) and settings is not None and settings.mass_from == "MASS"
 
 
 def _decimals(values) -> NDArray[np.float64]:

@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 from body_moments.core.verdict.finding import MeasureError
 from body_moments.operators.bodies.assembly import measure_assembly
-from body_moments.operators.read.assembly import members_of
+from body_moments.operators.read import measurable_objects
+from body_moments.operators.read.assembly import MemberKind, members_of
 from body_moments.operators.session import staleness
 from mathutils import Matrix
 
@@ -261,6 +262,27 @@ def test_a_lone_point_mass_is_an_assembly_too():
     empty(root, "Point", (1, 2, 3), mass=5.0)
     body = measured(root).measurement.mass_properties
     assert close(body.mass, 5.0, 1e-15) and close(body.center, [1, 2, 3], 1e-15) and not body.inertia.any()
+
+
+@pytest.mark.parametrize("kind", ["NONE", "COLLECTION"])
+def test_an_empty_that_shows_no_collection_is_a_point_mass_and_an_assembly(kind):
+    """Where instancing is switched off Blender keeps the collection; with it on, none may be chosen."""
+    root, shown = collection(), collection("Shown")
+    box(shown, (1, 1, 1), (0, 0, 0))
+    point, parent = empty(root, "Point", (1, 2, 3), mass=5.0), empty(root, "Parent")
+    box(root, (1, 1, 1), (0, 0, 2), name="Child").parent = parent
+    for obj in (point, parent):
+        obj.instance_type, obj.instance_collection = "COLLECTION", shown if kind == "NONE" else None
+        obj.instance_type = kind
+    parent.body_moments_assembly.mass_from, parent.body_moments_assembly.mass = "MASS", 10.0
+    bpy.context.view_layer.update()
+    assembly = measured(root)
+    assert {part.member.name: part.member.kind for part in assembly.root.parts} == {
+        "Point": MemberKind.POINT,
+        "Parent": MemberKind.EMPTY,
+    }
+    assert close(assembly.measurement.mass_properties.mass, 15.0, 1e-14)
+    assert {obj for obj in measurable_objects(bpy.context.view_layer) if obj.type == "EMPTY"} == {point}
 
 
 def test_an_empty_with_a_given_mass_stands_for_its_children_in_a_collection():

@@ -226,6 +226,8 @@ def test_given_parts():
     assert is_point_mass(obj)
     obj.instance_type, obj.instance_collection = "COLLECTION", bpy.data.collections.new("Parts")
     assert not is_point_mass(obj)
+    obj.instance_type = "NONE"
+    assert is_point_mass(obj)
     mesh = add(mesh_body())
     mesh.body_moments.mass_from = "MASS"
     assert not is_point_mass(mesh)
