@@ -38,6 +38,18 @@ PATTERNS = [
         r"\(.* / (signs|flipped|mirror|np\.outer\(mirror, mirror\)|\(1\.0, 1\.0, np\.sign\(.*\)\))\)",
         "times -1 is by -1",
     ),
+    (
+        r".*robots/plausibility.py _sphere",
+        r"1\.0 \+ 5\.0\*\*0\.5",
+        r"\(1\.0 - 5\.0 \*\* 0\.5\)",
+        "a spiral that turns the other way",
+    ),
+    (
+        r".*polyhedron/any_order.py _StreamIntegrator._tasks",
+        r"points\.dtype != np\.float32",
+        r"\(points\.dtype == np\.float32\)",
+        "coordinates of any kind are converted where they are gathered, or here",
+    ),
     (r".*robots/primitives.py BISECTIONS", r"200", r"201", "more digits than there are"),
     (
         r".*moments/images.py sum_of_images",
@@ -616,6 +628,12 @@ PATTERNS = [
         "a slot is one of an action",
     ),
     (
+        r"operators/scene/reframe_meshes.py _alike",
+        r"np\.argsort\(.*|np\.searchsorted\(.*|len\(near\) > 1",
+        r"\(np\.argsort\(sums\)\)|\(np\.searchsorted\(sums_in_order, sums \+ margin\)\)|\(len\(near\) >= 1\)",
+        "what is near is sorted; no sum is just at the margin; what is one only is near itself",
+    ),
+    (
         r"operators/scene/surface_objects.py _stored",
         r"np\.linalg\.norm\(spread, axis=2\)",
         r"\(np\.linalg\.norm\(spread\)\)",
@@ -904,6 +922,15 @@ CONSTANTS = [
     (r"operators/bodies/rig.py _area", r"polyhedron_moments\(.*, ", "the volume is not read"),
     (r"operators/bodies/rig.py _Measuring._pieces", r"_area\(sheet, metric, ", "the area alone is read"),
     (r"operators/bodies/rig.py _Measuring._pieces", r"np\.where\(is_cap, ", "it is replaced"),
+    (r"operators/scene/reframe_meshes.py _alike", r"(weights\[:, 3\] /= |limit \+ )", "more of them are compared"),
+    (
+        r"operators/scene/changes.py independent_rounds",
+        r"(number = |get\(data, -|default=-)",
+        "how rounds are numbered",
+    ),
+    (r"operators/scene/reframe.py set_world_matrix", r"range\(", "once more is corrected what is right"),
+    (r"operators/scene/surface_objects.py surface_data", r"size or ", "of a point, which is no surface"),
+    (r"operators/scene/surface_objects.py MIN_LOFTED_POINTS", r"= ", "more are lofted, and deleted again"),
     (r"operators/bodies/flat_fourier.py flat_transform", r"region\.moments\(", "the area alone is read"),
     (r"operators/bodies/stream.py _in_meters", r"unit, unit, unit, ", "the last row is not read"),
     (r"operators/bodies/stream.py StreamBody.moments", r"order if area else ", "of the area nothing is returned"),
