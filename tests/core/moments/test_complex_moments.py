@@ -39,6 +39,19 @@ def test_complex_moments_are_sums_of_powers_of_the_places():
     assert all(wider[key].bound > found[key].bound and wider[key].value == found[key].value for key in found)
 
 
+def test_what_is_known_exactly_is_off_by_some_roundings():
+    """8 and one for each term, of the terms' sizes; 4 for each product."""
+    moments = of_points(4)
+    exact = Moments(moments.raw, moments.about, "area")
+    found = complex_moments(exact)
+    assert found[0, 0].bound == 9.0 * U * exact[0, 0, 0]
+    x, y, xy = exact[2, 0, 0], exact[0, 2, 0], exact[1, 1, 0]
+    sizes = {(1, 1): 10.0 * (x + y), (2, 0): 11.0 * (x + y + 2.0 * abs(xy))}
+    assert all(abs(found[pair].bound / U / size - 1.0) <= 1e-12 for pair, size in sizes.items())
+    both = ComplexBound(3.0 + 4.0j, 0.0) * ComplexBound(-2.0j, 0.0)
+    assert both == ComplexBound(8.0 - 6.0j, 40.0 * U)
+
+
 def test_products_are_within_their_bounds_wherever_the_factors_are_in_theirs():
     one, other = ComplexBound(2.0 - 1.0j, 0.25), ComplexBound(-0.5 + 3.0j, 0.125)
     both, cubed = one * other, one.power(3)

@@ -407,6 +407,10 @@ def test_scaling_by_a_density_scales_the_bounds():
     heavy = body * 7850.0
     assert_within_bound(heavy, [7850 * x for x in simplex_moments()])
     assert (3.0 * body)[0, 0, 0] == (body * 3.0)[0, 0, 0]
+    raw = np.array([4.0, -1.0, 0.0, 2.0])
+    found = Moments(raw, np.zeros(3), "volume", 1e-15 * np.ones(4), 1e-9 * np.ones(4)) * -2.5
+    assert close(found.rounding_error, 2.5e-15 + 5.0 * U * np.abs(raw), rel=1e-12)
+    assert close(found.raw, -2.5 * raw, rel=0.0) and close(found.input_error, 2.5e-9, rel=1e-15)
 
 
 def test_areas_follow_similarities_only():
@@ -425,6 +429,20 @@ def test_what_a_float32_rotation_lacks_of_a_similarity_is_in_the_input_bound():
     matrix[:2, :2] = [[c, -s], [s, c]]
     image = Moments(np.array([1.0, 0, 0, 0]), np.zeros(3), "area").transform(matrix)
     assert 1e-9 < image.input_error[0] < 1e-6
+
+
+@pytest.mark.parametrize("of, power", [("area", 2), ("length", 1)])
+@pytest.mark.parametrize("rounding, moved", [(0.0, 0.0), (0.5, 0.25)])
+def test_what_stretches_unevenly_is_off_by_that_share_of_all_that_may_be_there(of, power, rounding, moved):
+    """E of AᵀA = s² (1 + E), at most, times a half and itself."""
+    body = Moments(np.array([3.0]), np.zeros(3), of, np.array([rounding]), np.array([moved]))
+    stretch = Fraction(6, 10**6) + 1
+    mean = (2 + stretch**2) / 3
+    off = float((stretch**2 - mean) / mean)
+    matrix, weight = np.diag([2.0, 2.0, 2.0 * float(stretch), 1.0]), (8.0 * float(stretch)) ** (power / 3.0)
+    wanted = weight * (moved + off * (0.5 + off) * (3.0 + rounding + moved))
+    assert close(body.transform(matrix).input_error, wanted, rel=1e-9)
+    assert close(sum_of_images(body, np.array([matrix] * 3)).input_error, 3.0 * wanted, rel=1e-9)
 
 
 def test_input_bounds_map_with_the_body():
