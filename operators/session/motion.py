@@ -3,7 +3,8 @@
 """Masses and centers of objects from frame to frame: measured again only where the geometry has changed.
 
 An object that only moves is measured once, and its moments are mapped by its matrices. One whose mesh is mixed from
-shape keys is sampled once, and its volume and center are polynomials of the key values.
+shape keys is sampled once, and its volume and center are polynomials of the key values while Blender cuts its faces
+into the same triangles; what it cuts otherwise is measured.
 """
 
 from __future__ import annotations
@@ -35,7 +36,7 @@ class _Followed:
     """An object: what was measured, and after which update of its geometry.
 
     moments: of its mass, in the object's coordinates in SI units; given_mass: in kg, where the mass is given. mixes,
-    density: of shape keys; keys: their names.
+    density: of shape keys; keys: their names; triangles: into which the faces are cut in the mixes.
     """
 
     change: int = -1
@@ -44,6 +45,7 @@ class _Followed:
     mixes: Mixes | None = None
     density: float = 0.0
     keys: tuple[str, ...] = ()
+    triangles: NDArray[np.integer] | None = None
     hull: tuple[int, ConvexHull] | None = None  # and after which update of its geometry it was found
 
 
@@ -72,7 +74,7 @@ class Motion:
         matrix = float64_matrix(obj.evaluated_get(depsgraph).matrix_world)
         followed = self._followed.setdefault(obj, _Followed())
         if followed.mixes is not None:
-            mixed = _mixed(obj, followed, matrix, unit)
+            mixed = _mixed(obj, followed, depsgraph, matrix, unit)
             return _measured(obj, followed, depsgraph, matrix, unit) if mixed is None else mixed
         change = updates.last_change_of_geometry(obj)
         if followed.moments is None or followed.change != change or not _can_map(followed.moments, matrix):
@@ -105,9 +107,10 @@ class Motion:
             name: _coordinates(blocks[name].data) for name in {*keys, *(blocks[k].relative_key.name for k in keys)}
         }
         surface = read_object(obj, depsgraph, edges=False).parts[0].surface
-        basis = _coordinates(obj.data.shape_keys.reference_key.data)
+        surface = replace(surface, points=_coordinates(obj.data.shape_keys.reference_key.data))
         offsets = [shapes[name] - shapes[blocks[name].relative_key.name] for name in keys]
-        followed.mixes, followed.keys = fit_mixes(replace(surface, points=basis), offsets), keys
+        followed.mixes, followed.keys = fit_mixes(surface, offsets), keys
+        followed.triangles, _ = surface.all_triangles()
         followed.density, followed.given_mass = measurement.density, _given_mass(obj)
         return True
 
@@ -133,8 +136,14 @@ def _coordinates(data) -> NDArray[np.float64]:
     return points.reshape(-1, 3).astype(np.float64)
 
 
-def _mixed(obj: Object, followed: _Followed, matrix: NDArray, unit: float) -> tuple[float, NDArray[np.float64]] | None:
-    """Mass and center; None where keys or matrix make the mesh flat or turn it inside out, which is for measuring."""
+def _mixed(
+    obj: Object, followed: _Followed, depsgraph: Depsgraph, matrix: NDArray, unit: float
+) -> tuple[float, NDArray[np.float64]] | None:
+    """Mass and center; None for what has to be measured: where faces are cut otherwise than in the mixes, and where
+    keys or matrix make the mesh flat or turn it inside out."""
+    triangles, _ = read_object(obj, depsgraph, edges=False).parts[0].surface.all_triangles()
+    if not np.array_equal(triangles, followed.triangles):
+        return None
     blocks = obj.data.shape_keys.key_blocks
     assert followed.mixes is not None
     volumes, centers = followed.mixes.at([[blocks[name].value for name in followed.keys]])
