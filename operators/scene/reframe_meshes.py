@@ -186,7 +186,7 @@ def _alike(changes: NDArray, reach: NDArray, within: Sequence[float]) -> list[li
     order = np.argsort(sums, kind="stable")
     sums_in_order = sums[order]
     margin = limit + 1e-12 * np.abs(changes[:, :3] * weights).sum(axis=(1, 2)).max()  # what rounding makes of sums
-    starts = np.searchsorted(sums_in_order, sums - margin, side="left").tolist()
+    starts = np.searchsorted(sums_in_order, sums - margin).tolist()
     ends = np.searchsorted(sums_in_order, sums + margin, side="right").tolist()
     groups: list[list[int]] = []
     is_left = np.ones(len(changes), bool)

@@ -928,7 +928,7 @@ CONSTANTS = [
         r"(number = |get\(data, -|default=-)",
         "how rounds are numbered",
     ),
-    (r"operators/scene/reframe.py set_world_matrix", r"range\(", "once more is corrected what is right"),
+    (r"operators/scene/reframe.py set_world_matrix", r"range\(", "how often is corrected what is right, at most"),
     (r"operators/scene/surface_objects.py surface_data", r"size or ", "of a point, which is no surface"),
     (r"operators/scene/surface_objects.py MIN_LOFTED_POINTS", r"= ", "more are lofted, and deleted again"),
     (r"operators/bodies/flat_fourier.py flat_transform", r"region\.moments\(", "the area alone is read"),

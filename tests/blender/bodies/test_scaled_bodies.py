@@ -5,6 +5,8 @@
 import bpy
 import numpy as np
 import pytest
+from body_moments.core.moments.moments import monomials
+from body_moments.operators.bodies.flat import flat_region
 from body_moments.operators.bodies.measure_object import measure_object
 from body_moments.operators.settings.options import MeasureOptions
 
@@ -58,26 +60,74 @@ KINDS = {
 }
 
 
-@pytest.mark.parametrize("kind", KINDS)
-def test_a_larger_body_has_larger_numbers_and_bounds(kind):
+ESTIMATED = {"patches", "sheet of patches", "wall of patches", "wire", "region"}
+
+
+def in_several_sizes(kind, **more):
+    """[(by how much it is larger, measurement)] of a body as it is, scaled, and in another unit."""
     make, options = KINDS[kind]
     obj, found = make(), []
-    obj.location = (1.0, 2.0, 3.0)
-    scene, scale = bpy.context.scene, np.array(obj.scale)
+    scene, scale, place = bpy.context.scene, np.array(obj.scale), np.array((1.0, 2.0, 3.0))
     for by, unit in ((1.0, 1.0), (4.0, 1.0), (1.0, 0.25)):
-        scene.unit_settings.scale_length, obj.scale, obj.location = unit, by * scale, by * np.array((1.0, 2.0, 3.0))
+        scene.unit_settings.scale_length, obj.scale, obj.location = unit, by * scale, by * place
         bpy.context.view_layer.update()
-        given = MeasureOptions(density=1000.0, thickness=by * unit * THICKNESS, **options)
+        given = MeasureOptions(density=1000.0, thickness=by * unit * THICKNESS, **options, **more)
         found.append((by * unit, measure_object(obj, bpy.context.evaluated_depsgraph_get(), given)))
-    plain, power = found[0][1], 3 if options.get("kind") == "wire" else 5
+    return found
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_larger_body_has_larger_numbers_and_bounds(kind):
+    (_, plain), *larger = in_several_sizes(kind)
+    assert plain.error_bound.get("estimated", False) == (kind in ESTIMATED)
+    power = 3 if kind == "wire" else 5
     rows = {"volume": 3, "area": 2, "center_of_mass": 1, "inertia": power}
-    for factor, larger in found[1:]:
-        assert close(larger.volume, factor**3 * plain.volume, 1e-12)
-        assert close(larger.area, factor**2 * plain.area, 1e-12)
-        assert close(larger.mass_properties.mass, factor ** (power - 2) * plain.mass_properties.mass, 1e-12)
+    for factor, found in larger:
+        assert [one.code for one in found.findings] == [one.code for one in plain.findings]
+        assert close(found.volume, factor**3 * plain.volume, 1e-12)
+        assert close(found.area, factor**2 * plain.area, 1e-12)
+        assert close(found.location, factor * plain.location, 1e-12)
+        body, own_body = found.mass_properties, plain.mass_properties
+        assert close(body.mass, factor ** (power - 2) * own_body.mass, 1e-12)
+        assert close(body.center, factor * own_body.center, 1e-9)
         for now, own in (
-            (larger.error_bound, plain.error_bound),
-            (larger.error_bound["input"], plain.error_bound["input"]),
+            (found.error_bound, plain.error_bound),
+            (found.error_bound["input"], plain.error_bound["input"]),
         ):
             for name, degree in rows.items():
                 assert close(now[name], factor**degree * own[name], 1e-6), name
+
+
+@pytest.mark.parametrize("kind", [kind for kind in KINDS if kind != "wall of patches"])
+def test_moments_of_a_larger_body_and_their_bounds_grow_with_their_degree(kind):
+    (_, plain), *larger = in_several_sizes(kind, order=4, surface=True)
+    for factor, found in larger:
+        for name, dimension in (("volume_moments", 3), ("area_moments", 2)):
+            now, own = getattr(found, name), getattr(plain, name)
+            if own is None:
+                assert now is None
+                continue
+            growth = factor ** (dimension + monomials(4).sum(axis=1))
+            assert own.order == 4 and close(now.about, factor * own.about, 1e-9)
+            assert (np.abs(now.raw - growth * own.raw) <= now.rounding_error).all()
+            for bound in ("rounding_error", "input_error"):
+                assert close(getattr(now, bound), growth * getattr(own, bound), 1e-6), (name, bound)
+
+
+@pytest.mark.parametrize("exact", [True, False])
+def test_moments_of_a_larger_flat_shape_and_their_bounds_grow_with_their_degree(exact):
+    obj, found = ring("2D"), []
+    obj.rotation_euler = (0.3, 0.5, 0.7)
+    for by, unit in ((1.0, 1.0), (4.0, 1.0), (1.0, 0.25)):
+        bpy.context.scene.unit_settings.scale_length = unit
+        obj.scale, obj.location = (by, by, by), by * np.array((1.0, 2.0, 3.0))
+        bpy.context.view_layer.update()
+        region = flat_region(obj, bpy.context.evaluated_depsgraph_get(), exact=exact)
+        found.append((by * unit, region.moments(4)))
+    (_, own), *larger = found
+    for factor, now in larger:
+        growth = factor ** (2 + monomials(4).sum(axis=1))
+        assert np.abs(now.about - factor * own.about).max() <= 1e-12 * factor * np.abs(own.about).max()
+        assert (np.abs(now.raw - growth * own.raw) <= now.rounding_error).all()
+        for bound in ("rounding_error", "input_error"):
+            assert close(getattr(now, bound), growth * getattr(own, bound), 1e-6), bound

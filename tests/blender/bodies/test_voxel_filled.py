@@ -58,6 +58,7 @@ def test_a_box_around_whole_voxels_weighs_them(tmp_path, mirror):
     assert found.mass_properties.center == pytest.approx(center, rel=1e-12)
     assert found.volume == pytest.approx(8.0)
     assert found.density == pytest.approx(part.mean(), rel=1e-12)
+    assert found.error_bound["estimated"]
     assert said(found).keys() == {"grid_density_of"}
     assert found.density_from == finding("density_from_grid_of", grid="density", object=volume.name)
 

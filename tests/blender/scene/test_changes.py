@@ -278,3 +278,21 @@ def test_where_the_scene_cannot_be_evaluated_what_was_changed_is_put_back():
     with pytest.raises(KeyboardInterrupt):
         side_by_side.run_change(context, running)
     assert states == ["changed", "as it was"] and updates == [0, 1, 2]
+
+
+def test_changes_go_into_rounds_after_all_that_touch_the_same():
+    first, second, third = bodies(3)
+    changes = [
+        ("first", {first}),
+        ("beside", {second}),
+        ("after both", {first, second}),
+        ("after that", {second, third}),
+        ("free", set()),
+        ("last", {first, third}),
+    ]
+    assert side_by_side.independent_rounds(changes) == [
+        ["first", "beside", "free"],
+        ["after both"],
+        ["after that"],
+        ["last"],
+    ]

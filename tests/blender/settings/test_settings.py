@@ -308,6 +308,21 @@ def test_a_scene_gets_the_preferences_once_where_it_has_nothing_of_its_own(monke
     assert settings.digits == 9 and settings.overlay.is_property_set("show") and not settings.overlay.show
 
 
+def test_a_linked_scene_keeps_what_it_has(monkeypatch, scene, tmp_path):
+    bpy.data.libraries.write(str(tmp_path / "a.blend"), {scene})
+    with bpy.data.libraries.load(str(tmp_path / "a.blend"), link=True) as (there, here):
+        here.scenes = there.scenes[:1]
+    source = SimpleNamespace(
+        show_overlay=False, **{name: getattr(scene.body_moments, name) for name in preferences.COPIED}
+    )
+    monkeypatch.setattr(preferences, "preferences", lambda: source)
+    (linked,) = here.scenes
+    preferences.copy_defaults(linked)
+    assert linked.library is not None and not linked.body_moments.has_defaults
+    preferences.copy_defaults(scene)
+    assert scene.body_moments.has_defaults
+
+
 def test_without_preferences_a_scene_stays_as_it_is(monkeypatch, scene):
     monkeypatch.setattr(preferences, "preferences", lambda: None)
     preferences.copy_defaults(scene)
