@@ -91,6 +91,30 @@ def test_unit_simplices_have_dirichlets_moments_to_twelfth_order(n):
     assert (found.rounding_error <= 1000 * U * truth).all()  # and the bound means something
 
 
+@pytest.mark.parametrize("n", [1, 2, 3, 4, 5])
+def test_bounds_are_as_many_roundings_as_a_product_of_coordinates_goes_through(n):
+    """Of unit simplices, of which no two terms cancel, in one block: n + 2 for each power, n² for the passes, for each
+    minor of the edges 3 and one for each of its terms, 64 for the sum over simplices."""
+    points, facets, signs = unit_simplex(n)
+    found = enclosed_moments(points, facets, 6, about=np.zeros(n), signs=signs)
+    minors = sum(3 + size for size in range(1, n))
+    steps = multi_indices(n, 6).sum(axis=1) * (n + 2) + n * n + minors + 2 * n + 6 + 64 + 1 + 4
+    assert close(found.rounding_error, 1.01 * steps * U * found.raw, rel=1e-12)
+
+
+def test_bounds_hold_where_products_of_coordinates_vanish():
+    """A needle of 1e-50 by 1e60 by 1e60: of its own size x³ is 1e-330."""
+    sides = np.array([1e-50, 1e60, 1e60])
+    points, facets, _ = unit_simplex(3)
+    found = enclosed_moments(points * sides, facets, 2, about=np.zeros(3))
+    for row, value, bound in zip(multi_indices(3, 2).tolist(), found.raw, found.rounding_error):
+        truth = Fraction(math.prod(map(math.factorial, row)), math.factorial(sum(row) + 3))
+        for side, power in zip(sides, row):
+            truth *= Fraction(side) ** (power + 1)
+        assert abs(Fraction(value) - truth) <= Fraction(bound)
+    assert found[2, 0, 0] == 0.0 < found.bound((2, 0, 0)) < 1.0
+
+
 @pytest.mark.parametrize("n", [2, 3, 4, 5])
 def test_facets_of_unit_simplices_have_dirichlets_moments_to_twelfth_order(n):
     points, facets, _ = unit_simplex(n)

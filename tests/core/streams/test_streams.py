@@ -419,6 +419,13 @@ def test_what_reaches_twice_as_far_as_the_samples_is_read_once(tmp_path, monkeyp
     assert sum(seen) == 24 * times
 
 
+def test_faces_outside_of_the_box_that_a_file_says_they_are_in_are_a_fault_of_the_program(tmp_path, monkeypatch):
+    for name in ("sampled_box", "box"):
+        monkeypatch.setattr(stl_module.StlFile, name, lambda _: (np.full(3, -0.1), np.full(3, 0.1)))
+    with pytest.raises(AssertionError, match="box"):
+        measured(tmp_path, "a.stl", stl(box()))
+
+
 def test_a_header_has_a_million_bytes_at_most(tmp_path):
     whole = ply_text(VERTICES + FACES, TETRAHEDRON)
     length = whole.index(b"end_header\n") + len(b"end_header\n")
