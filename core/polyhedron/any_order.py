@@ -207,7 +207,7 @@ class _StreamIntegrator:
         if self.exponent is None:
             self.exponent = _exponent(largest)
         beyond = frexp(largest)[1] - self.exponent
-        if (max(beyond, 0) + 2) * (self.order + 3) > MAX_EXPONENT:
+        if (beyond + 2) * (self.order + 3) > MAX_EXPONENT:
             raise ValueError("about and reach needed")
         if (max(beyond, 0) + self.exponent) * (self.order + 3) > MAX_EXPONENT:
             raise MeasureError("moments_overflow", order=int(self.order))

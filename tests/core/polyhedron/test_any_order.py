@@ -317,6 +317,26 @@ def test_what_leaves_the_range_of_numbers_is_refused():
         polyhedron_moments(iter([triangles[:1] * 1e-30, triangles]), 20)
 
 
+def test_moments_may_be_a_thousand_powers_of_two_large():
+    """At order 17, of 20 factors, the reach may have 50 of them; in a stream 48 more than what it was said to be."""
+    points, faces = octahedron()
+    points *= 0.75
+    for exponent, is_measured in ((50, True), (51, False)):
+        body = Surface(points * 2.0**exponent, faces)
+        if is_measured:
+            assert np.isfinite(polyhedron_moments(body, 17)[0].raw).all()
+        else:
+            with refused("moments_overflow", order=17):
+                polyhedron_moments(body, 17)
+    for exponent, is_measured in ((48, True), (49, False)):
+        stream, about = iter([points[faces] * 2.0**exponent]), np.zeros(3)
+        if is_measured:
+            assert np.isfinite(polyhedron_moments(stream, 17, about=about, reach=1.0)[0].raw).all()
+        else:
+            with pytest.raises(ValueError, match="reach"):
+                polyhedron_moments(stream, 17, about=about, reach=1.0)
+
+
 @pytest.mark.filterwarnings("error")
 def test_what_leaves_it_at_low_orders_is_refused_too_and_what_stays_is_told():
     points, quads = grid_torus()
