@@ -101,6 +101,13 @@ def test_the_total_has_exact_parallel_axis_terms_in_nested_collections():
     assert np.abs(body.inertia - tensor).max() <= body.rounding_error["inertia"]
     assert str(assembly.measurement.method) == "assembly" and assembly.measurement.type == "COLLECTION"
     assert assembly.measurement.health.closed and assembly.measurement.health.components == 3
+    bound, own = (
+        assembly.measurement.error_bound,
+        [part.measurement.error_bound for part in assembly.root.walk() if part.measurement is not None],
+    )
+    for name in ("volume", "area"):
+        assert len(own) == 3 and bound[name] > sum(one[name] for one in own) > 0.0
+        assert close(bound["input"][name], sum(one["input"][name] for one in own), 1e-12)
     (nested,) = [part for part in assembly.root.parts if part.member.name == "Inner"]
     assert close(nested.mass.total, 1000 * 8 + 2700, 1e-14)
 

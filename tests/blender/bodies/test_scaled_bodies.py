@@ -61,6 +61,9 @@ KINDS = {
 
 
 ESTIMATED = {"patches", "sheet of patches", "wall of patches", "wire", "region"}
+OPEN = {"sheet of patches", "wall of patches", "region"}
+METHODS = {"solid": "exact", "instances": "exact", "patches": "NURBS exact", "wire": "wire"}
+METHODS |= dict.fromkeys(ESTIMATED - METHODS.keys(), "NURBS shell")
 
 
 def in_several_sizes(kind, **more):
@@ -80,6 +83,8 @@ def in_several_sizes(kind, **more):
 def test_a_larger_body_has_larger_numbers_and_bounds(kind):
     (_, plain), *larger = in_several_sizes(kind)
     assert plain.error_bound.get("estimated", False) == (kind in ESTIMATED)
+    assert str(plain.method) == METHODS.get(kind, "shell")
+    assert (plain.health.closed, plain.health.components) == (kind not in OPEN, 2 if "instances" in kind else 1)
     power = 3 if kind == "wire" else 5
     rows = {"volume": 3, "area": 2, "center_of_mass": 1, "inertia": power}
     for factor, found in larger:

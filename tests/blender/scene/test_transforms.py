@@ -122,6 +122,8 @@ def test_linear_maps_are_rotations_and_scales_of_the_present_signs():
         assert transforms.rotation_and_scale(shear, np.ones(3))[2] == is_even
         turned_shears = turns @ shear
         assert (transforms.rotation_and_scale(turned_shears, np.ones((16, 3)))[2] == is_even).all()
+    some = transforms.rotation_and_scale(np.stack([np.eye(3), shear, np.diag([1.0, 0.0, 2.0])]), np.ones((3, 3)))
+    assert some[2].tolist() == [True, False, False]
     assert not transforms.rotation_and_scale(np.diag([1.0, 0.0, 2.0]), np.ones(3))[2]
 
 

@@ -138,6 +138,30 @@ def test_clothes_and_what_hangs_on_bones_count():
     assert np.abs(center - again).max() < 1e-5 and bone.length > 0.0
 
 
+def test_bounds_of_a_character_are_those_of_its_parts_and_grow_with_it():
+    armature, _ = character()
+    sword = bpy.data.objects.new("Sword", box_mesh(1, 2, 4))
+    bpy.context.scene.collection.objects.link(sword)
+    sword.parent, sword.parent_type, sword.parent_bone = armature, "BONE", "arm.L"
+    found = []
+    for unit in (1.0, 0.25):
+        bpy.context.scene.unit_settings.scale_length = unit
+        bpy.context.view_layer.update()
+        rig = measured(armature)
+        parts = [part.measurement for part in rig.parts]
+        total = rig.measurement.error_bound
+        for name in ("volume", "area"):
+            assert total[name] > sum(part.error_bound[name] for part in parts) > 0.0
+            assert close(total["input"][name], sum(part.error_bound["input"][name] for part in parts), 1e-12)
+        found.append([rig.measurement, *parts])
+    for plain, smaller in zip(*found, strict=True):
+        assert close(smaller.location, 0.25 * plain.location, 1e-12)
+        for name, factor in (("volume", 0.25**3), ("area", 0.25**2)):
+            assert close(getattr(smaller, name), factor * getattr(plain, name), 1e-12)
+            assert close(smaller.error_bound[name], factor * plain.error_bound[name], 1e-6)
+            assert close(smaller.error_bound["input"][name], factor * plain.error_bound["input"][name], 1e-6)
+
+
 def test_an_open_skin_is_capped_as_measure_does():
     shape = made.box_skeleton()
     foot = (shape.points[shape.quads][:, :, 2] == -5).all(axis=1)
