@@ -628,6 +628,12 @@ PATTERNS = [
         "a slot is one of an action",
     ),
     (
+        r"operators/bodies/array.py _threshold_body",
+        r"np\.argsort\(.*|-abs\(stride\)",
+        r".*",
+        "in which order samples are read",
+    ),
+    (
         r"operators/scene/reframe_meshes.py _alike",
         r"np\.argsort\(.*|np\.searchsorted\(.*|len\(near\) > 1",
         r"\(np\.argsort\(sums\)\)|\(np\.searchsorted\(sums_in_order, sums \+ margin\)\)|\(len\(near\) >= 1\)",
