@@ -45,6 +45,32 @@ def instances():
     return obj
 
 
+def of_materials():
+    mesh = mesh_body()
+    for density in (500.0, 7000.0):
+        mesh.materials.append(bpy.data.materials.new("Material"))
+        mesh.materials[-1].body_moments.density = density
+    mesh.polygons.foreach_set("material_index", [i % 2 for i in range(len(mesh.polygons))])
+    obj = add(mesh)
+    obj.body_moments.density_from = "MATERIALS"
+    return obj
+
+
+def of_an_attribute():
+    mesh = mesh_body()
+    values = mesh.attributes.new("density", "FLOAT", "POINT").data
+    values.foreach_set("value", [100.0 + 10.0 * i for i in range(len(values))])
+    obj = add(mesh)
+    obj.body_moments.density_from = "ATTRIBUTE"
+    return obj
+
+
+def of_a_polynomial():
+    obj = add(mesh_body())
+    obj.body_moments.density_from, obj.body_moments.density_polynomial = "POLYNOMIAL", "700"
+    return obj
+
+
 KINDS = {
     "solid": (lambda: add(mesh_body()), {}),
     "sheet": (lambda: add(mesh_body()), {"kind": "shell"}),
@@ -57,12 +83,18 @@ KINDS = {
     "wall of patches": (patch, {"kind": "shell", "wall": "centered"}),
     "wire": (lambda: ring("3D"), {"kind": "wire"}),
     "region": (lambda: ring("2D"), {"kind": "shell"}),
+    "materials": (of_materials, {"density": None}),
+    "sheet of materials": (of_materials, {"kind": "shell", "density": None}),
+    "attribute": (of_an_attribute, {"kind": "shell", "density": None}),
+    "polynomial": (of_a_polynomial, {"density": None}),
+    "sheet of a polynomial": (of_a_polynomial, {"kind": "shell", "density": None}),
 }
 
 
 ESTIMATED = {"patches", "sheet of patches", "wall of patches", "wire", "region"}
 OPEN = {"sheet of patches", "wall of patches", "region"}
-METHODS = {"solid": "exact", "instances": "exact", "patches": "NURBS exact", "wire": "wire"}
+METHODS = {"patches": "NURBS exact", "wire": "wire"}
+METHODS |= dict.fromkeys(("solid", "instances", "materials", "polynomial"), "exact")
 METHODS |= dict.fromkeys(ESTIMATED - METHODS.keys(), "NURBS shell")
 
 
@@ -74,7 +106,7 @@ def in_several_sizes(kind, **more):
     for by, unit in ((1.0, 1.0), (4.0, 1.0), (1.0, 0.25)):
         scene.unit_settings.scale_length, obj.scale, obj.location = unit, by * scale, by * place
         bpy.context.view_layer.update()
-        given = MeasureOptions(density=1000.0, thickness=by * unit * THICKNESS, **options, **more)
+        given = MeasureOptions(**{"density": 1000.0, **options, **more}, thickness=by * unit * THICKNESS)
         found.append((by * unit, measure_object(obj, bpy.context.evaluated_depsgraph_get(), given)))
     return found
 
