@@ -110,6 +110,39 @@ PATTERNS = [
         "of one bone the nearest is that bone",
     ),
     (r".*plane/section.py fit_plane", r"facing @ normal", r"\(normal @ facing\)", "a product of two vectors"),
+    (
+        r".*canonical_frame.py _maximize_on_sphere",
+        r"flat @ \(degree \* \(degree - 1\) \* contracted_twice\)( @ flat)?",
+        r".*",
+        "at a maximum, where there is no slope, it is the same",
+    ),
+    (r".*mesh/(bvh|scan_lines).py .*", r".*, order=.C.\)", r"((?!order=).)*", "how numbers lie in memory"),
+    (r".*shape/symmetry.py _around_axis", r"turn @ seed", r"\(seed @ turn\)", "the same operations"),
+    (r".*mesh/bvh.py Bvh._sort", r"not selected\.all\(\)", r"\(selected\.all\(\)\)", "more is sorted than is read"),
+    (
+        r".*mesh/scan_lines.py _cells",
+        r"(max\(grids.*|np\.iinfo.*|np\.int16 if .*)",
+        r".*",
+        "in how many bytes rows are counted, which are fewer than 2^13",
+    ),
+    (
+        r".*statics/balance.py _Problem.__init__",
+        r"1\.0 if shell else (float\(np\.sign\(.*\)\))",
+        r"\(float\(np\.sign\(.*\)\)\)",
+        "an area is positive",
+    ),
+    (
+        r".*statics/balance.py .*",
+        r"(derive|area_gradient|volume_gradient)\(.*, order=1\)",
+        r"\((derive|area_gradient|volume_gradient)\(((?!order=).)*\)\)",
+        "what is of a higher order is not read",
+    ),
+    (
+        r".*plane/polygon.py _steep_side_windings",
+        r"len\(chosen\) \* len\(edges\)",
+        r".*",
+        "of how many edges is looked at both sides",
+    ),
     (r".*polyhedron/sheared_areas.py area_of_images", r"1e-9", r"1\.0+2e-06", "a looser bound"),
     (
         r".*shape/(symmetry.py _around_axis|flat_pose.py flat_symmetry)",
@@ -451,7 +484,7 @@ PATTERNS = [
         "how much patience there is with a process that hangs, fails or grows",
     ),
     (
-        r"operators/(read|scene|bodies)/.*",
+        r"operators/(read|scene|bodies|session|command)/.*",
         r"(read_object|mesh_surface)\(.*, edges=False\)",
         r"\((read_object|mesh_surface)\(((?!edges=).)*\)\)",
         "read, and not looked at where nothing is to be proved closed",
@@ -912,7 +945,7 @@ CONSTANTS = [
         "points that are moved take three rows",
     ),
     (
-        r"operators/(read|scene|bodies|actions/snap)/.*",
+        r"operators/(read|scene|bodies|session|command|actions/snap)/.*",
         r"\bedges=",
         "read, and not looked at where nothing is to be proved closed",
     ),
@@ -936,6 +969,7 @@ CONSTANTS = [
     ),
     (r"operators/scene/reframe.py set_world_matrix", r"range\(", "how often is corrected what is right, at most"),
     (r"operators/scene/surface_objects.py surface_data", r"size or ", "of a point, which is no surface"),
+    (r"operators/scene/surface_objects.py _stored", r"moved \+= ", "a looser bound"),
     (r"operators/scene/surface_objects.py MIN_LOFTED_POINTS", r"= ", "more are lofted, and deleted again"),
     (r"operators/bodies/flat_fourier.py flat_transform", r"region\.moments\(", "the area alone is read"),
     (r"operators/bodies/stream.py _in_meters", r"unit, unit, unit, ", "the last row is not read"),
@@ -943,6 +977,17 @@ CONSTANTS = [
     (r"operators/session/shown.py _shown_now", r"last is None or last\[", "what was found is found once more"),
     (r"operators/session/live.py _measure", r"norm\(matrix\[:", "the first three numbers of the last row are 0"),
     (r".*session/listing.py _listing", r"lines = \[", "each is written over"),
+    (r".*supervisor/pool.py Pool\.\w+", r"memory_of\(child\.process\.pid\) or ", "a byte"),
+    (r".*write/thumbnail.py thumbnail", r"low\[:2\]\) or ", "what is multiplied is zero"),
+    (r".*write/html/report.py _\w+", r"max\(sides\) \* 1\.8 or ", "what is multiplied is zero"),
+    (r".*write/spectrum.py picture", r"size\.max\(\) or ", "what is divided is zero"),
+    (r".*write/robots/repair.py _usd", r"np\.eye\(", "a row more than is read"),
+    (
+        r".*supervisor/pool.py Pool._receive",
+        r"self\._failed_starts = True, ",
+        "how much patience there is with a process that fails",
+    ),
+    (r".*session/motion.py MAX_SAMPLES", r"= ", "there is no number of keys that takes as many"),
     (r"panels/.*", r"\balign=", "whether the corners between two rows are round"),
     (r".*mesh/side_pairs.py _paired_by_sorting", r"high << np.uint64\(", "of vertices there are fewer than 2^30"),
     (r".*solid/nesting.py _interior_samples", r"weight = .*", "which places are tried"),
@@ -1038,6 +1083,18 @@ CONSTANTS = [
         "of gravity only the direction counts",
     ),
     (r".*statics/mixes.py fit_mixes", r"range\(DEGREE \+ ", "what is of a higher degree is left out"),
+    (r".*statics/balance.py .*", r"center, order=", "what is of a higher order is not read"),
+    (r".*statics/balance.py _Problem.__init__", r"self\.sign = ", "of a sign, and an area that is more than rounding"),
+    (r".*statics/balance.py _Problem.check", r"error = (32\.0 \* U \* np\.array\(\[long \* long, )?", "a looser bound"),
+    (r".*mesh/convex_hull.py convex_hull", r"height\.max\(initial=", "a step of the grid, less than a tolerance"),
+    (r".*mesh/scan_lines.py _cells", r"np\.iinfo\(np\.int16\)\.max // ", "of rows there are fewer than 2^12"),
+    (
+        r".*inertia/canonical_.*",
+        r"range\(\(degree - m\) % 2, degree - m \+ ",
+        "by steps of two, the last is the same",
+    ),
+    (r".*mesh/side_pairs.py _Table.places", r"np\.uint32\(", "another hash, which leaves half of the table free"),
+    (r".*density/threshold_cells.py _smooth_intervals", r"0\.0, 1\.0\), \(\(0, 0\), \(", "no interval"),
     (r".*statics/gradient.py .*", r"kinds > ", "of orders 0, 1 and 2 there are 1, 4 and 10 moments"),
     (
         r".*density/spline_grid.py _moments_about",
@@ -1174,7 +1231,6 @@ LOOSER = {
     "core/polyhedron/any_order_kernel.py absolute_sums",
     "core/polyhedron/sheared_areas.py area_of_images",
     "operators/bodies/given.py given_moments",
-    "operators/scene/surface_objects.py _stored",
     "operators/write/flat_record.py SHIFT_ROUNDINGS",
 }
 # (module, function, before, after): the reason
@@ -1210,6 +1266,18 @@ EQUIVALENT: dict[tuple[str, str, str, str], str] = {
         "(POSE)",
     ): "axes are measured as well, and not looked at",
     (
+        "operators/session/walls.py",
+        "cache_walls",
+        "replace(reading, parts=[])",
+        "(replace(reading))",
+    ): "how much is remembered",
+    (
+        "operators/session/handlers.py",
+        "_updates",
+        'not frame_changed and depsgraph.id_type_updated("SCENE")',
+        "(depsgraph.id_type_updated('SCENE'))",
+    ): "what was looked up is looked up once more",
+    (
         "operators/command/inputs.py",
         "_holds",
         "return False",
@@ -1243,6 +1311,8 @@ def reason(mutant: Mutant) -> str:
     if place in LOOSER and is_doubled and not ahead.endswith("/ "):
         return "a looser bound"
     if ahead.endswith("(-1.0) ** (") and after == "({})".format(before.replace(" + ", " - ")):
+        return "both are even, or both odd"
+    if "inertia/canonical_" in place and ahead.endswith("range((") and before == "degree - m":
         return "both are even, or both odd"
     for where, old, new, why in PATTERNS:
         if re.fullmatch(where, place) and re.fullmatch(old, before) and re.fullmatch(new, after):
