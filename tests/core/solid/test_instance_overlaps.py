@@ -99,6 +99,23 @@ def test_bodies_may_reach_into_each_other_by_what_float32_may_have_moved_them(st
         assert bool(len(compare_places([(whole, maps)]).overlapping)) is overlap
 
 
+@pytest.mark.parametrize("steps, overlap", [(1, False), (3, True)])
+def test_what_float32_may_have_moved_is_as_far_as_it_is_stretched(steps, overlap):
+    """Along x, by half steps of 2^-13, where it becomes y and ten times as much; the other ones are as nothing."""
+    whole = measure_solid(surface(box((1100, 0, 0), (1101, 1, 1)), np.float32))
+    swapped = np.array([[0.0, 1.0, 0.0], [10.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
+    maps = places(swapped, (swapped, np.array([0.25, 10.0 * (1.0 - steps * 2.0**-13), 0.25])))
+    assert bool(len(compare_places([(whole, maps)]).overlapping)) is overlap
+
+
+@pytest.mark.parametrize("size", [1e-12, 1.0, 1e12])
+def test_bodies_of_any_size_overlap_but_where_they_are_flattened(size):
+    for height, overlap in ((1.0, True), (1e-18, False)):
+        way = size * np.diag([1.0, 1.0, height])
+        found = compared((cube(0.5), places(way, (way, way @ [0.5, 0.25, 0.25]))))
+        assert bool(len(found.overlapping)) is overlap and not len(found.nested)
+
+
 @pytest.mark.parametrize("here", range(3))
 @pytest.mark.parametrize("count", [1, 2])
 def test_whichever_of_its_places_is_within_another_solid_it_is_found(here, count):

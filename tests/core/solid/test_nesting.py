@@ -247,6 +247,11 @@ def test_a_copy_is_one_though_its_volume_is_rounded_otherwise(scale):
     assert relation(*copies) == (set(), {(i, j) for j in range(4) for i in range(j)}, 0)
 
 
+@pytest.mark.parametrize("smaller", [1e-7, 1e-8])
+def test_what_is_smaller_by_more_than_rounding_is_no_copy_but_within(smaller):
+    assert relation(box(), moved(box(), (1.0 - smaller) * np.eye(3), (smaller / 2.0,) * 3)) == ({(1, 0)}, set(), 0)
+
+
 def test_boxes_that_share_a_thin_slice_still_go_through_each_other():
     for depth in (1e-5, 1e-3):
         assert relation(box(), moved(box(), offset=(1.0 - depth, 0.5, 0.5)))[1] == {(0, 1)}
