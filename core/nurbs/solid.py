@@ -325,7 +325,7 @@ def _compare_parts(
     if len(shared) and each > SAMPLES_PER_SPAN:  # what samples cross may be but near
         nearer = _classify_parts([parts[k] for k in shared], np.ones(len(shared), bool), each, tolerance)[1]
         crossed, inside, crossing = (
-            np.sort(pairs, axis=1) @ (len(parts), 1)
+            np.sort(pairs) @ (len(parts), 1)
             for pairs in (relations.intersecting, shared[nearer.contained_in], shared[nearer.intersecting])
         )
         relations = ComponentRelations(

@@ -114,7 +114,7 @@ def _corner_blocks(surface: Surface) -> Iterator[list[NDArray[np.float64]]]:
         starts = [0, *range(FACES_LOOKED_AT_FIRST, len(faces), FACES_PER_BLOCK), len(faces)]
         for start, stop in zip(starts[:-1], starts[1:]):
             block = faces[start:stop]
-            if faces is surface.quads and len(block):
+            if faces is surface.quads:
                 flipped = flipped_quads(surface.points, block)
                 block = np.where(flipped[:, None], np.roll(block, -1, axis=1), block)
                 block = block[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)

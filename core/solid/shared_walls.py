@@ -66,7 +66,7 @@ def wall_links(
         np.concatenate([pairs[1] // 3, layers[:, 1] // 3]),
     )
     for columns in np.array([[0, 1], [2, 3]]):  # the same body, and the same layer, in a column along the whole border
-        swap = np.diff(part[border[:, columns] // 3], axis=1)[:, 0] < 0
+        swap = np.diff(part[border[:, columns] // 3])[:, 0] < 0
         border[np.ix_(swap, columns)] = border[np.ix_(swap, columns[::-1])]
     # a wall is between two bodies only, the same along its border
     wall = np.unique(part[border[:, 2:] // 3], axis=0, return_inverse=True)[1].ravel()

@@ -176,6 +176,11 @@ def test_round_sides_coincide_wherever_they_begin(turn):
     assert (found.method, found.findings, found.health.components) == ("exact", (), 1)
     assert abs(found.volume.total / (2.0 * np.pi + 2.0 * np.pi / 3.0) - 1.0) <= 1e-13
     assert measure_patches([wall, *lids]).health.inconsistent_edges == 1
+    both = [*found.patches, *(shifted(patch, 9.0, 0.0, 0.0) for patch in found.patches)]
+    for seed in range(4):
+        order = np.random.default_rng(seed).permutation(6)
+        again = measure_patches([both[k] for k in order], order=0)
+        assert (again.method, again.findings, again.health.components) == ("exact", (), 2)
 
 
 @pytest.mark.parametrize(("turned", "sides"), [((1, 4), 6), ((0,), 4), ((0, 1), 8)])  # 0 and 1 lie opposite
@@ -312,8 +317,19 @@ def test_the_share_of_caps_is_that_of_the_area_at_any_size(size):
     assert found.area.total == pytest.approx(4.0 * np.pi * size**2, rel=1e-12)
 
 
-def test_a_patch_of_one_side_only_is_open():
-    found = measure_patches([band_of_one_side()])
+def bottle_of_one_side():
+    """A Klein bottle, which has no boundary: a figure of eight that turns by half on its way."""
+    u, v = np.linspace(0.0, 2.0 * np.pi, 17)[:, None], np.linspace(0.0, 2.0 * np.pi, 17)
+    along, across = np.sin(v), np.sin(2.0 * v)
+    away = 3.0 + np.cos(u / 2.0) * along - np.sin(u / 2.0) * across
+    height = np.sin(u / 2.0) * along + np.cos(u / 2.0) * across
+    space = SplineSpace((0.0, *map(float, range(17)), 16.0), 2, 17)
+    return Patch((space, space), np.stack([away * np.cos(u), away * np.sin(u), height], axis=-1))
+
+
+@pytest.mark.parametrize("patch", [band_of_one_side(), bottle_of_one_side()], ids=["band", "bottle"])
+def test_a_patch_of_one_side_only_is_open(patch):
+    found = measure_patches([patch])
     assert found.method == "open" and not found.health.closed
     assert codes(found) == ["open_patch_sides"]
 
@@ -337,6 +353,43 @@ def test_a_cavity_near_the_surface_is_one_whatever_their_samples_cross(gap):
     assert (hollow.method, hollow.health.cavities) == ("exact", 1)
     assert hollow.findings == (Finding("cavities_subtracted", {"count": 1}),)
     assert abs(hollow.volume.total / (BALL * (1.0 - (1.0 - gap) ** 3)) - 1.0) <= 1e-11
+
+
+def shifted(patch, *by):
+    move = np.eye(4)
+    move[:3, 3] = by
+    return patch.transform(move)
+
+
+def test_what_samples_cross_of_one_pair_says_nothing_of_another():
+    """A ball and a cavity near its surface, second and third, beside two that overlap, first and last."""
+    inner = np.eye(4)
+    inner[:3, :3] = np.linalg.qr(np.random.default_rng(0).standard_normal((3, 3)))[0] * 0.995
+    cavity = sphere().transform(inner)
+    cavity = cavity if volume_moments([cavity], 0)[0].total < 0.0 else cavity.reverse_orientation()
+    beside = [shifted(sphere(), 9.0 * k, 0.0, 0.0) for k in (2, 3)]
+    found = measure_patches(
+        [shifted(sphere(), 9.0, 0.0, 0.0), sphere(), cavity, *beside, shifted(sphere(), 9.0, 1.0, 0.0)]
+    )
+    assert codes(found) == ["cavities_subtracted", "components_overlap"]
+    assert (found.health.cavities, found.health.overlapping_components) == (1, 2)
+
+
+def test_a_part_that_is_thinner_than_its_samples_are_off_faces_as_it_does():
+    """A crescent between two parabolas, the outer one in a single span, beside a box."""
+    line, outer, inner = clamped_space(2), clamped_space(3), clamped_space(3, tuple(np.arange(1, 16) / 16.0))
+    sides = []
+    for space, height in ((outer, 0.5), (inner, 0.499)):
+        ends = [space.knots[i + 1 : i + 3] for i in range(space.count)]
+        # the blossom of h (1 - x²), with x from -1 to 1
+        arc = [(a + b - 1.0, height * (1.0 - (2.0 * a - 1.0) * (2.0 * b - 1.0))) for a, b in ends]
+        sides.append(Patch((space, line), [[(x, y, z) for z in (0.0, 1.0)] for x, y in arc]))
+    for patches in ([sides[0].reverse_orientation(), sides[1]], [sides[0], sides[1].reverse_orientation()]):
+        alone = measure_patches(patches)
+        found = measure_patches([*patches, *box(offset=(0.0, 5.0, 0.0))])
+        assert abs(alone.volume.total / (0.001 * 4.0 / 3.0) - 1.0) <= 1e-9
+        assert abs(found.volume.total - 6.0 - 0.001 * 4.0 / 3.0) <= 1e-11
+        assert found.health.inverted_components == alone.health.inverted_components
 
 
 @pytest.mark.parametrize("apart, crossing", [(0.0, 2), (1.0, 2), (1.98, 2), (2.001, 0)])

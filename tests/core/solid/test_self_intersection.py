@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 
 from tests.close import close
 from tests.core.bodies import (
+    CORNERS,
     box,
     grid,
     inverted,
@@ -110,6 +111,28 @@ def test_a_body_whose_sides_all_face_the_middle_of_its_box_or_its_center_is_prov
     assert result.health.self_intersection is Intersection.EXCLUDED and not result.findings
 
 
+@pytest.mark.parametrize(
+    "tip, height, agree",
+    [((1.0, 1.0, 1.0), 0.0, True), ((-0.2, -0.2, 2.0), 0.0, False), ((-0.2, -0.2, 2.0), 1.0, True)],
+    ids=["upright", "leaning over a slope", "folded the other way"],
+)
+@pytest.mark.parametrize("first", [False, True])
+@pytest.mark.parametrize("turn, others", [(0, 0), (0, 2), (2, 0), (2, 2)])
+def test_one_triangle_that_looks_away_leaves_a_body_unproved(tip, height, agree, first, turn, others):
+    """A cube of which a corner leans over a side next to it: whichever face that is, and whichever half of a quad."""
+    points = 2.0 * CORNERS - 1.0
+    points[4, 2], points[7] = height, tip
+    quads = np.array([[5, 7, 6, 4], [0, 2, 3, 1], [0, 1, 5, 4], [6, 7, 3, 2], [0, 4, 6, 2], [3, 7, 5, 1]])
+    quads = np.concatenate([np.roll(quads[:1], turn, axis=1), np.roll(quads[1:], others, axis=1)])
+    cut = Surface(points, quads=quads if first else quads[::-1])
+    triangles = cut.all_triangles()[0]
+    leaning = int(np.isin(triangles, [5, 6, 7]).all(axis=1).argmax())
+    for body in (cut, Surface(points, np.roll(triangles, -leaning - (not first), axis=0))):
+        assert self_intersection.all_cones_agree(body, np.zeros(3)) is agree
+    state = measure_solid(cut).health.self_intersection
+    assert state is (Intersection.EXCLUDED if agree else Intersection.NOT_FOUND)
+
+
 @holds(20)
 @given(seed=seeds, scale=st.sampled_from([1e-8, 1.0, 1e8]), turned=st.booleans())
 def test_random_convex_bodies_are_proved(seed, scale, turned):
@@ -159,8 +182,9 @@ def test_a_region_that_hardly_counts_is_a_note():
     result = measure_solid(surface(moved(part, rotation(1))))
     assert codes(result) in ([], ["self_intersection_slightly"])
     part = bar(1.0 + 5e-5, 400)
-    result = measure_solid(surface(moved(part, rotation(1))))
-    assert only(result).code == "self_intersection_slightly" and 1e-5 < only(result).values["share"] < 1e-4
+    for size in (1.0, 16.0):
+        result = measure_solid(surface(moved(part, size * rotation(1))))
+        assert only(result).code == "self_intersection_slightly" and 1e-5 < only(result).values["share"] < 1e-4
 
 
 @pytest.mark.parametrize(
@@ -201,6 +225,14 @@ def test_each_component_is_looked_at_by_itself():
     assert close(found.values["share"], 2.0 * each * 0.2 / 1.2 / (2.0 * each + 1.0), rel=0.2)
 
 
+def test_what_counts_for_the_volume_though_not_for_the_inertia_is_no_note():
+    """A small ball of which a vertex is pushed through the other side, between two blocks."""
+    small = moved(pushed(3.0), 0.3 * rotation(1))
+    part = joined(small, box((-22, -1, -1), (-20, 1, 1)), box((20, -1, -1), (22, 1, 1)))
+    found = only(measure_solid(surface(part)))
+    assert found.code == "self_intersection" and found.values["share"] > 1e-4
+
+
 def test_the_order_of_faces_and_points_changes_nothing():
     points, triangles = moved(bar(1.1), rotation(5))
     rng = np.random.default_rng(0)
@@ -217,7 +249,7 @@ def test_what_is_flat_or_open_is_not_looked_at(part):
 
 
 def test_quads_are_looked_at_along_as_many_lines_as_their_triangles():
-    points, quads = ring(30, 20)
+    points, quads = ring(100, 80)  # more than the least number of lines is for
     points[0] *= -1.5  # through the other side
     cut = Surface(points, quads=quads)
     first, second = (measure_solid(body) for body in (cut, Surface(points, cut.all_triangles()[0])))
