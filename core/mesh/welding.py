@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Vertices that are one in space, and faces that are one: what triangle soup, text and NURBS meshes need.
 
-Positions that differ by rounding are found on eight grids, each shifted by half a cell along some of the axes: two
-points nearer than half a cell share a cell of at least one of them. Only points go there that have neighbors along a
-line: most meshes have none. Faces are one where the sums of two hashes over
-their vertices agree.
+Positions that differ by rounding are found on eight grids, each shifted by half a cell along some of the axes: points
+that are within half a cell along each axis share a cell of at least one of them. Within a cell points are compared with
+its first one alone. Only points go there that have neighbors along a line: most meshes have none. Faces are one where
+the sums of two hashes over their vertices agree.
 """
 
 from __future__ import annotations
@@ -47,7 +47,11 @@ def may_have_neighbor(
 
 
 def first_at_near_position(points: NDArray[np.floating], tolerance: NDArray[np.float64]) -> NDArray[np.intp]:
-    """(n,) for each point the first one of its cluster; points nearer than both their tolerances (n,) cluster."""
+    """(n,) for each point the first one of its cluster: of points nearer to each other than all their tolerances (n,).
+
+    Clusters that stand apart by more than `CELL_DIAGONAL` of the largest tolerance are found whole and apart. Of points
+    in a row, each near to the next, some may be left out: which ones follows from their order.
+    """
     place = points.astype(np.float64)
     place = place - place.min(axis=0)
     cell = 2.0 * tolerance.max()

@@ -223,7 +223,6 @@ def _axes(normal: NDArray, prefer: NDArray) -> tuple[NDArray[np.float64], str]:
     first = int(np.sqrt(inside[0] @ inside[0]) <= MIN_AXIS_SHARE)
     x = inside[first] / np.sqrt(inside[first] @ inside[first])
     x = x - normal * (normal @ x)
-    x = x / np.sqrt(x @ x)
     return np.stack([x, np.cross(normal, x), normal], axis=1) + 0.0, "XY"[first]
 
 

@@ -188,8 +188,7 @@ def _spherical_bessel(q: NDArray, order: int) -> NDArray[np.float64]:
                 values[..., large] *= 1e-200
     j0, j1 = np.sin(q) / q, np.sin(q) / q**2 - np.cos(q) / q
     from_zero = np.abs(table[0]) > np.abs(table[1])
-    first, second = (np.where(row == 0.0, 1.0, row) for row in table[:2])
-    factor = np.where(from_zero, j0 / first, j1 / second)
+    factor = np.where(from_zero, j0, j1) / np.where(from_zero, table[0], table[1])
     return (table * factor)[1 : order + 2] / q
 
 

@@ -72,7 +72,7 @@ class Gradient:
         exponents = monomials(2)[: self.by_vertex.shape[1]]
         sizes = np.multiply.reduce(self.reach**exponents, axis=1)
         if self.measure == Measure.AREA:  # |N| ∂m has one power of the reach less and one of the sides more
-            for axis, step in enumerate(np.eye(3, dtype=int)):
+            for axis, step in enumerate(np.eye(3)):
                 lower = np.multiply.reduce(self.reach ** np.maximum(exponents - step, 0), axis=1)
                 sizes = sizes + exponents[:, axis] * lower * 2.0 * self.reach.max()
         return self.scale[:, None] * (32.0 + 8.0 * exponents.sum(axis=1) + self.valence) * U * sizes

@@ -116,6 +116,18 @@ PATTERNS = [
         r".*",
         "at a maximum, where there is no slope, it is the same",
     ),
+    (
+        r".*mesh/bvh.py intersecting_pairs",
+        r"(\(tree\.high\[a\] .* >= .*|\(?tree\.high\[[ab]\] - tree\.low\[[ab]\]\)?(\.max\(axis=1\))?)",
+        r".*",
+        "which of two boxes is opened first",
+    ),
+    (
+        r".*mesh/bvh.py intersecting_pairs",
+        r"(_batches\( ?pair\[both\].*|PAIRS_PER_BATCH // .*|TRIANGLES_PER_LEAF\*\*2)",
+        r".*",
+        "how much is looked at at a time",
+    ),
     (r".*mesh/(bvh|scan_lines).py .*", r".*, order=.C.\)", r"((?!order=).)*", "how numbers lie in memory"),
     (r".*shape/symmetry.py _around_axis", r"turn @ seed", r"\(seed @ turn\)", "the same operations"),
     (r".*mesh/bvh.py Bvh._sort", r"not selected\.all\(\)", r"\(selected\.all\(\)\)", "more is sorted than is read"),
@@ -319,6 +331,12 @@ PATTERNS = [
         "each line, and each part on it, has a number of its own still",
     ),
     (r".*solid/nesting.py _interior_samples", r"k \* 0\.\d+|k % 3", r"\(k [/*] .*\)", "which places are tried"),
+    (
+        r".*solid/closedness.py check_surface",
+        r"(None if )?surface\.corner_vertices is None.*",
+        r"None|\((surface\.corner_vertices is not None|number\[surface\.corner_vertices\])\)",
+        "a mesh's own corners lead to the edges that its faces lead to",
+    ),
     (
         r".*solid/solid_verdict.py SolidIntegrals.exact_third_order",
         r"polyhedron_moments\(.*, threads=threads, .*",
@@ -1004,6 +1022,7 @@ CONSTANTS = [
     (r".*supervisor/pool.py Pool\.\w+", r"memory_of\(child\.process\.pid\) or ", "a byte"),
     (r".*write/thumbnail.py thumbnail", r"low\[:2\]\) or ", "what is multiplied is zero"),
     (r".*write/html/report.py _\w+", r"max\(sides\) \* 1\.8 or ", "what is multiplied is zero"),
+    (r".*write/file_lock.py WAIT", r"= ", "how much patience there is with others"),
     (r".*write/spectrum.py picture", r"size\.max\(\) or ", "what is divided is zero"),
     (r".*write/robots/repair.py _usd", r"np\.eye\(", "a row more than is read"),
     (
@@ -1018,6 +1037,8 @@ CONSTANTS = [
     (r".*shape/(symmetry.py confirm|flat_pose.py holds_by_outline)", r"points\[:: ", "which are looked at first"),
     (r".*solid/nesting.py _interior_samples", r"depth = (10\.0 \*\* \(-(.* - k % )?)?", "which places are tried"),
     (r".*offset/walls.py first_positive_root", r"np\.abs\(", "a looser bound"),
+    (r".*nurbs/patch_moments.py integrate_adaptively", r"thickness: float = ", "a looser bound"),
+    (r".*solid/nesting.py BREAKTHROUGH_TRIANGLES", r"BREAKTHROUGH_TRIANGLES = .*", "how many places are looked at"),
     (r".*nurbs/planar_region.py planar_region", r"min\(map\(len, flat\)\) < ", "of many steps of a loop, how many"),
     (
         r".*nurbs/patch_topology.py _nearest",
@@ -1123,6 +1144,8 @@ CONSTANTS = [
         "what is of a higher order, or of the area, is not read",
     ),
     (r".*shape/zernike.py _nodes", r"phase = \(order \+ ", "a rule of more points is as exact"),
+    (r".*mesh/bvh.py intersecting_pairs", r"TRIANGLES_PER_LEAF\*\*", "how much is looked at at a time"),
+    (r".*canonical_frame.py _maximize_on_sphere", r"np\.maximum\(np\.abs\(values\), ", "how long steps may be"),
     (r".*statics/balance.py MAX_(NEWTON_STEPS|STEP_HALVINGS)", r"= ", "how long is searched"),
     (r".*statics/balance.py _newton_solve", r"change, share = .*, ", "a step that is too long is halved"),
     (r".*statics/balance.py _newton_solve", r"\(1\.0 - ", "which steps are long enough, of which all come nearer"),

@@ -40,6 +40,14 @@ def test_what_is_typed_is_taken_exactly(text, terms):
     assert parse_polynomial(text).terms == terms
 
 
+def test_a_text_may_have_4096_characters_between_spaces():
+    longest = "1 +" + " " * 4092 + "2"
+    assert parse_polynomial("  " + longest + "\n").coefficients().tolist() == [3.0]
+    with pytest.raises(MeasureError) as refusal:
+        parse_polynomial(longest.replace("+", "+ "))
+    assert refusal.value.finding.code == "polynomial_too_long"
+
+
 @pytest.mark.parametrize(
     "text, code, part",
     [

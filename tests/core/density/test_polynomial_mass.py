@@ -122,6 +122,20 @@ def test_a_density_given_far_away_loses_no_digits():
     assert found.rounding_error[0] < 1e-11 * found.total
 
 
+@pytest.mark.parametrize("text", ["7", "2 + z/1000**6"])
+@pytest.mark.parametrize("step", [0.0, 0.6])
+def test_the_bounds_hold_where_the_place_of_a_body_is_lost(text, step):
+    """It is a few units large and 2^60 away, where numbers are 256 apart."""
+    far = [Fraction(2) ** 60, -(Fraction(2) ** 59), Fraction(2) ** 60]
+    points, triangles = prism((step, -step, step))
+    matrix = np.eye(4)
+    matrix[:3, 3] = [float(value) for value in far]
+    density = parse_polynomial(text)
+    found = polynomial_mass_of_images(moments_of(points, triangles, 3 + density.degree), density, matrix[None])
+    images = [[Fraction(x) + shift for x, shift in zip(point, far)] for point in points]
+    assert within(found, truth(images, triangles, density.terms, found.about))
+
+
 def placed(points, matrix):
     """Rational images of points under a map of floats, as floats; the map is chosen so that they need no rounding."""
     rows = [[Fraction(float(value)) for value in row] for row in matrix]

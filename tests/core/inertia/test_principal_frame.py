@@ -61,6 +61,16 @@ def test_the_frame_turns_with_the_body(name):
         assert close(frame.moments, first.moments, rel=1e-12)
 
 
+@pytest.mark.parametrize("place", [4, 7, 9])
+@pytest.mark.parametrize("size, code", [(1e-300, "negative_inertia"), (1e-310, "object_too_small")])
+def test_second_moments_that_are_lost_in_the_smallest_of_numbers_are_said_to_be_too_small(place, size, code):
+    """Of any of them, whatever third moments there are."""
+    raw = np.zeros(20)
+    raw[[0, 10, 13, 19]], raw[place] = 1e-250, -size
+    with refused(code):
+        principal_frame(Moments(raw, np.zeros(3), "volume"))
+
+
 @pytest.mark.parametrize("far", [[1, 0, 0], [0, 0, 1], [1, 2, 3]])
 def test_moments_that_no_body_has_are_refused(far):
     """What lies far out counts with the opposite sign: along one axis, or along all of them."""

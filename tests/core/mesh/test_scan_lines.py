@@ -168,6 +168,12 @@ def test_lines_run_along_the_same_axis_however_a_processor_sorts_what_is_equal(m
     assert grids.axes.tolist() == [[0, 1, 2], [1, 2, 0], [0, 2, 1]]
 
 
+def test_bodies_of_more_triangles_have_more_lines_between_a_least_and_a_largest_number():
+    """Five times the root of their number."""
+    found = scan_lines.line_counts(np.array([1, 13_000, 40_000, 160_000, 10**7]))
+    assert found.tolist() == [576, 576, 1000, 2000, 2048]
+
+
 @pytest.mark.parametrize("sides", [(4.0, 2.0, 1.0), (1.0, 9.0, 3.0), (2.0, 0.0, 2.0), (0.0, 5.0, 0.0), (0.0, 0.0, 0.0)])
 @pytest.mark.parametrize("lines", [576, 2000])
 def test_a_box_has_about_as_many_lines_through_it_as_are_asked_for_and_none_is_beyond_the_grid(sides, lines):

@@ -58,6 +58,19 @@ def test_points_are_one_where_both_may_move_as_far(tolerances, is_one, way):
     assert found.tolist() == [0, 1, 1 if is_one else 2, 3, 3]
 
 
+@pytest.mark.parametrize("seed", range(3))
+def test_clusters_that_stand_apart_are_found_whole_in_any_order(seed):
+    """Of points that are all within reach of each other, each cluster between two others; some points are alone."""
+    rng = np.random.default_rng(seed)
+    count = rng.integers(1, 7, 300)
+    cluster = rng.permutation(np.repeat(np.arange(300), count))
+    centers = 7e-3 + 4.5e-3 * np.array(list(np.ndindex(7, 7, 7)))[rng.permutation(343)[:300]]
+    way = rng.normal(size=(len(cluster), 3))
+    places = centers[cluster] + 0.499e-3 * way / np.linalg.norm(way, axis=1)[:, None]
+    first = first_at_near_position(places, np.full(len(places), 1e-3))
+    assert first.tolist() == [cluster.tolist().index(one) for one in cluster.tolist()]
+
+
 def test_faces_share_a_group_where_they_have_the_same_vertices_and_nowhere_else():
     """Faces of one to four pieces, some of which use the vertices of others, whole or twice."""
     rng = np.random.default_rng(7)

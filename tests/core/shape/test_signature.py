@@ -9,9 +9,10 @@ from math import factorial, pi, sqrt
 
 import numpy as np
 import pytest
-from body_moments.core.moments.moments import U
+from body_moments.core.moments.moments import U, stack_moments
 from body_moments.core.numerics.quadrature import triangle_rule
 from body_moments.core.plane import directed_edges, region_moments
+from body_moments.core.polyhedron import polyhedron_moments
 from body_moments.core.shape.flat_signature import flat_signature
 from body_moments.core.shape.library import (
     SAME_SHAPE_DISTANCE,
@@ -21,7 +22,14 @@ from body_moments.core.shape.library import (
     rank,
     read_library,
 )
-from body_moments.core.shape.signature import MIN_CHIRALITY, Signature, signature, similarity
+from body_moments.core.shape.signature import (
+    FREQUENCIES,
+    MIN_CHIRALITY,
+    Signature,
+    signature,
+    signatures,
+    similarity,
+)
 from body_moments.core.verdict.finding import Finding
 from body_moments.operators.write.record import plain
 
@@ -49,6 +57,24 @@ def test_motion_and_faces_change_nothing(part):
             assert np.abs(getattr(first, name) - getattr(other, name)).max() < 1e-9
         assert other.size == pytest.approx(first.size)
         assert similarity(first, other).distance() < 1e-8
+
+
+@pytest.mark.parametrize("shell", [False, True])
+def test_signatures_of_a_stack_are_those_of_each(shell):
+    """Only bodies have a power spectrum."""
+    each = []
+    for part in (shapes.WEDGE, shapes.THREE_BOXES, bodies.box((0, 0, 0), (1, 2, 3))):
+        each.append(polyhedron_moments(bodies.surface(part), 8, area_order=8)[shell].about_center())
+    alone, radius = [], np.array([4.0, 5.0, 2.0])
+    for of_one, size in zip(each, radius.tolist()):
+        alone.append(signature(of_one, size))
+    found = signatures(stack_moments(each), radius)
+    assert len(found) == 3
+    for one, other in zip(found, alone):
+        assert one.fourier.shape == other.fourier.shape == ((0,) if shell else (len(FREQUENCIES),))
+        for name in PARTS:
+            assert np.abs(getattr(one, name) - getattr(other, name)).max(initial=0.0) < 1e-12
+        assert close([one.size, one.error], [other.size, other.error], rel=1e-12)
 
 
 @pytest.mark.parametrize("scale", [1e-5, 3.0, 1e5])
