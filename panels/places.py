@@ -64,11 +64,11 @@ def _panel(prefix: str, contents: type, name: str, parent: str | None, **place: 
     idname = _idname(prefix, name)
     attributes = {"__doc__": contents.__doc__, "__module__": contents.__module__, "bl_idname": idname, **place}
     if name:
-        attributes["bl_parent_id"] = _idname(prefix, parent or "")
+        attributes["bl_parent_id"] = _idname(prefix, parent)
     if name in ORDER:
         attributes["bl_order"] = ORDER.index(name)
     return type(idname, (contents, Panel), attributes)
 
 
-def _idname(prefix: str, name: str) -> str:
+def _idname(prefix: str, name: str | None) -> str:
     return prefix + "_".join(filter(None, (ROOT, name)))

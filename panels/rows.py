@@ -81,7 +81,7 @@ def title(layout: UILayout, label: str) -> None:
 
 def direction(layout: UILayout, label: str, vector: Sequence[float]) -> None:
     """A unit vector in one row, or in three where that is too narrow."""
-    cosines = ["{:.4f}".format(component + 0.0).replace("-0.0000", "0.0000").replace("-", "−") for component in vector]
+    cosines = ["{:.4f}".format(component).replace("-0.0000", "0.0000").replace("-", "−") for component in vector]
     if not fits(1.0 - INDEX_LABEL_SHARE, *cosines):
         table(
             layout,
@@ -266,10 +266,9 @@ def _parts(word: str, width: int) -> list[str]:
     """A word that is longer than a line, in several; else itself."""
     parts, rest = [], word
     while len(rest) > MIN_PART and not _is_within(rest, width):
-        end = len(rest) - 1
+        end = len(rest) - MIN_LAST_PART
         while end > MIN_PART and not _is_within(rest[:end] + "-", width):
             end -= 1
-        end = min(end, len(rest) - MIN_LAST_PART)
         parts.append(rest[:end] + "-")
         rest = rest[end:]
     return [*parts, rest]

@@ -183,8 +183,8 @@ def _bound(entry: dict[str, Any], name: str) -> float:
     bounds = entry["error_bound"] or {}
     if name in ("mass", "density", "linear_density"):  # a given one of these has none, and does not differ
         measure = "volume" if entry["volume"] else "area"
-        size = abs(entry[measure] or 0.0)
-        return _bound(entry, measure) / size * abs(entry[name] or 0.0) if size else 0.0
+        size = entry[measure]
+        return _bound(entry, measure) / abs(size) * abs(entry[name] or 0.0) if size else 0.0
     return (bounds.get(name) or 0.0) + ((bounds.get("input") or {}).get(name) or 0.0)
 
 

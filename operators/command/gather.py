@@ -179,9 +179,10 @@ def _summary(options: argparse.Namespace) -> tuple[Iterable[str], bool]:
         for entry in (*document["objects"], *document.get("flat", ())):
             methods[entry.get("method", "flat")] += 1
             codes.update({(one["severity"], one["code"]) for one in entry["findings"]})
-            bound, size = _bound(entry), abs(entry.get("volume") or entry["area"] or 0.0)
+            bound, size = _bound(entry), entry.get("volume") or entry["area"]
             if bound is not None and size:
-                widest = sorted([*widest, (bound / size, "{}: {}".format(file, entry["name"]))], reverse=True)[:_LISTED]
+                share = bound / abs(size), "{}: {}".format(file, entry["name"])
+                widest = sorted([*widest, share], reverse=True)[:_LISTED]
     lines = ["{}: {}".format(counted(statuses.total(), "file"), _counted(statuses))]
     lines += ["{}: {}".format(counted(methods.total(), "object"), _counted(methods))]
     lines += ["", "Not measured:", *failed] if failed else []

@@ -67,8 +67,8 @@ class Run:
     progress: Callable[[str, str], Callable[[int], None]] = Progress
     documents: list[dict[str, Any]] = field(default_factory=list)
     internal_errors: int = 0
-    has_opened: bool = False
-    has_saved: bool = False
+    has_opened: bool = field(init=False)
+    has_saved: bool = field(init=False)
 
     def __post_init__(self) -> None:
         self._status: str | None = None  # of the document under way, where it is not just that of its errors

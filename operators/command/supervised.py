@@ -35,7 +35,7 @@ from . import interruption, output, own_results, targets
 from .arguments import as_record, fail, of_numbers
 from .measure_parser import DEFAULT_TIMEOUT
 
-_ROOT = (__package__ or "").removesuffix(".operators.command")
+_ROOT = __name__.removesuffix(".operators.command.supervised")
 _OLD = ".old"
 
 
@@ -244,7 +244,8 @@ class _Supervised:
         if outcome.status == "timeout":
             reason = finding("file_timed_out", seconds=self._limits.seconds)
         elif outcome.status == "memory":
-            reason = finding("file_took_memory", megabytes=(self._limits.memory or 0) / 1e6)
+            assert self._limits.memory is not None
+            reason = finding("file_took_memory", megabytes=self._limits.memory / 1e6)
         else:
             reason = finding("file_crashed", how=outcome.how, count=outcome.attempts)
         values = {"blender": blender, "frame": self._options.frame}

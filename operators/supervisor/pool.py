@@ -139,7 +139,7 @@ class Pool:
         processes.kill([child.process for child in children], gently=True)
         for child in children:
             self._close(child)
-        self._readers.shutdown(wait=True)
+        self._readers.shutdown()
         shutil.rmtree(self._work, ignore_errors=True)
 
     def add(self, tasks: Iterable[str]) -> None:
@@ -197,7 +197,7 @@ class Pool:
         try:
             process, kept = processes.start(self._command, name, log)
         except OSError as error:
-            raise ChildError("{}: {}".format(self._command[0], error.strerror or error)) from error
+            raise ChildError("{}: {}".format(self._command[0], error.strerror)) from error
         now = time.monotonic()
         child = _Child(process, kept, name, log, now, now + START_LIMIT)
         self._children.append(child)

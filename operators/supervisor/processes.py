@@ -32,8 +32,7 @@ def child_command(blender: str | None) -> list[str] | None:
 
 def run_command(blender: str | None, words: Sequence[str]) -> list[str] | None:
     """What starts our command line with these words, in a Blender, or in this Python as above."""
-    batch = importlib.util.find_spec("..batch", __package__)
-    script = str(Path(batch.origin or "").resolve()) if batch else ""
+    script = str((Path(__file__).parent.parent / "batch.py").resolve())
     if blender is not None:
         return [blender, *_SWITCHES, "--python", script, "--", *words]
     if importlib.util.find_spec("bpy") is None:
@@ -134,7 +133,7 @@ def _memory_by_tool(pid: int) -> int | None:
     """All that is resident, as the tool says it that macOS and BSD have."""
     words = ["ps", "-o", "rss=", "-p", str(pid)]
     try:
-        answer = subprocess.run(words, capture_output=True, timeout=5, check=True, stdin=subprocess.DEVNULL).stdout
+        answer = subprocess.run(words, capture_output=True, timeout=5, stdin=subprocess.DEVNULL).stdout
         return 1024 * int(answer)
     except (OSError, ValueError, subprocess.SubprocessError):
         return None

@@ -196,6 +196,28 @@ def test_a_summary_as_a_whole(main, tmp_path, monkeypatch):
     assert main("summary", path)[1].splitlines()[:1] == ["2 files: 1 error, 1 ok"]
 
 
+def test_where_no_bound_is_known_nothing_may_differ():
+    add_box("Box")
+    first = document("--order", "2")
+    entry = first["objects"][0]
+    bounds = entry["error_bound"]
+    unknown = dict.fromkeys(bounds)
+    for part in ("error", "input"):
+        entry["moments"][part]["volume"]["2,0,0"] = None
+    for entry["error_bound"] in (None, unknown, {**unknown, "input": dict.fromkeys(bounds["input"])}):
+        for place in ("volume", "area", "mass", "principal_moments", "moments"):
+            second = copy.deepcopy(first)
+            found = second["objects"][0]
+            if place == "principal_moments":
+                found[place][2] *= 1.0 + 1e-9
+            elif place == "moments":
+                found[place]["volume"]["2,0,0"] *= 1.0 + 1e-9
+            else:
+                found[place] *= 1.0 + 1e-9
+            assert differences([first], [second], 1e-10, False)[1], place
+            assert not differences([first], [second], 1e-8, False)[1], place
+
+
 @pytest.mark.parametrize("volume", [None, 0.0])
 def test_a_mass_without_a_volume_is_as_uncertain_as_its_area(volume):
     add_box("Box")
@@ -214,3 +236,6 @@ def test_a_mass_without_a_volume_is_as_uncertain_as_its_area(volume):
     second = copy.deepcopy(first)
     second["objects"][0]["mass"] *= 1.0 + 1e-15
     assert differences([first], [second], 0.0, False)[1]
+    entry.update(area=10.0, mass=0.0)
+    second["objects"][0].update(area=10.0, mass=1e-300)
+    assert differences([first], [second], 0.5, False)[1]

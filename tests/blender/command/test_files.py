@@ -295,7 +295,12 @@ def test_a_cache_that_is_gone_is_an_error(tmp_path, kind):
         bpy.data.cache_files[0].is_sequence = True
         assert document(files.save(tmp_path / "part.blend"))["errors"] == []
         bpy.data.cache_files[0].is_sequence = False
-    bpy.context.scene.objects[0].modifiers[0].show_viewport = False
+    cache = bpy.context.scene.objects[0].modifiers[0]
+    cache.show_viewport = False
+    assert document(files.save(tmp_path / "part.blend"))["errors"] == []
+    cache = bpy.context.scene.objects[0].modifiers[0]
+    cache.show_viewport = True
+    setattr(cache, *(("filepath", "") if kind == "MESH_CACHE" else ("cache_file", None)))
     assert document(files.save(tmp_path / "part.blend"))["errors"] == []
 
 
@@ -427,6 +432,7 @@ def test_what_a_usdz_stores_may_be_as_much_as_the_file_and_no_more(tmp_path, siz
         (" \n ", "RuntimeError"),
         ("Error: Traceback (most recent call last):\n  File 1\n    x()\nKeyError: 'a'.\nLocation: b", "KeyError: 'a'"),
         ("Traceback (most recent call last):\n  File 1\n    x()\n", "RuntimeError"),
+        ("Python: Traceback (most recent call last):\nImportError: b\n", "ImportError: b"),
     ],
 )  # fmt: skip
 def test_of_what_blender_says_one_line_is_told(said, told):

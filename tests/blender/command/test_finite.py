@@ -271,6 +271,24 @@ def test_whatever_places_points_in_a_gltf_is_looked_at_and_nothing_else(tmp_path
     assert checked(tmp_path / "t.gltf") is None
 
 
+@pytest.mark.parametrize(
+    ("kind", "width"),
+    [("SCALAR", 1), ("VEC2", 2), ("VEC3", 3), ("VEC4", 4), ("MAT2", 4), ("MAT3", 9), ("MAT4", 16)],
+)
+def test_all_numbers_of_a_gltfs_elements_are_looked_at(tmp_path, kind, width):
+    numbers = np.zeros((3, width), "<f4")
+    numbers[1, -1] = math.nan
+    (tmp_path / "t.bin").write_bytes(numbers.tobytes())
+    text = {
+        "buffers": [{"uri": "t.bin", "byteLength": numbers.nbytes}],
+        "bufferViews": [{"buffer": 0, "byteLength": numbers.nbytes}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": kind}],
+        "skins": [{"inverseBindMatrices": 0}],
+    }
+    files.write_text(tmp_path / "t.gltf", json.dumps(text))
+    said(tmp_path / "t.gltf", 1, "at_accessor", accessor=0, element=1)
+
+
 def test_a_gltf_whose_buffer_is_missing_or_cut_short_names_it(tmp_path, gltf):
     text, binary = gltf
     (tmp_path / "box.bin").write_bytes(binary[:50])

@@ -8,6 +8,7 @@ import math
 import re
 import shutil
 import subprocess
+from pathlib import Path
 
 import bpy
 import numpy as np
@@ -44,6 +45,18 @@ def result(path, *found):
 
 def failed(name, status="crashed"):
     return documents.failed_document(name, "It <b>failed</b>.", status, blender="5.2.2", frame="world")
+
+
+def test_a_list_in_another_folder_has_absolute_names(main, tmp_path, monkeypatch):
+    for folder in ("in", "lists"):
+        (tmp_path / folder).mkdir()
+    (tmp_path / "in" / "a.stl").write_bytes(b"solid")
+    monkeypatch.chdir(tmp_path)
+    name = str(Path("in", "a.stl"))
+    for words, wanted in (([], name), (["--output", "list"], name), (["--output", "lists/list"], str(tmp_path / name))):
+        code, out, _ = main("manifest", "in", *words)
+        text = Path(words[1]).read_text(encoding="utf-8") if words else out
+        assert code == 0 and [json.loads(line)["path"] for line in text.splitlines()[1:]] == [wanted]
 
 
 def test_a_summary_counts_what_became_of_files(main, tmp_path):

@@ -9,8 +9,9 @@ import numpy as np
 import pytest
 from body_moments.core.verdict.finding import finding
 
+from tests.blender.actions.rig.test_rig import character
 from tests.blender.objects import add, measured, mesh_body, only, strip_mesh
-from tests.blender.panels.drawing import Layout, copied, findings_of, labels, shown, shows
+from tests.blender.panels.drawing import Context, Layout, copied, findings_of, labels, shown, shows
 
 pytestmark = pytest.mark.usefixtures("scene")
 
@@ -28,6 +29,32 @@ def test_what_measure_and_live_refuse_for_the_same_reason_is_not_shown_twice():
     assert " ".join(labels(shown())).count(sentence) == 1
     assert str(results.failure(obj)) == sentence
     bpy.ops.object.body_moments_live()
+
+
+def test_the_center_of_a_rig_is_at_rest_unless_the_armature_stands_for_its_meshes():
+    armature, skin = character()
+    only(skin)
+    bpy.ops.object.body_moments_measure()
+    only(armature)
+    bpy.ops.object.body_moments_measure_bones()
+    headings = {"OBJECT": "Center of Mass at Rest (World)", "POSE": "Center of Mass (World)"}
+    for mode in ("OBJECT", "POSE", "OBJECT"):
+        bpy.ops.object.mode_set(mode=mode)
+        bpy.context.view_layer.update()
+        assert headings[mode] in labels(shown(without=("selection",)))
+
+
+def test_where_no_window_has_a_scale_it_is_1():
+    from body_moments.panels import rows
+
+    assert rows._width(Context(400, 0.0)) == rows._width(Context(400, 1.0)) == (400 - rows.REGION_MARGIN, 11.0)
+
+
+def test_an_angle_that_rounds_to_zero_has_no_sign():
+    from body_moments.panels import stability
+
+    angles = {0.004: "0.00°", -0.004: "0.00°", -0.006: "−0.01°", 0.006: "0.01°"}
+    assert {angle: stability._degrees(angle) for angle in angles} == angles
 
 
 def test_a_refusal_is_not_held_against_other_settings():

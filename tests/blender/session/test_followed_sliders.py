@@ -118,7 +118,7 @@ def test_a_wall_is_too_thick_from_where_it_folds_over():
 
 @pytest.mark.parametrize(
     "change",
-    [lambda obj: set_quietly(obj.body_moments, grid_as="DENSITY"), unit, moved, damaged, by_another]
+    [lambda obj: setattr(obj.body_moments, "grid_as", "DENSITY"), unit, moved, damaged, by_another]
     + [lambda obj: threshold._cache.clear(), lambda obj: obj.data.update_tag()],
 )
 def test_the_slider_of_a_threshold_changes_numbers_of_that_grid_alone(change, monkeypatch):

@@ -440,6 +440,15 @@ def test_what_cannot_be_mapped_is_shown_as_it_was_measured(kind):
     assert (shown.volume, shown.body.mass) == (whole.volume, whole.body.mass)
 
 
+def test_what_was_interrupted_when_it_was_measured_first_has_no_live_numbers(monkeypatch):
+    obj = add(mesh_body())
+    monkeypatch.setattr(live, "_measure", lambda *_: (_ for _ in ()).throw(KeyboardInterrupt))
+    with pytest.raises(KeyboardInterrupt):
+        live.start(obj, bpy.context.evaluated_depsgraph_get())
+    assert live.is_live(obj) and live.current_numbers(obj) is None
+    assert live.current_properties(obj, bpy.context.scene) is None and shown_body(obj) is None
+
+
 def test_nothing_is_due_once_the_add_on_is_gone():
     start(add(mesh_body()))
     bpy.app.timers.register(live._tick, first_interval=1000.0)

@@ -142,7 +142,9 @@ def test_an_armature_in_pose_mode_has_the_sum_of_those_meshes_that_have_numbers(
     for mesh in meshes[:2]:
         mesh["body_volume"] = 0.0  # as of a shell without thickness
     assert results.in_world(armature, scene).density == 0.0 and results.are_meshes_measured(armature, scene)
-    for mesh in meshes[:2]:
-        mesh["body_mass"] = 0.0
-    assert results.in_world(armature, scene) is None and not results.are_meshes_measured(armature, scene)
+    for mass in (0.25, 0.0):
+        for mesh in meshes[:2]:
+            mesh["body_mass"] = mass
+        assert results.are_meshes_measured(armature, scene) == (mass > 0.0)
+    assert results.in_world(armature, scene) is None
     bpy.ops.object.mode_set(mode="OBJECT")

@@ -119,6 +119,16 @@ def test_an_update_that_shows_the_same_shape_is_no_edit(monkeypatch):
     assert stability.is_stale(obj) and len(digests) == 3
 
 
+def test_in_a_view_layer_that_was_not_evaluated_an_update_counts_as_an_edit(scene):
+    obj = add(box((4.0, 2.0, 6.0)))
+    bpy.ops.object.body_moments_stability()
+    obj.data.update_tag()
+    update()
+    with bpy.context.temp_override(view_layer=scene.view_layers.new("Second")):
+        assert bpy.context.view_layer.depsgraph is None
+        assert stability.is_stale(obj)
+
+
 def test_what_has_no_numbers_any_more_stands_nowhere(scene):
     obj = add(box((4.0, 2.0, 6.0)))
     bpy.ops.object.body_moments_stability()

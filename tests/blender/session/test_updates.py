@@ -84,6 +84,21 @@ def test_a_move_that_undo_takes_back_is_an_update_of_the_object():
     assert abs(results.in_world(obj, bpy.context.scene).body.center - before).max() < 1e-6
 
 
+def test_undo_brings_back_the_shape_of_what_is_sculpted_or_edited_and_settings_of_all_else():
+    obj = add(mesh_body())
+    for mode in ("OBJECT", "SCULPT", "EDIT", "WEIGHT_PAINT"):
+        bpy.ops.object.mode_set(mode=mode)
+        bpy.context.view_layer.update()
+        before = updates.last_edit(obj)
+        handlers._on_undo()
+        obj.data.update_tag()
+        bpy.context.view_layer.update()
+        is_edit = updates.last_edit(obj) != before
+        assert is_edit == (mode in ("SCULPT", "EDIT")), mode
+        assert (updates.last_edit(obj) if is_edit else updates.last_return(obj)).number == updates.count()
+    bpy.ops.object.mode_set(mode="OBJECT")
+
+
 def test_an_object_made_between_frames_is_not_taken_for_another(monkeypatch):
     deformed = deforming("Deformed")
     measure(deformed)

@@ -316,7 +316,9 @@ def test_the_operator_writes_the_file_and_an_image(tmp_path):
     assert tuple(image.size) == (3 * 12 + 4, 12) and image.packed_file
     pixels = np.empty(40 * 12 * 4, np.float32)
     image.pixels.foreach_get(pixels)
-    gray = pixels.reshape(12, 40, 4)[..., 0]
+    pixels = pixels.reshape(12, 40, 4)
+    gray = pixels[..., 0]
+    assert (pixels[..., :3] == gray[..., None]).all() and (pixels[..., 3] == 1.0).all()
     assert gray[6, 6] == gray[6, 14 + 6] == gray[6, 28 + 6] == 1.0  # F(0) = V is the largest
     for found, slice_ in ((gray[:, :12], values[:, :, 6]), (gray[:, 14:26], values[:, 6]), (gray[:, 28:], values[6])):
         assert np.abs(found.T - (1 + np.log10(slice_ / values.max()).clip(-6, 0) / 6)).max() <= 1 / 255
