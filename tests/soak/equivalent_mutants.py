@@ -184,7 +184,7 @@ PATTERNS = [
         "a stable sort by high bits that are all zero",
     ),
     (
-        r".*mesh/side_pairs.py _all_sides",
+        r".*mesh/(side_pairs.py _all_sides|edges.py _sides_at)",
         r"np\.arange\(.*, dtype=np\.int32\)",
         r"\(np\.arange\(((?!dtype).)*\)\)",
         "indices of eight bytes",
@@ -1144,6 +1144,12 @@ CONSTANTS = [
         "what is of a higher order, or of the area, is not read",
     ),
     (r".*shape/zernike.py _nodes", r"phase = \(order \+ ", "a rule of more points is as exact"),
+    (
+        r".*mesh/(edges.py closed_side_faces|surface_stack.py SurfaceStack.connections)",
+        r"np\.full\(2 \* count, -",
+        "a mark, of which any negative number is one",
+    ),
+    (r".*mesh/edges.py closed_side_faces", r"len\(edges\) > ", "one corner makes no closed surface"),
     (r".*mesh/bvh.py intersecting_pairs", r"TRIANGLES_PER_LEAF\*\*", "how much is looked at at a time"),
     (r".*canonical_frame.py _maximize_on_sphere", r"np\.maximum\(np\.abs\(values\), ", "how long steps may be"),
     (r".*statics/balance.py MAX_(NEWTON_STEPS|STEP_HALVINGS)", r"= ", "how long is searched"),
