@@ -66,7 +66,7 @@ class OBJECT_OT_body_moments_equal_inertia(Operator):
 
         _, failures = selection.apply_to_all(objects, measure)
         added = [self._add(context, obj, shape, mass, unit) for obj, shape, mass in shapes]
-        if self.rigid_body and added:
+        if self.rigid_body:
             self._make_rigid(context, [(new, mass) for new, (_, _, mass) in zip(added, shapes)])
             context.view_layer.update()
             for new, (obj, _, _) in zip(added, shapes):

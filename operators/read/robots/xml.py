@@ -27,7 +27,7 @@ class Node:
     tag: str
     attributes: dict[str, str]
     start: int
-    end: int = 0
+    end: int = NOWHERE
     text: str = ""
     children: list[Node] = field(default_factory=list)
 

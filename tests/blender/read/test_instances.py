@@ -269,6 +269,17 @@ def test_an_instancer_that_hides_itself_may_instance_one_on_vertices():
     check(host, count - 1)
 
 
+def test_an_emitter_that_hides_itself_is_not_shown_on_vertices_either():
+    parent, child = cube("Parent"), link("Child", mesh("Emitter"))
+    parent.instance_type, child.parent = "VERTS", parent
+    settings = child.modifiers.new("Particles", "PARTICLE_SYSTEM").particle_system.settings
+    settings.type, settings.count = "HAIR", 3
+    check(parent, 9)
+    child.show_instancer_for_viewport = False
+    assert not all([item.show_self for item in depsgraph().object_instances])  # it is there for its particles alone
+    check(parent, 1)
+
+
 def test_a_hidden_instancer_on_vertices_is_refused_not_halved():
     parent = cube("Parent")
     parent.instance_type = "VERTS"

@@ -114,6 +114,12 @@ def test_quads_alone_and_triangles_alone_need_no_face_indices():
     )
 
 
+def test_edges_that_nobody_asks_for_are_not_read():
+    data = mesh("Quads", CUBE, CUBE_FACES)
+    assert mesh_surface(data, edges=False).corner_edges is None
+    assert len(mesh_surface(data, edges=True).corner_edges) == 24
+
+
 def test_many_quads_need_no_face_indices_either():
     side = 250
     corner = np.arange(side * side).reshape(side, side)[:-1, :-1].reshape(-1, 1)

@@ -126,7 +126,7 @@ def random_glb(rng):
         binary += orders[number].tobytes() + b"\7" * (-orders[number].nbytes % 4)
         accessors.append({"bufferView": len(views) - 1, "componentType": kind, "count": 12, "type": "SCALAR"})
     meshes_of = [
-        [{"attributes": {"POSITION": 0}, "indices": 1}, {"attributes": {"POSITION": 0}, "indices": 1, "mode": 1}],
+        [{"attributes": {"POSITION": 0}, "indices": 1, "mode": 1}, {"attributes": {"POSITION": 0}, "indices": 1}],
         [{"attributes": {"POSITION": 2}, "indices": 3, "mode": 4}, {"attributes": {"POSITION": 2}}],
         [{"attributes": {"POSITION": 4}, "indices": 5}],
     ]
