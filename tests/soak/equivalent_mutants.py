@@ -953,6 +953,11 @@ CONSTANTS = [
         r"\"nurbs_weight\", \"value\", \(count, 1\), ",
         "weights that are all the same",
     ),
+    (
+        r"operators/read/curves.py ",
+        r"STEPS_PER_POINT, .* = ",
+        "at how many steps two lengths are compared, both at as many",
+    ),
     (r"operators/read/curves.py _join_knots", r"yield (float\()?", "the outermost knots, which no curve depends on"),
     (r"operators/bodies/bare_file.py bare_reading", r"kind, np\.eye\(", "where no object is, its matrix is not read"),
     (r".*finite/numbers.py _large", r"ord\(\"0\"\)\) < ", "more is looked at closely, and found to be no number"),
