@@ -94,7 +94,6 @@ class SampledGrid:
                     mesh.vertices.add(count)
                 mesh.attributes["position"].data.foreach_set("vector", positions.reshape(-1))
                 mesh.update_tag()
-                mesh.update()
                 layer.update()
                 values = np.zeros(count, self._dtype)
                 evaluated = probe.evaluated_get(layer.depsgraph).data
