@@ -184,8 +184,7 @@ def _around_axis(points: NDArray, axis: NDArray, holds: Callable[[NDArray], bool
     radius = np.linalg.norm(flat, axis=1)
     outer = flat[radius > (1.0 - 1e-4) * radius.max()] / radius.max()
     outer = outer[np.unique(np.round(outer, 5), axis=0, return_index=True)[1]]
-    x = outer[0] - axis * (axis @ outer[0])
-    x /= np.linalg.norm(x)
+    x = outer[0] / np.linalg.norm(outer[0])
     across = np.stack([np.cross(axis, x), x])
     for corner in outer[: 2 * MAX_AXIS_ORDER]:
         half = np.arctan2(*(across @ corner)) / 2.0

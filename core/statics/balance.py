@@ -271,13 +271,13 @@ class _Fans:
         vectors = normals(points, triangles)
         corner = np.unique(np.repeat(faces, 3) * np.int64(self.count) + triangles.ravel())
         self.owner, self.vertex = corner // self.count, corner % self.count
-        self.share = 1.0 / np.bincount(self.owner, minlength=number)[self.owner]
+        self.share = 1.0 / np.bincount(self.owner)[self.owner]
         area = sums_by_index(faces, np.linalg.norm(vectors, axis=1) / 2.0, number)
         self.areas = sums_by_index(self.vertex, area[self.owner] * self.share, self.count)
         middles = np.stack(
             [sums_by_index(self.owner, points[self.vertex, k] * self.share, number) for k in range(3)], axis=1
         )
-        whole = np.bincount(faces, minlength=number)[faces] == 1
+        whole = np.bincount(faces)[faces] == 1
         boundary, owners = _face_boundaries(triangles[~whole], faces[~whole])
         fan = np.concatenate([triangles[whole], np.concatenate([boundary, self.count + owners[:, None]], axis=1)])
         owners = np.concatenate([faces[whole], owners])
@@ -297,7 +297,7 @@ class _Fans:
         else:
             surface = Surface(self.points, self.fan)
             gradient = volume_gradient(surface, center, order=1).by_vertex[:, 1:4]
-            total = polyhedron_moments(surface, area_order=0)[0].total
+            total = polyhedron_moments(surface)[0].total
         gradient /= total
         vertex_gradient, middle = gradient[: self.count].reshape(-1, 9), gradient[self.count :].reshape(-1, 9)
         for column, shared in zip(vertex_gradient.T, middle.T):

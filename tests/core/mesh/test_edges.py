@@ -144,11 +144,21 @@ def mixed_mesh():
     return points, faces
 
 
+def pyramid(sides):
+    """Over a polygon, and the triangles around it."""
+    angle = 2.0 * np.pi / sides * np.arange(sides)
+    rim = np.stack([np.cos(angle), np.sin(angle), 0.0 * angle], axis=1)
+    around = [[k, (k + 1) % sides, sides] for k in range(sides)]
+    return np.concatenate([rim, [[0.0, 0.0, 1.0]]]), [*around[:2], list(range(sides))[::-1], *around[2:]]
+
+
 @pytest.mark.parametrize(
     "points, faces",
     [
         (CORNERS, SIDES.tolist()),
         mixed_mesh(),
+        pyramid(5),
+        pyramid(7),
         (ring(20, 10)[0], ring(20, 10)[1].tolist()),
         (sphere(2)[0], sphere(2)[1].tolist()),
     ],
@@ -257,6 +267,16 @@ def test_a_box_that_closes_by_itself_is_a_shell_of_its_own_beside_two_that_share
     alone = (corners[triangles].mean(axis=1) < 0.0).any(axis=1)
     assert (number, count, alone.sum()) == (4, 2, 12)
     assert len(set(shell[alone])) == len(set(shell[~alone])) == 1
+
+
+@pytest.mark.parametrize("sides", range(1, 8))
+def test_of_parts_that_meet_in_an_edge_those_with_an_odd_number_of_sides_there_belong_together(sides):
+    """Pages around a spine, closed by something else everywhere but there."""
+    triangles = np.array([[0, 1, 2 + k] for k in range(1 + sides + 2)])
+    part = np.repeat([0, 1, 2], [1, sides, 2])
+    edges = find_edges(triangles)
+    shell, number = group_components(edges, part, 3, edges.count == 1)
+    assert (number, len(set(shell[: 1 + sides])), len(set(shell[-3 + 1 :]))) == ((2, 1, 1) if sides % 2 else (3, 2, 1))
 
 
 def test_equal_positions_are_welded_and_minus_zero_is_zero():
@@ -368,6 +388,38 @@ def test_corners_that_close_without_some_of_the_faces_prove_nothing_of_them(name
             **{name: faces.astype(np.int32)},
         )
         assert (closed_side_faces(surface) is not None) == is_closed
+
+
+def box_with_a_face_of_two_corners(place):
+    """Between two edges that have the same ends: each edge has two sides, but one of them has no triangles."""
+    whole = mesh(CORNERS, SIDES.tolist(), np.float32)
+    corners, edges = whole.corner_vertices.tolist(), whole.corner_edges.tolist()
+    side = 4 * min(place, 5)
+    ends, edge = [corners[side + 1], corners[side]], edges[side]
+    edges[side] = max(edges) + 1
+    corners[4 * place : 4 * place], edges[4 * place : 4 * place] = ends, [max(edges), edge]
+    faces = np.arange(6, dtype=np.int32)
+    return replace(
+        whole,
+        corner_vertices=np.array(corners, np.int32),
+        corner_edges=np.array(edges, np.int32),
+        quad_faces=faces + (faces >= place),
+    )
+
+
+@pytest.mark.parametrize("place", range(7))
+def test_a_face_of_two_corners_proves_nothing(place):
+    assert closed_side_faces(box_with_a_face_of_two_corners(place)) is None
+
+
+@pytest.mark.parametrize("seed", range(2))
+def test_triangles_in_another_order_than_the_mesh_s_faces_have_the_edges_that_it_names(seed):
+    surface = opened(np.random.default_rng(seed), 1.0)
+    order = np.random.default_rng(seed).permutation(len(surface.triangles))
+    surface = replace(surface, triangles=surface.triangles[order], triangle_faces=order, quad_faces=None)
+    named, found = edges_from_mesh(surface, surface.triangles), find_edges(surface.triangles)
+    for key in ("of_side", "upward", "first", "count"):
+        np.testing.assert_array_equal(getattr(named, key), getattr(found, key))
 
 
 @pytest.mark.parametrize("less", ["triangle_faces", "quad_faces"])

@@ -9,6 +9,7 @@ import pytest
 from body_moments.core.mesh.surface_stack import SurfaceStack
 
 from tests.core.bodies import CORNERS, SIDES, mesh
+from tests.core.mesh.test_edges import box_with_a_face_of_two_corners
 
 BOX = mesh(CORNERS, SIDES.tolist(), np.float32)
 
@@ -45,6 +46,12 @@ def test_surfaces_whose_corners_make_up_for_each_other_s_do_not_fit_either():
 def test_a_surface_with_a_face_without_triangles_does_not_fit():
     gap = replace(BOX, quad_faces=np.array([0, 1, 2, 3, 4, 6]))
     assert connections(BOX, gap, BOX).is_closed.tolist() == [True, False, True]
+
+
+@pytest.mark.parametrize("place", range(7))
+def test_a_surface_with_a_face_of_two_corners_does_not_fit(place):
+    found = connections(BOX, box_with_a_face_of_two_corners(place), BOX)
+    assert found.is_closed.tolist() == [True, False, True] and not found.is_open.any()
 
 
 def exchanged(first, second):
@@ -87,6 +94,9 @@ def test_coordinates_are_as_inexact_as_the_largest_of_their_surface_up_to_the_la
         {"corner_edges": BOX.corner_edges[:-1]},
         {"corner_edges": BOX.corner_edges - 1},
         {"corner_edges": BOX.corner_edges + 48},
+        {"corner_edges": BOX.corner_edges + 37},
+        {"corner_vertices": BOX.corner_vertices[:0], "corner_edges": BOX.corner_edges[:0]},
+        {"displacement": np.full(3, 1e-3)},
         {"corner_vertices": BOX.corner_vertices + 1},
         {"points": BOX.points.astype(np.float64)},
         {"quads": BOX.quads[:0], "quad_faces": BOX.quad_faces[:0]},
@@ -94,3 +104,10 @@ def test_coordinates_are_as_inexact_as_the_largest_of_their_surface_up_to_the_la
 )
 def test_a_surface_without_sound_corners_and_edges_is_not_taken(lacking):
     assert SurfaceStack.takes(BOX) and not SurfaceStack.takes(replace(BOX, **lacking))
+
+
+def test_edges_without_faces_may_be_as_many_as_make_twice_the_corners():
+    """Where the box has 24 corners, its 12 edges may follow after 36 others."""
+    other = replace(BOX, corner_edges=BOX.corner_edges + 36)
+    assert SurfaceStack.takes(other)
+    assert connections(BOX, other, BOX).is_closed.tolist() == [True, True, True]

@@ -11,6 +11,7 @@ from body_moments.core.moments.moments import monomials
 from body_moments.core.moments.solid_harmonics import couple, harmonic_moments
 from body_moments.core.shape.disc_zernike import MAX_DISC_ORDER, _radial, disc_degrees
 from body_moments.core.shape.zernike import (
+    _nodes,
     degrees,
     descriptor_error,
     descriptors,
@@ -84,6 +85,18 @@ def test_three_points_couple_to_the_scalar_that_they_span():
     assert abs(couple(*ones)) == pytest.approx(abs(wanted))
     mirrored = [harmonic_moments(np.prod((v * [-1, 1, 1]) ** monomials(1), axis=1), 1)[1, 1] for v in vectors]
     assert couple(*mirrored) == pytest.approx(-couple(*ones))
+
+
+@pytest.mark.parametrize("order", [1, 4, 12, 13, 20])
+def test_triangles_have_nodes_for_an_oscillation_over_their_size_or_for_all_polynomials(order):
+    """Gauss's rule of n nodes is exact to the degree 2n - 1, and no more are taken than the order and one ask for."""
+    size = np.array([1e-8, 1.147e-6, 1.7e-6, 1e-3, 0.01, 0.05, 0.1, 0.3, 0.6, 1.0, 2.0])
+    nodes, most = _nodes(size, order), (order + 3) // 2
+    assert nodes[0] == 1 and (np.diff(nodes) >= 0).all() and nodes[-1] == most
+    for count, half in zip(nodes.tolist(), ((order + 2.0) * size / 4.0).tolist()):
+        x, weight = np.polynomial.legendre.leggauss(count)
+        off = abs((weight * np.cos(half * x)).sum() / 2.0 - np.sinc(half / pi))
+        assert off <= 1.1e-13 or count == most
 
 
 @pytest.mark.parametrize("part", [shapes.WEDGE, bodies.torus(12, 8), bodies.sphere(1), shapes.STEPPED])

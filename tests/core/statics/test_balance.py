@@ -6,10 +6,18 @@ import numpy as np
 import pytest
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.polyhedron import polyhedron_moments
-from body_moments.core.statics.balance import _center_jacobian, _Fans, _limited_moves, _Problem, balance
+from body_moments.core.statics.balance import (
+    _center_jacobian,
+    _Fans,
+    _is_solvable,
+    _limited_moves,
+    _Problem,
+    balance,
+)
 from body_moments.core.statics.gradient import area_gradient, volume_gradient
 from body_moments.core.verdict.finding import MeasureError
 
+from tests.close import close
 from tests.core import bodies
 from tests.core.findings import refused
 
@@ -18,7 +26,7 @@ HORIZONTAL = np.eye(3)[:2]
 
 
 def center(points, triangles, shell=False):
-    return polyhedron_moments(bodies.surface((points, triangles)), area_order=3)[shell].center
+    return polyhedron_moments(bodies.surface((points, triangles)), area_order=3, allow_open=shell)[shell].center
 
 
 def upper(part, share=0.6):
@@ -112,10 +120,52 @@ def test_a_limit_that_the_least_moves_keep_changes_nothing(shell, count, spare):
         assert np.array_equal(held.points, free.points)
 
 
+@pytest.mark.parametrize("less", [1e-15, 4e-15])
+def test_a_limit_that_lacks_no_more_than_rounding_leaves_is_enough(less):
+    """The tip of a tetrahedron goes up by 3.1, after which it cannot go on."""
+    corners = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.3, 0.0], [0.3, 0.3, 0.9]])
+    body = Surface.from_triangles(corners, [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    limit = 3.1 * (1.0 - less)
+    found = balance(body, [3], [0.0, 0.0, 1.0], across=np.eye(3)[2:], limit=limit)
+    assert abs(found.points[3, 2] - 4.0) < 2e-14 and found.points[3, 2] - 0.9 <= limit * (1.0 + 4e-16)
+
+
+@pytest.mark.parametrize("size", [1e-6, 1.0, 1e6])
+@pytest.mark.parametrize("shell", [False, True])
+def test_the_center_is_as_near_as_64_roundings_of_the_body_s_size_and_place(size, shell):
+    """Whatever vertices there are without faces, and however far the target is where it does not count."""
+    corners, triangles = bodies.moved(bodies.box((0, 0, 0), (2, 3, 6)), None, (1.0, -20.0, 4.0))
+    points = size * np.concatenate([corners, [[900.0, 0.0, 0.0]]])
+    for target, farthest in (((3.0, 4.0, 999.0), 20.0), ((3.0, -70.0, 0.0), 70.0)):
+        problem = _Problem(Surface.from_triangles(points, triangles), shell, HORIZONTAL, size * np.array(target))
+        assert close(problem.tolerance, 64.0 * 2.0**-53 * size * (7.0 + farthest), rel=1e-14)
+
+
+@pytest.mark.parametrize("size", [1e-30, 1.0, 1e30])
+@pytest.mark.parametrize("share, is_solvable", [(0.9e-12, False), (1.1e-12, True)])
+def test_a_direction_has_an_effect_that_is_a_trillionth_of_that_of_the_best_one(size, share, is_solvable):
+    for strengths in ([1.0, share], [1.0, 0.5, share], [1.0, 2.0 * share, share]):
+        system = np.diag(strengths) * size
+        assert _is_solvable(system) == _is_solvable(system[::-1]) == is_solvable
+
+
+def test_a_body_that_is_inside_out_is_moved_as_it_is_outside_in(shell):
+    part = bodies.moved(bodies.torus(9, 7), SHEAR)
+    target = center(*part, shell) + [0.02, 0.01, 0.0]
+    found, other = (
+        balance(bodies.surface(each), upper(part), target, across=HORIZONTAL, shell=shell)
+        for each in (part, bodies.inverted(part))
+    )
+    assert np.abs(found.points - other.points).max() < 1e-12 and np.abs(found.before - other.before).max() < 1e-12
+
+
 def test_a_limit_that_is_too_small_is_said():
     part = bodies.sphere(3)
-    with refused("balance_short_by_limit", limit=0.001):
+    with pytest.raises(MeasureError) as refusal:
         balance(bodies.surface(part), upper(part), (0.2, 0.0, 0.0), across=HORIZONTAL, limit=1e-3)
+    finding = refusal.value.finding
+    assert finding.code == "balance_short_by_limit" and finding.values["limit"] == 0.001
+    assert 0.199 < finding.values["distance"] < 0.2
 
 
 @pytest.mark.parametrize("limit", [0.7, 1.6, 40.0])
@@ -166,6 +216,29 @@ def test_faces_that_would_be_turned_over_are_counted_but_slivers(size):
         problem.check(size * points, np.array([2, 5]))
 
 
+@pytest.mark.parametrize("small", [1.0, 1e-8])
+def test_faces_that_would_be_turned_over_are_counted_beside_larger_ones(small):
+    """And those that only become flatter are not."""
+    triangle = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.5, 1.0, 0.0]])
+    points = np.concatenate([triangle, small * triangle])
+    problem = _Problem(Surface.from_triangles(points, [[0, 1, 2], [3, 4, 5]]), True, np.eye(3), np.zeros(3))
+    for heights, count in (((1.0, -1.0), 1), ((-1.0, 1.0), 1), ((-1.0, -0.1), 2)):
+        moved = points.copy()
+        moved[[2, 5], 1] = heights[0], small * heights[1]
+        with refused("balance_folds_faces", count=count):
+            problem.check(moved, np.array([2, 5]))
+    moved = points.copy()
+    moved[[2, 5], 1] = 0.25, small * 0.25
+    problem.check(moved, np.array([2, 5]))
+
+
+def test_a_shell_may_be_open():
+    part = bodies.without(bodies.torus(9, 7), 3)
+    target = center(*part, True) + [0.02, 0.01, 0.0]
+    found = balance(bodies.surface(part), upper(part), target, across=HORIZONTAL, shell=True)
+    assert np.abs((center(found.points, part[1], True) - target)[:2]).max() < 1e-13
+
+
 @pytest.mark.parametrize("height", [1.0, 1e3, 1e6])
 def test_a_point_that_one_vertex_reaches_is_reached_however_far_it_is(height):
     """A tetrahedron's center is a quarter of its height above its base."""
@@ -213,11 +286,11 @@ def test_what_stands_already_is_left_to_the_bit():
 def test_a_tiny_body_and_a_large_one_are_the_same_problem():
     part = bodies.moved(bodies.torus(9, 7), SHEAR)
     shapes = []
-    for scale in (1e-5, 1.0, 1e4):
+    for scale in (1e-5, 1.0, 1e4, 1e20):
         body = part[0] * scale, part[1]
         target = center(*body) + np.array([0.02, 0.01, 0.0]) * scale
         shapes.append(balance(bodies.surface(body), upper(part), target).points / scale)
-    assert np.abs(shapes[0] - shapes[1]).max() < 1e-8 and np.abs(shapes[2] - shapes[1]).max() < 1e-8
+    assert all(np.abs(shape - shapes[1]).max() < 1e-8 for shape in shapes)
 
 
 @pytest.mark.parametrize("sides", [4, 5, 8])
