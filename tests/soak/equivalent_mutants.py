@@ -205,8 +205,8 @@ PATTERNS = [
     (r".*robots/plausibility.py Hull.distance", r"break", r"continue", "it finds the same until it has no more steps"),
     (
         r".*robots/plausibility.py Hull.distance",
-        r"shifted\*\*2",
-        r"\(shifted \* 2\)",
+        r"shifted\*\*2|\(shifted\*\*2\)\.sum\(axis=1\)",
+        r"\(shifted \* 2\)|\(\(shifted \*\* 2\)\.sum\(\)\)",
         "with which of the points it begins",
     ),
     (
@@ -643,6 +643,30 @@ PATTERNS = [
         r"\(np\.einsum\(.*\)\)",
         "where a value is stored",
     ),
+    (
+        r".*rigs/cuts.py bones_of_caps",
+        r"[01]",
+        r"[12]",
+        "each edge has a number of its own still; a triangle's sides in another order; room for one more bone",
+    ),
+    (r".*rigs/cuts.py _cut_edges", r"[01]", r"[12]", "room for one more bone"),
+    (r".*rigs/cuts.py _cut_edges", r"np\.repeat\(left, .* > 0", r".* >= 0\)", "what adds up to zero is left out"),
+    (r".*robots/plausibility.py DIRECTIONS", r"400", r"401", "along how many directions is looked"),
+    (
+        r".*robots/model.py combine_inertials",
+        r"3",
+        r"4",
+        "moments of a higher order, which are zero and not read",
+    ),
+    (r".*fourier/grid.py _points_per_side", r"4000", r"4001", "how fine a table is"),
+    (r".*fourier/grid.py _trial_vectors", r"0\.4", r"0\.8", "between which axes frequencies are compared"),
+    (
+        r"core/.*",
+        r"1\.0 \+ 4\.0 \* U",
+        r"\(1\.0 - 4\.0 \* U\)",
+        "a few units in the last place of what bounds are made of that are larger by more",
+    ),
+    (r".*polyhedron/third_order.py integrate", r"8", r"9", "how much is computed at a time"),
     (r".*density/threshold.py (RULES|MAX_CUT_CELLS)", r"\d+", r"\d+", "which rules are compared, of how many cells"),
     (
         r".*fourier/(grid.py MAX_POINTS_PER_SIDE|nufft.py ALIASED_ORDERS|polygon.py SERIES_TERMS)",
