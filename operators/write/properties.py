@@ -341,7 +341,7 @@ def warning_lines(findings: Iterable[Finding]) -> str:
 
 def findings_text(findings: Iterable[Finding]) -> str:
     """Findings as JSON text, to be read by `findings_in`."""
-    return json.dumps([plain(finding.as_record()) for finding in findings], ensure_ascii=False, allow_nan=False)
+    return json.dumps([plain(finding.as_record()) for finding in findings], ensure_ascii=False)
 
 
 def findings_in(text: object) -> tuple[Finding, ...]:

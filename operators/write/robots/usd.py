@@ -309,7 +309,7 @@ def _joint(robot: Robot, joint: Joint, name: str, names: dict[str, str]) -> list
 
 
 def _in_degrees(kind: str, value: float) -> float:
-    return degrees(value) if kind == "rotate" and abs(value) < inf else value
+    return degrees(value) if kind == "rotate" else value
 
 
 def _limits(joint: Joint) -> tuple[tuple[str, ...], list[str]]:

@@ -318,6 +318,19 @@ def test_what_has_ended_a_child_waits_for_a_fresh_one(tmp_path, fake):
     assert first != second and [one["path"] for one in fake("path") if one["pid"] == second] == ["crash"]
 
 
+def test_what_waits_for_a_fresh_child_is_work_beside_the_rest(tmp_path, fake):
+    with Pool(fake.command, 3, {"options": {"object": None}}, Limits(60.0), tmp_path / "work") as found:
+        found.add(["ok 1"])
+        found._again.append("ok 2")
+        found._refill()
+        children = list(found._children)
+        assert len(children) == 2
+        while not found.is_done:
+            found.step()
+    for child in children:
+        assert child.requests.closed and child.answers.closed and child.kept is None
+
+
 def test_where_nothing_is_known_of_memory_children_are_not_replaced(tmp_path, fake, monkeypatch):
     monkeypatch.setattr(pool, "_GROWTH_PERIOD", 1)
     monkeypatch.setattr(processes, "memory_of", lambda pid: None)
@@ -383,6 +396,21 @@ def test_what_a_target_replaces_is_not_read_by_way_of_a_file(tmp_path, main):
     assert code == 2 and sentence("usage_overwrites_dependency", option="output", path=str(target)) in said[-1]
     (tmp_path / "ok.samples").unlink()
     assert main(tmp_path / "ok", "--force")[0] == 0 and "novel" not in target.read_text()
+
+
+def test_a_child_has_a_folder_a_session_and_a_pipe_of_its_own(tmp_path):
+    names = "TMPDIR", "TEMP", "TMP", "BLENDER_USER_RESOURCES"
+    script = (
+        "import os, sys; os.read(int(sys.argv[1]), 1); print('said', file=sys.stderr);"
+        "print(*map(os.environ.get, {!r}), os.getsid(0) == os.getpid())".format(names)
+    )
+    folder = tmp_path / "child"
+    process, kept = processes.start([sys.executable, "-c", script], folder, tmp_path / "log")
+    with process:
+        os.close(kept)
+        told = process.stdout.read().decode().split()
+    assert told == [*[str(folder)] * 3, str(folder / "user"), "True"] and process.returncode == 0
+    assert (tmp_path / "log").read_text() == "said\n" and folder.is_dir()
 
 
 def test_how_processes_end_is_said():

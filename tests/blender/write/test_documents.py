@@ -9,7 +9,7 @@ import json
 import re
 import zlib
 from dataclasses import replace
-from math import inf
+from math import inf, nan
 
 import bpy
 import numpy as np
@@ -18,7 +18,7 @@ from body_moments.core.mesh.surface import Surface
 from body_moments.core.robots.model import FreeAxis, Inertial, Joint, Link, Pose, Robot, Shape
 from body_moments.core.robots.stated import Description, StatedInertial, StatedLink
 from body_moments.core.verdict.finding import finding
-from body_moments.operators.write import documents, text_report
+from body_moments.operators.write import documents, messages, properties, text_report
 from body_moments.operators.write.html.report import to_html
 from body_moments.operators.write.robots import audit_report, formats, gltf, shapes, stl, usd
 from body_moments.operators.write.terminal import visible
@@ -86,6 +86,8 @@ def test_a_robot(kept, name):
     remarks = (finding("robot_without_links"), finding("robot_links_left_out", count=1, links=["--"]))
     text, findings = formats.robot_text(robot(), name, remarks, surface_of=surface_of)
     brief, _ = formats.robot_text(robot(), name, inertial_only=True)
+    writer = formats.WRITERS[name]
+    assert writer.write(robot()) == writer.write(robot(), (), inertial_only=False)
     said = ["{:s} {!r}".format(one.code, one.values) for one in findings]
     kept("robot." + name, "\n".join([text, "=== inertials only", brief, "=== findings", *said]))
 
@@ -146,6 +148,19 @@ def test_a_glb_file_keeps_what_is_no_json():
     assert text.decode() == '{\n\t"name": "Würfel"\n}\n' and gltf.read_json(text) == document
 
 
+@pytest.mark.parametrize("value", [nan, inf])
+def test_what_is_no_number_of_json_is_never_written(value):
+    entry = {"mass": value}
+    for write in (documents.to_json, documents.to_json_lines, audit_report.to_json):
+        with pytest.raises(ValueError):
+            list(write([entry]))
+    for data in (b"{}", gltf.to_glb("{}")):
+        with pytest.raises(ValueError):
+            gltf.replace_json(data, entry)
+    (stored,) = json.loads(properties.findings_text([finding("t_junctions", count=value)]))
+    assert stored["values"] == {"count": None}
+
+
 def test_audits_of_robots(kept):
     found = [finding("no_faces"), finding("overlap_unchecked", count=2), finding("t_junctions", count=3)]
     stated = StatedInertial(
@@ -173,6 +188,12 @@ def test_links_as_the_primitives_of_their_inertia(kept):
         for link in shapes.with_primitives(robot(), kind).links:
             lines += [repr((kind, link.name, [(one.kind, np.round(one.size, 9).tolist()) for one in link.shapes]))]
     kept("primitives.txt", "\n".join(lines))
+
+
+def test_what_a_sentence_leaves_out_of_a_list_is_translated():
+    german = {"and {count} more": "und {count} weitere"}
+    said = messages.sentence(finding("missing_links", names=["a"] * 9), lambda text: german.get(text, text))
+    assert ", und 1 weitere" in said and "more" not in said
 
 
 def test_what_terminals_would_obey_is_shown():
@@ -207,6 +228,8 @@ def test_documents_of_objects(kept, scene):
     for document in (plain, rich, other):
         document["blender"] = "4.5.0"
     failed = documents.failed_document("a\tb.stl", "It is gone", "missing", blender=None, frame="world")
+    of_object_frame = documents.failed_document("a", "It is gone", "missing", blender=None, frame="object")
+    assert (failed["frame"], of_object_frame["frame"]) == ("world", "object")
     kept("one.json", "".join(documents.to_json([plain])))
     kept("rich.json", "".join(documents.to_json([rich])))
     kept("several.json", "".join(documents.to_json([other, failed])))
