@@ -164,8 +164,8 @@ def measure_excess(
     if not len(crossings.row):
         return Excess(np.zeros(bodies), np.zeros(bodies), np.ones(bodies))
     of_part = crossings.body if part is None else part[crossings.triangle].astype(np.intp)
-    line = (crossings.body * grids.rows + crossings.row) * grids.columns + crossings.column
-    group = line * (int(of_part.max()) + 1) + of_part
+    line = crossings.row * grids.columns + crossings.column
+    group = line * (int(of_part.max()) + 1) + of_part  # a part is of one body
     order = np.lexsort((crossings.along, group))
     group, of_part, body = group[order], of_part[order], crossings.body[order]
     begins = np.flatnonzero(np.concatenate([[True], group[1:] != group[:-1]]))

@@ -11,7 +11,7 @@ from body_moments.core.inertia.mass_properties import MassProperties
 from body_moments.core.numerics.bspline import SplineSpace, clamped_space
 from body_moments.core.nurbs.curve import Curve
 from body_moments.core.nurbs.curve_moments import length_moments, plane_moments
-from body_moments.core.nurbs.planar_region import chords_cross, planar_region
+from body_moments.core.nurbs.planar_region import chords_cross, planar_region, self_intersects
 
 from tests.close import close
 from tests.core.exact_splines import ROUND, circle
@@ -289,3 +289,18 @@ def test_control_points_and_weights_are_as_many_as_the_space_has():
     with pytest.raises(ValueError, match="weights not"):
         Curve(space, np.eye(2, 3), np.ones(3))
     assert Curve(space, np.eye(2, 3), np.array([1.0, 2.0])).weights.tolist() == [1.0, 2.0]
+
+
+def test_a_corner_that_is_there_twice_is_one():
+    square = [(0, 0, 0), (2, 0, 0), (2, 0, 0), (2, 2, 0), (0, 2, 0), (0, 2, 0), (0, 2, 0), (0, 0, 0)]
+    assert close(plane_moments(*planar_region([polyline(np.array(square, float))])).total, 4.0, rel=1e-14)
+
+
+@pytest.mark.parametrize("turn", [1, -1])
+def test_a_narrow_bend_does_not_run_through_itself(turn):
+    """Of many short chords on one side and few long ones on the other: the middles of both cross."""
+    inner = [(2.0 - k / 4.0, abs(4.0 - k)) for k in range(9)]
+    for tip, crosses in ((-0.3, False), (0.5, True)):
+        loop = np.array([(0.0, 3.7), (1.0, tip), (2.0, 3.7), *inner])[::turn]
+        assert self_intersects(loop, 1e-6) is crosses
+        assert chords_cross([(loop + np.roll(loop, 1, axis=0)) / 2.0], 1e-6, touch=False)

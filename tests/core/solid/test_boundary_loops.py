@@ -3,6 +3,7 @@
 """Rims as loops: how they are joined, and what is known of their caps."""
 
 import numpy as np
+import pytest
 from body_moments.core.solid.boundary_loops import find_loops, join_sides
 from hypothesis import given
 
@@ -62,6 +63,21 @@ def test_a_bent_loop_has_the_area_of_its_cone_and_a_height():
     assert close(loops.planar_area[0], 1.0, rel=1e-15)
     assert close(loops.out_of_plane[0], 0.5, rel=1e-15)
     assert close(loops.cone_area[0], np.sqrt(2.0), rel=1e-14)  # four triangles of √2/4
+
+
+@pytest.mark.parametrize("scale", [1e-3, 1.0, 1e3])
+@pytest.mark.parametrize("width, tolerance, is_hole", [(3.9, 9, 0), (4.2, 9, 1), (0.199, 0.1, 0), (0.202, 0.1, 1)])
+def test_what_is_narrower_than_a_thousandth_of_its_rim_or_than_the_tolerance_is_a_gap(width, tolerance, is_hole, scale):
+    """A rectangle as wide as so many thousandths of its length, which is half its rim."""
+    high = 1e-3 * width
+    loops = polygon(scale * np.array([[0, 0, 0], [1, 0, 0], [1, high, 0], [0, high, 0]]))
+    assert loops.has_area(1e-3 * tolerance * scale).tolist() == [bool(is_hole)]
+
+
+@pytest.mark.parametrize("tolerance, is_flat, area", [(0.499, False, np.sqrt(2.0)), (0.501, True, 1.0)])
+def test_a_cap_is_flat_where_its_rim_leaves_its_plane_by_no_more_than_the_tolerance(tolerance, is_flat, area):
+    flat, curved, areas = polygon([[0, 0, 0], [1, 0, 1], [1, 1, 0], [0, 1, 1]]).caps(tolerance)
+    assert (flat.tolist(), curved.tolist()) == ([is_flat], [not is_flat]) and close(areas[0], area, rel=1e-14)
 
 
 def test_an_edge_and_the_shorter_ones_that_run_back_along_it_make_a_loop_without_area():

@@ -284,6 +284,17 @@ def test_a_fin_on_an_edge_adds_nothing():
     assert only(result) == Finding("flat_components", {"count": 1, "total": 2})
 
 
+@pytest.mark.parametrize("rung", [0, 7, 39])
+def test_a_strip_of_one_side_is_open_where_the_edge_that_it_closes_at_is_one_of_another_body(rung):
+    points, triangles = moebius()
+    low, high = points[[rung, 40 + rung]]
+    apexes = (low + high) / 2.0 + [[0.0, 0.0, 5.0], [0.5, 0.5, 5.0]]
+    beside = np.array([low, high, *apexes]), np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    result = verdict(welded(joined((points, triangles), beside)))
+    assert result.method == "open" and result.health.components == 2
+    assert Finding("non_manifold_components", {"count": 1, "total": 2}) in result.findings
+
+
 def klein():
     points, quads = ring(40, 20, twist=True)
     return points, split(quads)
@@ -319,9 +330,12 @@ def test_what_is_flat_encloses_nothing(part, dtype):
 
 @pytest.mark.parametrize("turned", [False, True])
 def test_a_plate_that_is_flat_but_for_rounding_is_not_called_inside_out(turned):
-    plate = CUBE[0] * [1.0, 1.0, 1e-15], CUBE[1]
-    result = verdict(inverted(plate) if turned else plate)
-    assert codes(result) == ["flat_surface"] and result.health.inverted_components == 0
+    for size in (1e-9, 1.0, 1e9):
+        plate = size * CUBE[0] * [1.0, 1.0, 1e-15], CUBE[1]
+        result = verdict(inverted(plate) if turned else plate)
+        assert codes(result) == ["flat_surface"] and result.health.inverted_components == 0
+        thicker = size * CUBE[0] * [1.0, 1.0, 1e-12], CUBE[1]
+        assert verdict(inverted(thicker) if turned else thicker).health.inverted_components == turned
 
 
 def test_a_closed_plate_beside_an_open_box_needs_no_more_volume_than_by_itself():
@@ -329,6 +343,33 @@ def test_a_closed_plate_beside_an_open_box_needs_no_more_volume_than_by_itself()
     result = verdict(joined(without(CUBE, *TOP), plate))
     assert codes(result) == ["holes_capped"] and result.health.components == 2
     assert verdict(plate).method == "exact" and close(result.volume.total - 1.0, 1e-7, rel=1e-6)
+
+
+def test_of_bodies_with_holes_and_bodies_that_are_inside_out_all_count():
+    result = verdict(joined(without(CUBE, *TOP), inverted(box((3, 3, 3), (4, 5, 6)))))
+    assert result.method == "capped" and close(result.volume.total, 7.0, rel=1e-14)
+    assert codes(result) == ["inverted_components", "holes_capped"]
+
+
+def test_a_body_that_is_turned_has_the_bounds_that_it_has_anyway():
+    part = moved(sphere(2), rotation(1), (20, 30, 40))
+    sound = verdict(part, np.float32).volume
+    for given in (with_flipped(part, 7), inverted(part)):
+        turned = verdict(given, np.float32).volume
+        assert close(turned.input_error, sound.input_error, rel=1e-6)
+        assert (turned.rounding_error <= 2.0 * sound.rounding_error).all()
+
+
+@pytest.mark.parametrize("far", [0.0, 1100.0])
+@pytest.mark.parametrize("scale", [2.0**-10, 1.0, 2.0**40])
+def test_what_is_capped_is_flat_where_it_holds_no_more_than_capping_leaves_of_a_flat_one(scale, far):
+    """A low pyramid on its open base: a third of its height by a ten-millionth of its size, and by four times what
+    float32 may have moved it: √3 half steps of 2^-13."""
+    step, most = (2.0**-13, 3.0 * 4.0 * np.sqrt(3.0) / 2.0) if far else (1e-8, 3.0 * 1e-7 * np.sqrt(2.0) / 1e-8)
+    for steps, method in ((np.floor(most), "open"), (np.ceil(most), "capped")):
+        points = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0.5, 0.5, steps * step]]) + far
+        sides = np.array([[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]])
+        assert verdict((scale * points, sides), np.float32 if far else np.float64).method == method
 
 
 @pytest.mark.parametrize("spin", [None, 5])
@@ -512,6 +553,9 @@ def test_polygons_have_a_spread_too():
     assert raised.health.non_planar_faces == 1
     # The raised corner is in two of the tetrahedra between the fans, over the triangles 0, 1, 2 and 0, 1, 4.
     assert close(raised.health.volume_spread, 0.3 * (np.sqrt(3) / 4 + np.sqrt(3) / 2) / 3, rel=1e-14)
+    points, faces = prism([1, 1, 1, 1.3, 1, 1])
+    beside = mesh(np.concatenate([[[9.0, 9.0, 9.0]], points]), [[corner + 1 for corner in face] for face in faces])
+    assert measure_solid(beside).health.as_record() == raised.health.as_record()  # a vertex of no face is left out
     far = mesh(moved(CUBE, rotation(1), (300, 200, 100))[0], SIDES.tolist(), np.float32)
     assert measure_solid(far).health.non_planar_faces == 0  # what float32 bends is not bent
 
@@ -590,8 +634,12 @@ def test_what_cannot_be_measured_is_refused_with_a_remedy():
         assert finding == Finding("non_finite_vertices", {"count": 1, "total": 8}) and finding.elements.tolist() == [5]
     with refused("invalid_faces"):
         verdict((CORNERS[:7], CUBE[1]))
-    with refused("object_too_large"):
-        verdict((CORNERS * 1e60, CUBE[1]))
+    points[:, 1] = np.inf  # so that their box has no extent
+    with refused("non_finite_vertices"):
+        verdict((points, CUBE[1]))
+    for points in (CORNERS * 1e60, (2.0 * CORNERS - 1.0) * 1e308):
+        with refused("object_too_large"):
+            verdict((points, CUBE[1]))
 
 
 def test_a_shell_has_moments_of_its_area_to_third_order_without_the_caps():
@@ -828,6 +876,8 @@ def test_an_outline_that_turns_back_on_itself_closes(apart):
         points, triangles = part
         part = np.concatenate([points, points]), np.concatenate([triangles[:10], triangles[10:] + len(points)])
     for offset in (0.0, 4096.0):
+        order = np.random.default_rng(int(offset)).permutation(len(part[0]))
+        part = part[0][order], np.argsort(order)[part[1]]
         result = measure_solid(surface(moved(part, offset=(offset, offset, 0.0))))
         assert result.method == "exact" and result.health.closed and result.health.boundary_edges == 0
         assert result.health.non_manifold_edges == 2
