@@ -643,13 +643,6 @@ PATTERNS = [
         r"\(np\.einsum\(.*\)\)",
         "where a value is stored",
     ),
-    (
-        r".*rigs/cuts.py bones_of_caps",
-        r"[01]",
-        r"[12]",
-        "each edge has a number of its own still; a triangle's sides in another order; room for one more bone",
-    ),
-    (r".*rigs/cuts.py _cut_edges", r"[01]", r"[12]", "room for one more bone"),
     (r".*rigs/cuts.py _cut_edges", r"np\.repeat\(left, .* > 0", r".* >= 0\)", "what adds up to zero is left out"),
     (r".*robots/plausibility.py DIRECTIONS", r"400", r"401", "along how many directions is looked"),
     (
@@ -658,8 +651,6 @@ PATTERNS = [
         r"4",
         "moments of a higher order, which are zero and not read",
     ),
-    (r".*fourier/grid.py _points_per_side", r"4000", r"4001", "how fine a table is"),
-    (r".*fourier/grid.py _trial_vectors", r"0\.4", r"0\.8", "between which axes frequencies are compared"),
     (
         r"core/.*",
         r"1\.0 \+ 4\.0 \* U",
@@ -1270,6 +1261,8 @@ CONSTANTS = [
     (r".*numerics/graph.py connected_neighbors", r"for start in range\(", "there is none below the first"),
     (r".*", r"\bdefault_rng\(", "which numbers are drawn at random"),
     (r".*rigs/cuts.py (bones_of_caps|_cut_edges)", r"(max\(initial=|int\(.*\) \+ )", "room for a label more"),
+    (r".*rigs/cuts.py bones_of_caps", r"minlength=", "room for a label more"),
+    (r".*rigs/cuts.py bones_of_caps", r"np\.roll\(triangles, -", "a triangle's sides in another order"),
     (r".*shape/(symmetry.py _around_axis|flat_pose.py flat_symmetry)", r"n // 2 \+ ", "the same turns, the other way"),
     (r".*shape/registration.py _candidate_rotations", r"@ first\.T, ", "rotations as near as that differ by rounding"),
     (r".*shape/(symmetry.py _around_axis|flat_pose.py _mirrors)", r"np\.round\(\w+, ", "which corners are one"),
