@@ -9,9 +9,9 @@ bpy = pytest.importorskip("bpy")
 
 import bmesh
 from body_moments.operators.read import read_object
-from body_moments.operators.read.mesh import mesh_points, mesh_surface, plain_mesh
+from body_moments.operators.read.mesh import mesh_points, mesh_surface, plain_mesh, vertex_values
 
-from tests.blender.findings import said
+from tests.blender.findings import refused, said
 from tests.blender.read_bodies import (
     CUBE,
     CUBE_FACES,
@@ -118,6 +118,16 @@ def test_edges_that_nobody_asks_for_are_not_read():
     data = mesh("Quads", CUBE, CUBE_FACES)
     assert mesh_surface(data, edges=False).corner_edges is None
     assert len(mesh_surface(data, edges=True).corner_edges) == 24
+
+
+@pytest.mark.parametrize(("domain", "kind"), [("FACE", "FLOAT"), ("POINT", "INT")])
+def test_an_attribute_has_values_where_it_has_floats_at_vertices(domain, kind):
+    data = mesh("Quads", CUBE, CUBE_FACES)
+    data.attributes.new("per_vertex", "FLOAT", "POINT").data.foreach_set("value", range(8))
+    data.attributes.new("other", kind, domain)
+    assert vertex_values(data, "per_vertex").tolist() == [*range(8)]
+    with refused("attribute_type", attribute="other"):
+        vertex_values(data, "other")
 
 
 def test_many_quads_need_no_face_indices_either():
