@@ -125,10 +125,10 @@ def vertex_weights(obj: Object, part: Part, bones: RestBones, depsgraph: Depsgra
     number = {name: k for k, name in enumerate(bones.deforming)}
     groups = [number.get(group.name) for group in obj.vertex_groups]
     geometry = evaluated_geometry(obj, depsgraph, obj)  # it owns its mesh
-    mesh = geometry.mesh
-    is_own = part.source_object_name in ("", obj.name) and mesh is not None
+    vertices = [] if geometry.mesh is None else geometry.mesh.vertices
+    is_own = part.source_object_name in ("", obj.name) and len(vertices) == len(part.surface.points)
     vertex, bone, weight = [], [], []
-    for index, one in enumerate(mesh.vertices if is_own and len(mesh.vertices) == len(part.surface.points) else ()):
+    for index, one in enumerate(vertices if is_own else []):
         for entry in one.groups:
             if groups[entry.group] is not None:
                 vertex.append(index)

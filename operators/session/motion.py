@@ -141,11 +141,11 @@ def _mixed(
 ) -> tuple[float, NDArray[np.float64]] | None:
     """Mass and center; None for what has to be measured: where faces are cut otherwise than in the mixes, and where
     keys or matrix make the mesh flat or turn it inside out."""
+    assert followed.mixes is not None and followed.triangles is not None
     triangles, _ = read_object(obj, depsgraph, edges=False).parts[0].surface.all_triangles()
     if not np.array_equal(triangles, followed.triangles):
         return None
     blocks = obj.data.shape_keys.key_blocks
-    assert followed.mixes is not None
     volumes, centers = followed.mixes.at([[blocks[name].value for name in followed.keys]])
     if np.isnan(volumes[0]) or are_singular(matrix[None, :3, :3])[0]:
         return None
