@@ -3,9 +3,9 @@
 """The threshold of a measured grid as a slider: the values of the grid are kept in memory, and a change of the setting
 stores the numbers of the new body at once.
 
-While the slider moves they come from every second or third value of a large grid, by a rule that nothing checks, and
-are marked as out of date; a moment after the last change the exact ones take their place. Only where nothing else has
-changed since: geometry and transform must be those of the stored numbers.
+While the slider moves they come from every second or third value of a large grid, by a rule that nothing checks; a
+moment after the last change the exact ones take their place. Only where nothing else has changed since: geometry and
+transform must be those of the stored numbers.
 """
 
 from __future__ import annotations
