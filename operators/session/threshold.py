@@ -3,9 +3,9 @@
 """The threshold of a measured grid as a slider: the values of the grid are kept in memory, and a change of the setting
 stores the numbers of the new body at once.
 
-While the slider moves they come from every second or third value of a large grid, by a rule that nothing checks; a
-moment after the last change the exact ones take their place. Only where nothing else has changed since: geometry and
-transform must be those of the stored numbers.
+While the slider moves they come from every second or third value of a large grid, by a rule that nothing checks, and
+are out of date; a moment after the last change the exact ones take their place. Only where nothing else has changed
+since: geometry and transform must be those of the stored numbers.
 """
 
 from __future__ import annotations
@@ -31,6 +31,7 @@ from .cache import SessionCache
 
 MAX_CACHED_OBJECTS = 2  # a grid may have gigabytes
 DELAY = 0.3  # s after the last change of the slider
+COARSE = "coarse"  # no key of settings: what is measured with it is out of date
 
 
 @dataclass(frozen=True, eq=False)
@@ -93,7 +94,8 @@ def _store(obj: Object, scene: Scene, cached: _CachedGrid, grid: ThresholdGrid, 
     request = Request.of(obj, unit=cached.unit)
     try:
         body = threshold_grid_body(grid, options, preview)
-        measurement = measurement_of(cached.reading, replace(body, density_key=grid_key(obj)), request)
+        key = grid_key(obj) if grid is cached.grid else COARSE
+        measurement = measurement_of(cached.reading, replace(body, density_key=key), request)
     except MeasureError:  # the panel says that the numbers are out of date, and Measure why there are none
         return False
     properties.store(obj, density.noted(obj, measurement, scene))

@@ -10,6 +10,7 @@ import pytest
 bpy = pytest.importorskip("bpy")
 from body_moments.operators.bodies import threshold as threshold_module
 from body_moments.operators.session import staleness
+from body_moments.operators.session import threshold as threshold_slider
 from body_moments.operators.write import properties
 
 from tests.blender.bodies.test_grid import SHEARED, measure
@@ -147,6 +148,24 @@ def test_a_large_grid_is_followed_coarsely(tmp_path, monkeypatch):
     assert len(reading_sizes) == 2 and reading_sizes[0] <= 2000 < reading_sizes[1]
     assert close(obj["body_volume"], measure(obj).volume, rel=1e-13)
     assert properties.numbers(obj) is not None
+
+
+@pytest.mark.parametrize("cells, is_coarse", [(2000, True), (24**3, False)])
+def test_coarse_numbers_are_out_of_date_until_the_exact_ones_take_their_place(cells, is_coarse, tmp_path, monkeypatch):
+    monkeypatch.setattr(threshold_module, "PREVIEW_CELLS", cells)
+    obj, _ = sampled_ball(tmp_path)
+    stored(obj)
+    with monkeypatch.context() as patch:
+        patch.setattr(threshold_slider, "_finish", lambda: None)  # a timer that has not come yet
+        for threshold in (1.0, 2.0):
+            obj.body_moments.threshold = threshold
+            reason = staleness.stale_reason(obj, bpy.context.scene)
+            assert reason == ("stale_settings" if is_coarse else None)
+    coarse = obj["body_volume"]
+    threshold_slider._finish()
+    assert staleness.stale_reason(obj, bpy.context.scene) is None
+    assert close(obj["body_volume"], measure(obj).volume, rel=1e-13)
+    assert close(coarse, obj["body_volume"], rel=0.05) and (coarse != obj["body_volume"] or not is_coarse)
 
 
 def test_a_level_set_has_no_threshold(tmp_path):
