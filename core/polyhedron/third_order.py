@@ -106,12 +106,11 @@ def integrate(
     exact = exact or count <= MAX_TRIANGLES_EXACT_THIRD
     if count <= MAX_SMALL_TRIANGLES:
         for faces in (surface.triangles, surface.quads):
-            if len(faces) and not indices_in_range(faces, len(points)):
+            if not indices_in_range(faces, len(points)):
                 raise ValueError(NO_VERTEX)
-        triangles = surface.all_triangles()[0] if len(surface.quads) else surface.triangles
         volume, areas, cones = small_moments(
             points,
-            triangles,
+            surface.all_triangles()[0],
             np.array([count]),
             center[None],
             reach[None],

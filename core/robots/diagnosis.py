@@ -217,15 +217,14 @@ def _square(arm: NDArray) -> NDArray[np.float64]:
 
 def _frames(stated: StatedInertial) -> Iterator[Change]:
     """The inertial frame's rotation in other units, the other way round, or not meant."""
-    if stated.angles is not None and any(stated.angles):
+    if stated.angles is not None:
         for code, convert in (("audit_angles_in_degrees", radians), ("audit_angles_in_radians", degrees)):
             turned = rotation_of_angles(*map(convert, stated.angles))
             yield code, {}, replace(stated, rotation=turned)
     if stated.quaternion is not None:
         w, x, y, z = stated.quaternion
         for order in ((z, w, x, y), (x, y, z, w)):
-            if any(order):
-                yield "audit_quaternion_order", {}, replace(stated, rotation=rotation_matrix(order))
+            yield "audit_quaternion_order", {}, replace(stated, rotation=rotation_matrix(order))
     if not np.array_equal(stated.rotation, np.eye(3)):
         yield "audit_frame_transposed", {}, replace(stated, rotation=stated.rotation.T)
         yield "audit_frame_not_meant", {}, replace(stated, rotation=np.eye(3))
@@ -233,16 +232,17 @@ def _frames(stated: StatedInertial) -> Iterator[Change]:
 
 def _signs(stated: StatedInertial) -> Iterator[Change]:
     rows, columns = np.array([0, 0, 1]), np.array([1, 2, 2])
-    for signs in ((-1.0, -1.0, -1.0), *sorted(product((1.0, -1.0), repeat=3), key=sum, reverse=True)[1:7]):
+    _, *some, all_of_them = product((1.0, -1.0), repeat=3)
+    for signs in (all_of_them, *some):
         for along_link in (True, False):
             tensor = (stated.inertia if along_link else stated.tensor).copy()
             tensor[rows, columns] = tensor[columns, rows] = tensor[rows, columns] * signs
             changed = stated.along_link(tensor) if along_link else replace(stated, tensor=tensor)
-            names = [name for name, sign in zip(PRODUCT_NAMES, signs) if sign < 0.0]
+            names = [name for name, sign in zip(PRODUCT_NAMES, signs) if sign == -1.0]
             yield "audit_products_sign", {"products": names}, changed
-    for signs in list(product((1.0, -1.0), repeat=3))[1:]:
+    for signs in (*some, all_of_them):
         flipped = np.array(signs)
-        names = [axis for axis, sign in zip("xyz", signs) if sign < 0.0]
+        names = [axis for axis, sign in zip("xyz", signs) if sign == -1.0]
         yield "audit_center_sign", {"axes": names}, replace(stated, center=stated.center * flipped)
     for axis in range(3):
         mirror = np.ones(3)

@@ -97,7 +97,7 @@ def capsule_size(mass: float, moments: NDArray) -> tuple[float, float]:
     if not along > across:
         return sqrt(5.0 * float(moments.mean()) / (2.0 * mass)), 0.0
     ratio = along / across
-    low, high = 0.0, sqrt(3.0 * ratio)  # there the length alone has as much
+    low, high = 0.0, ratio  # as long as that, its own would be larger
     for _ in range(BISECTIONS):
         t = (low + high) / 2.0
         wide, far = _capsule(t)

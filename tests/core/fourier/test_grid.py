@@ -228,13 +228,23 @@ def test_points_along_a_side_are_the_fewest_whose_bound_is_allowed(tolerance):
         ratio = span / 4.0 / (2 * n + 1)
         return ratio < 0.9 and 2.0 * (span / 4.0) ** (2 * n) / math.factorial(2 * n) / (1.0 - ratio) <= tolerance
 
-    spans = np.geomspace(1e-3, 90.0, 300)
+    spans = np.geomspace(2e-6, 90.0, 400)
     found = fourier_grid._points_per_side(spans, tolerance)
     largest = fourier_grid.MAX_POINTS_PER_SIDE
     assert (found <= largest + 1).all()
     for span, n in zip(spans.tolist(), found.tolist()):
         assert n > largest or suffices(span, n)
         assert not any(suffices(1.006 * span, fewer) for fewer in range(1, n))
+
+
+@pytest.mark.parametrize("count, shares", [(7, [1.0, 0.6, 0.35]), (36, [1.0, 0.6, 0.35, 0.2, 0.1])])
+def test_errors_are_compared_at_frequencies_of_all_sizes_from_one_step_on(count, shares):
+    """Along the axes, the diagonal of the grid, and between them."""
+    grid = FrequencyGrid(count, 3.0)
+    q = fourier_grid._trial_vectors(grid).reshape(-1, 5, 3) / grid.largest
+    assert close(np.abs(q).max(axis=2), np.multiply.outer(shares, [1.0, 1.0, 1.0, 1.0, 0.9]), rel=1e-15)
+    assert all(np.array_equal(shell > 0.0, np.eye(3) > 0.0) for shell in q[:, :3])
+    assert (q[:, 3] == q[:, 3, :1]).all() and (q[:, 4] != 0.0).all()
 
 
 def finished(work):

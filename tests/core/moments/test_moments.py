@@ -372,6 +372,8 @@ def test_a_total_that_is_less_makes_moments_as_large_as_they_are_told_to_be_at_m
     assert close(getattr(found, kind)[worst > 0.0], worst[worst > 0.0], 1e-9)
     other = found.input_error if kind == "rounding_error" else found.rounding_error
     assert (other <= 150.0 * 2.0**-53 * np.abs(found.raw)).all()
+    both = normalize(Moments(exact, np.zeros(3), measure, rounding_error=delta / 2.0, input_error=delta / 2.0), by)
+    assert close((both.rounding_error + both.input_error)[worst > 0.0], worst[worst > 0.0], 1e-9)
 
 
 def test_a_radius_of_gyration_that_is_less_makes_moments_as_large_as_they_are_told_to_be_at_most():

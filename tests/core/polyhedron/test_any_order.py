@@ -350,6 +350,20 @@ def test_what_leaves_it_at_low_orders_is_refused_too_and_what_stays_is_told():
             polyhedron_moments(Surface(points * 1e60, quads=quads), order)
 
 
+@pytest.mark.parametrize("order", [4, 9, 20])
+@pytest.mark.parametrize("face", [[[0, 1, 2]], [[0, 1, 2, 3]], [[0, 1, 2], [0, 2, 3]]])
+def test_blocks_are_as_long_as_their_scratch_allows_and_as_many_for_each_of_four_threads(order, face):
+    """But of at least 4608 faces, a pair of triangles as one."""
+    job, least = recursion._StreamIntegrator(order, True, 1, None, np.zeros(3), 1.0), recursion.MIN_FACES_PER_BLOCK
+    corners = len(set(sum(face, [])))
+    most = max(recursion.SCRATCH_NUMBERS // levels.row_count(corners, order, 1), least) // 2 * 2
+    for count, blocks in ((least - 1, 1), (2 * least, 2), (4 * most, 4), (8 * most, 8)):
+        count *= len(face)
+        size = job._size(np.tile(face, (count // len(face), 1)))
+        assert size % 2 == 0 and (blocks - 1) * size < count <= blocks * size
+    assert [job._size(np.array(face[:1] * count)) for count in (1, 2, 3)] == [2, 2, 4]
+
+
 def test_a_stream_is_never_in_memory_as_a_whole():
     """A torus of 250,000 triangles, made in strips; as arrays it would take 18 MB."""
     n, m, strip = 500, 250, 25

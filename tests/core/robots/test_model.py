@@ -162,6 +162,14 @@ def test_what_fixed_joints_hold_is_one_body():
     assert robot.rigid_inertial(robot.link("d")) is None
 
 
+def test_the_body_of_a_link_without_mass_is_what_fixed_joints_hold_to_it():
+    base, hand = Link("base", None, pose(1)), Link("hand", inertial(2), pose(3))
+    robot = Robot("r", (base, hand), (Joint("1", "base", "hand"),))
+    held, truth = robot.rigid_inertial(base), hand.inertial.place(base.pose.inverse() @ hand.pose)
+    assert close(held.mass, truth.mass, 1e-15) and close(held.center, truth.center, 1e-13)
+    assert np.abs(held.inertia - truth.inertia).max() <= 1e-14
+
+
 @pytest.mark.parametrize(
     "joints, text",
     [
@@ -169,6 +177,7 @@ def test_what_fixed_joints_hold_is_one_body():
         ([("a", "x")], "without link"),
         ([("x", "a")], "without link"),
         ([("a", "b"), ("b", "a")], "loop"),
+        ([("a", "a")], "loop"),
     ],
 )
 def test_what_is_no_tree_is_refused(joints, text):

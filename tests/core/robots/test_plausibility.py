@@ -81,6 +81,7 @@ def test_mass_that_spreads_too_far_between_the_axes_is_found_by_directions_all_a
     """An octahedron is thinnest along the diagonals, of a third of the variance that it allows along its axes."""
     directions, draw = _sphere(400), np.random.default_rng(2).normal(size=(1000, 3))
     assert directions.shape == (400, 3) and close((directions**2).sum(axis=1), 1.0, 1e-14)
+    assert np.abs(directions[:, 2] + directions[::-1, 2]).max() < 1e-14  # as many below as above
     draw /= np.linalg.norm(draw, axis=1)[:, None]
     assert (draw @ directions.T).max(axis=1).min() > np.cos(0.14)
     assert (directions @ directions.T - 2.0 * np.eye(400)).max() < np.cos(0.15)
@@ -116,6 +117,42 @@ def test_the_center_lies_in_the_hull_and_the_mass_spreads_no_further(size, turn)
     (found,) = impossible(StatedInertial(mass, np.zeros(3), turn @ np.diag(long) @ turn.T), hull)
     assert found.code == "inertial_spread_outside" and close(found.values["factor"], 1.09, 0.01)
     assert abs(np.array(found.values["direction"]) @ turn[:, 0]) > 0.99
+
+
+def spread(variances):
+    """The tensor of a kilogram with these variances along the axes."""
+    return np.diag(np.sum(variances) - np.array(variances))
+
+
+@pytest.mark.parametrize("variances", [(8.8, 4.0, 1.08), (9.15, 4.0, 1.2)])
+def test_the_direction_that_is_said_is_that_in_which_the_mass_spreads_too_far_for_its_limit(variances):
+    """Along the short side, though along the long one it spreads farther, or exceeds its limit by more."""
+    hull = Hull(CUBE * (3.0, 2.0, 1.0))
+    (found,) = impossible(StatedInertial(1.0, np.zeros(3), spread(variances)), hull)
+    assert found.code == "inertial_spread_outside" and close(found.values["factor"], variances[2], 1e-12)
+    assert close(np.abs(found.values["direction"]), [0.0, 0.0, 1.0], 1e-12)
+
+
+@pytest.mark.parametrize("size", [1e-3, 1.0, 1e3])
+def test_of_a_flat_hull_the_mass_may_spread_across_by_a_thousandth_of_the_size(size):
+    hull = Hull(size * CUBE * (3.0, 2.0, 0.0))
+    for share, is_outside in ((0.9e-3, False), (1.1e-3, True)):
+        tensor = spread(np.array([1.0, 1.0, share * 52.0]) * size**2)
+        found = impossible(StatedInertial(1.0, np.zeros(3), tensor), hull)
+        assert [one.code for one in found] == ["inertial_spread_outside"] * is_outside
+        if is_outside:
+            assert close(found[0].values["factor"], 1.1, 1e-9)
+            assert close(np.abs(found[0].values["direction"]), [0.0, 0.0, 1.0], 1e-12)
+
+
+def test_what_is_impossible_is_said_with_its_numbers():
+    hull, tensor = Hull(CUBE), 1e-6 * np.eye(3)
+    (found,) = impossible(StatedInertial(-2.0, np.zeros(3), tensor), hull)
+    assert found.values == {"mass": -2.0}
+    (found,) = impossible(StatedInertial(1.0, np.array([0.0, 3.0, 0.5]), tensor), hull)
+    assert found.code == "inertial_center_outside" and close(found.values["distance"], 2.0, 1e-9)
+    (found,) = impossible(StatedInertial(1.0, np.zeros(3), np.diag([1e-6, 1e-6, 2.001e-6])), hull)
+    assert found.code == "inertial_triangle_slightly" and close(found.values["excess"], 5e-4, 1e-9)
 
 
 @pytest.mark.parametrize("seed", range(4))

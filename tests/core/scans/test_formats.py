@@ -5,6 +5,7 @@
 import gzip
 import io
 import itertools
+import os
 import random
 import struct
 import zipfile
@@ -232,6 +233,18 @@ def test_numpy_arrays(tmp_path, layout):
 def test_arrays_that_are_no_densities(tmp_path, array, code):
     np.save(tmp_path / "a.npy", array)
     assert refusal(read_scan, tmp_path / "a.npy") == code
+
+
+def test_an_archive_of_python_objects_is_refused_and_runs_nothing(tmp_path):
+    class Maker:
+        def __reduce__(self):
+            return os.mkdir, (str(tmp_path / "made"),)
+
+    objects = np.empty((2, 2, 2), object)
+    objects[...] = Maker()
+    np.savez(tmp_path / "a.npz", density=objects)
+    assert refusal(read_scan, tmp_path / "a.npz") == "file_damaged"
+    assert not (tmp_path / "made").exists()
 
 
 def test_what_is_given_takes_the_headers_place(tmp_path):
