@@ -1132,7 +1132,6 @@ CONSTANTS = [
         "more of the background, where no body is",
     ),
     (r".*streams/stl.py TEXT_PER_TRIANGLE", r"= ", "how many triangles a text has is estimated"),
-    (r".*streams/stl.py StlFile.__init__", r"TEXT_PER_TRIANGLE \+ ", "how many triangles a text has is estimated"),
     (
         r".*numerics/arrays.py unique_pairs",
         r"pairs\.max\((initial=|initial=0\)\) \+ )",
