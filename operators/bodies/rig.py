@@ -210,14 +210,14 @@ class _Measuring:
         pieces = [piece for part in reading.parts for piece in self._pieces(obj, part, shell)]
         volume = sum(moments.total for _, moments, *_ in pieces) * (options.thickness if shell else 1.0)
         if not volume > 0.0:
-            raise ReadError("no_thickness" if shell else "no_volume", subject=obj.name)
+            raise ReadError("no_volume")  # `rig` says the names of these, not why
         density = options.density or 0.0 if options.mass is None else options.mass / volume
         if options.mass is None and request.density is not None:
             measurement = measure_body(obj, self.depsgraph).measurement
             density = measurement.mass_properties.mass / measurement.volume
             self.findings.append(finding("rig_mean_density").of_sources([obj.name]))
         if not density > 0.0:
-            raise ReadError("zero_density", subject=obj.name)
+            raise ReadError("zero_density")
         for name, moments, area, surface, matrix, verdict in pieces:
             found = self._of(name, obj)
             carrier = replace(moments.truncate(KNOWN_ORDER), measure=Measure.MASS)

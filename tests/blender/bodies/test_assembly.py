@@ -140,10 +140,12 @@ def test_what_is_not_shown_is_a_finding():
     root.objects.link(bpy.data.objects.new("Lines", lines))
     assembly = measured(root)
     assert close(assembly.measurement.mass_properties.mass, 2000.0, 1e-14)
-    values = {found.code: found.values.get("names") for found in assembly.measurement.findings}
-    assert values["members_left_out"] == ["NotRendered"] and values["members_hidden"] == ["Hidden"]
-    assert sorted(values["members_excluded"]) == ["Disabled", "InExcluded"]
-    assert values["members_not_measured"] == ["Lines"]
+    values = {found.code: found.values for found in assembly.measurement.findings}
+    assert values["members_left_out"] == {"count": 1, "names": ["NotRendered"]}
+    assert values["members_hidden"] == {"count": 1, "names": ["Hidden"]}
+    assert values["members_excluded"]["count"] == 2
+    assert sorted(values["members_excluded"]["names"]) == ["Disabled", "InExcluded"]
+    assert values["members_not_measured"] == {"count": 1, "names": ["Lines"]}
 
 
 def test_an_empty_with_its_children_is_a_body_in_its_own_frame():
@@ -216,6 +218,14 @@ def test_an_instance_that_stretches_has_the_area_that_it_shows():
     parts.objects[0].body_moments.kind = "SHELL"
     with pytest.raises(MeasureError, match="no mass|has a mass"):
         measured(root)
+    box(root, (1, 2, 4))
+    assembly = measured(root)
+    assert close(assembly.measurement.area, 28.0, 1e-12)
+    (shown,) = [part for part in assembly.root.parts if part.member.name == "Empty"]
+    assert shown.refusal.code == "instance_stretches_sheets" and str(shown.refusal)
+    assert (shown.masses, shown.volume, shown.area) == ({}, 0.0, 0.0)
+    (found,) = [one for one in assembly.measurement.findings if one.code == "members_not_measured"]
+    assert found.values == {"count": 1, "names": ["Empty"]}
 
 
 def test_a_bought_part_has_the_mass_center_and_inertia_that_are_given():
@@ -399,6 +409,7 @@ def test_a_flattened_instance_and_what_cannot_be_shown_stretched_add_nothing(tmp
     assert close(assembly.measurement.volume, 8.0, 1e-12) and close(assembly.measurement.area, 28.0, 1e-12)
     (refusal,) = [part.refusal for part in assembly.root.walk() if part.refusal is not None]
     assert refusal.code == "instance_without_scale" and str(refusal)
+    assert [(part.masses, part.volume, part.area) for part in assembly.root.walk() if part.refusal] == [({}, 0.0, 0.0)]
     for obj in list(of.objects):
         of.objects.unlink(obj)
     cloud = volume_object(tmp_path / "a.vdb", vdb_grid(np.ones((2, 2, 2), np.float32)))
@@ -412,6 +423,7 @@ def test_a_flattened_instance_and_what_cannot_be_shown_stretched_add_nothing(tmp
     assert close(assembly.measurement.volume, 8.0, 1e-12) and close(assembly.measurement.area, 28.0, 1e-12)
     (refusal,) = [part.refusal for part in assembly.root.walk() if part.refusal is not None]
     assert refusal.code == "only_volume_instances" and str(refusal)
+    assert [(part.masses, part.volume, part.area) for part in assembly.root.walk() if part.refusal] == [({}, 0.0, 0.0)]
 
 
 def test_inside_of_an_instance_what_is_not_rendered_or_only_cuts_is_left_out():

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 bpy = pytest.importorskip("bpy")
-from body_moments.operators.bodies import many, stack
+from body_moments.operators.bodies import many, measurement, stack
 from body_moments.operators.bodies.many import measure_many, measured_in_turn
 from body_moments.operators.bodies.measure_object import measure_body
 from body_moments.operators.bodies.stack import Stacked
@@ -207,6 +207,23 @@ def test_so_many_objects_and_faces_are_measured_together(monkeypatch, max_object
     together = list(measure_many(objects, bpy.context.evaluated_depsgraph_get()))
     assert [len(some) for some in together] == sizes
     assert all(isinstance(found, Stacked) for some in together for _, found in some)
+
+
+def test_what_has_many_faces_or_none_is_measured_by_itself(monkeypatch):
+    """Sixth moments, which tell axes of the others, take long there: as many faces as may be, one more, none."""
+    for module in (many, measurement):
+        monkeypatch.setattr(module, "MAX_FACES_HIGH_ORDER", 6)
+    objects = []
+    for points, faces in (s.box(), s.prism(s.regular(5)), ([], [])):
+        mesh = bpy.data.meshes.new("Mesh")
+        mesh.from_pydata(np.asarray(points).tolist(), [], [list(map(int, face)) for face in faces])
+        objects.append(bpy.data.objects.new("Object", mesh))
+        bpy.context.scene.collection.objects.link(objects[-1])
+    bpy.context.view_layer.update()
+    pairs, depsgraph = all_outcomes(objects)
+    assert [isinstance(found, Stacked) for _, found in pairs] == [True, False, False]
+    for obj, found in pairs:
+        assert_same(found, alone(obj, depsgraph))
 
 
 def test_a_stack_that_fails_measures_each_alone(monkeypatch, capfd):

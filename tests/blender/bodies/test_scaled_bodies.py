@@ -154,6 +154,8 @@ def test_moments_of_a_larger_body_and_their_bounds_grow_with_their_degree(kind):
 @pytest.mark.parametrize("exact", [True, False])
 def test_moments_of_a_larger_flat_shape_and_their_bounds_grow_with_their_degree(exact):
     obj, found = ring("2D"), []
+    for point in obj.data.splines[0].points:  # beside the object's origin
+        point.co.x, point.co.y = point.co.x + 0.5, point.co.y + 0.25
     obj.rotation_euler = (0.3, 0.5, 0.7)
     for by, unit in ((1.0, 1.0), (4.0, 1.0), (1.0, 0.25)):
         bpy.context.scene.unit_settings.scale_length = unit
@@ -161,6 +163,9 @@ def test_moments_of_a_larger_flat_shape_and_their_bounds_grow_with_their_degree(
         bpy.context.view_layer.update()
         region = flat_region(obj, bpy.context.evaluated_depsgraph_get(), exact=exact)
         found.append((by * unit, region.moments(4)))
+        moments = found[-1][1]
+        assert moments.about[2] == 0.0 and close(np.linalg.norm(moments.about), by * unit * np.hypot(0.5, 0.25), 1e-6)
+        assert (np.abs(moments.raw[1:4]) <= moments.rounding_error[1:4]).all()
     (_, own), *larger = found
     for factor, now in larger:
         growth = factor ** (2 + monomials(4).sum(axis=1))
