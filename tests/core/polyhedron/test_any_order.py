@@ -357,7 +357,7 @@ def test_blocks_are_as_long_as_their_scratch_allows_and_as_many_for_each_of_four
     job, least = recursion._StreamIntegrator(order, True, 1, None, np.zeros(3), 1.0), recursion.MIN_FACES_PER_BLOCK
     corners = len(set(sum(face, [])))
     most = max(recursion.SCRATCH_NUMBERS // levels.row_count(corners, order, 1), least) // 2 * 2
-    for count, blocks in ((least - 1, 1), (2 * least, 2), (4 * most, 4), (8 * most, 8)):
+    for count, blocks in ((least - 1, 1), (2 * least, 2), (4 * most, 4), (20 * most, 20)):
         count *= len(face)
         size = job._size(np.tile(face, (count // len(face), 1)))
         assert size % 2 == 0 and (blocks - 1) * size < count <= blocks * size
