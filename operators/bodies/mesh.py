@@ -113,10 +113,7 @@ def _sum_of_instances(reading: Reading, unit: float, shell: bool, threads: int) 
         )
         flat = not shell and not solid.volume.raw.any()
         verdicts.append(None if flat else Verdict(solid.method))
-        if shell or solid.findings:
-            by_part.append((part.source_object_name, _part_findings(part, solid, shell, flat, drawn)))
-        else:
-            by_part.append((part.source_object_name, ()))
+        by_part.append((part.source_object_name, _part_findings(part, solid, shell, flat, drawn)))
         parts.append((solid, matrices))
     if any([found for _, found in by_part]):
         findings += findings_by_part(by_part, reading.name)
