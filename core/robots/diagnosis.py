@@ -225,9 +225,8 @@ def _frames(stated: StatedInertial) -> Iterator[Change]:
         w, x, y, z = stated.quaternion
         for order in ((z, w, x, y), (x, y, z, w)):
             yield "audit_quaternion_order", {}, replace(stated, rotation=rotation_matrix(order))
-    if not np.array_equal(stated.rotation, np.eye(3)):
-        yield "audit_frame_transposed", {}, replace(stated, rotation=stated.rotation.T)
-        yield "audit_frame_not_meant", {}, replace(stated, rotation=np.eye(3))
+    yield "audit_frame_transposed", {}, replace(stated, rotation=stated.rotation.T)
+    yield "audit_frame_not_meant", {}, replace(stated, rotation=np.eye(3))
 
 
 def _signs(stated: StatedInertial) -> Iterator[Change]:
