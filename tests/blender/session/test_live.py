@@ -466,3 +466,13 @@ def test_what_was_computed_of_an_object_is_out_of_date_once_its_numbers_are_new_
         before = handlers.generation()
         change()
         assert handlers.generation() > before
+
+
+def test_what_live_finds_no_numbers_for_is_reported_as_it_starts(reported):
+    mesh = bpy.data.meshes.new("Wire")
+    mesh.from_pydata([(0, 0, 0), (1, 0, 0)], [(0, 1)], [])
+    wire, solid = add(mesh, "Wire"), add(mesh_body(), "Solid")
+    start(wire, solid)
+    refusal = live.current_numbers(wire).refusal
+    assert reported.codes == ["failure", refusal.code] and reported.values("failure")["object"] == "Wire"
+    assert live.current_numbers(solid).refusal is None
