@@ -167,6 +167,9 @@ def test_an_empty_with_its_children_is_a_body_in_its_own_frame():
     assert np.abs(local.center - center).max() < 1e-6 * np.abs(center).max()
     assert np.abs(local.inertia - tensor).max() < 1e-6 * np.abs(tensor).max()
     assert assembly.measurement.type == "EMPTY"
+    bpy.context.scene.unit_settings.scale_length = 0.1
+    local = measured(root).measurement.in_object_frame()
+    assert np.abs(local.center - 0.1 * center).max() < 1e-6 * np.abs(center).max()
 
 
 def test_an_instance_weighs_as_its_members_do_wherever_it_stands():
