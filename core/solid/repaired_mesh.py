@@ -180,14 +180,14 @@ class RepairedMesh:
         return replace(self, findings=(*self.findings, *findings))
 
     def with_rows(self, rows: NDArray[np.integer]) -> RepairedMesh:
-        """The mesh of some of the triangles alone. Their edges are to be found anew."""
+        """The mesh of some of the triangles alone. Their edges are not known."""
         return replace(
             self,
             triangles=self.triangles[rows],
             face=self.face[rows],
             flipped=self.flipped[rows],
             component=self.component[rows],
-            state=replace(self.state, given=self.state.given[rows]),
+            state=replace(self.state, given=self.state.given[rows], edges=UNKNOWN),
         )
 
     def with_caps(self, caps: NDArray[np.integer], owner: NDArray[np.integer]) -> RepairedMesh:

@@ -1383,6 +1383,12 @@ EQUIVALENT: dict[tuple[str, str, str, str], str] = {
         "(context.space_data.local_view is None)",
     ): "the one tells keys apart where the other does",
     (
+        "core/solid/repaired_mesh.py",
+        "RepairedMesh.with_rows",
+        "replace(self.state, given=self.state.given[rows], edges=UNKNOWN)",
+        "(replace(self.state, given=self.state.given[rows]))",
+    ): "the edges of before are not looked at: who takes rows finds new ones at once",
+    (
         "operators/scene/reframe.py",
         "_transform_mesh",
         "mesh.update()",
