@@ -89,27 +89,25 @@ def deform(evaluated, points: NDArray, depsgraph) -> NDArray[np.float64]:
 def _apply_shape_keys(evaluated, keys, points: NDArray) -> NDArray[np.float64]:
     blocks = list(keys.key_blocks)
     if evaluated.original.show_only_shape_key:
-        return _block_points(blocks[evaluated.original.active_shape_key_index], len(points))
+        return _block_points(blocks[evaluated.original.active_shape_key_index])
     if not keys.use_relative:
         return points  # their interpolation in time is left to the display mesh
-    result = _block_points(keys.reference_key, len(points)).copy()
+    result = _block_points(keys.reference_key)
     for block in blocks:
         if block == keys.reference_key or block.mute or block.value == 0.0:
             continue
-        result += block.value * (_block_points(block, len(points)) - _block_points(block.relative_key, len(points)))
+        result += block.value * (_block_points(block) - _block_points(block.relative_key))
     return result
 
 
-def _block_points(block, count: int) -> NDArray[np.float64]:
+def _block_points(block) -> NDArray[np.float64]:
     coordinates = []
     for item in block.data:
         if hasattr(item, "handle_left"):
             coordinates += [item.handle_left[:], item.co[:], item.handle_right[:]]
         else:
             coordinates.append(item.co[:3])
-    points = np.array(coordinates, np.float64).reshape(-1, 3)
-    # A key that was made for another number of points moves none.
-    return points if len(points) == count else np.zeros((count, 3))
+    return np.array(coordinates, np.float64).reshape(-1, 3)
 
 
 def _apply_hook(evaluated, modifier, points: NDArray, depsgraph) -> NDArray[np.float64]:

@@ -113,6 +113,8 @@ def evaluated_geometry(obj, depsgraph, reader):
     evaluated `obj` in full.
     """
     reason = _sculpt_mode_reason(obj) if obj.mode == "SCULPT" else None
+    if obj.type in {"CURVE", "SURFACE"} and not _shape_keys_fit(obj.data):
+        reason = finding("shape_keys_of_other_points")
     if reason is None:
         try:
             return obj.evaluated_get(depsgraph).evaluated_geometry()
@@ -121,6 +123,17 @@ def evaluated_geometry(obj, depsgraph, reader):
     if obj != reader:
         reason = finding("instanced_object_unreadable", object=obj.name, cause=reason.as_record())
     raise ReadError(reason, subject=reader.name)
+
+
+def _shape_keys_fit(curve) -> bool:
+    """Whether a curve's shape keys have as many points as its splines.
+
+    Join adds splines and not to the keys: Blender then shows points from past their end.
+    """
+    if curve.shape_keys is None or curve.is_editmode:
+        return True
+    count = sum(len(spline.bezier_points) + len(spline.points) for spline in curve.splines)
+    return all(len(key.data) == count for key in curve.shape_keys.key_blocks)
 
 
 def why_not_evaluated(obj, depsgraph) -> Finding:

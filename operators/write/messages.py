@@ -461,6 +461,9 @@ MESSAGES: dict[str, Message] = {
     "non_finite_control_points": _error(
         "Some control points have no finite coordinates. Delete them, or fix the modifier or driver that moves them."
     ),
+    "shape_keys_of_other_points": _error(
+        "The shape keys were made for another number of points. Remove them, or undo what added or removed points."
+    ),
     "non_positive_weights": _error(
         "Some control points have weights that are not positive. Set their weights above zero."
     ),
@@ -1538,7 +1541,7 @@ MESSAGES: dict[str, Message] = {
     "no_active_armature": _error("The active object is not an armature. Select one."),
     "armature_in_edit_mode": _error("The armature is in Edit Mode. Leave it."),
     "no_deforming_bones": _error("No bone deforms meshes. Make those that do deforming bones."),
-    "bone_missing": _error("Its parent bone “{bone}” does not exist. Choose another one."),
+    "bone_missing": _warning("Its parent bone “{bone}” does not exist, so it is not in the total. Choose another one."),
     "rig_without_parts": _error(
         "The armature deforms no mesh that can be measured, and nothing is parented to its bones. Add an Armature "
         "modifier to the mesh."

@@ -159,6 +159,10 @@ MESSAGES = {
         "Einige Kontrollpunkte haben keine endlichen Koordinaten. Sie löschen oder den Modifikator oder Treiber "
         "berichtigen, der sie bewegt.",
     ),
+    "shape_keys_of_other_points": (
+        "Die Formschlüssel wurden für eine andere Zahl von Punkten angelegt. Sie entfernen oder rückgängig machen, was "
+        "Punkte hinzugefügt oder entfernt hat.",
+    ),
     "non_positive_weights": (
         "Einige Kontrollpunkte haben Gewichte, die nicht positiv sind. Ihre Gewichte über null setzen.",
     ),

@@ -103,6 +103,30 @@ def test_shape_keys_are_in_the_reading():
     assert np.abs(read(shaped()).parts[0].surface.points).max() == 2.0
 
 
+@pytest.mark.parametrize(
+    "add", [bpy.ops.surface.primitive_nurbs_surface_sphere_add, bpy.ops.curve.primitive_bezier_circle_add], ids=str
+)
+def test_what_was_joined_to_a_curve_with_shape_keys_is_refused(add):
+    """Join gives the keys no points, and Blender draws what lies in memory behind them."""
+    add()
+    other = bpy.context.object
+    add()
+    obj = bpy.context.object
+    obj.data.extrude = 0.5
+    for name in ("Basis", "Big"):
+        obj.shape_key_add(name=name)
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.curve.select_all(action="SELECT")
+    bpy.ops.curve.duplicate()
+    assert read(obj).parts
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert read(obj).parts
+    other.select_set(True)
+    bpy.ops.object.join()
+    assert len(obj.data.splines) == 3
+    assert refused(obj, "shape_keys_of_other_points")
+
+
 def test_a_nurbs_surface_is_read_as_its_patches_beside_its_display_mesh():
     reading = read(nurbs())
     assert not reading.findings
