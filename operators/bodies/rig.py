@@ -185,7 +185,8 @@ class _Measuring:
 
     def _hang(self, obj: Object, bone: str) -> None:
         if bone not in self.bones.frames:
-            raise ReadError("bone_missing", subject=obj.name, bone=bone)
+            self.findings.append(finding("bone_missing", bone=bone).of_sources([obj.name]))
+            return
         measured = measure_body(obj, self.depsgraph)
         measurement = measured.measurement
         moments, factor = measurement.mass_moments

@@ -183,7 +183,9 @@ MESSAGES = {
     "no_active_armature": ("Das aktive Objekt ist keine Armatur. Eine auswählen.",),
     "armature_in_edit_mode": ("Die Armatur ist im Bearbeitungsmodus. Ihn verlassen.",),
     "no_deforming_bones": ("Kein Knochen verformt Netze. Die, die es tun, zu verformenden Knochen machen.",),
-    "bone_missing": ("Seinen Elternknochen „{bone}“ gibt es nicht. Einen anderen wählen.",),
+    "bone_missing": (
+        "Seinen Elternknochen „{bone}“ gibt es nicht, daher fehlt es in der Summe. Einen anderen wählen.",
+    ),
     "rig_without_parts": (
         "Die Armatur verformt kein messbares Netz, und nichts hängt an ihren Knochen. Dem Netz einen "
         "Armatur-Modifikator geben.",
