@@ -719,7 +719,8 @@ def test_a_wall_of_patches_has_no_surfaces_and_no_moments_beyond_the_third_order
     obj.body_moments.kind, obj.body_moments.wall, obj.body_moments.thickness = "SHELL", "INWARD", 0.1
     bpy.context.view_layer.update()
     depsgraph = bpy.context.evaluated_depsgraph_get()
-    assert measure_object(obj, depsgraph, MeasureOptions(order=3)).volume > 0.0
+    found = measure_object(obj, depsgraph, MeasureOptions(order=3, surface=True))
+    assert found.volume > 0.0 and found.area_moments.order == 3 and found.area_moments.total == found.area > 0.0
     with refused("wall_order", obj.name, order=3):
         measure_object(obj, depsgraph, MeasureOptions(order=4))
     body = measure_body(obj, depsgraph).body

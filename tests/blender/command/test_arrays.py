@@ -286,8 +286,9 @@ def test_a_threshold_is_of_the_values_that_the_header_gives_samples(tmp_path):
     (entry,) = document["objects"]
     assert close(entry["volume"], truth.volume.total * 8e-9, rel=1e-6)
     assert truth.clipped and "threshold_clipped" in codes(entry)
-    code, document = run(tmp_path, path, "--threshold", "1e6", "--density", "1")
-    assert code == 1 and not document["objects"]
+    for words, expected in (((), 1), (("--errors-exit-0",), 0)):
+        code, document = run(tmp_path, path, "--threshold", "1e6", "--density", "1", *words)
+        assert code == expected and not document["objects"] and document["errors"]
     assert batch.main(in_process("measure", path, "--threshold", "nan"), channel=2, file_needed=True) == 2
 
 
