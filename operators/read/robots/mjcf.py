@@ -123,22 +123,27 @@ def _rotation(attributes: dict[str, str], model: _Model) -> Rotation:
         fixed_axes = model.euler == "XYZ"
         return turn, (first, second, third) if fixed_axes else None, None
     if "axisangle" in attributes:
-        x, y, z, angle = numbers(attributes["axisangle"], 4, (0.0, 0.0, 1.0, 0.0)).tolist()
-        length = np.sqrt(x * x + y * y + z * z)
-        half = angle * unit / 2.0
-        return rotation_matrix([np.cos(half), *(np.sin(half) * np.array([x, y, z]) / length)]), None, None
+        values = numbers(attributes["axisangle"], 4, (0.0, 0.0, 1.0, 0.0))
+        half = values[3] * unit / 2.0
+        axis = _direction(values[:3], attributes["axisangle"])
+        return rotation_matrix([np.cos(half), *(np.sin(half) * axis)]), None, None
     if "xyaxes" in attributes:
         values = numbers(attributes["xyaxes"], 6, ())
-        x = values[:3] / np.linalg.norm(values[:3])
-        y = values[3:] - (values[3:] @ x) * x
-        y = y / np.linalg.norm(y)
+        x = _direction(values[:3], attributes["xyaxes"])
+        y = _direction(values[3:] - (values[3:] @ x) * x, attributes["xyaxes"])
         return np.column_stack([x, y, np.cross(x, y)]), None, None
     if "zaxis" in attributes:
-        z = numbers(attributes["zaxis"], 3, (0.0, 0.0, 1.0))
-        z = z / np.linalg.norm(z)
+        z = _direction(numbers(attributes["zaxis"], 3, (0.0, 0.0, 1.0)), attributes["zaxis"])
         half = np.array([1.0 + z[2], -z[1], z[0], 0.0])
         return rotation_matrix(half if half.any() else [0.0, 1.0, 0.0, 0.0]), None, None
     return np.eye(3), None, None
+
+
+def _direction(vector: NDArray, text: str) -> NDArray[np.float64]:
+    length = np.linalg.norm(vector)
+    if length == 0.0:
+        raise ValueError(text)
+    return vector / length
 
 
 def _about(axis: str, angle: float) -> NDArray[np.float64]:

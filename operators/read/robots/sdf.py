@@ -66,6 +66,8 @@ def _pose(node: Node) -> tuple[Pose, Angles, tuple[float, ...] | None]:
     text = "" if element is None else element.text
     if element is not None and element.get("rotation_format") == "quat_xyzw":
         x, y, z, qx, qy, qz, qw = numbers(text, 7, (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)).tolist()
+        if not any((qx, qy, qz, qw)):
+            raise ValueError(text)
         return Pose(np.array([x, y, z]), rotation_matrix([qw, qx, qy, qz])), None, (qw, qx, qy, qz)
     values = numbers(text, 6, (0.0,) * 6)
     roll, pitch, yaw = values[3:].tolist()

@@ -151,13 +151,16 @@ WRONG = {
     "robot.sdf": (
         '<sdf><model name="m"><link name="a"><inertial><pose>1</pose></inertial><visual><geometry><box><size>1 2</size>'
         "</box></geometry></visual><collision><pose>1 2</pose><geometry><sphere/></geometry></collision><collision>"
+        '<pose rotation_format="quat_xyzw">1 2 3 0 0 0 0</pose><geometry><sphere/></geometry></collision><collision>'
         "<geometry><sphere><radius>2</radius></sphere></geometry></collision></link></model></sdf>",
-        ["1", "1 2", "1 2"],
+        ["1", "1 2", "1 2", "1 2 3 0 0 0 0"],
     ),
     "robot.xml": (
         '<mujoco><worldbody><body name="a"><inertial mass="1" pos="1 2"/><geom type="box" size="1 2"/><geom size="1"'
-        ' quat="0 0 0 0"/><geom type="capsule" fromto="0 0 0 0 0 1"/><geom size="2"/></body></worldbody></mujoco>',
-        ["1 2", "1 2", "0 0 0 0", "list index out of range"],
+        ' quat="0 0 0 0"/><geom type="capsule" fromto="0 0 0 0 0 1"/><geom size="1" axisangle="0 0 0 1"/><geom size="1"'
+        ' xyaxes="0 0 0 1 0 0"/><geom size="1" xyaxes="0 2 0 0 3 0"/><geom size="1" zaxis="0 0 0"/><geom size="2"/>'
+        "</body></worldbody></mujoco>",
+        ["1 2", "1 2", "0 0 0 0", "list index out of range", "0 0 0 1", "0 0 0 1 0 0", "0 2 0 0 3 0", "0 0 0"],
     ),
 }
 
