@@ -98,7 +98,7 @@ def _second_moments(inertia: NDArray) -> NDArray[np.float64]:
 
 def with_given(body: Body, reading: Reading, request: Request) -> Body:
     """Return the body with the center and the inertia that its settings give. ReadError where they are impossible."""
-    if request.options.mass is None or request.obj is None or request.obj.body_moments.mass_from != "MASS":
+    if request.options.mass is None or request.obj.body_moments.mass_from != "MASS":
         return body
     given = GivenPart.of(request.obj.body_moments, request.unit)
     if not given:
@@ -133,7 +133,7 @@ def _is_outside(point: NDArray, reading: Reading, unit: float) -> bool:
 
 def read_point(request: Request) -> Reading | None:
     """Return where a point mass is; None for any other object. Raises MeasureError."""
-    if request.obj is None or not is_point_mass(request.obj):
+    if not is_point_mass(request.obj):
         return None
     return locate(request.obj.original, request.depsgraph)
 

@@ -161,7 +161,11 @@ def test_a_mass_of_the_caller_is_spread_as_the_settings_give_it_only_where_they_
     obj = add(box_mesh(1, 2, 4))
     settings = obj.body_moments
     settings.use_center, settings.given_center = True, (0.25, 0.5, 0.75)
-    for mass_from, center in (("MASS", [0.25, 0.5, 0.75]), ("DENSITY", [0.0, 0.0, 0.0])):
+    for mass_from, options, center in (
+        ("MASS", MeasureOptions(mass=4.0), [0.25, 0.5, 0.75]),
+        ("MASS", MeasureOptions(density=0.5), [0.0, 0.0, 0.0]),
+        ("DENSITY", MeasureOptions(mass=4.0), [0.0, 0.0, 0.0]),
+    ):
         settings.mass_from = mass_from
-        found = measure_object(obj, bpy.context.evaluated_depsgraph_get(), MeasureOptions(mass=3.0))
-        assert found.mass_properties.mass == 3.0 and np.abs(found.mass_properties.center - center).max() < 1e-15
+        found = measure_object(obj, bpy.context.evaluated_depsgraph_get(), options).mass_properties
+        assert close(found.mass, 4.0, 1e-15) and np.abs(found.center - center).max() < 1e-15

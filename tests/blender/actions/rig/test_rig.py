@@ -192,6 +192,22 @@ def test_a_mass_that_is_given_for_the_skin_is_shared_by_volume():
     assert close(rig.measurement.mass_properties.mass, 70.0, 1e-12) and not codes(rig)
 
 
+@pytest.mark.parametrize("kind", ["SOLID", "SHELL"])
+def test_the_parts_of_a_skin_of_triangles_are_those_of_its_quads(kind):
+    armature, skin = character()
+    skin.body_moments.kind = kind
+    quads = {part.name: part.mass for part in measured(armature).parts}
+    work = bmesh.new()
+    work.from_mesh(skin.data)
+    bmesh.ops.triangulate(work, faces=work.faces)
+    work.to_mesh(skin.data)
+    work.free()
+    rig = measured(armature)
+    assert [part.name for part in rig.parts] == list(quads) and not codes(rig)
+    for part in rig.parts:
+        assert close(part.mass.total, quads[part.name].total, 1e-12)
+
+
 def test_a_part_that_no_body_can_have_is_a_finding():
     shape = made.box_skeleton()
     inner, quads = made.boxes_skin([((0, 0, 3), (1, 1, 4))])

@@ -1,0 +1,121 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The shape of an object by itself: which objects have one, its pose, and how far its moments go."""
+
+import bpy
+import numpy as np
+import pytest
+from body_moments.operators.bodies import measurement
+from body_moments.operators.bodies.shape import NoShapeError, shape_of
+
+from tests.blender.bodies.test_assembly import box_mesh
+from tests.blender.findings import refused, said
+from tests.blender.grids import vdb_grid, volume_object
+from tests.blender.objects import add, mesh_body
+from tests.close import close
+
+pytestmark = pytest.mark.usefixtures("scene")
+
+
+def shape(obj):
+    bpy.context.view_layer.update()
+    return shape_of(obj, bpy.context.evaluated_depsgraph_get())
+
+
+def prisms(*corners, offset=0.0):
+    """Regular prisms one above the other, with these numbers of corners, the first of which is along x."""
+    points, faces = [], []
+    for level, count in enumerate(corners):
+        first, angles = len(points), 2.0 * np.pi * np.arange(count) / count
+        for z in (2.0 * level, 2.0 * level + 1.5):
+            points += [(np.cos(angle) + offset, np.sin(angle), z) for angle in angles]
+        faces += [tuple(first + i for i in range(count))[::-1], tuple(first + count + i for i in range(count))]
+        faces += [
+            (first + i, first + (i + 1) % count, first + count + (i + 1) % count, first + count + i)
+            for i in range(count)
+        ]
+    mesh = bpy.data.meshes.new("Prisms")
+    mesh.from_pydata(points, [], faces)
+    return mesh
+
+
+def test_the_axes_of_a_shape_come_from_sixth_order_however_many_faces_it_has(monkeypatch):
+    monkeypatch.setattr(measurement, "MAX_FACES_HIGH_ORDER", 5)
+    assert not said(shape(add(box_mesh(1, 2, 3))).measurement)
+
+
+def test_what_has_no_shape_of_its_own_is_refused_with_its_measurement(tmp_path):
+    cloud = volume_object(tmp_path / "a.vdb", vdb_grid(np.ones((3, 3, 3), "f4")))
+    bpy.ops.curve.primitive_bezier_circle_add()
+    wire = bpy.context.object
+    wire.body_moments.kind = "WIRE"
+    wall = add(box_mesh(1, 2, 3))
+    wall.body_moments.kind, wall.body_moments.wall, wall.body_moments.thickness = "SHELL", "INWARD", 0.1
+    for obj, code in ((cloud, "shape_of_grid"), (wire, "shape_of_wire_or_wall"), (wall, "shape_of_wire_or_wall")):
+        with pytest.raises(NoShapeError) as caught:
+            shape(obj)
+        assert (caught.value.finding.code, caught.value.subject) == (code, obj.name)
+        assert caught.value.measurement.mass_properties.mass > 0.0
+    wall.body_moments.wall = "THIN"
+    assert shape(wall).moments.measure == "area"
+
+
+def test_a_shape_is_seen_as_far_away_as_rounding_leaves_it():
+    """Its largest radius of gyration is (13/12)^0.5; a hundred thousandth of that is rounding from 4.69e10 m on."""
+    obj = add(box_mesh(1, 2, 3))
+    for place, is_seen in ((4.6e10, True), (4.8e10, False)):
+        obj.location = (1.0, -place, 2.0)
+        if is_seen:
+            assert close(shape(obj).size, (13.0 / 12.0) ** 0.5, 1e-12)
+            continue
+        with refused("shape_far_from_origin", obj.name):
+            shape(obj)
+
+
+@pytest.mark.filterwarnings("error")
+def test_a_shape_whose_sixth_moments_are_no_numbers_is_refused_without_a_warning_of_numpy():
+    obj = add(mesh_body())
+    for size, is_known in ((1e30, True), (1e36, False)):
+        obj.scale = (size,) * 3
+        if is_known:
+            assert np.isfinite(shape(obj).moments.raw).all()
+            continue
+        with refused("object_too_large"):
+            _ = shape(obj).moments
+
+
+def test_prisms_that_are_round_to_sixth_order_have_the_axes_that_their_corners_give():
+    """A prism of seven corners on one of eight: nothing but the plane of both first corners makes a copy of them."""
+    obj, turn = add(prisms(7, 8)), 0.7
+    rotation = np.array([[np.cos(turn), -np.sin(turn), 0.0], [np.sin(turn), np.cos(turn), 0.0], [0.0, 0.0, 1.0]])
+    found = []
+    for angle in (0.0, turn):
+        obj.rotation_euler.z = angle
+        pose = shape(obj).pose()
+        assert (pose["symmetry"], pose["symmetry_order"], pose["unique"]) == ("Cs", 30, True)
+        found.append(np.array(pose["matrix"]))
+    assert np.abs(found[1][:3, :3] @ rotation - found[0][:3, :3]).max() < 1e-5
+    obj.data = prisms(7)
+    assert (shape(obj).pose()["symmetry"], shape(obj).pose()["unique"]) == ("D7h", False)
+    obj.body_moments.density_from, obj.body_moments.density_polynomial = "POLYNOMIAL", "1000 + 10*x"
+    pose = shape(obj).pose()
+    assert (pose["symmetry"], pose["symmetry_order"]) == (None, None)
+    assert np.array(pose["matrix"]).shape == (4, 4)
+
+
+def test_what_patches_show_is_no_prism():
+    bpy.ops.surface.primitive_nurbs_surface_torus_add()
+    obj = bpy.context.object
+    assert shape(obj).is_display_mesh and shape(obj).pose()["symmetry"] == "D∞h"
+
+
+def test_the_signature_of_a_sheet_stops_at_order_20():
+    obj = add(mesh_body())
+    sizes = {}
+    for kind in ("SOLID", "SHELL"):
+        obj.body_moments.kind = kind
+        one = shape(obj)
+        sizes[kind] = [len(one.signature(order).zernike) for order in (20, 21)]
+        points = one.points_about_center()
+        assert len(points) == len(obj.data.vertices) and close(one.signature(6).size, one.signature(21).size, 1e-9)
+    assert sizes["SHELL"] == 2 * sizes["SOLID"][:1] and sizes["SOLID"][1] > sizes["SOLID"][0]
