@@ -106,7 +106,8 @@ def test_the_total_has_exact_parallel_axis_terms_in_nested_collections():
         [part.measurement.error_bound for part in assembly.root.walk() if part.measurement is not None],
     )
     for name in ("volume", "area"):
-        assert len(own) == 3 and bound[name] > sum(one[name] for one in own) > 0.0
+        members, value = sum(one[name] for one in own), getattr(assembly.measurement, name)
+        assert len(own) == 3 and 0.0 < members < bound[name] < members + 2.0**-50 * value
         assert close(bound["input"][name], sum(one["input"][name] for one in own), 1e-12)
     (nested,) = [part for part in assembly.root.parts if part.member.name == "Inner"]
     assert close(nested.mass.total, 1000 * 8 + 2700, 1e-14)
@@ -247,12 +248,73 @@ def test_a_bought_part_has_the_mass_center_and_inertia_that_are_given():
     body = assembly.measurement.mass_properties
     assert close(body.center, [2.5, 0.25, 0], 1e-14)
     assert np.abs(body.inertia - [[3, 0.5, 0], [0.5, 4, 0.25], [0, 0.25, 5]]).max() <= 1e-14
-    assert "members_mass_given" in codes(assembly)
+    told = {found.code: found.values for found in assembly.measurement.findings}
+    assert told["members_mass_given"] == {"count": 1, "names": ["Bought"]}
+    own = [found.code for found in measured(part).measurement.findings]
+    assert own == ["assembly_mass_given", "center_given", "inertia_given"]
     sources = [measured(one).measurement.density_from.code for one in (root, part)]
     assert sources == ["density_from_members", "density_from_mass"]
     part.body_moments.given_inertia_diagonal = (1, 1, 5)
     with pytest.raises(MeasureError):
         measured(part)
+    box(root, (1, 1, 1))
+    assembly = measured(root)
+    assert close(assembly.measurement.mass_properties.mass, 1000.0, 1e-14)
+    (refusal,) = [one.refusal for one in assembly.root.walk() if one.refusal is not None]
+    told = {found.code: found.values for found in assembly.measurement.findings}
+    assert refusal.code == "given_inertia_impossible" and "members_mass_given" not in told
+    assert told["members_not_measured"] == {"count": 1, "names": ["Bought"]}
+
+
+@pytest.mark.parametrize("with_children", [False, True])
+def test_an_empty_gives_mass_center_and_inertia_in_its_own_frame(with_children):
+    bpy.context.scene.unit_settings.scale_length = 0.5
+    root = empty(bpy.context.scene.collection, "Root", (2, 4, 6))
+    root.rotation_euler, root.scale = (0, 0, np.pi / 2), (3, 3, 3)
+    lines = bpy.data.meshes.new("Lines")
+    lines.from_pydata([(0, 0, 0), (1, 0, 0)], [(0, 1)], [])
+    children = [add(lines, "Lines")]
+    if with_children:
+        children.append(box(bpy.context.scene.collection, (2, 2, 2)))
+    for child in children:
+        child.parent = root
+    settings = root.body_moments_assembly
+    settings.mass_from, settings.mass = "MASS", 2.5
+    assembly = measured(root)
+    assert [found.code for found in assembly.root.findings] == ["assembly_mass_given"]  # its origin was chosen
+    body = assembly.measurement.mass_properties
+    assert close(body.mass, 2.5, 1e-15) and np.abs(body.center - (1, 2, 3)).max() < 1e-6
+    side = 3.0 if with_children else 0.0  # m
+    assert np.abs(body.inertia - 2.5 * side**2 / 6.0 * np.eye(3)).max() < 1e-5
+    settings.use_center, settings.given_center = True, (1, 0, 0)
+    settings.use_inertia, settings.given_inertia_diagonal = True, (3, 4, 5)
+    body = measured(root).measurement.mass_properties
+    assert np.abs(body.center - (1, 2.5, 3)).max() < 1e-6
+    assert np.abs(body.inertia - np.diag([4, 3, 5])).max() < 1e-5
+
+
+def test_an_instance_weighs_by_what_its_members_are():
+    """Twice as large it has 8 times a solid's mass, 4 times a sheet's, twice a wire's, and the mass that is given."""
+    root, of = collection(), bpy.data.collections.new("Of")
+    sheet, weighed = box(of, (1, 1, 1), name="sheet"), box(of, (1, 1, 1), name="weighed")
+    box(of, (1, 1, 1), density=1.0, name="solid")
+    sheet.body_moments.kind, sheet.body_moments.thickness, sheet.body_moments.density = "SHELL", 0.5, 10.0
+    weighed.body_moments.mass_from, weighed.body_moments.mass = "MASS", 500.0
+    bpy.ops.curve.primitive_bezier_circle_add()
+    wire = bpy.context.object
+    wire.body_moments.kind, wire.body_moments.linear_density = "WIRE", 1000.0
+    bpy.context.scene.collection.objects.unlink(wire)
+    of.objects.link(wire)
+    shown = instance(root, of)
+    length = measured_object(wire).length
+    for scale in (1.0, 2.0):
+        shown.scale = (scale,) * 3
+        mass = 1.0 * scale**3 + 30.0 * scale**2 + 1000.0 * length * scale + 500.0
+        assert close(measured(root).measurement.mass_properties.mass, mass, 1e-12)
+    for obj in (wire, sheet):
+        of.objects.unlink(obj)
+    shown.scale = (1, 2, 3)
+    assert close(measured(root).measurement.mass_properties.mass, 6.0 + 500.0, 1e-12)
 
 
 def test_an_object_has_the_center_and_inertia_that_are_given_and_point_masses_have_no_volume():
@@ -282,6 +344,8 @@ def test_a_lone_point_mass_is_an_assembly_too():
     empty(root, "Point", (1, 2, 3), mass=5.0)
     body = measured(root).measurement.mass_properties
     assert close(body.mass, 5.0, 1e-15) and close(body.center, [1, 2, 3], 1e-15) and not body.inertia.any()
+    health = measured(root).measurement.health
+    assert (health.closed, health.components) == (False, 0)
 
 
 @pytest.mark.parametrize("kind", ["NONE", "COLLECTION"])
