@@ -171,15 +171,15 @@ def orient_components(
     if surface is not checked.surface:
         volume = _integrate_oriented(checked.surface, given, mesh, flipped, surface, threads)
     total, has_open = volume.total, bool(mesh.open.any())
+    threshold = zero_volume(checked.size, given.area.total, bool(mesh.caps.any()), checked.error)
+    is_solid = bool(abs(total) > max(threshold, volume.rounding_error[0]))
     if comparison is None:
-        threshold = zero_volume(checked.size, given.area.total, bool(mesh.caps.any()), checked.error)
-        is_solid = bool(abs(total) > max(threshold, volume.rounding_error[0]))
         solid = np.full(mesh.number, is_solid)
         # what is open has no inside
         turned = np.full(mesh.number, is_solid and total < 0.0 and not has_open)
     else:
         solid, turned = comparison.solid, flipped
-        is_solid = bool(solid.any())
+        is_solid = bool(solid.any()) or is_solid and has_open
     inside_out = total < 0.0 and (is_solid or has_open)
     if inside_out:
         volume = replace(volume, raw=-volume.raw)

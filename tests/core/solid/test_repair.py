@@ -25,6 +25,7 @@ from tests.core.bodies import (
     SIDES,
     TOP,
     box,
+    grid,
     inverted,
     joined,
     mesh,
@@ -33,9 +34,11 @@ from tests.core.bodies import (
     soup,
     surface,
     torus,
+    welded,
     with_flipped,
     without,
 )
+from tests.core.findings import codes
 
 CUBE = box()
 OUTER, INNER = box((-2, -2, -2), (2, 2, 2)), box((-1, -1, -1), (1, 1, 1))
@@ -238,6 +241,78 @@ def test_closed_parts_are_those_that_hang_together():
         assert parts.number == count and close(np.sort(volumes), np.array(sizes[:count]) ** 3, 1e-12)
         assert close(np.bincount(parts.part, parts.areas()), 6.0 * np.cbrt(volumes) ** 2, 1e-12)
         assert close(parts.areas(2.0 * np.eye(3)), 4.0 * parts.areas(), 1e-12)
+
+
+def test_of_quads_too():
+    """Two cubes of them, of which the mesh names the faces as it likes."""
+    both = mesh(np.concatenate([CUBE[0], 2.0 * CUBE[0] + 3.0]), [*SIDES.tolist(), *(SIDES + 8).tolist()])
+    order = np.random.default_rng(0).permutation(12)
+    numbers = np.argsort(order)
+    corners, edges = (each.reshape(12, 4)[order].ravel() for each in (both.corner_vertices, both.corner_edges))
+    for given in (both, replace(both, quad_faces=numbers, corner_vertices=corners, corner_edges=edges)):
+        checked = check_surface(given)
+        integrals = integrate_and_prove(checked, False, 1)
+        assert integrals.proven is not None
+        parts = orient_components(checked, integrals, integrals.proven, 1).closed_parts()
+        expected = np.repeat(given.quad_faces, 2)
+        assert parts.face.tolist() == expected.tolist() and parts.part.shape == (24,)
+        second = parts.triangles.min(axis=1) >= 8
+        assert set(zip(parts.part.tolist(), second.tolist())) in ({(0, False), (1, True)}, {(1, False), (0, True)})
+
+
+PLATE, STRIP = box((9, 0, 0), (10, 1, 0)), moved(moebius(), offset=(5, 0, 0))
+
+
+@pytest.mark.parametrize(
+    "given, included",
+    [
+        ([without(CUBE, *TOP), PLATE], [True, False]),
+        ([PLATE, STRIP], [False, True]),
+        ([STRIP, PLATE, without(CUBE, *TOP)], [True, False, True]),
+        ([grid(2), moved(grid(3), offset=(5, 0, 0))], [True, True]),
+    ],
+)
+def test_what_encloses_nothing_is_no_closed_part_unless_all_is_so(given, included):
+    *_, oriented = staged(joined(*given))
+    faces = np.repeat(included, [len(part[1]) for part in given])
+    parts = oriented.closed_parts()
+    assert sorted(parts.face[parts.face >= 0].tolist()) == np.flatnonzero(faces).tolist()
+
+
+@pytest.mark.parametrize("count", [1, 2])
+def test_what_is_open_counts_positive_and_is_not_called_inside_out(count):
+    """Two boxes with one wall between them, once or twice."""
+    points, triangles = welded(joined(CUBE, box((1, 0, 0), (2, 1, 1))))
+    triangles = triangles[np.sort(np.unique(np.sort(triangles, axis=1), axis=0, return_index=True)[1])]
+    walls = joined(*(moved((points, triangles), offset=(0.5, 3.0 * k, 7.0 * k)) for k in range(count)))
+    totals = []
+    for part in (walls, inverted(walls)):
+        *_, oriented = staged(part)
+        assert not oriented.turned.any()
+        parts = oriented.closed_parts()
+        about = np.stack([parts.points[parts.triangles[:, k]] - oriented.volume.about for k in range(3)], axis=1)
+        assert close(np.linalg.det(about).sum() / 6.0, oriented.volume.total, rel=1e-12)
+        totals.append(oriented.volume.total)
+        assert codes(measure_solid(surface(part))) == ["non_manifold_components"]
+    assert totals[0] > 0.1 and close(totals[1], totals[0], rel=1e-12)
+
+
+@pytest.mark.parametrize("count", [1, 2])
+def test_open_components_are_flat_only_where_all_of_their_faces_are(count):
+    """Three triangles on an edge, some way apart or in a plane."""
+    pages = np.array([[0, 0, 0], [0, 2, 0], [1, 1, 0], [2, 1, 1.5], [-1, 1, -0.5]], float)
+    faces = np.array([[0, 1, 2], [0, 1, 3], [0, 1, 4]])
+    for height, flat in ((1.0, []), (0.0, ["flat_surface"])):
+        books = joined(*(((pages + [4.0 * k, 0, 0]) * [1, 1, height], faces) for k in range(count)))
+        assert codes(measure_solid(surface(books))) == ["non_manifold_components", *flat]
+
+
+def test_what_closes_without_a_proof_is_measured_as_it_stands():
+    """Triangles and quads of which no mesh says which face is which."""
+    mixed = Surface(CUBE[0], CUBE[1][:2], SIDES[1:])
+    result = measure_solid(mixed)
+    assert prove_closed(mixed) is None and result.method is Verdict.EXACT
+    assert result.repaired_surface is result.given_surface is mixed
 
 
 @pytest.mark.parametrize("height, is_solid", [(1e-3, True), (1e-9, True), (1e-12, True), (2e-13, True), (1e-15, False)])
