@@ -31,7 +31,7 @@ def side_ends(triangles: NDArray[np.integer], sides: NDArray[np.integer]) -> tup
 
 def vertex_pairs(triangles: NDArray[np.integer], sides: NDArray[np.integer]) -> NDArray[np.intp]:
     """(k, 2) sides as pairs of vertices, the lower first."""
-    return np.sort(np.stack(side_ends(triangles, sides), axis=1), axis=1)
+    return np.sort(np.stack(side_ends(triangles, sides), axis=1))
 
 
 def distinct_vertex_pairs(triangles: NDArray[np.integer], sides: NDArray[np.integer]) -> NDArray[np.intp]:
@@ -212,7 +212,7 @@ def find_loops(
     vector = np.stack([np.bincount(of_side, wedge[:, k]) for k in range(3)], axis=1)
     flat = np.linalg.norm(vector, axis=1)
     cone = np.asarray(np.bincount(of_side, np.linalg.norm(wedge, axis=1)), np.float64)
-    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+    with np.errstate(divide="ignore", invalid="ignore"):
         normal = vector / flat[:, None]
         height = np.zeros(number)
         np.maximum.at(height, of_side, np.abs(np.einsum("ij,ij->i", normal[of_side], a)))

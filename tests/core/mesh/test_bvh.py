@@ -76,7 +76,7 @@ def test_a_tree_s_places_are_about_the_middle_of_what_was_chosen():
     assert tree.origin.tolist() == [5.0, 5.75, 5.5]
 
 
-@pytest.mark.parametrize("order", [[0, 1, 2], [2, 0, 1], [0, 2, 1]])
+@pytest.mark.parametrize("order, size", [([0, 1, 2], 7.0), ([2, 0, 1], 2e-4), ([0, 2, 1], 0.125)])
 @pytest.mark.parametrize(
     "start, end, depth",
     [
@@ -90,17 +90,17 @@ def test_a_tree_s_places_are_about_the_middle_of_what_was_chosen():
         ((1.0, -1.0, -0.15), (1.0, 2.0, 0.15), 0.05),  # and comes just below
     ],
 )
-def test_a_needle_goes_through_a_triangle_as_deep_as_the_triangle_and_the_needle_reach(start, end, depth, order):
+def test_a_needle_goes_through_a_triangle_as_deep_as_the_triangle_and_the_needle_reach(start, end, depth, order, size):
     """A triangle with sides of 3, 4 and 5 in the plane z = 0; beyond its sides the needle may be as low as it is."""
     flat = np.array([[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 3.0, 0.0]])[order]
     for needle in ([start, end, end], [end, start, start]):
         needle = np.array(needle) + [[0.0] * 3, [0.0] * 3, [1e-7, -1e-7, 0.0]]
-        points = 7.0 * np.concatenate([flat, needle]) @ bodies.rotation(4).T + [5.0, -8.0, 2.0]
+        points = size * np.concatenate([flat, needle]) @ bodies.rotation(4).T + [5.0, -8.0, 2.0]
         components = sort_components(points, np.arange(6).reshape(2, 3), np.arange(2), 2)
         tree = Bvh(points, components, np.ones(2, bool))
         for share in (0.999, 1.001):
             for pair in ([0, 1], [1, 0]):
-                found = intersecting_pairs(tree, *np.array(pair)[:, None], 7.0 * share * depth)
+                found = intersecting_pairs(tree, *np.array(pair)[:, None], size * share * depth)
                 assert [array.tolist() for array in found] == [[share < 1.0], [False]]
 
 

@@ -183,6 +183,8 @@ def test_a_mesh_of_one_kind_needs_no_faces_to_be_proven_closed(name, part):
         **{name: part[1].astype(np.int32)},
     )
     np.testing.assert_array_equal(closed_side_faces(plain), closed_side_faces(whole))
+    other = {"triangles": "quad_faces", "quads": "triangle_faces"}[name]  # of none there are no numbers either
+    np.testing.assert_array_equal(closed_side_faces(replace(whole, **{other: None})), closed_side_faces(whole))
 
 
 def test_one_hole_or_one_flipped_face_or_one_copy_spoils_the_proof():

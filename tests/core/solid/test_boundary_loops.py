@@ -160,5 +160,16 @@ def test_more_pairs_than_allowed_are_joined_in_order(monkeypatch):
     assert close(loops.planar_area.sum(), 1.0, rel=1e-15)
 
 
+@pytest.mark.parametrize("scale", [1e-160, 1e-100, 1.0, 1e40])
+def test_a_rim_without_an_area_has_no_plane_and_its_cap_is_curved(scale):
+    """Two squares that run around oppositely, and so small ones that their area's square is no number."""
+    square = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], float)
+    bow = np.array([[0, 0, 0], [1, 1, 0], [1, 0, 0], [0, 1, 0]], float)
+    with np.errstate(under="ignore"):
+        loops = [polygon(scale * rim) for rim in (square, bow)]
+    assert (loops[0].out_of_plane[0] == 0.0) == (scale > 1e-90)
+    assert loops[1].out_of_plane[0] == np.inf and not loops[1].caps(scale)[0][0]
+
+
 def test_a_chain_with_ends_is_not_complete():
     assert not loops_of([[0, 0, 0], [1, 0, 0], [1, 1, 0]], [(0, 1), (1, 2)]).complete.any()

@@ -254,6 +254,43 @@ def test_boxes_welded_along_a_face_or_an_edge_are_closed():
         assert result.health.components == 2 and result.health.non_manifold_edges == 1 and result.health.closed
 
 
+@pytest.mark.parametrize(
+    "others, is_left_out",
+    [
+        ((1, 0, 0), True),
+        ((2, 0, 0), False),
+        ((1, 2, 0), False),
+        ((1, 1, 2), True),
+        ((1, 2, 2), False),
+        ((3, 2, 1), True),
+        ((0, 4, 3), False),
+    ],
+)
+@pytest.mark.parametrize("turn", range(3))
+def test_a_copied_face_is_left_out_where_more_of_its_edges_meet_an_odd_number_of_others_than_an_even_one(
+    others, is_left_out, turn
+):
+    """Of others that stand on its edges like the pages of a book; where none do, it does not matter."""
+    corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], float)
+    points, faces = [*corners], [[0, 1, 2]]
+    for edge, count in enumerate(np.roll(others, turn)):
+        for page in range(count):
+            faces.append([edge, (edge + 1) % 3, len(points)])
+            points.append(corners[edge] + [0.1 * page, 0.2 * page, 1.0 + page])
+    found = codes(verdict((np.array(points), np.array([*faces, faces[0]]))))
+    assert ("duplicate_faces_ignored" in found, "duplicate_faces_counted" in found) == (is_left_out, not is_left_out)
+
+
+@pytest.mark.parametrize("numbered", [False, True])
+def test_a_sheet_of_one_face_and_its_back_has_no_copies_but_for_its_area(numbered):
+    points, faces = CORNERS[:3], np.array([[0, 1, 2], [0, 2, 1]])
+    pillow = Surface(points, faces, triangle_faces=np.arange(2) if numbered else None)
+    for shell in (False, True):
+        result = measure_solid(pillow, shell=shell)
+        assert result.health.duplicate_faces == int(shell) and codes(result) == ["flat_surface"]
+        assert result.health.defective_elements.duplicate_faces.tolist() == [1] * shell
+
+
 @pytest.mark.parametrize("turn", [lambda part: part, inverted])
 def test_copied_faces_are_named_without_the_walls_of_two_bodies(turn):
     """Two boxes welded along a face, of which one may be inside out, and a fin on an edge of one, twice."""
@@ -510,6 +547,10 @@ def test_a_crack_of_a_small_part_is_welded_up_to_a_thousandth_of_its_triangles(s
         grid(3),
         joined(without(CUBE, *TOP), moved(grid(3), None, (0, 0, 1))),
         soup(torus()),
+        (CORNERS * [1.0, 1.0, 1.5] - [[0.0, 0.0, 0.5 * (0 < k < 7)] for k in range(8)], without(CUBE, *TOP)[1]),
+        joined(CUBE, inverted(box((0.5, 0.5, 0.25), (0.75, 0.75, 1.25)))),
+        welded(joined(CUBE, inverted(box((1, 0, 0), (2, 1, 1))))),
+        (np.concatenate([CUBE[0], [[0.5, -0.5, -0.5]]]), np.concatenate([CUBE[1], [[0, 1, 8], [0, 1, 8]]])),
     ],
 )
 def test_the_verdict_does_not_depend_on_the_size(part, scale):

@@ -302,6 +302,26 @@ def test_of_equally_deep_containers_the_last_is_the_innermost_in_whatever_order_
         assert cavity_host(found, np.arange(40) == 0)[0] == 39
 
 
+@holds(30)
+@given(seed=seeds)
+def test_cavities_take_material_away_as_brackets_close(seed):
+    """Components one in another, from the outermost inward: each cavity is one of the innermost that has none yet."""
+    rng = np.random.default_rng(seed)
+    count, open_ones = 12, []
+    cavity, host = np.zeros(count, bool), np.arange(count)
+    order = rng.permutation(count)
+    for component in order.tolist():
+        cavity[component] = bool(open_ones) and rng.random() < 0.6
+        if cavity[component]:
+            host[component] = open_ones.pop()
+        else:
+            open_ones.append(component)
+    pairs = rng.permutation([(order[i], order[j]) for i in range(count) for j in range(i)])
+    some = int(rng.integers(len(pairs)))
+    found = ComponentRelations(pairs[:some], np.empty((0, 2), np.intp), 0, pairs[some:])
+    assert cavity_host(found, cavity).tolist() == host.tolist()
+
+
 @pytest.mark.parametrize(
     "pierced, expected", [(False, (set(), set(), 1)), (True, (set(), {(0, 1)}, 0))], ids=["not yet", "already"]
 )

@@ -177,9 +177,20 @@ def test_a_diagonal_along_an_edge_is_left_to_be_repaired():
     surface = mesh(points, faces, np.float32)
     cuts = surface.all_triangles()[0]
     sides = np.stack([cuts, np.roll(cuts, -1, axis=1)], axis=2).reshape(-1, 2).tolist()
-    stack = measure_stack([open_box(), surface, open_box()])
     assert len(sides) > len({tuple(side) for side in sides})
-    assert stack.is_measured.tolist() == [True, False, True]
+    for first in range(6):  # whichever vertex has the lowest number
+        numbers = (np.arange(6) - first) % 6
+        renumbered = mesh(points[np.argsort(numbers)], [numbers[face].tolist() for face in faces], np.float32)
+        assert measure_stack([open_box(), renumbered, open_box()]).is_measured.tolist() == [True, False, True]
+
+
+def test_where_nothing_is_open_nothing_is_capped():
+    surfaces = [mesh(*whole(np.random.default_rng(seed)), np.float32) for seed in range(8)]
+    stack = measure_stack(surfaces)
+    assert stack.is_measured.all() and not stack.caps.is_capped.any()
+    for i, surface in enumerate(surfaces):
+        assert_alike(stack, i, surface)
+        assert stack.health(i).defective_elements.boundary_edges.shape == (0, 2)
 
 
 def test_components_of_warped_quads_are_compared_as_they_are_drawn():
