@@ -40,7 +40,7 @@ def in_both_places(contents: type, name: str = "", parent: str | None = None) ->
     Returns
     -------
     tuple of two types
-        The panel of the sidebar, ``VIEW3D_PT_body_moments_NAME``, and that of the object's properties,
+        The panel of the sidebar, ``VIEW3D_PT_body_moments_NAME``, and that of the object's properties, closed at first,
         ``OBJECT_PT_body_moments_NAME``.
     """
     return (
@@ -55,7 +55,7 @@ def in_both_places(contents: type, name: str = "", parent: str | None = None) ->
             bl_space_type="PROPERTIES",
             bl_region_type="WINDOW",
             bl_context="object",
-            **({} if name else {"bl_options": {"DEFAULT_CLOSED"}}),
+            bl_options={"DEFAULT_CLOSED"},
         ),
     )
 

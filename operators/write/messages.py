@@ -104,7 +104,7 @@ class _Formatter(string.Formatter):
             return " x ".join("{:d}".format(number) for number in value)
         if format_spec == "point":
             return "({})".format(", ".join(self.lengths(number + 0.0) for number in value))
-        if isinstance(value, (list, tuple)) or hasattr(value, "tolist") and getattr(value, "ndim", 0):
+        if isinstance(value, (list, tuple)):
             if len(value) and isinstance(value[0], Mapping):
                 return self._joined([self.format_field(finding, "") for finding in value])
             return truncate_list(value, translate=self.translate)

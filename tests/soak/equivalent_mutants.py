@@ -1371,6 +1371,12 @@ EQUIVALENT: dict[tuple[str, str, str, str], str] = {
         "(depsgraph.id_type_updated('SCENE'))",
     ): "what was looked up is looked up once more",
     (
+        "operators/command/import_surfaces.py",
+        "import_obj",
+        "return Opened()",
+        "return None",
+    ): "who opens a file takes either for one without findings",
+    (
         "operators/command/inputs.py",
         "_holds",
         "return False",

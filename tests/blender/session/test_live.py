@@ -101,6 +101,19 @@ def test_an_object_that_moves_is_not_measured(unit, given_mass, monkeypatch):
     assert close(live.current_numbers(obj).measurement.area, measured(obj).area, 1e-12)
 
 
+def test_the_axes_of_what_is_stretched_point_the_way_that_they_did():
+    obj = add(mesh_body(), rotation=(0.3, -0.7, 2.1), scale=(1, 2, -0.7))
+    start(obj)
+    for turn in ((1, 2, 3), (2, 0, 1), (2.5, 0, 0)):
+        before = results.in_world(obj, bpy.context.scene).body.principal.axes
+        matrix = Euler(turn).to_matrix()
+        obj.matrix_world = matrix.to_4x4() @ obj.matrix_world
+        obj.scale.x *= 1.02
+        update()
+        axes = results.in_world(obj, bpy.context.scene).body.principal.axes
+        assert np.abs(axes - np.array(matrix) @ before).max() < 0.1
+
+
 @pytest.mark.parametrize("unit", [1.0, 0.001])
 def test_what_deforms_has_volume_and_center_at_every_frame_and_all_when_it_stops(unit, monkeypatch):
     bpy.context.scene.unit_settings.scale_length = unit
