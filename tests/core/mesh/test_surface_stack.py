@@ -9,7 +9,7 @@ import pytest
 from body_moments.core.mesh.surface_stack import SurfaceStack
 
 from tests.core.bodies import CORNERS, SIDES, mesh
-from tests.core.mesh.test_edges import box_with_a_face_of_two_corners
+from tests.core.mesh.test_edges import box_with_a_face_of_two_corners, pyramid
 
 BOX = mesh(CORNERS, SIDES.tolist(), np.float32)
 
@@ -17,6 +17,70 @@ BOX = mesh(CORNERS, SIDES.tolist(), np.float32)
 def connections(*surfaces):
     assert all(SurfaceStack.takes(surface) for surface in surfaces)
     return SurfaceStack.of(surfaces).connections()
+
+
+TETRAHEDRON = mesh(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]], np.float32)
+PYRAMID = mesh(*pyramid(5), np.float32)
+BENT = replace(BOX, points=np.random.default_rng(2).normal(size=(8, 3)).astype(np.float32))
+LOOSE = replace(  # its first vertex has no faces, and neither has its first edge
+    TETRAHEDRON,
+    points=np.concatenate([BENT.points[:1], TETRAHEDRON.points]),
+    triangles=TETRAHEDRON.triangles + 1,
+    corner_vertices=TETRAHEDRON.corner_vertices + 1,
+    corner_edges=TETRAHEDRON.corner_edges + 1,
+)
+
+
+@pytest.mark.parametrize(
+    "surfaces",
+    [
+        [BOX],
+        [TETRAHEDRON],
+        [TETRAHEDRON, PYRAMID, LOOSE],
+        [BENT, TETRAHEDRON, BOX],
+        [PYRAMID, BOX, BENT, LOOSE, TETRAHEDRON, BENT],
+        [replace(TETRAHEDRON, triangle_faces=None), replace(BENT, quad_faces=None, triangle_faces=None), PYRAMID],
+    ],
+)
+def test_a_stack_holds_the_arrays_of_each_one_after_the_other(surfaces):
+    stack = SurfaceStack.of(surfaces)
+    firsts = np.zeros(5, int)
+    assert len(stack) == len(surfaces)
+    for k, surface in enumerate(surfaces):
+        triangles, own_faces = surface.all_triangles()
+        corners = np.asarray(surface.corner_vertices)
+        counts = [len(surface.points), len(triangles), len(surface.quads), len(corners), int(own_faces.max()) + 1]
+        of_stack = (stack.point_counts, stack.triangle_counts, stack.quad_counts, stack.corner_counts, stack.face_counts)
+        assert [int(count[k]) for count in of_stack] == counts
+        assert stack.edge_counts[k] == int(surface.corner_edges.max()) + 1
+        point, triangle, quad, corner, face = firsts
+        edge = int(stack.edge_counts[:k].sum())
+        assert (stack.first_point[k], stack.first_triangle[k], stack.first_face[k]) == (point, triangle, face)
+        assert np.array_equal(stack.points[point:][: counts[0]], surface.points)
+        assert np.array_equal(stack.triangles[triangle:][: counts[1]] - point, triangles)
+        assert np.array_equal(stack.triangle_faces[triangle:][: counts[1]] - face, own_faces)
+        assert np.array_equal(stack.quads[quad:][: counts[2]] - point, surface.quads)
+        own_quads = own_faces[len(surface.triangles) :: 2]
+        assert np.array_equal(stack.quad_faces[quad:][: counts[2]] - face, own_quads)
+        assert np.array_equal(stack.corner_vertices[corner:][: counts[3]] - point, corners)
+        assert np.array_equal(stack.corner_edges[corner:][: counts[3]] - edge, surface.corner_edges)
+        sizes = np.zeros(counts[4], int)
+        np.add.at(sizes, own_faces, 1)
+        assert np.array_equal(stack.face_sizes[face:][: counts[4]], np.where(sizes > 0, sizes + 2, 0))
+        low, high = (end[k] for end in stack.box)
+        assert np.array_equal([low, high], surface.box)
+        firsts += counts
+    assert stack.uses_all_points().tolist() == [surface is not LOOSE for surface in surfaces]
+    number, found = np.arange(len(surfaces)), stack.connections()
+    assert stack.point_owners.tolist() == np.repeat(number, stack.point_counts).tolist()
+    assert found.is_closed.all() and (found.component_counts == 1).all() and not found.open_sides.size
+    assert found.component.tolist() == np.repeat(number, stack.face_counts).tolist()
+    for some in (number, number[::2], number[-1:]):
+        fewer = stack.some(some)
+        assert fewer.point_counts.tolist() == stack.point_counts[some].tolist()
+        expected = [surfaces[k].all_triangles()[0] + first for k, first in zip(some, fewer.first_point)]
+        assert np.array_equal(fewer.triangles, np.concatenate(expected))
+        assert np.array_equal(fewer.points, np.concatenate([surfaces[k].points for k in some]))
 
 
 def with_corners(count):

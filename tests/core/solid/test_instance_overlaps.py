@@ -7,7 +7,7 @@ import pytest
 from body_moments.core.solid.instance_overlaps import compare_places
 from body_moments.core.solid.measure_solid import measure_solid
 
-from tests.core.bodies import box, inverted, joined, surface, without
+from tests.core.bodies import box, inverted, joined, rotation, surface, welded, without
 
 MIRROR = np.diag([-1.0, 1.0, 1.0])
 STRETCH = np.diag([2.0, 0.5, 1.0])
@@ -71,6 +71,11 @@ def test_parts_of_one_body_and_what_is_open_are_not_compared():
     lid = without(cube(0.25), *range(2, 12))
     found = compared((cube(0.5), places(np.eye(3))), (lid, places(np.eye(3), MIRROR)))
     assert not len(found.overlapping) and not len(found.nested)
+    points, triangles = welded(joined(cube(0.125), cube(0.125, (0.25, 0.0, 0.0))))  # but for one layer of their wall
+    triangles = triangles[np.unique(np.sort(triangles, axis=1), axis=0, return_index=True)[1]]
+    for shift in (0.0, 0.5):
+        found = compared((cube(0.5), places(np.eye(3))), ((points, triangles), places((np.eye(3), (shift, 0.0, 0.0)))))
+        assert not len(found.overlapping) and not len(found.nested)
 
 
 @pytest.mark.parametrize("share, slight", [(0.9, True), (1.1, False)])
@@ -106,6 +111,16 @@ def test_what_float32_may_have_moved_is_as_far_as_it_is_stretched(steps, overlap
     swapped = np.array([[0.0, 1.0, 0.0], [10.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
     maps = places(swapped, (swapped, np.array([0.25, 10.0 * (1.0 - steps * 2.0**-13), 0.25])))
     assert bool(len(compare_places([(whole, maps)]).overlapping)) is overlap
+
+
+def test_plates_without_a_thickness_go_through_nothing():
+    """Where they stand askew, their boxes are as thick as others."""
+    plates = [rotation(seed) @ np.diag([1.0, 1.0, height]) for seed in (1, 2) for height in (1e-18, 1e-3)]
+    for first in plates[:2]:
+        for second in plates[2:]:
+            found = compared((cube(0.5), places(first)), (cube(0.5), places((second, (0.1, 0.05, 0.0)))))
+            is_thick = abs(np.linalg.det(first)) > 1e-9 and abs(np.linalg.det(second)) > 1e-9
+            assert bool(len(found.overlapping)) == is_thick
 
 
 @pytest.mark.parametrize("size", [1e-12, 1.0, 1e12])
