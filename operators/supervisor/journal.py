@@ -139,7 +139,6 @@ def is_journal(path: Path) -> bool:
 
 def _lines(file: Any) -> Iterator[tuple[int, bytes]]:
     offset = 0
-    file.seek(0)
     for line in file:
         yield offset, line
         offset += len(line)

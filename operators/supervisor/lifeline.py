@@ -68,7 +68,7 @@ class Lifeline:
             end_with(watched)
         else:
             self._waiting = queue.SimpleQueue()
-            ThreadPoolExecutor(1).submit(self._listen, self._waiting)
+            ThreadPoolExecutor().submit(self._listen, self._waiting)
 
     def messages(self) -> Iterator[dict[str, Any]]:
         """What the supervisor sends, until it closes the pipe."""

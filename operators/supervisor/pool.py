@@ -212,17 +212,14 @@ class Pool:
     def _read(self, child: _Child) -> None:
         """In a thread: put what a child answers among the events, and at last that it has ended."""
         stream = child.answers
-        try:
+        with suppress(ValueError, TypeError, AttributeError, OSError):  # what has lost its mind is as good as dead
             while line := stream.readline():
-                if not line.startswith(MARK):
-                    continue
-                head = json.loads(line[len(MARK) :])
-                data = stream.read(head["bytes"]) if "bytes" in head else b""
-                if len(data) < head.get("bytes", 0):
-                    break
-                self._events.put((child, head, data))
-        except (ValueError, TypeError, AttributeError, OSError):
-            child.process.kill()  # what has lost its mind is as good as dead
+                if line.startswith(MARK):
+                    head = json.loads(line[len(MARK) :])
+                    size = head.get("bytes", 0)
+                    data = stream.read(size)
+                    if len(data) == size:
+                        self._events.put((child, head, data))
         self._events.put((child, None, b""))
 
     def _receive(self, child: _Child, head: dict[str, Any] | None, data: bytes) -> list[TaskOutcome]:
@@ -234,18 +231,19 @@ class Pool:
             return []
         if "usage" in head:
             raise SetupError(head["usage"])
-        if "note" in head:
-            self.notes.append((child.task or "", head["note"]))
-            return []
         if "ready" in head:
             self.about = head["ready"]
             child.ready, self._failed_starts = True, 0
-            child.base = processes.memory_of(child.process.pid) or 0
+            child.base = self._memory(child)
             self._give(child)
             return []
-        task, child.task = child.task, None
+        task = child.task
         if task is None:
             return []
+        if "note" in head:
+            self.notes.append((task, head["note"]))
+            return []
+        child.task = None
         attempts, seconds = self._attempts.pop(task, (0, 0.0))
         seconds += time.monotonic() - child.started
         said = self._said(child)
@@ -269,7 +267,11 @@ class Pool:
     def _has_grown(self, child: _Child) -> bool:
         if child.measured % _GROWTH_PERIOD:
             return False
-        return (processes.memory_of(child.process.pid) or 0) > child.base + GROWTH
+        return self._memory(child) > child.base + GROWTH
+
+    def _memory(self, child: _Child) -> int:
+        """The bytes that a child takes, 0 where that is not known."""
+        return processes.memory_of(child.process.pid) or 0
 
     def _retire(self, child: _Child) -> None:
         """Let a child end by itself, and another one take its place."""
@@ -290,13 +292,12 @@ class Pool:
             return []
         if child.task is None:
             return []
-        attempts, seconds = self._attempts.get(child.task, (0, 0.0))
+        attempts, seconds = self._attempts.pop(child.task, (0, 0.0))
         attempts, seconds = attempts + 1, seconds + time.monotonic() - child.started
         if attempts < ATTEMPTS:
             self._attempts[child.task] = attempts, seconds
             self._again.append(child.task)
             return []
-        self._attempts.pop(child.task, None)
         how = processes.how_it_ended(child.process.returncode)
         return [TaskOutcome(child.task, child.doomed or "crashed", attempts, seconds, how=how, said=said)]
 
@@ -309,7 +310,7 @@ class Pool:
         if self._limits.memory and now >= self._watched + _WATCH:
             self._watched = now
             for child in self._children:
-                if child.task is not None and (processes.memory_of(child.process.pid) or 0) > self._limits.memory:
+                if child.task is not None and self._memory(child) > self._limits.memory:
                     self._doom(child, "memory")
         for child, limit in [*self._ending]:
             if now >= limit:

@@ -19,6 +19,7 @@ from . import windows
 _WINDOWS = os.name == "nt"
 _MEMORY_SHARE = 0.8  # of the machine's, for all processes that measure
 _END = 5.0  # seconds that a killed process may take to be gone
+_TOOL = 5.0  # seconds that a tool of the system may take to answer
 _GRACE = 0.4  # seconds to clean up in, for a child that is asked to end
 # Blender without a window, of factory settings, that runs no script of a file and reaches no network.
 _SWITCHES = ("-b", "--factory-startup", "--disable-autoexec", "--offline-mode", "-q", "--python-exit-code", "70")
@@ -32,9 +33,7 @@ def child_command(blender: str | None) -> list[str] | None:
 
 def run_command(blender: str | None, words: Sequence[str]) -> list[str] | None:
     """What starts our command line with these words, in a Blender, or in this Python as above."""
-    batch = importlib.util.find_spec("..batch", __package__)
-    assert batch is not None and batch.origin is not None
-    script = str(Path(batch.origin).resolve())
+    script = str(Path(__file__).resolve().parent.parent / "batch.py")
     if blender is not None:
         return [blender, *_SWITCHES, "--python", script, "--", *words]
     if importlib.util.find_spec("bpy") is None:
@@ -135,7 +134,7 @@ def _memory_by_tool(pid: int) -> int | None:
     """All that is resident, as the tool says it that macOS and BSD have."""
     words = ["ps", "-o", "rss=", "-p", str(pid)]
     try:
-        answer = subprocess.run(words, capture_output=True, timeout=5, stdin=subprocess.DEVNULL).stdout
+        answer = subprocess.run(words, capture_output=True, timeout=_TOOL).stdout
         return 1024 * int(answer)
     except (OSError, ValueError, subprocess.SubprocessError):
         return None

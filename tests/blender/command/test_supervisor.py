@@ -7,6 +7,7 @@ import io
 import json
 import os
 import re
+import shutil
 import signal
 import subprocess
 import sys
@@ -77,6 +78,8 @@ for line in sys.stdin:
         os.kill(os.getpid(), signal.SIGSEGV)
     if kind == "exit":
         sys.exit(3)
+    if kind in ("hang", "fat"):
+        signal.signal(signal.SIGTERM, lambda *_: (open(path + " tidied", "w").close(), sys.exit(7)))
     if kind == "hang":
         time.sleep(600)
     if kind == "fat":
@@ -142,7 +145,9 @@ def main(tmp_path, fake, capsys):
 def test_each_end_of_a_child_is_a_record(tmp_path, main, fake):
     names = ["ok 1", "crash", "exit", "once", "mad", "short", "empty", "note", "bad", "refers", "ok 2"]
     paths = [str(tmp_path / name) for name in names]
+    begun = time.monotonic()
     code, documents, said, journal = main(*paths, paths[0], "--jobs", "1", "--memory-mb", "150", "--timeout", "60")
+    assert sum(line["seconds"] for line in journal) < time.monotonic() - begun
     assert code == 1 and [one["file"] for one in documents] == [*paths, paths[0]]
     ends = {"crash": ("SIGSEGV", 2), "exit": ("exit code 3", 2), "mad": ("SIGKILL", 2), "short": ("exit code 0", 2)}
     ends["empty"] = "no answer", 1
@@ -198,13 +203,15 @@ def test_each_end_of_a_child_is_a_record(tmp_path, main, fake):
         ("fat", "memory", ("--memory-mb", "100"), sentence("file_took_memory", megabytes=100.0)),
     ],
 )
-def test_what_takes_too_long_or_too_much_is_ended(name, status, words, reason, tmp_path, main):
-    """One at a time: what takes too much may take long, too, where memory is slow."""
+def test_what_takes_too_long_or_too_much_is_ended(name, status, words, reason, tmp_path, main, monkeypatch):
+    """One at a time: what takes too much may take long, too, where memory is slow. What is late may clean up first."""
+    monkeypatch.setattr(processes, "_GRACE", 10.0)  # as much as a busy machine may need
     code, documents, said, journal = main(tmp_path / name, tmp_path / "ok", *words, "--jobs", "1")
     assert code == 1 and [one["status"] for one in documents] == [status, "ok"]
     assert documents[0]["errors"][0]["reason"] == reason
     (line,) = [line for line in journal if line["status"] != "ok"]
     assert line["status"] == status and line["attempts"] == 2
+    assert (tmp_path / (name + " tidied")).exists() == (status == "timeout")
     if status == "timeout":
         assert 3.0 <= line["seconds"] < 30.0
     assert said[-1] == "body_moments: 2 files in 0 s: 1 {:s}, 1 ok".format(status)
@@ -279,12 +286,17 @@ def test_children_that_have_grown_are_replaced(tmp_path, fake, monkeypatch):
     monkeypatch.setattr(pool, "GROWTH", 2 << 20)
     names = ["ok 1", "grow 2", "grow 3", "ok 4", "ok 5", "ok 6", "ok 7"]
     setup = {"options": {"object": None}}
+    opened, begun = len(os.listdir("/proc/self/fd")), time.monotonic()
     with Pool(fake.command, 1, setup, Limits(60.0, None), tmp_path / "work") as found:
         found.add(names)
         assert not found.is_done
-        outcomes = []
-        while not found.is_done:
+        outcomes, let_go = [], {}
+        while not found.is_done or found._ending:
             outcomes += found.step()
+            let_go.update((child.process.pid, child.process) for child, _ in found._ending)
+    assert [process.returncode for process in let_go.values()] == [0, 0]  # they end by themselves
+    assert sum(one.seconds for one in outcomes) < time.monotonic() - begun
+    assert len(os.listdir("/proc/self/fd")) == opened
     assert [one.task for one in outcomes] == names and not (tmp_path / "work").exists()
     assert {(one.status, one.attempts) for one in outcomes} == {("answered", 1)}
     children = [
@@ -323,6 +335,7 @@ def test_what_waits_for_a_fresh_child_is_work_beside_the_rest(tmp_path, fake):
         found.add(["ok 1"])
         found._again.append("ok 2")
         found._refill()
+        found._refill()  # those are enough
         children = list(found._children)
         assert len(children) == 2
         while not found.is_done:
@@ -373,7 +386,9 @@ def test_children_that_refuse_or_do_not_start_end_a_run(tmp_path, fake, monkeypa
     assert ended.value.code == 2 and capsys.readouterr().err == "error: no\n"
     monkeypatch.setattr(pool, "MAX_FAILED_STARTS", 3)
     options = arguments.parse(["measure", "a"])
+    tried = tmp_path / "tried"
     for command, reason in (
+        (["sh", "-c", "echo >> {}; echo 'no  such'; echo thing >&2; exit 1".format(tried)], "thing"),
         ([sys.executable, "-c", "import sys; sys.exit('no  such\\n thing')"], "no such thing"),
         ([sys.executable, "-c", "import sys; sys.exit(9)"], "exit code 9"),
         ([str(tmp_path / "nothing")], "{}: No such file or directory".format(tmp_path / "nothing")),
@@ -381,6 +396,7 @@ def test_children_that_refuse_or_do_not_start_end_a_run(tmp_path, fake, monkeypa
         monkeypatch.setattr(processes, "child_command", lambda blender, command=command: command)
         assert supervised.measure(options, -1, None) == 2
         assert capsys.readouterr().err == "body_moments: {}\n".format(sentence("children_failed", reason=reason))
+    assert tried.read_text() == "\n" * 3
     monkeypatch.setattr(processes, "child_command", lambda blender: None)
     with pytest.raises(SystemExit):
         supervised.measure(options, -1, None)
@@ -411,6 +427,10 @@ def test_a_child_has_a_folder_a_session_and_a_pipe_of_its_own(tmp_path):
         told = process.stdout.read().decode().split()
     assert told == [*[str(folder)] * 3, str(folder / "user"), "True"] and process.returncode == 0
     assert (tmp_path / "log").read_text() == "said\n" and folder.is_dir()
+    opened = len(os.listdir("/proc/self/fd"))
+    with pytest.raises(FileNotFoundError):
+        processes.start([str(tmp_path / "nothing")], tmp_path / "other", tmp_path / "log")
+    assert len(os.listdir("/proc/self/fd")) == opened
 
 
 def test_how_processes_end_is_said():
@@ -427,7 +447,13 @@ def test_how_processes_end_is_said():
         and processes.how_it_ended(0xC0000005) == "exit code 0xc0000005"
     )
     assert processes.how_it_ended(0x1C0000005) == "exit code 0xc0000005"
-    assert processes.cores() == len(os.sched_getaffinity(0))
+    bound = os.sched_getaffinity(0)
+    try:
+        os.sched_setaffinity(0, {min(bound)})
+        assert processes.cores() == 1
+    finally:
+        os.sched_setaffinity(0, bound)
+    assert processes.cores() == len(bound)
     machine = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
     assert processes.memory_of_machine() == machine
     assert (processes.memory_share(), processes.memory_share(4)) == (int(0.8 * machine), int(0.2 * machine))
@@ -435,12 +461,21 @@ def test_how_processes_end_is_said():
     with open("/proc/self/smaps_rollup") as file:
         rollup = dict(line.split()[:2] for line in file.readlines()[1:])
     expected = 1024 * (int(rollup["Anonymous:"]) + int(rollup["Swap:"]))
-    assert abs(processes.memory_of(os.getpid()) - expected) < 0.3 * expected and len(kept)
+    taken = processes.memory_of(os.getpid())
+    assert abs(taken - expected) < 0.3 * expected and taken % 1024 == 0 and len(kept)
     assert processes.memory_of(2**22 + 1) is None
     ended = subprocess.Popen(["true"])
     os.waitid(os.P_PID, ended.pid, os.WEXITED | os.WNOWAIT)  # it is listed still, and has no memory
     assert processes.memory_of(ended.pid) is None and ended.wait() == 0
     assert 0.5 * expected < processes._memory_by_tool(os.getpid()) and processes._memory_by_tool(2**22 + 1) is None
+
+
+def test_a_tool_that_hangs_tells_nothing(tmp_path, monkeypatch):
+    (tmp_path / "ps").write_text("#!/bin/sh\nexec sleep 600\n")
+    (tmp_path / "ps").chmod(0o755)
+    monkeypatch.setenv("PATH", str(tmp_path), prepend=os.pathsep)
+    monkeypatch.setattr(processes, "_TOOL", 0.1)
+    assert processes._memory_by_tool(os.getpid()) is None
 
 
 def test_progress_is_a_bar_or_a_line_now_and_then(monkeypatch):
@@ -491,6 +526,9 @@ def test_progress_is_a_bar_or_a_line_now_and_then(monkeypatch):
         lines(code="progress_started", **few),
         lines(code="progress_done", count=0, seconds=5.0, counts="-"),
     ]
+    two = dict(code="progress_files", done=1, total=2, rate=1 / 9.0, left="9 s", failed=0)
+    two_end = lines(code="progress_done", count=1, seconds=9.0, counts="1 ok")
+    assert [*shown(False, 2, 0, [(9.0, ["ok"])])] == [lines(**two), two_end]
     assert [*shown(False, 1, 0, [(9.0, ["ok"])])] == ["", ""]
     assert [*shown(True, 1, 0, [(9.0, ["ok"])])] == ["", ""]
     start = "\r\x1b[K"
@@ -571,6 +609,7 @@ def test_a_journal_is_on_the_disk_once_a_second_and_in_the_end(tmp_path, monkeyp
             now[0] = 100.0 + seconds
             journal.append({"path": "a"}, "ok", 1, 0.0, {}, b"{}")
             sizes[now[0]] = path.stat().st_size
+    assert len({*sizes.values()}) == len(sizes) and journal._file.closed
     assert synced == [(at, sizes[at]) for at in (101.001, 102.002, 109.0, 109.0)]
 
 
@@ -592,7 +631,7 @@ def test_a_journal_may_be_read_by_whom_the_system_lets_read_files_and_is_made_wh
 
 def test_a_line_behind_a_torn_one_is_whole(tmp_path):
     path = tmp_path / "journal"
-    for rest in (b"", b'{"schema": "body-moments-jou', b"\n"):
+    for rest in (b"", b'{"schema": "body-moments-jou', b"\n", b"{}\n"):
         path.write_bytes(rest)
         with Journal(path) as journal:
             for name in "ab":
@@ -910,18 +949,27 @@ def test_where_there_are_no_descriptors_to_control_nothing_is_watched(monkeypatc
     lifeline.end_with(-1)
 
 
-def test_an_idle_child_that_ends_is_nobodys_fault(tmp_path, fake):
-    """Nor is what comes of one that has been let go, or of one that has been given nothing."""
-    with Pool(fake.command, 1, {"options": {"object": None}}, Limits(60.0), tmp_path / "work") as found:
+def test_an_idle_child_that_ends_is_nobodys_fault(tmp_path, fake, monkeypatch):
+    """Nor is what comes of one that has been let go, or of one that has been given nothing. Each start that fails is
+    the first again where another child was ready since.
+    """
+    monkeypatch.setattr(pool, "MAX_FAILED_STARTS", 2)
+    (tmp_path / "fail").touch()
+    once = 'rm {} 2> /dev/null && exit 9; exec "$@"'.format(tmp_path / "fail")
+    command = ["sh", "-c", once, "sh", *fake.command]
+    with Pool(command, 1, {"options": {"object": None}}, Limits(60.0), tmp_path / "work") as found:
         found.wait_until_ready()
         (child,) = found._children
-        assert found._receive(child, {}, b"stray") == []
+        assert found._receive(child, {}, b"stray") == [] and found._receive(child, {"note": "stray"}, b"") == []
+        assert found.notes == []
         child.folder.rmdir()  # as where somebody else cleans up
         os.kill(child.process.pid, signal.SIGKILL)
         while found._children:
             assert found.step() == []
         assert found._receive(child, {"ready": {"blender": "other"}}, b"") == []
         assert found.about == {"blender": "9.8.7"} and not child.log.exists() and found._said(child) == ""
+        (tmp_path / "fail").touch()
+        shutil.rmtree(tmp_path / "work")  # by somebody who cleans up thoroughly
         found.add(["ok 1"])
         outcomes = []
         while not found.is_done:
@@ -929,8 +977,31 @@ def test_an_idle_child_that_ends_is_nobodys_fault(tmp_path, fake):
     assert [(one.status, one.attempts) for one in outcomes] == [("answered", 1)] and len(fake("setup")) == 2
 
 
+def test_an_answer_that_comes_too_late_is_none(tmp_path, fake):
+    with Pool(fake.command, 1, {"options": {"object": None}}, Limits(60.0), tmp_path / "work") as found:
+        found.add(["hang"])
+        outcomes = []
+        while not found.is_done:
+            for child in [child for child in found._children if child.task]:
+                found._doom(child, "timeout")
+                assert found._receive(child, {}, b"late") == []
+            outcomes += found.step()
+    assert [(one.status, one.attempts, one.data) for one in outcomes] == [("timeout", 2, b"")]
+
+
+def test_an_idle_child_may_take_what_it_needs(tmp_path, fake, monkeypatch):
+    monkeypatch.setattr(pool, "_STEP", 2.0 * pool._WATCH)
+    with Pool(fake.command, 1, {"options": {"object": None}}, Limits(60.0, 1), tmp_path / "work") as found:
+        found.wait_until_ready()
+        (child,) = found._children
+        for _ in range(2):
+            assert found.step() == []
+        assert found._children == [child] and child.process.poll() is None
+
+
 def test_a_child_that_was_let_go_and_does_not_end_is_ended(tmp_path, fake, monkeypatch):
     monkeypatch.setattr(pool, "_END", 0.2)
+    monkeypatch.setattr(pool, "_STEP", 0.01)
     with Pool(fake.command, 1, {"options": {"object": None}}, Limits(60.0), tmp_path / "work") as found:
         found.wait_until_ready()
         (child,) = found._children
