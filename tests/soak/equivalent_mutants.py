@@ -15,12 +15,14 @@ CONSTANT = r"True|False|\d[\d.]*(e-?\d+)?"
 
 # names of constants: the reason
 NAMES = {
-    r"_PER_(BLOCK|BATCH|CHUNK|SLAB|TASK|THREAD|STACK)$|^_?BLOCK|_BLOCK$|_ROWS$|_IN_CACHE$": "how much is "
+    r"_PER_(BLOCK|BATCH|CHUNK|ROW|SLAB|TASK|THREAD|STACK)$|^_?BLOCK|_BLOCK$|_ROWS$|_IN_CACHE$": "how much is "
     "computed or read at a time",
     r"^(FIRST_SAMPLES|GRID_CELLS)$": "in which order things are compared, of which all are",
     r"^(LINE_SLOPES|RAY_SLOPES|LATTICE_SHIFT|COLUMN_SLOPE)$": "which lines are looked along",
     r"^PIECE$|_PER_LEAF$": "how much is looked at at a time",
     r"^MAX_(BOX|COMPONENT|CHORD|SIDE|END)_PAIRS$": "one more of as many as are worth the time",
+    r"^(MAX_COMPONENTS|CLEAR_VOLUME)$": "which bodies are measured by themselves, as well",
+    r"^MAX_SORTED_SIDES$": "which of two ways is gone, of which one finds what the other does",
     r"^HASH_FACTORS$": "which of two colliding numbers comes first",
     r"^STEPS_BEFORE_MERGE$": "from when on directions that go to one maximum are followed as one",
     r"^MAX_CACHED_|_SCRATCH_": "how much is remembered",
@@ -130,6 +132,49 @@ PATTERNS = [
     ),
     (r".*mesh/(bvh|scan_lines).py .*", r".*, order=.C.\)", r"((?!order=).)*", "how numbers lie in memory"),
     (r".*shape/symmetry.py _around_axis", r"turn @ seed", r"\(seed @ turn\)", "the same operations"),
+    (
+        r".*mesh/bvh.py Bvh._sort",
+        r"components\.low - self\.origin|code\[triangle_rows\] \|= .*|1023\.0( / .*)?|0\.5( \* .*)?|\( ?0\.5 .*|components\.high - components\.low|"
+        r"low\[k, triangle_rows\] \+ high\[k, triangle_rows\]",
+        r".*",
+        "in which order the triangles of a tree stand, and so how much is looked at",
+    ),
+    (
+        r".*mesh/surface.py Surface.box",
+        r"len\(low\) > POINTS_PER_ROW",
+        r"\(len\(low\) >= POINTS_PER_ROW\)",
+        "one row, compared with none",
+    ),
+    (
+        r".*mesh/side_pairs.py faces_across_sides",
+        r"faces\.size <= MAX_SORTED_SIDES|next\(_all_sides.*",
+        r".*",
+        "which of two ways is gone, of which one finds what the other does",
+    ),
+    (
+        r".*mesh/side_pairs.py _paired_by_sorting",
+        r"start < stop",
+        r"\(start >= stop\)",
+        "which of a pair's two sides comes first",
+    ),
+    (
+        r".*solid/shared_walls.py wall_links",
+        r"np\.diff\(part\[border.* < 0",
+        r"\(.* >= 0\)",
+        "bodies and layers both in descending order, which are joined in the same pairs",
+    ),
+    (
+        r".*solid/closedness.py check_surface",
+        r"break",
+        r"continue",
+        "it goes on to no avail",
+    ),
+    (
+        r".*solid/orientation.py _oriented_surface",
+        r"surface\.coordinate_error \+ mesh\.max_displacement if .*",
+        r"\(surface\.coordinate_error \+ mesh\.max_displacement\)",
+        "what the coordinates' own error is found to be without it",
+    ),
     (r".*mesh/bvh.py Bvh._sort", r"not selected\.all\(\)", r"\(selected\.all\(\)\)", "more is sorted than is read"),
     (
         r".*mesh/scan_lines.py _cells",
@@ -512,6 +557,15 @@ PATTERNS = [
         "what was proved closed is found so once more",
     ),
     (r".*supervisor/pool.py Pool._pause", r"(?!return|max).*", r".*", "how often is looked"),
+    (
+        r".*supervisor/pool.py Pool._watch",
+        r"self\._limits\.memory and now >= .*|self\._watched \+ _WATCH",
+        r"\(self\._limits\.memory\)|\(self\._watched - _WATCH\)",
+        "how often is looked",
+    ),
+    (r".*supervisor/pool.py Pool._start", r"self\._started \+= 1", r"self\._started -= 1", "how folders are called"),
+    (r".*supervisor/pool.py _Child.base", r"0", r"1", "it is known before it is read"),
+    (r".*supervisor/pool.py Pool.__init__", r"0\.0", r"1\.0", "when was looked last, which is long ago"),
     (r".*supervisor/pool.py Pool._receive", r"self\._give\(child\)", r"pass", "the next step gives it"),
     (
         r"operators/(supervisor/pool|write/file_lock|actions/measure/library).py _(STEP|WATCH|PAUSE|GROWTH_PERIOD)",
@@ -979,7 +1033,6 @@ CONSTANTS = [
     (r".*supervisor/lifeline.py end_with", r"ready\.poll\(", "a thousandth of a second is waited"),
     (r".*solid/nesting.py surfaces_intersect", r"int\(component\[-1\]\) \+ ", "one surface more, without triangles"),
     (r".*command/option_types.py count", r"int\(text\[:", "a longer text is refused anyway"),
-    (r".*supervisor/lifeline.py Lifeline.__init__", r"ThreadPoolExecutor\(", "room for a thread that nothing starts"),
     (r".*write/thumbnail.py thumbnail", r"steps \+ \(right, up, ", "how deep an axis is, which is drawn over the body"),
     (r"panels/overlay/view.py View.pixels", r"== 0\.0, ", "where a point beside the eye is has no meaning"),
     (r".*write/whole_file.py whole_file", r"os\.O_WRONLY \|.*\"O_BINARY\", ", "the number of O_WRONLY, which is there"),
@@ -987,7 +1040,6 @@ CONSTANTS = [
     (r".*command/files.py check_file", r"max\((0, size - )?", "how much of the end is looked at"),
     (r".*command/files.py _check_usdz", r"file\.read\((1 << )?", "how much is read at a time"),
     (r".*command/saving.py Place._save", r"file\.read\(", "what is behind the mark is not looked at"),
-    (r".*supervisor/whole_run.py WholeRun.__init__", r"FileNotFoundError\(", "its text is told, not its number"),
     (
         r".*finite/fbx.py _check_ascii_fbx",
         r"max\(0, colon - ",
@@ -1045,14 +1097,14 @@ CONSTANTS = [
     (r".*write/file_lock.py WAIT", r"= ", "how much patience there is with others"),
     (r".*write/spectrum.py picture", r"size\.max\(\) or ", "what is divided is zero"),
     (r".*write/robots/repair.py _usd", r"np\.eye\(", "a row more than is read"),
-    (
-        r".*supervisor/pool.py Pool._receive",
-        r"self\._failed_starts = True, ",
-        "how much patience there is with a process that fails",
-    ),
     (r".*session/motion.py MAX_SAMPLES", r"= ", "there is no number of keys that takes as many"),
     (r"panels/.*", r"\balign=", "whether the corners between two rows are round"),
-    (r".*mesh/side_pairs.py _paired_by_sorting", r"high << np.uint64\(", "of vertices there are fewer than 2^30"),
+    (r".*mesh/side_pairs.py _paired_by_sorting", r"(low|high) << np.uint64\(", "of vertices there are fewer than 2^30"),
+    (
+        r".*solid/solid_stack.py measure_stack",
+        r"caps = StackCaps\((none > |.*np\.zeros\(\(len\(none\), |.*np\.empty\(\()",
+        "where there are no caps, they are not read",
+    ),
     (r".*solid/nesting.py _interior_samples", r"weight = .*", "which places are tried"),
     (r".*shape/(symmetry.py confirm|flat_pose.py holds_by_outline)", r"points\[:: ", "which are looked at first"),
     (r".*solid/nesting.py _interior_samples", r"depth = (10\.0 \*\* \(-(.* - k % )?)?", "which places are tried"),

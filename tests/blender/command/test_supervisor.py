@@ -470,12 +470,15 @@ def test_how_processes_end_is_said():
     assert 0.5 * expected < processes._memory_by_tool(os.getpid()) and processes._memory_by_tool(2**22 + 1) is None
 
 
-def test_a_tool_that_hangs_tells_nothing(tmp_path, monkeypatch):
+def test_a_tool_tells_in_kibibytes_or_nothing_where_it_hangs(tmp_path, monkeypatch):
     (tmp_path / "ps").write_text("#!/bin/sh\nexec sleep 600\n")
     (tmp_path / "ps").chmod(0o755)
     monkeypatch.setenv("PATH", str(tmp_path), prepend=os.pathsep)
     monkeypatch.setattr(processes, "_TOOL", 0.1)
     assert processes._memory_by_tool(os.getpid()) is None
+    (tmp_path / "ps").write_text("#!/bin/sh\necho ' 2048'\n")
+    monkeypatch.setattr(processes, "_TOOL", 60.0)
+    assert processes._memory_by_tool(os.getpid()) == 2 << 20
 
 
 def test_progress_is_a_bar_or_a_line_now_and_then(monkeypatch):
