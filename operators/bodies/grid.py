@@ -224,7 +224,7 @@ def _solid(reading: VolumeReading, unit: float, threads: int) -> MeshBody:
     if reading.level_set is False:
         raise ReadError("grid_is_not_level_set", grid=reading.grid)
     surface = reading.polygons()
-    if not len(surface.triangles) and not len(surface.quads):
+    if not len(surface.quads):
         raise ReadError("level_set_empty", grid=reading.grid)
     shown = Reading(
         reading.name,
@@ -235,7 +235,6 @@ def _solid(reading: VolumeReading, unit: float, threads: int) -> MeshBody:
         [Part(surface, reading.matrix[None])],
     )
     bounded = mesh_body(shown, unit, shell=False, union=False, threads=threads)
-    polygons = len(surface.triangles) + len(surface.quads)
-    measured = finding("level_set_measured", grid=reading.grid, polygons=polygons)
+    measured = finding("level_set_measured", grid=reading.grid, polygons=len(surface.quads))
     method = Method(bounded.method.verdict, Source.GRID)
     return replace(bounded, method=method, findings=(measured, *bounded.findings))

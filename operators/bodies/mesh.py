@@ -11,7 +11,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.mesh.surface import Surface, join_surfaces, normals
-from ...core.moments.affine_maps import are_similarities
 from ...core.moments.images import sum_of_images
 from ...core.moments.moments import Moments, sum_moments
 from ...core.polyhedron import polyhedron_moments
@@ -90,17 +89,13 @@ def mesh_body(reading: Reading, unit: float, *, shell: bool, union: bool, thread
 
 def _sum_of_instances(reading: Reading, unit: float, shell: bool, threads: int) -> MeshBody:
     """Each part measured once in its own coordinates, and mapped to wherever it stands."""
-    volumes, areas, healths, verdicts, findings, by_part, parts = [], [], [], [], [], [], []
-    drawn = _drawn(reading) if reading.findings else set()
-    alone = reading.instance_count == 1
+    volumes, areas, healths, verdicts, by_part, parts = [], [], [], [], [], []
+    drawn = _drawn(reading)
     for part in reading.parts:
         solid = measure_solid(part.surface, shell=shell, threads=threads)
         matrices = to_si(part.matrices, unit)
         volumes.append(sum_of_images(solid.volume, matrices))
-        if are_similarities(matrices[:, :3, :3]).all():
-            image_areas = [sum_of_images(solid.area, matrices)]
-        else:
-            image_areas = list(area_of_instances(part.surface, solid.area, matrices, _area(threads) if shell else None))
+        image_areas = list(area_of_instances(part.surface, solid.area, matrices, _area(threads) if shell else None))
         areas.extend(image_areas)
         total = float(solid.volume.raw[0])
         stretch = float(volumes[-1].raw[0]) / total if total else 0.0  # Σ |det|
@@ -115,10 +110,9 @@ def _sum_of_instances(reading: Reading, unit: float, shell: bool, threads: int) 
         verdicts.append(None if flat else Verdict(solid.method))
         by_part.append((part.source_object_name, _part_findings(part, solid, shell, flat, drawn)))
         parts.append((solid, matrices))
-    if any([found for _, found in by_part]):
-        findings += findings_by_part(by_part, reading.name)
-    health = healths[0][0] if alone else merge_health(healths)
-    if not shell and not alone and instances_overlap(reading):
+    findings = findings_by_part(by_part, reading.name)
+    health = merge_health(healths)
+    if not shell and instances_overlap(reading):
         if sum(triangle_count(part.surface) * len(part.matrices) for part in reading.parts) <= MAX_COMPARED_TRIANGLES:
             comparison = compare_places(parts)
             findings += overlap_findings(reading, [solid for solid, _ in parts], comparison)

@@ -58,7 +58,7 @@ def body(reading: Reading, request: Request) -> Body:
     nothing = Moments(np.zeros(monomial_count(3)), length.about, Measure.VOLUME)
     # a length moves by as much as its ends, and by its turning as much again: an estimate for smooth curves
     reach = max(float(np.abs(curve.points - length.about).max()) for curve in curves)
-    moved = stored * (2.0 * len(curves) + 8.0 * length.total / max(reach, 1e-300)) * reach**DEGREE
+    moved = stored * (2.0 * len(curves) + 8.0 * length.total / reach) * reach**DEGREE
     return WireBody(
         nothing,
         Moments(nothing.raw, length.about, Measure.AREA),

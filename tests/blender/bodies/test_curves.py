@@ -23,6 +23,7 @@ from mathutils import Matrix
 from tests.blender.characters import armature_of
 from tests.blender.findings import refused, said
 from tests.blender.objects import add, measured, only
+from tests.close import close
 
 pytestmark = pytest.mark.usefixtures("scene")
 
@@ -127,6 +128,24 @@ def test_straight_splines_are_rods(bevel):
     rods = measured(obj)
     assert rods.length == pytest.approx(16.0) and rods.health.components == 3
     assert np.allclose(rods.mass_properties.center, [48 / 16, 18 / 16, 4 / 16])
+
+
+@pytest.mark.parametrize("unit", [1.0, 0.25])
+def test_what_float32_may_have_moved_bounds_the_length_of_wires(unit):
+    """Short rods far away, of which each end may have been moved by half a unit in the last place, 2^-15 at 1000."""
+    bpy.context.scene.unit_settings.scale_length = unit
+    obj = poly([(1000.0, 0, 0), (1000.0, 0.5, 0)])
+    obj.body_moments.kind = "WIRE"
+    for k in range(1, 8):
+        spline = obj.data.splines.new("POLY")
+        spline.points.add(1)
+        spline.points.foreach_set("co", [1000.0, 100.0 * k, 0, 1, 1000.0, 100.0 * k + 0.5, 0, 1])
+    bpy.context.view_layer.update()
+    body = measure_body(obj, bpy.context.evaluated_depsgraph_get()).body
+    moved = 2 * 8 * 2.0**-15 * unit
+    assert close(body.length.total, 4.0 * unit, 1e-12) and body.health.components == 8
+    assert moved <= body.length.input_error[0] < 4.0 * moved
+    assert close(body.length.input_error[1] / body.length.input_error[0], 350.25 * unit, 1e-3)
 
 
 FLAGS = list(product((False, True), repeat=3))  # cyclic, with knots of Bézier pieces, to its end points

@@ -241,8 +241,8 @@ def test_a_uniform_fog_is_a_box():
     body = found.mass_properties
     assert close(body.mass, 12.0, rel=1e-14)
     assert close(np.diag(body.inertia), [10.0, 13.0, 5.0], rel=1e-13)
-    assert close(found.volume, 6.0, rel=1e-14)
-    assert found.area == 0.0
+    assert close(found.volume, 6.0, rel=1e-14) and found.volume_moments.order == 3
+    assert found.area == 0.0 and (found.health.closed, found.health.components) == (True, 1)
 
 
 @pytest.mark.parametrize("order", [2, 4])
@@ -328,7 +328,8 @@ def test_a_level_set_is_refused_as_a_density_and_measured_as_the_solid_it_bounds
     assert exact - measure(finer).volume == pytest.approx((exact - found.volume) / 4, rel=0.1)
     assert found.mass_properties.mass == pytest.approx(1000 * found.volume, rel=1e-12)
     assert found.mass_properties.center == pytest.approx([5, 0, 0], abs=1e-3)
-    assert said(found)["level_set_measured"]["grid"] == "distance"
+    told = said(found)["level_set_measured"]
+    assert told["grid"] == "distance" and 1.3 < told["polygons"] * 0.1**2 / found.area < 1.6  # through each voxel
 
 
 def test_a_density_is_refused_as_a_solid(tmp_path):
@@ -414,6 +415,7 @@ def test_a_mesh_that_its_nodes_turn_into_a_volume():
 
 def test_higher_orders_of_the_voxels_that_are_not_empty(tmp_path):
     obj = volume_object(tmp_path / "a.vdb", vdb_grid(np.full((4, 2, 6), 0.5, np.float32)))
+    assert measure(obj, order=4).area_moments.order == 0
     found = measure(obj, order=4, surface=True)
     moments = found.volume_moments.about_point([1.5, 0.5, 2.5])
     assert moments[4, 0, 0] == pytest.approx(2 * 2**5 / 5 * 2 * 6, rel=1e-13)
