@@ -26,7 +26,7 @@ from ..polyhedron.third_order import MAX_SMALL_TRIANGLES, MAX_UNSCALED_REACH
 from ..polyhedron.third_order_small import NEXT_AXIS, PREVIOUS_AXIS, small_moments
 from ..verdict.finding import Finding
 from ..verdict.health import NO_FACES, DefectiveElements, Intersection, MeshHealth
-from ..verdict.tolerances import CLOSED_SHEET_VOLUME_RTOL, MAX_COORDINATE, MIN_SIZE, WELDING_RTOL
+from ..verdict.tolerances import CLOSED_SHEET_VOLUME_RTOL, WELDING_RTOL
 from .capped_stack import StackCaps, cap_stack
 from .closedness import SUM_ROUNDING
 from .orientation import zero_volume
@@ -161,8 +161,7 @@ def measure_stack(surfaces: Sequence[Surface]) -> SolidStack:
     planarity, links = stack_planarity(stack), stack.connections()
     size, farthest = np.sqrt(np.add.reduce((high - low) ** 2, axis=1)), reach.max(axis=1)
     usable = (links.component_counts <= MAX_COMPONENTS) & ~planarity.has_degenerate & stack.uses_all_points()
-    usable &= (farthest > 1.0 / MAX_UNSCALED_REACH) & (farthest < MAX_UNSCALED_REACH) & (size >= MIN_SIZE)
-    usable &= np.maximum(size, np.maximum(np.abs(low), np.abs(high)).max(axis=1)) < MAX_COORDINATE
+    usable &= (farthest > 1.0 / MAX_UNSCALED_REACH) & (farthest < MAX_UNSCALED_REACH)  # float32: none is too large
     error = np.sqrt(np.add.reduce(stack.coordinate_error**2, axis=1))
     tolerance = np.maximum(WELDING_RTOL * size, 4.0 * error)
     none, part = np.zeros(len(stack), np.intp), links.component[stack.triangle_faces]

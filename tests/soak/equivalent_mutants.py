@@ -62,6 +62,24 @@ PATTERNS = [
     (r".*triangle_kernel.py SortedTriangles._sort", r"np\.frexp\(.*\)\[1\] \+ 1100", r".*", "in which order is summed"),
     (r".*triangle_kernel.py _series_terms", r"n \+ 2", r"\(n - 2\)", "more terms than are needed"),
     (
+        r".*fourier/triangle_kernel.py PhaseMeans.__init__",
+        r"\(waves\.vectors\(part\) \*\* 2\)\.sum\(axis=0\)",
+        r"\(\(waves.*\.sum\(\)\)",
+        "which of two forms is taken, and more terms than are needed",
+    ),
+    (
+        r".*fourier/grid.py GridTransform._assign_triangles",
+        r"DIRECT_COST \* len\(self\.sums\) / self\.width\*\*3",
+        r".*",
+        "which of two forms is taken",
+    ),
+    (
+        r".*density/piecewise_mass.py _accumulate",
+        r"np\.abs\(weight\) @ mean",
+        r"\(mean @ np\.abs\(weight\)\)",
+        "the product of two rows",
+    ),
+    (
         r".*third_order_kernel.py BlockAccumulator._find_flipped",
         r"square\.max\(axis=0\)",
         r"\(square\.max\(\)\)",

@@ -50,8 +50,8 @@ def test_a_stack_holds_the_arrays_of_each_one_after_the_other(surfaces):
         triangles, own_faces = surface.all_triangles()
         corners = np.asarray(surface.corner_vertices)
         counts = [len(surface.points), len(triangles), len(surface.quads), len(corners), int(own_faces.max()) + 1]
-        of_stack = (stack.point_counts, stack.triangle_counts, stack.quad_counts, stack.corner_counts, stack.face_counts)
-        assert [int(count[k]) for count in of_stack] == counts
+        for name, count in zip(("point", "triangle", "quad", "corner", "face"), counts):
+            assert getattr(stack, name + "_counts")[k] == count
         assert stack.edge_counts[k] == int(surface.corner_edges.max()) + 1
         point, triangle, quad, corner, face = firsts
         edge = int(stack.edge_counts[:k].sum())

@@ -7,9 +7,11 @@ import pytest
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.solid.measure_solid import measure_solid
 from body_moments.core.solid.solid_stack import can_be_stacked, measure_stack, small_moments_to_order
+from body_moments.core.verdict.health import Intersection
 from body_moments.core.verdict.method import Verdict
 
-from tests.core.bodies import mesh
+from tests.core.bodies import mesh, moved, sphere
+from tests.core.solid.test_self_intersection import hourglass
 
 CORNERS = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], float)
 SIDES = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
@@ -182,6 +184,36 @@ def test_a_diagonal_along_an_edge_is_left_to_be_repaired():
         numbers = (np.arange(6) - first) % 6
         renumbered = mesh(points[np.argsort(numbers)], [numbers[face].tolist() for face in faces], np.float32)
         assert measure_stack([open_box(), renumbered, open_box()]).is_measured.tolist() == [True, False, True]
+
+
+@pytest.mark.parametrize("way", [1, -1])
+def test_what_is_so_large_or_small_that_sums_have_to_be_scaled_is_measured_by_itself(way):
+    """From a hundred powers of two on, of what its points are from the middle of its box."""
+    near, far = 2.0 ** (100 * way) * (1.0 - way * 2.0**-20), 2.0 ** (100 * way) * (1.0 + way * 2.0**-20)
+    surfaces = [mesh((2.0 * CORNERS - 1.0) * size, SIDES, np.float32) for size in (1.0, far, near)]
+    stack = measure_stack(surfaces)
+    assert stack.is_measured.tolist() == [True, False, True]
+    for i in (0, 2):
+        assert_alike(stack, i, surfaces[i])
+
+
+@pytest.mark.parametrize("height, is_solid", [(2e-13, True), (1e-15, False)])
+def test_a_closed_lens_that_rounding_may_have_made_is_none_of_the_solids(height, is_solid):
+    points, triangles = sphere(0)
+    surfaces = [mesh(points * [1.0, 1.0, high], triangles.tolist(), np.float32) for high in (1.0, height, 0.5)]
+    stack = measure_stack(surfaces)
+    assert stack.is_measured.tolist() == [True, is_solid, True]
+    assert measure_solid(surfaces[1]).method is (Verdict.EXACT if is_solid else Verdict.OPEN)
+
+
+def test_bodies_whose_sides_all_face_the_middle_of_their_box_or_their_center_are_proved_together():
+    parts = [moved(hourglass(heavy), offset=place) for heavy in (0.3, 1.5) for place in ((0, 0, 0), (8, -16, 4))]
+    surfaces = [mesh(points, triangles.tolist(), np.float32) for points, triangles in parts]
+    for several in (surfaces, surfaces[:2], surfaces[2:]):
+        stack = measure_stack(several)
+        assert stack.is_measured.all() and (stack.intersection == Intersection.EXCLUDED).all()
+        for i, surface in enumerate(several):
+            assert_alike(stack, i, surface)
 
 
 def test_where_nothing_is_open_nothing_is_capped():
