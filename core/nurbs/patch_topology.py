@@ -109,7 +109,7 @@ def find_topology(patches: Sequence[Patch], tolerance: float) -> PatchTopology:
     misoriented = same == (forward[left] == forward[right])
     component, number = connected_components(len(patches), owner[left], owner[right])
     flipped, conflict = _orient_patches(len(patches), owner[left], owner[right], misoriented)
-    are_most = 2 * np.bincount(component, flipped, number) > np.bincount(component, minlength=number)
+    are_most = 2 * np.bincount(component, flipped) > np.bincount(component)
     flipped ^= are_most[component]
     unclosable = np.zeros(number, bool)
     unclosable[component[conflict]] = True

@@ -183,7 +183,7 @@ def _measure(
     if center.shape != (dimension,) or not np.isfinite(center).all():
         raise ValueError("about must be finite (d,)")
     reach = float(np.maximum(np.abs(high - center), np.abs(low - center)).max())
-    exponent = int(np.frexp(reach)[1]) if reach else 0  # the body is brought to size 1, which rounds nothing
+    exponent = int(np.frexp(reach)[1])  # the body is brought to size 1, which rounds nothing
 
     if signs is not None and np.shape(signs) != (len(simplices),):
         raise ValueError("signs not (k,)")
@@ -213,7 +213,7 @@ def _measure(
         + len(blocks)
         + 4
     )
-    error = 1.01 * steps * U * size + (len(simplices) + 1) * UNDERFLOW
+    error = 1.01 * steps * U * size + len(simplices) * UNDERFLOW
     factor = np.array([_factor(row, measure) for row in indices.tolist()])
     power = (exponent * (degree + measure)).astype(np.int32)
     with np.errstate(over="ignore"):

@@ -39,6 +39,10 @@ def test_tables_give_the_moments_of_measuring_anew(spaces, order):
         points = points + rng.uniform(-0.2, 0.2, points.shape)
         anew, _ = volume_moments([Patch(spaces, points)], order, ABOUT)
         assert (np.abs(evaluator.moments(points).raw - anew.raw) <= anew.rounding_error).all()
+    centered = IncrementalPatchMoments(Patch(spaces, points), order)
+    assert close(centered.about, points.mean(axis=(0, 1)), rel=1e-15)
+    found, anew = centered.moments(points), volume_moments([Patch(spaces, points)], order, centered.about)[0]
+    assert (np.abs(found.raw - anew.raw) <= anew.rounding_error).all()
 
 
 @pytest.mark.parametrize("rational", [False, True])

@@ -227,11 +227,13 @@ def test_many_blocks_give_what_one_gives(monkeypatch):
 @pytest.mark.parametrize(
     "points, simplices, words",
     [
-        ([[0.0, 0.0], [1.0, np.nan]], [[0, 1]], "finite"),
+        ([[0.0, 0.0], [1.0, np.nan]], [[0, 1]], "coordinates must be finite"),
         ([[0.0, 0.0], [1.0, 0.0]], [[0, 2]], "no such point"),
         ([[0.0, 0.0], [1.0, 0.0]], [[0, -1]], "no such point"),
         ([[0.0, 0.0], [1.0, 0.0]], [[0, 1, 1]], "simplices"),
+        ([[0.0, 0.0], [1.0, 0.0]], [0, 1], "simplices"),
         ([0.0, 1.0], [[0]], "points"),
+        ([[], []], [[]], "points"),
         ([[0.0, 1j], [1.0, 0.0]], [[0, 1]], "real"),
         ([[0.0, 0.0], [1.0, 0.0]], [[0.0, 1.0]], "integers"),
         ([[0.0, 0.0], [1.0, 0.0]], [[False, True]], "integers"),
@@ -248,7 +250,7 @@ def test_bad_input_is_refused(points, simplices, words):
         (-1, None, "order"),
         (2.5, None, "order"),
         (2, (0.0, 0.0), "about"),
-        (2, (0.0, np.nan, 0.0), "finite"),
+        (2, (0.0, np.nan, 0.0), "about must be finite"),
     ],
 )
 def test_what_is_asked_for_is_looked_at_too(order, about, words):
@@ -265,7 +267,49 @@ def test_each_simplex_has_a_sign():
 
 
 def test_nothing_encloses_nothing():
-    assert not enclosed_moments(np.zeros((0, 3)), np.zeros((0, 3), int), 2).raw.any()
+    for simplices in (np.zeros((0, 3), int), np.zeros((0, 3))):
+        found = enclosed_moments(np.zeros((0, 3)), simplices, 2)
+        assert not found.raw.any() and (found.rounding_error > 0.0).all() and found.rounding_error.max() < 1e-300
+
+
+def test_a_body_far_away_is_bounded_as_at_home():
+    """The farther it is, the more its size to the 28th would leave the range of numbers beside that."""
+    points, facets, _ = cube(2)
+    here, there = (enclosed_moments(points + far, facets, 26) for far in (0.0, 2.0**40))
+    assert np.array_equal(here.raw, there.raw) and np.array_equal(here.rounding_error, there.rounding_error)
+
+
+def test_points_that_no_simplex_has_may_be_anywhere():
+    points, facets, _ = cube(3)
+    more = np.concatenate([points, np.full((1, 3), np.nan)])
+    assert np.array_equal(enclosed_moments(more, facets, 3).raw, enclosed_moments(points, facets, 3).raw)
+
+
+def test_the_order_of_the_moments_cannot_be_written_to():
+    with pytest.raises(ValueError, match="read-only"):
+        multi_indices(3, 2)[0, 0] = 1
+
+
+@pytest.mark.parametrize("n", [1, 2, 3, 4])
+def test_facets_of_simplices_enclose_their_volumes(n):
+    """However their corners are turned."""
+    rng = np.random.default_rng(n)
+    points = rng.normal(size=(12, n))
+    simplices = np.array([rng.permutation(12)[: n + 1] for _ in range(6)])
+    corners = points[simplices]
+    truth = np.abs(np.linalg.det(corners[:, 1:] - corners[:, :1])).sum() / math.factorial(n)
+    facets, signs = facets_of(points, simplices)
+    assert close(enclosed_moments(points, facets, 0, signs=signs).raw[0], truth, rel=1e-13)
+    assert closes(points, facets, signs) and not closes(points, facets[1:], signs[1:])
+
+
+def test_points_are_one_where_they_are_at_the_same_place_however_near_others_are():
+    ring = [[0, 1], [1, 2], [2, 3], [3, 0]]
+    for size in (1.0, 1e-20):
+        square = size * np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
+        again = np.concatenate([square, [[-0.0, -0.0]]])
+        assert closes(square, ring) and not closes(square, ring[1:])
+        assert closes(again, [[4, 1], *ring[1:]]) and len(outer_facets(square, ring)) == 4
 
 
 def test_facets_of_simplices_close_and_the_outer_ones_bound_with_or_without_signs():

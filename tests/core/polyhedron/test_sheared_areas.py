@@ -7,6 +7,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 from body_moments.core.mesh.surface import Surface
+from body_moments.core.polyhedron import sheared_areas as images
 from body_moments.core.polyhedron.sheared_areas import area_of_images
 
 from tests.close import close
@@ -75,9 +76,34 @@ def test_faces_that_are_points_may_have_had_the_area_of_the_largest_triangle_of_
     assert found.total == 0.0 and count * largest <= found.input_error[0] <= 8.0 * count * largest
 
 
-def test_many_maps_and_faces_go_in_blocks(monkeypatch):
-    from body_moments.core.polyhedron import sheared_areas as images
+@pytest.mark.parametrize("at_a_time", [1 << 17, 20])
+def test_bounds_are_those_that_are_derived(monkeypatch, at_a_time):
+    """Nine and two roundings of each cofactor and of its terms, for the terms of the normals; one more for each block,
+    and 128 for the sum. What storing moves, from the edges and the steps."""
+    monkeypatch.setattr(images, "PRODUCTS_PER_BLOCK", at_a_time)
+    points, linear, h = RNG.standard_normal((8, 3)), RNG.standard_normal((2, 3, 3)), np.array([1e-3, 3e-3, 5e-3])
+    found = area_of_images(Surface(points, TRIANGLES, displacement=h), linear)
+    blocks = -(-len(TRIANGLES) // max(1, at_a_time // len(linear)))
+    rounded, moved = (128 + blocks) * found.total, 0.0
+    for j, k in ((1, 2), (2, 0), (0, 1)):
+        terms = steps = 0.0
+        for a, b, c in points[TRIANGLES]:
+            first, second = np.abs(b - a), np.abs(c - a)
+            terms += first[j] * second[k] + first[k] * second[j]
+            steps += 2.0 * ((first + second)[j] * h[k] + (first + second)[k] * h[j]) + 8.0 * h[j] * h[k]
+        for matrix in linear:
+            for row in range(3):
+                upper, lower = matrix[(row + 1) % 3], matrix[(row + 2) % 3]
+                cofactor = abs(upper[j] * lower[k] - upper[k] * lower[j])
+                rounded += (9.0 * cofactor + 2.0 * (abs(upper[j] * lower[k]) + abs(upper[k] * lower[j]))) * terms / 2.0
+                moved += cofactor * steps / 2.0
+    assert found.about.tolist() == [0.0, 0.0, 0.0]
+    assert close(found.input_error, [moved], rel=1e-12)
+    assert close(found.rounding_error, [2.0**-53 * rounded], rel=1e-8)
+    assert found.rounding_error[0] >= 2.0**-53 * rounded * (1.0 + 1e-10)
 
+
+def test_many_maps_and_faces_go_in_blocks(monkeypatch):
     points, linear = RNG.standard_normal((8, 3)), RNG.standard_normal((7, 3, 3))
     surface = Surface.from_triangles(points, TRIANGLES)
     whole = area_of_images(surface, linear)
