@@ -401,7 +401,7 @@ PATTERNS = [
         "corners that no face has",
     ),
     (
-        r".*solid/solid_verdict.py SolidIntegrals.exact_third_order",
+        r".*solid/solid_verdict.py SolidIntegrals.(exact_third_order|moments)",
         r"polyhedron_moments\(.*, threads=threads, .*",
         r"\(polyhedron_moments\(((?!threads=).)*\)\)",
         "with how many threads moments are summed, which are the same",
@@ -1028,6 +1028,8 @@ PATTERNS = [
 ]
 # places of constants, and what stands ahead of them in their line: the reason
 CONSTANTS = [
+    (r".*triangle_kernel.py PhaseMeans._by_edges", r"np\.maximum\(square, MAX_SERIES_SQUARE / ", "replaced below"),
+    (r".*triangle_kernel.py SortedTriangles.__init__", r"reach > 0\.0 else ", "points that all coincide"),
     (r".*", r"\breshape\(([^()]|\([^()]*\))*-", "numpy finds out a length from any negative number"),
     (r"operators/read/section.py _outlines", r"np\.linalg\.det\(linear\) or ", "of which only the sign counts"),
     (
@@ -1082,7 +1084,7 @@ CONSTANTS = [
         "read, and not looked at where nothing is to be proved closed",
     ),
     (r".*", r"\.astype\(.*copy=", "a copy"),
-    (r"operators/.*", r"\bthreads: int = ", "with how many threads moments are summed, which are the same"),
+    (r"(operators|core/solid)/.*", r"\bthreads: int = ", "with how many threads moments are summed, which are the same"),
     (r"operators/bodies/rig.py rig_hash", r"bone\.length, ", "from which difference on a bone is another one"),
     (
         r"operators/bodies/(array.py measure_array|stream.py measure_mesh_file)",
@@ -1118,6 +1120,7 @@ CONSTANTS = [
     (r".*session/motion.py MAX_SAMPLES", r"= ", "there is no number of keys that takes as many"),
     (r"panels/.*", r"\balign=", "whether the corners between two rows are round"),
     (r".*mesh/side_pairs.py _paired_by_sorting", r"(low|high) << np.uint64\(", "of vertices there are fewer than 2^30"),
+    (r".*solid/solid_verdict.py SolidIntegrals.moments", r"self\.given_surface, ", "the volume is not read"),
     (
         r".*solid/solid_stack.py measure_stack",
         r"caps = StackCaps\((none > |.*np\.zeros\(\(len\(none\), |.*np\.empty\(\()",
@@ -1440,6 +1443,30 @@ EQUIVALENT: dict[tuple[str, str, str, str], str] = {
         'not frame_changed and depsgraph.id_type_updated("SCENE")',
         "(depsgraph.id_type_updated('SCENE'))",
     ): "what was looked up is looked up once more",
+    (
+        "core/moments/solid_harmonics.py",
+        "_three_j",
+        "a - b - k",
+        "(a - b + k)",
+    ): "both are even, or both odd",
+    (
+        "core/plane/section.py",
+        "measure_section",
+        "about + shift",
+        "(about - shift)",
+    ): "moments are about the centroid, and the shift is rounding within the bound",
+    (
+        "core/streams/measure_stream.py",
+        "_Stream.pieces",
+        "piece.points.reshape(-1, 3, 3) if self._mesh.is_loose else piece",
+        "(piece)",
+    ): "the same faces, gathered once more",
+    (
+        "core/shape/symmetry.py",
+        "_around_axis",
+        "1e-4",
+        "0.1",
+    ): "points nearer to the axis are tried as well, each with its images",
     (
         "operators/command/import_surfaces.py",
         "import_obj",

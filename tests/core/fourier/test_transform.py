@@ -127,6 +127,18 @@ def test_a_triangle_across_the_waves_is_as_exact_next_to_where_the_series_ends_a
             assert abs(found / area - 1.0 - 2.0 * mean_less_half(points[:, 0].tolist())) <= 6e-16
 
 
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+@pytest.mark.parametrize("apart", [0.0, 8.0])
+def test_the_series_has_its_terms_for_a_single_wave_along_no_axis(sign, apart):
+    corners = np.array([1.875, -0.9375, -0.9375])
+    points = np.outer(corners, (0.5, 0.25, 0.25))
+    points[1] += 2.0**-10, 0.0, -(2.0**-10)
+    area = np.linalg.norm(np.cross(points[1] - points[0], points[2] - points[0])) / 2.0
+    surface = Surface(np.concatenate([points, points + (apart, -apart, 0.0)]), np.arange(6).reshape(2, 3))
+    found = surface_transform(surface, [[sign, sign, sign]]).values[0]
+    assert abs(found / (2.0 * area) - 1.0 - 2.0 * mean_less_half((sign * corners).tolist())) <= 2e-15
+
+
 def test_a_mesh_with_needles_and_corners_in_line_is_right(truth):
     points, triangles = BOX
     points = np.concatenate([points, [[0.5, 0, 0], [0.5 + 1e-13, 0, 0]]])
