@@ -54,6 +54,12 @@ def test_the_shell_of_a_cube_is_the_cube_less_the_smaller_cube(t):
     assert np.abs(body.center).max() <= 1e-15
 
 
+@pytest.mark.parametrize(("side", "high"), [("inward", 1.0), ("outward", 1.5), ("centered", 1.25)])
+def test_the_box_of_a_shell_ends_where_it_does_outside(side, high):
+    offset = offset_solid(bodies.surface(cube()))
+    assert [corner.tolist() for corner in offset.box(*split_thickness(side, 0.25))] == [[-high / 2] * 3, [high / 2] * 3]
+
+
 @pytest.mark.parametrize(("side", "low", "high"), [("outward", 1.0, 1.5), ("centered", 0.75, 1.25)])
 def test_outward_and_centered_shells_of_a_cube_are_mitred(side, low, high):
     body = wall(cube(), side, 0.25)
