@@ -93,6 +93,7 @@ def test_rational_patches_are_re_evaluated_to_rounding(patch):
     "spaces",
     [
         (clamped_space(3), clamped_space(3)),
+        (clamped_space(2), clamped_space(3)),
         (clamped_space(3), clamped_space(2, (0.25,))),
         (blender_space(3, 3, True, False, False), clamped_space(3)),
     ],
