@@ -3,6 +3,7 @@
 """Moments of any order against rational arithmetic, which has no tolerance: the numbers' own bounds, and the promised
 share of the absolute moment. Small blocks make small meshes take the path of large ones."""
 
+import math
 import tracemalloc
 from fractions import Fraction
 from functools import partial
@@ -18,6 +19,7 @@ from body_moments.core.polyhedron import third_order as polyhedron
 from hypothesis import given
 from hypothesis import strategies as st
 
+from tests.close import close
 from tests.core import exact
 from tests.core.findings import refused
 from tests.core.polyhedron.test_third_order import grid_torus
@@ -90,6 +92,67 @@ def test_a_body_10000_diameters_away_is_right_about_its_own_centre():
     assert share(volume, truth, absolute) < 1e-14
     assert_within(volume, truth)
     assert_within(area, exact.area_moments(points, triangles, volume.about, order=20))
+
+
+@pytest.mark.parametrize("exact_scale", [2.0**40, 2.0**-20])
+def test_a_body_so_far_away_that_powers_of_that_leave_the_range_is_bounded_as_at_home(exact_scale):
+    """By what it extends, not by where it is."""
+    points, triangles = octahedron(2)
+    size = min(1.0, exact_scale)
+    here, there = (
+        polyhedron_moments(Surface(size * points + place, triangles), 20, area_order=20) for place in (0.0, exact_scale)
+    )
+    for near, far in zip(here, there):
+        assert np.array_equal(near.raw, far.raw) and np.array_equal(near.rounding_error, far.rounding_error)
+
+
+@pytest.mark.parametrize("order", [3, 5])
+@pytest.mark.parametrize("cut", range(7))
+def test_triangles_and_quads_may_be_as_many_as_they_like(path, order, cut):
+    """Of a box, so many of whose sides are cut in two."""
+    points = np.array(exact.box((0, 0, 0), (2, 3, 5)), float)
+    halves = np.array(exact.fan(exact.BOX_QUADS[:cut]), int).reshape(-1, 3)
+    body, told = Surface(points, halves, np.array(exact.BOX_QUADS[cut:], int).reshape(-1, 4)), []
+    volume, area = polyhedron_moments(body, order, area_order=order, progress=told.append)
+    assert_within(volume, exact.box_moments((-1, -1.5, -2.5), (1, 1.5, 2.5), order))
+    assert close(area.total, 62.0, rel=1e-14) and told[-1] == 6 + cut
+
+
+@pytest.mark.parametrize("order", [3, 5])
+def test_quads_that_come_one_before_the_other_are_quads(path, order):
+    """Two of them then share what halves of one quad would share."""
+    points, quads = grid_torus(12, 8, noise=0.05)
+    backward = quads.reshape(12, 8, 4)[::-1].transpose(1, 0, 2).reshape(-1, 4)
+    found, plain = (
+        polyhedron_moments(Surface(points, quads=own), order, area_order=order) for own in (backward, quads)
+    )
+    for one, other in zip(found, plain):
+        assert (np.abs(one.raw - other.raw) <= one.rounding_error + other.rounding_error).all()
+
+
+def test_what_additions_round_off_is_not_lost():
+    total = recursion._CompensatedSum(4, 1)
+    rng = np.random.default_rng(0)
+    values = [1.0, 1e100, 1.0, -1e100, *(rng.normal(size=2000) * 10.0 ** rng.uniform(-9.0, 9.0, 2000))]
+    for value in values:
+        total.add(levels.Sums(np.array([[value]]), np.ones((9, 1)), np.zeros(3)))
+    assert close(total.high + total.low, [[math.fsum(values)]], rel=4e-16)
+
+
+@pytest.mark.parametrize("order", [2, 6])
+def test_pieces_whose_points_are_stored_to_other_digits_have_bounds_of_their_own(order):
+    """One as float64, and two as float32, of which one is far away."""
+    points, faces = octahedron()
+    pieces = [
+        Surface(points, faces),
+        Surface((points / 3.0).astype(np.float32), faces),
+        Surface((points / 7.0 + 1000.0).astype(np.float32), faces),
+    ]
+    measure = partial(polyhedron_moments, order=order, about=np.zeros(3), reach=1.0)
+    alone = [measure(piece)[0].input_error for piece in pieces]
+    assert not alone[0].any() and (alone[2] > alone[1]).all() and (alone[1] > 0.0).all()
+    for turn in range(3):
+        assert close(measure(pieces[turn:] + pieces[:turn])[0].input_error, sum(alone), rel=1e-12)
 
 
 @holds(120)
@@ -191,7 +254,9 @@ def test_of_large_meshes_the_third_order_is_exact_on_request_alone(monkeypatch):
 
 @pytest.mark.parametrize("kind", ["i4", "i8", "f2", "f4", ">f4", ">f8"])
 @pytest.mark.parametrize("order", [2, 6])
-def test_corners_may_be_numbers_of_any_kind(path, order, kind):
+@pytest.mark.parametrize("few", [0, 1024])
+def test_corners_may_be_numbers_of_any_kind(path, few, order, kind, monkeypatch):
+    monkeypatch.setattr(polyhedron, "MAX_SMALL_TRIANGLES", few)
     points, faces = octahedron()
     corners = 4.0 * points[faces]
     truth = polyhedron_moments([corners], order, area_order=order)
@@ -284,6 +349,7 @@ def test_nothing_has_moments_of_zero():
         for nothing in (Surface(np.zeros((0, 3))), [], iter(())):
             volume, area = polyhedron_moments(nothing, order, area_order=order)
             assert not volume.raw.any() and len(area.raw) == monomial_count(order)
+            assert np.array_equal(volume.about, np.zeros(3)) and np.array_equal(area.about, np.zeros(3))
         for moments in polyhedron_moments([], order, area_order=order, about=(1.0, 2.0, 3.0)):
             assert np.array_equal(moments.about, (1.0, 2.0, 3.0))
 
@@ -348,6 +414,14 @@ def test_what_leaves_it_at_low_orders_is_refused_too_and_what_stays_is_told():
             polyhedron_moments(iter([triangles, triangles]), order)
         with refused("moments_overflow", order=order):
             polyhedron_moments(Surface(points * 1e60, quads=quads), order)
+    with refused("moments_overflow", order=3):  # one infinite, the other its negative
+        polyhedron_moments(iter([triangles, triangles[:, ::-1]]), 3)
+    corners = octahedron(1, noise=0.3)[0][octahedron(1)[1]]
+    largest = np.abs(polyhedron_moments(iter([corners]), 3)[0].raw[10:]).max()
+    corners = corners * 1.2e308 ** (1.0 / 6.0) * largest ** (-1.0 / 6.0)
+    assert np.isfinite(polyhedron_moments(iter([corners]), 3)[0].raw).all()
+    with refused("moments_overflow", order=3):  # each of two is in the range, their sum is not
+        polyhedron_moments(iter([corners, corners]), 3)
 
 
 @pytest.mark.parametrize("order", [4, 9, 20])

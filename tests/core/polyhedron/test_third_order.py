@@ -255,13 +255,32 @@ def test_relative_errors_stay_below_1e_14_far_from_the_origin(factor):
     assert max(abs(float(value) - float(right)) for value, right in zip(moments.raw[4:10], truth[4:10])) < 1e-14 * size
 
 
-def test_bounds_of_float32_points_scale_exactly_with_powers_of_two(path):
+@pytest.mark.parametrize("exponent", [8, 110, -105])
+@pytest.mark.parametrize("area_order", [None, 0, 3])
+@pytest.mark.parametrize("about", [None, (0.25, -0.5, 0.125)])
+def test_bounds_of_float32_points_scale_exactly_with_powers_of_two(path, about, area_order, exponent):
+    """Also where they would leave the range of numbers, unscaled."""
     points, quads = grid_torus(noise=0.05)
-    points, powers = points.astype(np.float32), 8 * np.array([sum(m) for m in MONOMIALS])
-    plain, scaled = (polyhedron_moments(Surface(np.ldexp(points, n), quads=quads), area_order=3) for n in (0, 8))
+    points = (np.round(points * 2.0**16) / 2.0**16).astype(np.float32)
+    if about is None:
+        points[0], points[1] = 2.0, -2.0  # so that the middle is one of their numbers
+    triangles = Surface(points, quads=quads).all_triangles()[0]
+    plain, scaled = (
+        polyhedron_moments(
+            Surface(np.ldexp(points, n), triangles),
+            area_order=area_order,
+            about=None if about is None else np.ldexp(about, n),
+        )
+        for n in (0, exponent)
+    )
     for one, other, dimension in zip(plain, scaled, (3, 2)):
+        if one is None:
+            assert other is None
+            continue
+        powers = exponent * (np.array([sum(m) for m in MONOMIALS[: len(one.raw)]]) + dimension)
+        assert np.array_equal(other.about, np.ldexp(one.about, exponent))
         for name in ("raw", "rounding_error", "input_error"):
-            assert close(getattr(other, name), np.ldexp(getattr(one, name), powers + 8 * dimension), rel=1e-12), name
+            assert close(getattr(other, name), np.ldexp(getattr(one, name), powers), rel=1e-12), name
 
 
 @pytest.mark.parametrize("exponent", [-300, -140, -30, 30, 100])

@@ -281,6 +281,8 @@ def test_bounds_of_high_orders_are_made_of_these_sizes(reach, exponent, area):
     assert not found.input_error.any()
     expected = (U * (8.0 * degree + 228.0) * sizes[0] + sizes[1]) / mean
     assert close(found.rounding_error, expected * scale + 8.0 * U * np.abs(found.raw), rel=1e-8)
+    least = expected * (1.0 + 1e-11) * scale + 8.0 * U * np.abs(found.raw)  # what the sizes are rounded by is added
+    assert (found.rounding_error >= least).all()
     job.half_ulp, inputs = half_ulp * 2.0**exponent, sizes[2].copy()
     if area:
         rows = monomials(order).tolist()
@@ -289,9 +291,12 @@ def test_bounds_of_high_orders_are_made_of_these_sizes(reach, exponent, area):
                 if power:
                     lower = rows.index([n - (k == axis) for k, n in enumerate(powers)])
                     inputs[number] += power * half_ulp[axis] / np.linalg.norm(half_ulp) * total.sizes[2, lower]
-    assert close(job._moments(total, "area" if area else "volume").input_error, inputs * scale, rel=1e-8)
+    moved = job._moments(total, "area" if area else "volume").input_error
+    assert close(moved, inputs * scale, rel=1e-8) and (moved >= inputs * (1.0 + 1e-11) * scale).all()
     total.high, total.low, total.sizes = np.zeros((2, 35)), np.zeros((2, 35)), np.zeros((6, 35))
     assert close(job._moments(total, "area" if area else "volume").rounding_error, 7e-220 * scale, rel=1e-12)
+    tiny = any_order._StreamIntegrator(order, True, 1, None, np.zeros(3), 2.0**-300)
+    assert (tiny._moments(total, "area" if area else "volume").rounding_error > 0.0).all()
 
 
 @pytest.mark.parametrize("degree", [0, 1, 2])
