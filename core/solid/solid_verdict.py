@@ -148,7 +148,7 @@ def judge(
             volume, raw=np.zeros_like(volume.raw), rounding_error=volume.rounding_error + np.abs(volume.raw)
         )
     flipped, inverted = NO_FACES, np.flatnonzero(oriented.turned)
-    if len(mesh.face) and (mesh.flipped.any() or len(inverted)):
+    if mesh.flipped.any():
         flipped, inverted = _flipped_faces(mesh, oriented.turned)
     self_intersecting = oriented.is_solid and not has_open and volume.total > 0.0
     if self_intersecting:

@@ -152,7 +152,8 @@ PATTERNS = [
     (r".*shape/symmetry.py _around_axis", r"turn @ seed", r"\(seed @ turn\)", "the same operations"),
     (
         r".*mesh/bvh.py Bvh._sort",
-        r"components\.low - self\.origin|code\[triangle_rows\] \|= .*|1023\.0( / .*)?|0\.5( \* .*)?|\( ?0\.5 .*|components\.high - components\.low|"
+        r"components\.low - self\.origin|code\[triangle_rows\] \|= .*|1023\.0( / .*)?|0\.5( \* .*)?|\( ?0\.5 .*|"
+        r"components\.high - components\.low|"
         r"low\[k, triangle_rows\] \+ high\[k, triangle_rows\]",
         r".*",
         "in which order the triangles of a tree stand, and so how much is looked at",
@@ -1084,7 +1085,7 @@ CONSTANTS = [
         "read, and not looked at where nothing is to be proved closed",
     ),
     (r".*", r"\.astype\(.*copy=", "a copy"),
-    (r"(operators|core/solid)/.*", r"\bthreads: int = ", "with how many threads moments are summed, which are the same"),
+    (r"(operators|core/solid)/.*", r"\bthreads: int = ", "with how many threads is summed, which is the same"),
     (r"operators/bodies/rig.py rig_hash", r"bone\.length, ", "from which difference on a bone is another one"),
     (
         r"operators/bodies/(array.py measure_array|stream.py measure_mesh_file)",

@@ -343,7 +343,7 @@ def test_a_one_sided_surface_is_open(part):
     assert result.method == "open" and not result.health.closed
     assert only(result) == Finding("one_sided_components", {"count": 1, "total": 1})
     beside = verdict(joined(part, box((5, 5, 5), (6, 6, 6))))
-    assert beside.method == "open" and beside.findings[0].values == {"count": 1, "total": 2}
+    assert beside.method == "open" and only(beside).values == {"count": 1, "total": 2}
 
 
 @pytest.mark.parametrize("dtype", [np.float64, np.float32])
@@ -362,7 +362,7 @@ def test_a_one_sided_surface_is_open(part):
 def test_what_is_flat_encloses_nothing(part, dtype):
     result = verdict(part, dtype)
     assert result.method == "open" and not result.volume.raw.any() and result.health.cap_area_share == 0.0
-    assert codes(result)[-1] == "flat_surface"
+    assert codes(result)[-1] == "flat_surface" and "flat_components" not in codes(result)
 
 
 @pytest.mark.parametrize("turned", [False, True])
@@ -950,11 +950,27 @@ def bent(height):
     return measure_solid(mesh(CORNERS + np.array([[0, 0, height * (k == 7)] for k in range(8)]), SIDES.tolist()))
 
 
-def noisy(step, height=1.0):
+def noisy(step, height=1.0, scale=1.0):
     """A ball of triangles apart, flattened, whose corners do not quite meet."""
     points, triangles = soup(sphere(3))
-    points = points * [1.0, 1.0, height]
-    return verdict((points + np.random.default_rng(5).uniform(-step, step, points.shape), triangles))
+    points = points * [1.0, 1.0, height] + np.random.default_rng(5).uniform(-step, step, points.shape)
+    return verdict((scale * points, triangles))
+
+
+@pytest.mark.parametrize("scale", [1e-9, 1.0, 1e9])
+@pytest.mark.parametrize("height, code", [(1.0, "vertices_welded_slightly"), (0.01, "vertices_welded")])
+def test_what_welding_may_change_is_a_share_of_the_volume(height, code, scale):
+    found = noisy(3e-7, height, scale).findings[0]
+    assert found.code == code and 1e-8 < found.values["share"] < 1e-6
+
+
+@pytest.mark.parametrize("count, total", [(7, 0.25), (8, 0.0), (9, 0.25)])
+def test_more_cavities_than_material_make_no_body(count, total):
+    """A box of volume 2 less so many times the same cavity of a quarter."""
+    holes = [inverted(box((0.5, 0.25, 0.25), (1.5, 0.75, 0.75)))] * count
+    result = verdict(joined(box((0, 0, 0), (2, 1, 1)), *holes))
+    assert result.method == ("open" if count > 8 else "exact") and result.volume.total == total
+    assert codes(result) == ["cavities_subtracted", "components_overlap"] + ["self_intersecting"] * (count > 8)
 
 
 def with_a_copy(part):

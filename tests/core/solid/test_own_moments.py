@@ -35,12 +35,29 @@ def test_the_area_is_that_of_the_faces_that_were_given():
         body = measure_solid(surface(part))
         found = body.moments(2, area_order=4)[1]
         assert close(found.total, area, rel=1e-13) and close(body.area.total, area, rel=1e-13) and found.order == 4
+        assert found.about.tolist() == body.volume.about.tolist()
 
 
 def test_a_flat_body_has_no_moments():
     body = measure_solid(surface(joined(box((0, 0, 0), (1, 1, 0)))))
     volume, area = body.moments(6, area_order=0)
     assert not volume.raw.any() and close(area.total, 2.0, rel=1e-14)
+
+
+@pytest.mark.parametrize("order", [3, 6])
+def test_a_body_that_is_all_but_flat_has_none_within_their_bounds(order):
+    """Its volume is 10^-15, which is less than what rounding may leave of a closed sheet of its size."""
+    body = measure_solid(surface(box((0, 0, 0), (1, 1, 1e-15))))
+    volume = body.moments(order)[0]
+    for found in (body.volume, volume):
+        assert not found.raw.any() and 1e-15 <= found.rounding_error[0] < 1e-12
+
+
+def test_faces_that_are_open_keep_their_sums_though_what_they_enclose_makes_up_for_it():
+    points = np.array([[0, 0, 0], [0, 2, 0], [1, 1, 0], [2, 1, 1.5], [-1, 1, -0.5]])
+    pages = points, np.array([[0, 1, 2], [0, 1, 3], [0, 1, 4]])
+    body = measure_solid(surface(joined(moved(pages, offset=(-2, 0, 0)), moved(pages, -np.eye(3), (2, 2, 0)))))
+    assert str(body.method) == "open" and body.volume.raw[1:].any()
 
 
 @pytest.mark.parametrize(
