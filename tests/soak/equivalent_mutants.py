@@ -616,7 +616,114 @@ PATTERNS = [
         r".*",
         "what is no assembly, or is not stored, is left out later",
     ),
-    (r".*any_order.py .*_ordered_results", r"len\(waiting\) > .*", r".* >= .*", "how many tasks wait at a time"),
+    (
+        r".*any_order.py .*_ordered_results",
+        r"len\(waiting\) > .*|2 \* self\.threads|len\(first\) < 2|2",
+        r".*",
+        "how many tasks wait at a time, in how many threads",
+    ),
+    (
+        r".*any_order.py _exponent",
+        r"exponent if .*",
+        r"\(exponent\)",
+        "a power of two, by which nothing is rounded",
+    ),
+    (
+        r".*any_order.py _StreamIntegrator._run",
+        r"self\.idle\.pop\(\) if .*|self\.idle\.append\(levels\)",
+        r"\(AnyOrderKernel.*|pass",
+        "a kernel is made anew each time",
+    ),
+    (
+        r".*any_order.py _StreamIntegrator._blocks",
+        r"quad_corners\(faces\) if .*|\(faces\.T, task\.size\) if .*|task\.size // 2",
+        r"None|\(\(faces\.T, task\.size\)\)|\(task\.size \* 2\)",
+        "loose triangles come to what pairs of them do",
+    ),
+    (
+        r".*any_order.py _StreamIntegrator._tasks",
+        r"-\(-len\(faces\) // size\)|-len\(faces\)( // size)?",
+        r".*",
+        "how much is handed out at a time",
+    ),
+    (
+        r".*any_order_kernel.py _Block._append_raise",
+        r"_first_row\(end\) - _first_row\(first - 2\)",
+        r"\(_first_row\(end\) \+ .*",
+        "how many rows are raised at a time",
+    ),
+    (
+        r".*polyhedron/(third_order.py integrate|any_order_kernel.py absolute_sums)",
+        r".* \* \(1\.0 \+ 4\.0 \* U\)",
+        r"\(.* / \(1\.0 \+ 4\.0 \* U\)\)",
+        "a few units in the last place of what bounds are made of that are larger by more",
+    ),
+    (
+        r".*polyhedron/third_order.py integrate",
+        r"SCRATCH_BYTES\[0\] \* count( \+ .*)?",
+        r".*",
+        "how much is computed at a time",
+    ),
+    (
+        r".*polyhedron/third_order.py _Integration.block(_sum)?s",
+        r"(self\.)?size // 2|threads == 1",
+        r"\((self\.)?size \* 2\)|\(threads != 1\)",
+        "how much is computed at a time, in how many threads",
+    ),
+    (
+        r".*polyhedron/third_order.py _Integration._add",
+        r"len\(first\) >= MIN_TRIANGLES_TO_PAIR",
+        r"\(len\(first\) > MIN_TRIANGLES_TO_PAIR\)",
+        "loose triangles come to what pairs of them do",
+    ),
+    (
+        r".*polyhedron/third_order_kernel.py scratch_size",
+        r"9 \* fans if exact else 0",
+        r"\(9 \* fans\)",
+        "more scratch than is needed",
+    ),
+    (
+        r".*polyhedron/n_dimensions.py _measure",
+        r"NUMBERS_PER_BLOCK // .*",
+        r"\(NUMBERS_PER_BLOCK \* .*",
+        "how much is computed at a time",
+    ),
+    (
+        r".*polyhedron/(n_dimensions.py _measure|simplices.py (facets_of|closes))",
+        r"(weight \* np\.asarray\(signs, .*|(turned|parity) \* \(-1\.0\) \*\* k)",
+        r"\(.* / .*",
+        "times -1 is by -1",
+    ),
+    (
+        r".*polyhedron/simplices.py _sorted_corners",
+        r"np\.asarray\(points, np\.float64\) \+ 0\.0",
+        r".* - 0\.0\)",
+        "numpy takes both zeros for one here",
+    ),
+    (
+        r".*polyhedron/sheared_areas.py area_of_images",
+        r"PRODUCTS_PER_BLOCK // len\(linear\)|.*\.sum\(axis=\(0, 1\)\) @ \w+",
+        r"\(PRODUCTS_PER_BLOCK \* .*|\(\w+ @ .*",
+        "how much is computed at a time; a product of two vectors",
+    ),
+    (
+        r".*polyhedron/integration.py _to_order",
+        r"len\(moments\.raw\) <= .*",
+        r"\(len\(moments\.raw\) < .*",
+        "of all there are none is left out",
+    ),
+    (
+        r".*polyhedron/integration.py polyhedron_moments",
+        r"area_order is None or area is None",
+        r"\(area_order is None\)",
+        "there is an area where one is asked for",
+    ),
+    (
+        r".*polyhedron/workspace.py Workspace.block",
+        r"block is None or shape != self\._shape|len\(self\._buffer\) < needed",
+        r"\(shape != self\._shape\)|.* <= needed\)",
+        "there is no shape where there is no block; a buffer is made anew",
+    ),
     (r".*streams/ply_rows.py RowReader._read_ahead", r"len\(self._buffer\) < count", r".* <= .*", "what is read ahead"),
     (
         r".*papers/.*_phi.py _integrals",
@@ -656,6 +763,13 @@ PATTERNS = [
         "each of them is looked at more closely",
     ),
     (r".*plane/polygon.py _crossing_pairs", r"break", r"continue", "it goes on to no avail"),
+    (
+        r".*plane/polygon.py _crossing_pairs",
+        r"\(low\[edge, 0\] \+ within // tall\[edge\]\) \* \(2 \* GRID_CELLS\)",
+        r".* / .*",
+        "a number of its own for each cell still",
+    ),
+    (r".*rigs/dominance.py dominant_bones", r"PAIRS_PER_BLOCK // number", r".*", "how much is looked at at a time"),
     (
         r".*density/piecewise_mass.py _block_size",
         r"TRIANGLES_PER_BLOCK \* 20 // .*",
@@ -1178,6 +1292,32 @@ CONSTANTS = [
         "how much is handed out at a time",
     ),
     (r".*polyhedron/n_dimensions.py _measure", r"NUMBERS_PER_BLOCK // \(", "how much is computed at a time"),
+    (r".*polyhedron/n_dimensions.py _measure", r"else np\.zeros\(\(", "there is nothing anyway"),
+    (r".*any_order.py _exponent", r" else ", "a power of two, by which nothing is rounded"),
+    (r".*any_order.py _CompensatedSum.add", r"count_of_degree\(self\.order\) \* ", "how much is computed at a time"),
+    (
+        r".*any_order.py _StreamIntegrator.__init__",
+        r"max\(",
+        "with how many threads moments are summed, which are the same",
+    ),
+    (r".*any_order.py _StreamIntegrator._input_error", r"np\.append\(.*, ", "times a power of zero"),
+    (
+        r".*any_order_kernel.py (scratch_layout|row_count)",
+        r"(\"single\": \(|\"room\": \(|prod\(shape\) \+ )",
+        "more scratch than is needed",
+    ),
+    (
+        r".*any_order_kernel.py _Block._append_raise",
+        r"while first > (1 and _first_row\(end\) - _first_row\(first - )?",
+        "how many rows are raised at a time",
+    ),
+    (r".*any_order_small.py _coefficients", r"levels = np\.zeros\(\(3, ", "a row more of zeros"),
+    (r".*polyhedron/third_order.py integrate", r"largest and not ", "a power of two, by which nothing is rounded"),
+    (r".*polyhedron/third_order.py integrate", r"scratch_size\(", "how much is computed at a time"),
+    (r".*polyhedron/third_order.py integrate", r"threads = max\(", "with how many threads moments are summed"),
+    (r".*polyhedron/third_order.py integrate", r"\* \(1\.0 \+ ", "a few units in the last place of a bound"),
+    (r".*polyhedron/third_order.py _Integration.block_sums", r"(threads == |self\.size // )", "how much at a time"),
+    (r".*polyhedron/workspace.py Workspace.*", r"(np\.empty\(|self\._position: int = )", "it is made anew"),
     (r".*polyhedron/third_order.py integrate", r"size = max\(.*", "how much is computed at a time"),
     (r".*polyhedron/any_order_kernel.py AnyOrderKernel.block_sums", r"if k > ", "how much of a block is filled up"),
     (r".*streams/stl.py ", r"TRIANGLES_PER_BLOCK, TRIANGLES_IN_CACHE = .*", "how much is read at a time"),
@@ -1513,7 +1653,7 @@ def reason(mutant: Mutant) -> str:
     is_doubled = re.fullmatch(r"\d+\.\d*", before) and after == repr(2.0 * float(before))
     if place in LOOSER and is_doubled and not ahead.endswith("/ "):
         return "a looser bound"
-    if ahead.endswith("(-1.0) ** (") and after == "({})".format(before.replace(" + ", " - ")):
+    if ahead.endswith(("(-1.0) ** (", "(-1) ** (")) and after == "({})".format(before.replace(" + ", " - ")):
         return "both are even, or both odd"
     if "inertia/canonical_" in place and ahead.endswith("range((") and before == "degree - m":
         return "both are even, or both odd"
