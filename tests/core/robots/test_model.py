@@ -103,6 +103,8 @@ def test_principal_axes_that_do_not_give_the_tensor_are_found_anew():
     tilt, rod_moments = rotation_of_angles(0.0, 0.0, 1e-9), np.array([3e-20, 1.0, 1.0 + 2.0**-51])
     rod = Inertial.with_agreeing_axes(1.0, Z, np.diag([1e-20, 1.0, 1.0]), rod_moments, tilt)
     assert rod.moments[0] == 3e-20 and rod.moments[2] <= rod.moments[0] + rod.moments[1]
+    other = Inertial.with_agreeing_axes(1.0, Z, np.diag([1e-20, 1.0, 1.0]), rod_moments[[0, 2, 2]], tilt)
+    assert (other.moments == rod_moments[[0, 2, 2]]).all()  # what agrees stays to the last digit
     for scale in (2.0**-40, 2.0**40):
         tensor, moments = agreeing.inertia * scale, np.array([1.0, 2.0, 3.0]) * scale
         scaled = Inertial.with_agreeing_axes(1.7, true.center, tensor, moments, off)

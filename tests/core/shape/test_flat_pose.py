@@ -76,6 +76,24 @@ def test_a_rectangle_has_two_turns_and_two_mirrors_across_its_plane_wherever_tha
         assert np.abs(found.operations - true).max(axis=(1, 2)).min() < 1e-9
 
 
+@pytest.mark.parametrize("seed", [3, 5])
+def test_what_is_round_has_any_turn_and_a_mirror_across_its_plane_wherever_that_is(seed):
+    axes = rotation(seed)
+    angle = 2.0 * np.pi / 720.0 * np.arange(720)
+    rim = np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    zernike = disc_zernike(region_moments(rim, directed_edges([range(720)]), 8), 1.1)
+    places = np.pad(rim, ((0, 0), (0, 1)))
+
+    def from_rim(places):
+        return np.hypot(np.hypot(places[:, 0], places[:, 1]) - 1.0, places[:, 2])
+
+    found = flat_symmetry(zernike, 8, rim, axes, holds_by_outline(places, from_rim, 1e-6))
+    assert found.group == "C∞v" and np.array_equal(found.revolution_axes, axes[:, 2][None])
+    unit, mirror = found.operations
+    assert np.abs(unit - np.eye(3)).max() < 1e-14 and np.linalg.det(mirror) < 0.0
+    assert np.abs(mirror @ axes[:, 2] - axes[:, 2]).max() < 1e-14 and np.abs(mirror @ mirror - np.eye(3)).max() < 1e-14
+
+
 @pytest.mark.parametrize("seeds", [(1, 2), (4, 1)])
 @pytest.mark.parametrize("mirrored", [False, True])
 def test_a_triangle_is_laid_onto_its_like_from_plane_to_plane(seeds, mirrored):
