@@ -52,7 +52,7 @@ def measure_many(
     collector = _Collector(depsgraph, options)
     for obj in objects:
         pending.append((obj, collector.add(obj)))
-        if collector.is_full or len(pending) >= MAX_OBJECTS_PER_STACK:
+        if len(pending) >= MAX_OBJECTS_PER_STACK or collector.faces >= MAX_FACES_PER_STACK:
             yield from _outcomes(pending, collector)
             pending, collector = [], _Collector(depsgraph, options)
     if pending:
@@ -120,10 +120,6 @@ class _Collector:
         self._by_content: dict[tuple[bytes, ...], MeshShape] = {}
         self._settings: dict[tuple[float | None, float | None], str] = {}
 
-    @property
-    def is_full(self) -> bool:
-        return len(self.members) >= MAX_OBJECTS_PER_STACK or self.faces >= MAX_FACES_PER_STACK
-
     def add(self, obj: bpy.types.Object) -> StackMember | None:
         """The object as one of the stack; None where it cannot be, or reading it fails: by itself it fails again."""
         try:
@@ -185,8 +181,8 @@ class _Collector:
         if not len(mesh.polygons) or len(mesh.polygons) > MAX_FACES_HIGH_ORDER:
             return None
         surface = mesh_surface(mesh)
-        corners = np.empty(0) if surface.corner_vertices is None else surface.corner_vertices
-        content = surface.points.tobytes(), corners.tobytes(), surface.quads.tobytes()
+        arrays = surface.points, surface.corner_vertices, surface.triangles, surface.quads
+        content = tuple([np.asarray(array).tobytes() for array in arrays])
         if content in self._by_content:
             return self._by_content[content]
         if not np.isfinite(surface.points).all():

@@ -91,10 +91,9 @@ class MeshShape:
         """The volume's moments that axes are found by, of one that was measured by itself."""
         solid = self.alone
         assert solid is not None
-        with np.errstate(over="ignore", invalid="ignore"):
-            found = polyhedron_moments(
-                solid.repaired_surface, MAX_ORDER, about=solid.volume.about, exact=True, allow_open=True
-            )
+        found = polyhedron_moments(
+            solid.repaired_surface, MAX_ORDER, about=solid.volume.about, exact=True, allow_open=True
+        )
         return with_known(found[0], solid.volume)
 
 

@@ -209,6 +209,62 @@ def test_so_many_objects_and_faces_are_measured_together(monkeypatch, max_object
     assert all(isinstance(found, Stacked) for some in together for _, found in some)
 
 
+def object_of(points, faces, name="Object"):
+    mesh = bpy.data.meshes.new(name)
+    mesh.from_pydata(np.asarray(points, float).tolist(), [], [list(map(int, face)) for face in faces])
+    obj = bpy.data.objects.new(name, mesh)
+    bpy.context.scene.collection.objects.link(obj)
+    bpy.context.view_layer.update()
+    return obj
+
+
+def test_meshes_with_the_same_corners_in_other_faces_are_other_shapes():
+    """A triangle and five corners, or five corners and a triangle, and what closes either of them."""
+    points = [(0, 0, 0), (2, 0, 0.5), (3, 2, -0.5), (1, 3, 0), (-1, 2, 0.5), (2, 4, 1), (1, 1, 3), (2, 3, -3)]
+    a, b, c, d, e, g, p, q = range(8)
+    rest = [(a, e, p), (e, d, p), (d, c, p), (c, b, p), (b, a, p), (a, c, q), (c, g, q), (g, a, q)]
+    objects = [
+        object_of(points, [*first, *rest]) for first in ([(a, b, c, d, e), (a, g, c)], [(a, b, c), (d, e, a, g, c)])
+    ]
+    pairs, depsgraph = all_outcomes(objects)
+    volumes = [found.measurement.volume for _, found in pairs]
+    assert abs(volumes[0] - volumes[1]) > 0.01
+    for obj, found in pairs:
+        assert_same(found, alone(obj, depsgraph))
+
+
+@pytest.mark.filterwarnings("error")
+def test_axes_beyond_the_range_of_numbers_are_refused_together_as_alone_without_a_warning_of_numpy(capfd):
+    """A ring of many faces, whose sixth moments are no numbers."""
+    points, faces = s.torus(48, 16)
+    obj = object_of(1e36 * np.asarray(points), faces)
+    ((_, found),), depsgraph = all_outcomes([obj])
+    assert_same(found, alone(obj, depsgraph))
+    assert not capfd.readouterr().err
+
+
+@pytest.mark.parametrize(
+    "settings",
+    [
+        {},
+        {"mass_from": "MASS", "mass": 3.0},
+        {"mass_from": "MASS", "use_center": True, "given_center": (0.1, 0.2, 0.3)},
+        {"mass_from": "MASS", "use_inertia": True, "given_inertia_diagonal": (3.0, 4.0, 5.0)},
+        {"density_from": "POLYNOMIAL", "density_polynomial": "100 + x"},
+        {"kind": "SHELL"},
+        {"overlap": "UNION"},
+    ],
+)
+def test_what_is_set_of_each_and_given_for_all_counts_together_as_alone(settings):
+    obj = object_of(*s.box())
+    for name, value in settings.items():
+        setattr(obj.body_moments, name, value)
+    bpy.context.view_layer.update()
+    for options in ({}, {"mass": 5.0}, {"density": 7.0}, {"kind": "solid", "overlap": "signed"}, {"order": 2}):
+        pairs, depsgraph = all_outcomes([obj], MeasureOptions(**options))
+        assert_same(pairs[0][1], alone(obj, depsgraph, MeasureOptions(**options)))
+
+
 def test_what_has_many_faces_or_none_is_measured_by_itself(monkeypatch):
     """Sixth moments, which tell axes of the others, take long there: as many faces as may be, one more, none."""
     for module in (many, measurement):
