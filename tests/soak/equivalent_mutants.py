@@ -1200,6 +1200,11 @@ CONSTANTS = [
     ),
     (r".*", r"\.astype\(.*copy=", "a copy"),
     (r"(operators|core/solid)/.*", r"\bthreads: int = ", "with how many threads is summed, which is the same"),
+    (
+        r"operators/bodies/many.py _Collector._weight",
+        r"effective_hash\(\"SOLID\", density, mass, ",
+        "the thickness of what is no shell does not count",
+    ),
     (r"operators/bodies/rig.py rig_hash", r"bone\.length, ", "from which difference on a bone is another one"),
     (
         r"operators/bodies/(array.py measure_array|stream.py measure_mesh_file)",
@@ -1538,6 +1543,8 @@ LOOSER = {
     "core/polyhedron/any_order_kernel.py absolute_sums",
     "core/polyhedron/sheared_areas.py area_of_images",
     "operators/bodies/given.py given_moments",
+    "operators/bodies/region.py body",
+    "operators/bodies/wire.py body",
     "operators/write/flat_record.py SHIFT_ROUNDINGS",
 }
 # (module, function, before, after): the reason
