@@ -220,6 +220,12 @@ def test_a_round_body_says_that_its_hull_is_simplified(scene, reported, monkeypa
     bpy.ops.object.body_moments_stability()
     gap = session.compute(bpy.context.object, bpy.context.evaluated_depsgraph_get()).gap
     assert gap > 0.0 and close(reported.values("hull_simplified")["share"], gap / 2.0, 1e-6)
+    corners = reported.values("hull_simplified")["corners"]
+    for limit, is_reached in ((corners, True), (corners + 1, False)):
+        monkeypatch.setattr(action, "MAX_CORNERS", limit)
+        reported.clear()
+        bpy.ops.object.body_moments_stability()
+        assert ("hull_simplified" in reported.codes) == is_reached
 
 
 def test_instances_stand_on_what_they_show(scene):

@@ -14,6 +14,7 @@ import bpy
 import numpy as np
 from body_moments.core.inertia.mass_properties import combine
 from body_moments.core.numerics.rotations import rotation_matrix
+from body_moments.operators.actions.export import robot
 from body_moments.operators.bodies.measure_object import measure_object
 from body_moments.operators.bodies.rig import measure_rig
 from body_moments.operators.write.robots import gltf
@@ -150,6 +151,21 @@ def test_gltf_has_its_bodies_in_the_axes_of_its_nodes(tmp_path, unit):
     found = turn @ tensor(motion["inertiaDiagonal"], [w, x, y, z]) @ turn.T * unit**2
     truth = y_up @ world.inertia @ y_up.T
     assert np.abs(found - truth).max() < 1e-6 * np.abs(truth).max()
+
+
+def test_masses_alone_are_a_gltf_of_the_kind_that_its_name_says(tmp_path):
+    pair()
+    for suffix, start in ((".glb", b"glTF"), (".GLB", b"glTF"), (".gltf", b"{")):
+        path = tmp_path / ("robot" + suffix)
+        assert export("gltf", path, inertial_only=True) == {"FINISHED"}
+        data = path.read_bytes()
+        assert data.startswith(start) and "Upper" in {node["name"] for node in gltf.read_json(data)["nodes"]}
+
+
+def test_a_file_that_is_dropped_is_not_written_over():
+    """These formats are for collections that are exported: Blender would run the exporter on the file."""
+    assert len(robot.FILE_HANDLERS) == 5
+    assert not any(handler.poll_drop(bpy.context) for handler in robot.FILE_HANDLERS)
 
 
 def test_the_rest_of_a_glb_stays_to_the_bit():

@@ -178,7 +178,10 @@ def test_reading_back_needs_no_scan(tmp_path):
         assert np.array_equal(reading.to_object, matrix)
 
 
-def test_a_volume_is_written_whole_or_not_at_all(tmp_path, monkeypatch, capfd):
+@pytest.mark.parametrize(
+    "error", [RuntimeError("no space left"), OSError("no space left"), OSError(28, "no space left")]
+)
+def test_a_volume_is_written_whole_or_not_at_all(error, tmp_path, monkeypatch, capfd, reported):
     path = written(tmp_path / "a.nii", nifti(samples("i2")))
     imported(path)
     assert ".." not in capfd.readouterr().out
@@ -194,12 +197,13 @@ def test_a_volume_is_written_whole_or_not_at_all(tmp_path, monkeypatch, capfd):
         def write(self, file, grid):
             with open(file, "wb") as partial:
                 partial.write(b"half")
-            raise RuntimeError("no space left")
+            raise error
 
     real = import_scan.openvdb()
     monkeypatch.setattr(import_scan, "openvdb", Failing)
     with pytest.raises(RuntimeError, match="no space left"):
         bpy.ops.object.body_moments_import_scan(filepath=str(path), overwrite=True)
+    assert reported.values("volume_not_written") == {"error": "no space left"}
     assert (tmp_path / "a.vdb").read_bytes() == kept
     assert sorted(one.name for one in tmp_path.iterdir()) == ["a.nii", "a.vdb"]
 

@@ -3,9 +3,11 @@
 """The Fourier transform as a window runs it: progress, the image in its editors, the grid that it is asked for."""
 
 from math import pi
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from body_moments.operators.actions.measure import fourier
 from body_moments.operators.actions.measure.fourier import (
     OBJECT_OT_body_moments_fourier,
     OBJECT_OT_body_moments_fourier_run,
@@ -59,6 +61,18 @@ def test_the_dialog_proposes_the_flat_shape_of_what_is_flat_unless_something_els
     add(box_mesh(1, 2, height), "Box").body_moments.kind = kind
     operator = stand_in(OBJECT_OT_body_moments_fourier, print, **asked)
     assert operator.invoke(Window(), None) == {"RUNNING_MODAL"} and operator.of == proposed
+
+
+@pytest.mark.parametrize(("is_open", "call"), [(True, "INVOKE_DEFAULT"), (False, "EXEC_DEFAULT")])
+def test_in_a_window_it_goes_on_in_steps_and_without_one_at_once(is_open, call, monkeypatch):
+    asked = []
+    running = SimpleNamespace(
+        body_moments_fourier_run=lambda *how, **settings: asked.append((how, settings)) or {"FINISHED"}
+    )
+    monkeypatch.setattr(fourier, "bpy", SimpleNamespace(ops=SimpleNamespace(object=running)))
+    settings = {"filepath": "/a.npz", "of": "AREA", "frame": "OBJECT", "count": 5, "largest": 3.0}
+    operator = stand_in(OBJECT_OT_body_moments_fourier, print, **settings)
+    assert operator.execute(Window(is_open)) == {"FINISHED"} and asked == [((call,), settings)]
 
 
 @pytest.mark.parametrize("largest", [0.0, 3.0])

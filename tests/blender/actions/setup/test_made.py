@@ -45,6 +45,23 @@ def test_a_symmetry_no_longer_holds_where_the_axes_have_turned_and_there_alone(f
     assert (reason is not None) == (frame == "AXES"), reason
 
 
+@pytest.mark.parametrize("frame", ["AXES", "ORIGIN", "KEEP"])
+def test_results_that_come_from_materials_are_up_to_date_when_a_body_was_made(frame):
+    """Blender says that its geometry has changed, and there is no digest of what the density was."""
+    obj = add(mesh_body(), "Body", (1, 2, 3), (0.3, 0.2, 0.1))
+    obj.data.materials.append(bpy.data.materials.new("Steel"))
+    obj.body_moments.density_from = "MATERIALS"
+    bpy.ops.object.body_moments_measure()
+    for move in (1.0, -1.0):  # there and back
+        obj.data.vertices[0].co.x += move
+        obj.data.update()
+        bpy.context.view_layer.update()
+        assert staleness.stale_reason(obj, bpy.context.scene) == "stale_geometry"
+    assert bpy.ops.object.body_moments_rigid_bodies(frame=frame) == {"FINISHED"}
+    bpy.context.view_layer.update()
+    assert staleness.stale_reason(obj, bpy.context.scene) is None
+
+
 def test_a_body_that_cannot_have_the_frame_is_named_and_the_others_are_made(reported, monkeypatch):
     good, held = (add(mesh_body(name), name, (place, 2, 3)) for name, place in (("Good", 1), ("Held", 9)))
     only(held)

@@ -4,6 +4,8 @@
 nothing behind.
 """
 
+from itertools import product
+
 import bpy
 import numpy as np
 import pytest
@@ -641,6 +643,27 @@ def test_the_strict_rule_poses_what_it_can_and_refuses_the_rest(name):
     assert run(name, strict=True) == {"CANCELLED"}
     bpy.ops.mesh.primitive_cube_add()
     assert run(name, strict=True) == {"CANCELLED"}
+
+
+@pytest.mark.parametrize(("side", "answer"), [(0.0228, "CANCELLED"), (0.028, "FINISHED")])
+def test_the_strict_rule_asks_for_exact_third_moments_where_they_are_doubtful(side, answer, reported):
+    """Of a box with a small one aside, whose third moments are hardly more than rounding may leave."""
+    corners = np.array(list(product((-0.5, 0.5), repeat=3)))
+    faces = np.array([(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)])
+    mesh = bpy.data.meshes.new("Boxes")
+    points = np.concatenate([corners * (1, 2, 4), corners * side + (0, 1.5, 3)])
+    mesh.from_pydata(points.tolist(), [], np.concatenate([faces, faces + 8]).tolist())
+    add(mesh, rotation=(0.3, 0.4, 0.5))
+    assert run(ALIGN, strict=True) == {answer}
+    assert ("strict_rule_no_skewness" in reported.codes) == (answer == "CANCELLED")
+
+
+@pytest.mark.parametrize("parent", [True, False])
+def test_an_empty_cannot_follow_what_is_scaled_to_nothing_along_an_axis(parent, reported):
+    obj = add(mesh_body(), scale=(1, 1, 0))
+    assert run("body_moments_add_empty", parent=parent) == {"CANCELLED"}
+    assert list(bpy.data.objects) == [obj]
+    assert ("scale_zero_axis_of_parent_target" in reported.codes) == parent
 
 
 @pytest.mark.parametrize("how", ["modifier", "parent"])
