@@ -93,7 +93,10 @@ def test_the_parts_add_up_to_what_measure_gives_for_the_skin(name):
     for n, part in ((0, slice(0, 1)), (1, slice(1, 4)), (2, slice(4, 10)), (3, slice(10, 20))):
         assert np.abs(mass.raw - truth.raw)[part].max() <= 1e-12 * truth.raw[0] * reach**n
     assert ("unweighted_vertices" in codes(rig)) == (name == "unweighted")
-    assert close(rig.measurement.area, whole.area, 1e-6)
+    assert close(rig.measurement.area, whole.area, 1e-6) and close(rig.measurement.volume, whole.volume, 1e-6)
+    bound, own = rig.measurement.error_bound["input"], whole.error_bound["input"]
+    for name in ("volume", "area"):
+        assert own[name] <= bound[name] < 64.0 * own[name], name
 
 
 def test_left_and_right_weigh_the_same():
@@ -168,7 +171,8 @@ def test_an_open_skin_is_capped_as_measure_does():
     shape.quads = shape.quads[~foot]
     armature, skin = character(shape)
     rig = measured(armature)
-    assert "holes_capped" in codes(rig)
+    told = {found.code: found.values for found in rig.measurement.findings}
+    assert told["holes_capped"]["sources"] == [skin.name]
     parts = {part.name: part.measurement for part in rig.parts}
     assert close(parts["leg.L"].volume, 10.0, 1e-6) and str(parts["leg.L"].method) == "capped"
 
@@ -179,13 +183,26 @@ def test_bones_have_densities_and_masses_of_their_own():
     armature.pose.bones["head"].body_moments.density = 500.0
     armature.pose.bones["leg.L"].body_moments.mass_from = "MASS"
     armature.pose.bones["leg.L"].body_moments.mass = 3.0
-    parts = {part.name: part for part in measured(armature).parts}
+    armature.location, armature.rotation_euler = (1.0, 2.0, 3.0), (0.0, 0.0, 0.5)
+    bpy.context.scene.unit_settings.scale_length = 1.0
+    rig = measured(armature)
+    parts = {part.name: part for part in rig.parts}
+    sources = {"head": "density_from_value", "leg.L": "density_from_mass", "leg.R": "density_from_members"}
+    for name, code in sources.items():
+        found = parts[name].measurement
+        assert (found.name, found.type, found.kind, found.density_from.code) == (name, "BONE", "bone", code)
+    whole = rig.measurement
+    assert (whole.name, whole.type, whole.kind) == (armature.name, "ARMATURE", "rig")
+    assert whole.density_from.code == "density_from_members" and str(whole.method) == "assembly"
+    assert whole.location.tolist() == [1.0, 2.0, 3.0] and close(whole.rotation[0, 0], np.cos(0.5), 1e-6)
     assert close(parts["head"].mass.total, 4000.0, 1e-6) and close(parts["leg.L"].mass.total, 3.0, 1e-9)
     assert close(parts["leg.R"].mass.total, 10000.0, 1e-6)
 
 
-def test_a_mass_that_is_given_for_the_skin_is_shared_by_volume():
+@pytest.mark.parametrize("kind", ["SOLID", "SHELL"])
+def test_a_mass_that_is_given_for_the_skin_is_shared_by_volume(kind):
     armature, skin = character()
+    skin.body_moments.kind = kind
     skin.body_moments.mass_from, skin.body_moments.mass = "MASS", 70.0
     skin.body_moments.property_unset("density")
     rig = measured(armature)
@@ -291,7 +308,9 @@ def test_refusals_say_why():
         bpy.ops.object.body_moments_measure_bones()
 
 
-def test_a_physics_rig_has_exact_masses_and_joints_at_the_bones():
+@pytest.mark.parametrize("unit", [1.0, 0.5])
+def test_a_physics_rig_has_exact_masses_and_joints_at_the_bones(unit):
+    bpy.context.scene.unit_settings.scale_length = unit
     armature, _ = character()
     armature.pose.bones["arm.L"].use_ik_limit_x = True
     armature.pose.bones["arm.L"].ik_min_x = -0.5
@@ -303,8 +322,9 @@ def test_a_physics_rig_has_exact_masses_and_joints_at_the_bones():
     assert bodies.keys() == set(made.NAMES) and len(joints) == 6
     for name, (low, high) in zip(made.NAMES, made.BOXES):
         body = bodies[name]
-        mass = 1000.0 * float(np.prod(np.subtract(high, low)))
+        mass = 1000.0 * unit**3 * float(np.prod(np.subtract(high, low)))
         assert close(body.rigid_body.mass, mass, 1e-6)
+        assert np.abs(np.array(body.dimensions) - sorted(np.subtract(high, low), reverse=True)).max() < 1e-6
         assert not any(polygon.use_smooth for polygon in body.data.polygons)
         assert np.abs(np.array(body.location) - np.add(high, low) / 2.0).max() < 1e-6
         measurement = measure_object(body, bpy.context.evaluated_depsgraph_get())
@@ -621,3 +641,15 @@ def test_a_surface_that_another_object_brings_has_no_weights():
     skin.modifiers.move(1, 0)
     told = {found.code: found.values for found in measured(armature).measurement.findings}
     assert told["unweighted_vertices"]["count"] == told["unweighted_vertices"]["total"] == 8
+
+
+def test_vertices_without_weights_are_counted_among_those_that_faces_use():
+    armature, skin = character()
+    count = len(skin.data.vertices)
+    skin.data.vertices.add(2)  # which no face has
+    for group in skin.vertex_groups:
+        group.remove([3, 5])
+    bpy.context.view_layer.update()
+    (found,) = measured(armature).measurement.findings
+    assert found.code == "unweighted_vertices" and np.asarray(found.elements).tolist() == [3, 5]
+    assert found.values == {"count": 2, "total": count, "sources": [skin.name]}
