@@ -234,13 +234,12 @@ def sheet_moments(
         (s, along, across, *second), weights = cells.evaluate(rule, 2)
         normal = np.stack(cross(along, across))
         length = _length(normal)
-        with np.errstate(divide="ignore", invalid="ignore"):
-            unit = np.where(length > 0.0, normal / length, 0.0)
-            turning = [
-                _tangent(np.stack(cross(second[k], across)) + np.stack(cross(along, second[k + 1])), unit)
-                / np.where(length > 0.0, length, 1.0)
-                for k in (0, 1)
-            ]
+        divisor = np.where(length > 0.0, length, 1.0)
+        unit = normal / divisor
+        turning = [
+            _tangent(np.stack(cross(second[k], across)) + np.stack(cross(along, second[k + 1])), unit) / divisor
+            for k in (0, 1)
+        ]
         # (1 - k h) and (1 - k' h), k and k' the curvatures, must both be positive: their product, and their sum too.
         bend = dot(np.stack(cross(along, turning[1])) + np.stack(cross(turning[0], across)), unit)
         for height in (inner, outer):

@@ -257,10 +257,58 @@ def test_weights_stay_where_none_are_given():
 
 def test_weights_for_a_polynomial_patch_are_refused():
     evaluator = IncrementalPatchMoments(Patch((clamped_space(3), clamped_space(3)), np.zeros((3, 3, 3))))
+    assert evaluator.moments(np.zeros((3, 3, 3))).order == 2
     with pytest.raises(ValueError, match="weights"):
         evaluator.moments(np.zeros((3, 3, 3)), np.ones((3, 3)))
     with pytest.raises(ValueError, match="weights"):
         evaluator.move_control_point(1, 1, np.zeros(3), 2.0)
+
+
+def plates(weights=None):
+    """A box of six sides, one of which faces against the others."""
+    spaces = clamped_space(2), clamped_space(2)
+    nets = [
+        np.array([[corners[0], corners[3]], [corners[1], corners[2]]])
+        for corners in np.array(exact.box((0.0, 0.0, 0.0), (1.0, 2.0, 3.0)))[exact.BOX_QUADS]
+    ]
+    sides = [Patch(spaces, net, weights) for net in nets]
+    return [*sides[:5], sides[5].reverse_orientation()]
+
+
+@pytest.mark.parametrize(
+    "before, after",
+    [
+        ([torus()], [torus(), moved(sphere(), 1.0, (5.0, 0.0, 0.0))]),
+        ([torus(), moved(sphere(), 1.0, (2.0, 0.0, 0.0))], [torus()]),
+        (plates(), plates([[1.0, 2.0], [2.0, 1.0]])),
+        (plates([[1.0, 2.0], [2.0, 1.0]]), plates()),
+        ([torus()], [Patch(torus().spaces, torus().points)]),
+    ],
+    ids=["one more", "one fewer", "weights", "no weights", "no weights on a ring"],
+)
+def test_other_patches_and_weights_are_measured_anew_and_followed_from_there(before, after):
+    body = TrackedSolid(before)
+    assert not body.update(after)
+    assert_same(body, measure_patches(after))
+    assert body.update(after)
+
+
+@pytest.mark.parametrize("stored", [0.0, 1e-4])
+def test_what_storing_may_have_moved_of_a_followed_body_is_what_measuring_anew_tells(stored):
+    """Sides that touch but for that do so; one of them faces against the others."""
+    before, gap = plates(), np.eye(4)
+    gap[:3, 3] = 5e-5
+    after = [moved(patch, 1.5) for patch in before]
+    after[0] = after[0].transform(gap)
+    body = TrackedSolid(before, stored)
+    assert close(body.measure.area.input_error, measure_patches(before, stored=stored).area.input_error, rel=1e-12)
+    for patches in (before, after):
+        assert body.update(patches, stored)
+        anew = measure_patches(patches, stored=stored)
+        assert body.measure.method == anew.method and codes(body.measure) == codes(anew)
+        assert close(body.measure.volume.input_error[0], anew.volume.input_error[0], rel=1e-9)
+        assert (body.measure.area.input_error[0] > 0.0) == (stored > 0.0)
+    assert body.measure.health.closed == (stored > 0.0)
 
 
 def test_another_function_space_is_measured_anew():

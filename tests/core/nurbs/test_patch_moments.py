@@ -415,11 +415,36 @@ def uneven_patch(weight):
     return Patch((clamped_space(4), clamped_space(3)), bent_sheet(0.2), weights)
 
 
+def bent_patch(height):
+    return Patch((clamped_space(4), clamped_space(3)), bent_sheet(height))
+
+
 def bent_sheet(height):
     """(4, 3, 3) control points over a square."""
     flat = np.stack(np.meshgrid(np.arange(4.0), np.arange(3.0), [0.5], indexing="ij"), axis=-1)[:, :, 0] / (3, 2, 1)
     flat[..., 2] += height * np.random.default_rng(6).uniform(-1.0, 1.0, (4, 3))
     return flat
+
+
+def fixed_area(cells, points, order):
+    (s, along, across), weights = cells.evaluate(((points,), (points,)))
+    length = np.linalg.norm(np.cross(along, across, axis=0), axis=0)
+    return sum_over_points(weighted_monomials(s, length, order), weights)[0].sum(axis=1)
+
+
+def volume_apart(patch, coarse, fine):
+    """What two rules differ by, of ∫ |S_s| |S_t|."""
+    (s, along, across), (s_weights, t_weights) = next(cells_of([patch], ORIGIN)).evaluate(((36,), (36,)))
+    lengths = np.linalg.norm(along, axis=0) * np.linalg.norm(across, axis=0)
+    size = np.einsum("mcn,mr,nr->", lengths, s_weights, t_weights)
+    return rules_apart(patch, 2, coarse, fine)[0][0] / size
+
+
+def area_apart(patch, coarse, fine):
+    """What two rules differ by, of the area."""
+    cells, reach = next(cells_of([patch], ORIGIN)), np.linalg.norm(patch.points, axis=2).max()
+    one, other = (fixed_area(cells, points, 2) for points in (coarse, fine))
+    return np.max(np.abs(one - other) / reach ** monomials(2).sum(axis=1)) / other[0]
 
 
 @pytest.mark.parametrize(
@@ -448,6 +473,46 @@ def test_rules_grow_by_halves_then_cells_are_cut_until_the_points_are_spent(rule
     assert of([uneven_patch(1.05)], 2, ORIGIN)[1] and rules[:2] == whole[:2]
 
 
+@pytest.mark.parametrize(
+    "of, apart, points, tolerance, patches",
+    [
+        (volume_moments, volume_apart, (16, 24, 36), 4e-15, [uneven_patch(1.02 * 1.3**k) for k in range(12)]),
+        (area_moments, area_apart, (8, 12, 18), 1e-11, [bent_patch(0.01 * 1.3**k) for k in range(12)]),
+    ],
+    ids=["volume", "area"],
+)
+def test_rules_suffice_that_agree_to_the_tolerance(rules, of, apart, points, tolerance, patches):
+    """Of sheets of ever more uneven weights, or bent ever more, until the finest rule is needed."""
+    needed = []
+    for patch in patches:
+        share = apart(patch, *points[:2]) / tolerance
+        if not 0.3 < share < 3.0:
+            rules.clear()
+            of([patch], 2, ORIGIN)
+            asked = [number for _, number in rules[:3]]
+            assert asked[:2] == list(points[:2]) and (points[2] in asked) == (share >= 3.0)
+            needed += [share >= 3.0] * int(share < 1000.0)
+    assert set(needed) == {False, True}
+
+
+@pytest.mark.parametrize("share, is_cut", [(0.95, False), (1.05, True)])
+def test_cells_are_cut_at_once_where_a_weight_is_a_million_times_another(rules, monkeypatch, share, is_cut):
+    monkeypatch.setattr(patch_moments, "MAX_POINTS", 16**2 + 24**2)
+    volume_moments([uneven_patch(0.9e6 * share)], 2, ORIGIN)
+    assert rules == [(1, 16), (1, 24), *([(4, 16), (4, 24)] if is_cut else [(1, 36)])]
+
+
+@pytest.mark.parametrize("share, is_hidden", [(0.95, False), (1.05, True)])
+def test_where_a_weight_is_a_hundred_times_another_what_it_may_hide_is_in_the_estimate(monkeypatch, share, is_hidden):
+    """The square of the diagonal of its box, where there are no more points to spend."""
+    monkeypatch.setattr(patch_moments, "MAX_POINTS", 0)
+    patch = uneven_patch(90.0 * share)
+    found, converged = volume_moments([patch], 2, ORIGIN)
+    (apart,), unit = rules_apart(patch, 2, 16, 24)
+    hidden = (np.ptp(patch.points, axis=(0, 1)) ** 2).sum() * is_hidden
+    assert not converged and close(found.rounding_error, (8.0 * apart + hidden) * unit, rel=1e-4)
+
+
 @pytest.mark.parametrize("depth", [1, 3])
 def test_cells_are_cut_so_often_and_at_once_where_a_weight_hides_what_lies_between(rules, monkeypatch, depth):
     monkeypatch.setattr(patch_moments, "MAX_DEPTH", depth)
@@ -468,12 +533,6 @@ def test_a_cell_is_cut_14_times(rules):
     cells = next(cells_of([uneven_patch(1.0)], ORIGIN))
     assert not patch_moments.integrate_adaptively([cells], kinked, np.ones(1), 1e-9).converged
     assert [count for count, _ in rules] == [1, 1, *[4, 4] * 14]
-
-
-def fixed_area(cells, points, order):
-    (s, along, across), weights = cells.evaluate(((points,), (points,)))
-    length = np.linalg.norm(np.cross(along, across, axis=0), axis=0)
-    return sum_over_points(weighted_monomials(s, length, order), weights)[0].sum(axis=1)
 
 
 def test_of_areas_eight_times_what_rules_differ_by_is_the_estimate_and_64_times_where_they_do_not_agree(monkeypatch):
