@@ -8,7 +8,7 @@ import bpy
 import numpy as np
 import pytest
 from body_moments.core.verdict.finding import MeasureError
-from body_moments.operators.bodies.assembly import measure_assembly
+from body_moments.operators.bodies.assembly import measure_assembly, members_key, structure_hash
 from body_moments.operators.read import measurable_objects
 from body_moments.operators.read.assembly import MemberKind, members_of
 from body_moments.operators.session import staleness
@@ -544,3 +544,41 @@ def test_what_is_parented_to_an_instance_is_below_it_beside_its_collection():
     bpy.context.view_layer.update()
     (found,) = members_of(root, bpy.context.evaluated_depsgraph_get()).members
     assert found.kind.name == "INSTANCE" and [below.name for below in found.members] == ["Shown", "Child"]
+
+
+def test_the_numbers_of_an_assembly_depend_on_who_is_a_member_where_and_on_what_is_given():
+    root = collection()
+    part, of = collection("Bought", root), bpy.data.collections.new("Of")
+    member, point = box(part, (1, 1, 1)), empty(root, "Point", (1, 2, 3), mass=2.0)
+    box(of, (1, 1, 1), name="Shown")
+    shown = instance(root, of)
+
+    def keys():
+        bpy.context.view_layer.update()
+        tree = members_of(root, bpy.context.evaluated_depsgraph_get())
+        return structure_hash(tree), members_key(tree, {member: "of the member"})
+
+    def is_other(owner, name, value):
+        """Of the structure, of the members' results; and what is put back is as it was."""
+        before, kept = keys(), getattr(owner, name)
+        kept = kept if isinstance(kept, (str, bool, float)) else tuple(kept)
+        setattr(owner, name, value)
+        after = keys()
+        setattr(owner, name, kept)
+        assert keys() == before
+        return [one != other for one, other in zip(before, after)]
+
+    given = ("mass", 7.0), ("use_center", True), ("use_inertia", True)
+    for name, value in given:
+        assert is_other(part.body_moments, name, value) == [False, False]
+    assert is_other(part.body_moments, "mass_from", "MASS") == [True, False]
+    part.body_moments.mass_from = "MASS"
+    for name, value in given:
+        assert is_other(part.body_moments, name, value) == [True, False]
+        assert is_other(point.body_moments, name, value) == [False, True]
+    for obj, expected in ((member, [False, True]), (point, [False, True]), (shown, [True, False])):
+        assert is_other(obj, "location", (4, 5, 6)) == expected
+        assert is_other(obj, "name", "Other") == [True, False]
+    assert is_other(member, "hide_render", True) == [True, True]
+    tree = members_of(root, bpy.context.evaluated_depsgraph_get())
+    assert members_key(tree, {}) != keys()[1]
