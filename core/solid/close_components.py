@@ -81,7 +81,7 @@ def _without_walls(mesh: RepairedMesh, sides: NDArray[np.integer]) -> tuple[Find
     """The findings, without copies of faces that are the walls of two bodies. sides: at such walls."""
     walls, findings = np.unique(mesh.face[sides // 3]), []
     for item in mesh.findings:
-        if len(walls) and item.code.startswith("duplicate_faces_counted"):
+        if item.code.startswith("duplicate_faces_counted"):
             left = np.setdiff1d(np.asarray(item.elements), walls)
             item = replace(item, values={**item.values, "count": len(left)}, elements=left)
         if item.values.get("count") != 0:

@@ -85,22 +85,19 @@ def weld_near_positions(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     place = mesh.points[vertices].astype(np.float64)
     moved = float(np.linalg.norm(place - place[same], axis=1).max())
     mesh, _ = _weld(mesh, parts.rows, vertices, same)
-    return replace(mesh, max_displacement=moved, topology_changed=moved > 0.0).with_state(
-        edges=UNKNOWN, open_parts=None
-    )
+    return replace(mesh, max_displacement=moved, topology_changed=True).with_state(edges=UNKNOWN, open_parts=None)
 
 
 def drop_collapsed_triangles(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     """Leave out triangles that use a vertex twice, and find the edges of the others."""
-    edges, open_parts = mesh.state.edges, mesh.state.open_parts
-    proper = has_distinct_vertices(mesh.triangles)
+    edges, proper = mesh.state.edges, has_distinct_vertices(mesh.triangles)
     if not proper.all():
         mesh = mesh.with_rows(np.flatnonzero(proper))
-    elif edges is not None and open_parts is None:
+    elif edges is not None:
         return mesh
     if edges is None and len(mesh.triangles):
         edges = find_edges(mesh.triangles)
-    return mesh.with_state(edges=edges, open_parts=None)
+    return mesh.with_state(edges=edges)
 
 
 def _find_open_parts(

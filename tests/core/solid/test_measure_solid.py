@@ -480,6 +480,7 @@ def test_a_box_with_one_side_subdivided_is_closed_in_space(spin, dtype, rel, fli
     assert result.health.closed and result.health.boundary_edges == 0 and result.health.components == 1
     assert result.method == ("reoriented" if flip else "exact")
     assert result.findings[0] == Finding("t_junctions", {"count": 4})
+    assert len(result.repaired_surface.points) == len(part[0])  # gaps are closed between their own vertices
     assert result.health.defective_elements.flipped_faces.tolist() == (list(range(10, 60)) if flip else [])
 
 

@@ -139,6 +139,12 @@ def test_welding_takes_equal_positions_first_and_near_ones_only_along_what_is_st
     assert STEPS[0](closed, 1.0) is closed and STEPS[1](closed, 1.0) is closed
 
 
+def test_where_nothing_but_edges_is_left_nothing_is_closed():
+    result = measure_solid(surface(BROKEN["nothing"]))
+    assert not result.health.closed and result.health.components == 0 and not result.health.welded
+    assert codes(result) == ["flat_surface"] and not result.oriented.mesh.open.any()
+
+
 def test_without_welding_near_positions_a_crack_is_two_holes():
     checked = check_surface(surface(cracked()))
     body = repair_surface(checked.surface, checked.tolerance, weld_near=False)
