@@ -171,6 +171,7 @@ def test_faces_that_cross_themselves_are_refused_with_the_reason(reported):
     assert "section_face_crosses_itself" in reported.codes
 
 
+@pytest.mark.filterwarnings("error")
 def test_a_flat_shape_beyond_the_range_of_numbers_or_too_far_away_is_refused():
     obj = sheet(regular(5))
     for change, code in (
