@@ -172,3 +172,8 @@ def test_wires_are_measured_to_a_ten_trillionth_of_their_length():
 
 def test_regions_and_wires_have_moments_to_third_order():
     assert length_moments([ring()]).order == plane_moments([ring()], UP).order == 3
+
+
+def test_a_curve_of_one_point_has_no_length():
+    found = length_moments([Curve(clamped_space(3), np.full((3, 3), 2.0), [1.0, 2.0, 1.0])])
+    assert not found.raw.any() and not found.rounding_error.any() and found.about.tolist() == [2.0, 2.0, 2.0]

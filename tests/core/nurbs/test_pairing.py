@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Which sides of patches are joined where more than two meet: patches around one edge, joined elsewhere or not."""
 
+from itertools import combinations
+
 import numpy as np
 import pytest
 from body_moments.core.numerics.bspline import SplineSpace, clamped_space
@@ -21,12 +23,13 @@ from tests.core.nurbs.test_solid import flat
 EDGE = np.array([[0.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, 0.0, 2.0]])
 
 
-def joined(around, joints=(), alike=()):
+def joined(around, joints=(), alike=(), apart=()):
     """Which patches are joined at the edge, and how many sides coincide with more than one.
 
     around: of each patch in which direction it lies (degrees) and whether it runs along the edge forward. joints: pairs
     of patches that another side of each joins, and whether one must turn for that. alike: pairs whose curves run the
-    same way at the edge; others run against each other, which fits where both run forward.
+    same way at the edge; others run against each other, which fits where both run forward. apart: pairs that do not
+    coincide there, as each of them is but near to a third one.
     """
     count = len(around)
     points = np.zeros((4 * count, len(EDGE), 3))
@@ -36,7 +39,7 @@ def joined(around, joints=(), alike=()):
         points[4 * k] = EDGE
         points[4 * k + 1 : 4 * k + 4] = EDGE + 4.0 * out
         forward[4 * k] = ahead
-    pairs = [(0.0, 4 * i, 4 * j, (i, j) in alike) for i in range(count) for j in range(i + 1, count)]
+    pairs = [(0.0, 4 * i, 4 * j, (i, j) in alike) for i, j in combinations(range(count), 2) if (i, j) not in apart]
     free = [[4 * k + 1, 4 * k + 2, 4 * k + 3] for k in range(count)]
     others = [(0.25, *sorted((free[i].pop(), free[j].pop())), turns) for i, j, turns in joints]
     left, right, same, gap, crowded = _pair_sides(sorted(pairs + others), points, np.arange(4 * count) // 4, forward)
@@ -98,6 +101,20 @@ def test_sides_that_meet_no_others_are_joined_whatever_they_are():
     for around in ([(0, F), (90, F)], [(0, F), (90, B)], [(0, F), (0, F)]):
         assert joined(around) == ([(0, 1)], 0)
     assert joined([(0, F)]) == ([], 0)
+
+
+@pytest.mark.parametrize(
+    "around, apart, expected",
+    [
+        ([(0, F), (90, F), (40, F)], (1, 2), (0, 2)),
+        ([(90, F), (40, F), (0, F)], (0, 1), (1, 2)),
+        # angles that are the same but for rounding are one, and the first pair comes first
+        ([(0, F), (-10.01, F), (10, F)], (1, 2), (0, 1)),
+        ([(0, F), (-10.1, F), (10, F)], (1, 2), (0, 2)),
+    ],
+)
+def test_a_side_that_two_others_are_near_to_is_joined_to_the_sharpest(around, apart, expected):
+    assert joined(around, apart=[apart]) == ([expected], 1)
 
 
 def arc(start, length, inner):

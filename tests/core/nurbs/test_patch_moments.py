@@ -504,13 +504,40 @@ def test_cells_are_cut_at_once_where_a_weight_is_a_million_times_another(rules, 
 
 @pytest.mark.parametrize("share, is_hidden", [(0.95, False), (1.05, True)])
 def test_where_a_weight_is_a_hundred_times_another_what_it_may_hide_is_in_the_estimate(monkeypatch, share, is_hidden):
-    """The square of the diagonal of its box, where there are no more points to spend."""
+    """The square of the diagonal of its cell's box, where there are no more points to spend; beside a steady cell."""
     monkeypatch.setattr(patch_moments, "MAX_POINTS", 0)
-    patch = uneven_patch(90.0 * share)
+    rng, weights = np.random.default_rng(5), np.ones((7, 3))
+    weights[5, 1], weights[0, 2] = 100.0 * share, 1.1
+    spaces = clamped_space(4, (0.5, 0.5, 0.5)), clamped_space(3)
+    patch = Patch(spaces, rng.uniform(-1.0, 1.0, (7, 3, 3)), weights)
     found, converged = volume_moments([patch], 2, ORIGIN)
-    (apart,), unit = rules_apart(patch, 2, 16, 24)
-    hidden = (np.ptp(patch.points, axis=(0, 1)) ** 2).sum() * is_hidden
-    assert not converged and close(found.rounding_error, (8.0 * apart + hidden) * unit, rel=1e-4)
+    (steady, steep), unit = rules_apart(patch, 2, 16, 24)
+    hidden = (np.ptp(patch.points[3:], axis=(0, 1)) ** 2).sum() * is_hidden
+    assert not converged and steady < 1e-13
+    assert close(found.rounding_error, (8.0 * steep + hidden) * unit, rel=1e-4)
+
+
+@pytest.mark.parametrize("cell, share", [(0, 5.0), (1, 9.0)])
+def test_a_cell_is_done_where_rules_agree_to_the_tolerance_of_its_size_or_its_share(rules, cell, share):
+    """Of two cells of sizes 1 and 9. As soon as it is, no finer rule is asked for."""
+    spaces = clamped_space(4, (0.5, 0.5, 0.5)), clamped_space(3)
+    weights = np.random.default_rng(0).uniform(0.5, 2.0, (7, 3))
+    (cells,) = cells_of([Patch(spaces, np.random.default_rng(1).normal(size=(7, 3, 3)), weights)], ORIGIN)
+    first = cells.net[0, 0, 0, 0]
+    for off, done in ((0.99, True), (1.01, False)):
+
+        def terms(part, rule, off=off):
+            which = (part.net[0, 0, :, 0] != first).astype(int)
+            found = np.ones((1, 2, len(part)))
+            found[0, 0] += (which == cell) * (rule[0] == (8,)) * off * 1e-3 * share
+            found[0, 1] = np.array([1.0, 9.0])[which]
+            return found
+
+        rules.clear()
+        found = patch_moments.integrate_adaptively([cells], terms, np.ones(1), 1e-3)
+        assert rules == [(2, 8), (2, 12)] + [(1, 18)] * (not done)
+        assert found.converged and close(found.values, [2.0], rel=1e-12) and found.size == 10.0
+        assert close(found.estimate, off * 1e-3 * share, rel=1e-9) if done else found.estimate < 1e-12
 
 
 @pytest.mark.parametrize("depth", [1, 3])
@@ -531,7 +558,8 @@ def test_a_cell_is_cut_14_times(rules):
         return terms
 
     cells = next(cells_of([uneven_patch(1.0)], ORIGIN))
-    assert not patch_moments.integrate_adaptively([cells], kinked, np.ones(1), 1e-9).converged
+    found = patch_moments.integrate_adaptively([cells], kinked, np.ones(1), 1e-9)
+    assert not found.converged and found.size == 1.0
     assert [count for count, _ in rules] == [1, 1, *[4, 4] * 14]
 
 

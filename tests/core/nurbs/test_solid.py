@@ -138,6 +138,28 @@ def test_rims_that_cross_themselves_are_told(crossing, shift):
     found = measure_patches([Patch((space, clamped_space(2)), points)])
     assert (Finding("patch_boundary_crosses_itself", {"count": 2}) in found.findings) == crossing
     assert found.method == "capped"
+    bent = points + np.stack([0.0 * x, 0.0 * x, 0.3 * np.sin(2.0 * t) * np.cos(t)], axis=1)[:, None]
+    assert "patch_boundary_crosses_itself" not in codes(measure_patches([Patch((space, clamped_space(2)), bent)]))
+
+
+@pytest.mark.parametrize("most, is_told", [(65, True), (64, False)])
+def test_rims_of_more_chords_than_are_compared_are_not_told_to_cross_themselves(monkeypatch, most, is_told):
+    """Of 32 spans, of which each has two."""
+    monkeypatch.setattr(closure, "MAX_CHORDS", most)
+    t = np.linspace(0.0, 2.0 * np.pi, 33)
+    space = SplineSpace((0.0, *map(float, range(33)), 32.0), 2, 33)
+    x, y = np.sin(t) * (1.0 + 0.5 * (np.sin(t) > 0.0)), np.sin(t) * np.cos(t)
+    points = np.stack([np.stack([x, y, np.full(33, z)], axis=1) for z in (0.0, 1.0)], axis=1)
+    found = measure_patches([Patch((space, clamped_space(2)), points)])
+    assert ("patch_boundary_crosses_itself" in codes(found)) == is_told
+
+
+@pytest.mark.parametrize("turn", [1, -1])
+def test_holes_of_other_parts_are_found_beside_sides_that_make_no_loop(turn):
+    """A Möbius band's, of which both begin at one corner and end at the other."""
+    found = find_topology([band_of_one_side(), tube().transform(np.diag([0.5, 0.5, 0.5, 1.0]))][::turn], 1e-6)
+    assert found.open_sides == 4 and len(found.loops) == 2
+    assert found.unclosable.tolist() == [True, False][::turn]
 
 
 def test_six_patches_of_different_resolution_make_a_box():
@@ -229,7 +251,7 @@ def test_two_short_sides_along_a_long_one_leave_no_hole():
     a, b, c, d = patches[0].points[0, 0], patches[0].points[1, 0], patches[0].points[1, 1], patches[0].points[0, 1]
     halves = [flat([a, b, (b + c) / 2, (a + d) / 2]), flat([(a + d) / 2, (b + c) / 2, c, d])]
     found = measure_patches([*halves, *patches[1:]])
-    assert found.method == "exact"
+    assert (found.method, found.findings) == ("exact", ())
     assert abs(found.volume.total - 1.0) <= 1e-13
 
 
@@ -548,7 +570,13 @@ def test_only_sides_between_the_same_ends_are_compared_point_by_point(monkeypatc
 def test_sides_that_coincide_parameter_by_parameter_are_not_compared_point_by_point(monkeypatch):
     """Whichever way they run."""
     monkeypatch.setattr(closure, "_overlapping_sides", None)
-    for patches in (box(), box(orders=((3, 4), *((2, 2),) * 5)), box(inner=(((0.5,), (0.25, 0.5)),) * 6)):
+    many = tuple(np.arange(1, 21) / 21.0)
+    for patches in (
+        box(),
+        box(orders=((3, 4), *((2, 2),) * 5)),
+        box(inner=(((0.5,), (0.25, 0.5)),) * 6),
+        box(inner=((many, many),) * 6),
+    ):
         even = [patch.reverse_orientation() if k % 2 else patch for k, patch in enumerate(patches)]
         for facing in (patches, even):
             assert measure_patches(facing, order=0).health.closed
