@@ -103,7 +103,8 @@ def test_more_than_two_hundred_million_pairs_are_taken_to_a_tolerance(count, is_
     assert transform.tolerance is None if is_closed_form else close(transform.tolerance, 4e-7, rel=1e-14)
 
 
-def test_the_shape_of_a_far_body_loses_no_digits():
+@pytest.mark.parametrize("place", [(2**19,) * 3, (2**19, 0, 0), (0, 0, -(2**19))])
+def test_the_shape_of_a_far_body_loses_no_digits(place):
     """Half a million lengths away: only the place of what is turned there is off."""
     turn, q = np.eye(4), np.random.default_rng(5).normal(size=(20, 3))
     turn[:3, :3] = bodies.rotation(7)
@@ -111,7 +112,7 @@ def test_the_shape_of_a_far_body_loses_no_digits():
         run_to_completion(BodyTransform([(bodies.surface(part), turn[None])], q, "volume", 1.0)).values
         for part in (
             bodies.box((0, 0, 0), (1, 2, 4)),
-            bodies.moved(bodies.box((0, 0, 0), (1, 2, 4)), None, (2**19,) * 3),
+            bodies.moved(bodies.box((0, 0, 0), (1, 2, 4)), None, place),
         )
     )
     assert np.abs(np.abs(far) - np.abs(near)).max() <= 1e-13
