@@ -80,6 +80,16 @@ def test_bodies_are_measured_one_by_one_and_of_those_that_no_line_meets_nothing_
     assert (found.second_moment > 0.0).tolist() == [crossed == 0, crossed == 1]
 
 
+@pytest.mark.parametrize("signs, unsure", [([1, -1], 0.0), ([1, 1], 1.0), ([1], 1.0), ([1, -1, 1], 1.0)])
+def test_a_single_line_is_sure_where_it_leaves_as_often_as_it_enters(signs, unsure):
+    grids = LineGrids.over_boxes(np.zeros((1, 3)), np.ones((1, 3)), np.array([64]))
+    zero, along = np.zeros(len(signs), np.intp), np.linspace(-0.5, 0.5, len(signs))
+    found = measure_excess(
+        Crossings(zero, zero, zero, zero, along, np.array(signs), np.ones(1, np.intp)), grids, np.zeros(1)
+    )
+    assert (found.volume.tolist(), found.unsure.tolist()) == ([0.0], [unsure])
+
+
 def test_where_as_much_is_inside_as_is_inside_out_neither_is_too_much():
     grids = LineGrids.over_boxes(np.zeros((1, 3)), np.ones((1, 3)), np.array([64]))
     zero = np.zeros(4, np.intp)

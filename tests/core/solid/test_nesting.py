@@ -4,6 +4,7 @@
 
 import numpy as np
 import pytest
+from body_moments.core.mesh import boxes as shell_boxes
 from body_moments.core.mesh import bvh as shell_tree
 from body_moments.core.mesh.boxes import overlapping_box_pairs
 from body_moments.core.mesh.bvh import Bvh, sort_components
@@ -111,6 +112,7 @@ def test_winding_numbers_are_those_of_the_bodies(spin):
         ("one in another, listed first", [INNER, OUTER], {(0, 1)}, set()),
         ("a cavity", [OUTER, inverted(INNER)], {(1, 0)}, set()),
         ("a cavity that touches the wall", [OUTER, inverted(box((-2, -1, -1), (1, 1, 1)))], {(1, 0)}, set()),
+        ("a thin cavity along the wall", [OUTER, inverted(box((-2, -1, -1), (-1.999, 1, 1)))], {(1, 0)}, set()),
         ("overlapping by half, faces in common planes", [box(), box((0.5, 0, 0), (1.5, 1, 1))], set(), {(0, 1)}),
         ("overlapping in a corner", [box(), box((0.5, 0.5, 0.5), (1.5, 1.5, 1.5))], set(), {(0, 1)}),
         (
@@ -186,6 +188,7 @@ def test_work_that_would_take_too_long_is_left_and_said(monkeypatch):
         ("-+", "xx", "--", "-x"),
         ("--", "x-", "--", "-x"),
         ("+-+", "---", "---", "-x-"),
+        ("--+", "x--", "---", "-x-"),
         ("-+-", "xxx", "---", "-x-"),
         ("+--", "--x", "---", "-x-"),
         ("+++", "---", "-xx", "---"),
@@ -250,6 +253,25 @@ def test_a_copy_is_one_though_its_volume_is_rounded_otherwise(scale):
 @pytest.mark.parametrize("smaller", [1e-7, 1e-8])
 def test_what_is_smaller_by_more_than_rounding_is_no_copy_but_within(smaller):
     assert relation(box(), moved(box(), (1.0 - smaller) * np.eye(3), (smaller / 2.0,) * 3)) == ({(1, 0)}, set(), 0)
+
+
+@pytest.mark.parametrize("turned", [0, 1])
+def test_of_two_equally_large_ones_the_later_is_the_one_within_most_of_the_other(turned):
+    parts = [moved(box(), offset=(0.1 * k, 0, 0)) for k in range(2)]
+    parts[turned] = inverted(parts[turned])
+    points, shells = shells_of(*parts)
+    found = classify_pairs(points, shells, np.ones(2, bool), TOUCH)
+    assert found.mostly_in.tolist() == [[1, 0]] and close(found.breakthrough, [0.1], rel=1e-12)
+
+
+def test_pairs_that_were_left_out_and_those_that_were_too_much_work_are_undecided_alike(monkeypatch):
+    """Of three pairs two begin at one component."""
+    monkeypatch.setattr(shell_boxes, "PIECE", 1)
+    monkeypatch.setattr(nesting, "MAX_COMPONENT_PAIRS", 1)
+    parts = [OUTER, INNER, moved(INNER, 0.5 * np.eye(3))]
+    assert [len(found) for found in relation(*parts)[:2]] == [2, 0] and relation(*parts)[2] == 1
+    monkeypatch.setattr(shell_tree, "MAX_BOX_PAIRS", 0)
+    assert relation(*parts) == (set(), set(), 3)
 
 
 def test_boxes_that_share_a_thin_slice_still_go_through_each_other():

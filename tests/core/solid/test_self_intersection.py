@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Shells that go through themselves are found and weighed; bodies that do not are proved, or raise no alarm."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from body_moments.core.mesh.surface import Surface
@@ -128,7 +130,9 @@ def test_one_triangle_that_looks_away_leaves_a_body_unproved(tip, height, agree,
     triangles = cut.all_triangles()[0]
     leaning = int(np.isin(triangles, [5, 6, 7]).all(axis=1).argmax())
     for body in (cut, Surface(points, np.roll(triangles, -leaning - (not first), axis=0))):
-        assert self_intersection.all_cones_agree(body, np.zeros(3)) is agree
+        for size in (1.0, 2.0**-15, 2.0**15):
+            scaled = replace(body, points=size * body.points)
+            assert self_intersection.all_cones_agree(scaled, np.zeros(3)) is agree
     state = measure_solid(cut).health.self_intersection
     assert state is (Intersection.EXCLUDED if agree else Intersection.NOT_FOUND)
 
