@@ -154,6 +154,15 @@ def test_rims_of_more_chords_than_are_compared_are_not_told_to_cross_themselves(
     assert ("patch_boundary_crosses_itself" in codes(found)) == is_told
 
 
+def test_a_rim_that_crosses_itself_and_has_no_area_is_closed_already():
+    """From a circle to a lying eight, whose two lobes cancel each other."""
+    t = np.linspace(0.0, 2.0 * np.pi, 33)
+    space = SplineSpace((0.0, *map(float, range(33)), 32.0), 2, 33)
+    rims = [np.stack([np.cos(t), np.sin(t), 0.0 * t], axis=1), np.stack([np.sin(t), np.sin(2.0 * t), 1.0 + 0.0 * t], 1)]
+    found = measure_patches([Patch((space, clamped_space(2)), np.stack(rims, axis=1))])
+    assert only(found).code == "flat_patch_holes_capped" and only(found).values["count"] == 1
+
+
 @pytest.mark.parametrize("turn", [1, -1])
 def test_holes_of_other_parts_are_found_beside_sides_that_make_no_loop(turn):
     """A Möbius band's, of which both begin at one corner and end at the other."""
