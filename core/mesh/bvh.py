@@ -236,9 +236,8 @@ class Bvh:
             place, node = pieces.pop()
             point, low, high = query_points[place], self.low[node], self.high[node]
             occupied = high[:, 0] >= low[:, 0]
-            with np.errstate(invalid="ignore"):
-                least = np.linalg.norm(np.maximum(np.maximum(low - point, point - high), 0.0), axis=1)
-                most = np.linalg.norm(np.maximum(np.abs(point - low), np.abs(high - point)), axis=1)
+            least = np.linalg.norm(np.maximum(np.maximum(low - point, point - high), 0.0), axis=1)
+            most = np.linalg.norm(np.maximum(np.abs(point - low), np.abs(high - point)), axis=1)
             np.minimum.at(nearest, place[occupied], most[occupied])
             near = occupied & (least <= nearest[place])
             place, node = place[near], node[near]

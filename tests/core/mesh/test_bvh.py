@@ -104,6 +104,26 @@ def test_a_needle_goes_through_a_triangle_as_deep_as_the_triangle_and_the_needle
                 assert [array.tolist() for array in found] == [[share < 1.0], [False]]
 
 
+def test_triangles_without_an_area_are_gone_through_by_nothing():
+    """A needle through the middle of one with corners in a row, and through a point."""
+    flat = np.array([[-1.0, 0.0, 0.0], [1.0, 0.0, 0.0], [3.0, 0.0, 0.0], [0.0, 0.0, 0.0]])
+    needle = np.array([[0.0, 0.0, -1.0], [0.1, 0.0, 1.0], [0.0, 0.1, 1.0]])
+    triangles = np.array([[0, 1, 2], [3, 3, 3], [4, 5, 6], [4, 5, 6]])
+    components = sort_components(np.concatenate([flat, needle]), triangles, np.array([0, 0, 1, 2]), 3)
+    tree = Bvh(np.concatenate([flat, needle]), components, np.ones(3, bool))
+    found, unfinished = intersecting_pairs(tree, np.array([0, 1, 1]), np.array([1, 0, 2]), 1e-9)
+    assert not found.any() and not unfinished.any()
+
+
+def test_far_from_the_origin_volumes_are_as_exact_as_near():
+    parts = [bodies.moved(bodies.sphere(1), size * bodies.rotation(size), (1e9, -2e9, 3e9)) for size in (2, 5)]
+    points, triangles = bodies.joined(*parts)
+    order = np.random.default_rng(0).permutation(len(triangles))
+    owner = np.repeat([0, 1], len(parts[0][1]))
+    components = sort_components(points, triangles[order], owner[order], 2)
+    assert close(components.volume, [bodies.volume(part) for part in parts], rel=1e-12)
+
+
 @pytest.mark.parametrize("limit", [40, 10_000_000])
 @pytest.mark.parametrize("seed", range(3))
 def test_of_many_parts_those_intersect_that_have_an_edge_through_the_other(seed, limit, monkeypatch):
