@@ -84,6 +84,27 @@ def test_a_shape_whose_sixth_moments_are_no_numbers_is_refused_without_a_warning
             _ = shape(obj).moments
 
 
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("corners", [((0, 0), (3, 0), (1, 2)), ((0, 0), (1, 0), (1, 1), (0, 1))])
+def test_a_region_whose_sixth_moments_are_no_numbers_is_refused_without_a_warning_of_numpy(corners):
+    """The axes of a square need them as well."""
+    curve = bpy.data.curves.new("Region", "CURVE")
+    curve.dimensions = "2D"
+    spline = curve.splines.new("POLY")
+    spline.points.add(len(corners) - 1)
+    spline.points.foreach_set("co", [value for x, y in corners for value in (1e5 * x, 1e5 * y, 0.0, 1.0)])
+    spline.use_cyclic_u = True
+    obj = add(curve)
+    obj.body_moments.kind = "SHELL"
+    for size, is_known in ((1e30, True), (1e36, False)):
+        obj.scale = (size,) * 3
+        if is_known:
+            assert shape(obj).moments.order == 6
+            continue
+        with refused("object_too_large"):
+            _ = shape(obj).moments
+
+
 def test_prisms_that_are_round_to_sixth_order_have_the_axes_that_their_corners_give():
     """A prism of seven corners on one of eight: nothing but the plane of both first corners makes a copy of them."""
     obj, turn = add(prisms(7, 8)), 0.7
