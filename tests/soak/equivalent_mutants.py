@@ -746,6 +746,18 @@ PATTERNS = [
         "how numbers lie in memory",
     ),
     (
+        r".*fourier/triangle_kernel.py PhaseMeans.__init__",
+        r"\(waves\.vectors\(part\) \*\* 2\)\.sum\(axis=0\)",
+        r"\(\(waves\.vectors\(part\) \*\* 2\)\.sum\(\)\)",
+        "which of two forms is taken, and how many terms",
+    ),
+    (
+        r".*canonical_frame.py _maximize_on_sphere",
+        r"1e-4 \* scale",
+        r"\(.* / scale\)",
+        "what has arrived at a maximum is steep by rounding alone",
+    ),
+    (
         r".*any_order.py _exponent",
         r"exponent if .*",
         r"\(exponent\)",

@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Least moves that balance a body: they reach the point, and none is smaller."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from body_moments.core.mesh.surface import Surface
@@ -11,6 +13,7 @@ from body_moments.core.statics.balance import (
     _Fans,
     _is_solvable,
     _limited_moves,
+    _newton_solve,
     _Problem,
     balance,
 )
@@ -356,3 +359,19 @@ def test_a_body_without_volume_has_no_center_to_move(far):
     with refused("balance_zero_volume"):
         balance(bodies.surface(flat), np.arange(8), (0.6, 0.5, far), across=HORIZONTAL)
     assert balance(bodies.surface(flat), np.arange(8), (0.6, 0.5, far), across=HORIZONTAL, shell=True).after[0] > 0.59
+
+
+@pytest.mark.parametrize("size", [1e-3, 1.0, 1e3])
+@pytest.mark.parametrize("far", [1.4, 2.0, 10.0])
+def test_a_step_that_leads_no_nearer_is_shortened(far, size):
+    """Where a center moves as the arc tangent: from there whole steps lead to and fro, and ever farther."""
+
+    def evaluate(points):
+        x = points[0, 0]
+        place = size * np.arctan(x)
+        return np.array([place, 0.0, 0.0]), np.array([-place]), np.array([[[size / (1.0 + x * x), 0.0, 0.0]]])
+
+    problem = SimpleNamespace(start=np.array([[far, 0.0, 0.0]]), tolerance=1e-12 * size, evaluate=evaluate)
+    along = np.array([[[1.0, 0.0, 0.0]]])
+    points, center, left = _newton_solve(problem, evaluate(problem.start), along, np.array([0]), np.inf)
+    assert left == 0.0 and abs(points[0, 0]) <= 1e-11 and abs(center[0]) <= 1e-12 * size
