@@ -209,7 +209,7 @@ def _solid_findings(
         findings += rest.findings
     if reading.singular_instance_count:
         findings.append(singular_instances_message(reading.singular_instance_count))
-    if reading.instance_count > 1 and instances_overlap(reading):
+    if instances_overlap(reading):
         findings.append(not_compared(reading))
     return findings
 
@@ -270,7 +270,7 @@ def _sheet_body(reading: Reading, unit: float, wall: str, thickness: float, thre
             areas.append(sum_of_images(area, translations_of_image))
             if not fine:
                 by_part.append((part.source_object_name, [finding("wall_error_estimate_large")]))
-    findings = [] if not by_part else findings_by_part(by_part, reading.name)
+    findings = findings_by_part(by_part, reading.name)
     polygons = None
     if meshes.parts:
         polygons = mesh_body(meshes, unit, shell=True, union=False, threads=threads)

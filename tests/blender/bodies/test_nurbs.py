@@ -727,3 +727,130 @@ def test_a_wall_of_patches_has_no_surfaces_and_no_moments_beyond_the_third_order
     assert not list(body.surfaces(True)) and not list(body.surfaces(False))
     with refused("wall_order", order=3):
         body.moments(4, False)
+
+
+@pytest.mark.parametrize("settings", [{}, {"kind": "SHELL"}, {"kind": "SHELL", "wall": "OUTWARD"}])
+def test_what_float32_may_have_moved_grows_with_the_object_and_not_with_its_distance(settings):
+    obj = primitive("torus")
+    for name, value in settings.items():
+        setattr(obj.body_moments, name, value)
+
+    def bounds(scale, thickness, location=(0, 0, 0), unit=1.0):
+        obj.scale, obj.location, obj.body_moments.thickness = scale, location, thickness
+        bpy.context.scene.unit_settings.scale_length = unit
+        bpy.context.view_layer.update()
+        depsgraph = bpy.context.evaluated_depsgraph_get()
+        body = measure_body(obj, depsgraph).body
+        areas = [body.area.input_error[0]]
+        if "wall" in settings:
+            return areas, body.wall.input_error[0]
+        areas.append(body.moments(4, True)[1].input_error[0])
+        return areas, body.volume.input_error[0]
+
+    for scale in ((1.0, 1.0, 1.0), (1.0, 2.0, 3.0)):
+        areas, volume = bounds(scale, 0.0625)
+        assert close(areas, len(areas) * [areas[0]], rel=1e-9) and areas[0] > 0.0
+        assert (volume > 0.0) == (settings.get("kind") != "SHELL" or "wall" in settings)
+        for by in (0.25, 8.0):
+            grown, larger = bounds(np.multiply(scale, by), by * 0.0625)
+            assert close(grown, by**2 * np.array(areas), rel=1e-6) and close(larger, by**3 * volume, rel=1e-6)
+        in_units, larger = bounds(scale, 0.0625, unit=0.25)
+        assert close(in_units, np.array(areas) / 16.0, rel=1e-6) and close(larger, volume / 64.0, rel=1e-6)
+        moved, same = bounds(scale, 0.0625, (300.0, -200.0, 500.0))
+        assert close(moved, areas, rel=1e-6) and close(same, volume, rel=1e-6)
+
+
+@pytest.mark.parametrize("wall", ["INWARD", "OUTWARD", "CENTERED"])
+def test_a_wall_of_a_body_inside_out_is_on_the_side_that_was_asked_for(wall):
+    obj = primitive("sphere")
+    settings = obj.body_moments
+    settings.kind, settings.wall, settings.thickness = "SHELL", wall, 0.1
+    plain = measured(obj).volume
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.curve.select_all(action="SELECT")
+    bpy.ops.curve.switch_direction()
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert close(measured(obj).volume, plain, rel=1e-12)
+    obj.scale, settings.thickness = (0.5, 0.5, 0.5), 0.05
+    assert close(measured(obj).volume, plain / 8.0, rel=1e-6)
+    obj.scale = (0.5, 0.5, -0.5)
+    assert close(measured(obj).volume, plain / 8.0, rel=1e-6)
+
+
+def test_patches_that_a_scale_of_zero_flattens_are_no_solid_but_a_sheet():
+    obj = primitive("sphere")
+    obj.scale = (1.0, 1.0, 0.0)
+    with refused("zero_scale", obj.name):
+        measured(obj)
+    obj.body_moments.kind = "SHELL"
+    assert close(measured(obj).area, 2.0 * np.pi, rel=1e-3)
+
+
+@pytest.mark.parametrize("angle, said_of", [(0.019, False), (0.021, True)])
+def test_a_crease_counts_from_a_hundredth_of_a_radian_twice(angle, said_of):
+    tilt = np.tan(angle / 2.0)
+    points = [[(x, y, tilt * abs(x)) for x in (-1.0, 0.0, 1.0)] for y in (0.0, 0.5, 1.0)]
+    obj = surface(points, orders=(2, 2))
+    settings = obj.body_moments
+    settings.kind, settings.wall, settings.thickness = "SHELL", "OUTWARD", 0.01
+    assert ("wall_creases" in said(measured(obj))) == said_of
+
+
+def test_numbers_of_patches_are_estimates_of_their_errors_and_a_sheet_has_no_volume():
+    obj = primitive("sphere")
+    for settings in ({}, {"kind": "SHELL"}, {"wall": "INWARD"}):
+        for name, value in settings.items():
+            setattr(obj.body_moments, name, value)
+        assert measured(obj).error_bound["estimated"]
+        body = measure_body(obj, bpy.context.evaluated_depsgraph_get()).body
+        assert body.volume.measure == "volume" and body.area.measure == "area" and body.volume.order == 3
+        assert body.area.order == 3
+        if settings:
+            assert not np.any([body.volume.raw, body.volume.rounding_error, body.volume.input_error])
+
+
+def test_instances_of_patches_that_overlap_are_united_too():
+    empty = instances_of(primitive("sphere"), ((0, 0, 0), (1, 1, 1)), ((1, 0, 0), (1, 1, 1)))
+    both = measured(empty)
+    assert close(both.volume, 2.0 * BALL * STORED, 1e-7)
+    assert 1.95 * BALL < both.display_volume < 2.0 * BALL
+    empty.body_moments.overlap = "UNION"
+    united = measured(empty)
+    assert str(united.method) == "union" and "union_of_display_mesh" in said(united)
+    assert close(united.volume, BALL * 27.0 / 16.0, 0.02)  # of two balls whose centers are a radius apart
+
+
+def test_the_surfaces_of_patches_that_overlap_are_each_of_their_own():
+    empty = instances_of(primitive("sphere"), ((0, 0, 0), (1, 1, 1)), ((1, 0, 0), (1, 1, 1)))
+    bpy.context.scene.unit_settings.scale_length = 0.5
+    bpy.context.view_layer.update()
+    found = measure_body(empty, bpy.context.evaluated_depsgraph_get())
+    of_surfaces = sum(polyhedron_moments(surface)[0].total for surface in found.body.surfaces(False))
+    assert close(of_surfaces, found.body.display_volume, rel=1e-9) and close(of_surfaces, BALL / 4.0, rel=0.02)
+
+
+def test_polygons_beside_patches_are_not_united_with_each_other():
+    bpy.ops.mesh.primitive_cube_add(size=2.0, location=(6, 0, 0))
+    one = bpy.context.object
+    bpy.ops.mesh.primitive_cube_add(size=2.0, location=(7, 0, 0))
+    only(bpy.context.object, one)
+    bpy.ops.object.join()
+    boxes, ball, flat = bpy.context.object, primitive("sphere"), primitive("torus")
+    ball.location, flat.location = (-4, 0, 0), (-9, 0, 0)
+    parts = bpy.data.collections.new("Parts")
+    for obj in (ball, flat, boxes):
+        parts.objects.link(obj)
+        bpy.context.scene.collection.objects.unlink(obj)
+    bpy.ops.object.collection_instance_add(collection="Parts")
+    empty = bpy.context.object
+    solid = measured(empty)
+    ring = 2.0 * np.pi**2 * 0.75 * 0.0625
+    assert close(solid.volume, 16.0 + BALL + ring, 1e-6) and solid.health.components == 4
+    assert solid.health.overlapping_components == 2
+    assert said(solid)["components_overlap"]["count"] == 2
+    assert 0.97 * solid.volume < solid.display_volume < solid.volume
+    empty.body_moments.kind, empty.body_moments.thickness = "SHELL", 0.01
+    thin = measured(empty)
+    assert close(thin.area, 48.0 + 4.0 * np.pi + 4.0 * np.pi**2 * 0.75 * 0.25, 1e-5)
+    assert thin.health.components == 4 and str(thin.method) == "shell"
+    assert close(thin.volume, 0.01 * thin.area, 1e-12)
