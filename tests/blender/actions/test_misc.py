@@ -354,7 +354,7 @@ def test_a_scene_gets_the_preferences_with_the_first_press(operator, options, mo
     assert scene.body_moments.has_defaults
 
 
-def test_settings_are_copied_to_the_other_selected_objects():
+def test_settings_are_copied_to_the_other_selected_objects(reported):
     one, other = add(mesh_body(), "One"), add(mesh_body(), "Other")
     assert not bpy.ops.object.body_moments_copy_settings.poll()
     only(one, other)
@@ -363,6 +363,7 @@ def test_settings_are_copied_to_the_other_selected_objects():
     assert bpy.ops.object.body_moments_copy_settings() == {"FINISHED"}
     assert other.body_moments.kind == "SHELL" and other.body_moments.thickness == one.body_moments.thickness
     assert bpy.ops.object.body_moments_copy_settings() == {"CANCELLED"}
+    assert reported.codes == ["settings_copied", "nothing_to_do", "settings_equal"]
 
 
 def test_ones_own_presets_are_kept_loaded_and_removed():

@@ -198,7 +198,7 @@ def test_children_that_would_move_by_more_than_rounding_are_left_with_their_empt
         assert bpy.ops.object.body_moments_assembly_origin(target="OBJECT") == {"FINISHED"}
         assert abs(root.matrix_world.translation.y) < 1e-4
         return
-    with pytest.raises(RuntimeError):
+    with pytest.raises(RuntimeError, match=r"\A.+\n?\Z"):
         bpy.ops.object.body_moments_assembly_origin(target="OBJECT")
     assert reported.values("children_would_move") == {"names": [children[0].name]}
     assert [obj.matrix_world for obj in (root, *children)] == before
@@ -245,7 +245,7 @@ def test_an_empty_of_a_library_is_not_moved(reported):
     bpy.context.scene.collection.objects.link(names.objects[0])
     bpy.context.view_layer.update()
     activate(names.collections[0])
-    with pytest.raises(RuntimeError):
+    with pytest.raises(RuntimeError, match=r"\A.+\n?\Z"):
         bpy.ops.object.body_moments_assembly_empty()
     assert reported.codes[-1] == "linked_object"
 
@@ -270,9 +270,11 @@ def test_the_bill_of_masses_is_a_table_of_all_members(tmp_path):
 
 def test_what_is_refused_is_reported(reported):
     only(box(bpy.context.scene.collection, (1, 1, 1)))
-    with pytest.raises(RuntimeError, match="not an empty with children"):
-        bpy.ops.object.body_moments_measure_assembly(target="OBJECT")
-    assert reported.codes == ["no_active_assembly_empty"]
+    for active in (bpy.context.object, None):
+        bpy.context.view_layer.objects.active = active
+        with pytest.raises(RuntimeError, match="not an empty with children"):
+            bpy.ops.object.body_moments_measure_assembly(target="OBJECT")
+    assert reported.codes == ["no_active_assembly_empty"] * 2
 
 
 def test_point_masses_are_measured_and_listed_as_objects_are():

@@ -108,7 +108,7 @@ def test_the_audit_of_what_is_right_writes_no_copy(tmp_path, reported):
     assert [file.name for file in tmp_path.iterdir()] == ["r.urdf"]
     assert reported.codes == ["audit_done", "audit_text"]
     (tmp_path / "r.urdf.audit.html").mkdir()
-    with pytest.raises(RuntimeError):
+    with pytest.raises(RuntimeError, match=r"\A.+\n?\Z"):
         bpy.ops.import_scene.body_moments_audit(filepath=str(path), write_page=True)
     assert reported.codes[-1] == "audit_not_written" and len(bpy.data.texts) == 1
 
@@ -125,8 +125,9 @@ def test_the_audit_becomes_a_text_and_a_repaired_copy(tmp_path, reported):
     assert "Multiply the inertia by 0.001" in text and "Impossible" in text
     assert 'ixx="5333.333"' in (tmp_path / "r_repaired.urdf").read_text(encoding="utf-8")
     assert "audit_inertia_unit" in (tmp_path / "r.urdf.audit.html").read_text(encoding="utf-8")
-    with pytest.raises(RuntimeError, match="exists"):
+    with pytest.raises(RuntimeError, match="r_repaired.urdf"):
         bpy.ops.import_scene.body_moments_audit(**options)
+    assert reported.codes[-1] == "file_exists"
     path.write_text("<robot", encoding="utf-8")
     with pytest.raises(RuntimeError, match="r.urdf: .*not XML"):
         bpy.ops.import_scene.body_moments_audit(filepath=str(path))
