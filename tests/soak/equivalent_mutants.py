@@ -327,6 +327,12 @@ PATTERNS = [
         "of none that are left, none are doubtful",
     ),
     (
+        r".*mesh/planarity.py PlanarityAccumulator._polygon_tetrahedra",
+        r"pieces > 1",
+        r"\(pieces >= 1\)",
+        "a triangle has no diagonals",
+    ),
+    (
         r".*mesh/planarity.py stack_planarity",
         r"np\.flatnonzero\(sizes\[.* else slice\(None\)",
         r"\(np\.flatnonzero\(sizes\[stack\.triangle_faces\] != 4\)\)",
@@ -1562,6 +1568,14 @@ CONSTANTS = [
     ),
     (r".*mesh/edges.py closed_side_faces", r"len\(edges\) > ", "one corner makes no closed surface"),
     (r".*mesh/bvh.py intersecting_pairs", r"TRIANGLES_PER_LEAF\*\*", "how much is looked at at a time"),
+    (r".*mesh/bvh.py sort_components", r"sum\(n \* \(x\[", "any corner is in the face's plane"),
+    (r".*mesh/planarity.py PlanarityAccumulator.degenerate_limit", r"(longest = |float\()", "more is looked at closely"),
+    (
+        r".*mesh/planarity.py PlanarityAccumulator._polygon_tetrahedra",
+        r"(quad_faces\.max\(initial=-|int\(quad_faces\.max\(initial=-1\)\) \+ |np\.empty\(\((0, )?)",
+        "room for a face more; an empty array",
+    ),
+    (r".*mesh/planarity.py _sum_in_order", r"volumes, ", "room for a sum more"),
     (r".*mesh/bvh.py sort_components", r"origin = columns\[:, triangles\[start\[:-1\], ", "any of its points"),
     (r".*mesh/bvh.py Bvh._count_crossings", r"edge\[:, struck\], positive\[", "all three agree there"),
     (r".*mesh/bvh.py Bvh.distances", r"occupied = high\[:, (0\] >= low\[:, )?", "along all axes, or none"),

@@ -222,6 +222,47 @@ def test_in_a_large_mesh_a_face_without_area_has_its_own_number_and_polygons_the
     assert measure_solid(replace(surface, points=flat)).health.defective_elements.degenerate_faces.tolist() == [701]
 
 
+@pytest.mark.parametrize("row", range(6))
+def test_a_quad_given_as_two_triangles_of_one_face_has_its_spread_as_well(row):
+    points = CORNERS + [[0.0, 0.0, 0.25 * (k == 7)] for k in range(8)]
+    surface = mesh(points, SIDES.tolist())
+    corners, face = surface.quads[row], surface.quad_faces[row]
+    given = replace(
+        surface,
+        quads=np.delete(surface.quads, row, axis=0),
+        quad_faces=np.delete(surface.quad_faces, row),
+        triangles=np.concatenate([surface.triangles, corners[[[0, 1, 2], [0, 2, 3]]]]),
+        triangle_faces=np.concatenate([surface.triangle_faces, [face, face]]),
+    )
+    for each in (surface, given):
+        found = PlanarityAccumulator(each, 0.0).planarity()
+        assert found.non_planar_count == 1 and close(found.volume_spread, 0.25 / 6.0, rel=1e-14)
+
+
+@pytest.mark.parametrize("gap", [None, 0, 4, 9])
+@pytest.mark.parametrize("first", ["bent", "tetrahedron"])
+def test_polygons_among_other_faces_have_their_spread_where_their_corners_are_known(first, gap):
+    """A pentagon with a raised corner, beside quads and triangles; numbers of faces may be missing."""
+    floor = [[0, 0, 0], [2, 0, 0], [3, 1, 0], [1, 2, 0], [0, 1, 0]]
+    roof = [[x, y, 1.0 + 0.25 * (number == 3)] for number, (x, y, _) in enumerate(floor)]
+    sides = [[k, (k + 1) % 5, 5 + (k + 1) % 5, 5 + k] for k in range(5)]
+    bent = np.array([*floor, *roof]), [[4, 3, 2, 1, 0], [5, 6, 7, 8, 9], *sides]
+    tetrahedron = 5.0 + np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]
+    parts = (bent, tetrahedron) if first == "bent" else (tetrahedron, bent)
+    faces = [*parts[0][1], *([corner + len(parts[0][0]) for corner in face] for face in parts[1][1])]
+    surface = mesh(np.concatenate([parts[0][0], parts[1][0]]), faces)
+    if gap is not None:
+        numbers = {name: getattr(surface, name) for name in ("triangle_faces", "quad_faces")}
+        surface = replace(surface, **{name: number + (number >= gap) for name, number in numbers.items()})
+    found = PlanarityAccumulator(surface, 0.0).planarity()
+    assert found.non_planar_count == 1 and not len(found.degenerate_faces)
+    # over the triangles 0, 1, 2 and 0, 1, 4, which have an area of 1
+    assert close(found.volume_spread, 2.0 * 0.25 / 3.0, rel=1e-14)
+    for corners in (None, surface.corner_vertices[:-1]):
+        unknown = PlanarityAccumulator(replace(surface, corner_vertices=corners), 0.0).planarity()
+        assert (unknown.non_planar_count, unknown.volume_spread) == (0, 0.0)
+
+
 @pytest.mark.parametrize("scale", [2.0**-120, 2.0**120])
 def test_sizes_beyond_the_range_of_the_sums_do_not_matter(scale):
     surface = quads("some", np.float64)
