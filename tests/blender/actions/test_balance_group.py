@@ -243,7 +243,7 @@ def test_what_becomes_flat_ends_it(scene, reported, by):
         for frame, scale in ((1, 1.0), (5, 0.0)):
             obj.scale.x = scale
             obj.keyframe_insert("scale", frame=frame)
-    with pytest.raises(RuntimeError):
+    with pytest.raises(RuntimeError, match=r"\A.+\n?\Z"):
         bpy.ops.object.body_moments_balance_group()
     assert reported.codes == ["no_volume" if by == "shape key" else "zero_scale"] and not groups()
 
@@ -369,7 +369,7 @@ def test_what_has_no_mass_or_is_not_in_the_view_layer_is_not_followed(scene, rep
     assert groups()[0]["body_balance_group"] == obj.name
     bpy.data.collections.new("Parts").objects.link(obj)
     scene.collection.objects.unlink(obj)
-    with pytest.raises(RuntimeError):
+    with pytest.raises(RuntimeError, match=r"\A.+\n?\Z"):
         bpy.ops.object.body_moments_balance_group(collection="Parts", **arguments)
     assert reported.codes[-1] == "balance_group_empty_group"
 
@@ -380,7 +380,7 @@ def test_refusals_name_what_is_missing(scene, reported, arguments):
     if arguments:
         objects.add(objects.mesh_body())
     codes = {"": "balance_group_empty_group", "Lamps": "balance_group_without_contacts"}
-    with pytest.raises(RuntimeError):
+    with pytest.raises(RuntimeError, match=r"\A.+\n?\Z"):
         bpy.ops.object.body_moments_balance_group(**arguments)
     assert reported.codes[-1] == codes.get("".join(arguments.values()), "no_such_collection")
     assert not groups()
@@ -389,7 +389,7 @@ def test_refusals_name_what_is_missing(scene, reported, arguments):
 def test_an_object_without_a_certain_center_ends_it(scene, reported):
     objects.add(objects.strip_mesh())
     scene.frame_set(5)
-    with pytest.raises(RuntimeError):
+    with pytest.raises(RuntimeError, match=r"\A.+\n?\Z"):
         bpy.ops.object.body_moments_balance_group()
     assert "open_object" in reported.codes and scene.frame_current == 5 and not groups()
 

@@ -105,6 +105,6 @@ def test_an_assembly_that_cannot_hold_results_is_not_measured_first(monkeypatch,
     linked_assembly()
     asked = []
     monkeypatch.setattr(assembly, "measure_members", lambda *words: asked.append(words) or iter(()))
-    with pytest.raises(RuntimeError):
+    with pytest.raises(RuntimeError, match=r"\A.+\n?\Z"):
         bpy.ops.object.body_moments_measure_assembly()
     assert reported.codes == ["refused", "linked_results"] and not asked

@@ -120,7 +120,7 @@ def test_a_raw_file_by_hand_and_a_spacing(tmp_path):
 
 def test_what_cannot_be_imported_leaves_nothing(tmp_path, reported):
     def refusal(path):
-        with pytest.raises(RuntimeError):
+        with pytest.raises(RuntimeError, match=r"\A.+\n?\Z"):
             bpy.ops.object.body_moments_import_scan(filepath=str(path))
         return reported.codes[-1]
 
@@ -150,14 +150,14 @@ def test_a_file_that_may_not_be_read_is_refused(name, tmp_path, reported, monkey
         raise PermissionError(13, "Permission denied")
 
     monkeypatch.setattr("body_moments.operators.actions.imports.import_scan." + name, denied)
-    with pytest.raises(RuntimeError):
+    with pytest.raises(RuntimeError, match=r"\A.+\n?\Z"):
         bpy.ops.object.body_moments_import_scan(filepath=str(written(tmp_path / "a.nrrd", nrrd(samples()))))
     assert reported.codes[-1] == "file_unreadable" and [file.name for file in tmp_path.iterdir()] == ["a.nrrd"]
 
 
 def test_without_openvdb_nothing_is_imported(tmp_path, reported, monkeypatch):
     monkeypatch.setattr("body_moments.operators.actions.imports.import_scan.openvdb", lambda: None)
-    with pytest.raises(RuntimeError):
+    with pytest.raises(RuntimeError, match=r"\A.+\n?\Z"):
         bpy.ops.object.body_moments_import_scan(filepath=str(written(tmp_path / "a.nrrd", nrrd(samples()))))
     assert reported.codes[-1] == "openvdb_missing"
 
@@ -274,7 +274,7 @@ def test_uneven_slices_survive_a_file_and_are_no_threshold_and_no_filling(tmp_pa
 def test_wrong_positions_import_nothing(tmp_path, reported):
     np.save(tmp_path / "scan.npy", np.ones((2, 2, 3), "f4"))
     np.save(tmp_path / "z.npy", np.array([0.0, 2.0, 1.0]))
-    with pytest.raises(RuntimeError):
+    with pytest.raises(RuntimeError, match=r"\A.+\n?\Z"):
         bpy.ops.object.body_moments_import_scan(
             filepath=str(tmp_path / "scan.npy"), z_positions=str(tmp_path / "z.npy")
         )

@@ -17,13 +17,13 @@ pytestmark = pytest.mark.usefixtures("scene")
 def test_a_path_that_is_no_file_is_none_to_import(name, tmp_path, reported):
     (tmp_path / "folder").mkdir()
     path = str(tmp_path / name) if name else ""
-    with pytest.raises(RuntimeError):
+    with pytest.raises(RuntimeError, match=r"\A.+\n?\Z"):
         bpy.ops.object.body_moments_import_surfaces(filepath=path)
     assert reported.codes == ["no_surface_file"]
 
 
 def test_a_file_that_is_not_there_is_named(tmp_path, reported):
-    with pytest.raises(RuntimeError):
+    with pytest.raises(RuntimeError, match=r"\A.+\n?\Z"):
         bpy.ops.object.body_moments_import_surfaces(filepath=str(tmp_path / "none.igs"))
     assert reported.codes == ["refused", "file_missing"]
     assert reported.values("refused")["object"] == "none.igs"

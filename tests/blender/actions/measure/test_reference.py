@@ -143,7 +143,7 @@ def test_what_was_not_measured_has_nothing_to_store(reported):
     measured_box()
     bpy.ops.object.body_moments_clear()
     reported.clear()
-    with pytest.raises(RuntimeError):
+    with pytest.raises(RuntimeError, match=r"\A.+\n?\Z"):
         bpy.ops.object.body_moments_store_reference()
     assert reported.codes == ["no_stored_results"]
 

@@ -538,7 +538,7 @@ def test_one_undo_brings_everything_back(name):
     assert (seen(obj) == before).all() and (place(obj) == matrix).all() and (place(child) == at_child).all()
 
 
-def test_stored_results_are_kept_up_to_date():
+def test_stored_results_are_kept_up_to_date(reported):
     from body_moments.operators.session import staleness
 
     obj = add(mesh_body(), location=(1, 2, 3), rotation=(0.1, 0.2, 0.3))
@@ -547,6 +547,7 @@ def test_stored_results_are_kept_up_to_date():
     assert not staleness.stale_reason(obj, bpy.context.scene)
     assert np.abs(np.array(obj["body_center_of_mass"])).max() < TOLERANCE
     assert np.abs(np.abs(obj["body_principal_axes"][0]) - 1.0) < 1e-6
+    assert run(AXES) == {"CANCELLED"} and reported.codes[-2] == "nothing_to_do"
 
 
 def test_nothing_selected_says_so():
