@@ -607,8 +607,8 @@ PATTERNS = [
     ),
     (
         r".*mesh/scan_lines.py LineGrids.through_points",
-        r"4\.0",
-        r"8\.0",
+        r"4\.0( \* sizes.*)?",
+        r"8\.0|\(4\.0 / sizes.*",
         "how much of the body's surroundings is the line's own",
     ),
     (
@@ -819,9 +819,21 @@ PATTERNS = [
     ),
     (
         r".*polyhedron/third_order_kernel.py scratch_size",
-        r"9 \* fans if exact else 0",
-        r"\(9 \* fans\)",
+        r"9 \* fans if exact else 0|fans if each else 1|3 \* count - 3",
+        r"\(9 \* fans\)|\(fans\)|\(3 \* count \+ 3\)",
         "more scratch than is needed",
+    ),
+    (
+        r".*polyhedron/third_order_small.py (small_moments|_segment_sums)",
+        r"sums\[0\] if len\(sums\) == 1 else .*|center\.T\[:, None\] if .*",
+        r"\((map|np\.repeat)\(.*",
+        "of one they make the same",
+    ),
+    (
+        r".*polyhedron/third_order_kernel.py BlockAccumulator.add_faces",
+        r"k < workspace\.index\.shape\[1\]",
+        r"\(k <= .*",
+        "of a block that is full nothing is filled up",
     ),
     (
         r".*polyhedron/n_dimensions.py _measure",
@@ -1495,6 +1507,12 @@ CONSTANTS = [
         r"while first > (1 and _first_row\(end\) - _first_row\(first - )?",
         "how many rows are raised at a time",
     ),
+    (
+        r".*polyhedron/third_order_kernel.py scratch_size",
+        r"return (?!.*count - $).*",
+        "more scratch than is needed",
+    ),
+    (r".*polyhedron/n_dimensions.py UNDERFLOW", r"2\.0\*\*-", "far more than is lost"),
     (r".*any_order_small.py _coefficients", r"levels = np\.zeros\(\(3, ", "a row more of zeros"),
     (r".*polyhedron/third_order.py integrate", r"largest and not ", "a power of two, by which nothing is rounded"),
     (r".*polyhedron/third_order.py integrate", r"scratch_size\(", "how much is computed at a time"),
@@ -1569,7 +1587,11 @@ CONSTANTS = [
     (r".*mesh/edges.py closed_side_faces", r"len\(edges\) > ", "one corner makes no closed surface"),
     (r".*mesh/bvh.py intersecting_pairs", r"TRIANGLES_PER_LEAF\*\*", "how much is looked at at a time"),
     (r".*mesh/bvh.py sort_components", r"sum\(n \* \(x\[", "any corner is in the face's plane"),
-    (r".*mesh/planarity.py PlanarityAccumulator.degenerate_limit", r"(longest = |float\()", "more is looked at closely"),
+    (
+        r".*mesh/planarity.py PlanarityAccumulator.degenerate_limit",
+        r"(longest = |float\()",
+        "more is looked at closely",
+    ),
     (
         r".*mesh/planarity.py PlanarityAccumulator._polygon_tetrahedra",
         r"(quad_faces\.max\(initial=-|int\(quad_faces\.max\(initial=-1\)\) \+ |np\.empty\(\((0, )?)",

@@ -237,6 +237,28 @@ def test_bounds_are_those_that_are_derived(reach, half_ulp, sizes, edge, area):
         assert close(rounding, truth[0] + (0.0 if whole else rest), rel=1e-13)
 
 
+@pytest.mark.parametrize("area_order", [0, 3])
+@pytest.mark.parametrize("small", [True, False])
+def test_bounds_of_moments_are_those_of_their_sums_and_eight_roundings_more(monkeypatch, small, area_order):
+    """With a rounding of one unit for each sum, of which the moments are shares."""
+    module = third_order_small if small else third_order
+    own = module._error_bounds
+
+    def one_unit(*given):
+        *sizes, rounding, inputs = own(*given)
+        return *sizes, np.full_like(rounding, U), inputs
+
+    monkeypatch.setattr(third_order, "MAX_SMALL_TRIANGLES", 1024 if small else 0)
+    monkeypatch.setattr(module, "_error_bounds", one_unit)
+    points, triangles = bodies.sphere(1)
+    about = np.array([-5.0, -6.0, -7.0])
+    volume, area = polyhedron_moments(Surface(points, triangles), 3, area_order=area_order, about=about)
+    degree = monomials(3).sum(axis=1)
+    assert close(volume.rounding_error, U / (2.0 * degree + 6.0) + 8.0 * U * np.abs(volume.raw), rel=1e-13)
+    assert close(area.rounding_error, U / 2.0 + 8.0 * U * np.abs(area.raw), rel=1e-13)
+    assert area.order == area_order
+
+
 @pytest.mark.parametrize("order", [1, 4])
 @pytest.mark.parametrize("corners", [3, 4])
 @pytest.mark.parametrize("half_ulp", [(0.0, 0.0, 0.0), (0.5, 0.25, 0.125)])
