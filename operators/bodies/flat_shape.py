@@ -8,6 +8,7 @@ It has no volume and no thickness; a shell is a sheet, a body that may be turned
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property, partial
 from typing import TypeVar
@@ -20,7 +21,7 @@ from ...core.inertia.canonical_frame import NOISE_LEVEL
 from ...core.mesh.surface import Surface
 from ...core.moments.moments import Moments
 from ...core.moments.monomials import monomials
-from ...core.shape.disc_zernike import disc_zernike
+from ...core.shape.disc_zernike import MAX_DISC_ORDER, disc_zernike
 from ...core.shape.flat_pose import flat_symmetry, holds_by_moments, holds_by_outline, match_flat
 from ...core.shape.flat_signature import flat_signature
 from ...core.shape.registration import Residual, RigidMatch
@@ -28,12 +29,10 @@ from ...core.shape.signature import Signature
 from ...core.shape.symmetry import Symmetry
 from ...core.verdict.finding import MeasureError, ReadError
 from ..read.fingerprint import fingerprint, matrix_hash, settings_hash
-from ..read.section import SECTION_TYPES
 from .flat import NO_BODY, FlatRegion, clearer_refusal, flat_region
 from .shape import EXACT_DISTANCE, SURFACE_SAMPLES, Shape, SurfaceDistance, surface_shape_of
 
 OUTLINE_RESOLUTION = 64  # of curves and text, whatever they are drawn with: shapes do not depend on that
-SIGNATURE_ORDER = 20
 POSE_ORDER = 12  # of what is compared where shapes are laid onto each other
 
 
@@ -82,11 +81,11 @@ class FlatShape:
         """`disc_zernike` in a disc about the centroid, to POSE_ORDER."""
         return disc_zernike(self.moments.truncate(POSE_ORDER), radius)
 
-    def signature(self, order: int = SIGNATURE_ORDER) -> Signature:
+    def signature(self, order: int = MAX_DISC_ORDER) -> Signature:
         """Its numbers, with descriptors to an order."""
         # At about unit size, for high powers of a length are soon beyond the range of numbers.
         scale = 2.0 ** np.frexp(self.radius)[1]
-        moments = self.moments.truncate(min(order, SIGNATURE_ORDER))
+        moments = self.moments.truncate(min(order, MAX_DISC_ORDER))
         degree = monomials(moments.order).sum(axis=1)
         scaled = Moments(moments.raw / scale ** (degree + 2.0), np.zeros(3), moments.measure)
         found = flat_signature(scaled, self.radius / scale)
@@ -158,7 +157,7 @@ def flat_shape_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, unit: f
     region = flat_region(obj, depsgraph, selected=False, resolution=OUTLINE_RESOLUTION, exact=False, unit=unit)
     mark = fingerprint(region.points.tobytes(), matrix_hash(obj), settings_hash(obj, depsgraph.scene))
     try:
-        shape = FlatShape(region, region.moments(SIGNATURE_ORDER), mark)
+        shape = FlatShape(region, region.moments(MAX_DISC_ORDER), mark)
     except MeasureError as error:
         error.about(obj.name)
         raise
@@ -182,18 +181,16 @@ def body_or_flat(
     obj: bpy.types.Object,
     depsgraph: bpy.types.Depsgraph,
     of_body: Callable[[bpy.types.Object], BodyShape],
-    flat: bool = False,
+    flat: bool,
 ) -> BodyShape | FlatShape:
     """As `comparable_shape_of`, by a function that finds the shape of an object's body, or raises MeasureError."""
-    try:
-        if flat and obj.type in SECTION_TYPES:
+    if flat:
+        with suppress(MeasureError):
             return flat_shape_of(obj, depsgraph)
-    except MeasureError:
-        pass
     try:
         return of_body(obj)
     except MeasureError as refusal:
-        if flat or obj.type not in SECTION_TYPES or refusal.finding.code not in NO_BODY:
+        if refusal.finding.code not in NO_BODY:
             raise
         try:
             return flat_shape_of(obj, depsgraph)
