@@ -342,7 +342,6 @@ def _joint_in_place(context: Context, obj: Object) -> Object | None:
         if not prop.is_readonly:
             setattr(copy, prop.identifier, getattr(joint, prop.identifier))
     empty.parent, empty.matrix_parent_inverse = obj, obj.matrix_world.inverted()
-    context.view_layer.update()
     return empty
 
 
