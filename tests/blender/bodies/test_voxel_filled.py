@@ -63,7 +63,9 @@ def test_a_box_around_whole_voxels_weighs_them(tmp_path, mirror):
     assert found.density_from == finding("density_from_grid_of", grid="density", object=volume.name)
 
 
-def test_a_uniform_grid_is_a_plain_density_wherever_both_stand(tmp_path):
+@pytest.mark.parametrize("unit", [1.0, 0.25])
+def test_a_uniform_grid_is_a_plain_density_wherever_both_stand(tmp_path, unit):
+    bpy.context.scene.unit_settings.scale_length = unit
     volume = cloud(
         tmp_path,
         np.full((40, 40, 40), 3.0, np.float32),
@@ -83,7 +85,9 @@ def test_a_uniform_grid_is_a_plain_density_wherever_both_stand(tmp_path):
     assert np.abs(found.mass_properties.inertia - plain.mass_properties.inertia).max() <= 1e-9 * np.trace(
         plain.mass_properties.inertia
     )
-    assert 0.0 < found.error_bound["inertia"] < 1e-6
+    assert 0.0 < found.error_bound["inertia"] < 1e-6 * unit**5
+    for name in ("volume", "area", "center_of_mass", "inertia"):
+        assert close(found.error_bound["input"][name], plain.error_bound["input"][name], 0.4), name
 
 
 def test_what_is_outside_of_the_grid_is_empty_and_said(tmp_path):
