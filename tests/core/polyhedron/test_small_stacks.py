@@ -44,7 +44,7 @@ def test_a_stack_is_each_body_to_the_bit(size, offset):
         assert abs(cones[i, 1] - 6.0 * volume.raw[i, 0]) <= 1e-12 * cones[i, 0]
 
 
-@pytest.mark.parametrize("at_a_time", [1, 5, 30, 50, 100, 10**6])
+@pytest.mark.parametrize("at_a_time", [1, 5, 30, 60, 10**6])
 def test_bodies_are_whole_however_many_triangles_are_taken_at_a_time(monkeypatch, at_a_time):
     monkeypatch.setattr(any_order_small, "TRIANGLES_PER_BLOCK", at_a_time)
     monkeypatch.setattr(third_order_small, "TRIANGLES_PER_BLOCK", at_a_time)
