@@ -11,7 +11,7 @@ import pytest
 bpy = pytest.importorskip("bpy")
 
 from body_moments.core.verdict.finding import MeasureError, finding
-from body_moments.operators.read import measurable, measurable_objects, read_object, read_patches
+from body_moments.operators.read import measurable, measurable_objects, read_lines, read_object, read_patches
 from body_moments.operators.read.decisions import _render_differences
 from mathutils import Matrix
 
@@ -275,6 +275,12 @@ def test_an_empty_without_instances_is_refused():
     assert not measurable(obj)
     obj.instance_type, obj.instance_collection = "COLLECTION", collection("Hollow")
     assert refused(obj, "collection_without_surface")
+
+
+def test_only_curves_are_read_as_lines():
+    obj = link("Wire", mesh("Wire", [(0, 0, 0), (1, 0, 0)], []))
+    with findings.refused("only_curves_are_wires", "Wire"):
+        read_lines(obj, bpy.context.evaluated_depsgraph_get())
 
 
 def test_what_has_no_faces_is_refused_with_what_it_has():

@@ -348,3 +348,8 @@ def test_the_default_density_is_none_its_own_or_that_of_a_material(scene):
     for name, wanted, material in (("NONE", None, ""), ("CUSTOM", 1234.5, ""), ("Copper", 8960.0, "Copper")):
         settings.default_material, settings.default_density = name, 1234.5
         assert preferences.default_density(scene) == wanted and preferences.default_material(scene) == material
+
+
+@pytest.mark.parametrize("kind", ["Object", "Material", "Scene"])
+def test_settings_have_the_add_ons_name(kind):
+    assert getattr(bpy.types, kind).bl_rna.properties["body_moments"].name == "Body Moments"

@@ -659,6 +659,13 @@ def test_the_strict_rule_asks_for_exact_third_moments_where_they_are_doubtful(si
     assert ("strict_rule_no_skewness" in reported.codes) == (answer == "CANCELLED")
 
 
+@pytest.mark.parametrize("scale", [1e-3, 1e3])
+def test_a_body_of_any_scale_is_turned(scale):
+    obj = add(mesh_body(), location=(1, 2, 3), rotation=(0.3, 0.4, 0.5), scale=(scale,) * 3)
+    assert run(ALIGN) == {"FINISHED"}
+    assert abs(np.abs(measured(obj).mass_properties.principal.axes).trace() - 3.0) < 1e-5
+
+
 @pytest.mark.parametrize("parent", [True, False])
 def test_an_empty_cannot_follow_what_is_scaled_to_nothing_along_an_axis(parent, reported):
     obj = add(mesh_body(), scale=(1, 1, 0))
