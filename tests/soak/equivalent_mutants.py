@@ -637,6 +637,7 @@ PATTERNS = [
         "what was proved closed is found so once more",
     ),
     (r".*supervisor/pool.py Pool._pause", r"(?!return|max).*", r".*", "how often is looked"),
+    (r"operators/session/threshold.py DELAY", r"0\.3", r"0\.6", "how soon exact numbers come where a slider rests"),
     (
         r".*supervisor/pool.py Pool._watch",
         r"self\._limits\.memory and now >= .*|self\._watched \+ _WATCH",
