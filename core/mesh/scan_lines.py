@@ -171,7 +171,7 @@ def find_crossings(surface: Surface, grids: LineGrids, body: NDArray[np.integer]
     first = -(-first // step) * step
     count = np.maximum(-((first - last) // step), 0)
     pieces = []
-    for part in batches(count, PAIRS_PER_BLOCK) if len(count) else ():
+    for part in batches(count, PAIRS_PER_BLOCK):
         which = part.start + np.repeat(np.arange(len(count[part])), count[part])
         row = first[which] + segment_ranges(count[part]) * step[which]
         pieces.append((which, row, *_cross_row(places, corners, which, above.take(which, 1) > row, row)))

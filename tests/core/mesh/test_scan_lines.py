@@ -9,7 +9,7 @@ from body_moments.core.mesh.scan_lines import LINE_SLOPES, LineGrids, find_cross
 from body_moments.core.mesh.surface import Surface
 
 from tests.close import close
-from tests.core.bodies import box, joined, moved, ring, rotation, sphere, surface, torus, welded
+from tests.core.bodies import box, joined, moved, ring, rotation, sphere, split, surface, torus, welded
 
 
 def grid_of(body, lines=400):
@@ -122,6 +122,26 @@ def test_too_much_work_leaves_rows_out_and_says_how_many(monkeypatch):
         apart = int(found.rows_apart[0])
         assert apart > 1
         assert lines_of(found) == {key: line for key, line in whole.items() if key[1] % apart == 0}
+
+
+@pytest.mark.parametrize("name", ["MAX_PAIRS", "MAX_CROSSINGS"])
+def test_how_many_rows_are_left_out_follows_from_a_body_s_own_triangles(name, monkeypatch):
+    """Twice as many as it has quads, whatever other bodies there are."""
+    points, quads = ring(40, 30)
+    body = Surface(points, quads=quads)
+    cut, count = Surface(points, body.all_triangles()[0]), 2 * len(quads)
+    low, high = body.box
+    twice = LineGrids.over_boxes(np.array([low, low]), np.array([high, high]), np.array([400, 400]))
+    both = np.concatenate([points, points])
+    some = Surface(both, split(quads[:300]), np.concatenate([quads[300:], quads + len(points)]))
+    apart = []
+    for limit in ((100, 0.05), (100.0 + 0.05 * count, 0.0), (100, 0.0)):
+        monkeypatch.setattr(scan_lines, name, limit)
+        alone = [int(find_crossings(each, grid_of(body)).rows_apart[0]) for each in (body, cut)]
+        together = find_crossings(some, twice, np.repeat([0, 1], len(points))).rows_apart.tolist()
+        assert together[1] == alone[0]
+        apart.append([*alone, *together])
+    assert apart[0] == apart[1] and min(apart[0]) > 1 and (np.array(apart[0]) < apart[2]).all()
 
 
 def test_one_line_through_a_point_counts_how_often_it_is_surrounded():
