@@ -1705,6 +1705,7 @@ CONSTANTS = [
     (r".*mesh/boundary.py HALF", r"np\.uint64\(", "another hash, as good"),
     (r".*mesh/boundary.py _sum_of_sides", r"KEYS\[", "another hash, as good"),
     (r".*mesh/scan_lines.py find_crossings", r"body\[triangles\[", "any corner is of the face's body"),
+    (r".*mesh/scan_lines.py _count_faces", r"body\[faces\[:, ", "any corner is of the face's body"),
     (r".*triangle_kernel.py SortedTriangles._sort", r"\+ 1100, (0, )?", "the order in which triangles are summed"),
     (r".*plane/section.py measure_section", r"np\.ones\(", "it is replaced"),
     (
