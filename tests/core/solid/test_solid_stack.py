@@ -263,5 +263,13 @@ def test_parts_are_measured_together_where_twice_what_is_welded_is_between_them(
     assert stack.is_measured.tolist() == [False, True, True]
 
 
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("size", [2.0**-40, 2.0**15, 2.0**90, 2.0**125])
+def test_a_stack_of_any_size_is_measured_without_a_warning_of_numpy(size):
+    stack = measure_stack([mesh(CORNERS * size, SIDES, np.float32)] * 2)
+    assert close(stack.volume.raw[:, 0], [size**3] * 2, 1e-14)
+    assert stack.is_measured.all() == (size < 2.0**100)
+
+
 def test_an_empty_mesh_has_no_place_in_a_stack():
     assert not can_be_stacked(Surface(np.zeros((0, 3), np.float32), np.zeros((0, 3), int)))
