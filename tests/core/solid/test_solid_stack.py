@@ -10,6 +10,7 @@ from body_moments.core.solid.solid_stack import can_be_stacked, measure_stack, s
 from body_moments.core.verdict.health import Intersection
 from body_moments.core.verdict.method import Verdict
 
+from tests.close import close
 from tests.core.bodies import mesh, moved, sphere
 from tests.core.solid.test_self_intersection import hourglass
 
