@@ -28,12 +28,14 @@ from .canonical_frame import MAX_ORDER, NOISE_LEVEL, EquivalentFrames, _lexicogr
 
 MAX_AXIAL_ORDER = 30
 MAX_TILT = 1e-2  # of an axis: about one that leans by more, the harmonics say nothing of the body
+LEAST_HEIGHT = 1e-2  # of the radius: heights are counted by it at least, as float32 makes flat bodies uneven
 TRIANGLES_PER_BLOCK = 1 << 13
 
 
 @dataclass(frozen=True, eq=False)
 class AxialHarmonics:
-    """Harmonics about an axis, each as a share of the largest that a body of that radius and height can have.
+    """Harmonics about an axis, each as a share of the largest that a body of that radius and height can have, or of one
+    that is not as flat.
 
     Attributes
     ----------
@@ -91,7 +93,7 @@ def axial_harmonics(
     pieces = [((piece.points.astype(np.float64) - center) @ frame, piece.all_triangles()[0]) for piece in surfaces]
     reach = max(float(np.hypot(points[:, 0], points[:, 1]).max()) for points, _ in pieces)
     height = max(float(np.abs(points[:, 2]).max()) for points, _ in pieces)
-    scale = np.array([reach, reach, height])
+    scale = np.array([reach, reach, max(height, LEAST_HEIGHT * reach)])
     sums, total = np.zeros((2, order + 1), np.complex128), 0.0
     for points, triangles in pieces:
         for start in range(0, len(triangles), TRIANGLES_PER_BLOCK):

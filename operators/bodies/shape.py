@@ -82,7 +82,7 @@ class Shape:
         """About the center, to the order that a pose needs. ReadError where they exceed the range of numbers."""
         with np.errstate(over="ignore", invalid="ignore"):
             volume, area = self.body.moments(MAX_ORDER, self._sheets)
-        found = area if self._sheets and area is not None else volume
+        found = volume if area is None else area
         if not np.isfinite([found.raw, found.rounding_error]).all():
             raise ReadError("object_too_large")
         known = self.body.area if self._sheets else self.body.volume

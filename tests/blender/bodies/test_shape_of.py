@@ -142,3 +142,18 @@ def test_the_signature_of_a_sheet_stops_at_order_20():
         points = one.points_about_center()
         assert len(points) == len(obj.data.vertices) and close(one.signature(6).size, one.signature(21).size, 1e-9)
     assert sizes["SHELL"] == 2 * sizes["SOLID"][:1] and sizes["SOLID"][1] > sizes["SOLID"][0]
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("corners, group", [(7, "D7h"), (40, "D∞h")])
+def test_a_flat_plate_is_as_round_as_its_corners_say_wherever_it_stands(corners, group):
+    """How far rounding puts its corners out of the plane says nothing."""
+    angles = 2.0 * np.pi * np.arange(corners) / corners
+    mesh = bpy.data.meshes.new("Plate")
+    mesh.from_pydata([(np.cos(angle), np.sin(angle), 0.0) for angle in angles], [], [tuple(range(corners))])
+    obj = add(mesh)
+    obj.body_moments.kind, obj.body_moments.thickness = "SHELL", 0.01
+    for turn, where in (((0, 0, 0), (0, 0, 0)), ((0.3, 0.4, 0.5), (100, 200, 300))):
+        obj.rotation_euler, obj.location = turn, where
+        pose = shape(obj).pose()
+        assert (pose["symmetry"], pose["symmetry_order"], pose["unique"]) == (group, 30, False)
