@@ -2,16 +2,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The shape of an object by itself: which objects have one, its pose, and how far its moments go."""
 
+import bmesh
 import bpy
 import numpy as np
 import pytest
 from body_moments.operators.bodies import measurement
 from body_moments.operators.bodies.shape import NoShapeError, shape_of, surface_shape_of
+from body_moments.operators.settings.options import MeasureOptions
 
 from tests.blender.bodies.test_assembly import box_mesh
 from tests.blender.findings import refused, said
 from tests.blender.grids import vdb_grid, volume_object
-from tests.blender.objects import add, mesh_body
+from tests.blender.objects import add, mesh_body, strip_mesh
 from tests.close import close
 
 pytestmark = pytest.mark.usefixtures("scene")
@@ -60,13 +62,14 @@ def test_what_has_no_shape_of_its_own_is_refused_with_its_measurement(tmp_path):
     assert shape(wall).moments.measure == "area"
 
 
-def test_a_shape_is_seen_as_far_away_as_rounding_leaves_it():
+@pytest.mark.parametrize("size", [2.0**-10, 1.0, 16.0])
+def test_a_shape_is_seen_as_far_away_as_rounding_leaves_it(size):
     """Its largest radius of gyration is (13/12)^0.5; a hundred thousandth of that is rounding from 4.69e10 m on."""
-    obj = add(box_mesh(1, 2, 3))
+    obj = add(box_mesh(1, 2, 3), scale=(size,) * 3)
     for place, is_seen in ((4.6e10, True), (4.8e10, False)):
-        obj.location = (1.0, -place, 2.0)
+        obj.location = (1.0, -place * size, 2.0)
         if is_seen:
-            assert close(shape(obj).size, (13.0 / 12.0) ** 0.5, 1e-12)
+            assert close(shape(obj).size, size * (13.0 / 12.0) ** 0.5, 1e-12)
             continue
         with refused("shape_far_from_origin", obj.name):
             shape(obj)
@@ -138,10 +141,78 @@ def test_the_signature_of_a_sheet_stops_at_order_20():
     for kind in ("SOLID", "SHELL"):
         obj.body_moments.kind = kind
         one = shape(obj)
-        sizes[kind] = [len(one.signature(order).zernike) for order in (20, 21)]
+        low, high = one.signature(20), one.signature(21)
+        sizes[kind] = [len(found.zernike) for found in (low, high)]
         points = one.points_about_center()
-        assert len(points) == len(obj.data.vertices) and close(one.signature(6).size, one.signature(21).size, 1e-9)
+        assert len(points) == len(obj.data.vertices) and close(one.signature(6).size, high.size, 1e-9)
+        assert np.abs(high.zernike[: len(low.zernike)] - low.zernike).max() < 1e-9
     assert sizes["SHELL"] == 2 * sizes["SOLID"][:1] and sizes["SOLID"][1] > sizes["SOLID"][0]
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("kind", ["SOLID", "SHELL"])
+def test_the_signature_is_that_of_the_body_in_any_size_and_wherever_it_stands(kind):
+    obj, found = add(mesh_body()), []
+    obj.body_moments.kind = kind
+    for size in (0.2, 0.2 * 2.0**-40, 0.2 * 2.0**40):
+        obj.scale, obj.location = (size,) * 3, size * np.array([3.0, 4.0, 5.0])
+        one = shape(obj)
+        found.append(one.signature())
+        spread = one.moments.second().trace() / one.moments.total
+        assert close(found[-1].size, spread**0.5, 1e-9) and close(found[-1].size, size / 0.2 * found[0].size, 1e-6)
+        for name in ("invariants", "zernike", "chirality", *(["fourier"] if kind == "SOLID" else [])):
+            numbers, first = getattr(found[-1], name), getattr(found[0], name)
+            assert np.abs(numbers - first).max() < 1e-6 * np.abs(first).max()
+
+
+def test_a_sheet_that_is_open_has_a_signature_and_a_solid_that_cannot_be_closed_has_no_shape():
+    plate = add(box_mesh(1, 2, 3))
+    work = bmesh.new()
+    work.from_mesh(plate.data)
+    bmesh.ops.delete(work, geom=work.faces[:2], context="FACES")
+    work.to_mesh(plate.data)
+    work.free()
+    plate.body_moments.kind = "SHELL"
+    sheet = shape(plate)
+    assert close(sheet.moments.total, sheet.measurement.area, 1e-12)
+    assert close(sheet.signature().size ** 2, sheet.moments.second().trace() / sheet.moments.total, 1e-9)
+    strip = add(strip_mesh())
+    work = bmesh.new()
+    work.from_mesh(strip.data)
+    work.from_mesh(box_mesh(1, 2, 3))
+    work.to_mesh(strip.data)
+    work.free()
+    with refused("shape_of_open_surface", strip.name):
+        shape(strip)
+    strip.body_moments.kind = "SHELL"
+    assert shape(strip).moments.measure == "area"
+
+
+def test_a_caller_may_ask_for_the_shape_of_the_sheet_of_what_is_solid():
+    obj = add(box_mesh(1, 2, 3), location=(5, 6, 7))
+    bpy.context.view_layer.update()
+    depsgraph = bpy.context.evaluated_depsgraph_get()
+    for kind, measure, extent, name in (("shell", "area", 22.0, "area"), (None, "volume", 6.0, "volume")):
+        found = shape_of(obj, depsgraph, MeasureOptions(kind=kind, thickness=0.1))
+        assert found.moments.measure == measure and close(found.moments.total, extent, 1e-9)
+        assert close(found.moments.input_error[0], found.measurement.error_bound["input"][name], 1e-12)
+        assert found.threads == 1 and found.fingerprint == found.measurement.fingerprint
+
+
+def test_the_moments_of_what_patches_show_are_those_of_its_polygons():
+    cube = shape(add(box_mesh(1, 2, 3)))
+    assert cube.piece_moments() is cube.moments
+    bpy.ops.surface.primitive_nurbs_surface_sphere_add(location=(3, 4, 5))
+    one, depsgraph = shape(bpy.context.object), bpy.context.evaluated_depsgraph_get()
+    mesh = bmesh.new()
+    mesh.from_mesh(bpy.data.meshes.new_from_object(bpy.context.object.evaluated_get(depsgraph)))
+    drawn = mesh.calc_volume()
+    mesh.free()
+    assert close(one.moments.total, 4.0 * np.pi / 3.0, 1e-6) and drawn < 0.99 * one.moments.total
+    found = one.piece_moments()
+    assert (
+        found.measure == "volume" and close(found.total, drawn, 1e-5) and np.abs(found.about - [3, 4, 5]).max() < 1e-5
+    )
 
 
 @pytest.mark.filterwarnings("error")
