@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Sculpt Balance in Edit Mode and Object Mode: what moves, what does not, and what is refused."""
 
+from contextlib import contextmanager
+
 import bpy
 import numpy as np
 import pytest
@@ -79,6 +81,21 @@ def center(obj):
     return measured(obj).mass_properties.center
 
 
+@contextmanager
+def told_of(mesh):
+    """The changes of a mesh's geometry that Blender is told of."""
+    changes = []
+
+    def note(_scene, depsgraph):
+        changes.extend(one for one in depsgraph.updates if one.id.original == mesh and one.is_updated_geometry)
+
+    bpy.app.handlers.depsgraph_update_post.append(note)
+    try:
+        yield changes
+    finally:
+        bpy.app.handlers.depsgraph_update_post.remove(note)
+
+
 @pytest.fixture(autouse=True)
 def object_mode():
     yield
@@ -121,13 +138,14 @@ def test_a_point_instead_of_the_cursor():
     assert np.abs(center(obj)[:2] - (0.03, 0.0)).max() < 1e-6
 
 
-def test_gravity_says_what_over_means():
+@pytest.mark.parametrize("is_on", [True, False])
+def test_gravity_says_what_over_means_where_it_is_on(is_on):
     obj = figure()
     edit(obj)
-    bpy.context.scene.gravity = (0.0, 9.81, 0.0)
-    bpy.context.scene.cursor.location = (0.05, 5.0, 0.0)
+    bpy.context.scene.gravity, bpy.context.scene.use_gravity = (0.0, 9.81, 0.0), is_on
+    bpy.context.scene.cursor.location = (0.05, 5.0, 0.0) if is_on else (0.05, 0.0, 5.0)
     assert balance() == {"FINISHED"}
-    assert np.abs(center(obj)[[0, 2]] - (0.05, 0.0)).max() < 1e-6
+    assert np.abs(center(obj)[[0, 2 if is_on else 1]] - (0.05, 0.0)).max() < 1e-6
 
 
 @pytest.mark.parametrize("scale", [(2.0, 0.5, 1.5), (-1.0, 1.0, 1.0), (0.01, 0.01, 0.01)])
@@ -281,13 +299,19 @@ class TestRefused:
         bpy.ops.object.mode_set(mode="OBJECT")
         assert properties.numbers(obj) == numbers
 
-    def test_a_limit_that_is_too_small(self, reported):
+    @pytest.mark.parametrize("unit", [1.0, 0.01])
+    @pytest.mark.parametrize("way", [edit, group])
+    def test_a_limit_that_is_too_small_moves_nothing_and_others_need_not_look(self, way, unit, reported):
+        bpy.context.scene.unit_settings.scale_length = unit
         obj = figure()
-        edit(obj)
+        way(obj)
+        bpy.context.view_layer.update()
         before = points(obj)
-        assert balance(limit=1e-4) == {"CANCELLED"}
-        assert np.array_equal(points(obj), before)
-        assert close(reported.values("balance_short_by_limit")["limit"], 1e-4, rel=1e-6)
+        with told_of(obj.data) as changes:
+            assert balance(limit=1e-4) == {"CANCELLED"}
+            bpy.context.view_layer.update()
+        assert not changes and np.array_equal(points(obj), before)
+        assert close(reported.values("balance_short_by_limit")["limit"], 1e-4 * unit, rel=1e-6)
 
     def test_faces_that_would_turn_over(self, reported):
         obj = figure()
@@ -324,6 +348,21 @@ class TestRefused:
         edit(obj)
         unchanged(obj, points(obj), "balance_modified", reported)
         assert reported.values("balance_modified") == {"modifiers": ["Smooth"]}
+
+    def test_what_is_bent_by_its_parent(self, reported):
+        cage = add(bpy.data.lattices.new("Cage"), "Cage", scale=(3, 3, 3), select=False)
+        cage.data.points[1].co_deform.x += 0.3
+        obj = figure()
+        obj.parent, obj.parent_type = cage, "LATTICE"
+        group(obj)
+        bpy.context.view_layer.update()
+        unchanged(obj, points(obj), "balance_modified_unknown", reported)
+
+    def test_no_active_group(self, reported):
+        obj = figure()
+        group(obj)
+        obj.vertex_groups.active_index = -1
+        unchanged(obj, points(obj), "balance_no_active_group", reported)
 
     def test_a_wall(self, reported):
         obj = figure()
@@ -377,7 +416,9 @@ def test_other_users_of_the_mesh_are_reported_and_their_numbers_are_out_of_date(
 
 
 @pytest.mark.usefixtures("over_cursor")
-def test_a_fake_user_of_the_mesh_is_no_object(reported):
+def test_a_fake_user_of_the_mesh_is_no_object_and_others_are_not_edited(reported):
+    add(None, "Empty")
+    add(bpy.data.cameras.new("Camera"), "Camera")
     obj = figure()
     obj.data.use_fake_user = True
     edit(obj)
@@ -419,7 +460,8 @@ def test_the_poll_says_what_is_missing():
     group(bpy.context.object)
     assert balance.poll()
     bpy.ops.object.mode_set(mode="SCULPT")
-    assert not balance.poll()
+    with pytest.raises(RuntimeError, match="Switch to Edit Mode and select the vertices"):
+        balance()
 
 
 def test_a_refusal_does_not_make_stored_numbers_out_of_date():

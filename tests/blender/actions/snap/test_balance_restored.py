@@ -3,7 +3,6 @@
 """Sculpt Balance where it does not come there after it has moved something, what it says of moves, and how little it
 moves."""
 
-from contextlib import contextmanager
 from dataclasses import replace
 from itertools import pairwise
 
@@ -15,7 +14,7 @@ from body_moments.operators.actions.snap import sculpt_balance
 from body_moments.operators.read import read_object
 from body_moments.operators.session import staleness
 
-from tests.blender.actions.snap.test_balance import balance, center, edit, figure, group, points, world
+from tests.blender.actions.snap.test_balance import balance, center, edit, figure, group, points, told_of, world
 from tests.blender.bodies.test_assembly import box_mesh
 from tests.blender.objects import add
 
@@ -27,21 +26,6 @@ def object_mode():
     yield
     if bpy.context.mode != "OBJECT":
         bpy.ops.object.mode_set(mode="OBJECT")
-
-
-@contextmanager
-def told_of(mesh):
-    """The changes of a mesh's geometry that Blender is told of."""
-    changes = []
-
-    def note(_scene, depsgraph):
-        changes.extend(one for one in depsgraph.updates if one.id.original == mesh and one.is_updated_geometry)
-
-    bpy.app.handlers.depsgraph_update_post.append(note)
-    try:
-        yield changes
-    finally:
-        bpy.app.handlers.depsgraph_update_post.remove(note)
 
 
 @pytest.mark.parametrize("way", ["edited", "grouped"])
@@ -119,7 +103,8 @@ def test_a_coordinate_below_rounding_is_reported_as_none(reported):
     assert said["end"][0] == pytest.approx(0.25, rel=1e-5)
 
 
-def test_a_face_that_bends_is_moved_the_least_for_the_cut_that_it_gets():
+@pytest.mark.parametrize("weights", [(1.0, 1.0, 1.0, 1.0), (1.0, 0.5, 0.25, 0.75)])
+def test_a_face_that_bends_is_moved_the_least_for_the_cut_that_it_gets(weights):
     """Held against the least moves from where it was, of the triangles that it has in the end."""
     mesh = bpy.data.meshes.new("Crate")
     corners = [(x, y, z) for z in (0, 1, 2) for y in (0, 1) for x in (0, 1)]
@@ -128,7 +113,9 @@ def test_a_face_that_bends_is_moved_the_least_for_the_cut_that_it_gets():
     mesh.from_pydata(corners, [], [(0, 2, 3, 1), (8, 9, 11, 10), *sides])
     obj = add(mesh)
     start = points(obj)
-    group(obj, lambda co: float(co.z > 1.5))
+    top = obj.vertex_groups.new(name="Top")
+    for vertex, weight in zip(range(8, 12), weights, strict=True):
+        top.add([vertex], weight, "REPLACE")
     bpy.context.scene.cursor.location = target = (0.62, 0.41, 0.0)
     assert balance() == {"FINISHED"}
     cut = read_object(obj, bpy.context.evaluated_depsgraph_get(), edges=False).parts[0].surface
@@ -137,7 +124,7 @@ def test_a_face_that_bends_is_moved_the_least_for_the_cut_that_it_gets():
         np.arange(8, 12),
         np.array(target),
         across=np.eye(3)[:2],
-        weights=np.ones(4),
+        weights=np.array(weights),
         limit=10.0,
         shell=False,
     )
