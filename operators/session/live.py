@@ -27,6 +27,7 @@ from numpy.typing import NDArray
 
 from ...core.inertia.affine_image import affine_image
 from ...core.measurement import DENSITY_FROM_MASS, Measurement
+from ...core.moments.affine_maps import are_singular
 from ...core.numerics.float32 import shortest_decimal
 from ...core.numerics.rotations import rotation_matrix
 from ...core.nurbs.tracked_solid import TrackedSolid
@@ -119,7 +120,7 @@ def current_numbers(obj: Object) -> LiveResult | None:
 def lag(obj: Object) -> Lag:
     """Return how far the live numbers of an object are behind what is shown."""
     followed = _followed.get(obj)
-    if followed is None or not followed.is_pending:
+    if followed is None or not (followed.is_pending or _is_out_of_reach(obj, followed)):
         return Lag.NONE
     return Lag.BEHIND if followed.first_order is None else Lag.FIRST_ORDER
 
@@ -157,16 +158,32 @@ def current_properties(obj: Object, scene: Scene) -> StoredProperties | None:
     return _mapped(obj, followed, measured, shown, shortest_decimal(scene.unit_settings.scale_length))
 
 
+def _is_out_of_reach(obj: Object, followed: _Followed) -> bool:
+    """Whether the numbers are those of another scale, and do not follow it: until it is measured the next moment."""
+    measured = None if followed.result is None else followed.result.measurement
+    if measured is None or has_transform(obj, followed.transform):
+        return False
+    return _linear_map(obj, followed, measured) is None
+
+
+def _linear_map(obj: Object, followed: _Followed, measured: Measurement) -> NDArray | None:
+    """The linear part of the map from how an object was measured to how it stands. None where its numbers do not follow
+    it: of what is no solid, or where either is flat."""
+    before, now = followed.matrix[:3, :3], float64_matrix(obj.matrix_world)[:3, :3]
+    if measured.kind != "solid" or not np.isfinite(now).all() or are_singular(np.stack([before, now])).any():
+        return None
+    return now @ np.linalg.inv(before)
+
+
 def _mapped(
     obj: Object, followed: _Followed, measured: Measurement, shown: StoredProperties, unit: float
 ) -> StoredProperties:
     """The same where the object is stretched, and with the volume and center that a light pass has found."""
+    linear = _linear_map(obj, followed, measured)
+    if linear is None:
+        return shown
     now = float64_matrix(obj.matrix_world)
     to_own = rotation_matrix(obj.matrix_world.to_quaternion()).T
-    try:
-        linear = now[:3, :3] @ np.linalg.inv(followed.matrix[:3, :3])
-    except np.linalg.LinAlgError:
-        return shown
     stretch = abs(np.linalg.det(linear))
     center = measured.mass_properties.center / unit
     if followed.first_order is None:
@@ -176,7 +193,7 @@ def _mapped(
         volume, center = followed.first_order
         volume = volume * abs(np.linalg.det(now[:3, :3])) * unit**3
         center = now[:3, :3] @ center + now[:3, 3]
-    if measured.kind != "solid" or not volume > 0.0 or not np.isfinite(linear).all():
+    if not volume > 0.0:
         return shown
     is_mass_given = measured.density_from == DENSITY_FROM_MASS
     mass = measured.mass_properties.mass if is_mass_given else measured.mass_properties.mass / measured.volume * volume

@@ -445,12 +445,31 @@ def test_what_cannot_be_mapped_is_shown_as_it_was_measured(kind):
     update()
     shown = live.current_properties(obj, bpy.context.scene)
     assert (shown.volume, shown.body.mass) == (whole.volume, whole.body.mass)
+    assert shown_body(obj).verdict == Trust.OUT_OF_DATE
     obj.scale = size
     update()
     live._followed.get(obj).matrix = np.diag([1.0, 0.0, 1.0, 1.0])
     live._followed.get(obj).first_order = (2.0 * whole.volume, np.zeros(3))
     shown = live.current_properties(obj, bpy.context.scene)
     assert (shown.volume, shown.body.mass) == (whole.volume, whole.body.mass)
+
+
+@pytest.mark.parametrize("kind", ["SOLID", "SHELL"])
+def test_a_wall_that_was_scaled_is_out_of_date_until_it_is_measured_the_next_moment(kind, monkeypatch):
+    obj = add(mesh_body(), location=(3, -1, 2), rotation=(0.3, 0.2, 1.0))
+    obj.body_moments.kind, obj.body_moments.thickness = kind, 0.01
+    start(obj)
+    measured_so = shown_body(obj).verdict
+    assert measured_so != Trust.OUT_OF_DATE
+    obj.scale.y = 1.7
+    update()
+    assert shown_body(obj).verdict == (Trust.OUT_OF_DATE if kind == "SHELL" else measured_so)
+    tick(monkeypatch)
+    assert_current(obj)
+    obj.rotation_euler = (1.0, 2.0, 3.0)
+    update()
+    assert shown_body(obj).verdict == measured_so
+    assert_current(obj)
 
 
 def test_what_was_interrupted_when_it_was_measured_first_has_no_live_numbers(monkeypatch):
