@@ -41,7 +41,7 @@ from .measure_object import THREADS, Measured, measure_body
 EXACT_DISTANCE, NEAR_DISTANCE = 1e-5, 1e-2
 SURFACE_SAMPLES = 1500  # points of a surface that are held against another one
 POINTS_PER_BATCH = 64  # points whose distances are found at once
-SURFACE_OPTIONS = MeasureOptions(threads=THREADS, axes=False, pose=True)  # of what is measured for its surface's shape
+SURFACE_OPTIONS = MeasureOptions(threads=THREADS, axes=False)  # of what is measured for its surface's shape
 
 
 @dataclass(frozen=True)

@@ -72,13 +72,44 @@ def test_an_object_that_shows_the_mesh_of_another_shares_its_signature(monkeypat
     wedges = [bpy.data.objects.new("Wedge", mesh) for _ in range(6)]
     for i, wedge in enumerate(wedges):
         bpy.context.scene.collection.objects.link(wedge)
-        wedge.scale = (1 + i, 1 + i, -1 - i if i % 2 else 1 + i)
+        size = 0.2 * (1 + i)  # below one and above
+        wedge.scale = (size, size, -size if i % 2 else size)
     bpy.context.view_layer.update()
     signed = signed_in_turn(wedges, bpy.context.evaluated_depsgraph_get(), ORDER)
     signatures = [signed(wedge) for wedge in wedges]
     assert asked == [1]
     assert close([found.size / signatures[0].size for found in signatures], np.arange(1.0, 7.0), 1e-6)
     assert [np.sign(found.chirality @ signatures[0].chirality) for found in signatures] == [1, -1, 1, -1, 1, -1]
+
+
+def test_a_body_that_is_stretched_or_mirrored_has_a_signature_of_its_own_and_one_far_away_has_none():
+    """The last of them are as far away as rounding leaves their shape, and a little farther, among others."""
+    mesh = bpy.data.meshes.new("Wedge")
+    mesh.from_pydata(
+        [(0, 0, 0), (1, 0.2, 0), (0.3, 2, 0.1), (0.2, 0.4, 3)], [], [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
+    )
+    scales = [(0.5, 0.5, 0.5), (0.5, 0.7, 0.6), (0.7, 0.5, 0.6), (0.5, 0.7, -0.6), (2, 3, 4), (2, 3, -4)]
+    places = [0.0] * len(scales) + [3e10, 1e11, 0.0]
+    wedges = []
+    for place, scale in zip(places, [*scales, (1, 1, 1), (1, 1, 1), (1, 1, 1)]):
+        wedges.append(bpy.data.objects.new("Wedge", mesh))
+        bpy.context.scene.collection.objects.link(wedges[-1])
+        wedges[-1].location.x, wedges[-1].scale = place, scale
+    bpy.context.view_layer.update()
+    depsgraph = bpy.context.evaluated_depsgraph_get()
+    signed, kept = signed_in_turn(wedges, depsgraph, ORDER), 0
+    for obj, place in zip(wedges, places):
+        found = refusal_or(signed, obj)
+        if place == 1e11:
+            assert found == refusal_or(surface_shape_of, obj, depsgraph) == "shape_far_from_origin"
+            continue
+        kept += isinstance(found, Signature)
+        found = found if isinstance(found, Signature) else found.signature(ORDER)
+        wanted = surface_shape_of(obj, depsgraph).signature(ORDER)
+        assert close(found.size, wanted.size, MATRIX_RTOL)
+        likeness = similarity(wanted, found)
+        assert likeness.distance() < MATRIX_RTOL and likeness.is_mirror_image is False
+    assert kept >= len(scales) + 1
 
 
 def test_the_surfaces_shape_of_sheets_that_are_patches_is_refused_with_their_measurement():

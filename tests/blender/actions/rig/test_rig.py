@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from body_moments.core.polyhedron.first_order import volume_and_center
 from body_moments.core.verdict.finding import ReadError
+from body_moments.operators.bodies import rig as bodies_of_rigs
 from body_moments.operators.bodies.measure_object import measure_object
 from body_moments.operators.bodies.rig import measure_rig
 from body_moments.operators.read import read_object
@@ -653,3 +654,20 @@ def test_vertices_without_weights_are_counted_among_those_that_faces_use():
     (found,) = measured(armature).measurement.findings
     assert found.code == "unweighted_vertices" and np.asarray(found.elements).tolist() == [3, 5]
     assert found.values == {"count": 2, "total": count, "sources": [skin.name]}
+
+
+def test_a_skin_on_which_this_program_fails_is_left_out_and_the_traceback_is_on_the_console(monkeypatch, capsys):
+    armature, skin = character()
+    sword = bpy.data.objects.new("Sword", box_mesh(1, 2, 4))
+    bpy.context.scene.collection.objects.link(sword)
+    sword.parent, sword.parent_type, sword.parent_bone = armature, "BONE", "arm.L"
+
+    def planted(surface):
+        raise TypeError("planted")
+
+    monkeypatch.setattr(bodies_of_rigs, "measure_solid", planted)
+    rig = measured(armature)
+    told = {found.code: found.values for found in rig.measurement.findings}
+    assert told["members_not_measured"] == {"count": 1, "names": [skin.name]}
+    assert [part.sources for part in rig.parts] == [("Sword",)]
+    assert "TypeError: planted" in capsys.readouterr().err
