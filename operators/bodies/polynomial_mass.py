@@ -19,6 +19,7 @@ from ...core.density.polynomial import Polynomial
 from ...core.density.polynomial_mass import local_coordinates, polynomial_mass_of_images
 from ...core.density.positivity import find_negative_point
 from ...core.mesh.surface import Surface
+from ...core.moments.affine_maps import translation_matrices
 from ...core.moments.moments import Moments
 from ...core.numerics.rotations import polar_rotation
 from ...core.polyhedron import polyhedron_moments
@@ -62,18 +63,17 @@ def polynomial_mass_result(
     findings += _negative_density_note(density, pieces, shell)
     parts = []
     order += polynomial.degree
-    area_order = order if shell else 0 if order == 3 else None  # to third order it is found on the way
     for piece in pieces:
         volume, area = polyhedron_moments(
             piece.surface,
             order,
-            area_order=area_order,
+            area_order=order if shell else None,
             about=piece.about,
             exact=True,
             threads=threads,
             allow_open=True,
         )
-        moments = area if shell and area is not None else volume
+        moments = volume if area is None else area
         parts.append(polynomial_mass_of_images(moments, polynomial, piece.matrices, piece.fields))
     return parts, findings
 
@@ -98,9 +98,8 @@ def _solid_pieces(reading: Reading, body: MeshBody, in_world: bool, unit: float)
 def _to_local(matrices: NDArray) -> NDArray[np.float64]:
     """(k, 4, 4) from world coordinates, in meters, to those along the axes of what stands there."""
     axes = polar_rotation(matrices)[0].transpose(0, 2, 1)
-    to_own = np.tile(np.eye(4), (len(matrices), 1, 1))
+    to_own = translation_matrices(-(axes @ matrices[:, :3, 3, None])[..., 0])
     to_own[:, :3, :3] = axes
-    to_own[:, :3, 3] = -(axes @ matrices[:, :3, 3, None])[..., 0]
     return to_own
 
 
@@ -112,7 +111,7 @@ def _sheet_pieces(reading: Reading, in_world: bool, unit: float) -> Iterator[_Pi
         for surface, image_matrices, which in group_by_similarity(part.surface, matrices):
             to_local = fields[which]
             if surface is not part.surface:  # mapped already: only the turn is left
-                to_local = np.tile(np.eye(4), (len(which), 1, 1))
+                to_local = translation_matrices(np.zeros((len(which), 3)))
                 to_local[:, :3, :3] = axes[which].transpose(0, 2, 1)
             yield _Piece(surface, image_matrices, image_matrices if in_world else to_local)
 

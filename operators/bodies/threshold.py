@@ -113,8 +113,8 @@ def threshold_grid(reading: VolumeReading, unit: float) -> ThresholdGrid:
         raise ReadError("threshold_too_large", grid=reading.grid, samples=samples)
     values = np.full(reading.shape, reading.background, np.float32)
     for (i, j, k), block in reading.blocks():
-        if block.dtype.itemsize > 4 and values.dtype != np.float64:
-            values = values.astype(np.float64)
+        if block.dtype.itemsize > 4:
+            values = values.astype(np.float64, copy=False)
         values[i : i + block.shape[0], j : j + block.shape[1], k : k + block.shape[2]] = block
     first = np.eye(4)
     first[:3, 3] = reading.low
@@ -132,15 +132,12 @@ def threshold_grid_body(
     MeasureError
         Where there is none, or its density is not known.
     """
-    scale = 1.0
-    if options.filled:
-        if options.table:
-            raise ReadError("threshold_needs_factor")
-        scale = options.value_density
+    if options.filled and options.table:
+        raise ReadError("threshold_needs_factor")
     above = grid.set_above(options, KNOWN_ORDER, preview)
     if not above.volume.total > 0.0:
         raise ReadError("threshold_not_reached", grid=grid.name, threshold=options.threshold, largest=grid.largest())
-    mass = None if above.mass is None else above.mass * scale
+    mass = None if above.mass is None else above.mass * options.value_density
     if mass is not None and not np.abs(mass.raw).max() < MAX_MASS_MOMENT:
         raise ReadError("mass_overflow")
     if mass is not None and not mass.total > 0.0:
@@ -148,7 +145,7 @@ def threshold_grid_body(
     higher = None
     if mass is not None and order > KNOWN_ORDER:
         weighed = grid.set_above(options, order).mass
-        higher = None if weighed is None else weighed * scale
+        higher = None if weighed is None else weighed * options.value_density
     return ThresholdGridBody(
         above.volume,
         above.area,

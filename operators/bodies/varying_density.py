@@ -143,7 +143,6 @@ def _by_material(reading: Reading, body: MeshBody, request: Request, order: int)
                     solid.repaired_surface,
                     order,
                     about=volume.about,
-                    exact=True,
                     threads=request.options.threads,
                     allow_open=True,
                 )[0]

@@ -240,6 +240,17 @@ def test_a_cavity_takes_away_the_material_around_it_and_an_insert_adds_up():
     found = measure(insert)
     assert found.mass_properties.mass == pytest.approx(STEEL * 64 + CORK * 8, rel=1e-14)
     assert "overlapping_densities" in said(found)
+    insert.body_moments.kind, insert.body_moments.thickness = "SHELL", 0.01
+    assert "overlapping_densities" not in said(measure(insert))
+    same = by_material(add(box((0, 0, 0), (4, 4, 4)), box((1, 1, 1), (3, 3, 3))), bpy.data.materials["Steel"])
+    assert "overlapping_densities" not in said(measure(same))
+    inner = [box((i, 1, 1), (i + 0.5, 3, 3)) for i in (1, 2)]
+    beside = [box((x, 0, 0), (x + 2, 1, 1)) for x in (10, 11)]
+    faces = [0] * 18 + [1] * 12
+    both = by_material(add(box((0, 0, 0), (4, 4, 4)), *inner, *beside), *insert.data.materials, faces=faces)
+    found = measure(both)
+    assert found.health.nested_components == found.health.overlapping_components == 2
+    assert "overlapping_densities" in said(found)
 
 
 def test_united_shells_have_no_materials():
@@ -445,6 +456,7 @@ def test_a_sheared_object_says_which_axes_are_meant():
     found = measure(child)
     assert found.mass_properties.mass == pytest.approx(found.volume * 1005.0, rel=1e-6)
     assert "sheared_density_axes" in said(found)
+    assert not measure(by_polynomial(child, "1000 + 10*z", "WORLD")).findings  # whose axes are not
 
 
 def test_coordinates_are_in_meters_at_every_unit_scale():
@@ -542,6 +554,8 @@ def test_of_more_instances_than_are_looked_at_the_density_may_be_negative(count)
     assert said(found) == ({"density_possibly_negative": {}} if count > 50 else {})
     found = measure(by_polynomial(empty, "1 + 2*x"))  # in its own coordinates each is as the first
     assert close(found.mass_properties.mass, count * 0.1875, 1e-12) and not found.findings
+    assert not measure(by_polynomial(empty, "0.5")).findings
+    assert not measure(by_polynomial(empty, "0.1 + (x - y)**2")).findings
 
 
 @pytest.mark.parametrize("thickness", [0.5, 2.0**-13])
@@ -580,6 +594,10 @@ def test_united_shells_take_a_polynomial():
     assert measure(obj).mass_properties.mass == pytest.approx(100 * 1.5 + 10 * 1.5**2 / 2, rel=1e-6)
     obj.body_moments.density_frame = "WORLD"
     assert measure(obj).mass_properties.mass == pytest.approx(100 * 1.5 + 10 * (4.5**2 - 9) / 2, rel=1e-6)
+    obj.body_moments.density_frame, obj.rotation_euler = "OBJECT", (0.0, 0.0, math.pi)
+    bpy.context.scene.unit_settings.scale_length = 0.5
+    mass = (100 * 0.75 + 10 * 0.75**2 / 2) * 0.25
+    assert measure(obj).mass_properties.mass == pytest.approx(mass, rel=1e-6)
 
 
 # Vertex attributes
@@ -797,3 +815,81 @@ def test_of_many_materials_the_first_are_named():
     obj = by_material(add(*boxes), *made, faces=[i for i in range(11) for _ in range(6)])
     text = str(measure(obj).density_from)
     assert "Material 07 107 kg/m³" in text and "Material 08" not in text and text.endswith("and 3 more")
+
+
+@pytest.mark.parametrize("order_of_parts", [("Pure", "Mixed"), ("Mixed", "Pure")])
+def test_a_mean_by_area_of_any_part_is_said_of_the_density(order_of_parts):
+    cork, steel = material("Cork", CORK), material("Steel", STEEL)
+    group = bpy.data.collections.new("Group")
+    for x, name in enumerate(order_of_parts):
+        faces = [1, 0, 0, 0, 0, 0] if name == "Mixed" else [0] * 6
+        part = by_material(add(box((0, 0, 0), (1, 1, 1)), name=name), cork, steel, faces=faces)
+        part.location.x = 5.0 * x
+        group.objects.link(part)
+    empty = bpy.data.objects.new("Instancer", None)
+    empty.instance_type, empty.instance_collection = "COLLECTION", group
+    empty.body_moments.density_from = "MATERIALS"
+    bpy.context.scene.collection.objects.link(empty)
+    found = measure(empty)
+    assert found.density_from.values["materials"][-1]["code"] == "density_mixed_by_area"
+    assert close(found.mass_properties.mass, CORK + (5 * CORK + STEEL) / 6, rel=1e-13)
+
+
+@pytest.mark.parametrize("size", [0.25, 1.0, 8.0])
+@pytest.mark.parametrize("cavity", [False, True])
+def test_what_a_mean_or_a_cavity_neglects_is_slight_by_the_mass_and_the_size_of_the_body(size, cavity):
+    """A density on faces counts where it is a ten thousandth of the mass by the diagonal of the box."""
+    steel, paint = material("Steel", 1000.0), material("Paint", 1.0)
+    side = 0.5
+    whole = box((0, 0, 0), (size, size, size))
+    hole = box((0.25 * size,) * 3, (0.75 * size,) * 3, turned=True)
+    obj = add(whole, hole) if cavity else add(whole)
+    by_material(obj, steel, paint, faces=[0] * 6 + [1] * 6 if cavity else [0] * 5 + [1])
+    mass = 1000.0 * (1.0 - side**3 if cavity else 1.0)
+    limit = 1e-4 * mass / math.sqrt(3.0)  # times the square of the size
+    code = "cavity_material_ignored" if cavity else "mixed_material_component"
+    slightly = "cavity_material_ignored_slightly" if cavity else "mixed_materials_slightly"
+    for share, is_slight in ((0.98, True), (1.02, False)):
+        if cavity:
+            paint.body_moments.density = share * limit / (6.0 * side**2)
+        else:
+            paint.body_moments.density = 1000.0 - share * limit / 6.0
+        bpy.context.view_layer.update()
+        assert (slightly in said(measure(obj)), code in said(measure(obj))) == (is_slight, not is_slight)
+
+
+@pytest.mark.parametrize("order", [None, 3, 5])
+def test_an_open_body_weighs_as_it_does_with_one_density_to_any_order(order):
+    """By one material, by a polynomial that is one number, and by one value; closed to the same point."""
+    points = np.random.default_rng(0).uniform(1.0, 2.0, (7, 3)).tolist()
+    faces = [(0, 1, 2), (1, 3, 2), (2, 3, 4), (3, 5, 4), (4, 5, 6), (0, 2, 6), (2, 5, 6)]
+    found = []
+    for source in ("VALUE", "MATERIALS", "POLYNOMIAL"):
+        obj = add({"points": points, "faces": faces})
+        by_material(obj, bpy.data.materials.get("Cork") or material("Cork", CORK))
+        settings = obj.body_moments
+        settings.density_from, settings.density_polynomial, settings.density = source, str(CORK), CORK
+        bpy.context.view_layer.update()
+        found.append(measure_object(obj, bpy.context.evaluated_depsgraph_get(), MeasureOptions(order=order)))
+    plain = found[0].volume_moments
+    assert str(found[0].method) == "open"
+    for varied in found[1:]:
+        mass = varied.higher_mass or varied.mass_moments[0]
+        assert mass.order == (order or 3) and (varied.higher_mass is not None) == (order == 5)
+        moments = mass.about_point(plain.about).truncate(plain.order)
+        apart = np.abs(moments.raw - CORK * plain.truncate(moments.order).raw).max()
+        assert apart <= 1e-9 * CORK * np.abs(plain.raw).max()
+        assert close(varied.mass_properties.mass, CORK * found[0].volume, rel=1e-12)
+
+
+def test_of_a_shell_a_density_that_is_negative_inside_is_none_of_its_faces():
+    obj = by_polynomial(add(box((-1, -1, 0), (1, 1, 2))), "(z - 1)**2 + x**2 + y**2 - 0.02", "WORLD")
+    with pytest.raises(MeasureError) as caught:
+        measure(obj)
+    assert caught.value.finding.values["frame"] == "world"
+    obj.body_moments.kind, obj.body_moments.thickness = "SHELL", 0.01
+    assert measure(obj).mass_properties.mass > 0.0
+    obj.body_moments.density_polynomial = "1 - x"
+    obj.body_moments.thickness = 0.0
+    with refused("no_thickness"):  # before it is weighed
+        measure(by_polynomial(obj, "x", "WORLD"))

@@ -3,14 +3,19 @@
 """The body of a Volume object within a threshold: numbers through every transform, fillings, refusals, the slider."""
 
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 bpy = pytest.importorskip("bpy")
+from body_moments.core.verdict.finding import finding
 from body_moments.operators.bodies import threshold as threshold_module
+from body_moments.operators.bodies.measure_object import measure_body
 from body_moments.operators.session import staleness
 from body_moments.operators.session import threshold as threshold_slider
+from body_moments.operators.settings.grid import GridOptions
+from body_moments.operators.settings.options import MeasureOptions
 from body_moments.operators.write import properties
 
 from tests.blender.bodies.test_grid import SHEARED, measure
@@ -224,3 +229,92 @@ def test_a_grid_that_follows_a_slider_has_at_most_as_many_values_as_a_cube_of_64
     found = grid.coarse()
     assert (found is grid) == (step == 1) and np.array_equal(found.values, values[::step, ::step, ::step])
     assert np.array_equal(found.matrix, matrix * [step, step, step, 1.0])
+
+
+def body_of(obj, **options):
+    bpy.context.view_layer.update()
+    return measure_body(obj, bpy.context.evaluated_depsgraph_get(), MeasureOptions(**options)).body
+
+
+def test_what_is_known_of_a_body_and_what_is_summed_to_a_higher_order_agree(tmp_path):
+    obj, _ = sampled_ball(tmp_path, 6, 2.3)
+    settings = obj.body_moments
+    settings.threshold, settings.value_density = 0.5, 3.0
+    for fill in ("MATERIAL", "GRID"):
+        settings.threshold_fill = fill
+        body = body_of(obj, order=4)
+        assert body.estimated and body.health.closed
+        if fill == "GRID":
+            assert body.higher_mass.order == 4 and body.higher_mass.measure == "mass"
+            assert close(body.higher_mass.total, body.mass.total, rel=1e-9)
+            assert body.density_from == finding("density_from_grid", grid="density")
+        else:
+            assert body.higher_mass is body.mass is body.density_from is None
+    volume, area = body.moments(4, True)
+    for known, summed in ((body.volume, volume), (body.area, area)):
+        assert close(summed.total, known.total, rel=1e-9)
+        assert close(summed.about_point(known.about)[2, 0, 0], known[2, 0, 0], rel=1e-9)
+    assert body.moments(4, False)[1] is None
+    for order in (None, 2, 3):
+        assert body_of(obj, order=order).higher_mass is None
+
+
+def test_a_spline_is_followed_by_its_linear_neighbors():
+    index = np.arange(-2.0, 3.0)
+    values = 3.0 - (index[:, None, None] ** 2 + index[:, None] ** 2 + index**2)
+    grid = threshold_module.ThresholdGrid("Grid", values, np.eye(4), -60.0)
+    linear, spline = (GridOptions(threshold=0.5, spline_order=order) for order in (2, 4))
+    followed = grid.set_above(spline, 3, True).volume.total
+    assert followed == grid.set_above(linear, 3, True).volume.total
+    assert followed > 1.05 * grid.set_above(spline, 3).volume.total
+
+
+@pytest.mark.parametrize(
+    ("dtype", "kept"),
+    [(np.float32, "f4"), (np.float64, "f8"), (np.int32, "f4"), (np.int64, "f8"), (np.bool_, "f4")],
+)
+def test_values_take_eight_bytes_only_where_those_of_the_grid_do(tmp_path, dtype, kept):
+    obj = volume_object(tmp_path / "ones.vdb", vdb_grid(np.ones((4, 5, 6), dtype)))
+    obj.body_moments.grid_as, obj.body_moments.threshold = "THRESHOLD", 0.5
+    assert body_of(obj).grid.values.dtype == kept
+
+
+def test_more_voxels_than_any_memory_has_are_counted_and_refused():
+    for shape, samples in (((1 << 22, 1 << 22, 1 << 22), 1 << 66), (((1 << 29) + 1, 1, 1), (1 << 29) + 1)):
+        reading = SimpleNamespace(level_set=False, shape=shape, grid="large", background=None)
+        with refused("threshold_too_large", grid="large", samples=samples):
+            threshold_module.threshold_grid(reading, 1.0)
+
+
+def test_what_is_said_of_a_body_names_its_grid_its_threshold_and_whether_it_was_clipped(tmp_path):
+    values = np.full((4, 4, 4), 2.0, np.float32)
+    values[1, 1, 1] = 0.0
+    obj = volume_object(tmp_path / "full.vdb", vdb_grid(values, background=5.0))
+    obj.body_moments.grid_as, obj.body_moments.threshold = "THRESHOLD", 1.0
+    found = measure(obj)
+    told = said(found)
+    assert told["threshold_measured"] == {"grid": "density", "threshold": 1.0, "cells": 8}  # all around the empty one
+    assert told["threshold_clipped"] == {"grid": "density"}
+    assert not found.health.closed
+    with refused("threshold_not_reached", obj.name, grid="density", threshold=9.0, largest=2.0):
+        obj.body_moments.threshold = 9.0
+        measure(obj)
+
+
+@pytest.mark.parametrize("fill", ["MATERIAL", "GRID"])
+def test_a_body_may_be_small_and_light(tmp_path, fill):
+    obj = ramp(tmp_path)
+    obj.scale, obj.body_moments.threshold_fill, obj.body_moments.value_density = (1e-3, 1e-3, 1e-3), fill, 10.0
+    found = measure(obj)
+    assert close(found.volume, 420e-9, rel=1e-3)
+    density = 1000.0 if fill == "MATERIAL" else 10.0 * (12.0**2 - 3.25**2) / 2.0 / 8.75
+    assert close(found.mass_properties.mass, density * 420e-9, rel=1e-3)
+
+
+def test_the_largest_value_is_that_of_numbers_as_they_are_converted():
+    values = np.array([[[1.0, np.nan]], [[-7.0, 2.0]]])
+    grid = threshold_module.ThresholdGrid("Grid", values, np.eye(4), None)
+    assert grid.largest() == 2.0
+    turned = threshold_module.ThresholdGrid("Grid", values, np.eye(4), None, lambda block: 1.0 - 2.0 * block)
+    assert turned.largest() == 15.0
+    assert math.isnan(threshold_module.ThresholdGrid("Grid", values[:0], np.eye(4), None).largest())
