@@ -157,7 +157,7 @@ def _move_parent(context: Context, empty: Object, center: NDArray) -> None:
 def _is_at(obj: Object, place: NDArray, tolerance: float) -> bool:
     """Whether an object is there: within `tolerance`, and turned and scaled so to rounding."""
     off = np.abs(world(obj) - place)
-    return bool(off[:3, 3].max() <= tolerance and off[:3, :3].max() <= PLACE_RTOL * np.abs(place[:3, :3]).max())
+    return bool(off[:, 3].max() <= tolerance and off[:, :3].max() <= PLACE_RTOL * np.abs(place[:, :3]).max())
 
 
 def _refresh(context: Context, root: Root) -> None:

@@ -89,10 +89,11 @@ class OBJECT_OT_body_moments_rest_on_ground(Operator):
         findings.extend(check_stability(context, obj, measured))
         staleness.mark_up_to_date(context, measured)
         poses, body = stability.poses(obj, context.scene), shown_body(obj, context.scene)
-        if poses is None or body is None:  # its stored numbers are damaged
+        if poses is None:  # its stored numbers are damaged
             raise EditRefusedError("no_stable_pose")
         if isinstance(poses, Finding):
             raise EditRefusedError(poses.code, **poses.values)
+        assert body is not None  # of which the poses are
         down = stability.down(context.scene)
         _, rotation = stability.frame(obj)
         normals = poses.normals @ rotation.T
@@ -104,8 +105,8 @@ class OBJECT_OT_body_moments_rest_on_ground(Operator):
         target[:3, 3] = body.center + turn @ (target[:3, 3] - body.center)
         target[:3, 3] += (self._ground(context, obj, body.center, down) - poses.heights[place]) * down
         off = np.abs(target - world(obj))
-        is_turned = off[:3, :3].max() > 1e-6 * np.abs(target[:3, :3]).max()
-        is_moved = is_turned or off[:3, 3].max() > reframe.location_tolerance(obj, size)
+        is_turned = off[:, :3].max() > 1e-6 * np.abs(target[:, :3]).max()
+        is_moved = is_turned or off[:, 3].max() > reframe.location_tolerance(obj, size)
         if is_moved:
             reframe.move(context, reframe.Plan(obj, target, size, move_only=False))
         return bool(is_moved)

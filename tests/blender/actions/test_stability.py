@@ -162,6 +162,17 @@ def test_what_lies_at_the_right_height_and_is_turned_a_little_is_laid(scene, siz
     assert bpy.ops.object.body_moments_rest_on_ground(pose=0) == {"CANCELLED"}
 
 
+@pytest.mark.parametrize(("angle", "height", "is_laid"), [(0, 1e-4, False), (0, 1e-3, True), (5e-4, 0, True)])
+def test_how_far_away_an_object_is_says_how_high_and_not_how_turned_it_may_lie(scene, angle, height, is_laid):
+    """Of a location of 1000, single precision holds 6e-5."""
+    place = {"location": (1000.0, 0.0, 0.5 + height), "rotation": (angle, 0.0, 0.0)}
+    obj = objects.add(box((3.0, 3.0, 1.0), (-1.5, -1.5, -0.5)), **place)
+    assert bpy.ops.object.body_moments_rest_on_ground(pose=0) == ({"FINISHED"} if is_laid else {"CANCELLED"})
+    found = objects.place(obj)
+    assert np.abs(found[:3, :3] - np.eye(3)).max() < 2e-6
+    assert close(found[2, 3], 0.5 if is_laid else 0.5 + height, 1e-6)
+
+
 def test_pose_0_is_the_nearest(scene):
     obj = objects.add(box((4.0, 2.0, 6.0)), rotation=(0.1, 0.05, 0.0), location=(0.0, 0.0, 2.0))
     bpy.ops.object.body_moments_rest_on_ground(pose=0)
@@ -217,7 +228,13 @@ def test_a_round_body_says_that_its_hull_is_simplified(scene, reported, monkeypa
 
     monkeypatch.setattr(action, "MAX_CORNERS", 60)
     bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=5)
+    sphere = bpy.context.object
+    sphere.data.transform(Matrix.Translation((5.0, 0.0, 0.0)))
+    objects.only(sphere, objects.add(wedge(), "Wedge", (0.0, 9.0, 0.0)))
     bpy.ops.object.body_moments_stability()
+    codes = [code for code in reported.codes if code in ("objects_tip", "hull_simplified")]
+    assert codes == ["objects_tip", "hull_simplified"]  # that something tips is said first
+    objects.only(sphere)
     gap = session.compute(bpy.context.object, bpy.context.evaluated_depsgraph_get()).gap
     assert gap > 0.0 and close(reported.values("hull_simplified")["share"], gap / 2.0, 1e-6)
     corners = reported.values("hull_simplified")["corners"]
