@@ -854,3 +854,19 @@ def test_polygons_beside_patches_are_not_united_with_each_other():
     assert close(thin.area, 48.0 + 4.0 * np.pi + 4.0 * np.pi**2 * 0.75 * 0.25, 1e-5)
     assert thin.health.components == 4 and str(thin.method) == "shell"
     assert close(thin.volume, 0.01 * thin.area, 1e-12)
+
+
+def test_the_share_of_caps_is_that_of_the_areas_of_all_parts_at_their_scales():
+    tube, ring = primitive("cylinder"), primitive("torus")
+    tube.scale, ring.location, ring.scale = (2, 2, 2), (9, 0, 0), (0.5, 0.5, 0.5)
+    parts = bpy.data.collections.new("Parts")
+    for obj in (tube, ring):
+        parts.objects.link(obj)
+        bpy.context.scene.collection.objects.unlink(obj)
+    bpy.ops.object.collection_instance_add(collection="Parts")
+    empty = bpy.context.object
+    solid = measured(empty).health.cap_area_share
+    faces = 4.0 * (2.0 * np.pi * 2.0) + 0.25 * 4.0 * np.pi**2 * 0.75 * 0.25
+    assert close(solid, 4.0 * 2.0 * np.pi / faces, rel=1e-5)
+    empty.body_moments.kind = "SHELL"
+    assert close(measured(empty).health.cap_area_share, solid, rel=1e-5)

@@ -506,3 +506,26 @@ def test_a_wall_of_a_density_that_varies_is_refused_with_the_remedy(wall):
     obj.body_moments.density_from, obj.body_moments.density_polynomial = "POLYNOMIAL", "1000 + x"
     with refused("wall_needs_one_density", obj.name):
         measured(obj)
+
+
+@pytest.mark.parametrize("scales", [(1.0, 2.0), (2.0, 1.0)])
+def test_of_several_instances_that_which_folds_first_is_named_with_its_place(scales):
+    part = box()
+    collection, inner = bpy.data.collections.new("Parts"), bpy.data.collections.new("All")
+    collection.objects.link(part)
+    for place, scale in enumerate(scales):
+        one = bpy.data.objects.new("Place", None)
+        one.instance_type, one.instance_collection = "COLLECTION", collection
+        one.location.x, one.scale = 10.0 * place, (scale, scale, scale)
+        inner.objects.link(one)
+    holder = add(None, "Holder")
+    holder.instance_type, holder.instance_collection = "COLLECTION", inner
+    settings = holder.body_moments
+    settings.kind, settings.wall, settings.thickness = "SHELL", "INWARD", 0.75
+    with pytest.raises(MeasureError) as refusal:
+        measured(holder)
+    values = refusal.value.finding.values
+    assert refusal.value.finding.code == "wall_folds" and 0.49 < values["largest"] < 0.5
+    first = 10.0 * scales.index(1.0)
+    assert first - 1e-6 <= values["point"][0] <= first + 1.0 + 1e-6
+    assert min(values["point"][1:]) >= 0.0 and max(values["point"][1:]) <= 1.0

@@ -240,3 +240,25 @@ def test_a_mesh_has_a_volume_whatever_its_size(tmp_path, size):
     assert close(found[0].volume, abs(np.linalg.det(corners - points[0]).sum()) / 6.0, rel=1e-12)
     assert close(found[0].mass_properties.mass, 1000.0 * found[0].volume, rel=1e-14)
     assert close(found[1].volume, size**3 * found[0].volume, rel=1e-12)
+
+
+def test_moments_beyond_what_is_known_are_read_from_the_file_again(tmp_path, monkeypatch):
+    bodies = []
+
+    def measuring(reading, body, request):
+        bodies.append(body)
+        return measurement_of(reading, body, request)
+
+    monkeypatch.setattr(stream_bodies, "measurement_of", measuring)
+    for body in (part(), inverted(part())):
+        path = str(written(tmp_path, body=body))
+        for options in ({}, {"order": 5, "surface": True}):
+            stream_bodies.measure_mesh_file(path, "part", MeasureOptions(unit_scale=0.5, **options))
+        known, summed = bodies[-2:]
+        assert (known.volume.order, known.area.order, summed.volume.order, summed.area.order) == (3, 0, 5, 5)
+        assert known.moments(3, False)[1] is known.moments(5, False)[1] is None
+        for order in (2, 3, 5):
+            for one, other in zip(known.moments(order, True), summed.moments(order, True)):
+                assert one.order == other.order == order and one.measure == other.measure
+                apart = np.abs(one.raw - other.about_point(one.about).raw).max()
+                assert apart <= 1e-10 * np.abs(one.raw).max() and one.total > 0.0
