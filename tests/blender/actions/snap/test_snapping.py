@@ -684,11 +684,15 @@ def test_a_body_bound_to_an_armature_is_not_turned_away_from_its_bones(how, repo
         obj.modifiers.new("Armature", "ARMATURE").object = armature
     else:
         obj.parent, obj.parent_type = armature, "ARMATURE"
+    target = add(mesh_body(), "Target", location=(9, 0, 0))
     bpy.context.view_layer.update()
     before = state(obj)
-    assert run(ALIGN) == {"CANCELLED"}
-    assert state(obj) == before
-    assert reported.values("bound_to_armature") == {"armature": armature.name}
+    for name, chosen in (("body_moments_match_pose", (target, obj)), (ALIGN, (obj,))):
+        only(*chosen)
+        reported.clear()
+        assert run(name) == {"CANCELLED"}
+        assert state(obj) == before
+        assert reported.values("bound_to_armature") == {"armature": armature.name}
     for name in REFRAMING:  # these leave it where it is
         assert run(name) == {"FINISHED"}
     obj.modifiers.clear()
