@@ -545,6 +545,18 @@ PATTERNS = [
         "Blender finds by itself that all are triangles",
     ),
     (
+        r"operators/bodies/audit.py Auditor._piece",
+        r"stated\.points is not None and stated\.triangles is not None",
+        r".*",
+        "a mesh within a description has both, any other shape neither",
+    ),
+    (
+        r"operators/bodies/audit.py _primitive",
+        r"np\.linspace\(0\.0, 2\.0 \* pi, 48, endpoint=False\)",
+        r".*",
+        "a ring of other points that holds the round shape too",
+    ),
+    (
         r"operators/bodies/shape.py SURFACE_OPTIONS",
         r"MeasureOptions\(.*|False",
         r"\(MeasureOptions\((threads=THREADS|axes=False)\)\)|True",
@@ -1126,6 +1138,42 @@ PATTERNS = [
         "a slot is one of an action",
     ),
     (
+        r"operators/bodies/nurbs.py PatchBody.moments",
+        r"self\.pieces if area else \(\)",
+        r"\(self\.pieces\)",
+        "areas that nobody asked for are found, and left",
+    ),
+    (
+        r"operators/bodies/nurbs.py Patch(Sheet)?Body.moments",
+        r"\[faces\] if faces is not None else \[\]",
+        r"\(\[faces\]\)",
+        "polygons have no area only where none is asked for, and none is summed",
+    ),
+    (
+        r"operators/bodies/threshold.py ThresholdGridBody.moments",
+        r"replace\(self\.options, filled=False\)",
+        r"\(replace\(self\.options\)\)",
+        "the mass is summed as well, and left",
+    ),
+    (
+        r"operators/bodies/threshold.py threshold_grid_body",
+        r"mass is not None and order > KNOWN_ORDER|None if weighed is None else weighed \* .*",
+        r"\((order > KNOWN_ORDER|weighed \* .*)\)",
+        "what has a mass has one to any order, and what has none has none",
+    ),
+    (
+        r"operators/bodies/varying_density.py _solid_moments",
+        r"_similarity_groups\(matrices\) if mixed else \[matrices\]",
+        r"\(_similarity_groups\(matrices\)\)",
+        "the same sum in several pieces",
+    ),
+    (
+        r"operators/bodies/flat.py _curve_moments",
+        r"rounded \+ stored",
+        r"\(rounded - stored\)",
+        "how much of a bound is far below its own rounding",
+    ),
+    (
         r"operators/bodies/array.py _threshold_body",
         r"np\.argsort\(.*|-abs\(stride\)",
         r".*",
@@ -1404,6 +1452,16 @@ CONSTANTS = [
     (r".*command/output.py claim_stdout", r"channel = -", "any negative number is no descriptor"),
     (r"operators/bodies/hull.py object_hull", r"len\(part\.matrices\) > ", "the hull of hulls is that of their points"),
     (
+        r"operators/bodies/audit.py _primitive",
+        r"turn = np\.linspace\(0\.0, (2\.0 \* pi, (48, endpoint=)?)?",
+        "a ring of other points that holds the round shape too",
+    ),
+    (
+        r"operators/bodies/audit.py _judge",
+        r"_Judgment\(findings, ",
+        "what is no inertial is none whichever axis is up",
+    ),
+    (
         r"operators/bodies/audit.py _ball",
         r"(np\.arange\(2000\)|turn = .*\(1\.0) \+ ",
         "other points that are spread as well hold the ball too",
@@ -1459,6 +1517,19 @@ CONSTANTS = [
     (r"operators/scene/surface_objects.py _stored", r"moved \+= ", "a looser bound"),
     (r"operators/scene/surface_objects.py MIN_LOFTED_POINTS", r"= ", "more are lofted, and deleted again"),
     (r"operators/bodies/flat_fourier.py flat_transform", r"region\.moments\(", "the area alone is read"),
+    (
+        r"operators/bodies/nurbs.py .*",
+        r"(norm\((part\.)?matrices|are_similarities\(matrices)\[:, :",
+        "the first three numbers of the last row are 0",
+    ),
+    (r"operators/bodies/nurbs.py _sheet_body", r"if sign < ", "a sign is -1 or 1"),
+    (r"operators/bodies/threshold.py threshold_grid", r"itemsize > ", "no number takes five, six or seven bytes"),
+    (r"operators/bodies/threshold.py ThresholdGridBody.moments", r"filled=", "the mass is summed as well, and left"),
+    (
+        r"operators/bodies/varying_density.py _solid_moments",
+        r"has_foreign_material = is_slight = ",
+        "each group of places tells it, and there is one at least",
+    ),
     (r"operators/bodies/stream.py _in_meters", r"unit, unit, unit, ", "the last row is not read"),
     (r"operators/bodies/stream.py StreamBody.moments", r"order if area else ", "of the area nothing is returned"),
     (r"operators/session/shown.py _shown_now", r"last is None or last\[", "what was found is found once more"),
