@@ -72,9 +72,9 @@ class _Judgment:
     """What an inertial is beside some geometry. apart: how far from it filled evenly."""
 
     findings: list[Finding]
+    impossible: bool
     repaired: StatedInertial | None = None
     density: float | None = None
-    impossible: bool = False
     apart: float = inf
 
 
@@ -161,7 +161,7 @@ def _judge(stated: StatedInertial, pieces: Pieces, incomplete: bool) -> _Judgmen
     ]
     findings = impossible(stated, Hull(np.concatenate(points)) if points and not incomplete else None)
     if any(one.code in ("inertial_not_finite", "inertial_mass_not_positive") for one in findings):
-        return _Judgment(findings, impossible=True)
+        return _Judgment(findings, True)
     references = [] if incomplete else [made for several in pieces.values() if (made := _reference(several))]
     diagnosis = diagnose(stated, references, [] if incomplete else _turned(pieces))
     wrong = any(one.code != "inertial_triangle_slightly" for one in findings)
@@ -170,12 +170,12 @@ def _judge(stated: StatedInertial, pieces: Pieces, incomplete: bool) -> _Judgmen
         findings.append(diagnosis.finding)
         repaired, by_geometry = diagnosis.repaired, diagnosis.finding.code in OF_GEOMETRY
     if not references:
-        return _Judgment(findings, repaired, impossible=wrong)
+        return _Judgment(findings, wrong, repaired)
     if wrong and repaired is None and not by_geometry:
         repaired = references[0].uniform(stated.mass)
         findings.append(finding("audit_uniform_instead"))
     apart = min(reference.of(stated) for reference in references)
-    return _Judgment(findings, repaired, stated.mass / references[0].volume, wrong, apart)
+    return _Judgment(findings, wrong, repaired, stated.mass / references[0].volume, apart)
 
 
 def _measured(surface: Surface, upright: NDArray | None = None) -> _Piece:

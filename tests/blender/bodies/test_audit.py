@@ -530,3 +530,50 @@ def test_a_shape_has_moments_where_what_it_bounds_is_certain_and_is_turned_as_it
         piece = _measured(uncertain, upright)
         assert piece.moments is None and piece.upright is upright and len(piece.points) == 8
         assert piece.turned().moments is None and len(piece.turned().points) == 8
+
+
+def test_what_is_said_of_links_without_geometry_or_inertial(tmp_path):
+    """Nothing where all is well; a frame is one without mass and without a tensor."""
+    inertial_of = (
+        '<inertial><mass value="{0}"/><inertia ixx="{1}" iyy="{1}" izz="{1}" ixy="0" ixz="0" iyz="0"/></inertial>'
+    )
+    cases = {
+        "sound": (inertial_of.format(2, 3), []),
+        "frame": (inertial_of.format(0, 0), ["inertial_of_frame"]),
+        "no tensor": (inertial_of.format(2, 0), ["inertial_not_positive"]),
+        "no mass": (inertial_of.format(0, 3), ["inertial_mass_not_positive"]),
+    }
+    path = tmp_path / "r.urdf"
+    links = "".join('<link name="{}">{}</link>'.format(name, text) for name, (text, _) in cases.items())
+    path.write_text('<robot name="r">{}</robot>'.format(links), encoding="utf-8")
+    for found, (name, (_, codes)) in zip(audit(path).links, cases.items(), strict=True):
+        assert [one.code for one in found.findings][: max(1, len(codes))] == codes, name
+        assert found.density is None and found.repaired is None, name
+
+
+@pytest.mark.parametrize("share, is_turned", [(0.1, True), (0.25, True), (0.4, False)])
+def test_another_axis_is_up_where_that_halves_how_far_the_inertial_is_from_its_geometry(tmp_path, share, is_turned):
+    """Tensors between that of the mesh as its file turns it and that of the mesh as it is."""
+    points, triangles = body(np.random.default_rng(5))
+    upright = np.array([[1, 0, 0], [0, 0, -1], [0, 1, 0]])
+    points = points - inertial(points, triangles, 1000.0).center
+    plain, turned = (inertial(one, triangles, 1000.0) for one in (points, points @ upright.T))
+    stated = with_tensor(plain, (1.0 - share) * turned.inertia + share * plain.inertia)
+    (tmp_path / "arm.dae").write_text(collada(points, triangles), encoding="utf-8")
+    path = tmp_path / "r.urdf"
+    path.write_text(text_of([Link("arm", stated, shapes=(Shape("mesh", file="arm.dae"),))]), encoding="utf-8")
+    (found,) = audit(path).links
+    assert ("audit_up_axis" in [one.code for one in found.findings]) == is_turned
+
+
+def test_an_axis_that_is_up_keeps_the_center_within_what_a_surface_that_is_open_spans(tmp_path):
+    """Two triangles that bound nothing, from one edge far along y in the file and up where it is read."""
+    points = np.array([[-1, -1, -1], [1, -1, -1], [0, 9, 0], [0, 9, 1], [1, -1, 1]], float)
+    (tmp_path / "arm.dae").write_text(collada(points, np.array([[0, 1, 2], [0, 1, 3], [0, 1, 4]])), encoding="utf-8")
+    link = """<link name="a"><inertial><origin xyz="{}"/><mass value="1"/><inertia ixx="0.1" iyy="0.1" izz="0.1" ixy="0"
+    ixz="0" iyz="0"/></inertial><collision><geometry><mesh filename="arm.dae"/></geometry></collision></link>"""
+    path = tmp_path / "r.urdf"
+    for center, codes in (("0.2 3 0.1", []), ("0.2 -0.1 3", ["audit_up_axis"])):
+        path.write_text("<robot name='r'>{}</robot>".format(link.format(center)), encoding="utf-8")
+        (found,) = audit(path).links
+        assert [one.code for one in found.findings] == codes and found.density is None
