@@ -12,11 +12,14 @@ import bpy
 import numpy as np
 import pytest
 from body_moments.core.verdict.finding import MeasureError, ReadError, finding
-from body_moments.operators.bodies.measure_object import measure_object
+from body_moments.operators.bodies.grid import density_body
+from body_moments.operators.bodies.measure_object import measure_body, measure_object
 from body_moments.operators.read import sample_grid, vdb
 from body_moments.operators.read import volume as volume_module
 from body_moments.operators.read.volume import volume_reading
 from body_moments.operators.session import staleness
+from body_moments.operators.settings.digest import grid_key
+from body_moments.operators.settings.grid import GridOptions
 from body_moments.operators.settings.options import MeasureOptions
 from body_moments.operators.write import properties
 
@@ -772,3 +775,54 @@ def test_the_scene_that_nodes_are_evaluated_in_is_at_the_frame_that_is_shown_and
     finally:
         for functions in handlers:
             functions.pop()
+
+
+@pytest.mark.parametrize(("slope", "intercept"), [(1.0, 0.0), (2.0, 0.0), (1.0, 1.0), (0.5, -0.5), (2.0, 1.0)])
+def test_samples_that_stand_for_others_weigh_as_those_and_occupy_where_they_are_not_zero(slope, intercept):
+    samples = np.arange(1.0, 25.0).reshape(2, 3, 4)
+    matrix = np.diag([1e-3, 2e-3, 3e-3, 1.0])
+    read = []
+    body = density_body(
+        samples, samples.shape, matrix, GridOptions(), slope=slope, intercept=intercept, progress=read.append, order=4
+    )
+    weights = samples * slope + intercept
+    count = np.count_nonzero(weights)
+    assert close(body.mass.total, 6e-9 * weights.sum(), rel=1e-12) and sum(read) == 2 * samples.size
+    assert close(body.volume.total, 6e-9 * count, rel=1e-12) and body.volume.order == 3
+    assert body.area.order == 0 and body.area.total == 0.0 and body.area.measure == "area" and body.health.closed
+    assert body.higher_mass.order == 4 and close(body.higher_mass.total, body.mass.total, rel=1e-12)
+    volume, area = body.moments(4, True)
+    assert close(volume.total, body.volume.total, rel=1e-12) and volume.measure == "volume" == body.volume.measure
+    assert area.order == 4 and area.measure == "area" and not area.raw.any()
+    assert body.moments(4, False)[1] is None
+    plain = density_body(weights, samples.shape, matrix, GridOptions())
+    assert plain.higher_mass is None and close(plain.mass.total, body.mass.total, rel=1e-12)
+    assert close(plain.moments(3, False)[0].total, 6e-9 * count, rel=1e-12)
+
+
+def test_what_counts_as_empty_and_where_samples_stand_holds_for_moments_of_any_order():
+    samples = np.array([5.0, 1.0, 2.0, 5.0, 3.0]).reshape(5, 1, 1)
+    places = np.array([0.0, 1.0, 3.0, 4.0, 8.0])
+    body = density_body(
+        samples, samples.shape, np.eye(4), GridOptions(), background=5.0, order=5, positions=(places, None, None)
+    )
+    ends = np.concatenate([[-0.5], (places[1:] + places[:-1]) / 2.0, [10.0]])
+    thick = np.diff(ends)[[1, 2, 4]]
+    assert close(body.mass.total, (thick * [1.0, 2.0, 3.0]).sum(), rel=1e-12)
+    assert close(body.higher_mass.total, body.mass.total, rel=1e-12)
+    for moments in (body.volume, body.moments(5, False)[0]):
+        assert close(moments.total, thick.sum(), rel=1e-12)
+    assert [one.code for one in body.findings] == ["background_empty", "grid_without_surface"]
+    with refused("grid_empty"):
+        density_body(np.zeros((0, 2, 2)), (0, 2, 2), np.eye(4), GridOptions())
+
+
+def test_a_grid_weighs_by_the_settings_of_its_own_kind_of_object(tmp_path):
+    obj = volume_object(tmp_path / "a.vdb", vdb_grid(random_values(np.float32, (4, 4, 4))))
+    bpy.ops.mesh.primitive_cube_add(location=(3, 0, 0))
+    for one in (obj, mesh_to_volume(bpy.context.object)):
+        body = measure_body(one, depsgraph(), MeasureOptions(order=2)).body
+        assert body.higher_mass is None and body.density_from == finding("density_from_grid", grid="density")
+        assert body.density_key == grid_key(one, None)
+        one.body_moments.value_density = 3.0
+        assert measure_body(one, depsgraph()).body.density_key == grid_key(one, None) != body.density_key
