@@ -1937,6 +1937,13 @@ EQUIVALENT: dict[tuple[str, str, str, str], str] = {
         "(read_object(obj, context.evaluated_depsgraph_get()))",
     ): "edges are read as well, and not looked at",
     (
+        "operators/actions/shape/find_similar.py",
+        "OBJECT_OT_body_moments_find_similar._compare",
+        "partial(surface_shape_of, depsgraph=depsgraph) if flat else signed_in_turn(self._others, depsgraph, "
+        "DESCRIPTOR_ORDER)",
+        "(partial(surface_shape_of, depsgraph=depsgraph))",
+    ): "bodies have their signatures one by one instead of together, which takes longer",
+    (
         "operators/actions/snap/empty.py",
         "_moved",
         "parent is not None and not _is_there(empty, body)",

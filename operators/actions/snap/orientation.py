@@ -56,7 +56,7 @@ class OBJECT_OT_body_moments_create_orientation(Operator):
         slot = context.scene.transform_orientation_slots[0]
         before = slot.type
         with context.temp_override(**place):
-            bpy.ops.transform.create_orientation(name=name, use_view=False, use=True, overwrite=True)
+            bpy.ops.transform.create_orientation(name=name, use=True, overwrite=True)
         slot.custom_orientation.matrix = Matrix(body.axes)
         if not self.use:
             slot.type = before

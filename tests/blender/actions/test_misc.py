@@ -6,6 +6,7 @@ import bpy
 import numpy as np
 import pytest
 
+from tests.blender.actions.snap.test_balance import told_of
 from tests.blender.bodies.test_assembly import box_mesh
 from tests.blender.objects import add, measured, mesh_body, only, place
 from tests.close import close
@@ -311,7 +312,20 @@ def test_faults_of_a_result_of_modifiers_are_not_selected_in_the_mesh():
     assert bpy.ops.object.body_moments_select_faults() == {"CANCELLED"}
     assert obj.mode == "OBJECT"
     modifier.show_viewport = False
+    obj.modifiers.new("Smooth", "SMOOTH")  # moves vertices only
     assert bpy.ops.object.body_moments_select_faults() == {"FINISHED"}
+
+
+def test_views_of_the_mesh_are_told_what_is_selected():
+    from body_moments.operators.actions.measure import select_faults
+
+    obj = add(mesh_body())
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.context.view_layer.update()
+    with told_of(obj.data) as changes:
+        select_faults._select_elements(obj, {"flipped_faces": np.array([2])})
+        bpy.context.view_layer.update()
+    assert changes
 
 
 def test_a_material_sets_the_density_of_all_selected_and_a_typed_density_forgets_it():

@@ -131,7 +131,7 @@ def test_what_cannot_be_imported_leaves_nothing(tmp_path, reported):
     assert refusal(written(tmp_path / "a.txt", b"nonsense")) == "scan_file_type"
     good = written(tmp_path / "b.nrrd", nrrd(samples()))
     written(tmp_path / "b.vdb", b"mine")
-    assert refusal(good) == "file_exists"
+    assert refusal(good) == "file_exists" and reported[-1].values == {"file": "b.vdb"}
     assert (tmp_path / "b.vdb").read_bytes() == b"mine"
     for value in (np.inf, -np.inf, np.nan):
         bad = samples()
@@ -152,7 +152,9 @@ def test_a_file_that_may_not_be_read_is_refused(name, tmp_path, reported, monkey
     monkeypatch.setattr("body_moments.operators.actions.imports.import_scan." + name, denied)
     with pytest.raises(RuntimeError, match=r"\A.+\n?\Z"):
         bpy.ops.object.body_moments_import_scan(filepath=str(written(tmp_path / "a.nrrd", nrrd(samples()))))
-    assert reported.codes[-1] == "file_unreadable" and [file.name for file in tmp_path.iterdir()] == ["a.nrrd"]
+    assert reported.values("file_unreadable") == {"error": "Permission denied"} and [
+        file.name for file in tmp_path.iterdir()
+    ] == ["a.nrrd"]
 
 
 def test_without_openvdb_nothing_is_imported(tmp_path, reported, monkeypatch):
@@ -234,7 +236,7 @@ def uneven(tmp_path, **options):
 @pytest.mark.parametrize("spline_order", [1, 2, 4])
 def test_uneven_slices_are_measured_where_they_stand(tmp_path, reported, spline_order):
     obj, samples, z = uneven(tmp_path, position_unit=0.001)
-    assert "scan_drawn_evenly" in reported.codes
+    assert reported.values("scan_drawn_evenly") == {"axes": ["z"]}
     obj.body_moments.spline_order = spline_order
     truth = grid_moments(samples, samples.shape, np.eye(4), spline_order, positions=(None, None, z * 0.001))
     found = measure(obj)
@@ -244,6 +246,15 @@ def test_uneven_slices_are_measured_where_they_stand(tmp_path, reported, spline_
     obj.scale = (1, 1, 2)
     bpy.context.view_layer.update()
     assert close(measure(obj).mass_properties.mass, 2.0 * truth.total, 1e-12)
+
+
+@pytest.mark.parametrize("unit", [1.0, 0.5])
+def test_uneven_slices_are_drawn_evenly_from_the_first_to_the_last(tmp_path, unit):
+    bpy.context.scene.unit_settings.scale_length = unit
+    obj, _, z = uneven(tmp_path, position_unit=0.25)
+    obj.data.grids.load()
+    matrix = np.array(obj.data.grids[0].matrix_object)
+    assert [matrix[2, 3], (matrix @ (0, 0, 5, 1))[2]] == pytest.approx([0.25 * z[0] / unit, 0.25 * z[-1] / unit])
 
 
 def test_uneven_slices_survive_a_file_and_are_no_threshold_and_no_filling(tmp_path):

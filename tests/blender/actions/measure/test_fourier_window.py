@@ -46,6 +46,15 @@ def test_the_progress_goes_to_one_and_image_editors_show_the_image(tmp_path, mon
     assert run(other, tmp_path / "box.npz") == {"FINISHED"} and other.spaces.active.image is None
 
 
+def test_without_a_window_no_progress_of_one_object_is_shown(tmp_path, monkeypatch):
+    add(box_mesh(1, 2, 4), "Box")
+    window, path = Window(False), str(tmp_path / "box.npz")
+    monkeypatch.setattr("body_moments.operators.actions.modal.bpy", SimpleNamespace(context=window))
+    settings = {"of": "BODY", "frame": "WORLD", "count": 4, "largest": 0.0}
+    operator = stand_in(OBJECT_OT_body_moments_fourier_run, lambda *_: None, filepath=path, **settings)
+    assert operator.execute(window) == {"FINISHED"} and window.said == []
+
+
 @pytest.mark.parametrize(
     ("height", "kind", "asked", "proposed"),
     [

@@ -249,11 +249,15 @@ def test_copies_whose_hands_rounding_hides_are_held_against_the_surface():
     assert found() == {"Copy": "copy"} and selected() == {"Wanted", "Copy"}
 
 
-def test_objects_that_cannot_be_compared_are_named(reported):
+def test_objects_that_cannot_be_compared_are_named_and_hidden_ones_are_not_looked_at(reported):
+    from body_moments.operators.session import outcome
+
     scene_of_shapes()
     empty = bpy.data.meshes.new("Nothing")
     add(empty, "Nothing", select=False)
+    wedge("Hidden", location=(7, 7, 7), select=False).hide_set(True)
     run("find_similar")
+    assert "Hidden" not in found() and outcome.last().objects == ("Nothing",)
     assert reported.values("failure")["object"] == "Nothing" and "Nothing" not in found()
     assert reported.values("shapes_scaled_copy") == {"count": 1} and "shapes_different" not in reported.codes
 
@@ -277,6 +281,11 @@ def test_a_library_measured_in_batch_is_searched(tmp_path, reported):
     bpy.context.object.data = bpy.data.meshes.new("Nothing")
     refused("find_in_library", filepath=str(path))
     assert reported.codes[-1] != "library_file_unreadable" and found() == rows
+
+
+def test_where_nothing_can_be_measured_no_symmetry_is_looked_for(reported):
+    only(add(None, "Empty"))
+    assert run("find_symmetry") == {"CANCELLED"} and reported.codes == ["nothing_measurable"]
 
 
 def test_what_was_found_survives_saving_and_loading(tmp_path, reported):
