@@ -283,11 +283,6 @@ def test_a_library_measured_in_batch_is_searched(tmp_path, reported):
     assert reported.codes[-1] != "library_file_unreadable" and found() == rows
 
 
-def test_where_nothing_can_be_measured_no_symmetry_is_looked_for(reported):
-    only(add(None, "Empty"))
-    assert run("find_symmetry") == {"CANCELLED"} and reported.codes == ["nothing_measurable"]
-
-
 def test_what_was_found_survives_saving_and_loading(tmp_path, reported):
     scene_of_shapes()
     run("find_similar")
