@@ -743,3 +743,18 @@ def test_pieces_of_a_straight_line_are_straight_each_by_its_own_length():
     assert curves._is_straight(spline) is True
     spline.bezier_points[0].handle_right = 2e-4 * way + (1e-8, 0.0, 0.0)
     assert curves._is_straight(spline) is False
+
+
+@pytest.mark.parametrize("size", [0.25, 1.0, 8.0])
+def test_what_float32_may_have_moved_bounds_the_length_of_a_circle(size):
+    """Grown by as much as a point may have been moved, it is longer by that times the full angle."""
+    obj = circle()
+    obj.body_moments.kind, obj.scale = "WIRE", (size, size, size)
+    bpy.context.view_layer.update()
+    body = measure_body(obj, bpy.context.evaluated_depsgraph_get()).body
+    moved = 2.0**-24 * size
+    assert 2.0 * np.pi * moved <= body.length.input_error[0] <= 40.0 * np.pi * moved
+    for nothing, measure in ((body.volume, "volume"), (body.area, "area")):
+        assert nothing.order == 3 and nothing.measure == measure and not nothing.raw.any()
+    for nothing, measure in zip(body.moments(5, True), ("volume", "area")):
+        assert nothing.order == 5 and nothing.measure == measure and not nothing.raw.any()

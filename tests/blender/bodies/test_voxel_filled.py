@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from body_moments.core.verdict.finding import finding
 from body_moments.operators.bodies import voxel_filled
-from body_moments.operators.bodies.measure_object import measure_object
+from body_moments.operators.bodies.measure_object import measure_body, measure_object
 from body_moments.operators.session import staleness
 from body_moments.operators.settings.options import MeasureOptions
 from body_moments.operators.write import properties
@@ -59,7 +59,10 @@ def test_a_box_around_whole_voxels_weighs_them(tmp_path, mirror):
     assert found.volume == pytest.approx(8.0)
     assert found.density == pytest.approx(part.mean(), rel=1e-12)
     assert found.error_bound["estimated"]
-    assert said(found).keys() == {"grid_density_of"}
+    meaning = finding("values_scaled", density=1.0).as_record()
+    assert said(found) == {"grid_density_of": {"grid": "density", "object": volume.name, "cause": meaning}}
+    volume.body_moments.spline_order = 4  # voxels fill what is inside of them whatever a grid by itself is taken for
+    assert said(measure(box)) == said(found) and measure(box).mass_properties.mass == found.mass_properties.mass
     assert found.density_from == finding("density_from_grid_of", grid="density", object=volume.name)
 
 
@@ -100,6 +103,10 @@ def test_what_is_outside_of_the_grid_is_empty_and_said(tmp_path):
     assert said(found)["outside_grid"] == {"share": pytest.approx(0.5)}
     box.location.x = 0.5 - 5e-5
     assert close(said(measure(box))["outside_grid_slightly"]["share"], 2.5e-5, rel=1e-2)
+    box.location.x = 0.5 - 2.0**-22
+    assert close(said(measure(box))["outside_grid_slightly"]["share"], 2.0**-23, rel=1e-3)
+    box.location.x = 0.5
+    assert said(measure(box)).keys() == {"grid_density_of"}
     box.location.x = -0.5
     assert measure(box, mass=3.0).mass_properties.mass == pytest.approx(3.0)
     assert measure(box, density=2.0).mass_properties.mass == pytest.approx(16.0)
@@ -107,8 +114,10 @@ def test_what_is_outside_of_the_grid_is_empty_and_said(tmp_path):
     volume.scale, box.location.x = (2, 2, 2), -1.0  # voxels of 8 m³
     assert said(measure(box))["outside_grid"] == {"share": pytest.approx(0.5)}
     volume.scale, box.location = (1, 1, 1), (50, 0, 0)
-    with refused("density_grid_elsewhere", box.name, object=volume.name, grid="density"):
-        measure(box)
+    for place in (50.0, -50.0):
+        box.location = (place, 0, 0)
+        with refused("density_grid_elsewhere", box.name, object=volume.name, grid="density"):
+            measure(box)
     volume.scale = (0, 1, 1)
     with refused("density_grid_empty", box.name):
         measure(box)
@@ -282,3 +291,24 @@ def test_densities_whose_sum_is_too_large_are_refused(tmp_path):
     box.body_moments.density_from, box.body_moments.density_volume = "VOLUME", volume
     with refused("density_volume_unreadable", box.name, cause=finding("mass_overflow").as_record()):
         measure(box)
+
+
+def test_a_grid_of_a_single_voxel_fills_what_is_inside_of_it(tmp_path):
+    box = cube(location=(0, 0, 0), scale=(0.25, 0.25, 0.25))
+    box.body_moments.density_from = "VOLUME"
+    box.body_moments.density_volume = cloud(tmp_path, np.full((1, 1, 1), 7.0, np.float32))
+    assert close(measure(box).mass_properties.mass, 7.0 / 8.0, rel=1e-12)
+
+
+@pytest.mark.parametrize("order", [None, 5])
+@pytest.mark.parametrize("scale", [0.125, 1.0, 16.0])
+def test_what_float32_may_have_moved_is_that_of_the_solid_times_the_density(tmp_path, order, scale):
+    volume = cloud(tmp_path, np.full((8, 8, 8), 3.0, np.float32), scale=(scale, scale, scale))
+    box = cube(location=(3.5 * scale, 3.5 * scale, 3.5 * scale), scale=(scale, scale, scale))
+    box.body_moments.density_from, box.body_moments.density_volume = "VOLUME", volume
+    bpy.context.view_layer.update()
+    body = measure_body(box, bpy.context.evaluated_depsgraph_get(), MeasureOptions(order=order)).body
+    mass = body.higher_mass or body.mass
+    solid = body.moments(mass.order, False)[0].about_point(mass.about)
+    assert mass.order == (order or 3) and (body.higher_mass is None) == (order is None)
+    assert close(mass.input_error, 3.0 * solid.input_error, rel=1e-6) and mass.input_error[0] > 0.0

@@ -323,3 +323,19 @@ def test_a_threshold_needs_even_samples_and_a_spline_a_grid_that_fits(tmp_path, 
     assert code == 1 and not document["objects"]
     (error,) = document["errors"]
     assert error["reason"] == sentence("threshold_too_large", grid="b", samples=12**3)
+
+
+@pytest.mark.parametrize("axes", ["z", "xz", "xyz"])
+def test_what_is_said_of_samples_and_their_places(tmp_path, axes):
+    np.save(tmp_path / "box.npy", box())
+    words = []
+    for axis in reversed(axes):
+        np.save(tmp_path / f"{axis}.npy", np.arange(box().shape["xyz".index(axis)]) * 0.5)
+        words += ["--positions", f"{axis}={tmp_path / axis}.npy"]
+    (entry,) = run(tmp_path, tmp_path / "box.npy", *words, "--density", "9")[1]["objects"]
+    found = {one["code"]: one["values"] for one in entry["findings"]}
+    assert ("scan_without_spacing" in found) == (axes != "xyz")
+    assert found["samples_positioned"] == {"axes": list(axes)} and "given_density_ignored" in found
+    assert found["array_density"]["samples"] == [4, 2, 6]
+    assert found["array_density"]["cause"]["code"] == "values_scaled"
+    assert close(entry["mass"], 48.0 * 0.5 ** len(axes), rel=1e-12)
