@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What bodies do with moments that are known better, and with those of shapes that several bodies share."""
 
+import bpy
 import numpy as np
 import pytest
 from body_moments.core.mesh.surface import Surface
@@ -13,8 +14,13 @@ from body_moments.operators.bodies.body import (
     with_input_error,
     with_known,
 )
+from body_moments.operators.bodies.measure_object import measure_body
+from body_moments.operators.settings.options import MeasureOptions
 
+from tests.blender.objects import add
 from tests.close import close
+from tests.core.bodies import moebius
+from tests.corpus import shapes as s
 
 
 def moments_of(order, factor=1.0, about=(1.0, 2.0, 3.0)):
@@ -95,3 +101,43 @@ def test_each_body_is_the_image_of_its_own_moments_which_bodies_of_one_shape_sha
 def test_quads_count_as_two_triangles():
     points = np.zeros((6, 3))
     assert triangle_count(Surface(points, triangles=np.array([[0, 1, 2]]), quads=np.array([[0, 1, 2, 3]] * 3))) == 7
+
+
+CASES = {
+    "box": (s.box((0, 0, 0), (1, 2, 3)), 12),
+    "open": (s.without(s.box((0, 0, 0), (1, 2, 3)), 0), 14),
+    "turned face": (s.with_flipped(s.box((0, 0, 0), (1, 2, 3)), 1), 12),
+    "twice": ((s.box()[0], [*s.box()[1], s.box()[1][0]]), 12),
+    "with a leaf": (s.joined(s.box(), (np.array([(5.0, 0, 0), (6, 0, 0), (5, 1, 0)]), [(0, 1, 2), (0, 2, 1)])), 14),
+    "strip": (tuple(map(np.ndarray.tolist, moebius())), None),
+}
+
+
+@pytest.mark.usefixtures("scene")
+@pytest.mark.parametrize("scale", [(1, 1, 1), (0.5, 2, -1)])
+@pytest.mark.parametrize("name", CASES)
+def test_moments_of_any_order_begin_with_those_that_were_measured(name, scale):
+    """Of the volume of what was repaired, and of the area of the faces that are there."""
+    (points, faces), count = CASES[name]
+    mesh = bpy.data.meshes.new(name)
+    mesh.from_pydata(np.asarray(points, float).tolist(), [], [list(map(int, face)) for face in faces])
+    obj = add(mesh, scale=scale, location=(3, 4, 5), rotation=(0.3, 0.4, 0.5))
+    if name == "strip":
+        obj.body_moments.kind = "SHELL"
+    depsgraph = bpy.context.evaluated_depsgraph_get()
+    found = measure_body(obj, depsgraph).body
+    sheet = measure_body(obj, depsgraph, MeasureOptions(kind="shell", thickness=1.0)).body.area
+    for order in (2, 3, 4, 6):
+        volume, area = found.moments(order, True)
+        assert (volume.order, area.order) == (order, order) and found.moments(order, True) == (volume, area)
+        assert found.moments(order, False)[1] is None
+        low = min(order, 3)
+        for one, known in ((volume, found.volume), (found.moments(order, False)[0], found.volume), (area, sheet)):
+            known = known.about_point(one.about).truncate(low).raw
+            assert np.abs(one.truncate(low).raw - known).max() <= 1e-12 * np.abs(known).max(), (order, one.measure)
+    sheets, solids = (list(found.surfaces(kind)) for kind in (True, False))
+    assert [len(one.all_triangles()[0]) for one in sheets] == [sum(len(face) - 2 for face in faces)]
+    assert count is None or [len(one.all_triangles()[0]) for one in solids] == [count]
+    place = np.array(obj.matrix_world, float)
+    truth = np.asarray(points, float) @ place[:3, :3].T + place[:3, 3]
+    assert np.abs(sheets[0].points - truth).max() < 1e-5
