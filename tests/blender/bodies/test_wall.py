@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from body_moments.core.moments.moments import Measure, Moments, monomials
 from body_moments.core.verdict.finding import MeasureError, finding
-from body_moments.operators.bodies.measure_object import measure_object
+from body_moments.operators.bodies.measure_object import measure_body, measure_object
 from body_moments.operators.bodies.mesh import mesh_body as polygon_body
 from body_moments.operators.bodies.wall import Walls, _round_down, find_walls
 from body_moments.operators.read import read_object
@@ -529,3 +529,49 @@ def test_of_several_instances_that_which_folds_first_is_named_with_its_place(sca
     first = 10.0 * scales.index(1.0)
     assert first - 1e-6 <= values["point"][0] <= first + 1.0 + 1e-6
     assert min(values["point"][1:]) >= 0.0 and max(values["point"][1:]) <= 1.0
+
+
+def shown_together(part, *places):
+    """An empty that shows the part at places: (x, scale)."""
+    collection, inner = bpy.data.collections.new("Parts"), bpy.data.collections.new("All")
+    bpy.context.scene.collection.objects.unlink(part)
+    collection.objects.link(part)
+    for x, scale in places:
+        one = bpy.data.objects.new("Place", None)
+        one.instance_type, one.instance_collection = "COLLECTION", collection
+        one.location.x, one.scale = x, (scale, scale, scale)
+        inner.objects.link(one)
+    holder = add(None, "Holder")
+    holder.instance_type, holder.instance_collection = "COLLECTION", inner
+    holder.body_moments.kind = "SHELL"
+    return holder
+
+
+@pytest.mark.parametrize(("first", "second", "edge"), [(2.0, 1.0, 2.0), (1.0, 2.0, 1.0), (4.0, 2.0, 4.0)])
+def test_walls_of_instances_of_different_size_may_meet_where_both_end(first, second, edge):
+    for gap, expected in ((0.27, False), (0.23, True)):
+        shown = shown_together(box(), (0.0, first), (edge + gap, second))
+        shown.body_moments.wall, shown.body_moments.thickness = "OUTWARD", 0.125
+        assert ("instance_walls_unchecked" in said(measured(shown))) == expected
+
+
+def test_instances_of_nearly_one_size_have_each_its_wall():
+    scales = [float(np.float32(scale)) for scale in (1.0, 1.0005)]
+    shown = shown_together(box(), (0.0, scales[0]), (5.0, scales[1]))
+    shown.body_moments.wall, shown.body_moments.thickness = "INWARD", 0.375
+    truth = math.fsum(scale**3 - (scale - 0.75) ** 3 for scale in scales)
+    assert close(measured(shown).volume, truth, rel=1e-9)
+
+
+@pytest.mark.parametrize("scale", [1.0, 2.0])
+def test_a_wall_has_moments_of_any_order_and_an_area_where_it_is_asked_for(scale):
+    obj = box(wall="CENTERED", thickness=0.25 * scale, scale=(scale, scale, scale))
+    bpy.context.view_layer.update()
+    body = measure_body(obj, bpy.context.evaluated_depsgraph_get(), MeasureOptions(order=3)).body
+    low, high = 0.375 * scale, 0.625 * scale
+    wall, area = body.moments(6, True)
+    assert close(wall.total, body.wall.total, rel=1e-12) and close(wall.total, 8 * (high**3 - low**3), rel=1e-12)
+    sixth = wall.about_point(np.full(3, 0.5 * scale))[6, 0, 0]
+    assert close(sixth, 8.0 * (high**9 - low**9) / 7.0, rel=1e-9)
+    assert area.order == 6 and close(area.total, 6.0 * scale**2, rel=1e-14)
+    assert body.moments(6, False)[1] is None and body.moments(3, False)[0].order == 3

@@ -118,6 +118,7 @@ def test_a_grid_is_as_long_as_the_box_around_turned_instances():
     surface = Surface.from_triangles(corners, np.array([(0, 1, 2), (5, 6, 7)]))
     for count, length in ((1, 1.0), (2, 3.0), (3, 4.0), (4, 8.5)):
         assert close(fourier._extent([(surface, matrices[:count])]), length, rel=1e-15)
+    assert close(fourier._extent([(surface.transform(0.125 * np.eye(3)), matrices[:1])]), 0.125, rel=1e-15)
 
 
 @pytest.mark.parametrize("kind", ["solid", "shell"])
@@ -149,6 +150,18 @@ def test_it_is_said_of_an_instance_and_of_a_flat_curve_as_well():
     circle = bpy.context.object
     circle.data.dimensions, circle.data.fill_mode, circle.body_moments.kind = "2D", "BOTH", "SHELL"
     assert "fourier_of_display_mesh" in said(transform(circle, np.zeros((1, 3)))[1])
+    circle.data.bevel_depth = 0.1
+    assert "fourier_of_display_mesh" not in said(transform(circle, np.zeros((1, 3)))[1])
+
+
+def test_meters_per_unit_that_are_given_take_the_place_of_the_scenes_in_both_frames(scene):
+    scene.unit_settings.scale_length = 10.0
+    box = files.add_box()
+    options = MeasureOptions(unit_scale=0.01)
+    true = box_spectrum(Q, SIZE / 100, CENTER / 100)
+    assert np.abs(transform(box, options=options)[0].values - true).max() <= 1e-18
+    own = box_spectrum(Q, SIZE / 100, np.zeros(3))
+    assert np.abs(transform(box, options=options, frame="object")[0].values - own).max() <= 1e-18
 
 
 def test_a_wire_is_refused_with_the_remedy():
@@ -162,6 +175,7 @@ def test_it_is_said_that_a_varying_density_plays_no_part():
     assert not transform(box)[1]
     box.body_moments.density_from = "POLYNOMIAL"
     assert said(transform(box)[1]) == {"fourier_of_uniform_density": {}}
+    assert not transform(box, area=True)[1]  # nor does any density of a surface alone
 
 
 def test_flipped_faces_are_turned_and_holes_capped_as_they_are_for_the_mass():
