@@ -7,6 +7,7 @@ import csv
 import bpy
 import numpy as np
 import pytest
+from body_moments.operators.actions.assembly.assembly_snap import FRAME_OF
 from body_moments.operators.session import assembly as session
 from body_moments.operators.session import results, staleness
 from body_moments.operators.write import properties
@@ -41,7 +42,7 @@ def assembly_of_boxes():
     return root
 
 
-def test_the_total_is_stored_on_the_collection_and_drives():
+def test_the_total_is_stored_on_the_collection_and_drives(reported):
     root = assembly_of_boxes()
     obj = bpy.data.objects["b0"]
     assert bpy.ops.object.body_moments_measure_assembly() == {"FINISHED"}
@@ -69,8 +70,10 @@ def test_the_total_is_stored_on_the_collection_and_drives():
     depsgraph = bpy.context.evaluated_depsgraph_get()
     assert close(bpy.data.objects["Driven"].evaluated_get(depsgraph).location[0], mass, 1e-6)
     assert set(properties.LENGTHS) <= set(root.keys())
-    bpy.ops.object.body_moments_clear_assembly()
+    assert bpy.ops.object.body_moments_clear_assembly() == {"FINISHED"}
     assert not any(key in root for key in properties.DESCRIPTIONS)
+    assert bpy.ops.object.body_moments_clear_assembly() == {"CANCELLED"}
+    assert reported.values("results_removed") == {"count": 1} and reported.codes[-1] == "no_results_to_remove"
 
 
 def test_the_tree_has_masses_shares_and_reasons():
@@ -204,6 +207,28 @@ def test_children_that_would_move_by_more_than_rounding_are_left_with_their_empt
     assert [obj.matrix_world for obj in (root, *children)] == before
 
 
+@pytest.mark.parametrize(("angle", "is_moved"), [(3e-6, True), (3e-5, False)])
+@pytest.mark.parametrize(("at", "scale"), [(100, 1.0), (1, 0.1)])
+def test_children_that_would_turn_are_left_with_their_empty(at, scale, angle, is_moved, reported):
+    """However far away and however small they are: single precision holds their axes as well."""
+    root = empty(bpy.context.scene.collection, "Root", (at, 1, 0))
+    children = [box(bpy.context.scene.collection, (0.5, 0.5, 0.5), (at + x, 0, 0), scale=[scale] * 3) for x in (-1, 1)]
+    bpy.context.view_layer.update()
+    for child in children:
+        child.parent, child.matrix_parent_inverse = root, root.matrix_world.inverted()
+    turn = children[0].constraints.new("TRANSFORM")  # by the angle where the empty is at 1, by none at 0
+    turn.target, turn.map_from, turn.map_to, turn.map_to_z_from = root, "LOCATION", "ROTATION", "Y"
+    turn.from_max_y, turn.to_max_z_rot = 1.0, angle
+    bpy.context.view_layer.update()
+    only(root)
+    if is_moved:
+        assert bpy.ops.object.body_moments_assembly_origin(target="OBJECT") == {"FINISHED"}
+        return
+    with pytest.raises(RuntimeError, match=r"\A.+\n?\Z"):
+        bpy.ops.object.body_moments_assembly_origin(target="OBJECT")
+    assert reported.values("children_would_move") == {"names": [children[0].name]}
+
+
 @pytest.mark.parametrize("unit", [1.0, 0.5])
 def test_cursor_empty_and_offset_go_to_the_center(unit):
     bpy.context.scene.unit_settings.scale_length = unit
@@ -217,6 +242,18 @@ def test_cursor_empty_and_offset_go_to_the_center(unit):
     assert close(place(made)[:3, 3], center, 1e-6)
     assert bpy.ops.object.body_moments_assembly_origin() == {"FINISHED"}
     assert close(root.instance_offset, center, 1e-6)
+
+
+def test_each_assembly_has_an_empty_of_its_own_and_so_has_the_whole_scene():
+    assembly_of_boxes()
+    roots = [bpy.context.scene.collection, *map(bpy.data.collections.get, ("Robot", "Arm"))]
+    for _ in range(2):
+        for root in roots:
+            activate(root)
+            assert bpy.ops.object.body_moments_assembly_empty() == {"FINISHED"}
+    found = {obj.name: obj[FRAME_OF] for obj in bpy.context.scene.objects if obj.type == "EMPTY"}
+    owners = {"Robot": roots[1], "Arm": roots[2], roots[0].name: bpy.context.scene}
+    assert found == {"{:s} Principal Frame".format(name): owner for name, owner in owners.items()}
 
 
 @pytest.mark.parametrize("unit", [1.0, 0.5])
