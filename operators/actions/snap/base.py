@@ -119,8 +119,11 @@ def target_of(context: Context, obj: Object, measured: Measured | Stacked, stric
     body = measured.mass_properties
     principal = body.principal
     if strict:
-        measurement = measured.measurement
-        body_of = None if isinstance(measured, Stacked) or measurement.kind == "shell" else measured.body
+        # By itself, its third moments are found exactly where they are doubtful.
+        depsgraph = context.evaluated_depsgraph_get()
+        own = measure_body(obj, depsgraph, POSE) if isinstance(measured, Stacked) else measured
+        measurement = own.measurement
+        body_of = None if measurement.kind == "shell" else own.body
         refine = None if body_of is None or body_of.mass is not None else body_of.third_order
         principal = zhang_chen_frame(measurement.mass_moments[0], refine)
     return SnapTarget(
