@@ -518,6 +518,10 @@ def test_what_blender_shows_of_a_rigid_bodys_mass_is_reported_where_it_is_scaled
     assert ("rigid_body_display_scaled" in reported.codes) == scaled
     if scaled:
         assert close(reported.values("rigid_body_display_scaled")["factor"], scale**3, rel=1e-6)
+    assert "rigid_body_center_elsewhere" in reported.codes
+    reported.clear()
+    assert bpy.ops.object.body_moments_set_rigid_body_mass(add=True) == {"CANCELLED"}
+    assert reported.codes == ["nothing_to_do", "rigid_body_masses_equal"]
 
 
 def test_numbers_keep_six_digits_and_tiny_ones_are_not_zero():

@@ -51,11 +51,11 @@ def test_an_imported_scan_weighs_what_the_file_does(tmp_path, unit):
 
 
 @pytest.mark.parametrize("least", [-1000.0, -(2.0**24), -(2.0**30)])
-def test_no_sample_is_lost_and_ct_numbers_go_by_the_table(least, tmp_path):
+def test_no_sample_is_lost_and_ct_numbers_go_by_the_table(least, tmp_path, reported):
     values = samples("f4", -1000)
     values[0, 0, :2] = least, -999.0
     obj = imported(written(tmp_path / "ct.nrrd", nrrd(values, "spacings: 1 1 1")))
-    assert obj.body_moments.values_from == "TABLE"
+    assert obj.body_moments.values_from == "TABLE" and "scan_ct_numbers" in reported.codes
     bpy.context.view_layer.update()
     with volume_reading(obj, bpy.context.evaluated_depsgraph_get()) as reading:
         ((_, found),) = reading.blocks()
@@ -116,6 +116,24 @@ def test_a_raw_file_by_hand_and_a_spacing(tmp_path):
     )
     bpy.context.view_layer.update()
     assert close(measure(obj).mass_properties.mass, values.sum() * 2e-6, rel=1e-12)
+
+
+def test_the_size_of_a_raw_file_is_that_of_its_name_and_plays_no_part_for_others(tmp_path):
+    values = samples("u1")
+    for name, data in (("a_5x6x7_uint8.raw", values.tobytes(order="F")), ("b.nrrd", nrrd(values, "spacings: 1 1 1"))):
+        obj = imported(written(tmp_path / name, data), raw_shape=(0, 0, 0) if "raw" in name else (1, 1, 1))
+        bpy.context.view_layer.update()
+        with volume_reading(obj, bpy.context.evaluated_depsgraph_get()) as reading:
+            assert np.array_equal(next(iter(reading.blocks()))[1], values)
+
+
+@pytest.mark.parametrize(("least", "background"), [(0.0, 0.0), (0.5, 0.0), (3.0, 0.0), (-2.0, -2.0 - 2.0**-22)])
+def test_around_a_scan_there_is_nothing_or_less_than_in_it(tmp_path, least, background):
+    values = samples("f4", 3)
+    values[0, 0, 0] = least
+    imported(written(tmp_path / "a.nrrd", nrrd(values)))
+    grid = import_scan.openvdb().read(str(tmp_path / "a.vdb"), import_scan.GRID_NAME)
+    assert grid.background == background
 
 
 def test_what_cannot_be_imported_leaves_nothing(tmp_path, reported):

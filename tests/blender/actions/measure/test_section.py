@@ -788,6 +788,8 @@ def test_moments_of_a_region_of_curves_beyond_the_range_of_numbers_are_refused()
 
 
 def test_of_several_meshes_in_edit_mode_those_with_selected_faces_are_measured(reported):
+    for name, data in (("Empty", None), ("Camera", bpy.data.cameras.new("Camera"))):  # what has no faces
+        add(data, name)
     sheets = [add(flat_mesh(square(0, 0, 1), square(5, 0, 2)), name) for name in "ab"]
     for sheet, number in zip(sheets, (None, 1)):
         edit_with_square(sheet, number)

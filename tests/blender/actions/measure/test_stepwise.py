@@ -14,7 +14,7 @@ from body_moments.operators.actions.measure.measure_selected import OBJECT_OT_bo
 from body_moments.operators.actions.shape.find_similar import OBJECT_OT_body_moments_find_similar
 from body_moments.operators.actions.shape.find_symmetry import OBJECT_OT_body_moments_find_symmetry
 from body_moments.operators.actions.shape.match_pose import OBJECT_OT_body_moments_match_pose
-from body_moments.operators.session import results
+from body_moments.operators.session import outcome, results
 
 from tests.blender.actions.shape.test_shape import prism
 from tests.blender.actions.test_dialogs import ESC, MOUSE, TIMER, stand_in
@@ -178,7 +178,7 @@ def test_one_object_with_warnings_is_not_counted(monkeypatch):
     only(text)
     operator, window = pressed(OBJECT_OT_body_moments_measure)
     assert finished(operator, window) == {"FINISHED"}
-    assert operator.reports == [("WARNING", "Measured Text, with warnings")]
+    assert operator.reports == [("WARNING", "Measured Text, with warnings")] and outcome.last() is None
 
 
 @pytest.mark.parametrize(("cls", "settings"), OPERATORS)

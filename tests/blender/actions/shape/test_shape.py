@@ -207,10 +207,11 @@ def test_similar_objects_are_found_listed_and_selected():
     [
         ({"mirrored": True}, {"Image"}),
         ({"scaled": True}, {"Big"}),
-        ({"mirrored": True, "scaled": True}, {"Image", "Big"}),
+        ({"mirrored": True, "scaled": True}, {"Image", "Big", "Big Image"}),
     ],
 )
 def test_mirror_images_and_other_sizes_are_selected_where_asked_for(options, more):
+    wedge("Big Image", scale=2.0, mirrored=True, location=(0, -9, 0))
     scene_of_shapes()
     run("find_similar", **options)
     assert selected() == {"Wanted", "Copy"} | more
