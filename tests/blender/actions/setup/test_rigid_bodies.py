@@ -5,6 +5,7 @@
 import bpy
 import numpy as np
 import pytest
+from mathutils import Matrix
 
 from tests.blender.actions.test_dialogs import stand_in
 from tests.blender.actions.test_transcripts import OPERATORS
@@ -32,7 +33,9 @@ def is_what_bullet_takes_it_for(obj):
     return np.abs(local.center).max() < 1e-5 * size and np.abs(off).max() < 1e-6 * np.trace(local.inertia)
 
 
-def test_mass_origin_and_axes_are_right_and_nothing_moves():
+@pytest.mark.parametrize("unit", [1.0, 0.01, 100.0])
+def test_mass_origin_and_axes_are_right_and_nothing_moves(unit):
+    bpy.context.scene.unit_settings.scale_length = unit
     obj = slanted()
     before, mass = seen(obj), measured(obj).mass_properties.mass
     assert make() == {"FINISHED"}
@@ -42,6 +45,11 @@ def test_mass_origin_and_axes_are_right_and_nothing_moves():
     for _ in range(2):  # again: nothing is left to do
         matrix = place(obj)
         assert make() == {"FINISHED"} and (place(obj) == matrix).all()
+    for frame in ("AXES", "ORIGIN"):  # where little is left to do, it is done
+        obj.data.transform(Matrix.Translation((1e-3, 0.0, 0.0)))
+        obj.data.update()
+        assert not is_what_bullet_takes_it_for(obj)
+        assert make(frame=frame) == {"FINISHED"} and is_what_bullet_takes_it_for(obj)
 
 
 def test_calculate_mass_is_shown_beside(reported):
@@ -109,6 +117,7 @@ def test_a_compound_whose_axes_are_free_keeps_those_of_its_parent():
     scene = bpy.context.scene.collection
     root, child = box(scene, (2, 2, 2), (0, 0, 0), 1000, "root"), box(scene, (1, 1, 1), (0, 0, 0), 500, "child")
     child.parent, root.rotation_euler, root.location = root, (0.1, 0.2, 0.3), (1, 2, 3)
+    child.rotation_euler = (0.5, 0.0, 0.4)
     bpy.context.view_layer.update()
     only(root, child)
     turn = place(root)[:3, :3]
@@ -170,8 +179,11 @@ def test_that_axes_were_free_to_choose_is_said_where_they_were_chosen(frame, rep
     box(bpy.context.scene.collection, (2, 2, 2), (1, 2, 3), 1000, "Cube")
     only(bpy.data.objects["Cube"])
     free = measured(bpy.context.object).mass_properties.principal.finding
+    bpy.context.scene.unit_settings.scale_length = 0.5
     assert make(frame=frame) == {"FINISHED"}
     assert (free.code in reported.codes) == (frame == "AXES")
+    findings = [code for code in reported.codes if code in (free.code, "rigid_body_display_scaled")]
+    assert findings[0] == "rigid_body_display_scaled"  # first, for it is about all of them
 
 
 def test_what_cannot_be_one_is_left_as_it_is_with_the_reason(reported):
