@@ -576,7 +576,7 @@ PATTERNS = [
         "all points are compared at once, of which some are first",
     ),
     (
-        r"operators/bodies/shape.py Shape.(piece_moments|signature)",
+        r"operators/bodies/(shape.py Shape.(piece_moments|signature)|body.py MeshBody._to_order.*)",
         r"polyhedron_moments\(.*threads=self\.threads.*",
         r"\(polyhedron_moments\(((?!threads=).)*\)\)",
         "with how many threads is summed, which is the same",
