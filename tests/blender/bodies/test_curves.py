@@ -758,3 +758,15 @@ def test_what_float32_may_have_moved_bounds_the_length_of_a_circle(size):
         assert nothing.order == 3 and nothing.measure == measure and not nothing.raw.any()
     for nothing, measure in zip(body.moments(5, True), ("volume", "area")):
         assert nothing.order == 5 and nothing.measure == measure and not nothing.raw.any()
+
+
+@pytest.mark.parametrize(("fill", "is_filled"), [("BOTH", True), ("NONE", False)])
+def test_a_region_is_a_sheet_of_its_outlines_whether_it_is_filled_or_not(fill, is_filled):
+    obj = circle("bezier")
+    obj.data.dimensions, obj.data.fill_mode, obj.body_moments.kind = "2D", fill, "SHELL"
+    found = measured(obj)
+    assert ("curve_not_filled" in said(found)) == (not is_filled) and found.error_bound["estimated"]
+    assert (found.health.closed, found.health.components, found.area_moments.order) == (False, 1, 3)
+    body = measure_body(obj, bpy.context.evaluated_depsgraph_get()).body
+    assert body.volume.measure == "volume" and not body.volume.raw.any() and body.volume.order == 3
+    assert np.pi * 2.0**-24 <= body.area.input_error[0] <= 16.0 * np.pi * 2.0**-24

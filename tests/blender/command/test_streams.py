@@ -262,3 +262,14 @@ def test_moments_beyond_what_is_known_are_read_from_the_file_again(tmp_path, mon
                 assert one.order == other.order == order and one.measure == other.measure
                 apart = np.abs(one.raw - other.about_point(one.about).raw).max()
                 assert apart <= 1e-10 * np.abs(one.raw).max() and one.total > 0.0
+
+
+def test_of_a_sheet_it_does_not_matter_whether_its_faces_enclose_anything(tmp_path):
+    flat = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0.0]]), np.array([[0, 1, 2], [0, 2, 3]])
+    options = MeasureOptions(kind="shell", thickness=0.5, density=2.0)
+    for body, area in ((flat, 1.0), (without(part(), 5), None), (inverted(part()), None)):
+        found = stream_bodies.measure_mesh_file(str(written(tmp_path, body=body)), "part", options)
+        assert [one.code for one in found.findings] == ["mesh_streamed"]
+        assert found.findings[0].values == {"count": len(body[1])} and found.mass_properties.mass > 0.0
+        assert area is None or close([found.area, found.mass_properties.mass], [area, area], rel=1e-14)
+        assert found.health.as_record()["welded"] is False

@@ -803,3 +803,43 @@ def test_of_several_meshes_in_edit_mode_those_with_selected_faces_are_measured(r
     bpy.ops.mesh.select_all(action="DESELECT")
     assert bpy.ops.object.body_moments_measure_section() == {"CANCELLED"} and len(reported) > 1  # each is refused
     bpy.ops.object.mode_set(mode="OBJECT")
+
+
+@pytest.mark.parametrize("is_reversed", [False, True])
+@pytest.mark.parametrize("size", [0.125, 1.0, 8.0])
+def test_a_region_of_curves_scales_with_its_unit_and_its_size_whichever_way_they_run(size, is_reversed):
+    bpy.ops.curve.primitive_bezier_circle_add(location=(3, 4, 5))
+    obj = bpy.context.object
+    obj.data.dimensions, obj.data.fill_mode = "2D", "BOTH"
+    if is_reversed:
+        bpy.ops.object.mode_set(mode="EDIT")
+        bpy.ops.curve.select_all(action="SELECT")
+        bpy.ops.curve.switch_direction()
+        bpy.ops.object.mode_set(mode="OBJECT")
+    for exact in (True, False):
+        whole, scaled = region_of(obj, exact=exact), region_of(obj, exact=exact, unit=size)
+        assert bool(whole.curves) == bool(scaled.curves) == exact
+        assert close([scaled.stored, scaled.drawn_area], [size * whole.stored, size**2 * whole.drawn_area], rel=1e-12)
+        assert close(scaled.location, size * np.array([3.0, 4.0, 5.0]), rel=1e-12)
+        one, other = whole.moments(2), scaled.moments(2)
+        assert one.total > 3.0 and close(other.total, size**2 * one.total, rel=1e-12)
+        assert close(other.input_error[0], size**2 * one.input_error[0], rel=1e-6)
+        assert one.input_error[0] >= 2.0 * np.pi * whole.stored * (1.0 - 1e-2)
+
+
+@pytest.mark.parametrize("size", [0.5, 2.0])
+def test_how_flat_and_how_well_filled_a_region_is_is_said_by_its_size(size):
+    from body_moments.operators.bodies.flat import area_findings
+
+    def codes(off=0.0, stored=1e-9, drawn=None):
+        found = SimpleNamespace(plane=SimpleNamespace(out_of_plane=off), stored=stored, drawn_area=drawn)
+        return {one.code: one.values["share"] for one in area_findings(found, size**2)}
+
+    assert not codes() and not codes(3.9e-3 * size, 1e-3 * size) and not codes(drawn=size**2)
+    for share, code in ((0.9e-4, "section_projected_slightly"), (1.1e-4, "section_projected")):
+        assert codes(share * size) == {code: pytest.approx(share)}
+    assert codes(4.1e-3 * size, 1e-3 * size) == {"section_projected": pytest.approx(4.1e-3)}
+    for share, wrong in ((1.0 + 0.9e-4, False), (1.0 - 0.9e-4, False), (1.0 + 1.1e-4, True), (1.0 - 1.1e-4, True)):
+        assert codes(drawn=share * size**2) == (
+            {"section_fill_wrong": pytest.approx(share, rel=1e-12)} if wrong else {}
+        )
