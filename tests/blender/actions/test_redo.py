@@ -5,6 +5,7 @@
 import bpy
 import pytest
 from body_moments.operators.session import staleness
+from body_moments.operators.write import section
 
 from tests.blender.actions.setup.test_remedy_buttons import boxes
 from tests.blender.objects import add, mesh_body, only
@@ -38,13 +39,24 @@ def test_only_the_chosen_kinds_of_defects_are_selected():
     assert selected == [0]
 
 
-def test_only_the_chosen_results_are_cleared():
-    obj = add(mesh_body())
+@pytest.mark.parametrize("kinds", [{"MASS"}, {"SECTION"}, {"SYMMETRY"}, {"MASS", "SECTION"}])
+def test_only_the_chosen_results_are_cleared_and_the_others_stay_up_to_date(kinds):
+    bpy.ops.mesh.primitive_plane_add()
+    obj = bpy.context.object
+    obj.body_moments.kind = "SHELL"
     bpy.ops.object.body_moments_measure()
+    bpy.ops.object.body_moments_measure_section()
     bpy.ops.object.body_moments_find_symmetry()
-    assert bpy.ops.object.body_moments_clear(kinds={"SYMMETRY"}) == {"FINISHED"}
-    assert "body_mass" in obj and not obj.is_property_set("body_moments_symmetry")
-    assert bpy.ops.object.body_moments_clear(kinds={"SECTION"}) == {"CANCELLED"}
+    bpy.context.view_layer.update()
+    assert bpy.ops.object.body_moments_clear(kinds=kinds) == {"FINISHED"}
+    bpy.context.view_layer.update()
+    kept = {"MASS": "body_mass" in obj, "SECTION": section.KEY in obj}
+    kept["SYMMETRY"] = obj.is_property_set("body_moments_symmetry")
+    assert {kind for kind in kept if not kept[kind]} == kinds
+    assert staleness.stale_reason(obj, bpy.context.scene) is None
+    assert staleness.section_stale_reason(obj) is None or not kept["SECTION"]
+    assert staleness.symmetry_stale_reason(obj) is None
+    assert bpy.ops.object.body_moments_clear(kinds=kinds) == {"CANCELLED"}
     assert bpy.ops.object.body_moments_clear() == {"FINISHED"} and "body_mass" not in obj
 
 
