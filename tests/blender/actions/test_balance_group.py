@@ -71,7 +71,8 @@ def test_the_path_of_a_free_flight_is_a_parabola(scene):
     path = path_of(empty)
     assert path.frames.tolist() == list(range(1, 41)) and path.inside is None
     t = path.frames / 40.0
-    assert np.ptp(path.centers, axis=0).max() > 5.0 * size
+    reach = np.ptp(path.centers, axis=0).max()
+    assert reach > 5.0 * size and close(empty.empty_display_size, 0.05 * reach, 1e-6)
     fit = np.polynomial.polynomial.polyfit(t, path.centers, 2)
     off = path.centers - np.polynomial.polynomial.polyval(t, fit).T
     assert np.abs(off).max() <= 1e-6 * size
@@ -156,6 +157,9 @@ def test_the_path_of_a_character_is_the_sum_of_its_parts(scene, monkeypatch):
 
 def test_an_armature_stands_for_its_meshes(scene):
     rig, meshes = character()
+    beside, held = (objects.add(objects.mesh_body(), name) for name in ("Beside", "Held"))
+    beside.parent = rig
+    held.parent, held.parent_type = objects.add(bpy.data.armatures.new("Other"), "Other"), "BONE"
     scene.frame_start, scene.frame_end = 1, 12
     objects.only(rig)
     assert bpy.ops.object.body_moments_balance_group() == {"FINISHED"}
@@ -342,6 +346,40 @@ def test_masses_given_for_a_nested_collection_count(scene, unit):
     arguments = {"use_scene_range": False, "frame_start": 1, "frame_end": 2}
     assert bpy.ops.object.body_moments_balance_group(collection="Outer", **arguments) == {"FINISHED"}
     assert close(path_of(groups()[0]).centers[:, 0], 3.0, 1e-6)
+
+
+def test_a_mass_is_given_for_an_assembly_and_not_for_its_objects(scene):
+    from body_moments.operators.actions.statics.balance_group import has_given_mass
+    from body_moments.operators.read.assembly import members_of
+
+    parts = bpy.data.collections.new("Parts")
+    scene.collection.children.link(parts)
+    child, above = objects.add(objects.mesh_body()), objects.add(None, "Above")
+    child.parent = above
+    for obj in (child, above):
+        parts.objects.link(obj)
+
+    def is_given(settings):
+        settings.mass_from = "MASS"
+        bpy.context.view_layer.update()
+        found = has_given_mass(members_of(parts, bpy.context.evaluated_depsgraph_get()))
+        settings.mass_from = "MEMBERS" if settings != child.body_moments else "DENSITY"
+        return found
+
+    assert not is_given(child.body_moments)
+    assert is_given(above.body_moments_assembly) and is_given(parts.body_moments)
+    child.body_moments_assembly.mass_from = "MASS"  # left from when it was an empty
+    assert not is_given(child.body_moments)
+
+
+def test_a_collection_with_an_object_without_a_certain_center_is_not_followed(scene, reported):
+    parts = bpy.data.collections.new("Parts")
+    scene.collection.children.link(parts)
+    for obj in (objects.add(objects.mesh_body()), objects.add(objects.strip_mesh(), "Strip")):
+        parts.objects.link(obj)
+    with pytest.raises(RuntimeError, match=r"\A.+\n?\Z"):
+        bpy.ops.object.body_moments_balance_group(collection="Parts")
+    assert "open_object" in reported.codes and not groups()
 
 
 def test_of_a_collection_its_instances_are_followed_and_not_what_they_show(scene):
