@@ -396,6 +396,12 @@ def test_a_missing_inertial_matters_where_something_could_move(tmp_path):
         "</geometry></visual></link></robot>"
     )
     assert faults(audit(path)) == [[], ["inertial_missing"]]
+    path.write_text(
+        '<robot name="r"><link name="arm"><inertial><mass value="heavy"/></inertial><visual><geometry>'
+        '<sphere radius="1"/></geometry></visual></link></robot>'
+    )
+    (arm,) = audit(path).links
+    assert [one.code for one in arm.findings] == ["description_number"]  # it is there, and cannot be read
 
 
 def test_density_tells_the_mesh_from_the_inertial(tmp_path):
