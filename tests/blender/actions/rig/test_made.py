@@ -5,9 +5,11 @@
 import bpy
 import numpy as np
 import pytest
+from body_moments.operators.session import rig as session
+from body_moments.operators.session import staleness
 
 from tests.blender.actions.rig.test_rig import character, half_a_box, measured
-from tests.blender.objects import place
+from tests.blender.objects import add, mesh_body, only, place
 from tests.core import characters as made
 
 pytestmark = pytest.mark.usefixtures("scene")
@@ -55,6 +57,34 @@ def test_where_each_bone_has_a_part_no_other_is_named(reported):
     assert bpy.ops.object.body_moments_physics_rig() == {"FINISHED"}
     assert reported.codes == ["physics_rig_created"]
     assert reported.values("physics_rig_created") == {"count": len(made.NAMES), "joints": len(made.NAMES) - 1}
+
+
+def test_results_of_bones_are_removed_once(reported):
+    character()
+    bpy.ops.object.body_moments_measure_bones()
+    reported.clear()
+    assert bpy.ops.object.body_moments_clear_bones() == {"FINISHED"}
+    assert bpy.ops.object.body_moments_clear_bones() == {"CANCELLED"}
+    assert reported.codes == ["results_removed", "no_results_to_remove"]
+    assert reported.values("results_removed") == {"count": 1}
+
+
+@pytest.mark.parametrize("operator", ["rig_center", "physics_rig"])
+def test_what_is_made_of_a_character_leaves_results_up_to_date(operator):
+    """Of other rigid bodies too, and of densities by materials, which no digest of a shape has."""
+    other = add(mesh_body(), "Other", (9, 0, 0))
+    other.data.materials.append(bpy.data.materials.new("Steel"))
+    other.body_moments.density_from = "MATERIALS"
+    bpy.ops.rigidbody.object_add()
+    armature, _ = character()
+    only(other)
+    bpy.ops.object.body_moments_measure()
+    only(armature)
+    bpy.ops.object.body_moments_measure_bones()
+    assert getattr(bpy.ops.object, "body_moments_" + operator)() == {"FINISHED"}
+    bpy.context.view_layer.update()
+    assert staleness.stale_reason(other, bpy.context.scene) is None
+    assert session.stale_reason(armature, bpy.context.scene) is None
 
 
 def test_a_joint_is_at_the_bone_s_head_along_its_axes_a_quarter_as_large(reported):
