@@ -1925,6 +1925,18 @@ EQUIVALENT: dict[tuple[str, str, str, str], str] = {
         "(2.0 ** 27 - 1.0)",
     ): "one splits numbers into two of 26 bits as the other does",
     (
+        "operators/actions/measure/fourier.py",
+        "OBJECT_OT_body_moments_fourier_run._begin",
+        "MeasureOptions(threads=THREADS)",
+        "(MeasureOptions())",
+    ): "with how many threads a transform is summed, which is the same",
+    (
+        "operators/actions/measure/moments.py",
+        "_compute",
+        "region is None or flat is None",
+        "(flat is None)",
+    ): "where there is no region there are no moments of it",
+    (
         "operators/actions/measure/moments.py",
         "_compute",
         "MeasureOptions(order=order, surface=True, threads=THREADS)",

@@ -316,6 +316,23 @@ def test_faults_of_a_result_of_modifiers_are_not_selected_in_the_mesh():
     assert bpy.ops.object.body_moments_select_faults() == {"FINISHED"}
 
 
+def test_what_cannot_be_live_says_why_and_others_say_nothing(reported):
+    only(add(bpy.data.meshes.new("Nothing"), "Nothing"), add(mesh_body(), "Good"))
+    assert bpy.ops.object.body_moments_live() == {"FINISHED"}
+    assert reported.values("failure")["object"] == "Nothing" and reported.codes.count("failure") == 1
+
+
+def test_the_step_before_edit_mode_has_a_name_in_the_undo_history(capfd):
+    mesh = box_mesh(1, 2, 4)
+    mesh.polygons[2].flip()
+    add(mesh)
+    bpy.ops.ed.undo_push(message="start")
+    assert bpy.ops.object.body_moments_select_faults("EXEC_DEFAULT", True) == {"FINISHED"}
+    bpy.context.window_manager.print_undo_steps()
+    assert "name='Measure'" in capfd.readouterr().out
+    bpy.ops.object.mode_set(mode="OBJECT")
+
+
 def test_views_of_the_mesh_are_told_what_is_selected():
     from body_moments.operators.actions.measure import select_faults
 

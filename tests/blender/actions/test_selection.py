@@ -7,8 +7,9 @@ from types import SimpleNamespace
 import bpy
 import pytest
 from body_moments.core.verdict.finding import EditRefusedError, finding
-from body_moments.operators.actions import rigid_world, selection
+from body_moments.operators.actions import modal, rigid_world, selection
 
+from tests.blender.actions.test_dialogs import Window
 from tests.blender.actions.test_refusals import linked_armature
 from tests.blender.objects import add, mesh_body, only
 
@@ -63,6 +64,17 @@ def test_of_what_an_action_says_that_it_changed_nothing_is_not_counted(monkeypat
     objects = [SimpleNamespace(name=name, name_full=name) for name in ("none", "yes", "no", "fails")]
     changed, failures = selection.apply_to_all(objects, action)
     assert [obj.name for obj in changed] == ["none", "yes"] and [found.code for found in failures] == ["failure"]
+
+
+@pytest.mark.parametrize("count", [0, 1, 2])
+def test_the_progress_of_several_is_shown_until_they_are_done(count, monkeypatch):
+    window = Window()
+    monkeypatch.setattr(modal, "bpy", SimpleNamespace(context=window))
+    with pytest.raises(ZeroDivisionError), modal.progress(count) as step:
+        step(0.5)
+        assert window.said == (["progress 0 2", "done 0.5"] if count == 2 else [])
+        raise ZeroDivisionError
+    assert window.said[2:] == (["progress ends"] if count == 2 else [])
 
 
 def test_parents_come_before_their_children_however_they_are_named():

@@ -5,6 +5,7 @@
 from math import pi
 from types import SimpleNamespace
 
+import bpy
 import numpy as np
 import pytest
 from body_moments.operators.actions.measure import fourier
@@ -70,6 +71,14 @@ def test_the_dialog_proposes_the_flat_shape_of_what_is_flat_unless_something_els
     add(box_mesh(1, 2, height), "Box").body_moments.kind = kind
     operator = stand_in(OBJECT_OT_body_moments_fourier, print, **asked)
     assert operator.invoke(Window(), None) == {"RUNNING_MODAL"} and operator.of == proposed
+
+
+def test_the_dialog_proposes_a_file_in_the_folder_of_the_last_one_else_beside_the_scene(tmp_path):
+    add(box_mesh(1, 2, 4), "Box")
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "scene.blend"))
+    for before, folder in (("", tmp_path), (str(tmp_path / "other" / "last.npz"), tmp_path / "other")):
+        operator = stand_in(OBJECT_OT_body_moments_fourier, print, filepath=before)
+        assert operator.invoke(Window(), None) == {"RUNNING_MODAL"} and operator.filepath == str(folder / "Box.npz")
 
 
 @pytest.mark.parametrize(("is_open", "call"), [(True, "INVOKE_DEFAULT"), (False, "EXEC_DEFAULT")])

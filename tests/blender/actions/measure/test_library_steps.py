@@ -75,6 +75,10 @@ def test_the_run_is_given_the_words_of_the_options_and_goes_on_where_one_was_end
     assert run.blender == (None if bpy.app.module else bpy.app.binary_path)
 
 
+def test_without_a_context_the_folder_alone_can_be_measured():
+    assert [identifier for identifier, *_ in library._sources(None, None)] == [library.FOLDER]
+
+
 @pytest.mark.parametrize("background", [False, True])
 @pytest.mark.parametrize("is_open", [False, True])
 def test_it_runs_in_steps_in_a_window_alone(folder, background, is_open, monkeypatch):

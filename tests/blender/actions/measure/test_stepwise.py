@@ -251,6 +251,7 @@ def test_a_fourier_transform_that_fails_under_way_gives_the_window_back_and_says
     operator._path = path.parent / "none" / path.name
     assert finished(operator, window) == {"CANCELLED"}
     assert operator.reports[-1][0] == "ERROR" and not path.exists()
+    assert operator.reports[-1][1].endswith("No such file or directory.")
     operator, window = pressed(OBJECT_OT_body_moments_fourier_run, **settings)
     assert operator.modal(window, ESC) == {"CANCELLED"} and not path.exists() and window.timers == []
     operator, window = pressed(OBJECT_OT_body_moments_fourier_run, **settings)
