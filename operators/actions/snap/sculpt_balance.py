@@ -238,7 +238,6 @@ def _balance_mesh(
             )
             points = _mesh_coordinates(mesh, balanced, start, linear)
             mesh.set_points(points)
-            context.view_layer.update()
             after = _measure(context, obj)
             off = np.abs(target.across @ (target.point - after.mass_properties.center)).max()
             if off <= tolerance:
