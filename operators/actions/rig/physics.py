@@ -66,7 +66,6 @@ def _create(context: Context, rig: Rig, parts: list[BonePart]) -> tuple[int, int
     unit = shortest_decimal(context.scene.unit_settings.scale_length)
     made = MadeCollection(context, rig.armature, RIG_OF, "Physics Rig")
     bodies = {part.name: _body(made, rig.armature, part, unit) for part in parts}
-    context.view_layer.update()
     add_rigid_bodies(context, list(bodies.values()))
     for part in parts:
         physics = bodies[part.name].rigid_body
@@ -115,7 +114,6 @@ def _joint(context: Context, made: MadeCollection, bone: PoseBone, above: Object
     location, turn, _scale = (armature.matrix_world @ bone.bone.matrix_local).decompose()
     joint.rotation_mode = "QUATERNION"
     joint.location, joint.rotation_quaternion = location, turn
-    context.view_layer.update()
     constraint = add_joint(context, joint, "GENERIC")
     constraint.object1, constraint.object2, constraint.disable_collisions = above, below, True
     for axis in "xyz":
