@@ -30,6 +30,17 @@ def test_clear_removes_all_results_of_the_selected_objects_only():
     assert bpy.ops.object.body_moments_clear() == {"CANCELLED"}
 
 
+def test_a_document_of_the_selection_names_the_file_once_there_is_one(tmp_path):
+    from body_moments.operators.actions.measure import copy
+
+    add(mesh_body())
+    bpy.ops.object.body_moments_measure()
+    assert copy.selected_document(bpy.context)["file"] is None
+    path = str(tmp_path / "scene.blend")
+    bpy.ops.wm.save_as_mainfile(filepath=path)
+    assert copy.selected_document(bpy.context)["file"] == path
+
+
 def test_copy_report_needs_results_and_then_works(tmp_path, capfd):
     add(mesh_body())
     assert not bpy.ops.object.body_moments_copy_report.poll()
