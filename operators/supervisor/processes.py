@@ -33,7 +33,9 @@ def child_command(blender: str | None) -> list[str] | None:
 
 def run_command(blender: str | None, words: Sequence[str]) -> list[str] | None:
     """What starts our command line with these words, in a Blender, or in this Python as above."""
-    script = str(Path(__file__).resolve().parent.parent / "batch.py")
+    batch = importlib.util.find_spec("..batch", __package__)
+    assert batch is not None and batch.origin is not None
+    script = str(Path(batch.origin).resolve())
     if blender is not None:
         return [blender, *_SWITCHES, "--python", script, "--", *words]
     if importlib.util.find_spec("bpy") is None:
