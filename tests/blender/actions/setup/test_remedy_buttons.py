@@ -161,6 +161,30 @@ def test_the_unit_is_asked_for_once_a_scene_and_set_at_a_click():
     assert ask not in buttons()
 
 
+def test_what_was_measured_is_measured_in_millimeters_where_that_is_wanted(reported, tmp_path):
+    scene = bpy.context.scene
+    other, obj = add(boxes(60.0), "Other"), add(boxes(60.0))
+    assert bpy.ops.scene.body_moments_set_millimeters() == {"FINISHED"} and not reported.codes
+    scene.unit_settings.scale_length = 1.0
+    bpy.ops.object.body_moments_measure()
+    reported.clear()
+    mass = obj["body_mass"]
+    assert bpy.ops.scene.body_moments_set_millimeters(remeasure=False) == {"FINISHED"}
+    assert obj["body_mass"] == mass and not reported.codes
+    assert bpy.ops.scene.body_moments_set_millimeters() == {"FINISHED"}
+    assert close(obj["body_mass"], 1e-9 * mass, rel=1e-6) and "body_mass" not in other and reported.codes
+    path = str(tmp_path / "library.blend")
+    bpy.data.libraries.write(path, {obj})
+    bpy.data.batch_remove([obj, other])
+    with bpy.data.libraries.load(path, link=True) as (found, names):
+        names.objects = [*found.objects]
+    (linked,) = names.objects
+    scene.collection.objects.link(linked)
+    reported.clear()
+    assert "body_mass" in linked and bpy.ops.scene.body_moments_set_millimeters() == {"FINISHED"}
+    assert not reported.codes
+
+
 def test_the_unit_is_not_asked_for_where_the_size_is_plausible_or_the_question_was_dismissed():
     scene = bpy.context.scene
     obj = add(boxes(60.0))
@@ -186,7 +210,7 @@ def test_what_was_left_unchanged_is_named_in_the_panel_until_the_next_action_and
     assert "Origin to Center of Mass" in text and "Bad 07: " in text and "Bad 08: " not in text
     assert "and 12 more" in text
     assert bpy.ops.object.body_moments_select_refused() == {"FINISHED"}
-    assert {*bpy.context.view_layer.objects.selected} == {*bad}
+    assert {*bpy.context.view_layer.objects.selected} == {*bad} and bpy.context.object == bad[0]
     only(*good)
     bpy.ops.object.body_moments_add_empty()
     assert "Bad" not in " ".join(labels(shown(without=("selection",))))
