@@ -71,6 +71,20 @@ def test_an_edit_just_before_results_are_cleared_still_counts_for_the_others():
     assert staleness.symmetry_stale_reason(obj) == "stale_geometry"
 
 
+def test_results_that_were_out_of_date_when_they_were_cleared_are_so_after_undo():
+    obj = add(mesh_body())
+    bpy.ops.object.body_moments_measure()
+    bpy.ops.ed.undo_push(message="measured")
+    obj.data.vertices[0].co.x += 0.5
+    obj.data.update()
+    bpy.ops.ed.undo_push(message="edited")
+    assert bpy.ops.object.body_moments_clear("EXEC_DEFAULT", True) == {"FINISHED"}
+    bpy.ops.ed.undo()
+    bpy.context.view_layer.update()
+    obj = bpy.data.objects["Body"]
+    assert "body_mass" in obj and staleness.stale_reason(obj, bpy.context.scene) == "stale_geometry"
+
+
 def test_an_empty_has_the_form_and_size_that_were_asked_for():
     obj = add(mesh_body())
     bpy.ops.object.body_moments_add_empty()
