@@ -507,6 +507,12 @@ PATTERNS = [
         "a rule of more points is as exact",
     ),
     (r"operators/actions/.*", r"(made|mesh)\.free\(\)", r"pass", "what nothing names any more is freed"),
+    (
+        r"operators/actions/setup/rigid_bodies.py \w+\._place",
+        r"1|2|1 if move_only else 2",
+        r"2|3",
+        "a body that has its frame is left as it is",
+    ),
     (r"operators/command/simplex.py answer", r"turned \* np\.tile\(signs.*", r"\(turned / .*", "times -1 is by -1"),
     (
         r"operators/bodies/shape.py SurfaceDistance.__init__",
