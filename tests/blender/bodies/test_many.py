@@ -248,6 +248,7 @@ def test_axes_beyond_the_range_of_numbers_are_refused_together_as_alone_without_
     [
         {},
         {"mass_from": "MASS", "mass": 3.0},
+        {"mass_from": "MASS", "mass": 0.0},
         {"mass_from": "MASS", "use_center": True, "given_center": (0.1, 0.2, 0.3)},
         {"mass_from": "MASS", "use_inertia": True, "given_inertia_diagonal": (3.0, 4.0, 5.0)},
         {"density_from": "POLYNOMIAL", "density_polynomial": "100 + x"},
@@ -260,7 +261,8 @@ def test_what_is_set_of_each_and_given_for_all_counts_together_as_alone(settings
     for name, value in settings.items():
         setattr(obj.body_moments, name, value)
     bpy.context.view_layer.update()
-    for options in ({}, {"mass": 5.0}, {"density": 7.0}, {"kind": "solid", "overlap": "signed"}, {"order": 2}):
+    own = {"kind": "solid", "overlap": "signed"}
+    for options in ({}, {"mass": 5.0}, {"mass": 0.0}, {"density": 7.0}, {"density": 0.0}, own, {"order": 2}):
         pairs, depsgraph = all_outcomes([obj], MeasureOptions(**options))
         assert_same(pairs[0][1], alone(obj, depsgraph, MeasureOptions(**options)))
 
