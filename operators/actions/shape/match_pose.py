@@ -133,7 +133,7 @@ def _plan_move(
 
 def _is_there(plan: reframe.Plan) -> np.bool_:
     off = np.abs(plan.target - world(plan.obj))
-    return off[:3, :3].max() <= 1e-7 and off[:3, 3].max() <= reframe.location_tolerance(plan.obj, plan.size)
+    return off[:, :3].max() <= 1e-7 and off[:, 3].max() <= reframe.location_tolerance(plan.obj, plan.size)
 
 
 CLASSES = (OBJECT_OT_body_moments_match_pose,)

@@ -115,6 +115,14 @@ def test_the_audit_of_what_is_right_writes_no_copy(tmp_path, reported):
     assert reported.codes[-1] == "audit_not_written" and len(bpy.data.texts) == 1
 
 
+def test_the_audit_of_what_is_wrong_writes_nothing_that_was_not_asked_for(tmp_path, reported):
+    path = tmp_path / "r.urdf"
+    path.write_text(BOX.format("5333333"), encoding="utf-8")
+    assert bpy.ops.import_scene.body_moments_audit(filepath=str(path)) == {"FINISHED"}
+    assert reported.values("audit_done")["errors"] == 1
+    assert [file.name for file in tmp_path.iterdir()] == ["r.urdf"]
+
+
 def test_the_audit_becomes_a_text_and_a_repaired_copy(tmp_path, reported):
     path = tmp_path / "r.urdf"
     path.write_text(BOX.format("5333333"), encoding="utf-8")
