@@ -3,6 +3,7 @@
 """Add Empty at the Principal Frame: something to parent, constrain and look at."""
 
 from collections.abc import Generator
+from itertools import count
 
 import bpy
 import numpy as np
@@ -70,6 +71,7 @@ class OBJECT_OT_body_moments_add_empty(Operator):
         findings: list[Finding] = []
         failures: list[Finding] = []
         placed: list[Object] = []
+        measured = count(1)
 
         def add(obj: Object) -> SceneChange:
             yield
@@ -77,7 +79,7 @@ class OBJECT_OT_body_moments_add_empty(Operator):
                 if self.parent and abs(np.linalg.det(world(obj)[:3, :3])) == 0.0:
                     raise EditRefusedError("scale_zero_axis_of_parent_target")
                 body = target_in_turn(obj)
-                step(len(placed) + len(failures))
+                step(next(measured))
                 yield  # all are measured before the scene changes
                 if (yield from self._place(existing.get(obj), context, body)):
                     findings.extend([body.finding.of_sources([obj.name])] if body.finding is not None else [])

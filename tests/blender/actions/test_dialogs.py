@@ -323,6 +323,7 @@ def test_what_several_areas_show_has_them_drawn_again(name):
 
 
 PROGRESS = {  # of operators on two objects: what is done after each step
+    "OBJECT_OT_body_moments_add_empty": (1, 2),
     "OBJECT_OT_body_moments_align_to_world": (1, 2),
     "OBJECT_OT_body_moments_measure": (2,),  # they are measured together
     "OBJECT_OT_body_moments_stability": (1, 2),

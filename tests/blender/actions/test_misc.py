@@ -333,6 +333,31 @@ def test_what_cannot_be_live_says_why_and_others_say_nothing(reported):
     assert reported.values("failure")["object"] == "Nothing" and reported.codes.count("failure") == 1
 
 
+def test_the_active_object_decides_whether_live_numbers_begin_or_end_and_need_not_be_selected(reported):
+    from body_moments.operators.session import live
+
+    active, other = add(mesh_body(), "Active"), add(mesh_body(), "Other")
+    camera = add(bpy.data.cameras.new("Camera"), "Camera")
+    assert not bpy.ops.object.body_moments_live.poll()
+    only(other, camera)
+    bpy.ops.object.body_moments_live()
+    bpy.context.view_layer.objects.active = active
+    for expected in ([True, True], [False, False]):
+        assert bpy.ops.object.body_moments_live() == {"FINISHED"}
+        assert [live.is_live(obj) for obj in (active, other)] == expected
+    other.select_set(False)
+    bpy.ops.object.body_moments_live()
+    assert [live.is_live(obj) for obj in (active, other)] == [True, False] and not reported.codes
+    bpy.context.view_layer.objects.active = None
+    assert not bpy.ops.object.body_moments_live.poll()
+
+
+def test_of_many_that_cannot_be_live_the_first_are_named(reported):
+    only(*[add(bpy.data.meshes.new("Nothing"), f"Nothing {number}") for number in range(5)])
+    assert bpy.ops.object.body_moments_live() == {"FINISHED"}
+    assert reported.codes.count("failure") == 3 and reported.values("and_more") == {"count": 2}
+
+
 def test_the_step_before_edit_mode_has_a_name_in_the_undo_history(capfd):
     mesh = box_mesh(1, 2, 4)
     mesh.polygons[2].flip()

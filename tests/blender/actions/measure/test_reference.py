@@ -2,6 +2,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Inertia about any reference of the scene: shown, stored, copied, and moments about it."""
 
+import re
+from ast import literal_eval
+
+import bmesh
 import bpy
 import numpy as np
 import pytest
@@ -179,6 +183,51 @@ def test_the_axis_comes_from_what_is_selected():
     assert close(chosen.first, (7.5, -5, 0), 1e-6) and close(chosen.second, (8.5, -3, 4), 1e-6)
 
 
+@pytest.mark.parametrize(
+    ("active", "selected", "points"),
+    [("A", "AC", (3.0, 1.0)), ("C", "AC", (1.0, 3.0)), ("B", "AC", (1.0, 3.0)), ("A", "ABC", None), ("A", "", None)],
+)
+def test_the_axis_goes_from_the_other_object_to_the_active_one_or_by_name(active, selected, points, reported):
+    made = {name: box(bpy.context.scene.collection, (1, 1, 1), (ord(name) - 64, 2, 0), name=name) for name in "CBA"}
+    only(made[active])
+    for name, obj in made.items():
+        obj.select_set(name in selected)
+    if points is None:
+        with pytest.raises(RuntimeError, match=r"\A.+\n?\Z"):
+            bpy.ops.object.body_moments_axis_from_selection()
+        assert reported.values("axis_needs_two_points") == {"count": len(selected)}
+        return
+    assert bpy.ops.object.body_moments_axis_from_selection() == {"FINISHED"}
+    chosen = bpy.context.scene.body_moments_reference
+    assert [tuple(point) for point in (chosen.first, chosen.second)] == [(place, 2.0, 0.0) for place in points]
+
+
+@pytest.mark.parametrize("by", ["order", "edge", "one of each"])
+def test_the_axis_goes_through_vertices_in_the_order_in_which_they_were_selected(by):
+    turned = {"rotation": (0, 0, np.pi / 2), "scale": (2, 3, 1)}
+    objects = [box(bpy.context.scene.collection, (1, 1, 1), (x, 0, 0), name=f"{x}", **turned) for x in (5, 9)]
+    only(*objects)
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="DESELECT")
+    chosen = {"order": [(0, 7), (0, 2)], "edge": [(0, 7), (0, 2)], "one of each": [(0, 1), (1, 4)]}[by]
+    for number, index in chosen:
+        mesh = bmesh.from_edit_mesh(objects[number].data)
+        mesh.verts.ensure_lookup_table()
+        mesh.verts[index].select_set(True)
+        if by == "order":
+            mesh.select_history.add(mesh.verts[index])
+    if by == "edge":
+        mesh.edges.ensure_lookup_table()
+        mesh.select_history.add(mesh.edges[0])
+        chosen = chosen[::-1]
+    assert bpy.ops.object.body_moments_axis_from_selection() == {"FINISHED"}
+    bpy.ops.object.mode_set(mode="OBJECT")
+    settings = bpy.context.scene.body_moments_reference
+    for (number, index), point in zip(chosen, (settings.first, settings.second), strict=True):
+        x, y, z = objects[number].data.vertices[index].co
+        assert close(point, (objects[number].location.x - 3.0 * y, 2.0 * x, z), 1e-6)
+
+
 def test_moments_of_any_order_are_about_the_reference():
     obj = measured_box()
     settings = bpy.context.scene.body_moments
@@ -196,12 +245,24 @@ def test_moments_of_any_order_are_about_the_reference():
     assert close(exact["z²"], 8 * 4 / 3, 1e-13)
 
 
-def test_it_is_copied_with_its_bounds(capsys):
-    measured_box()
-    choose("AXIS", first=(0, 0, 0), second=(0, 0, 2))
+@pytest.mark.parametrize("kind", ["AXIS", "WORLD"])
+def test_it_is_copied_with_its_bounds(kind, capsys):
+    obj = measured_box()
+    choose(kind, first=(0, 0, 0), second=(0, 0, 2))
+    capsys.readouterr()
     assert bpy.ops.object.body_moments_copy_reference() == {"FINISHED"}
-    text = capsys.readouterr().out
-    assert "about the axis (kg·m²) " + repr(float(about((0, 0, 0))[2, 2]))[:12] in text and "rounding" in text
+    name, *lines = capsys.readouterr().out.splitlines()
+    choice, found = ReferenceChoice.of(bpy.context.scene.body_moments_reference), shown(obj)
+    assert name == "Box, about " + choice.text
+    about_axis = [found.about_z, found.radius_about_z, found.distance_from_z]
+    expected = [[0.0] * 3, found.reference.axes.tolist(), 8000.0, found.center.tolist(), found.inertia.tolist()]
+    *rows, bounds = lines
+    values = [literal_eval(re.search(r" ([-\d.]+(e-?\d+)?|\[.*\])\Z", row)[1]) for row in rows]
+    assert values == expected + about_axis * (kind == "AXIS")
+    assert bounds == f"rounding, at most {found.rounding_error!r}; float32 coordinates, at most {found.input_error!r}"
+    if kind == "AXIS":
+        assert close(found.about_z, about((0, 0, 0))[2, 2], 1e-14)
+        assert close(found.distance_from_z, np.hypot(8.0, 4.0), 1e-14)
 
 
 def test_a_choice_keeps_the_letters_of_a_name():
