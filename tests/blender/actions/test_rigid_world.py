@@ -38,9 +38,14 @@ def linked(tmp_path):
     return bpy.data.collections["Linked"]
 
 
+@pytest.mark.parametrize("overridden", [False, True])
 @pytest.mark.parametrize("of", ["collection", "constraints"])
 @pytest.mark.parametrize("name", OPERATORS)
-def test_nothing_is_added_to_a_linked_collection(name, of, linked, reported):
+def test_nothing_is_added_to_a_collection_of_a_library(name, of, overridden, linked, reported):
+    if overridden:
+        bpy.context.scene.collection.children.link(linked)
+        linked = linked.override_create(remap_local_usages=True)
+        assert linked.override_library
     obj = character()[0] if name == "physics_rig" else add(mesh_body())
     only(obj)
     bpy.ops.rigidbody.world_add()
@@ -53,6 +58,15 @@ def test_nothing_is_added_to_a_linked_collection(name, of, linked, reported):
         assert not [*difference(before, state())]
     else:
         assert "rigid_world_linked" not in reported.codes
+
+
+@pytest.mark.parametrize("name", OPERATORS)
+def test_a_world_without_collections_gets_them(name):
+    only(character()[0] if name == "physics_rig" else add(mesh_body()))
+    bpy.ops.rigidbody.world_add()
+    assert bpy.context.scene.rigidbody_world.collection is bpy.context.scene.rigidbody_world.constraints is None
+    assert run(name) == {"FINISHED"}
+    assert len(bpy.context.scene.rigidbody_world.collection.objects) > 0
 
 
 def test_what_is_a_rigid_body_already_needs_no_place_in_the_world(linked):

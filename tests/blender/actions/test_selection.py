@@ -41,6 +41,16 @@ def test_one_report_tells_what_was_done_what_was_left_and_what_was_noticed(
     assert said == [*expected, *findings] and kept == [("Action", [*failures, *findings])]
 
 
+def test_the_first_of_many_are_reported_and_all_are_kept(monkeypatch):
+    said, kept = [], []
+    monkeypatch.setattr(selection.reports, "report", lambda _, *found: said.extend(found))
+    monkeypatch.setattr(selection.outcome, "remember", lambda _, found: kept.extend(found))
+    selection.summarize(SimpleNamespace(bl_label="Action"), 1, 9, DONE, [FAILURE] * 4, [NOTE] * 5)
+    causes = [found.as_record() for found in (*[FAILURE] * 3, finding("and_more", count=1))]
+    assert said[:2] == [DONE, finding("left_unchanged", count=4, total=9, causes=causes)]
+    assert said[2:] == [*[NOTE] * 3, finding("and_more", count=2)] and kept == [*[FAILURE] * 4, *[NOTE] * 5]
+
+
 def test_each_object_counts_when_it_is_done_and_its_shares_before():
     def action(obj):
         if obj.name == "fails":

@@ -80,10 +80,16 @@ def test_a_click_selects_that_object_alone():
         scene.body_moments_listed = layer.objects.find(obj.name)
         assert layer.objects.active == obj and list(layer.objects.selected) == [obj]
         assert scene.body_moments_listed == layer.objects.find(obj.name)
+    for nowhere in (-1, len(layer.objects)):
+        scene.body_moments_listed = nowhere
+        assert layer.objects.active == objects[-1] and list(layer.objects.selected) == [objects[-1]]
     bpy.ops.object.mode_set(mode="EDIT")
     scene.body_moments_listed = 0
     assert layer.objects.active == objects[-1]
     bpy.ops.object.mode_set(mode="OBJECT")
+    layer.objects.active = None
+    assert scene.body_moments_listed == -1
+    assert "body_moments_listed" not in scene.keys()  # noqa: SIM118
 
 
 def test_the_total_names_what_is_doubtful_out_of_date_and_missing():
@@ -127,21 +133,29 @@ def test_the_table_has_a_row_for_each_object(capsys):
         assert close(float(row["mass"]), obj["body_mass"], 1e-15) and row["method"] == obj["body_method"]
 
 
-@pytest.mark.parametrize("suffix", [".csv", ".json", ".jsonl"])
+@pytest.mark.parametrize("suffix", [".csv", ".json", ".jsonl", ".CSV"])
 def test_the_file_has_the_numbers_and_is_replaced_as_a_whole(suffix, tmp_path, reported):
     objects, path = four(), tmp_path / ("numbers" + suffix)
     path.write_text("before")
     assert bpy.ops.object.body_moments_save_numbers(filepath=str(path)) == {"FINISHED"}
     assert [file.name for file in tmp_path.iterdir()] == [path.name]
     text = path.read_text(encoding="utf-8")
-    if suffix == ".csv":
+    if suffix.lower() == ".csv":
         assert len(list(csv.DictReader(io.StringIO(text)))) == 3
     else:
         document = json.loads(text)
         assert [entry["name"] for entry in document["objects"]] == sorted(obj.name for obj in objects)
         assert close(document["total"]["mass"], sum(obj["body_mass"] for obj in objects), 1e-14)
         assert document["total"]["warnings"] and document["file"] is None  # it was never saved
-    assert reported.values("numbers_saved")["count"] == 3
+    assert reported.values("numbers_saved") == {"count": 3, "file": path.name}
+
+
+@pytest.mark.filterwarnings("ignore:.*blend relative:RuntimeWarning")
+def test_a_path_may_begin_at_the_saved_file(tmp_path):
+    four()
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "saved.blend"))
+    assert bpy.ops.object.body_moments_save_numbers(filepath="//numbers.json") == {"FINISHED"}
+    assert json.loads((tmp_path / "numbers.json").read_text(encoding="utf-8"))["file"].endswith("saved.blend")
 
 
 def test_what_cannot_be_saved_is_refused_with_the_reason(tmp_path, reported):
