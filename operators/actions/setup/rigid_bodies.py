@@ -154,7 +154,6 @@ class OBJECT_OT_body_moments_rigid_bodies(Operator):
                 obj.rigid_body.mesh_source = "FINAL"  # the mesh that was weighed; Calculate Mass takes the default
             for obj, one in measured.items():
                 obj.rigid_body.mass = one.target.mass
-            context.view_layer.update()
             _store(context, measured)
         return self._report(context, measured, blender, len(bodies), failures)
 

@@ -5,7 +5,7 @@
 import bpy
 import numpy as np
 import pytest
-from mathutils import Matrix
+from mathutils import Matrix, Vector
 
 from tests.blender.actions.test_dialogs import stand_in
 from tests.blender.actions.test_transcripts import OPERATORS
@@ -172,6 +172,42 @@ def test_what_is_right_and_what_is_refused_do_not_end_the_others():
     assert make() == {"FINISHED"} and is_what_bullet_takes_it_for(last)
     assert right.rigid_body is not None and instancer.rigid_body is None
     assert (place(right) == before[0]).all() and (place(instancer) == before[1]).all()
+
+
+def test_a_body_whose_faces_are_not_flat_has_the_axes_of_what_it_is_without_its_scale():
+    """Blender cuts such faces into other triangles then."""
+    obj = slanted()
+    obj.data.vertices[3].co += Vector((0.3, -0.2, 0.6))
+    obj.data.update()
+    assert make() == {"FINISHED"} and is_what_bullet_takes_it_for(obj)
+
+
+def test_a_body_whose_data_cannot_have_another_frame_stays_as_it_is_and_the_next_is_made(reported):
+    held, good = slanted("held"), slanted("good")
+    cast = held.modifiers.new("Cast", "CAST")
+    cast.show_viewport, cast.factor = False, 0.8
+    only(held)
+    bpy.ops.rigidbody.world_add()
+    bpy.ops.rigidbody.constraint_add(type="HINGE")
+    only(held, good)
+    before = place(held)
+    assert make(frame="ORIGIN") == {"FINISHED"} and good.rigid_body is not None
+    assert np.abs(measured(good).in_object_frame().center).max() < 1e-5
+    assert (place(held) == before).all() and held.rigid_body is None and held.rigid_body_constraint.type == "HINGE"
+    assert len(bpy.data.objects) == 2
+    assert reported.values("failure")["object"] == "held" and reported.codes[-1] == "render_only_modifier"
+
+
+def test_a_rigid_body_that_is_refused_keeps_its_mass_whichever_object_is_active():
+    good, held, empty = slanted("good"), slanted("held"), add(None, "Empty")
+    only(held)
+    bpy.ops.rigidbody.object_add()
+    held.rigid_body.mass, held.lock_location = 5.0, (True, True, True)
+    only(good, held)
+    bpy.context.view_layer.objects.active = empty
+    assert make() == {"FINISHED"}
+    assert held.rigid_body.mass == 5.0 and empty.rigid_body is None
+    assert close(good.rigid_body.mass, measured(good).mass_properties.mass, 1e-6)
 
 
 @pytest.mark.parametrize("frame", ["AXES", "ORIGIN", "KEEP"])
