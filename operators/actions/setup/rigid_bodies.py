@@ -317,7 +317,7 @@ def _store(context: Context, measured: dict[Object, Measured]) -> None:
 
 def _calculated_masses(context: Context, measured: dict[Object, Measured]) -> dict[Object, float]:
     """What Blender's Calculate Mass makes of each body with the same density."""
-    objects = [part for one in measured.values() for part in (one.body.obj, *one.body.members)]
+    objects = list(measured)
     if not objects:
         return {}
     with context.temp_override(object=objects[0], selected_objects=objects):
