@@ -381,7 +381,7 @@ def test_views_of_the_mesh_are_told_what_is_selected():
     assert changes
 
 
-def test_a_material_sets_the_density_of_all_selected_and_a_typed_density_forgets_it():
+def test_a_material_sets_the_density_of_all_selected_and_a_typed_density_forgets_it(reported):
     from body_moments.core.density.materials import BY_NAME
     from body_moments.core.numerics.float32 import shortest_decimal
 
@@ -393,6 +393,8 @@ def test_a_material_sets_the_density_of_all_selected_and_a_typed_density_forgets
         assert obj.body_moments.material == "Water" and obj.body_moments.mass_from == "DENSITY"
         assert shortest_decimal(obj.body_moments.density) == BY_NAME["Water"].density
     assert bpy.ops.object.body_moments_set_material(material="Water") == {"CANCELLED"}
+    assert reported.codes == ["material_set", "nothing_to_do", "material_set_already"]
+    assert reported.values("material_set") == {"count": 2, "material": "Water"}
     one.body_moments.density = 500.0
     assert one.body_moments.material == ""
 

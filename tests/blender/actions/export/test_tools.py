@@ -82,7 +82,7 @@ def test_an_object_of_a_library_gets_no_rigid_parent(reported):
 
 
 @pytest.mark.parametrize("where", ["relative", "absolute"])
-def test_meshes_of_other_folders_are_read_where_that_is_allowed(where, tmp_path):
+def test_meshes_of_other_folders_are_read_where_that_is_allowed(where, tmp_path, monkeypatch):
     for name in ("robot", "meshes"):
         (tmp_path / name).mkdir()
     mesh, path = tmp_path / "meshes" / "part.stl", tmp_path / "robot" / "r.urdf"
@@ -98,6 +98,7 @@ def test_meshes_of_other_folders_are_read_where_that_is_allowed(where, tmp_path)
         bpy.data.texts.remove(text)
         return "part.stl" not in said
 
+    monkeypatch.chdir(mesh.parent)  # where Blender was started is no folder of meshes
     assert not is_read()
     assert is_read(root=str(mesh.parent))
     assert is_read(allow_outside=True) == (where == "absolute")
