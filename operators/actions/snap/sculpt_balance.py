@@ -223,7 +223,7 @@ def _balance_mesh(
     linear, offset = part.matrices[0, :3, :3] * unit, part.matrices[0, :3, 3] * unit
     start = part.surface.transform(linear, offset)
     size = float(np.linalg.norm(np.ptp(start.points, axis=0)))
-    tolerance = REACHED_RTOL * size + 4.0 * FLOAT32 * np.abs(np.concatenate([start.points, [target.point]])).max()
+    tolerance = REACHED_RTOL * size + 4.0 * FLOAT32 * np.abs(start.points).max()
     with _restored_on_error(context, mesh):
         surface = start
         for _ in range(MAX_ATTEMPTS):

@@ -345,6 +345,7 @@ class TestRefused:
     def test_modifiers_that_change_the_mesh(self, reported):
         obj = figure()
         obj.modifiers.new("Smooth", "SUBSURF").levels = 1
+        obj.modifiers.new("Hidden", "SUBSURF").show_viewport = False
         edit(obj)
         unchanged(obj, points(obj), "balance_modified", reported)
         assert reported.values("balance_modified") == {"modifiers": ["Smooth"]}

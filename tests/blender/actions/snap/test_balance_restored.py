@@ -52,6 +52,27 @@ def test_where_no_attempt_comes_there_all_is_put_back(way, monkeypatch, reported
     assert np.array_equal(points(obj), before)
 
 
+@pytest.mark.parametrize("misses", [1, 5])
+def test_after_a_miss_it_is_found_again_from_where_it_was(misses, monkeypatch):
+    placed = {"location": (1, 2, 3), "rotation": (0.1, 0.2, 0.3), "scale": (-1.0, 2.0, 1.5)}
+    found = []
+    for number in (0, misses):
+        bpy.context.scene.unit_settings.scale_length = 0.5
+        obj, attempts = figure(**placed), []
+        group(obj)
+
+        def missing(*words, kept=attempts, first=number, **more):
+            kept.append(least_moves(*words, **more))
+            away = np.array([0.1, 0.0, 0.0]) * (len(kept) <= first)
+            return replace(kept[-1], points=kept[-1].points + away)
+
+        monkeypatch.setattr(sculpt_balance, "balance", missing)
+        assert balance(target="POINT", point=center(obj) / 0.5 + [0.05, 0.02, 0.0]) == {"FINISHED"}
+        assert len(attempts) == number + 1
+        found.append(points(obj))
+    assert np.abs(found[1] - found[0]).max() < 1e-6
+
+
 @pytest.mark.parametrize("way", ["edited", "grouped"])
 def test_the_moves_that_are_reported_are_those_in_the_world(way, reported):
     bpy.context.scene.unit_settings.scale_length = 0.5
@@ -82,7 +103,7 @@ def test_it_is_there_within_a_millionth_of_the_size_and_four_roundings_of_the_fa
         return least_moves(surface, movable, target + np.array([share * tolerance, 0.0, 0.0]), **more)
 
     monkeypatch.setattr(sculpt_balance, "balance", beside)
-    target = center(obj) + np.array([0.05, 0.02, 0.0]) * scale
+    target = center(obj) + np.array([0.05, 0.02, 1e5]) * scale  # how high it is does not matter
     assert balance(target="POINT", point=target) == ({"FINISHED"} if share < 1.0 else {"CANCELLED"})
 
 
