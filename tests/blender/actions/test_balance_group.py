@@ -8,6 +8,7 @@ import pytest
 from mathutils import Matrix, Quaternion
 
 from tests.blender import objects
+from tests.blender.actions.test_dialogs import OPERATORS, stand_in
 from tests.blender.actions.test_stability import box
 from tests.close import close
 
@@ -317,6 +318,68 @@ def test_the_frame_and_the_selection_stay_and_one_empty_is_made(scene):
         assert path_of(empty) is path_of(empty)
     assert np.abs(np.ptp(path_of(empty).centers, axis=0)).max() == 0.0
     assert not any(obj.animation_data for obj in (first, second))
+
+
+@pytest.mark.parametrize(
+    ("end", "step", "frames"), [(9, 3, [2, 5, 8]), (8, 3, [2, 5, 8]), (7, 3, [2, 5]), (2, 1, [2]), (-4, 1, [2])]
+)
+def test_keys_are_a_step_apart_up_to_the_end_and_one_is_made_where_that_comes_first(end, step, frames, scene):
+    objects.add(objects.mesh_body())
+    arguments = {"use_scene_range": False, "frame_start": 2, "frame_end": end, "frame_step": step}
+    assert bpy.ops.object.body_moments_balance_group(**arguments) == {"FINISHED"}
+    assert path_of(groups()[0]).frames.tolist() == frames
+
+
+def test_in_pose_mode_the_posed_character_is_followed_alone_and_the_empty_is_there_at_once(scene, reported):
+    rig, meshes = character()
+    other = objects.add(objects.mesh_body(), "Other", location=(90, 0, 0))
+    objects.only(rig, other)
+    bpy.ops.object.mode_set(mode="POSE")
+    scene.frame_set(3)
+    assert bpy.ops.object.body_moments_balance_group(use_scene_range=False, frame_end=4) == {"FINISHED"}
+    (empty,) = groups()
+    assert empty["body_balance_group"].split("\n") == sorted(obj.name for obj in meshes)
+    expected = {"count": 4, "objects_count": 10, "empty": empty.name}
+    assert reported.values("balance_group_made") == expected and len(reported.codes) == 1
+    path = path_of(empty)
+    assert np.abs(np.array(empty.matrix_world.translation) - path.centers[2]).max() <= 1e-6 * np.abs(path.centers).max()
+    assert empty.show_in_front and empty.empty_display_type == "SPHERE"
+
+
+def test_the_ground_is_where_things_fall_to(scene):
+    """Gravity that points along x: a foot whose face at x = -3 stands on ground at height 3."""
+    foot = objects.add(box((0.1, 2.0, 2.0), (-0.1, -1.0, -1.0)), "Foot")
+    for frame, x in ((1, -3.0), (2, -4.0), (3, -2.0)):
+        foot.location.x = x
+        foot.keyframe_insert("location", frame=frame)
+    collection = bpy.data.collections.new("Feet")
+    scene.collection.children.link(collection)
+    for obj in (foot, objects.add(bpy.data.cameras.new("Camera"), "Camera")):
+        collection.objects.link(obj)
+    objects.only(foot)
+    scene.gravity = (9.81, 0.0, 0.0)
+    arguments = {"use_scene_range": False, "frame_end": 3, "contacts": "Feet", "ground": 3.0, "reach": 0.01}
+    assert bpy.ops.object.body_moments_balance_group(**arguments) == {"FINISHED"}
+    assert path_of(groups()[0]).inside.tolist() == [True, False, True]
+
+
+def test_a_mass_that_was_given_counts_for_its_collection_alone(scene):
+    """As the redo panel executes an operator again, with another collection."""
+    heavy, plain = (bpy.data.collections.new(name) for name in ("Heavy", "Plain"))
+    for collection, place in ((heavy, 4.0), (plain, 8.0)):
+        scene.collection.children.link(collection)
+        obj = objects.add(box((1.0, 1.0, 1.0), (-0.5, -0.5, -0.5)), collection.name, location=(place, 0.0, 0.0))
+        collection.objects.link(obj)
+    heavy.body_moments.mass_from, heavy.body_moments.mass = "MASS", 3000.0
+    objects.only(obj)
+    bpy.context.view_layer.update()
+    operator = stand_in(
+        OPERATORS["OBJECT_OT_body_moments_balance_group"], lambda *_: None, use_scene_range=False, frame_end=2
+    )
+    for operator.collection, place in (("Heavy", 4.0), ("", 8.0), ("Heavy", 4.0), ("Plain", 8.0)):
+        assert operator.execute(bpy.context) == {"FINISHED"}
+        empty = next(one for one in groups() if one["body_balance_group"] == (operator.collection or "Plain"))
+        assert close(path_of(empty).centers[:, 0], place, 1e-6)
 
 
 def test_a_collection_is_followed(scene):
