@@ -162,9 +162,7 @@ def find_crossings(surface: Surface, grids: LineGrids, body: NDArray[np.integer]
     owner = np.zeros(count, np.intp) if body is None else body[triangles[0]].astype(np.intp)
     places = grids.places(surface.points.take(corners, 0), None if body is None else body[corners])
     above = np.ceil(places[0]).astype(np.intp).reshape(3, count)  # the first row that the corner is not above
-    first, last = (
-        np.clip(end, 0, grids.rows) for end in (np.minimum.reduce(above, axis=0), np.maximum.reduce(above, axis=0))
-    )
+    first, last = (np.clip(end, 0, grids.rows) for end in (np.minimum.reduce(above), np.maximum.reduce(above)))
     bodies, faces = len(grids.cell), _count_faces(surface, body, len(grids.cell))
     apart = _rows_apart(sums_by_index(owner, last - first, bodies), MAX_PAIRS, faces)
     step = apart[owner]

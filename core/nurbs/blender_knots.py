@@ -19,11 +19,9 @@ from ..numerics.bspline import SplineSpace
 
 def is_valid(count: int, order: int, cyclic: bool, bezier: bool, endpoint: bool) -> bool:
     """Whether Blender makes anything of a direction with these settings."""
-    if count < 2 or count < order:
-        return False
-    if not bezier:
-        return True
-    return count % (order - 1) == 0 if cyclic else endpoint or count > order
+    return count >= max(2, order) and (
+        not bezier or (count % (order - 1) == 0 if cyclic else endpoint or count > order)
+    )
 
 
 def blender_knots(count: int, order: int, cyclic: bool, bezier: bool, endpoint: bool) -> NDArray[np.float64]:

@@ -1418,6 +1418,9 @@ PATTERNS = [
 ]
 # places of constants, and what stands ahead of them in their line: the reason
 CONSTANTS = [
+    (r".*mesh/side_pairs.py .*factors_by_distinct_places", r">> self\.bits \+ ", "which vertices are looked at"),
+    (r".*solid/orientation.py .*closed_parts", r"mesh\.face\.max\(\)\) \+ ", "one number more, which no face has"),
+    (r".*nurbs/curve_moments.py _turn_back_lengths", r"np\.diff\(net\[\.\.\., :", "a coordinate that is 1 everywhere"),
     (r".*triangle_kernel.py PhaseMeans._by_edges", r"np\.maximum\(square, MAX_SERIES_SQUARE / ", "replaced below"),
     (r".*triangle_kernel.py SortedTriangles.__init__", r"reach > 0\.0 else ", "points that all coincide"),
     (r".*", r"\breshape\(([^()]|\([^()]*\))*-", "numpy finds out a length from any negative number"),
@@ -1985,6 +1988,24 @@ EQUIVALENT: dict[tuple[str, str, str, str], str] = {
         'not frame_changed and depsgraph.id_type_updated("SCENE")',
         "(depsgraph.id_type_updated('SCENE'))",
     ): "what was looked up is looked up once more",
+    (
+        "core/fourier/nufft.py",
+        "_kernel_transform",
+        "8",
+        "9",
+    ): "nodes more than are needed",
+    (
+        "core/fourier/nufft.py",
+        "aliasing",
+        "ALIASED_ORDERS + 1",
+        "(ALIASED_ORDERS - 1)",
+    ): "frequencies that are looked at; further ones are less by far",
+    (
+        "core/mesh/side_pairs.py",
+        "_pair",
+        'partner.take(partner[_range(number)], mode="wrap")',
+        "(partner.take(partner[_range(number)]))",
+    ): "the last, for -1, in either mode",
     (
         "core/moments/solid_harmonics.py",
         "_three_j",

@@ -272,5 +272,6 @@ def test_a_stack_of_any_size_is_measured_without_a_warning_of_numpy(size):
     assert stack.is_measured.all() == (size < 2.0**100)
 
 
-def test_an_empty_mesh_has_no_place_in_a_stack():
-    assert not can_be_stacked(Surface(np.zeros((0, 3), np.float32), np.zeros((0, 3), int)))
+def test_an_empty_mesh_has_no_place_in_a_stack_and_no_error():
+    empty = Surface(np.zeros((0, 3), np.float32), np.zeros((0, 3), int))
+    assert not can_be_stacked(empty) and empty.coordinate_error.tolist() == [0.0] * 3
