@@ -8,7 +8,7 @@ import pytest
 from mathutils import Matrix, Quaternion
 
 from tests.blender import objects
-from tests.blender.actions.test_dialogs import OPERATORS, stand_in
+from tests.blender.actions.test_dialogs import OPERATORS, TIMER, Window, stand_in
 from tests.blender.actions.test_stability import box
 from tests.close import close
 
@@ -361,6 +361,19 @@ def test_the_ground_is_where_things_fall_to(scene):
     arguments = {"use_scene_range": False, "frame_end": 3, "contacts": "Feet", "ground": 3.0, "reach": 0.01}
     assert bpy.ops.object.body_moments_balance_group(**arguments) == {"FINISHED"}
     assert path_of(groups()[0]).inside.tolist() == [True, False, True]
+
+
+def test_once_confirmed_it_runs_in_steps_and_from_the_redo_panel_as_a_whole(scene):
+    objects.add(objects.mesh_body())
+    cls, window = OPERATORS["OBJECT_OT_body_moments_balance_group"], Window()
+    operator = stand_in(cls, lambda *_: None, use_scene_range=False, frame_end=2)
+    operator.invoke(window, None)
+    assert operator.execute(window) == {"RUNNING_MODAL"} and not groups()
+    while (answer := operator.modal(window, TIMER)) == {"RUNNING_MODAL"}:
+        pass
+    assert answer == {"FINISHED"} and len(path_of(groups()[0]).frames) == 2
+    operator.frame_end = 3
+    assert operator.execute(window) == {"FINISHED"} and len(path_of(groups()[0]).frames) == 3
 
 
 def test_a_mass_that_was_given_counts_for_its_collection_alone(scene):
