@@ -52,6 +52,26 @@ def test_bones_without_a_part_are_left_out_and_named(reported):
     assert reported.values("bone_parts_impossible") == {"count": 1, "names": ["Lower"]}
 
 
+def test_what_a_library_has_made_stays_and_is_made_beside_it(tmp_path):
+    armature, skin = character()
+    skin_name = skin.name
+    bpy.ops.object.body_moments_rig_center()
+    path = str(tmp_path / "library.blend")
+    bpy.data.libraries.write(path, {armature, skin, bpy.data.collections["Rig Center of Mass"]})
+    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+    with bpy.data.libraries.load(path, link=True) as (_, names):
+        names.objects, names.collections = ["Rig", skin_name], ["Rig Center of Mass"]
+    (linked,) = names.collections
+    for obj in names.objects:
+        bpy.context.scene.collection.objects.link(obj)
+    bpy.context.scene.collection.children.link(linked)
+    bpy.context.view_layer.objects.active = names.objects[0]
+    count = len(linked.objects)
+    assert bpy.ops.object.body_moments_rig_center() == {"FINISHED"}
+    (made_here,) = [one for one in bpy.data.collections if one.library is None]
+    assert len(made_here.objects) == len(linked.objects) == count
+
+
 def test_where_each_bone_has_a_part_no_other_is_named(reported):
     character()
     assert bpy.ops.object.body_moments_physics_rig() == {"FINISHED"}
