@@ -141,6 +141,21 @@ def test_the_progress_of_a_search_that_looks_at_surfaces_only_rises():
     assert {share // 50.0 for share in shares[1:-1] if 0.0 < share % 50.0 < 25.0} == {0.0, 1.0}  # within each of both
 
 
+@pytest.mark.parametrize(
+    ("cls", "settings", "among"),
+    [
+        (OBJECT_OT_body_moments_find_symmetry, {"tolerance": 1e-3}, {15.0, 45.0, 50.0, 65.0, 95.0, 100.0}),
+        (OBJECT_OT_body_moments_match_pose, {}, {30.0, 90.0, 100.0}),
+    ],
+)
+def test_of_each_object_three_tenths_are_done_when_it_is_read_and_nine_when_its_surface_is_sorted(cls, settings, among):
+    only(*[add(mesh_body(), name, (5 * place, 0, 0)) for place, name in enumerate("ab")])
+    operator, window = pressed(cls, **settings)
+    assert finished(operator, window) == {"FINISHED"}
+    shares = [float(text.split(": ")[1].partition("%")[0]) for text in window.status[:-1]]
+    assert shares == sorted(shares) and among <= {*shares}
+
+
 @pytest.mark.parametrize("cls", [OBJECT_OT_body_moments_match_pose, OBJECT_OT_body_moments_find_similar])
 def test_an_active_object_that_has_no_shape_is_reported_and_ends_it(cls):
     bodies = three()
