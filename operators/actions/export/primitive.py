@@ -68,7 +68,6 @@ class OBJECT_OT_body_moments_equal_inertia(Operator):
         added = [self._add(context, obj, shape, mass, unit) for obj, shape, mass in shapes]
         if self.rigid_body:
             self._make_rigid(context, [(new, mass) for new, (_, _, mass) in zip(added, shapes)])
-            context.view_layer.update()
             for new, (obj, _, _) in zip(added, shapes):
                 obj.parent, obj.matrix_parent_inverse = new, new.matrix_world.inverted()
         done = finding("primitives_added", count=len(added))
