@@ -89,7 +89,7 @@ def test_an_empty_has_the_form_and_size_that_were_asked_for():
     obj = add(mesh_body())
     bpy.ops.object.body_moments_add_empty()
     plain = bpy.data.objects["Body Principal Frame"]
-    assert plain.empty_display_type == "ARROWS"
+    assert plain.empty_display_type == "ARROWS" and plain.show_in_front and plain.rotation_mode == "QUATERNION"
     size = plain.empty_display_size
     bpy.data.objects.remove(plain)
     only(obj)

@@ -227,6 +227,7 @@ def test_the_axes_of_a_cube_are_its_sides_and_it_is_said_that_they_were_free(ope
     cosines = np.abs(sides.T @ axes)
     assert np.abs(cosines - np.round(cosines)).max() < 1e-5
     assert reported.codes[1:] == [free.code]
+    assert reported[1] == (free.of_sources(["Cube"]) if "empty" in name else free)
     if "cursor" in name:
         reported.clear()
         assert bpy.ops.view3d.body_moments_cursor_to_center() == {"FINISHED"} and reported.codes == ["cursor_moved"]
