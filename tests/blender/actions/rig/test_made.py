@@ -9,6 +9,8 @@ from body_moments.operators.session import rig as session
 from body_moments.operators.session import staleness
 
 from tests.blender.actions.rig.test_rig import character, half_a_box, measured
+from tests.blender.actions.test_dialogs import Window, stand_in
+from tests.blender.actions.test_transcripts import OPERATORS
 from tests.blender.objects import add, mesh_body, only, place
 from tests.core import characters as made
 
@@ -70,6 +72,14 @@ def test_what_a_library_has_made_stays_and_is_made_beside_it(tmp_path):
     assert bpy.ops.object.body_moments_rig_center() == {"FINISHED"}
     (made_here,) = [one for one in bpy.data.collections if one.library is None]
     assert len(made_here.objects) == len(linked.objects) == count
+
+
+@pytest.mark.parametrize("name", ["rig_center", "physics_rig", "measure_bones"])
+def test_what_was_made_of_a_character_is_drawn(name):
+    character()
+    window = Window()
+    operator = stand_in(OPERATORS["OBJECT_OT_body_moments_" + name], window.say)
+    assert operator.execute(window) == {"FINISHED"} and "drawn again" in window.said
 
 
 def test_where_each_bone_has_a_part_no_other_is_named(reported):
