@@ -1940,6 +1940,12 @@ EQUIVALENT: dict[tuple[str, str, str, str], str] = {
         "(MeasureOptions())",
     ): "with how many threads a transform is summed, which is the same",
     (
+        "operators/actions/setup/remedies.py",
+        "OBJECT_OT_body_moments_accept.description",
+        'cls.__doc__ or ""',
+        "(cls.__doc__)",
+    ): "the class has its text, which Blender's Python keeps",
+    (
         "operators/actions/measure/moments.py",
         "_compute",
         "region is None or flat is None",
