@@ -1418,6 +1418,8 @@ PATTERNS = [
 ]
 # places of constants, and what stands ahead of them in their line: the reason
 CONSTANTS = [
+    (r".*fourier/grid.py _sample_indices", r"np\.clip\(positions, ", "at which places is looked besides"),
+    (r".*nurbs/curve_moments.py _bezier_pieces", r"curve\.points\[", "any point near the others"),
     (r".*mesh/side_pairs.py .*factors_by_distinct_places", r">> self\.bits \+ ", "which vertices are looked at"),
     (r".*solid/orientation.py .*closed_parts", r"mesh\.face\.max\(\)\) \+ ", "one number more, which no face has"),
     (r".*nurbs/curve_moments.py _turn_back_lengths", r"np\.diff\(net\[\.\.\., :", "a coordinate that is 1 everywhere"),
@@ -2000,6 +2002,18 @@ EQUIVALENT: dict[tuple[str, str, str, str], str] = {
         "8",
         "9",
     ): "nodes more than are needed",
+    (
+        "core/fourier/wave_vectors.py",
+        "ListWaves.__init__",
+        'np.argsort(np.sqrt((q * q).sum(axis=1)), kind="stable")',
+        "(np.argsort(np.sqrt((q * q).sum(axis=1))))",
+    ): "in which order vectors of one length are taken",
+    (
+        "core/mesh/edges.py",
+        "find_edges",
+        "low * (int(high.max()) + 1) + high",
+        "(low * (int(high.max()) + 1) - high)",
+    ): "a number of its own for each edge still",
     (
         "core/fourier/nufft.py",
         "aliasing",

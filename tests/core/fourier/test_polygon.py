@@ -86,7 +86,15 @@ def test_shares_are_those_of_the_wave_vectors_that_are_done(monkeypatch, pairs, 
 
 
 @pytest.mark.parametrize(
-    "loops", [[], [[[0, 0], [1, 0]]], [[[0, 0, 0], [1, 0, 0], [0, 1, 0]]], [[[0, 0], [1, 0], [0, np.nan]]]]
+    "loops",
+    [
+        [],
+        [[0, 0, 1, 0, 0, 1]],
+        [np.zeros((3, 2, 2))],
+        [[[0, 0], [1, 0]]],
+        [[[0, 0, 0], [1, 0, 0], [0, 1, 0]]],
+        [[[0, 0], [1, 0], [0, np.nan]]],
+    ],
 )
 def test_loops_that_are_none_are_refused(loops):
     with pytest.raises(ValueError, match="loops|finite"):
