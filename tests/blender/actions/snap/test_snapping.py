@@ -660,6 +660,13 @@ def test_the_strict_rule_asks_for_exact_third_moments_where_they_are_doubtful(na
     assert ("strict_rule_no_skewness" in reported.codes) == (answer == "CANCELLED")
 
 
+@pytest.mark.parametrize("name", [AXES, ALIGN])
+def test_the_strict_rule_poses_shells(name):
+    obj = add(mesh_body(), rotation=(0.3, 0.4, 0.5))
+    obj.body_moments.kind = "SHELL"
+    assert run(name, strict=True) == {"FINISHED"}
+
+
 @pytest.mark.parametrize("scale", [1e-3, 1e3])
 def test_a_body_of_any_scale_is_turned(scale):
     obj = add(mesh_body(), location=(1, 2, 3), rotation=(0.3, 0.4, 0.5), scale=(scale,) * 3)
