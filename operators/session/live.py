@@ -120,7 +120,7 @@ def current_numbers(obj: Object) -> LiveResult | None:
 def lag(obj: Object) -> Lag:
     """Return how far the live numbers of an object are behind what is shown."""
     followed = _followed.get(obj)
-    if followed is None or not (followed.is_pending or _is_out_of_reach(obj, followed)):
+    if followed is None or not (followed.is_pending or _is_of_another_scale(obj, followed)):
         return Lag.NONE
     return Lag.BEHIND if followed.first_order is None else Lag.FIRST_ORDER
 
@@ -158,8 +158,8 @@ def current_properties(obj: Object, scene: Scene) -> StoredProperties | None:
     return _mapped(obj, followed, measured, shown, shortest_decimal(scene.unit_settings.scale_length))
 
 
-def _is_out_of_reach(obj: Object, followed: _Followed) -> bool:
-    """Whether the numbers are those of another scale, and do not follow it: until it is measured the next moment."""
+def _is_of_another_scale(obj: Object, followed: _Followed) -> bool:
+    """Whether the numbers are those of another scale and do not follow it, until it is measured the next moment."""
     measured = None if followed.result is None else followed.result.measurement
     if measured is None or has_transform(obj, followed.transform):
         return False
