@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What every class that is registered declares: operators, settings, preferences, panels, menus. Kept as text.
 
-A test for each module, whose path it names: tests/soak/mutation.py tries it for what runs while that is imported.
 """
 
 import sys
