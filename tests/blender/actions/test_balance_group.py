@@ -8,7 +8,6 @@ import pytest
 from mathutils import Matrix, Quaternion
 
 from tests.blender import objects
-from tests.blender.actions.test_dialogs import OPERATORS, TIMER, Window, stand_in
 from tests.blender.actions.test_stability import box
 from tests.close import close
 
@@ -28,10 +27,6 @@ def path_of(empty):
     from body_moments.operators.session import balance_groups
 
     return balance_groups.path(empty)
-
-
-def curves_of(empty):
-    return empty.animation_data.action.layers[0].strips[0].channelbag(empty.animation_data.action_slot).fcurves
 
 
 def support_of(empty, frame):
@@ -135,25 +130,6 @@ def test_the_center_of_a_character_is_that_of_its_parts(scene):
         center = np.einsum("i,ij->j", np.array(masses) / total, np.array(centers))
         assert close(total, truth.mass, 1e-12)
         assert np.abs(center - truth.center).max() <= 1e-12 * 10.0
-
-
-def test_the_path_of_a_character_is_the_sum_of_its_parts(scene, monkeypatch):
-    """As it is before keys round it to single precision."""
-    from body_moments.core.inertia.mass_properties import combine
-    from body_moments.operators.session import balance_groups
-
-    rig, meshes = character()
-    kept, store = [], balance_groups.store
-    monkeypatch.setattr(balance_groups, "store", lambda *values: (kept.append(values[1]), store(*values)))
-    scene.frame_start, scene.frame_end = 1, 12
-    objects.only(rig)
-    assert bpy.ops.object.body_moments_balance_group() == {"FINISHED"}
-    (path,) = kept
-    size = np.ptp(path.centers, axis=0).max()
-    for frame, center in zip(path.frames, path.centers):
-        scene.frame_set(int(frame))
-        truth = combine([objects.measured(obj).mass_moments for obj in meshes])
-        assert np.abs(center - truth.center).max() <= 1e-12 * size
 
 
 def test_an_armature_stands_for_its_meshes(scene):
@@ -320,32 +296,6 @@ def test_the_frame_and_the_selection_stay_and_one_empty_is_made(scene):
     assert not any(obj.animation_data for obj in (first, second))
 
 
-@pytest.mark.parametrize(
-    ("end", "step", "frames"), [(9, 3, [2, 5, 8]), (8, 3, [2, 5, 8]), (7, 3, [2, 5]), (2, 1, [2]), (-4, 1, [2])]
-)
-def test_keys_are_a_step_apart_up_to_the_end_and_one_is_made_where_that_comes_first(end, step, frames, scene):
-    objects.add(objects.mesh_body())
-    arguments = {"use_scene_range": False, "frame_start": 2, "frame_end": end, "frame_step": step}
-    assert bpy.ops.object.body_moments_balance_group(**arguments) == {"FINISHED"}
-    assert path_of(groups()[0]).frames.tolist() == frames
-
-
-def test_in_pose_mode_the_posed_character_is_followed_alone_and_the_empty_is_there_at_once(scene, reported):
-    rig, meshes = character()
-    other = objects.add(objects.mesh_body(), "Other", location=(90, 0, 0))
-    objects.only(rig, other)
-    bpy.ops.object.mode_set(mode="POSE")
-    scene.frame_set(3)
-    assert bpy.ops.object.body_moments_balance_group(use_scene_range=False, frame_end=4) == {"FINISHED"}
-    (empty,) = groups()
-    assert empty["body_balance_group"].split("\n") == sorted(obj.name for obj in meshes)
-    expected = {"count": 4, "objects_count": 10, "empty": empty.name}
-    assert reported.values("balance_group_made") == expected and len(reported.codes) == 1
-    path = path_of(empty)
-    assert np.abs(np.array(empty.matrix_world.translation) - path.centers[2]).max() <= 1e-6 * np.abs(path.centers).max()
-    assert empty.show_in_front and empty.empty_display_type == "SPHERE"
-
-
 def test_the_ground_is_where_things_fall_to(scene):
     """Gravity that points along x: a foot whose face at x = -3 stands on ground at height 3."""
     foot = objects.add(box((0.1, 2.0, 2.0), (-0.1, -1.0, -1.0)), "Foot")
@@ -361,38 +311,6 @@ def test_the_ground_is_where_things_fall_to(scene):
     arguments = {"use_scene_range": False, "frame_end": 3, "contacts": "Feet", "ground": 3.0, "reach": 0.01}
     assert bpy.ops.object.body_moments_balance_group(**arguments) == {"FINISHED"}
     assert path_of(groups()[0]).inside.tolist() == [True, False, True]
-
-
-def test_once_confirmed_it_runs_in_steps_and_from_the_redo_panel_as_a_whole(scene):
-    objects.add(objects.mesh_body())
-    cls, window = OPERATORS["OBJECT_OT_body_moments_balance_group"], Window()
-    operator = stand_in(cls, lambda *_: None, use_scene_range=False, frame_end=2)
-    operator.invoke(window, None)
-    assert operator.execute(window) == {"RUNNING_MODAL"} and not groups()
-    while (answer := operator.modal(window, TIMER)) == {"RUNNING_MODAL"}:
-        pass
-    assert answer == {"FINISHED"} and len(path_of(groups()[0]).frames) == 2
-    operator.frame_end = 3
-    assert operator.execute(window) == {"FINISHED"} and len(path_of(groups()[0]).frames) == 3
-
-
-def test_a_mass_that_was_given_counts_for_its_collection_alone(scene):
-    """As the redo panel executes an operator again, with another collection."""
-    heavy, plain = (bpy.data.collections.new(name) for name in ("Heavy", "Plain"))
-    for collection, place in ((heavy, 4.0), (plain, 8.0)):
-        scene.collection.children.link(collection)
-        obj = objects.add(box((1.0, 1.0, 1.0), (-0.5, -0.5, -0.5)), collection.name, location=(place, 0.0, 0.0))
-        collection.objects.link(obj)
-    heavy.body_moments.mass_from, heavy.body_moments.mass = "MASS", 3000.0
-    objects.only(obj)
-    bpy.context.view_layer.update()
-    operator = stand_in(
-        OPERATORS["OBJECT_OT_body_moments_balance_group"], lambda *_: None, use_scene_range=False, frame_end=2
-    )
-    for operator.collection, place in (("Heavy", 4.0), ("", 8.0), ("Heavy", 4.0), ("Plain", 8.0)):
-        assert operator.execute(bpy.context) == {"FINISHED"}
-        empty = next(one for one in groups() if one["body_balance_group"] == (operator.collection or "Plain"))
-        assert close(path_of(empty).centers[:, 0], place, 1e-6)
 
 
 def test_a_collection_is_followed(scene):
@@ -424,40 +342,6 @@ def test_masses_given_for_a_nested_collection_count(scene, unit):
     assert close(path_of(groups()[0]).centers[:, 0], 3.0, 1e-6)
 
 
-def test_a_mass_is_given_for_an_assembly_and_not_for_its_objects(scene):
-    from body_moments.operators.actions.statics.balance_group import has_given_mass
-    from body_moments.operators.read.assembly import members_of
-
-    parts = bpy.data.collections.new("Parts")
-    scene.collection.children.link(parts)
-    child, above = objects.add(objects.mesh_body()), objects.add(None, "Above")
-    child.parent = above
-    for obj in (child, above):
-        parts.objects.link(obj)
-
-    def is_given(settings):
-        settings.mass_from = "MASS"
-        bpy.context.view_layer.update()
-        found = has_given_mass(members_of(parts, bpy.context.evaluated_depsgraph_get()))
-        settings.mass_from = "MEMBERS" if settings != child.body_moments else "DENSITY"
-        return found
-
-    assert not is_given(child.body_moments)
-    assert is_given(above.body_moments_assembly) and is_given(parts.body_moments)
-    child.body_moments_assembly.mass_from = "MASS"  # left from when it was an empty
-    assert not is_given(child.body_moments)
-
-
-def test_a_collection_with_an_object_without_a_certain_center_is_not_followed(scene, reported):
-    parts = bpy.data.collections.new("Parts")
-    scene.collection.children.link(parts)
-    for obj in (objects.add(objects.mesh_body()), objects.add(objects.strip_mesh(), "Strip")):
-        parts.objects.link(obj)
-    with pytest.raises(RuntimeError, match=r"\A.+\n?\Z"):
-        bpy.ops.object.body_moments_balance_group(collection="Parts")
-    assert "open_object" in reported.codes and not groups()
-
-
 def test_of_a_collection_its_instances_are_followed_and_not_what_they_show(scene):
     shown, parts = bpy.data.collections.new("Shown"), bpy.data.collections.new("Parts")
     scene.collection.children.link(parts)
@@ -473,19 +357,6 @@ def test_of_a_collection_its_instances_are_followed_and_not_what_they_show(scene
     assert bpy.ops.object.body_moments_balance_group(collection="Parts", **arguments) == {"FINISHED"}
     assert groups()[0]["body_balance_group"] == "At 1\nAt 5"
     assert close(path_of(groups()[0]).centers[:, 0], 3.0, 1e-6)
-
-
-def test_what_has_no_mass_or_is_not_in_the_view_layer_is_not_followed(scene, reported):
-    obj, camera = objects.add(objects.mesh_body()), objects.add(bpy.data.cameras.new("Camera"), "Camera")
-    objects.only(obj, camera)
-    arguments = {"use_scene_range": False, "frame_start": 1, "frame_end": 2}
-    assert bpy.ops.object.body_moments_balance_group(**arguments) == {"FINISHED"}
-    assert groups()[0]["body_balance_group"] == obj.name
-    bpy.data.collections.new("Parts").objects.link(obj)
-    scene.collection.objects.unlink(obj)
-    with pytest.raises(RuntimeError, match=r"\A.+\n?\Z"):
-        bpy.ops.object.body_moments_balance_group(collection="Parts", **arguments)
-    assert reported.codes[-1] == "balance_group_empty_group"
 
 
 @pytest.mark.parametrize("arguments", [{}, {"collection": "Nowhere"}, {"contacts": "Nowhere"}, {"contacts": "Lamps"}])
@@ -506,62 +377,3 @@ def test_an_object_without_a_certain_center_ends_it(scene, reported):
     with pytest.raises(RuntimeError, match=r"\A.+\n?\Z"):
         bpy.ops.object.body_moments_balance_group()
     assert "open_object" in reported.codes and scene.frame_current == 5 and not groups()
-
-
-def test_a_path_is_that_of_the_empty_s_own_keys(scene):
-    from body_moments.operators.session import balance_groups
-
-    frames, rng = np.arange(3.0, 8.0), np.random.default_rng(1)
-    paths = [
-        balance_groups.Path(frames + k, rng.normal(size=(5, 3)), np.array([True, False, True, True, False]))
-        for k in range(2)
-    ]
-    first, second, bare = (objects.add(None, name) for name in ("First", "Second", "Bare"))
-    assert balance_groups.path(bare) is None
-    for empty, path in zip((first, second), paths):
-        balance_groups.store(empty, path, [None] * 5)
-        found = balance_groups.path(empty)
-        assert found.frames.tolist() == path.frames.tolist() and found.inside.tolist() == path.inside.tolist()
-        assert np.array_equal(found.centers, path.centers.astype(np.float32))
-        for curve in curves_of(empty):  # a handle lies between its keys where the interpolation is changed
-            for key in curve.keyframe_points:
-                assert key.handle_left[0] < key.co[0] < key.handle_right[0]
-    action = first.animation_data.action
-    bare.animation_data_create().action = action
-    assert bare.animation_data.action_slot is None and balance_groups.path(bare) is None
-    bare.animation_data.action_slot = action.slots.new("OBJECT", "Bare")
-    balance_groups.handlers.count_change()
-    assert balance_groups.path(bare) is None
-    assert len(balance_groups.path(first).frames) == 5
-    without = balance_groups.Path(frames[:4], rng.normal(size=(4, 3)), None)
-    balance_groups.store(first, without, [None] * 4)
-    found = balance_groups.path(first)
-    assert found.frames.tolist() == frames[:4].tolist() and found.inside is None
-    assert balance_groups.INSIDE not in first
-    curves = curves_of(first)
-    assert sorted((curve.data_path, curve.array_index) for curve in curves) == [("location", i) for i in range(3)]
-    curves.remove(curves[0])
-    balance_groups.handlers.count_change()
-    assert balance_groups.path(first) is None
-    keys = next(curve for curve in curves_of(first) if curve.array_index == 2).keyframe_points
-    assert len(keys) == 4 and len(balance_groups.path(second).frames) == 5
-    first.animation_data.action = None
-    balance_groups.handlers.count_change()
-    assert balance_groups.path(first) is None
-
-
-@pytest.mark.parametrize("index", [None, 0, 1, 2])
-def test_of_curves_of_which_a_key_was_removed_there_is_no_path_or_no_signal(scene, index):
-    from body_moments.operators.session import balance_groups
-
-    empty = objects.add(None, "Empty")
-    path = balance_groups.Path(np.arange(5.0), np.ones((5, 3)), np.ones(5, bool))
-    balance_groups.store(empty, path, [None] * 5)
-    curve = curves_of(empty).find("location" if index is not None else '["body_balance_inside"]', index=index or 0)
-    curve.keyframe_points.remove(curve.keyframe_points[4])
-    balance_groups.handlers.count_change()
-    found = balance_groups.path(empty)
-    if index is None:
-        assert len(found.frames) == 5 and found.inside is None
-    else:
-        assert found is None

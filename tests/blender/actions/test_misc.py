@@ -6,7 +6,6 @@ import bpy
 import numpy as np
 import pytest
 
-from tests.blender.actions.snap.test_balance import told_of
 from tests.blender.bodies.test_assembly import box_mesh
 from tests.blender.objects import add, measured, mesh_body, only, place
 from tests.close import close
@@ -28,17 +27,6 @@ def test_clear_removes_all_results_of_the_selected_objects_only():
     assert not body_keys(one) and one["mine"] == 5 and one.body_moments.density == 1000.0
     assert body_keys(other)
     assert bpy.ops.object.body_moments_clear() == {"CANCELLED"}
-
-
-def test_a_document_of_the_selection_names_the_file_once_there_is_one(tmp_path):
-    from body_moments.operators.actions.measure import copy
-
-    add(mesh_body())
-    bpy.ops.object.body_moments_measure()
-    assert copy.selected_document(bpy.context)["file"] is None
-    path = str(tmp_path / "scene.blend")
-    bpy.ops.wm.save_as_mainfile(filepath=path)
-    assert copy.selected_document(bpy.context)["file"] == path
 
 
 def test_copy_report_needs_results_and_then_works(tmp_path, capfd):
@@ -114,20 +102,6 @@ def test_an_empty_that_its_object_follows_is_left_where_it_is(how, reported):
     assert reported.codes.count("empty_followed") == 2
 
 
-def test_an_empty_that_a_constraint_holds_is_not_called_placed(reported):
-    obj = add(mesh_body())
-    bpy.ops.object.body_moments_add_empty(parent=False)
-    empty = next(one for one in bpy.data.objects if one.type == "EMPTY")
-    limit = empty.constraints.new("LIMIT_LOCATION")
-    limit.use_max_x, limit.max_x = True, 0.0
-    obj.location.x += 5.0
-    bpy.context.view_layer.update()
-    before = empty.matrix_basis.copy()
-    assert bpy.ops.object.body_moments_add_empty(parent=False) == {"CANCELLED"}
-    assert empty.matrix_basis == before
-    assert reported.values("empty_constrained") == {"empty": empty.name}
-
-
 def test_no_empty_is_a_child_of_what_has_no_thickness():
     obj = add(mesh_body(), scale=(1, 1, 0))
     obj.body_moments.kind = "SHELL"
@@ -194,12 +168,6 @@ def test_rigid_body_mass_is_the_mass_in_kilograms_whatever_the_unit():
     assert set_mass() == {"CANCELLED"}
     obj.body_moments.density = 2000.0
     assert set_mass() == {"FINISHED"}
-
-
-def test_no_faults_stays_in_object_mode_and_says_so():
-    obj = add(mesh_body())
-    assert bpy.ops.object.body_moments_select_faults() == {"FINISHED"}
-    assert obj.mode == "OBJECT" and "body_mass" in obj
 
 
 def test_no_faults_in_edit_mode_leaves_mode_and_selection_as_they_were():
@@ -327,60 +295,6 @@ def test_faults_of_a_result_of_modifiers_are_not_selected_in_the_mesh():
     assert bpy.ops.object.body_moments_select_faults() == {"FINISHED"}
 
 
-def test_what_cannot_be_live_says_why_and_others_say_nothing(reported):
-    only(add(bpy.data.meshes.new("Nothing"), "Nothing"), add(mesh_body(), "Good"))
-    assert bpy.ops.object.body_moments_live() == {"FINISHED"}
-    assert reported.values("failure")["object"] == "Nothing" and reported.codes.count("failure") == 1
-
-
-def test_the_active_object_decides_whether_live_numbers_begin_or_end_and_need_not_be_selected(reported):
-    from body_moments.operators.session import live
-
-    active, other = add(mesh_body(), "Active"), add(mesh_body(), "Other")
-    camera = add(bpy.data.cameras.new("Camera"), "Camera")
-    assert not bpy.ops.object.body_moments_live.poll()
-    only(other, camera)
-    bpy.ops.object.body_moments_live()
-    bpy.context.view_layer.objects.active = active
-    for expected in ([True, True], [False, False]):
-        assert bpy.ops.object.body_moments_live() == {"FINISHED"}
-        assert [live.is_live(obj) for obj in (active, other)] == expected
-    other.select_set(False)
-    bpy.ops.object.body_moments_live()
-    assert [live.is_live(obj) for obj in (active, other)] == [True, False] and not reported.codes
-    bpy.context.view_layer.objects.active = None
-    assert not bpy.ops.object.body_moments_live.poll()
-
-
-def test_of_many_that_cannot_be_live_the_first_are_named(reported):
-    only(*[add(bpy.data.meshes.new("Nothing"), f"Nothing {number}") for number in range(5)])
-    assert bpy.ops.object.body_moments_live() == {"FINISHED"}
-    assert reported.codes.count("failure") == 3 and reported.values("and_more") == {"count": 2}
-
-
-def test_the_step_before_edit_mode_has_a_name_in_the_undo_history(capfd):
-    mesh = box_mesh(1, 2, 4)
-    mesh.polygons[2].flip()
-    add(mesh)
-    bpy.ops.ed.undo_push(message="start")
-    assert bpy.ops.object.body_moments_select_faults("EXEC_DEFAULT", True) == {"FINISHED"}
-    bpy.context.window_manager.print_undo_steps()
-    assert "name='Measure'" in capfd.readouterr().out
-    bpy.ops.object.mode_set(mode="OBJECT")
-
-
-def test_views_of_the_mesh_are_told_what_is_selected():
-    from body_moments.operators.actions.measure import select_faults
-
-    obj = add(mesh_body())
-    bpy.ops.object.mode_set(mode="EDIT")
-    bpy.context.view_layer.update()
-    with told_of(obj.data) as changes:
-        select_faults._select_elements(obj, {"flipped_faces": np.array([2])})
-        bpy.context.view_layer.update()
-    assert changes
-
-
 def test_a_material_sets_the_density_of_all_selected_and_a_typed_density_forgets_it(reported):
     from body_moments.core.density.materials import BY_NAME
     from body_moments.core.numerics.float32 import shortest_decimal
@@ -397,30 +311,6 @@ def test_a_material_sets_the_density_of_all_selected_and_a_typed_density_forgets
     assert reported.values("material_set") == {"count": 2, "material": "Water"}
     one.body_moments.density = 500.0
     assert one.body_moments.material == ""
-
-
-@pytest.mark.parametrize(
-    ("operator", "options"),
-    [
-        ("object.measure", {}),
-        ("object.origin_to_center", {}),
-        ("object.balance_group", {"use_scene_range": False, "frame_end": 2}),
-        ("object.set_material", {}),
-        ("scene.set_millimeters", {}),
-    ],
-)
-def test_a_scene_gets_the_preferences_with_the_first_press(operator, options, monkeypatch, scene):
-    from types import SimpleNamespace
-
-    from body_moments.operators.settings import preferences
-
-    source = SimpleNamespace(**{name: getattr(scene.body_moments, name) for name in preferences.COPIED})
-    monkeypatch.setattr(preferences, "preferences", lambda: SimpleNamespace(**(vars(source) | {"show_overlay": True})))
-    add(mesh_body(), location=(1, 2, 3))
-    assert not scene.body_moments.has_defaults
-    category, name = operator.split(".")
-    assert getattr(getattr(bpy.ops, category), "body_moments_" + name)(**options) == {"FINISHED"}
-    assert scene.body_moments.has_defaults
 
 
 def test_settings_are_copied_to_the_other_selected_objects(reported):
@@ -444,56 +334,6 @@ def test_ones_own_presets_are_kept_loaded_and_removed():
     bpy.ops.script.execute_preset(filepath=path, menu_idname="OBJECT_PT_body_moments_presets")
     assert obj.body_moments.density == 321.0
     assert bpy.ops.object.body_moments_preset_add(name="My Foam", remove_name=True) == {"FINISHED"}
-
-
-def test_presets_keep_every_setting_that_is_no_object():
-    from body_moments.core.density.materials import MATERIALS
-    from body_moments.operators.settings.properties import COPIED_PROPERTIES
-
-    changed = {
-        "kind": "WIRE",
-        "wall": "INWARD",
-        "thickness": 0.25,
-        "mass_from": "MASS",
-        "density": MATERIALS[0].density,
-        "linear_density": 0.5,
-        "material": MATERIALS[0].name,
-        "mass": 3.0,
-        "overlap": "UNION",
-        "density_from": "POLYNOMIAL",
-        "density_polynomial": "1 + x",
-        "density_frame": "WORLD",
-        "density_attribute": "rho",
-        "grid": "density",
-        "grid_as": "SOLID",
-        "threshold": 0.25,
-        "threshold_fill": "GRID",
-        "use_center": True,
-        "given_center": (1.0, 2.0, 3.0),
-        "use_inertia": True,
-        "given_inertia_diagonal": (1.0, 2.0, 2.5),
-        "given_inertia_products": (0.125, 0.25, 0.5),
-        "values_from": "TABLE",
-        "value_density": 2.0,
-        "transfer_table": "0, 1, 2, 3",
-        "spline_order": 4,
-    }
-    assert {*changed, "density_volume"} == {*COPIED_PROPERTIES}
-    one = add(mesh_body())
-    for name, value in changed.items():
-        setattr(one.body_moments, name, value)
-    bpy.ops.object.body_moments_preset_add(name="All of It")
-    (path,) = [f"{folder}/All_of_It.py" for folder in bpy.utils.preset_paths("body_moments")]
-    other = add(mesh_body(), "Other")
-    bpy.ops.script.execute_preset(filepath=path, menu_idname="OBJECT_PT_body_moments_presets")
-    for name in changed:
-        kept, given = getattr(other.body_moments, name), getattr(one.body_moments, name)
-        assert (kept if isinstance(kept, (str, float, int)) else [*kept]) == (
-            given if isinstance(given, (str, float, int)) else [*given]
-        ), name
-    with open(path, encoding="utf-8") as file:
-        assert "density_volume" not in file.read()  # it is an object of this file
-    bpy.ops.object.body_moments_preset_add(name="All of It", remove_name=True)
 
 
 def test_materials_are_many_sourced_and_plausible():
@@ -560,62 +400,6 @@ def test_without_a_unit_system_lengths_are_the_scenes_and_masses_are_kilograms()
 
 
 @pytest.mark.parametrize(
-    ("system", "scale", "scaled"),
-    [("METRIC", 0.01, True), ("IMPERIAL", 0.3048, True), ("METRIC", 1.0, False), ("NONE", 0.01, False)],
-)
-def test_what_blender_shows_of_a_rigid_bodys_mass_is_reported_where_it_is_scaled(system, scale, scaled, reported):
-    settings = bpy.context.scene.unit_settings
-    settings.system, settings.scale_length = system, scale
-    obj = add(mesh_body())
-    obj.body_moments.mass_from, obj.body_moments.mass = "MASS", 3.0
-    assert bpy.ops.object.body_moments_set_rigid_body_mass(add=True) == {"FINISHED"}
-    assert obj.rigid_body.mass == 3.0
-    assert ("rigid_body_display_scaled" in reported.codes) == scaled
-    if scaled:
-        assert close(reported.values("rigid_body_display_scaled")["factor"], scale**3, rel=1e-6)
-    assert "rigid_body_center_elsewhere" in reported.codes
-    reported.clear()
-    assert bpy.ops.object.body_moments_set_rigid_body_mass(add=True) == {"CANCELLED"}
-    assert reported.codes == ["nothing_to_do", "rigid_body_masses_equal"]
-
-
-def test_numbers_keep_six_digits_and_tiny_ones_are_not_zero():
-    from body_moments.operators.write.units import Units, number
-
-    assert [number(value) for value in (0.0, 1e-9, 123456789.0, -0.5, 1.23456789e-3, 1e12)] == [
-        "0",
-        "1e−9",
-        "123\u2009457\u2009000",
-        "−0.5",
-        "0.00123457",
-        "1e12",
-    ]
-    assert Units("METRIC", "ADAPTIVE", "ADAPTIVE", 1.0).text("mass", 1e-9) == "0.001 mg"
-    texts = Units("METRIC", "METERS", "KILOGRAMS", 1.0).texts("inertia", (5.0, 1e-17))
-    assert texts == ["5 kg·m²", "0 kg·m²"]
-    adaptive = Units("METRIC", "ADAPTIVE", "ADAPTIVE", 1.0)  # noise is 0 in the unit of 0
-    assert adaptive.texts("length", (1e-16, 0.0), size=1.0) == adaptive.texts("length", (0.0, 0.0)) == ["0 m", "0 m"]
-
-
-def test_a_column_shares_unit_decimals_and_power_and_groups_digits_as_the_scene_says():
-    from body_moments.operators.write.units import Units
-
-    units = Units("METRIC", "METERS", "KILOGRAMS", 1.0)
-    assert units.texts("length", (1.0 / 3.0, -2.25, 0.0)) == ["0.33333 m", "−2.25000 m", "0.00000 m"]
-    assert units.texts("length", (1.5, -2.25, 0.0)) == ["1.50 m", "−2.25 m", "0.00 m"]
-    assert units.texts("inertia", (2.5e12, 1e10)) == ["2.50e12 kg·m²", "0.01e12 kg·m²"]
-    assert units.texts("mass", (20000.04, 0.1)) == ["20\u2009000.0 kg", "0.1 kg"]
-    assert units.texts("mass", (99999.97, 5.0)) == ["100\u2009000 kg", "5 kg"]  # rounded up: a digit less behind it
-    assert units.texts("mass", (-1e-9, 5.0)) == ["0 kg", "5 kg"]  # no negative zero
-    settings = bpy.context.scene.unit_settings
-    shown = bpy.context.scene.body_moments
-    settings.length_unit = "METERS"
-    for digits, grouping, expected in ((3, "COMMA", "12,300 m"), (15, "NONE", "12345.6789 m"), (2, "NONE", "12000 m")):
-        shown.digits, shown.digit_grouping = digits, grouping
-        assert Units.of(settings).text("length", 12345.6789) == expected
-
-
-@pytest.mark.parametrize(
     ("unit", "system", "text", "entered"),
     [
         ("AUTO", "METRIC", "7850 kg/m³", 7850.0),
@@ -657,75 +441,6 @@ def test_a_scenes_default_material_is_the_density_of_objects_without_one_here_an
     obj.body_moments.density = 5.0
     bpy.ops.object.body_moments_measure()
     assert obj["body_density"] == 5.0
-
-
-@pytest.mark.parametrize("operator", ["measure", "measure_section", "find_similar", "origin_to_center"])
-def test_a_report_of_many_failures_names_the_first_and_counts_the_others(operator, reported):
-    bodies = [add(mesh_body(), "Good")]
-    bodies += [add(bpy.data.meshes.new("Nothing"), "Bad {:d}".format(i)) for i in range(6)]
-    only(*bodies)
-    getattr(bpy.ops.object, "body_moments_" + operator)()
-    failed = 7 if operator == "measure_section" else 6
-    assert reported.codes.count("failure") == 3
-    assert reported.values("and_more") == {"count": failed - 3}
-
-
-def test_where_no_object_can_have_a_symmetry_it_is_reported(reported):
-    add(None, "Empty")
-    assert bpy.ops.object.body_moments_find_symmetry() == {"CANCELLED"}
-    assert reported.codes == ["nothing_measurable"]
-
-
-def test_a_report_is_as_severe_as_its_worst_finding_and_reads_as_sentences():
-    from types import SimpleNamespace
-
-    from body_moments.core.verdict.finding import finding
-    from body_moments.operators.write import reports
-
-    calls = []
-    operator = SimpleNamespace(report=lambda *call: calls.append(call))
-    bpy.context.scene.unit_settings.length_unit = "MILLIMETERS"
-    wall = finding("wall_measured", thickness=0.25, side="inward")
-    reports.report(
-        operator, finding("measured_several", count=2, total=3), finding("with_warnings", count=1, objects=["A"]), wall
-    )
-    reports.report(operator, wall, finding("measured_one", object="A"))
-    reports.report(
-        operator,
-        finding("no_faces"),
-        finding("measured_one", object="{B}"),
-        finding("with_warnings", count=1, objects=["A"]),
-    )
-    with_wall = "The wall was measured with real thickness: 250 mm, inward, mitered corners."
-    assert calls == [
-        ({"WARNING"}, "Measured 2 of 3 objects; 1 with warnings: “A”. " + with_wall),
-        ({"INFO"}, with_wall + " Measured A"),
-        ({"ERROR"}, "No faces. Add faces, or select another object. Measured {B}; 1 with warnings: “A”"),
-    ]
-
-
-def test_the_most_severe_findings_are_reported_first_and_the_others_counted():
-    from body_moments.core.verdict.finding import finding
-    from body_moments.operators.write import reports
-
-    found = [finding("measured_one", object=name) for name in "ABC"] + [finding("flat_surface"), finding("no_faces")]
-    assert reports.first(found) == [found[4], found[3], found[0], finding("and_more", count=2)]
-    assert reports.first(found[:3]) == found[:3]
-
-
-def test_reports_are_translated_before_they_are_filled(monkeypatch):
-    from types import SimpleNamespace
-
-    from body_moments.core.verdict.finding import finding
-    from body_moments.operators.write import reports
-
-    words = {"Measured {object}": "{object} gemessen", "{object}: {cause}": "{object} - {cause}"}
-    translations = SimpleNamespace(pgettext_rpt=lambda text: words.get(text, text))
-    app = SimpleNamespace(translations=translations)
-    monkeypatch.setattr(reports, "bpy", SimpleNamespace(app=app, context=bpy.context))
-    assert reports.text(finding("measured_one", object="Measured {object}")) == "Measured {object} gemessen"
-    cause = finding("measured_one", object="A").as_record()
-    assert reports.text(finding("failure", object="B", cause=cause)) == "B - A gemessen"
 
 
 def test_faults_of_many_objects_are_looked_for_in_one_evaluation_of_the_scene():

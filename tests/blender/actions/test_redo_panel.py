@@ -277,18 +277,6 @@ def build(before, folder):
     bpy.ops.ed.undo_push(message="Start")
 
 
-def test_every_redo_panel_is_here():
-    with_panel = set()
-    for module in dir(bpy.ops):
-        for name in dir(getattr(bpy.ops, module)):
-            if name.startswith("body_moments"):
-                kind = getattr(getattr(bpy.ops, module), name).get_rna_type()
-                shown = [prop for prop in kind.properties if prop.identifier != "rna_type" and not prop.is_hidden]
-                if shown and {"REGISTER", "UNDO"} <= getattr(bpy.types, kind.identifier).bl_options:
-                    with_panel.add(f"{module}.{name}")
-    assert with_panel == set(REDONE)
-
-
 def differences(one, other, path=""):
     """Where two states differ, and how."""
     if isinstance(one, dict) and isinstance(other, dict):

@@ -108,26 +108,6 @@ def test_an_edit_puts_it_out_of_date(scene):
     assert close(obj["body_volume"], 60.0, BLENDER) and support(obj).stands
 
 
-def test_what_has_a_hull_and_no_numbers_neither_stands_nor_rests(scene):
-    from body_moments.operators.session import stability
-
-    obj = objects.add(box((4.0, 2.0, 6.0)))
-    stability.compute(obj, bpy.context.evaluated_depsgraph_get())
-    assert stability.is_known(obj) and support(obj) is None and stability.poses(obj) is None
-    bpy.ops.object.body_moments_measure()
-    assert support(obj).stands and len(stability.poses(obj).shares) == 6
-    stability.forget(obj)
-    assert not stability.is_known(obj) and support(obj) is None and stability.poses(obj) is None
-
-
-def test_a_tipping_object_is_reported(scene, reported):
-    obj = objects.add(box((2.0, 2.0, 6.0)), rotation=(0.6, 0.0, 0.0))
-    objects.only(objects.add(box((2.0, 2.0, 6.0)), "Standing", (9.0, 0.0, 0.0)), obj)
-    bpy.ops.object.body_moments_stability()
-    assert reported.values("objects_tip") == {"count": 1, "names": [obj.name]}
-    assert reported.values("stability_computed") == {"count": 1, "total": 2}
-
-
 @pytest.mark.parametrize("rotation", [(0.3, 1.1, -0.4), (2.0, 0.2, 3.0)])
 @pytest.mark.parametrize("pose", [1, 3, 6])
 def test_a_box_is_laid_on_the_chosen_face(scene, rotation, pose):
@@ -144,12 +124,6 @@ def test_a_box_is_laid_on_the_chosen_face(scene, rotation, pose):
     found = support(obj)
     assert found.stands and len(found.polygon) == 4
     assert obj["body_center_of_mass"] is not None and close(obj["body_mass"], 48000.0, 1e-5)
-
-
-def test_what_lies_already_is_left_alone(scene):
-    objects.add(box((4.0, 2.0, 6.0), (-2.0, -1.0, 0.0)))
-    bpy.ops.object.body_moments_rest_on_ground(pose=1)
-    assert bpy.ops.object.body_moments_rest_on_ground(pose=0) == {"CANCELLED"}
 
 
 @pytest.mark.parametrize("size", [1.0, 1e-3])
@@ -217,32 +191,6 @@ def test_open_and_empty_objects_are_refused_by_name(scene, reported):
     bpy.context.view_layer.update()
     assert bpy.ops.object.body_moments_rest_on_ground() == {"CANCELLED"}
     assert "objects_tip" not in reported.codes
-
-
-def test_a_round_body_says_that_its_hull_is_simplified(scene, reported, monkeypatch):
-    from body_moments.operators.bodies import hull
-
-    monkeypatch.setattr(hull, "MAX_CORNERS", 60)
-    from body_moments.operators.actions.statics import stability as action
-    from body_moments.operators.session import stability as session
-
-    monkeypatch.setattr(action, "MAX_CORNERS", 60)
-    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=5)
-    sphere = bpy.context.object
-    sphere.data.transform(Matrix.Translation((5.0, 0.0, 0.0)))
-    objects.only(sphere, objects.add(wedge(), "Wedge", (0.0, 9.0, 0.0)))
-    bpy.ops.object.body_moments_stability()
-    codes = [code for code in reported.codes if code in ("objects_tip", "hull_simplified")]
-    assert codes == ["objects_tip", "hull_simplified"]  # that something tips is said first
-    objects.only(sphere)
-    gap = session.compute(bpy.context.object, bpy.context.evaluated_depsgraph_get()).gap
-    assert gap > 0.0 and close(reported.values("hull_simplified")["share"], gap / 2.0, 1e-6)
-    corners = reported.values("hull_simplified")["corners"]
-    for limit, is_reached in ((corners, True), (corners + 1, False)):
-        monkeypatch.setattr(action, "MAX_CORNERS", limit)
-        reported.clear()
-        bpy.ops.object.body_moments_stability()
-        assert ("hull_simplified" in reported.codes) == is_reached
 
 
 def test_instances_stand_on_what_they_show(scene):

@@ -61,10 +61,6 @@ def measured(root):
     return measure_assembly(root, bpy.context.evaluated_depsgraph_get())
 
 
-def codes(assembly):
-    return {found.code for found in assembly.measurement.findings}
-
-
 def boxes_inertia(boxes):
     """(mass, center, tensor about the center) of axis-parallel boxes (density, size, center), in exact fractions."""
     exact = [

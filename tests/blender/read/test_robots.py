@@ -25,7 +25,6 @@ from tests.blender import batch_files
 from tests.close import close
 
 TETRAHEDRON = batch_files.TETRAHEDRON
-LINK = '<link name="a"><visual><geometry><mesh filename="{}"/></geometry></visual></link>'
 
 
 def refusal(function, *arguments):

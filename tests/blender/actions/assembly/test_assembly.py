@@ -7,7 +7,6 @@ import csv
 import bpy
 import numpy as np
 import pytest
-from body_moments.operators.actions.assembly.assembly_snap import FRAME_OF
 from body_moments.operators.session import assembly as session
 from body_moments.operators.session import results, staleness
 from body_moments.operators.write import properties
@@ -74,18 +73,6 @@ def test_the_total_is_stored_on_the_collection_and_drives(reported):
     assert not any(key in root for key in properties.DESCRIPTIONS)
     assert bpy.ops.object.body_moments_clear_assembly() == {"CANCELLED"}
     assert reported.values("results_removed") == {"count": 1} and reported.codes[-1] == "no_results_to_remove"
-
-
-def test_the_tree_has_masses_shares_and_reasons():
-    root = assembly_of_boxes()
-    box(root, (1, 1, 1), name="out").hide_render = True
-    bpy.ops.object.body_moments_measure_assembly()
-    rows = {row.name: row for row in root.body_moments.rows}
-    assert [(row.name, row.depth) for row in root.body_moments.rows] == [
-        ("Robot", 0), ("Arm", 1), ("b1", 2), ("b0", 1), ("out", 1),
-    ]  # fmt: skip
-    assert close(rows["Robot"].share, 1.0, 1e-6) and close(rows["b0"].share, 62800 / 70800, 1e-6)
-    assert not rows["out"].is_counted and properties.findings_in(rows["out"].findings)[0].code == "not_rendered"
 
 
 @pytest.mark.parametrize(
@@ -244,31 +231,6 @@ def test_cursor_empty_and_offset_go_to_the_center(unit):
     assert close(root.instance_offset, center, 1e-6)
 
 
-def test_each_assembly_has_an_empty_of_its_own_and_so_has_the_whole_scene():
-    assembly_of_boxes()
-    roots = [bpy.context.scene.collection, *map(bpy.data.collections.get, ("Robot", "Arm"))]
-    for _ in range(2):
-        for root in roots:
-            activate(root)
-            assert bpy.ops.object.body_moments_assembly_empty() == {"FINISHED"}
-    found = {obj.name: obj[FRAME_OF] for obj in bpy.context.scene.objects if obj.type == "EMPTY"}
-    owners = {"Robot": roots[1], "Arm": roots[2], roots[0].name: bpy.context.scene}
-    assert found == {"{:s} Principal Frame".format(name): owner for name, owner in owners.items()}
-
-
-@pytest.mark.parametrize("unit", [1.0, 0.5])
-@pytest.mark.parametrize("side, size", [(2e-3, 1e-3), (8e-3, 8e-3 / 6.0**0.5)])
-def test_the_empty_of_a_tiny_assembly_stays_large_enough_to_see(side, size, unit):
-    """A cube's radius of gyration is its side over the root of six."""
-    bpy.context.scene.unit_settings.scale_length = unit
-    root = collection("Tiny")
-    box(root, (side, side, side))
-    activate(root)
-    assert bpy.ops.object.body_moments_assembly_empty() == {"FINISHED"}
-    (made,) = [obj for obj in bpy.context.scene.objects if obj.type == "EMPTY"]
-    assert close(made.empty_display_size, size, 1e-5)
-
-
 def test_an_empty_of_a_library_is_not_moved(reported):
     root = assembly_of_boxes()
     bpy.ops.object.body_moments_assembly_empty()
@@ -303,15 +265,6 @@ def test_the_bill_of_masses_is_a_table_of_all_members(tmp_path):
     assert rows[3]["left_out"] and rows[3]["counted"] == "false" and not rows[3]["mass"]
     with pytest.raises(RuntimeError, match="No file is named"):
         bpy.ops.object.body_moments_export_bill()
-
-
-def test_what_is_refused_is_reported(reported):
-    only(box(bpy.context.scene.collection, (1, 1, 1)))
-    for active in (bpy.context.object, None):
-        bpy.context.view_layer.objects.active = active
-        with pytest.raises(RuntimeError, match="not an empty with children"):
-            bpy.ops.object.body_moments_measure_assembly(target="OBJECT")
-    assert reported.codes == ["no_active_assembly_empty"] * 2
 
 
 def test_point_masses_are_measured_and_listed_as_objects_are():

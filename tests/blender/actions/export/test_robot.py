@@ -153,41 +153,6 @@ def test_gltf_has_its_bodies_in_the_axes_of_its_nodes(tmp_path, unit):
     assert np.abs(found - truth).max() < 1e-6 * np.abs(truth).max()
 
 
-@pytest.mark.parametrize(
-    ("name", "options", "files"),
-    [
-        ("urdf", {"write_meshes": False}, ["robot.file"]),
-        ("urdf", {"inertial_only": True}, ["robot.file"]),
-        ("urdf", {}, ["meshes", "robot.file"]),
-        ("usd", {"geometry": "BOX"}, ["robot.file"]),
-        ("usd", {"links": "COLLECTION"}, ["robot.file"]),
-    ],
-)
-def test_beside_a_file_is_only_what_it_names(tmp_path, name, options, files):
-    add(mesh_body(), "Body")
-    collection = bpy.data.collections.new("Parts")
-    bpy.context.scene.collection.children.link(collection)
-    collection.objects.link(bpy.data.objects["Body"])
-    bpy.context.scene.collection.objects.unlink(bpy.data.objects["Body"])
-    assert export(name, tmp_path / "robot.file", check_existing=False, **options) == {"FINISHED"}
-    assert sorted(path.name for path in tmp_path.iterdir()) == files
-
-
-def test_what_is_scaled_and_not_mirrored_needs_no_word(tmp_path, reported):
-    add(mesh_body(), "Small", scale=(0.5, 0.5, 0.5))
-    assert export("usd", tmp_path / "robot.usda") == {"FINISHED"}
-    assert reported.codes == ["robot_exported"]
-
-
-def test_masses_alone_are_a_gltf_of_the_kind_that_its_name_says(tmp_path):
-    pair()
-    for suffix, start in ((".glb", b"glTF"), (".GLB", b"glTF"), (".gltf", b"{")):
-        path = tmp_path / ("robot" + suffix)
-        assert export("gltf", path, inertial_only=True) == {"FINISHED"}
-        data = path.read_bytes()
-        assert data.startswith(start) and "Upper" in {node["name"] for node in gltf.read_json(data)["nodes"]}
-
-
 def test_a_file_that_is_dropped_is_not_written_over():
     """These formats are for collections that are exported: Blender would run the exporter on the file."""
     assert len(robot.FILE_HANDLERS) == 5

@@ -13,7 +13,6 @@ from body_moments.core.mesh.surface import Surface
 from body_moments.operators.bodies.measure_object import measure_object
 from body_moments.operators.write.robots.stl import to_stl
 
-from tests.blender.actions.test_refusals import linked
 from tests.blender.objects import add, mesh_body, only
 from tests.close import close
 from tests.core.bodies import box as cube
@@ -72,15 +71,6 @@ def test_a_rigid_box_carries_the_object_where_it_is():
     assert bpy.ops.object.body_moments_equal_inertia(rigid_body=True) == {"CANCELLED"}
 
 
-def test_an_object_of_a_library_gets_no_rigid_parent(reported):
-    obj = linked("Linked")
-    bpy.context.scene.collection.objects.link(obj)
-    only(obj)
-    assert bpy.ops.object.body_moments_equal_inertia(rigid_body=True) == {"CANCELLED"}
-    assert "primitive_has_parent" in reported.codes and [*bpy.data.objects] == [obj]
-    assert bpy.ops.object.body_moments_equal_inertia() == {"FINISHED"} and len(bpy.data.objects) == 2
-
-
 @pytest.mark.parametrize("where", ["relative", "absolute"])
 def test_meshes_of_other_folders_are_read_where_that_is_allowed(where, tmp_path, monkeypatch):
     for name in ("robot", "meshes"):
@@ -102,18 +92,6 @@ def test_meshes_of_other_folders_are_read_where_that_is_allowed(where, tmp_path,
     assert not is_read()
     assert is_read(root=str(mesh.parent))
     assert is_read(allow_outside=True) == (where == "absolute")
-
-
-def test_the_audit_of_what_is_right_writes_no_copy(tmp_path, reported):
-    path = tmp_path / "r.urdf"
-    path.write_text(BOX.format("5333.3333333333333"), encoding="utf-8")
-    assert bpy.ops.import_scene.body_moments_audit(filepath=str(path), write_copy=True) == {"FINISHED"}
-    assert [file.name for file in tmp_path.iterdir()] == ["r.urdf"]
-    assert reported.codes == ["audit_done", "audit_text"]
-    (tmp_path / "r.urdf.audit.html").mkdir()
-    with pytest.raises(RuntimeError, match=r"\A.+\n?\Z"):
-        bpy.ops.import_scene.body_moments_audit(filepath=str(path), write_page=True)
-    assert reported.codes[-1] == "audit_not_written" and len(bpy.data.texts) == 1
 
 
 def test_the_audit_of_what_is_wrong_writes_nothing_that_was_not_asked_for(tmp_path, reported):

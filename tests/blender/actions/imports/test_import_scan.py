@@ -2,13 +2,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A scan becomes a Volume object that weighs what the file does."""
 
-from types import SimpleNamespace
-
 import bpy
 import numpy as np
 import pytest
 from body_moments.core.density import grid_moments
-from body_moments.core.scans.formats import read_scan, sample_matrix
 from body_moments.operators.actions.imports import import_scan
 from body_moments.operators.bodies.array import ArrayOptions, measure_array
 from body_moments.operators.bodies.measure_object import measure_object
@@ -74,40 +71,6 @@ def test_samples_that_float32_cannot_hold_stay_exact_and_others_take_half_the_ro
         assert np.array_equal(next(iter(reading.blocks()))[1], values)
 
 
-@pytest.mark.parametrize("finest", [(0, 0, 0), (2, 3, 4), (4, 5, 6), None])
-@pytest.mark.parametrize("planes", [1, 2])
-def test_a_scan_that_is_written_in_slabs_has_all_of_its_samples(planes, finest, tmp_path, monkeypatch):
-    monkeypatch.setattr(import_scan, "SAMPLES_PER_SLAB", 42 * planes + 1)
-    values = samples("f8", 1)
-    if finest is not None:  # what float32 cannot hold, in the first slab, in one between, in the last one
-        values[finest] += 2.0**-30
-    obj = imported(written(tmp_path / "longer.nrrd", nrrd(values)))
-    bpy.context.view_layer.update()
-    assert obj.name == "longer" and (tmp_path / "longer.vdb").is_file()
-    with volume_reading(obj, bpy.context.evaluated_depsgraph_get()) as reading:
-        ((_, found),) = reading.blocks()
-        assert np.array_equal(found, values)
-
-
-@pytest.mark.parametrize(("limit", "planes"), [(84, [2, 2, 1]), (83, [1] * 5), (10, [1] * 5), (1000, [5])])
-def test_as_many_planes_are_looked_at_at_a_time_as_there_is_room_for(limit, planes, monkeypatch):
-    monkeypatch.setattr(import_scan, "SAMPLES_PER_SLAB", limit)
-    scan = SimpleNamespace(samples=samples(), slope=0.5, intercept=3.0)
-    slabs = [*import_scan._slabs(scan)]
-    assert [len(slab) for _, slab in slabs] == planes
-    assert [start for start, _ in slabs] == [sum(planes[:index]) for index in range(len(planes))]
-    assert np.array_equal(np.concatenate([slab for _, slab in slabs]), scan.samples * 0.5 + 3.0)
-
-
-def test_what_is_imported_is_selected_alone_and_active(tmp_path):
-    others = [bpy.data.objects.new(name, None) for name in "ab"]
-    for other in others:
-        bpy.context.collection.objects.link(other)
-        other.select_set(True)
-    obj = imported(written(tmp_path / "a.nrrd", nrrd(samples())))
-    assert [*bpy.context.selected_objects] == [obj] and bpy.context.view_layer.objects.active == obj
-
-
 def test_a_raw_file_by_hand_and_a_spacing(tmp_path):
     values = samples("u2")
     path = written(tmp_path / "a.raw", values.astype(">u2").tobytes(order="F"))
@@ -116,15 +79,6 @@ def test_a_raw_file_by_hand_and_a_spacing(tmp_path):
     )
     bpy.context.view_layer.update()
     assert close(measure(obj).mass_properties.mass, values.sum() * 2e-6, rel=1e-12)
-
-
-def test_the_size_of_a_raw_file_is_that_of_its_name_and_plays_no_part_for_others(tmp_path):
-    values = samples("u1")
-    for name, data in (("a_5x6x7_uint8.raw", values.tobytes(order="F")), ("b.nrrd", nrrd(values, "spacings: 1 1 1"))):
-        obj = imported(written(tmp_path / name, data), raw_shape=(0, 0, 0) if "raw" in name else (1, 1, 1))
-        bpy.context.view_layer.update()
-        with volume_reading(obj, bpy.context.evaluated_depsgraph_get()) as reading:
-            assert np.array_equal(next(iter(reading.blocks()))[1], values)
 
 
 @pytest.mark.parametrize(("least", "background"), [(0.0, 0.0), (0.5, 0.0), (3.0, 0.0), (-2.0, -2.0 - 2.0**-22)])
@@ -173,29 +127,6 @@ def test_a_file_that_may_not_be_read_is_refused(name, tmp_path, reported, monkey
     assert reported.values("file_unreadable") == {"error": "Permission denied"} and [
         file.name for file in tmp_path.iterdir()
     ] == ["a.nrrd"]
-
-
-def test_without_openvdb_nothing_is_imported(tmp_path, reported, monkeypatch):
-    monkeypatch.setattr("body_moments.operators.actions.imports.import_scan.openvdb", lambda: None)
-    with pytest.raises(RuntimeError, match=r"\A.+\n?\Z"):
-        bpy.ops.object.body_moments_import_scan(filepath=str(written(tmp_path / "a.nrrd", nrrd(samples()))))
-    assert reported.codes[-1] == "openvdb_missing"
-
-
-def test_it_is_in_the_import_menu():
-    import body_moments.operators.actions.imports.import_scan as module
-
-    assert module._menu in bpy.types.TOPBAR_MT_file_import._dyn_ui_initialize()
-
-
-def test_reading_back_needs_no_scan(tmp_path):
-    path = written(tmp_path / "a.nrrd", nrrd(samples(), "spacings: 1 2 3"))
-    matrix, _ = sample_matrix(read_scan(path), None, None, None)
-    obj = imported(path)
-    path.unlink()
-    bpy.context.view_layer.update()
-    with volume_reading(obj, bpy.context.evaluated_depsgraph_get()) as reading:
-        assert np.array_equal(reading.to_object, matrix)
 
 
 @pytest.mark.parametrize(

@@ -132,28 +132,6 @@ def test_a_grid_needs_an_extent(kind):
         transform(point, lambda size: FrequencyGrid(4, 1.0 / size, 3), options, area=kind == "solid")
 
 
-def test_of_a_nurbs_surface_it_is_said_that_the_display_mesh_is_transformed():
-    bpy.ops.surface.primitive_nurbs_surface_torus_add()
-    found, findings = transform(bpy.context.object, np.zeros((1, 3)), MeasureOptions(overlap="signed"))
-    assert found.values[0].real > 0.0 and "fourier_of_display_mesh" in said(findings)
-
-
-def test_it_is_said_of_an_instance_and_of_a_flat_curve_as_well():
-    bpy.ops.surface.primitive_nurbs_surface_torus_add()
-    torus = bpy.context.object
-    group = bpy.data.collections.new("Group")
-    group.objects.link(torus)
-    bpy.context.collection.objects.unlink(torus)
-    bpy.ops.object.collection_instance_add(collection="Group")
-    assert "fourier_of_display_mesh" in said(transform(bpy.context.object, np.zeros((1, 3)))[1])
-    bpy.ops.curve.primitive_bezier_circle_add()
-    circle = bpy.context.object
-    circle.data.dimensions, circle.data.fill_mode, circle.body_moments.kind = "2D", "BOTH", "SHELL"
-    assert "fourier_of_display_mesh" in said(transform(circle, np.zeros((1, 3)))[1])
-    circle.data.bevel_depth = 0.1
-    assert "fourier_of_display_mesh" not in said(transform(circle, np.zeros((1, 3)))[1])
-
-
 def test_meters_per_unit_that_are_given_take_the_place_of_the_scenes_in_both_frames(scene):
     scene.unit_settings.scale_length = 10.0
     box = files.add_box()
@@ -168,14 +146,6 @@ def test_a_wire_is_refused_with_the_remedy():
     box = files.add_box()
     with refused("fourier_of_wire"):
         transform(box, options=MeasureOptions(kind="wire"))
-
-
-def test_it_is_said_that_a_varying_density_plays_no_part():
-    box = files.add_box()
-    assert not transform(box)[1]
-    box.body_moments.density_from = "POLYNOMIAL"
-    assert said(transform(box)[1]) == {"fourier_of_uniform_density": {}}
-    assert not transform(box, area=True)[1]  # nor does any density of a surface alone
 
 
 def test_flipped_faces_are_turned_and_holes_capped_as_they_are_for_the_mass():
@@ -225,15 +195,6 @@ def test_instances_are_phases_and_maps():
     found, _ = transform(empty)
     true = box_spectrum(Q, SIZE * [2, 1, 0.5], np.array([1.0, 2, 3]))
     assert np.abs(found.values - true).max() <= 1e-12
-
-
-def test_a_large_grid_is_approximate_and_says_so(monkeypatch, tmp_path):
-    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=5)
-    monkeypatch.setattr(fourier_body, "MAX_CLOSED_FORM_PAIRS", 0.0)
-    entry = measured("--fourier", tmp_path / "out.npz", "--grid", 24, "--qmax", 12)
-    assert [one["values"] for one in entry["findings"] if one["code"] == "fourier_approximate"] == [{"share": 1e-7}]
-    with np.load(tmp_path / "out.npz") as found:
-        assert str(found["method"]) == "approximate" and (found["error"] <= 1e-6).all()
 
 
 def test_one_object_is_needed_and_a_refusal_is_an_error(tmp_path, wave_vectors):
@@ -337,18 +298,6 @@ def test_the_operator_writes_the_file_and_an_image(tmp_path):
     for found, slice_ in ((gray[:, :12], values[:, :, 6]), (gray[:, 14:26], values[:, 6]), (gray[:, 28:], values[6])):
         assert np.abs(found.T - (1 + np.log10(slice_ / values.max()).clip(-6, 0) / 6)).max() <= 1 / 255
     assert (bpy.context.selected_objects, bpy.context.mode) == (selected, mode)
-
-
-def test_another_run_takes_the_same_image_and_leaves_a_users_own(tmp_path):
-    objects.add(objects.mesh_body())
-    mine = bpy.data.images.new("Fourier Transform of Body", 4, 4)
-    for count in (6, 8, 9):
-        bpy.ops.object.body_moments_fourier(filepath=str(tmp_path / "a.npz"), count=count, largest=2.5, frame="OBJECT")
-    assert tuple(mine.size) == (4, 4)
-    names = [image.name for image in bpy.data.images if image.name.startswith("Fourier")]
-    assert len(names) == 2
-    with np.load(tmp_path / "a.npz") as found:
-        assert found["q"].max() == 2.5 and str(found["frame"]) == "object"
 
 
 def test_the_operator_refuses_with_a_reason(tmp_path):

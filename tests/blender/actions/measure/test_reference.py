@@ -16,7 +16,6 @@ from body_moments.operators.session import reference
 from mathutils import Euler
 
 from tests.blender.bodies.test_assembly import box, boxes_inertia, collection
-from tests.blender.findings import refused
 from tests.blender.objects import only
 from tests.close import close
 
@@ -143,15 +142,6 @@ def test_what_is_driven_by_it_follows_when_it_is_stored():
         assert close(driven.matrix_world.translation.x, about((0, 0, 0))[entry, entry], 1e-6)
 
 
-def test_what_was_not_measured_has_nothing_to_store(reported):
-    measured_box()
-    bpy.ops.object.body_moments_clear()
-    reported.clear()
-    with pytest.raises(RuntimeError, match=r"\A.+\n?\Z"):
-        bpy.ops.object.body_moments_store_reference()
-    assert reported.codes == ["no_stored_results"]
-
-
 def test_an_assembly_is_referred_too():
     root = collection()
     box(root, SIZE, AT, DENSITY)
@@ -263,18 +253,3 @@ def test_it_is_copied_with_its_bounds(kind, capsys):
     if kind == "AXIS":
         assert close(found.about_z, about((0, 0, 0))[2, 2], 1e-14)
         assert close(found.distance_from_z, np.hypot(8.0, 4.0), 1e-14)
-
-
-def test_a_choice_keeps_the_letters_of_a_name():
-    choice = ReferenceChoice("OBJECT", "Körper")
-    assert "Körper" in choice.text and ReferenceChoice.parse(choice.text) == choice
-
-
-def test_an_object_without_results_is_refused_by_name():
-    obj = measured_box()
-    bpy.ops.object.body_moments_clear()
-    assert shown(obj) is None
-    with refused("no_stored_results", obj.name):
-        reference.store(obj, bpy.context.scene)
-    reference.follow(obj, bpy.context.scene, ReferenceChoice("WORLD"))
-    assert "body_reference" not in obj and reference.stored_choice(obj) is None

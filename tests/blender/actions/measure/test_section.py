@@ -8,8 +8,6 @@ from types import SimpleNamespace
 import bpy
 import numpy as np
 import pytest
-from body_moments.core.verdict.finding import finding
-from body_moments.operators.read.curves import text_curves
 from body_moments.operators.read.section import read_section
 
 from tests.blender.findings import refused as refusal
@@ -184,13 +182,6 @@ def test_nested_outlines_of_a_curve_are_holes_and_islands_whichever_way_they_run
     assert (section.outlines, section.holes) == (3, 1)
 
 
-def test_different_resolutions_of_splines_are_said_as_a_range():
-    curve = curve_of(square(0, 0, 4), square(5, 0, 4), square(10, 0, 4), kind="NURBS")
-    for spline, resolution in zip(curve.splines, (7, 3, 5)):
-        spline.resolution_u = resolution
-    assert said(section_of(add(curve))[2])["section_drawn_as_polygons"]["resolution"] == "3–7"
-
-
 def test_holes_of_letters_count_and_letters_add_up():
     obj = add(text_of("A"))
     single, _, findings = section_of(obj)
@@ -231,31 +222,12 @@ def test_outlines_that_cross_or_coincide_are_refused(outlines, code):
     assert refused(add(curve_of(*outlines)), code)
 
 
-@pytest.mark.parametrize("at", [0, 2, 3])
-def test_points_of_an_outline_that_are_there_twice_change_nothing(at):
-    outer, hole = square(0, 0, 4), square(1, 1, 1)
-    outer.insert(at, outer[at])
-    hole.append(hole[0])  # closed twice: by its last point, and as a cyclic spline
-    found, _, findings = section_of(add(curve_of(outer, hole)))
-    assert (found.area, found.outlines, found.holes) == (15.0, 1, 1) and not findings
-
-
 def test_lines_between_faces_that_share_no_corners_are_no_perimeter():
     found, _, findings = section_of(add(flat_mesh(square(0, 0, 2), square(2, 0, 1), square(2, 1, 1))))
     assert found.perimeter == pytest.approx(10.0, abs=1e-14) and found.area == 6.0 and not findings
     assert found.rounding_error["perimeter"] < 1e-11
     found = section_of(add(curve_of(square(0, 0, 4), square(0, 1, 2))))[0]  # a hole that touches from within
     assert found.perimeter == pytest.approx(20.0, abs=1e-14)
-
-
-def test_faces_that_cross_themselves_are_refused():
-    assert refused(add(flat_mesh([(0, 0), (4, 4), (4, 0), (0, 5)])), "section_face_crosses_itself")
-
-
-def test_letters_that_overlap_are_refused():
-    text = text_of("OO")
-    text.space_character = 0.5
-    assert refused(add(text), "outlines_cross_at")
 
 
 @pytest.mark.parametrize(
@@ -275,18 +247,6 @@ def test_what_is_not_an_outline_any_more_is_refused(data, setting, code):
     assert refused(obj, "section_extruded")
 
 
-def test_a_text_of_three_dimensions_is_as_flat_as_others():
-    obj = add(text_of("A"))
-    area = section_of(obj)[0].area
-    obj.data.dimensions = "3D"
-    assert close(section_of(obj)[0].area, area, rel=1e-6)
-
-
-def test_an_outline_may_have_three_points():
-    section, _, _ = section_of(add(curve_of([(0, 0), (4, 0), (0, 3)], square(5, 5, 1))))
-    assert close(section.area, 7.0, rel=1e-14) and section.outlines == 2
-
-
 def test_curves_that_enclose_nothing_are_refused_and_open_splines_left_out():
     assert refused(add(curve_of(square(0, 0, 1), closed=False)), "section_no_outline_curve")
     curve = curve_of(square(0, 0, 2), square(5, 5, 1))
@@ -297,22 +257,6 @@ def test_curves_that_enclose_nothing_are_refused_and_open_splines_left_out():
     space.dimensions = "3D"
     assert refused(add(space), "section_3d_curve")
     assert refused(add(text_of("")), "section_no_outline_text")
-
-
-@pytest.mark.parametrize("few", [[(9, 9)], [(9, 9), (8, 8)]])
-@pytest.mark.parametrize("comes_first", [False, True])
-def test_a_spline_of_too_few_points_is_no_outline_wherever_it_stands(few, comes_first):
-    outlines = [square(0, 0, 1), few]
-    section, _, findings = section_of(add(curve_of(*(outlines[::-1] if comes_first else outlines))))
-    assert close(section.area, 1.0, rel=1e-6)
-    assert said(findings)["section_splines_open"] == {"count": 1}
-
-
-def test_a_curve_that_is_not_filled_is_measured_and_said():
-    curve = curve_of(square(0, 0, 3))
-    curve.fill_mode = "NONE"
-    section, _, findings = section_of(add(curve))
-    assert section.area == 9 and said(findings) == {"section_not_filled": {}}
 
 
 def test_a_curve_in_edit_mode_is_measured_as_it_is_now():
@@ -401,14 +345,6 @@ def test_faces_with_a_hole_between_them_and_unwelded_neighbors_have_the_right_ou
     assert (section.outlines, section.holes) == (1, 1)
 
 
-def test_flipped_faces_count_with_the_others_and_overlapping_ones_are_said():
-    section, _, findings = section_of(add(flat_mesh(square(0, 0, 3), square(3, 0, 1)[::-1])))
-    assert section.area == 10 and said(findings) == {"section_faces_reversed": {"count": 1}}
-    for other in (square(2, 2, 3), square(1, 1, 1), square(0, 0, 3)):
-        _, _, findings = section_of(add(flat_mesh(square(0, 0, 3), other)))
-        assert "section_faces_overlap" in said(findings)
-
-
 def test_a_body_is_refused_and_what_is_nearly_flat_is_measured():
     assert refused(add(mesh_body()), "section_not_flat")
     mesh = flat_mesh(square(0, 0, 2))
@@ -458,25 +394,6 @@ def test_the_operator_stores_the_section_and_reads_it_back_to_the_last_digit():
     for name in ("second", "centroid", "center", "radii", "moduli"):
         assert np.array_equal(getattr(found.section, name), getattr(truth, name))
     assert np.array_equal(found.section.plane.axes, truth.plane.axes)
-
-
-def test_the_operator_measures_all_selected_and_names_those_it_cannot():
-    objects = [add(curve_of(I_BEAM), "Beam"), add(mesh_body(), "Body")]
-    only(*objects)
-    assert bpy.ops.object.body_moments_measure_section() == {"FINISHED"}
-    assert stored(objects[0]) is not None and stored(objects[1]) is None
-    only(objects[1])
-    assert bpy.ops.object.body_moments_measure_section() == {"CANCELLED"}
-    bpy.ops.object.select_all(action="DESELECT")
-    assert not bpy.ops.object.body_moments_measure_section.poll()
-
-
-def test_several_sections_with_warnings_are_measured_and_named(capfd):
-    objects = [add(flat_mesh(square(0, 0, 3), square(2, 2, 3)), name) for name in ("First", "Second")]
-    only(*objects)
-    assert bpy.ops.object.body_moments_measure_section() == {"FINISHED"}
-    assert "2 with warnings: “First”, “Second”" in capfd.readouterr().out
-    assert all(stored(obj) is not None for obj in objects)
 
 
 def test_out_of_date_after_a_change_of_shape_place_or_unit_and_not_after_measuring():
@@ -595,52 +512,6 @@ def test_the_panel_shows_what_engineers_look_for_and_copies_all_digits():
     assert "Out of date: Transform changed" in " ".join(labels(drawn()))
 
 
-def test_damaged_sections_are_not_shown():
-    obj = add(curve_of(I_BEAM))
-    for value in (5.0, "x", {"area": [1.0]}, [1.0, 2.0]):
-        obj["body_section"] = value
-        assert stored(obj) is None and "Not Measured" in labels(drawn())
-        bpy.context.view_layer.update()
-
-
-def test_the_report_says_conventions_and_notes():
-    from body_moments.operators.write import section
-
-    obj = add(text_of("A"), "Letter")
-    bpy.ops.object.body_moments_measure_section()
-    text = section.text(obj.name, stored(obj))
-    for words in ("Letter", "Ixy = +∫xy dA", "not the torsion constant", "resolution 12", "m⁴"):
-        assert words in text
-    assert bpy.ops.object.body_moments_copy_section() == {"FINISHED"}
-
-
-def test_a_copied_section_says_that_it_is_out_of_date(scene, capfd):
-    add(flat_mesh(I_BEAM))
-    bpy.ops.object.body_moments_measure_section()
-    for unit, is_stale in ((1.0, False), (0.5, True)):
-        scene.unit_settings.scale_length = unit
-        capfd.readouterr()
-        assert bpy.ops.object.body_moments_copy_section() == {"FINISHED"}
-        text = capfd.readouterr().out
-        assert "Second moments" in text and ("Out of date" in text) == is_stale
-        assert (str(finding("stale_unit_scale")) in text) == is_stale
-
-
-@pytest.mark.parametrize(
-    "system, unit, text",
-    [
-        ("METRIC", "ADAPTIVE", "1.6 m⁴"),
-        ("METRIC", "CENTIMETERS", "160\u2009000\u2009000 cm⁴"),
-        ("IMPERIAL", "FEET", "185.379 ft⁴"),
-        ("NONE", "ADAPTIVE", "1.6"),
-    ],
-)
-def test_second_moments_have_the_scenes_units(system, unit, text):
-    from body_moments.operators.write.units import Units
-
-    assert Units(system, unit, "KILOGRAMS", 1.0).text("area_moment", 1.6) == text
-
-
 def region_of(obj, **options):
     from body_moments.operators.bodies.flat import flat_region
 
@@ -652,23 +523,9 @@ def test_outlines_that_overlap_without_a_crossing_are_refused():
     assert refused(add(curve_of(square(0, 0, 4), square(2, 0, 4))), "outlines_cross")
 
 
-def test_too_many_edges_to_compare_are_said_to_be_unchecked(monkeypatch):
-    obj = add(flat_mesh(I_BEAM))
-    assert "section_overlap_unchecked" not in said(section_of(obj)[2])
-    monkeypatch.setattr("body_moments.core.plane.polygon.MAX_EDGE_PAIRS", 4)
-    found, _, findings = section_of(obj)
-    assert close(found.area, I_AREA, rel=1e-14) and "section_overlap_unchecked" in said(findings)
-
-
 def test_outlines_that_touch_are_measured_by_their_polygons():
     region = region_of(add(curve_of(square(0, 0, 4), square(0, 1, 2))))
     assert not region.curves and close(region.moments(2).total, 12.0, rel=1e-14)
-
-
-def test_an_outline_of_two_points_encloses_nothing_and_leaves_the_polygons():
-    region = region_of(add(curve_of(square(0, 0, 4), [(10, 10), (11, 10)])))
-    assert not region.curves and close(region.moments(2).total, 16.0, rel=1e-14)
-    assert region_of(add(curve_of(square(0, 0, 4)))).curves
 
 
 @pytest.mark.parametrize("scale", [(1, 1, 1), (2, 3, 1), (0.25, 0.5, 4)])
@@ -678,25 +535,6 @@ def test_what_blender_fills_is_compared_at_every_scale(scale):
     apart = add(curve_of(square(0, 0, 4), square(5, 1, 2)), scale=scale)
     found, _, findings = section_of(apart)
     assert not said(findings) and close(found.area, 20.0 * scale[0] * scale[1], rel=1e-6)
-
-
-def test_a_resolution_of_the_render_alone_is_said():
-    obj = add(curve_of(square(0, 0, 4), kind="NURBS"))
-    resolution = obj.data.resolution_u
-    for rendered, values in ((0, None), (resolution, None), (3, {"render": 3})):
-        obj.data.render_resolution_u = rendered
-        assert said(section_of(obj)[2]).get("section_render_resolution") == values
-    straight = add(curve_of(square(0, 0, 4)))
-    straight.data.render_resolution_u = 3
-    assert not section_of(straight)[2]
-
-
-def test_a_text_on_a_curve_that_is_not_filled_is_refused():
-    obj = add(text_of("A"))
-    obj.data.follow_curve = add(curve_of([(0, 0), (9, 1)], closed=False), "Line")
-    assert section_of(obj)[0].area > 0.0
-    obj.data.fill_mode = "NONE"
-    assert refused(obj, "section_text_on_curve")
 
 
 def edit_with_square(sheet, number):
@@ -720,44 +558,11 @@ def test_points_that_are_nowhere_are_refused():
         bpy.ops.object.mode_set(mode="OBJECT")
 
 
-def test_all_faces_in_edit_mode_are_asked_for_or_those_that_are_selected():
-    sheet = add(flat_mesh(square(0, 0, 1), square(5, 0, 2)))
-    edit_with_square(sheet, 0)
-    for selected, area in ((True, 1.0), (False, 5.0)):
-        region = region_of(sheet, selected=selected)
-        assert close(region.moments(0).total, area, rel=1e-14)
-    bpy.ops.object.mode_set(mode="OBJECT")
-
-
 def test_flat_moments_beyond_the_range_of_numbers_are_refused():
     region = region_of(add(flat_mesh(square(-2, -2, 4)), scale=(1e15, 1e15, 1)))
     assert close(region.moments(2).total, 16e30, rel=1e-6)
     with refusal("moments_overflow", order=24):
         region.moments(24)
-
-
-@pytest.mark.parametrize("kind", ["curve", "text"])
-def test_a_region_with_its_curves_says_nothing_of_polygons_that_it_does_without(kind):
-    if kind == "text":
-        obj = add(text_of("O"))
-    else:
-        bpy.ops.curve.primitive_bezier_circle_add()
-        obj = bpy.context.object
-        obj.data.dimensions, obj.data.fill_mode = "2D", "BOTH"
-        obj.data.render_resolution_u = 50
-    codes = (
-        {"section_drawn_as_polygons", "section_render_resolution"} if kind == "curve" else {"section_drawn_as_polygons"}
-    )
-    polygons, smooth = region_of(obj, exact=False), region_of(obj)
-    assert not polygons.curves and codes <= said(polygons).keys()
-    assert smooth.curves and not codes & said(smooth).keys() and smooth.stored >= polygons.stored > 0.0
-    assert said(smooth).keys() == said(polygons).keys() - codes
-
-
-def test_a_text_without_outlines_has_no_curves():
-    obj = add(text_of(""))
-    with refusal("no_curve", obj.name):
-        text_curves(obj, bpy.context.evaluated_depsgraph_get())
 
 
 def test_curves_that_polygons_leave_out_are_left_out_of_the_region_too():
@@ -785,24 +590,6 @@ def test_moments_of_a_region_of_curves_beyond_the_range_of_numbers_are_refused()
     assert region.curves and close(region.moments(2).total, np.pi * 1e30, rel=1e-3)
     with refusal("moments_overflow", order=24):
         region.moments(24)
-
-
-def test_of_several_meshes_in_edit_mode_those_with_selected_faces_are_measured(reported):
-    for name, data in (("Empty", None), ("Camera", bpy.data.cameras.new("Camera"))):  # what has no faces
-        add(data, name)
-    sheets = [add(flat_mesh(square(0, 0, 1), square(5, 0, 2)), name) for name in "ab"]
-    for sheet, number in zip(sheets, (None, 1)):
-        edit_with_square(sheet, number)
-        bpy.ops.object.mode_set(mode="OBJECT")
-    only(*sheets)
-    bpy.ops.object.mode_set(mode="EDIT")
-    assert [sheet.data.total_face_sel for sheet in sheets] == [0, 1]
-    assert bpy.ops.object.body_moments_measure_section() == {"FINISHED"}
-    assert reported.codes == ["measured_section"]
-    assert stored(sheets[0]) is None and stored(sheets[1]) is not None
-    bpy.ops.mesh.select_all(action="DESELECT")
-    assert bpy.ops.object.body_moments_measure_section() == {"CANCELLED"} and len(reported) > 1  # each is refused
-    bpy.ops.object.mode_set(mode="OBJECT")
 
 
 @pytest.mark.parametrize("is_reversed", [False, True])

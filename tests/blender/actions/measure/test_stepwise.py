@@ -2,25 +2,43 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Operators that work in steps: what Esc, the end and a fault between two steps leave behind."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
 pytest.importorskip("bpy")
 import bpy
-from body_moments.core.verdict.finding import finding
 from body_moments.operators.actions import modal as stepwise
 from body_moments.operators.actions.measure.fourier import OBJECT_OT_body_moments_fourier_run
 from body_moments.operators.actions.measure.measure_selected import OBJECT_OT_body_moments_measure
 from body_moments.operators.actions.shape.find_similar import OBJECT_OT_body_moments_find_similar
 from body_moments.operators.actions.shape.find_symmetry import OBJECT_OT_body_moments_find_symmetry
 from body_moments.operators.actions.shape.match_pose import OBJECT_OT_body_moments_match_pose
-from body_moments.operators.session import outcome, results
+from body_moments.operators.session import results
 
-from tests.blender.actions.shape.test_shape import prism
-from tests.blender.actions.test_dialogs import ESC, MOUSE, TIMER, stand_in
 from tests.blender.objects import add, mesh_body, only, place
 
 pytestmark = pytest.mark.usefixtures("registered", "scene")
+TIMER, ESC, MOUSE = (SimpleNamespace(type=name) for name in ("TIMER", "ESC", "MOUSEMOVE"))
+
+
+def stand_in(cls, report, **settings):
+    """Return an object with the functions and default settings of an operator class; `report` gets its reports."""
+    functions = {name: value for name, value in vars(cls).items() if name not in ("__dict__", "__weakref__")}
+    bases = tuple(base for base in cls.__bases__ if base is not bpy.types.Operator)
+    made = type(cls.__name__, bases, functions)()
+    made.report = report
+    category, _, name = cls.__name__.partition("_OT_")
+    made.bl_rna = getattr(getattr(bpy.ops, category.lower()), name).get_rna_type()
+    made.properties = SimpleNamespace(is_property_set=settings.__contains__)
+    for prop in made.bl_rna.properties:
+        if prop.type == "ENUM" and prop.is_enum_flag:
+            setattr(made, prop.identifier, set(prop.default_flag))
+        elif prop.type not in ("POINTER", "COLLECTION"):
+            setattr(made, prop.identifier, tuple(prop.default_array) if getattr(prop, "is_array", 0) else prop.default)
+    vars(made).update(settings)
+    return made
 
 
 class Window:
@@ -129,43 +147,6 @@ def test_esc_within_an_object_leaves_everything_as_it_was(cls, count):
     assert result == {"FINISHED"} and steps > 4
 
 
-def test_the_progress_of_a_search_that_looks_at_surfaces_only_rises():
-    wanted = prism("Wanted", [(0, 0), (3, 0), (1, 1)])
-    for number in range(2):
-        prism("Copy", [(0, 0), (3, 0), (1, 1)], location=(9 * number, 0, 0))
-    only(wanted)
-    operator, window = pressed(OBJECT_OT_body_moments_find_similar, select=True, mirrored=False, scaled=False)
-    assert finished(operator, window) == {"FINISHED"} and len(operator._mirror_images) == 2
-    shares = [float(text.split(": ")[1].partition("%")[0]) for text in window.status[:-1]]
-    assert shares == sorted(shares) and shares[-1] <= 100.0
-    assert {share // 50.0 for share in shares[1:-1] if 0.0 < share % 50.0 < 25.0} == {0.0, 1.0}  # within each of both
-
-
-@pytest.mark.parametrize(
-    ("cls", "settings", "among"),
-    [
-        (OBJECT_OT_body_moments_find_symmetry, {"tolerance": 1e-3}, {15.0, 45.0, 50.0, 65.0, 95.0, 100.0}),
-        (OBJECT_OT_body_moments_match_pose, {}, {30.0, 90.0, 100.0}),
-    ],
-)
-def test_of_each_object_three_tenths_are_done_when_it_is_read_and_nine_when_its_surface_is_sorted(cls, settings, among):
-    only(*[add(mesh_body(), name, (5 * place, 0, 0)) for place, name in enumerate("ab")])
-    operator, window = pressed(cls, **settings)
-    assert finished(operator, window) == {"FINISHED"}
-    shares = [float(text.split(": ")[1].partition("%")[0]) for text in window.status[:-1]]
-    assert shares == sorted(shares) and among <= {*shares}
-
-
-@pytest.mark.parametrize("cls", [OBJECT_OT_body_moments_match_pose, OBJECT_OT_body_moments_find_similar])
-def test_an_active_object_that_has_no_shape_is_reported_and_ends_it(cls):
-    bodies = three()
-    bodies[0].data = bpy.data.meshes.new("Nothing")
-    operator, window = pressed(cls, select=True, mirrored=False, scaled=False)
-    assert finished(operator, window) == {"CANCELLED"}
-    ((kind, text),) = operator.reports
-    assert kind == "ERROR" and text.startswith("a: ")
-
-
 def test_esc_leaves_what_was_said_of_objects_that_could_not_be_measured(monkeypatch):
     monkeypatch.setattr("body_moments.operators.actions.measure.measure_selected.MAX_OBJECTS_WITHOUT_REDRAW", 1)
     bodies = three()
@@ -185,17 +166,6 @@ def test_esc_leaves_what_was_said_of_objects_that_could_not_be_measured(monkeypa
     assert not any(results.failure(body) for body in bodies)
 
 
-def test_one_object_with_warnings_is_not_counted(monkeypatch):
-    monkeypatch.setattr("body_moments.operators.actions.measure.measure_selected.MAX_OBJECTS_WITHOUT_REDRAW", 0)
-    text = bpy.data.objects.new("Text", bpy.data.curves.new("Text", "FONT"))
-    text.data.body, text.data.extrude, text.data.render_resolution_u = "o", 0.1, 30
-    bpy.context.scene.collection.objects.link(text)
-    only(text)
-    operator, window = pressed(OBJECT_OT_body_moments_measure)
-    assert finished(operator, window) == {"FINISHED"}
-    assert operator.reports == [("WARNING", "Measured Text, with warnings")] and outcome.last() is None
-
-
 @pytest.mark.parametrize(("cls", "settings"), OPERATORS)
 def test_a_fault_in_a_step_gives_the_window_back(cls, settings, monkeypatch):
     monkeypatch.setattr("body_moments.operators.actions.measure.measure_selected.MAX_OBJECTS_WITHOUT_REDRAW", 1)
@@ -210,27 +180,6 @@ def test_a_fault_in_a_step_gives_the_window_back(cls, settings, monkeypatch):
     with pytest.raises(ZeroDivisionError):
         finished(operator, window)
     assert window.timers == [] and window.status[-1] is None
-
-
-def test_symmetries_are_kept_when_all_are_found():
-    bodies = three()
-    bodies[1].data = bpy.data.meshes.new("Nothing")
-    operator, window = pressed(OBJECT_OT_body_moments_find_symmetry, tolerance=1e-3)
-    assert finished(operator, window) == {"FINISHED"}
-    assert [body.is_property_set("body_moments_symmetry") for body in bodies] == [True, False, True]
-    ((kind, text),) = operator.reports
-    assert kind == "WARNING" and "1 of 3 left unchanged: b: " in text
-
-
-@pytest.mark.parametrize(("cls", "settings"), OPERATORS[1:])
-def test_what_a_report_does_not_name_it_counts(cls, settings):
-    bodies = [*three(), add(mesh_body(), "d"), add(mesh_body(), "e")]
-    only(*bodies)
-    operator, window = pressed(cls, **settings)
-    assert finished(operator, window) == {"FINISHED"}
-    ((kind, text),) = operator.reports
-    more = 2 if cls is OBJECT_OT_body_moments_find_symmetry else 1  # nothing is reported of what others are laid onto
-    assert kind == "INFO" and text.endswith("and {:d} more".format(more))
 
 
 def test_a_child_is_laid_where_it_belongs_although_its_parent_moves_too():
@@ -271,11 +220,3 @@ def test_a_fourier_transform_that_fails_under_way_gives_the_window_back_and_says
     assert operator.modal(window, ESC) == {"CANCELLED"} and not path.exists() and window.timers == []
     operator, window = pressed(OBJECT_OT_body_moments_fourier_run, **settings)
     assert finished(operator, window) == {"FINISHED"} and path.exists()
-
-
-def test_a_fourier_transform_without_a_file_does_not_start():
-    add(mesh_body())
-    reports, window = [], Window()
-    operator = stand_in(OBJECT_OT_body_moments_fourier_run, lambda kind, text: reports.append((*kind, text)))
-    assert operator.invoke(window, None) == {"CANCELLED"} and window.handlers == window.timers == []
-    assert reports == [("ERROR", str(finding("fourier_path_missing")))]

@@ -8,11 +8,8 @@ import pytest
 from body_moments.operators.session import rig as session
 from body_moments.operators.session import staleness
 
-from tests.blender.actions.rig.test_rig import character, half_a_box, measured
-from tests.blender.actions.test_dialogs import Window, stand_in
-from tests.blender.actions.test_transcripts import OPERATORS
+from tests.blender.actions.rig.test_rig import character, measured
 from tests.blender.objects import add, mesh_body, only, place
-from tests.core import characters as made
 
 pytestmark = pytest.mark.usefixtures("scene")
 
@@ -42,18 +39,6 @@ def test_each_part_has_an_empty_at_its_center_and_its_share_however_light_it_is(
     assert place(center)[:3, 3] * unit == pytest.approx(rig.measurement.mass_properties.center, rel=1e-5, abs=1e-5)
 
 
-def test_bones_without_a_part_are_left_out_and_named(reported):
-    armature = half_a_box()
-    assert [part.name for part in measured(armature).parts] == ["Lower", "Upper"]
-    assert bpy.ops.object.body_moments_rig_center() == {"FINISHED"}
-    (constraint,) = bpy.data.objects["Rig Center of Mass"].constraints
-    assert (constraint.name, constraint.influence) == ("Upper", 1.0)
-    assert bpy.ops.object.body_moments_physics_rig() == {"FINISHED"}
-    assert reported.codes == ["rig_center_added", "physics_rig_created", "bone_parts_impossible"]
-    assert reported.values("physics_rig_created") == {"count": 1, "joints": 0}
-    assert reported.values("bone_parts_impossible") == {"count": 1, "names": ["Lower"]}
-
-
 def test_what_a_library_has_made_stays_and_is_made_beside_it(tmp_path):
     armature, skin = character()
     skin_name = skin.name
@@ -72,31 +57,6 @@ def test_what_a_library_has_made_stays_and_is_made_beside_it(tmp_path):
     assert bpy.ops.object.body_moments_rig_center() == {"FINISHED"}
     (made_here,) = [one for one in bpy.data.collections if one.library is None]
     assert len(made_here.objects) == len(linked.objects) == count
-
-
-@pytest.mark.parametrize("name", ["rig_center", "physics_rig", "measure_bones"])
-def test_what_was_made_of_a_character_is_drawn(name):
-    character()
-    window = Window()
-    operator = stand_in(OPERATORS["OBJECT_OT_body_moments_" + name], window.say)
-    assert operator.execute(window) == {"FINISHED"} and "drawn again" in window.said
-
-
-def test_where_each_bone_has_a_part_no_other_is_named(reported):
-    character()
-    assert bpy.ops.object.body_moments_physics_rig() == {"FINISHED"}
-    assert reported.codes == ["physics_rig_created"]
-    assert reported.values("physics_rig_created") == {"count": len(made.NAMES), "joints": len(made.NAMES) - 1}
-
-
-def test_results_of_bones_are_removed_once(reported):
-    character()
-    bpy.ops.object.body_moments_measure_bones()
-    reported.clear()
-    assert bpy.ops.object.body_moments_clear_bones() == {"FINISHED"}
-    assert bpy.ops.object.body_moments_clear_bones() == {"CANCELLED"}
-    assert reported.codes == ["results_removed", "no_results_to_remove"]
-    assert reported.values("results_removed") == {"count": 1}
 
 
 @pytest.mark.parametrize("operator", ["rig_center", "physics_rig"])

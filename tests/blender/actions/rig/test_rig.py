@@ -2,26 +2,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Bones of skinned characters: what each part weighs, in rest pose and the bone's rest frame, however it is posed."""
 
-from dataclasses import replace
-
 import bmesh
 import bpy
 import numpy as np
 import pytest
 from body_moments.core.polyhedron.first_order import volume_and_center
-from body_moments.core.verdict.finding import ReadError
-from body_moments.operators.bodies import rig as bodies_of_rigs
 from body_moments.operators.bodies.measure_object import measure_object
 from body_moments.operators.bodies.rig import measure_rig
-from body_moments.operators.read import read_object
 from body_moments.operators.read.links import bone_freedom, bone_parents
-from body_moments.operators.read.rig import (
-    RestBones,
-    hanging_objects,
-    require_armature,
-    skinned_objects,
-    vertex_weights,
-)
 from body_moments.operators.session import handlers, results, shown
 from body_moments.operators.session import rig as session
 from body_moments.operators.session.robot_links import bone_links
@@ -30,9 +18,7 @@ from body_moments.operators.write import properties
 
 from tests.blender.bodies.test_assembly import box_mesh
 from tests.blender.characters import PARENTS, armature_of, pose, skin_of
-from tests.blender.findings import refused
 from tests.blender.objects import only, strip_mesh
-from tests.blender.read_bodies import node, nodes
 from tests.close import close
 from tests.core import characters as made
 
@@ -297,18 +283,6 @@ def test_selected_bones_are_drawn_where_they_are_now():
     assert total.count == 1  # the character is not counted beside its skin
 
 
-def test_refusals_say_why():
-    empty = armature_of(made.box_skeleton(), "Nothing")
-    only(empty)
-    with pytest.raises(RuntimeError, match="deforms no mesh"):
-        bpy.ops.object.body_moments_measure_bones()
-    armature, _ = character()
-    for bone in armature.data.bones:
-        bone.use_deform = False
-    with pytest.raises(RuntimeError, match="No bone deforms"):
-        bpy.ops.object.body_moments_measure_bones()
-
-
 @pytest.mark.parametrize("unit", [1.0, 0.5])
 def test_a_physics_rig_has_exact_masses_and_joints_at_the_bones(unit):
     bpy.context.scene.unit_settings.scale_length = unit
@@ -338,20 +312,6 @@ def test_a_physics_rig_has_exact_masses_and_joints_at_the_bones(unit):
     assert np.abs(np.array(joint.location) - (2, 0, 4.5)).max() < 1e-6
     assert constraint.use_limit_ang_x and close(constraint.limit_ang_x_lower, -0.5, 1e-6)
     assert not constraint.use_limit_ang_y
-
-
-def test_a_linked_duplicate_of_what_was_made_keeps_its_mesh():
-    character()
-    bpy.ops.object.body_moments_physics_rig()
-    head = bpy.data.objects["Rig head"]
-    kept = head.copy()
-    bpy.context.scene.collection.objects.link(kept)
-    kept.name, count = "Kept", len(head.data.polygons)
-    assert bpy.ops.object.body_moments_physics_rig() == {"FINISHED"}
-    mesh = bpy.data.objects["Kept"].data
-    assert len(mesh.polygons) == count > 0 and mesh.users == 1
-    meshes = [mesh.name for mesh in bpy.data.meshes if mesh.name.startswith("Rig")]
-    assert len(meshes) == len(made.NAMES) + 1  # none of the others is left over
 
 
 def test_the_center_of_mass_follows_the_pose_by_constraints_alone():
@@ -422,17 +382,6 @@ def half_a_box():
     return armature
 
 
-def test_a_bone_whose_faces_enclose_nothing_has_no_part():
-    armature = half_a_box()
-    rig = measured(armature)
-    lower, upper = sorted(rig.parts, key=lambda part: part.name)
-    assert (lower.name, lower.measurement) == ("Lower", None) and lower.refusal.code == "bone_part_impossible"
-    assert "bone_parts_impossible" in codes(rig)
-    assert close(upper.measurement.mass_properties.mass, rig.measurement.mass_properties.mass, 1e-12)
-    assert [*bone_links(bpy.context, "robot", [armature]).pieces] == ["Upper"]
-    assert [(name, found.code) for name, found in session.store(rig)] == [("Lower", lower.refusal.code)]
-
-
 def test_the_surface_of_a_link_is_what_its_inertial_is_of_however_characters_are_turned():
     armatures = []
     for location, rotation in (((5, -3, 2), (0.4, -0.7, 1.9)), ((-40, 3, 1), (-1.1, 0.3, 0.8))):
@@ -448,21 +397,6 @@ def test_the_surface_of_a_link_is_what_its_inertial_is_of_however_characters_are
         volume, center = volume_and_center(made_links.surface(bpy.context, label))
         assert close(1000.0 * volume, inertial.mass, 1e-5)
         assert np.linalg.norm(center - inertial.center) < 1e-5 * np.cbrt(volume)
-
-
-def test_a_bone_that_cannot_hold_its_results_is_named_and_the_others_have_theirs(monkeypatch):
-    armature, _ = character()
-    rig, store = measured(armature), session.properties.store
-
-    def planted(owner, measurement):
-        if owner.name == "arm.L":
-            raise TypeError("planted")
-        store(owner, measurement)
-
-    monkeypatch.setattr(session.properties, "store", planted)
-    assert [(name, found.code) for name, found in session.store(rig)] == [("arm.L", "internal_error")]
-    stored = [name for name in made.NAMES if "body_mass" in armature.pose.bones[name]]
-    assert stored == [name for name in made.NAMES if name != "arm.L"]
 
 
 def test_the_overlay_draws_the_whole_where_the_parts_are_posed():
@@ -487,64 +421,6 @@ def test_the_overlay_draws_the_whole_where_the_parts_are_posed():
     )
     found = (now.axes * (now.mass * now.gyration**2)) @ now.axes.T
     assert np.abs(found - inertia).max() < 1e-12 * np.abs(inertia).max() and np.linalg.det(now.axes) > 0.0
-
-
-def test_how_a_mesh_is_parented_to_an_armature_tells_whether_it_is_its_skin_or_hangs_on_a_bone():
-    armature, skin = character()
-    for kind in ("OBJECT", "ARMATURE", "BONE"):
-        obj = bpy.data.objects.new(kind, box_mesh(1, 1, 1))
-        bpy.context.scene.collection.objects.link(obj)
-        obj.parent, obj.parent_type, obj.parent_bone = armature, kind, "head"
-    skinned = skinned_objects(armature, bpy.context.scene.objects)
-    assert [obj.name for obj in skinned] == ["ARMATURE", skin.name]
-    assert [(obj.name, bone) for obj, bone in hanging_objects(armature, skinned)] == [("BONE", "head")]
-
-
-def test_what_is_left_out_of_a_character_is_said():
-    """Objects on bones that are not rendered, without a mass or on bones that are gone; meshes without weights."""
-    armature, skin = character()
-    whole = measured(armature).measurement.mass_properties.mass
-    names = {"hidden": "head", "weightless": "head", "lost": "nowhere", "part": "head"}
-    for name, bone in names.items():
-        obj = bpy.data.objects.new(name, box_mesh(0.1, 0.1, 0.1))
-        bpy.context.scene.collection.objects.link(obj)
-        obj.parent, obj.parent_type, obj.parent_bone = armature, "BONE", bone
-    bpy.data.objects["hidden"].hide_render = True
-    bpy.data.objects["weightless"].scale = (0, 0, 0)
-    bpy.context.view_layer.update()
-    rig = measured(armature)
-    told = {found.code: found.values for found in rig.measurement.findings}
-    assert told["members_left_out"] == {"count": 1, "names": ["hidden"]}
-    assert told["members_not_measured"] == {"count": 1, "names": ["weightless"]}
-    assert told["bone_missing"] == {"bone": "nowhere", "sources": ["lost"]}
-    assert told["members_density_unset"] == {"count": 1, "names": ["part"]}
-    assert {obj.name for obj in rig.objects} == {skin.name, "lost", "part", "weightless"}
-    part = measure_object(bpy.data.objects["part"], bpy.context.evaluated_depsgraph_get()).mass_properties.mass
-    assert close(rig.measurement.mass_properties.mass, whole + part, 1e-6)
-    skin.body_moments.property_unset("density")
-    settings = skin.body_moments
-    settings.kind, settings.wall, settings.thickness = "SHELL", "OUTWARD", 0.01
-    rig = measured(armature)
-    told = {found.code: found.values for found in rig.measurement.findings}
-    assert told["rig_wall_thin"] == {"sources": [skin.name]}
-    assert told["members_density_unset"]["names"] == [skin.name, "part"] or told["members_density_unset"]["count"] == 2
-    bpy.context.scene.body_moments.default_material = "Copper"
-    assert "members_density_unset" not in {found.code for found in measured(armature).measurement.findings}
-    bpy.context.scene.body_moments.default_material = "NONE"
-    area = sum(polygon.area for polygon in skin.data.polygons)
-    assert close(rig.measurement.mass_properties.mass, 1000.0 * 0.01 * area + part, 1e-5)
-    for name, value in (("thickness", 0.0), ("density", 0.0)):
-        kept = getattr(settings, name)
-        setattr(settings, name, value)
-        if getattr(settings, name) == 0.0:
-            told = {found.code: found.values for found in measured(armature).measurement.findings}
-            assert skin.name in told["members_not_measured"]["names"]
-        setattr(settings, name, kept)
-    for bone in armature.data.bones:
-        bone.use_deform = False
-    with pytest.raises(ReadError) as refused:
-        measured(armature)
-    assert refused.value.finding.code == "no_deforming_bones"
 
 
 def test_a_bone_is_as_free_as_its_locks_limits_and_constraints_leave_it():
@@ -616,58 +492,3 @@ def test_the_area_of_a_stretched_skin_is_what_is_seen():
             area += (np.linalg.norm(np.cross(b - a, c - a)) + np.linalg.norm(np.cross(c - a, d - a))) / 2.0
         found = measured(armature).measurement
         assert close(found.area, area, 1e-6) and close(found.mass_properties.mass, 10.0 * area, 1e-6)
-
-
-def test_an_armature_is_needed_and_not_in_edit_mode():
-    armature, skin = character()
-    for obj in (None, skin):
-        with refused("no_active_armature"):
-            require_armature(obj)
-    assert require_armature(armature) == armature
-    bpy.ops.object.mode_set(mode="EDIT")
-    with refused("armature_in_edit_mode", armature.name):
-        require_armature(armature)
-    bpy.ops.object.mode_set(mode="OBJECT")
-
-
-def test_a_surface_that_another_object_brings_has_no_weights():
-    armature, skin = character()
-    bones, (part,) = RestBones.of(armature), read_object(skin, bpy.context.evaluated_depsgraph_get()).parts
-    assert len(vertex_weights(skin, part, bones, bpy.context.evaluated_depsgraph_get()).weight) > 0
-    others = replace(part, source_object_name="Other"), replace(part, surface=replace(part.surface, points=np.eye(3)))
-    for other in others:
-        found = vertex_weights(skin, other, bones, bpy.context.evaluated_depsgraph_get())
-        assert [len(row) for row in (found.vertex, found.bone, found.weight)] == [0, 0, 0]
-    nodes(skin, lambda tree, source: node(tree, "GeometryNodeMeshCube").outputs[0])
-    skin.modifiers.move(1, 0)
-    told = {found.code: found.values for found in measured(armature).measurement.findings}
-    assert told["unweighted_vertices"]["count"] == told["unweighted_vertices"]["total"] == 8
-
-
-def test_vertices_without_weights_are_counted_among_those_that_faces_use():
-    armature, skin = character()
-    count = len(skin.data.vertices)
-    skin.data.vertices.add(2)  # which no face has
-    for group in skin.vertex_groups:
-        group.remove([3, 5])
-    bpy.context.view_layer.update()
-    (found,) = measured(armature).measurement.findings
-    assert found.code == "unweighted_vertices" and np.asarray(found.elements).tolist() == [3, 5]
-    assert found.values == {"count": 2, "total": count, "sources": [skin.name]}
-
-
-def test_a_skin_on_which_this_program_fails_is_left_out_and_the_traceback_is_on_the_console(monkeypatch, capsys):
-    armature, skin = character()
-    sword = bpy.data.objects.new("Sword", box_mesh(1, 2, 4))
-    bpy.context.scene.collection.objects.link(sword)
-    sword.parent, sword.parent_type, sword.parent_bone = armature, "BONE", "arm.L"
-
-    def planted(surface):
-        raise TypeError("planted")
-
-    monkeypatch.setattr(bodies_of_rigs, "measure_solid", planted)
-    rig = measured(armature)
-    told = {found.code: found.values for found in rig.measurement.findings}
-    assert told["members_not_measured"] == {"count": 1, "names": [skin.name]}
-    assert [part.sources for part in rig.parts] == [("Sword",)]
-    assert "TypeError: planted" in capsys.readouterr().err

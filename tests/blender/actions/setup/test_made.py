@@ -5,7 +5,7 @@
 import bpy
 import numpy as np
 import pytest
-from body_moments.operators.actions.setup import node_group, rigid_bodies
+from body_moments.operators.actions.setup import node_group
 from body_moments.operators.session import staleness
 
 from tests.blender.objects import add, mesh_body, only, seen, strip_mesh
@@ -62,28 +62,6 @@ def test_results_that_come_from_materials_are_up_to_date_when_a_body_was_made(fr
     assert staleness.stale_reason(obj, bpy.context.scene) is None
 
 
-def test_a_body_that_cannot_have_the_frame_is_named_and_the_others_are_made(reported, monkeypatch):
-    good, held = (add(mesh_body(name), name, (place, 2, 3)) for name, place in (("Good", 1), ("Held", 9)))
-    only(held)
-    bpy.ops.rigidbody.world_add()
-    bpy.ops.rigidbody.constraint_add(type="HINGE")
-    only(good, held)
-    reframe = rigid_bodies.reframe.reframe
-
-    def refusing(context, plans, step):
-        changed, refused = reframe(context, [plan for plan in plans if plan.obj != held], step)
-        error = rigid_bodies.EditRefusedError("channel_locked", channel="location")
-        return changed, [*refused, *[(plan.obj, error) for plan in plans if plan.obj == held]]
-
-    monkeypatch.setattr(rigid_bodies.reframe, "reframe", refusing)
-    assert bpy.ops.object.body_moments_rigid_bodies() == {"FINISHED"}
-    assert good.rigid_body is not None and held.rigid_body is None
-    assert reported.values("rigid_bodies_made")["count"] == 1
-    assert reported.values("left_unchanged")["count"] == 1 and reported.values("left_unchanged")["total"] == 2
-    assert reported.values("failure")["object"] == "Held" and "channel_locked" in reported.codes
-    assert held.rigid_body_constraint.type == "HINGE" and [obj.name for obj in bpy.data.objects] == ["Good", "Held"]
-
-
 def test_of_a_compound_the_member_that_is_refused_is_named(reported):
     root = add(mesh_body(), "Root")
     for name, data, code in (
@@ -98,37 +76,6 @@ def test_of_a_compound_the_member_that_is_refused_is_named(reported):
         assert [reported.values(kind)["object"] for kind in ("failure", "refused")] == ["Root", name]
         assert reported.codes[-1] == code
         bpy.data.objects.remove(member)
-
-
-@pytest.mark.parametrize("active", [None, "Empty"])
-def test_where_no_body_is_active_the_node_group_alone_is_added(active, reported):
-    if active:
-        only(add(None, active))
-    else:
-        bpy.context.view_layer.objects.active = None
-    assert bpy.ops.object.body_moments_add_nodes() == {"FINISHED"}
-    assert reported.codes == ["node_group_added"] and len(bpy.data.node_groups) == 1
-
-
-@pytest.mark.parametrize(
-    ("system", "scale", "scaled"),
-    [("METRIC", 0.01, True), ("IMPERIAL", 2.0, True), ("METRIC", 1.0, False), ("NONE", 0.01, False)],
-)
-@pytest.mark.parametrize("held", [False, True])
-@pytest.mark.parametrize("operator", ["rigid_bodies", "set_rigid_body_mass"])
-def test_that_masses_are_shown_scaled_is_said_where_there_are_any(operator, system, scale, scaled, held, reported):
-    settings = bpy.context.scene.unit_settings
-    settings.system, settings.scale_length = system, scale
-    obj = add(mesh_body())
-    obj.body_moments.mass_from, obj.body_moments.mass = "MASS", 3.0
-    obj.lock_location = (held,) * 3
-    options = {"add": True, "axes": True} if operator == "set_rigid_body_mass" else {}
-    getattr(bpy.ops.object, "body_moments_" + operator)(**options)
-    is_made = obj.rigid_body is not None
-    assert is_made == (not held or operator == "set_rigid_body_mass")
-    assert ("rigid_body_display_scaled" in reported.codes) == (scaled and is_made)
-    if scaled and is_made:
-        assert reported.values("rigid_body_display_scaled")["factor"] == pytest.approx(scale**3, rel=1e-6)
 
 
 def test_what_was_sculpted_on_faces_stays_where_it_is_when_they_are_reversed():

@@ -67,15 +67,3 @@ def test_volume_and_mass_are_outputs():
     volume, mass, _ = center_shown(bpy.data.objects["Body Center of Mass"])
     assert abs(volume / measured(obj).volume - 1.0) < FLOAT32
     assert abs(mass / (10.0 * measured(obj).volume) - 1.0) < FLOAT32
-
-
-def test_an_object_of_other_material_than_one_density_is_named(reported):
-    obj = add(mesh_body())
-    bpy.ops.object.body_moments_add_nodes()
-    assert reported.codes == ["node_marker_added"]
-    for name, value in (("kind", "SHELL"), ("density_from", "MATERIALS"), ("mass_from", "MASS")):
-        reported.clear()
-        setattr(obj.body_moments, name, value)
-        bpy.ops.object.body_moments_add_nodes()
-        assert reported.codes == ["node_marker_added", "node_marker_is_of_solid"]
-        obj.body_moments.property_unset(name)

@@ -5,7 +5,7 @@
 import bpy
 import pytest
 
-from tests.blender.objects import add, mesh_body, only
+from tests.blender.objects import add, only
 from tests.blender.panels.drawing import findings_of, labels, shown
 from tests.close import close
 
@@ -74,18 +74,6 @@ def test_a_mesh_that_is_inside_out_as_a_whole_is_turned():
     assert obj["body_method"] == "exact" and findings_of(obj, "warning") == []
 
 
-def test_a_mesh_that_its_modifiers_make_is_not_edited_and_the_refusal_stands_in_the_panel(reported):
-    mesh = boxes(2.0, reverse=[0])
-    obj = add(mesh)
-    obj.modifiers.new("Twice", "ARRAY")
-    before = orders(mesh)
-    assert bpy.ops.object.body_moments_recalculate_outside() == {"CANCELLED"}
-    assert orders(mesh) == before and reported.codes == ["failure", "modified_mesh"]
-    assert "“Twice”" in " ".join(labels(shown())) and "Recalculate Outside" in labels(shown())
-    bpy.ops.wm.body_moments_dismiss()
-    assert "“Twice”" not in " ".join(labels(shown()))
-
-
 def test_count_as_union_and_measure_as_shell_set_the_setting_and_measure():
     obj = add(boxes(2.0, 1.0))
     bpy.ops.object.body_moments_measure()
@@ -95,16 +83,6 @@ def test_count_as_union_and_measure_as_shell_set_the_setting_and_measure():
     assert close(obj["body_volume"], 8.0, rel=1e-6) and obj.body_moments.overlap == "UNION"
     assert bpy.ops.object.body_moments_measure_as_shell(thickness=0.25) == {"FINISHED"}
     assert obj["body_method"] == "shell" and close(obj["body_volume"], 0.25 * 30.0, rel=1e-6)
-
-
-def test_the_remedy_of_a_refusal_is_offered_before_anything_was_measured():
-    flat = bpy.data.meshes.new("Flat")
-    flat.from_pydata([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [], [(0, 1, 2)])
-    obj = add(flat)
-    bpy.ops.object.body_moments_measure()
-    assert "object.body_moments_measure_as_shell" in buttons()
-    bpy.ops.object.body_moments_measure_as_shell(thickness=0.5)
-    assert close(obj["body_mass"], 250.0, rel=1e-6)
 
 
 def test_an_accepted_warning_is_a_note_here_in_records_and_when_measured_again():
@@ -183,53 +161,3 @@ def test_what_was_measured_is_measured_in_millimeters_where_that_is_wanted(repor
     reported.clear()
     assert "body_mass" in linked and bpy.ops.scene.body_moments_set_millimeters() == {"FINISHED"}
     assert not reported.codes
-
-
-def test_the_unit_is_not_asked_for_where_the_size_is_plausible_or_the_question_was_dismissed():
-    scene = bpy.context.scene
-    obj = add(boxes(60.0))
-    bpy.ops.object.body_moments_measure()
-    bpy.ops.scene.body_moments_keep_units()
-    assert "scene.body_moments_set_millimeters" not in buttons() and scene.unit_settings.scale_length == 1.0
-    for size, unit in ((60.0, 0.01), (2.0, 1.0), (4.9, 1.0)):
-        scene.body_moments.units_answered = False
-        scene.unit_settings.scale_length = unit
-        obj.data = boxes(size)
-        bpy.ops.object.body_moments_measure()
-        assert "scene.body_moments_set_millimeters" not in buttons()
-
-
-def test_what_was_left_unchanged_is_named_in_the_panel_until_the_next_action_and_can_be_selected():
-    good = [add(mesh_body(), "Good {:02d}".format(i)) for i in range(3)]
-    bad = [add(mesh_body(), "Bad {:02d}".format(i)) for i in range(20)]
-    for obj in bad:
-        obj.modifiers.new("Cast", "CAST")
-    only(*good, *bad)
-    bpy.ops.object.body_moments_origin_to_center()
-    text = " ".join(labels(shown()))
-    assert "Origin to Center of Mass" in text and "Bad 07: " in text and "Bad 08: " not in text
-    assert "and 12 more" in text
-    assert bpy.ops.object.body_moments_select_refused() == {"FINISHED"}
-    assert {*bpy.context.view_layer.objects.selected} == {*bad} and bpy.context.object == bad[0]
-    only(*good)
-    bpy.ops.object.body_moments_add_empty()
-    assert "Bad" not in " ".join(labels(shown(without=("selection",))))
-
-
-def test_all_wrong_origins_of_rigid_bodies_are_named_and_selected_not_three():
-    bodies = [add(mesh_body(), "Body {:03d}".format(i)) for i in range(12)]
-    only(*bodies)
-    bpy.ops.object.body_moments_set_rigid_body_mass(add=True)
-    assert "“Body 007”, and 4 more" in " ".join(labels(shown()))
-    assert "object.body_moments_axes_to_principal" in buttons()
-    bpy.ops.object.select_all(action="DESELECT")
-    bpy.ops.object.body_moments_select_refused()
-    assert {*bpy.context.view_layer.objects.selected} == {*bodies}
-
-
-def test_a_report_of_many_names_those_with_warnings(reported):
-    several = [add(boxes(2.0, 1.0), "Nested {:d}".format(i)) for i in range(3)]
-    only(add(mesh_body(), "Fine"), *several)
-    bpy.ops.object.body_moments_measure()
-    assert sorted(reported.values("with_warnings")["objects"]) == ["Nested 0", "Nested 1", "Nested 2"]
-    assert "Nested 2: 1 outward component" in " ".join(labels(shown()))

@@ -7,8 +7,6 @@ import numpy as np
 import pytest
 from mathutils import Matrix, Vector
 
-from tests.blender.actions.test_dialogs import stand_in
-from tests.blender.actions.test_transcripts import OPERATORS
 from tests.blender.bodies.test_assembly import box, boxes_inertia
 from tests.blender.objects import add, measured, mesh_body, only, place, seen
 from tests.close import close
@@ -223,18 +221,6 @@ def test_a_rigid_body_that_is_refused_keeps_its_mass_whichever_object_is_active(
     assert close(good.rigid_body.mass, measured(good).mass_properties.mass, 1e-6)
 
 
-@pytest.mark.parametrize("frame", ["AXES", "ORIGIN", "KEEP"])
-def test_that_axes_were_free_to_choose_is_said_where_they_were_chosen(frame, reported):
-    box(bpy.context.scene.collection, (2, 2, 2), (1, 2, 3), 1000, "Cube")
-    only(bpy.data.objects["Cube"])
-    free = measured(bpy.context.object).mass_properties.principal.finding
-    bpy.context.scene.unit_settings.scale_length = 0.5
-    assert make(frame=frame) == {"FINISHED"}
-    assert (free.code in reported.codes) == (frame == "AXES")
-    findings = [code for code in reported.codes if code in (free.code, "rigid_body_display_scaled")]
-    assert findings[0] == "rigid_body_display_scaled"  # first, for it is about all of them
-
-
 def test_what_cannot_be_one_is_left_as_it_is_with_the_reason(reported):
     good, text = slanted("good"), add(bpy.data.curves.new("T", "FONT"), "Text")
     text.data.body, text.data.extrude = "A", 0.5
@@ -246,20 +232,3 @@ def test_what_cannot_be_one_is_left_as_it_is_with_the_reason(reported):
     assert make() == {"FINISHED"}
     assert good.rigid_body and not text.rigid_body and not tiny.rigid_body and (place(tiny) == was).all()
     assert {"rigid_body_needs_mesh", "rigid_body_mass_too_small"} <= set(reported.codes)
-
-
-def test_one_undo_step_is_enough_for_what_is_registered():
-    operator = bpy.types.OBJECT_OT_body_moments_rigid_bodies
-    assert {"REGISTER", "UNDO"} <= set(operator.bl_options)
-
-
-@pytest.mark.parametrize("count", [12, 13])
-def test_the_redo_panel_compares_the_masses_of_the_first_objects(count):
-    only(*(add(mesh_body(), "Body {:d}".format(index), (5 * index, 0, 0)) for index in range(count)))
-    operator = stand_in(OPERATORS["OBJECT_OT_body_moments_rigid_bodies"], print, frame="KEEP")
-    assert operator.execute(bpy.context) == {"FINISHED"}
-    lines = operator.comparison.splitlines()
-    assert [line.startswith("Body {:d}: 3150 kg; Calculate Mass: ".format(i)) for i, line in enumerate(lines)] == [
-        True
-    ] * 12 + [False] * (count - 12)
-    assert lines[12:] == ["And 1 more"] * (count - 12)

@@ -384,24 +384,6 @@ class TestRefused:
 
 
 @pytest.mark.usefixtures("over_cursor")
-def test_modifiers_that_leave_the_mesh_as_it_is_are_no_obstacle():
-    obj = figure()
-    obj.modifiers.new("Hidden", "SUBSURF").show_viewport = False
-    edit(obj)
-    assert balance() == {"FINISHED"}
-    assert np.abs(center(obj)[:2] - (0.05, 0.0)).max() < 1e-6
-
-
-@pytest.mark.usefixtures("over_cursor")
-def test_the_wall_of_what_is_a_solid_is_no_obstacle():
-    obj = figure()
-    obj.body_moments.wall = "INWARD"
-    edit(obj)
-    assert balance() == {"FINISHED"}
-    assert np.abs(center(obj)[:2] - (0.05, 0.0)).max() < 1e-6
-
-
-@pytest.mark.usefixtures("over_cursor")
 def test_other_users_of_the_mesh_are_reported_and_their_numbers_are_out_of_date(reported):
     obj = figure()
     other = add(obj.data, "Other")
@@ -414,55 +396,6 @@ def test_other_users_of_the_mesh_are_reported_and_their_numbers_are_out_of_date(
     bpy.context.view_layer.update()
     reasons = [staleness.stale_reason(one, bpy.context.scene) for one in (obj, other)]
     assert reasons == [None, "stale_geometry"]
-
-
-@pytest.mark.usefixtures("over_cursor")
-def test_a_fake_user_of_the_mesh_is_no_object_and_others_are_not_edited(reported):
-    add(None, "Empty")
-    add(bpy.data.cameras.new("Camera"), "Camera")
-    obj = figure()
-    obj.data.use_fake_user = True
-    edit(obj)
-    assert balance() == {"FINISHED"}
-    assert reported.codes == ["balanced"]
-
-
-@pytest.mark.usefixtures("over_cursor")
-def test_what_was_done_is_reported(capfd):
-    obj = figure()
-    edit(obj)
-    assert balance() == {"FINISHED"}
-    out = capfd.readouterr().out
-    assert "Moved" in out and "went from" in out and "(0.05 m, 0 m, " in out
-
-
-@pytest.mark.usefixtures("over_cursor")
-def test_of_several_in_edit_mode_the_active_one_is_balanced_and_it_is_reported(reported):
-    other, obj = figure(location=(5, 0, 0)), figure()
-    only(obj, other)
-    bpy.ops.object.mode_set(mode="EDIT")
-    bpy.ops.mesh.select_all(action="SELECT")
-    before = points(other)
-    assert balance() == {"FINISHED"}
-    assert reported.values("balance_only_active") == {"object": obj.name}
-    assert np.array_equal(points(other), before)
-    bpy.ops.object.mode_set(mode="OBJECT")
-    edit(obj)
-    bpy.context.scene.cursor.location.x += 0.01
-    assert balance() == {"FINISHED"} and reported.codes.count("balance_only_active") == 1
-
-
-def test_the_poll_says_what_is_missing():
-    bpy.ops.object.select_all(action="DESELECT")
-    bpy.context.view_layer.objects.active = None
-    assert not balance.poll()
-    figure()
-    assert not balance.poll()
-    group(bpy.context.object)
-    assert balance.poll()
-    bpy.ops.object.mode_set(mode="SCULPT")
-    with pytest.raises(RuntimeError, match="Switch to Edit Mode and select the vertices"):
-        balance()
 
 
 def test_a_refusal_does_not_make_stored_numbers_out_of_date():

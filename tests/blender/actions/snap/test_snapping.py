@@ -182,19 +182,6 @@ def test_other_users_of_the_data_do_not_move(name):
     assert_reframed(name, obj)
 
 
-def test_selected_users_of_the_same_data_go_on_sharing_it():
-    mesh = mesh_body()
-    objects = [add(mesh, str(i), location=(5 * i, i, 0), rotation=(0, 0, i)) for i in range(4)]
-    unselected = objects.pop()
-    only(*objects)
-    before = [seen(obj) for obj in objects]
-    assert run(ORIGIN) == {"FINISHED"}
-    assert len({obj.data for obj in objects}) == 1 and objects[0].data != unselected.data
-    for obj, points in zip(objects, before):
-        assert np.abs(seen(obj) - points).max() < 4.0 * TOLERANCE
-        assert_origin_is_center(obj)
-
-
 def test_all_users_selected_change_the_data_itself():
     mesh = mesh_body()
     objects = [add(mesh, str(i), location=(5 * i, i, 0)) for i in range(3)]
@@ -550,13 +537,6 @@ def test_stored_results_are_kept_up_to_date(reported):
     assert run(AXES) == {"CANCELLED"} and reported.codes[-2] == "nothing_to_do"
 
 
-def test_nothing_selected_says_so():
-    add(mesh_body())
-    bpy.ops.object.select_all(action="DESELECT")
-    for name in (ORIGIN, AXES, ALIGN):
-        assert not getattr(bpy.ops.object, name).poll()
-
-
 def turned_within(obj, angle=0.4):
     """Turn the geometry within the object about its local z, as applying a rotation does."""
     c, s = np.cos(angle), np.sin(angle)
@@ -600,37 +580,6 @@ def test_a_round_body_turned_within_its_object_stays():
     matrix = place(obj)
     bpy.context.view_layer.update()
     assert run(AXES) == {"CANCELLED"} and (place(obj) == matrix).all()
-
-
-@pytest.mark.parametrize("cuts", [1, 5])
-def test_faces_change_neither_the_frame_that_is_snapped_to_nor_what_is_reported_of_it(cuts, monkeypatch):
-    """Measure looks at moments beyond third order up to a number of faces only, and says so beyond."""
-    from body_moments.core.verdict.finding import finding
-    from body_moments.operators.bodies import measurement as measure
-    from body_moments.operators.write import properties
-
-    unasked = finding("axes_from_third_order")
-    monkeypatch.setattr(measure, "MAX_FACES_HIGH_ORDER", 100)
-    bpy.ops.mesh.primitive_cube_add(location=(1, 2, 3), rotation=(0.3, 0.4, 0.5))
-    obj = bpy.context.object
-    bpy.ops.object.mode_set(mode="EDIT")
-    bpy.ops.mesh.subdivide(number_cuts=cuts)
-    bpy.ops.object.mode_set(mode="OBJECT")
-    turned_within(obj)
-    body = measured(obj)
-    # The object's axes are kept where the body's own were not looked for.
-    nearest = np.abs(body.mass_properties.principal.axes.T @ place(obj)[:3, :3]).max(axis=0)
-    assert (nearest.min() < 0.95) == (cuts == 1)
-    assert (unasked in body.findings) == (cuts == 5)
-    properties.store(obj, body)
-    assert (unasked in properties.findings(obj)) == (cuts == 5)
-    assert run(AXES) == {"FINISHED"}
-    sides = np.abs(np.array([vertex.co for vertex in obj.data.vertices])).max(axis=1)
-    assert np.abs(sides - 1.0).max() < 1e-5  # the same axes however many faces there are
-    # What is stored afterwards is what was snapped to, and a second time changes nothing.
-    assert np.abs(np.array(obj["body_principal_axes"]) - [1.0, 0.0, 0.0, 0.0]).max() < 1e-5
-    assert unasked not in properties.findings(obj)
-    assert run(AXES) == {"CANCELLED"}
 
 
 @pytest.mark.parametrize("name", [AXES, ALIGN])
