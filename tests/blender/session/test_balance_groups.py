@@ -78,38 +78,3 @@ def test_a_new_path_takes_the_place_of_the_last_and_leaves_other_keys(empty):
     balance_groups.store(empty, path_of(shift=1.0), [None] * 3)
     assert_found(empty, path_of(shift=1.0))
     assert len(action.slots) == len(action.layers) == len(action.layers[0].strips) == 1
-
-
-def test_an_action_is_made_complete_where_it_has_no_slot_or_layer():
-    empty, action = add(None, "Empty"), bpy.data.actions.new("Own")
-    assert new_path(empty) is None
-    animation = empty.animation_data_create()
-    assert new_path(empty) is None
-    animation.action = action
-    assert animation.action_slot is None and new_path(empty) is None
-    balance_groups.store(empty, path_of(), [None] * 3)
-    assert animation.action == action and animation.action_slot is not None
-    assert_found(empty, path_of())
-
-
-def test_keys_that_do_not_belong_together_are_no_path(empty):
-    curves_of(empty)[SIGNAL, 0].keyframe_points.insert(3.0, 1.0)
-    found = new_path(empty)
-    assert found.inside is None and found.centers.tolist() == CENTERS.tolist()
-    curves_of(empty)["location", 1].keyframe_points.insert(3.0, 1.0)
-    assert new_path(empty) is None
-    bag = empty.animation_data.action.layers[0].strips[0].channelbag(empty.animation_data.action_slot)
-    bag.fcurves.remove(curves_of(empty)["location", 1])
-    assert new_path(empty) is None
-
-
-def test_the_group_of_objects_is_found_by_their_names_in_whatever_order():
-    first, second, third = (add(None, name) for name in ("first", "second", "third"))
-    empty, mesh = add(None, "Group"), add(bpy.data.meshes.new("Mesh"), "Mesh")
-    scene = bpy.context.scene
-    assert balance_groups.find(scene, [first, second]) is None
-    for owner in (mesh, empty):
-        owner[balance_groups.GROUP] = balance_groups.group_text([second, first])
-    assert list(balance_groups.groups(scene)) == [empty]
-    assert balance_groups.find(scene, [first, second]) == balance_groups.find(scene, [second, first]) == empty
-    assert balance_groups.find(scene, [first]) is None and balance_groups.find(scene, [first, third]) is None

@@ -3,22 +3,16 @@
 """Stored results follow a density that is one number, as measuring again would make them; what changes more than a
 factor leaves them, out of date."""
 
-from types import SimpleNamespace
-
 import numpy as np
 import pytest
 
 pytest.importorskip("bpy")
 import bpy
-from body_moments.core.verdict.finding import finding
-from body_moments.operators.read.tracking import tracking_paused
-from body_moments.operators.session import reference, results, staleness
-from body_moments.operators.session.density import _on_density, follow_density, with_default_note
+from body_moments.operators.session import results, staleness
 from body_moments.operators.session.shown import shown_body
 from body_moments.operators.session.trust import Trust
 from body_moments.operators.write import properties
 
-from tests.blender.findings import refused
 from tests.blender.objects import add, measured, mesh_body, only
 from tests.close import close
 
@@ -240,59 +234,6 @@ def test_zero_and_unheard_of_densities_leave_the_numbers():
     assert_as_measured(obj)
 
 
-@pytest.mark.parametrize(
-    ("key", "value"),
-    [("body_fingerprint", ""), ("body_fingerprint", None), ("body_volume", 0.0), ("body_mass", 0.0)]
-    + [("body_inertia", "gone")],
-)
-def test_numbers_of_which_nothing_can_be_made_stay(key, value):
-    obj, other = add(mesh_body()), add(mesh_body(), "Other")
-    measure(obj)
-    obj[key] = "v0" + obj[key].partition(":")[1] + obj[key].partition(":")[2] if value is None else value
-    before = stored(obj)
-    obj.body_moments["density"] = 2000.0  # as no update function sees it
-    follow_density(obj, bpy.context.scene)
-    follow_density(other, bpy.context.scene)
-    assert stored(obj) == before and stored(other) == {}
-
-
-def test_a_given_inertia_is_multiplied_by_no_mass():
-    obj = add(mesh_body())
-    settings = obj.body_moments
-    settings.mass_from, settings.mass, settings.use_inertia = "MASS", 2.0, True
-    settings.given_inertia_diagonal = (3.0, 4.0, 5.0)
-    measure(obj)
-    before = stored(obj)
-    settings.mass = 4.0
-    assert reason(obj) == "stale_settings" and stored(obj) == before
-    settings.mass = 2.0
-    assert reason(obj) is None
-
-
-def test_a_density_that_is_tried_is_not_followed():
-    obj = add(mesh_body())
-    measure(obj)
-    before = stored(obj)
-    with tracking_paused():
-        obj.body_moments.density = 2000.0
-    _on_density(obj.body_moments, SimpleNamespace(scene=None))
-    assert stored(obj) == before
-
-
-def test_the_note_on_an_unset_density_goes_and_comes_with_the_default_of_the_scene():
-    obj, wire = add(mesh_body()), circle()
-    wire.body_moments.kind = "WIRE"
-    measure(obj, wire)
-    settings = bpy.context.scene.body_moments
-    for material, noted in (("Copper", False), ("NONE", True), ("Copper", False)):
-        settings.default_material = material
-        assert ("density_default_kept" in obj["body_findings"]) is noted
-        assert obj["body_density"] == (1000.0 if noted else 8960.0)
-        assert "linear_density_default_kept" in wire["body_findings"]
-        assert reason(obj) is None and reason(wire) is None
-    assert_as_measured(obj)
-
-
 def linked_and_local(folder):
     """Two measured objects, one of another file."""
     path = str(folder / "library.blend")
@@ -316,25 +257,6 @@ def test_linked_and_overriding_objects_are_skipped_and_named(tmp_path, reported)
     assert reported.values("left_unchanged")["count"] == 1 and reported.values("failure")["object"].startswith("Linked")
     assert stored(linked) == before and local["body_density"] == local.body_moments.density != 1000.0
     assert_as_measured(local)
-
-
-def test_a_default_density_leaves_what_is_linked_as_it_was(tmp_path):
-    linked, local = linked_and_local(tmp_path)
-    before = stored(linked)
-    settings = bpy.context.scene.body_moments
-    settings.default_material, settings.default_density = "CUSTOM", 2500.0
-    assert stored(linked) == before and local["body_density"] == 2500.0 == 2.5 * before["body_density"]
-    with refused("linked_results"):
-        reference.store(linked, bpy.context.scene)
-    assert stored(linked) == before
-
-
-def test_the_note_on_a_density_that_nobody_set_is_made_once():
-    other = finding("zero_volume")
-    for name, code in (("density", "density_default_kept"), ("linear_density", "linear_density_default_kept")):
-        made = with_default_note((other,), name)
-        assert [one.code for one in made] == [other.code, code]
-        assert with_default_note(made, name) is made
 
 
 def test_inertia_about_a_reference_follows_the_density_and_is_out_of_date_once_the_object_has_moved():

@@ -3,7 +3,6 @@
 """The sub-panel of moments, over the area of flat shapes: of faces, curves and text, in their own plane."""
 
 import csv
-import re
 from fractions import Fraction
 from math import factorial
 
@@ -168,48 +167,6 @@ def test_normalized_moments_and_invariants_do_not_depend_on_place_turn_and_size(
     assert close(values()[0, 0][0], 1.0, rel=1e-12)
 
 
-def test_the_panel_lists_moments_and_invariants_to_fourth_order():
-    only(text("R"))
-    settings(moments_of="FLAT", moments_about="CENTER")
-    compute(6)
-    shown = labels(drawn())
-    assert "x²y²" in shown and not any("z" in label for label in shown if len(label) < 7)
-    assert "Order 4 (m⁶)" in shown
-    settings(moments_about="INVARIANT")
-    shown = labels(drawn())
-    assert "φ7" in shown and "c40 c12⁴" in shown and "Order 3" in shown
-
-
-def test_each_invariant_is_shown_under_its_degree_with_all_digits_of_the_copy():
-    from body_moments.operators.session import moments as moments_table
-
-    only(sheet(L_SHAPE))
-    settings(moments_of="FLAT", moments_about="INVARIANT")
-    compute(6)
-    copied = {row["invariant"]: [float(row["real"]), float(row["imaginary"])] for row in table()[1]}
-    degrees, missing = moments_table.current_numbers(bpy.context.object, bpy.context.scene)
-    assert missing is None and [degree.degree for degree in degrees] == [2, 3, 4]
-    assert [row[0] for degree in degrees[:2] for row in degree.rows] == ["φ1", "φ2", "φ3", "φ4", "φ5", "φ6", "φ7"]
-    assert [row[0] for row in degrees[2].rows] == ["c40 c12⁴", "c31 c12²", "c22"]
-    for name, shown, exact in (row for degree in degrees for row in degree.rows):
-        is_complex = "c12" in name
-        assert list(map(float, exact.split())) == copied[name][: 1 + is_complex]
-        assert shown.endswith(" i") == is_complex and all(number != "0" for number in re.findall("[0-9.]+", shown))
-
-
-def test_invariants_that_vanish_are_shown_as_zero():
-    """A rectangle of sides a, b has φ1 = (a/b + b/a)/12, φ2 = ((a/b − b/a)/12)², and no moments of third order."""
-    from body_moments.operators.session import moments as moments_table
-
-    only(sheet([(0.1, 0.3), (3.1, 0.3), (3.1, 1.3), (0.1, 1.3)]))
-    settings(moments_of="FLAT", moments_about="INVARIANT")
-    compute(4)
-    degrees, _ = moments_table.current_numbers(bpy.context.object, bpy.context.scene)
-    shown = {name: text for degree in degrees for name, text, _ in degree.rows}
-    assert close(float(shown["φ1"]), 10.0 / 36.0, 1e-5) and close(float(shown["φ2"]), (8.0 / 36.0) ** 2, 1e-5)
-    assert {shown["φ{:d}".format(i)] for i in range(3, 8)} == {"0"} and shown["c40 c12⁴"] == "0 + 0 i"
-
-
 def test_invariants_beyond_the_range_of_numbers_are_refused_not_copied():
     """c30,0 c12³⁰ grows with the sixtieth power of length by width."""
     only(sheet([(0, 0), (1024, 0), (0, 1 / 1024)]))
@@ -273,27 +230,3 @@ def test_a_flat_shape_has_its_center_in_the_world_and_invariants_within_the_rang
         with pytest.raises(MeasureError) as refusal:
             moments_table.invariants(computed, "FLAT" if code == "invariants_order" else "VOLUME", order)
         assert refusal.value.finding.code == code
-
-
-@pytest.mark.parametrize(
-    ("about", "frame", "words"),
-    [
-        ("ORIGIN", "WORLD", "about the foot of the world frame's origin, in SI units"),
-        ("ORIGIN", "OBJECT", "about the foot of the object frame's origin, in SI units"),
-        ("CENTER", "WORLD", "about the centroid, in SI units"),
-        ("REFERENCE", "WORLD", "about the foot of the reference's origin, in SI units"),
-        ("NORMALIZED", "WORLD", "central, of the shape scaled to an area of 1"),
-        ("INVARIANT", "WORLD", "invariants of the flat shape, from central moments, scaled to an area of 1"),
-    ],
-)
-def test_the_comment_says_about_what_the_moments_of_a_flat_shape_are(about, frame, words):
-    from body_moments.operators.session import moments as moments_table
-
-    obj = sheet(L_SHAPE)
-    only(obj)
-    obj.name = "A, B"
-    compute(3)
-    computed = moments_table.computed_moments(obj)
-    reference = moments_table.reference_of(obj, computed, bpy.context.scene) if about == "REFERENCE" else None
-    comment = moments_table.as_csv(computed, "FLAT", about, frame, reference).splitlines()[0]
-    assert comment.startswith("# A  B: ") and comment.endswith(words) and "," in comment

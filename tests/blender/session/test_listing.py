@@ -150,14 +150,6 @@ def test_the_file_has_the_numbers_and_is_replaced_as_a_whole(suffix, tmp_path, r
     assert reported.values("numbers_saved") == {"count": 3, "file": path.name}
 
 
-@pytest.mark.filterwarnings("ignore:.*blend relative:RuntimeWarning")
-def test_a_path_may_begin_at_the_saved_file(tmp_path):
-    four()
-    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "saved.blend"))
-    assert bpy.ops.object.body_moments_save_numbers(filepath="//numbers.json") == {"FINISHED"}
-    assert json.loads((tmp_path / "numbers.json").read_text(encoding="utf-8"))["file"].endswith("saved.blend")
-
-
 def test_what_cannot_be_saved_is_refused_with_the_reason(tmp_path, reported):
     four()
     for path, code in (("", "no_export_file"), (tmp_path / "a.txt", "numbers_suffix"), (tmp_path, "numbers_suffix")):

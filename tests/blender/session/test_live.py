@@ -5,16 +5,15 @@
 import itertools
 from dataclasses import replace
 from math import isclose
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 pytest.importorskip("bpy")
 import bpy
-from body_moments.operators.session import handlers, live, posed, results, updates
+from body_moments.operators.session import live, posed, results, updates
 from body_moments.operators.session.shown import shown_body
-from body_moments.operators.session.trust import Trust, trust
+from body_moments.operators.session.trust import Trust
 from mathutils import Euler, Matrix
 
 from tests.blender.objects import add, measured, mesh_body, only
@@ -180,19 +179,6 @@ def flipped(obj):
     obj.data.update()
 
 
-def test_live_numbers_come_before_stored_ones_as_soon_as_they_are_there(monkeypatch):
-    obj = add(mesh_body())
-    only(obj)
-    bpy.ops.object.body_moments_measure()
-    start(obj)
-    obj.data.vertices[0].co.x -= 1.0
-    obj.data.update()
-    update()
-    assert_current(obj, inertia=False)
-    assert tick(monkeypatch) is None
-    assert_current(obj)
-
-
 @pytest.mark.parametrize("change", [other_faces, in_edit_mode, sculpted, flipped])
 def test_an_edit_measures_that_object_alone(change, monkeypatch):
     obj, other = add(mesh_body()), add(mesh_body(), "Other", (9, 0, 0))
@@ -206,25 +192,6 @@ def test_an_edit_measures_that_object_alone(change, monkeypatch):
     assert live.current_numbers(other) is kept
     if bpy.context.mode != "OBJECT":
         bpy.ops.object.mode_set(mode="OBJECT")
-
-
-def test_live_numbers_of_other_settings_are_out_of_date_and_so_is_what_cannot_be_measured_any_more(monkeypatch):
-    obj, scene = add(mesh_body()), bpy.context.scene
-    only(obj)
-    bpy.ops.object.body_moments_measure()
-    start(obj)
-    assert not live.is_stale(obj, scene) and shown_body(obj).verdict == trust(obj, scene) == Trust.EXACT
-    obj.body_moments.density = 2000.0
-    assert live.is_stale(obj, scene) and trust(obj, scene) == Trust.OUT_OF_DATE
-    update()
-    tick(monkeypatch)
-    assert not live.is_stale(obj, scene) and trust(obj, scene) == Trust.EXACT
-    obj.data.clear_geometry()
-    obj.data.update()
-    update()
-    tick(monkeypatch)
-    assert live.current_numbers(obj).measurement is None and not live.is_stale(obj, scene)
-    assert trust(obj, scene) == Trust.OUT_OF_DATE and live.current_properties(obj, scene) is None
 
 
 @pytest.mark.parametrize(
@@ -386,53 +353,6 @@ def test_undo_is_followed(monkeypatch):
     assert live._followed.get(obj).number == updates.count()
 
 
-def test_a_move_is_followed_by_a_tick_where_the_object_is_followed(monkeypatch):
-    followed, other = add(mesh_body(), "Followed"), add(mesh_body(), "Other", location=(9, 0, 0))
-    start(followed)
-    update()
-    scheduled = []
-    monkeypatch.setattr(live, "_schedule", scheduled.append)
-    other.location.x += 1.0
-    update()
-    assert scheduled == []
-    followed.location.x += 1.0
-    update()
-    assert scheduled == [0.0]
-
-
-def test_the_timer_is_set_once_and_in_a_window_alone(monkeypatch):
-    timers = SimpleNamespace(is_registered=lambda _: bool(set_for), register=lambda *a, **k: set_for.append((a, k)))
-    set_for, app = [], SimpleNamespace(background=True, timers=timers)
-    monkeypatch.setattr(live, "bpy", SimpleNamespace(app=app))
-    live._schedule(0.5)
-    assert set_for == []
-    app.background = False
-    live._schedule(0.5)
-    live._schedule(0.25)
-    assert set_for == [((live._tick,), {"first_interval": 0.5})]
-
-
-def test_while_a_picture_is_rendered_the_timer_waits(monkeypatch):
-    obj = add(mesh_body())
-    start(obj)
-    forbid_measuring(monkeypatch)
-    running = []
-    app = SimpleNamespace(is_job_running=lambda job: running.append(job) or True)
-    monkeypatch.setattr(live, "bpy", SimpleNamespace(app=app))
-    assert live._tick() == 0.5 and running == ["RENDER"]
-
-
-def test_only_what_is_not_painted_or_edited_is_followed_at_once():
-    obj = with_key()
-    start(obj)
-    surface = live._followed.get(obj).surface
-    for mode in ("OBJECT", "WEIGHT_PAINT", "SCULPT", "VERTEX_PAINT", "TEXTURE_PAINT", "EDIT"):
-        bpy.ops.object.mode_set(mode=mode)
-        found = surface.follow(obj, bpy.context.evaluated_depsgraph_get())
-        assert (found is not None) == (mode in ("OBJECT", "WEIGHT_PAINT")), mode
-    bpy.ops.object.mode_set(mode="OBJECT")
-
-
 @pytest.mark.parametrize("kind", ["SOLID", "SHELL"])
 def test_what_cannot_be_mapped_is_shown_as_it_was_measured(kind):
     """Of a body that is flattened, or was when it was measured; and of a shell that deforms."""
@@ -470,41 +390,3 @@ def test_a_wall_that_was_scaled_is_out_of_date_until_it_is_measured_the_next_mom
     update()
     assert shown_body(obj).verdict == measured_so
     assert_current(obj)
-
-
-def test_what_was_interrupted_when_it_was_measured_first_has_no_live_numbers(monkeypatch):
-    obj = add(mesh_body())
-    monkeypatch.setattr(live, "_measure", lambda *_: (_ for _ in ()).throw(KeyboardInterrupt))
-    with pytest.raises(KeyboardInterrupt):
-        live.start(obj, bpy.context.evaluated_depsgraph_get())
-    assert live.is_live(obj) and live.current_numbers(obj) is None
-    assert live.current_properties(obj, bpy.context.scene) is None and shown_body(obj) is None
-
-
-def test_nothing_is_due_once_the_add_on_is_gone():
-    start(add(mesh_body()))
-    bpy.app.timers.register(live._tick, first_interval=1000.0)
-    live.unregister()
-    assert not bpy.app.timers.is_registered(live._tick)
-    assert live._note_updates not in handlers.on_update
-    live.unregister()
-
-
-def test_what_was_computed_of_an_object_is_out_of_date_once_its_numbers_are_new_or_gone():
-    obj = add(mesh_body())
-    start(obj)
-    depsgraph = bpy.context.evaluated_depsgraph_get()
-    for change in (lambda: live.update(obj, depsgraph), lambda: live.update(obj, depsgraph), lambda: live.stop(obj)):
-        before = handlers.generation()
-        change()
-        assert handlers.generation() > before
-
-
-def test_what_live_finds_no_numbers_for_is_reported_as_it_starts(reported):
-    mesh = bpy.data.meshes.new("Wire")
-    mesh.from_pydata([(0, 0, 0), (1, 0, 0)], [(0, 1)], [])
-    wire, solid = add(mesh, "Wire"), add(mesh_body(), "Solid")
-    start(wire, solid)
-    refusal = live.current_numbers(wire).refusal
-    assert reported.codes == ["failure", refusal.code] and reported.values("failure")["object"] == "Wire"
-    assert live.current_numbers(solid).refusal is None

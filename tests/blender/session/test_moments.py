@@ -13,7 +13,7 @@ from body_moments.core.verdict.finding import MeasureError, finding
 
 from tests.blender import batch_files as files
 from tests.blender.command.test_options import box_moment
-from tests.blender.panels.drawing import Layout, copied, labels
+from tests.blender.panels.drawing import Layout, labels
 from tests.close import close
 
 pytestmark = pytest.mark.usefixtures("scene")
@@ -70,25 +70,6 @@ def assert_box(found, size, center, tolerance=3e-7):
         assert value == pytest.approx(exact, abs=tolerance * sum(powers) * scale + 1e-12)
 
 
-def test_nothing_is_shown_before_the_button_is_pressed(box):
-    record = drawn()
-    assert ("operator", "object.body_moments_compute_moments") in [entry[:2] for entry in record]
-    assert not copied(record, "m³")
-    with pytest.raises(RuntimeError, match=str(finding("poll_compute_moments"))):
-        bpy.ops.object.body_moments_copy_moments()
-
-
-def test_the_table_shows_orders_up_to_four_and_says_where_the_others_are(box):
-    compute(6)
-    record = drawn()
-    assert float(copied(record, "m³")[0]) == pytest.approx(6.0, rel=1e-12)
-    assert len(copied(record, "m⁵")) == 6 and len(copied(record, "m⁷")) == 15 and not copied(record, "m⁸")
-    shown = labels(record)
-    assert "x²" in shown and "xyz" in shown and str(finding("panel_orders_copied", first=5, last=6)) in " ".join(shown)
-    compute(4)
-    assert "only in the copy" not in " ".join(labels(drawn()))
-
-
 def test_frame_point_and_weight_change_without_computing_again(box):
     compute(6)
     assert_box(rows(), (2, 1, 3), (1, 2, 3))
@@ -112,11 +93,6 @@ def test_every_row_of_the_copy_has_its_bounds(box):
     assert len(found) == 286
     assert all(0.0 < rounding < 1e-6 * 4.0 ** sum(powers) for powers, (_, rounding, _) in found.items())
     assert found[0, 0, 0][2] > 1e-8  # float32 coordinates
-
-
-def test_the_copy_goes_to_the_clipboard_and_is_reported_in_background(box):
-    compute(2)
-    assert bpy.ops.object.body_moments_copy_moments() == {"FINISHED"}
 
 
 def test_what_was_computed_is_called_out_of_date_when_the_object_changes(box):
@@ -189,15 +165,6 @@ def test_an_object_without_a_surface_is_refused_with_the_reason():
         bpy.ops.object.body_moments_compute_moments()
 
 
-def test_of_what_was_not_computed_nothing_is_shown(box):
-    from body_moments.operators.session import moments as moments_table
-
-    for about in ("ORIGIN", "REFERENCE"):
-        settings(moments_about=about)
-        assert moments_table.current_numbers(box, bpy.context.scene) == ((), None)
-    assert moments_table.stale_reason(box, bpy.context.scene) is None
-
-
 def test_a_wire_is_refused_with_the_reason(reported):
     curve = bpy.data.curves.new("Wire", "CURVE")
     curve.dimensions = "3D"
@@ -235,17 +202,6 @@ def test_a_wall_has_moments_to_any_order(box):
     assert abs(raw[0, 8, 0] - (whole - hollow)) < 1e-6 * whole  # it is turned about z
 
 
-def test_only_the_last_objects_are_kept(box, monkeypatch):
-    from body_moments.operators.session import moments as moments_table
-
-    monkeypatch.setattr(moments_table._computed, "max_size", 2)
-    others = [files.add_box(center=(5 * i, 0, 0)) for i in range(3)]
-    for obj in others:
-        bpy.context.view_layer.objects.active = obj
-        compute(1)
-    assert [moments_table.computed_moments(obj) is not None for obj in others] == [False, True, True]
-
-
 def test_a_script_gets_the_moments_of_an_object_as_the_readme_says(box):
     from body_moments.operators.bodies.measure_object import measure_object
     from body_moments.operators.settings.options import MeasureOptions
@@ -259,13 +215,6 @@ def test_a_script_gets_the_moments_of_an_object_as_the_readme_says(box):
     assert close(own[4, 4, 4], box_moment((4, 4, 4), (0, 0, 0), (1, 2, 3)), rel=1e-12)
     plain = measure_object(bpy.context.object, bpy.context.evaluated_depsgraph_get())
     assert plain.volume_moments.order == 3 and plain.area_moments.order == 0  # nothing that nobody asked for
-
-
-def test_what_was_decided_is_reported_in_whole_sentences(box, capfd):
-    box.body_moments.kind, box.body_moments.wall, box.body_moments.thickness = "SHELL", "INWARD", 0.125
-    compute(3)
-    out = capfd.readouterr().out
-    assert "Computed 20 moments of {:s}. The wall was measured".format(box.name) in out and ".." not in out
 
 
 def test_moments_beyond_the_range_of_numbers_are_refused_not_shown(box, reported):
@@ -304,62 +253,6 @@ def test_moments_of_what_undo_took_back_are_out_of_date(box):
     assert moments_table.stale_reason(obj, bpy.context.scene) == "stale_geometry"
 
 
-@pytest.mark.parametrize(
-    ("of", "about", "units"),
-    [
-        ("VOLUME", "ORIGIN", ["m³", "m⁴", "m⁵", "m¹³"]),
-        ("SURFACE", "CENTER", ["m²", "m³", "m⁴", "m¹²"]),
-        ("MASS", "REFERENCE", ["kg", "kg·m", "kg·m²", "kg·m¹⁰"]),
-        ("MASS", "NORMALIZED", ["", "", "", ""]),
-        ("VOLUME", "INVARIANT", ["", "", "", ""]),
-    ],
-)
-def test_units_of_all_degrees(of, about, units):
-    from body_moments.operators.session import moments as moments_table
-
-    assert [moments_table.unit(of, about, degree) for degree in (0, 1, 2, 10)] == units
-
-
-@pytest.mark.parametrize(
-    ("of", "words"), [("VOLUME", "scaled to a volume of 1"), ("MASS", "scaled to a mass and a radius of gyration of 1")]
-)
-def test_the_comment_of_normalized_moments_names_their_scale(box, of, words):
-    from body_moments.operators.session import moments as moments_table
-
-    compute()
-    text = moments_table.as_csv(moments_table.computed_moments(box), of, "NORMALIZED", "OBJECT")
-    assert words in text.splitlines()[0]
-
-
-@pytest.mark.parametrize(
-    ("of", "about", "frame", "words"),
-    [
-        ("VOLUME", "ORIGIN", "WORLD", "volume moments, world frame, about the frame's origin, in SI units"),
-        ("SURFACE", "CENTER", "OBJECT", "surface moments, object frame, about the center, in SI units"),
-        ("MASS", "REFERENCE", "WORLD", "mass moments, reference frame, about its origin, in SI units"),
-        (
-            "SURFACE",
-            "NORMALIZED",
-            "WORLD",
-            "surface moments, world frame, central, of the body scaled to a surface of 1",
-        ),
-    ],
-)
-def test_the_comment_says_what_the_moments_are_of_in_one_cell(box, of, about, frame, words):
-    from body_moments.operators.session import moments as moments_table
-
-    box.name = "Left, upper; new"
-    compute(2)
-    computed = moments_table.computed_moments(box)
-    reference = moments_table.reference_of(box, computed, bpy.context.scene) if about == "REFERENCE" else None
-    text = moments_table.as_csv(computed, of, about, frame, reference)
-    assert text.splitlines()[0] == "# Left  upper  new: " + words
-    rows = list(csv.DictReader(text.splitlines()[1:]))
-    assert [(row["p"], row["q"], row["r"]) for row in rows[:5]] == [
-        *(("0", "0", "0"), ("1", "0", "0"), ("0", "1", "0"), ("0", "0", "1"), ("2", "0", "0"))
-    ]
-
-
 @pytest.mark.parametrize("frame", ["WORLD", "OBJECT"])
 def test_normalized_moments_of_a_mass_are_those_of_a_unit_mass_with_unit_radius_of_gyration(box, frame):
     from body_moments.operators.session import moments as moments_table
@@ -371,19 +264,3 @@ def test_normalized_moments_of_a_mass_are_those_of_a_unit_mass_with_unit_radius_
     second = [found[2, 0, 0], found[0, 2, 0], found[0, 0, 2]]
     assert close(found[0, 0, 0], 1.0, 1e-12) and close(second, size**2 / (size @ size), 1e-6)
     assert np.abs([found[1, 0, 0], found[0, 1, 0], found[0, 0, 1], found[1, 1, 0]]).max() < 1e-6
-
-
-def test_what_is_next_to_nothing_beside_others_of_its_degree_or_its_bound_is_shown_as_zero(box):
-    from body_moments.operators.session import moments as moments_table
-
-    compute(1)
-    computed = moments_table.computed_moments(box)
-    settings(moments_of="VOLUME", moments_about="ORIGIN", frame="WORLD")
-    for least, bounds, zeros in ((1e-13, 0.0, [3]), (1e-11, 0.0, []), (1e-11, 1e-10, [3]), (1e-13, 2.0, [1, 2, 3])):
-        raw, rounding = np.array([1e20, 1.0, -1.0, least]), np.array([0.0, bounds, bounds, bounds])
-        volume = replace(computed.volume, raw=raw, about=np.zeros(3), rounding_error=rounding)
-        moments_table.cache_moments(box, replace(computed, volume=volume))
-        degrees, missing = moments_table.current_numbers(box, bpy.context.scene)
-        texts = [text for degree in degrees for _, text, _ in degree.rows]
-        assert missing is None and [place for place, text in enumerate(texts) if text == "0"] == zeros
-        assert [float(exact) for degree in degrees for _, _, exact in degree.rows] == raw.tolist()

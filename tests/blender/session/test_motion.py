@@ -6,11 +6,10 @@ import bpy
 import numpy as np
 import pytest
 from body_moments.core.statics.mixes import sample_count
-from body_moments.core.verdict.finding import MeasureError
 from body_moments.operators.session import motion
 
 from tests.blender.findings import refused
-from tests.blender.objects import add, measured, mesh_body, seen, strip_mesh
+from tests.blender.objects import add, measured, mesh_body, strip_mesh
 
 pytestmark = pytest.mark.usefixtures("scene")
 
@@ -63,13 +62,6 @@ def test_a_mesh_that_anything_but_its_keys_may_change_has_no_mix(change):
         bpy.ops.object.mode_set(mode="OBJECT")
 
 
-def test_keys_that_are_muted_count_for_nothing():
-    obj = keyed()
-    obj.data.shape_keys.key_blocks["First"].mute = True
-    assert motion._mixed_keys(obj) == ("Second",)
-    assert motion._mixed_keys(add(None)) == motion._mixed_keys(add(mesh_body())) == ()
-
-
 def found(followed, obj):
     bpy.context.view_layer.update()
     return followed.mass_and_center(obj, bpy.context.evaluated_depsgraph_get())
@@ -110,38 +102,6 @@ def test_a_polygon_that_blender_cuts_otherwise_is_measured():
     assert followed._followed[obj].mixes is not None
 
 
-@pytest.mark.parametrize("given", [False, True])
-@pytest.mark.parametrize("kind", ["SOLID", "SHELL"])
-def test_what_only_moves_is_measured_once_and_a_shell_again_where_it_is_stretched(kind, given, monkeypatch):
-    obj, calls, measure_body = add(mesh_body(), location=(1, 2, 3)), [], motion.measure_body
-    bpy.context.scene.unit_settings.scale_length = 0.1
-    obj.body_moments.kind, obj.body_moments.thickness = kind, 0.01
-    if given:
-        obj.body_moments.mass_from, obj.body_moments.mass = "MASS", 7.5
-    monkeypatch.setattr(motion, "measure_body", lambda *them: calls.append(them) or measure_body(*them))
-    followed = motion.Motion(200)
-    for values, count in (
-        ({}, 1),
-        ({"location": (7, -8, 9), "rotation_euler": (0.5, 0.4, 0.3)}, 1),
-        ({"scale": (2, 2, 2)}, 1),
-        ({"scale": (1, 3, -0.5)}, 1 if kind == "SOLID" else 2),
-        ({"scale": (1, 1, 1)}, 1 if kind == "SOLID" else 3),
-    ):
-        for name, value in values.items():
-            setattr(obj, name, value)
-        mass, center = found(followed, obj)
-        assert len(calls) == count
-        truth = measured(obj).mass_properties
-        assert mass == pytest.approx(truth.mass, rel=1e-6)
-        assert center == pytest.approx(np.array(truth.center) / np.float32(0.1), rel=1e-6)
-    if kind == "SOLID":
-        obj.scale.x = 0.0
-        with pytest.raises(MeasureError):
-            found(followed, obj)
-        obj.scale.x = 1.0
-        assert found(followed, obj)[0] == pytest.approx(mass, rel=1e-6)
-
-
 def test_what_is_open_or_welded_is_no_mix():
     obj = keyed(strip_mesh())
     followed = motion.Motion(200)
@@ -160,22 +120,3 @@ def test_what_is_open_or_welded_is_no_mix():
         obj.shape_key_add(name=name)
     mass, _ = found(followed, obj)
     assert followed._followed[obj].mixes is None and mass == pytest.approx(measured(add(mesh)).mass_properties.mass)
-
-
-def test_the_hull_is_found_again_where_the_geometry_has_changed_and_moved_where_not(monkeypatch):
-    obj, calls, object_hull = add(mesh_body(), location=(1, 2, 3)), [], motion.object_hull
-    monkeypatch.setattr(motion, "object_hull", lambda *given: calls.append(given) or object_hull(*given))
-    followed = motion.Motion(2)
-    directions = np.random.default_rng(4).standard_normal((50, 3))
-    for change, count in (
-        (lambda: None, 1),
-        (lambda: setattr(obj, "rotation_euler", (0.3, 0.2, 0.1)), 1),
-        (lambda: setattr(obj, "scale", (1.0, -2.0, 0.5)), 1),
-        (lambda: setattr(obj.data.vertices[0].co, "x", -2.0), 2),
-    ):
-        change()
-        obj.data.update() if count == 2 else None
-        bpy.context.view_layer.update()
-        corners = followed.hull_points(obj, bpy.context.evaluated_depsgraph_get())
-        reach = (seen(obj) @ directions.T).max(axis=0)
-        assert (corners @ directions.T).max(axis=0) == pytest.approx(reach, rel=1e-6) and len(calls) == count

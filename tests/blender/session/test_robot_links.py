@@ -18,11 +18,6 @@ from tests.close import close
 pytestmark = pytest.mark.usefixtures("scene")
 
 
-def nothing(name="Nothing"):
-    """An object that may show a surface and shows none."""
-    return add(bpy.data.meshes.new(name), name)
-
-
 def lamp():
     return add(bpy.data.lights.new("Lamp", "POINT"), "Lamp")
 
@@ -46,34 +41,6 @@ def test_the_objects_that_may_be_links_are_of_a_collection_or_selected_or_render
     assert set(robot_links.candidates(context, "Parts", True)) == {inner, first}
     assert set(robot_links.candidates(context, "", True)) == {hidden, inner}
     assert set(robot_links.candidates(context, "", False)) == {inner, alone}
-
-
-def test_objects_that_cannot_be_measured_are_counted_among_those_that_might_be():
-    bodies = nothing(), add(mesh_body(), "Lower", (1, 2, 3), (0.1, 0.2, 0.3)), add(mesh_body(), "Upper", (4, 5, 6))
-    bodies[2].parent = bodies[1]
-    done = []
-    made = robot_links.object_links(bpy.context, "robot", [lamp(), *bodies], done.append)
-    assert done == [1, 2, 3] and made.robot.name == "robot"
-    assert [link.name for link in made.robot.links] == ["Lower", "Upper"]
-    assert [(joint.parent, joint.child) for joint in made.robot.joints] == [("Lower", "Upper")]
-    assert made.members == {"Lower": [bodies[1]], "Upper": [bodies[2]]}
-    values = said(made)["left_out_of_robot"]
-    assert (values["count"], values["total"]) == (1, 3) and len(made.findings) == 1
-    (cause,) = values["causes"]
-    assert cause["values"]["object"] == "Nothing" and cause["values"]["cause"]["code"] == "no_geometry"
-    assert robot_links.object_links(bpy.context, "robot", list(bodies[1:])).findings == []
-    with refused("failure", object="Nothing"):
-        robot_links.object_links(bpy.context, "robot", [bodies[0], nothing("Another")])
-    for objects in ([], [bpy.data.objects["Lamp"]]):
-        with refused("robot_without_links"):
-            robot_links.object_links(bpy.context, "robot", objects)
-
-
-def test_the_causes_of_many_objects_left_out_are_those_of_some():
-    body = add(mesh_body(), "Good")
-    made = robot_links.object_links(bpy.context, "robot", [*(nothing(str(i)) for i in range(9)), body])
-    (found,) = made.findings
-    assert (found.values["count"], found.values["total"]) == (9, 10) and 1 < len(found.values["causes"]) < 9
 
 
 @pytest.mark.parametrize("unit", [1.0, 0.001])

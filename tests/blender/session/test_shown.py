@@ -7,11 +7,8 @@ import pytest
 pytest.importorskip("bpy")
 import bpy
 import numpy as np
-from body_moments.core.verdict.finding import Finding
-from body_moments.core.verdict.method import Method, Verdict
 from body_moments.operators.session import staleness
-from body_moments.operators.session.shown import Trust, changes_alone, shown_body, shown_bone
-from body_moments.operators.session.trust import trust, trust_of
+from body_moments.operators.session.shown import Trust, shown_body, shown_bone
 from mathutils import Matrix
 
 from tests.blender.actions.rig.test_rig import character
@@ -86,56 +83,6 @@ def test_a_scene_shows_an_object_in_its_own_units(scene):
         shown = shown_body(obj, asked)
         assert close(shown.gyration, factor * shown_body(obj, scene).gyration, 1e-9)
         assert shown.verdict == (Trust.OUT_OF_DATE if asked == other else Trust.EXACT)
-
-
-def of_nodes(obj):
-    obj.modifiers.new("Nodes", "NODES")
-
-
-@pytest.mark.parametrize(
-    "change",
-    [
-        of_nodes,
-        lambda obj: setattr(obj, "instance_type", "VERTS"),
-        lambda obj: setattr(obj.body_moments, "density_from", "MATERIALS"),
-        lambda obj: setattr(obj.body_moments, "density_from", "VOLUME"),
-        lambda _obj: bpy.ops.object.body_moments_live(),
-    ],
-)
-def test_a_mesh_that_may_show_or_follow_others_does_not_change_alone(change):
-    obj = add(mesh_body())
-    obj.modifiers.new("Cast", "CAST")
-    assert changes_alone(obj) and not changes_alone(add(None, "Empty"))
-    only(obj)
-    change(obj)
-    assert not changes_alone(obj)
-
-
-@pytest.mark.parametrize(
-    ("verdict", "codes", "wanted"),
-    [
-        (Verdict.EXACT, (), Trust.EXACT),
-        (Verdict.EXACT, ("density_default_kept",), Trust.EXACT),
-        (Verdict.CAPPED, (), Trust.REPAIRED),
-        (Verdict.REORIENTED, (), Trust.REPAIRED),
-        (Verdict.EXACT, ("vertices_welded",), Trust.REPAIRED),
-        (Verdict.EXACT, ("density_default_kept", "holes_capped"), Trust.REPAIRED),
-        (Verdict.CAPPED, ("holes_capped", "members_not_measured"), Trust.DOUBTFUL),
-        (Verdict.OPEN, (), Trust.DOUBTFUL),
-        (Verdict.OPEN, ("holes_capped",), Trust.DOUBTFUL),
-        (None, (), Trust.DOUBTFUL),
-    ],
-)
-def test_the_worst_of_how_it_was_measured_and_what_was_warned_of_counts(verdict, codes, wanted):
-    method = None if verdict is None else Method(verdict)
-    assert trust_of(method, [Finding(code) for code in codes]) == wanted
-
-
-def test_an_armature_that_deforms_nothing_is_not_to_be_trusted(scene):
-    armature = add(bpy.data.armatures.new("Rig"), "Rig")
-    bpy.ops.object.mode_set(mode="POSE")
-    assert trust(armature, scene) == Trust.DOUBTFUL
-    bpy.ops.object.mode_set(mode="OBJECT")
 
 
 @pytest.mark.parametrize("unit", [1.0, 0.5])

@@ -2,13 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What is remembered of how an object stands: for which shape, which gravity and which place that holds."""
 
-from types import SimpleNamespace
-
 import bpy
 import numpy as np
 import pytest
-from body_moments.core.statics.support import CONTACT_RTOL
-from body_moments.core.verdict.finding import Finding
 from body_moments.operators.session import faults, handlers, stability
 
 from tests.blender.actions.setup.test_remedy_buttons import boxes
@@ -35,45 +31,6 @@ def test_gravity_pulls_where_the_scene_says_and_down_where_it_says_nothing(scene
         assert np.abs(stability.down(scene) - wanted).max() < 1e-7
 
 
-def test_points_touch_the_ground_within_what_the_hull_leaves_out():
-    points = np.array([[0.0, 0.0, 0.0], [4.0, 1.0, 2.0]])
-    matrix = np.diag([1.0, 3.0, 2.0, 1.0])
-    for gap, wanted in ((0.0, CONTACT_RTOL), (1e-3, 2.0 * 3e-3 / 4.0), (1e-9, CONTACT_RTOL)):
-        assert close(stability._tolerance(points, SimpleNamespace(gap=gap), matrix), wanted, 1e-12)
-
-
-def test_poses_are_found_again_for_another_shape_alone(monkeypatch):
-    obj, calls, resting_poses = add(box((4.0, 2.0, 6.0)), location=(1, 2, 3)), [], stability.resting_poses
-    monkeypatch.setattr(stability, "resting_poses", lambda *given: calls.append(given) or resting_poses(*given))
-    assert stability.poses(obj) is None
-    bpy.ops.object.body_moments_stability()
-
-    def count():
-        """How often poses were looked for."""
-        update()
-        handlers.count_change()
-        assert stability.poses(obj) is not None
-        return len(calls)
-
-    calls.clear()
-    first = count()
-    assert count() == first <= 1
-    obj.location, obj.rotation_euler = (30, -20, 10), (0.5, 1.5, 2.5)
-    assert count() == first
-    reach = 6.0 * np.array(stability.SAME_SHAPE_RTOL)
-    for factor, more in ((1.0 + 0.2 * reach / 6.0, 0), (1.0 + 30.0 * reach / 6.0, 1), (2.0, 1), (1.0, 1)):
-        before = len(calls)
-        obj.scale.y = factor
-        assert count() - before == more, factor
-    hull, center = calls[-1]
-    extent = np.ptp(hull.points, axis=0)
-    assert close(extent, (4.0, 2.0, 6.0), 1e-6) and close(center, (2.0, 1.0, 3.0), 1e-6)
-    obj.scale.y = 0.0
-    update()
-    found = stability.poses(obj)
-    assert found is None or isinstance(found, Finding)
-
-
 def test_how_it_stands_is_of_the_place_the_scene_and_the_numbers_of_now(scene):
     obj = add(box((4.0, 2.0, 6.0)), location=(1, 2, 3))
     assert stability.support(obj) is None and not stability.is_stale(obj) and not stability.is_known(obj)
@@ -97,38 +54,6 @@ def test_how_it_stands_is_of_the_place_the_scene_and_the_numbers_of_now(scene):
     assert not stability.is_known(obj) and stability.support(obj) is None and handlers.generation() > generation
 
 
-def test_an_update_that_shows_the_same_shape_is_no_edit(monkeypatch):
-    obj = add(box((4.0, 2.0, 6.0)))
-    bpy.ops.object.body_moments_stability()
-    digests, shape_digest = [], stability.shape_digest
-    monkeypatch.setattr(stability, "shape_digest", lambda *given: digests.append(given) or shape_digest(*given))
-    obj.data.update_tag()
-    update()
-    assert not stability.is_stale(obj) and not stability.is_stale(obj) and len(digests) == 1
-    obj.data.vertices[0].co.x -= 1.0
-    obj.data.update()
-    update()
-    assert stability.is_stale(obj) and stability.is_stale(obj) and len(digests) == 2
-    obj.data.vertices[0].co.x += 1.0
-    obj.data.update()
-    update()
-    assert not stability.is_stale(obj) and len(digests) == 3
-    stability._remembered.get(obj).digest = None  # as of a large mesh
-    obj.data.update_tag()
-    update()
-    assert stability.is_stale(obj) and len(digests) == 3
-
-
-def test_in_a_view_layer_that_was_not_evaluated_an_update_counts_as_an_edit(scene):
-    obj = add(box((4.0, 2.0, 6.0)))
-    bpy.ops.object.body_moments_stability()
-    obj.data.update_tag()
-    update()
-    with bpy.context.temp_override(view_layer=scene.view_layers.new("Second")):
-        assert bpy.context.view_layer.depsgraph is None
-        assert stability.is_stale(obj)
-
-
 def test_what_has_no_numbers_any_more_stands_nowhere(scene):
     obj = add(box((4.0, 2.0, 6.0)))
     bpy.ops.object.body_moments_stability()
@@ -137,23 +62,6 @@ def test_what_has_no_numbers_any_more_stands_nowhere(scene):
     del obj["body_mass"]
     handlers.count_change()
     assert stability.support(obj) is None and stability.poses(obj) is None and stability.is_known(obj)
-
-
-def test_of_what_shows_several_surfaces_or_is_flattened_it_is_not_known_where_the_faults_are():
-    flat = add(boxes(2.0, reverse=[0]), "Flat", scale=(1, 1, 0))
-    flat.body_moments.kind, flat.body_moments.thickness = "SHELL", 0.1
-    shown = bpy.data.collections.new("Shown")
-    bpy.context.scene.collection.children.link(shown)
-    members = [add(boxes(2.0, reverse=[0]), name, location=(9, y, 0)) for y, name in ((0, "a"), (5, "b"))]
-    empty = add(None, "Empty")
-    for member in members:
-        shown.objects.link(member)
-    empty.instance_type, empty.instance_collection = "COLLECTION", shown
-    only(flat, empty, *members)
-    update()
-    bpy.ops.object.body_moments_measure()
-    assert ["body_mass" in obj for obj in (flat, empty, *members)] == [True] * 4
-    assert [faults.of_object(obj) is not None for obj in (flat, empty, *members)] == [False, False, True, True]
 
 
 def test_faults_are_where_they_are_seen_also_of_what_shows_another_object():

@@ -2,17 +2,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Numbers that no longer hold are reported as out of date, whatever made them so, and others are not."""
 
-from types import SimpleNamespace
-
 import pytest
 
 pytest.importorskip("bpy")
 import bmesh
 import body_moments
 import bpy
-from body_moments.operators.read import fingerprint, instances
-from body_moments.operators.session import handlers, marks, reference, rig, staleness
-from body_moments.operators.write import properties, section
+from body_moments.operators.read import fingerprint
+from body_moments.operators.session import handlers, staleness
 
 from tests.blender.objects import add, mesh_body, only
 
@@ -55,23 +52,6 @@ def instancer(name, member):
     empty = link(bpy.data.objects.new(name, None))
     empty.instance_type, empty.instance_collection, empty.location = "COLLECTION", collection, (0, 20, 0)
     return empty
-
-
-def test_only_the_marks_that_are_named_become_those_of_edited_geometry():
-    obj = add(mesh_body())
-    measure(obj)
-    first = properties.fingerprint(obj)
-    second, third = (":".join(marks.Mark(*first.split(":"))._replace(geometry=name)) for name in ("2", "3"))
-    obj[section.KEY] = {"fingerprint": second}
-    obj.body_moments_symmetry.fingerprint = third
-    before = marks.of_object(obj)
-    assert before == [first, second, third]
-    for place, mark in enumerate(before):
-        marks.write_edited(obj, [mark])
-        after = marks.of_object(obj)
-        assert [i for i in range(3) if after[i] != before[i]] == [place]
-        assert marks.parse(after[place]).geometry == marks.EDITED
-        before = after
 
 
 @pytest.mark.parametrize("stacked", [True, False])
@@ -188,50 +168,11 @@ def test_an_edit_that_is_taken_back_is_none():
         assert reason(obj) == code
 
 
-def grown_by_nodes(obj):
-    tree = bpy.data.node_groups.new("Twice", "GeometryNodeTree")
-    for side in ("INPUT", "OUTPUT"):
-        tree.interface.new_socket("Geometry", in_out=side, socket_type="NodeSocketGeometry")
-    start, end = tree.nodes.new("NodeGroupInput"), tree.nodes.new("NodeGroupOutput")
-    twice = tree.nodes.new("GeometryNodeTransform")
-    twice.inputs["Scale"].default_value = (2.0, 2.0, 2.0)
-    tree.links.new(start.outputs[0], twice.inputs[0])
-    tree.links.new(twice.outputs[0], end.inputs[0])
-    obj.modifiers.new("Twice", "NODES").node_group = tree
-
-
-def made_large(obj):
-    obj.modifiers.new("Subdivision", "SUBSURF").levels = 2
-
-
-def edited_in_edit_mode(obj):
-    only(obj)
-    bpy.ops.object.mode_set(mode="EDIT")
-    edited_vertices(obj)
-
-
 def edited_vertices(obj):
     mesh = bmesh.from_edit_mesh(obj.data)
     mesh.verts.ensure_lookup_table()
     mesh.verts[0].co.x -= 1.0
     bmesh.update_edit_mesh(obj.data)
-
-
-@pytest.mark.parametrize("change", [grown_by_nodes, made_large, edited_in_edit_mode])
-def test_an_edit_that_redo_brings_back_is_noticed_where_it_cannot_be_compared(change, monkeypatch):
-    obj = add(mesh_body())
-    monkeypatch.setattr(fingerprint, "MAX_DIGESTED_FACES", len(obj.data.polygons))
-    measure(obj)
-    bpy.ops.ed.undo_push(message="Measured")
-    change(obj)
-    update()
-    bpy.ops.ed.undo_push(message="Changed")
-    for step, code in (("undo", None), ("redo", "stale_geometry")):
-        assert getattr(bpy.ops.ed, step)() == {"FINISHED"}
-        update()
-        assert reason(bpy.data.objects["Body"]) == code
-    if bpy.context.mode != "OBJECT":
-        bpy.ops.object.mode_set(mode="OBJECT")
 
 
 def test_undo_in_edit_mode_brings_no_numbers_back_and_is_an_edit():
@@ -248,17 +189,6 @@ def test_undo_in_edit_mode_brings_no_numbers_back_and_is_an_edit():
     update()
     obj = bpy.data.objects["Body"]
     assert bpy.context.mode == "EDIT_MESH" and reason(obj) == "stale_geometry"
-    bpy.ops.object.mode_set(mode="OBJECT")
-
-
-def test_no_mesh_is_made_to_compare_one_that_is_edited_by_way_of_another_object(monkeypatch):
-    obj = add(mesh_body())
-    other = add(obj.data, "Other", (9, 0, 0))
-    measure(obj, other)
-    monkeypatch.setattr(instances, "from_edit_mesh", lambda *_args: pytest.fail("It made a mesh."))
-    edited_in_edit_mode(obj)
-    update()
-    assert reason(obj) == reason(other) == "stale_geometry"
     bpy.ops.object.mode_set(mode="OBJECT")
 
 
@@ -306,152 +236,6 @@ def test_numbers_of_before_an_edit_are_out_of_date_when_the_add_on_is_enabled_ag
     assert reason(third) is None
     edit(third)  # updates are counted anew since then
     assert reason(third) == "stale_geometry"
-
-
-def test_no_data_is_looked_at_where_nothing_was_updated(monkeypatch):
-    """Blender gives none to an add-on that fails while it is enabled, and is unregistered then."""
-    measure(add(mesh_body()))
-    handlers._on_load()
-    for module in (staleness, rig):
-        monkeypatch.setattr(module, "bpy", SimpleNamespace())
-    staleness._write_notes()
-    rig._write_notes()
-
-
-def painted(obj):
-    only(obj)
-    bpy.ops.object.mode_set(mode="WEIGHT_PAINT")
-
-
-def of_given_mass(obj):
-    obj.body_moments.mass_from, obj.body_moments.mass, obj.body_moments.density_from = "MASS", 3.0, "MATERIALS"
-
-
-@pytest.mark.parametrize("prepare", [painted, of_given_mass])
-def test_a_setting_that_is_put_back_is_no_edit_of_what_cannot_be_compared(prepare):
-    obj = add(mesh_body())
-    prepare(obj)
-    update()
-    assert bpy.ops.object.body_moments_measure() == {"FINISHED"}
-    for overlap, code in (("UNION", "stale_settings"), ("SIGNED", None)):
-        obj.body_moments.overlap = overlap
-        update()
-        assert reason(obj) == code
-    edit(obj)
-    assert reason(obj) == "stale_geometry"
-    bpy.ops.object.mode_set(mode="OBJECT")
-
-
-@pytest.mark.parametrize("comparable", [True, False])
-def test_a_symmetry_found_after_an_edit_holds_and_the_results_of_before_do_not(comparable, monkeypatch):
-    if not comparable:
-        monkeypatch.setattr(fingerprint, "MAX_DIGESTED_FACES", 0)
-    obj = add(mesh_body())
-    measure(obj)
-    edit(obj)
-    bpy.ops.object.body_moments_find_symmetry()
-    assert (staleness.symmetry_stale_reason(obj), reason(obj)) == (None, "stale_geometry")
-    measure(obj)
-    assert staleness.symmetry_stale_reason(obj) is None
-
-
-def test_a_symmetry_does_not_hold_once_drivers_make_another_shape_of_new_results():
-    obj = add(mesh_body())
-    obj.modifiers.new("Cast", "CAST").factor = 0.0
-    only(obj)
-    bpy.ops.object.body_moments_find_symmetry()
-    driver = obj.driver_add('modifiers["Cast"].factor').driver
-    variable = driver.variables.new()
-    variable.targets[0].id, variable.targets[0].data_path = obj, '["body_volume"]'
-    driver.expression = "0.5 if {:s} > 0.0 else 0.0".format(variable.name)
-    obj["body_volume"] = 0.0
-    update()
-    assert staleness.symmetry_stale_reason(obj) is None
-    bpy.ops.object.body_moments_measure()
-    assert staleness.symmetry_stale_reason(obj) == "stale_geometry"
-
-
-@pytest.mark.parametrize("comparable", [True, False])
-def test_results_hold_again_once_an_edit_is_taken_back_and_measured(comparable, monkeypatch):
-    if not comparable:
-        monkeypatch.setattr(fingerprint, "MAX_DIGESTED_FACES", 0)
-    obj = add(mesh_body())
-    measure(obj)
-    mark, kept = properties.fingerprint(obj), obj.data.vertices[0].co.x
-    edit(obj)
-    assert reason(obj) == "stale_geometry"
-    obj.data.vertices[0].co.x = kept
-    obj.data.update()
-    update()
-    assert reason(obj) == (None if comparable else "stale_geometry")
-    measure(obj)
-    assert properties.fingerprint(obj) == mark
-
-
-@pytest.mark.parametrize("comparable", [True, False])
-def test_a_reference_makes_no_numbers_hold_that_did_not(comparable, monkeypatch):
-    if not comparable:
-        monkeypatch.setattr(fingerprint, "MAX_DIGESTED_FACES", 0)
-    scene, obj = bpy.context.scene, add(mesh_body())
-    measure(obj)
-    reference.store(obj, scene)
-    assert reason(obj) is None
-    obj.update_tag(refresh={"DATA"})
-    update()
-    assert reason(obj) == (None if comparable else "stale_geometry")
-    for change, code in (
-        (edit, "stale_geometry"),
-        (lambda obj: setattr(obj, "scale", (1, 2, 3)), "stale_transform"),
-        (lambda obj: obj.__setitem__("body_fingerprint", ""), "stale_fingerprint"),
-    ):
-        properties.clear(obj)
-        measure(obj)
-        change(obj)
-        update()
-        assert reason(obj) == code
-        reference.store(obj, scene)
-        assert reason(obj) == code and "body_reference_inertia" in obj
-
-
-def test_what_is_edited_is_told_from_what_has_other_settings_or_stands_elsewhere():
-    obj = add(mesh_body())
-    assert staleness.is_edited(obj) and not staleness.has_transform_of_results(obj)
-    for change, is_edited, has_transform in (
-        (lambda: None, False, True),
-        (lambda: setattr(obj, "location", (1, 2, 3)), False, True),
-        (lambda: setattr(obj.body_moments, "overlap", "UNION"), False, True),
-        (lambda: setattr(obj, "scale", (1, 2, 3)), True, False),
-        (lambda: edit(obj), True, True),
-    ):
-        measure(obj)
-        change()
-        update()
-        assert (staleness.is_edited(obj), staleness.has_transform_of_results(obj)) == (is_edited, has_transform)
-
-
-def test_notes_are_written_where_a_file_can_hold_them(tmp_path):
-    obj, path = add(mesh_body()), str(tmp_path / "library.blend")
-    measure(obj)
-    before = properties.fingerprint(obj)
-    bpy.data.libraries.write(path, {obj})
-    with bpy.data.libraries.load(path, link=True) as (_source, target):
-        target.objects = ["Body"]
-    (linked,) = target.objects
-    for one in (obj, linked):
-        staleness._set_edited(one, before, True)
-    staleness._write_notes()
-    assert properties.fingerprint(linked) == before and not linked.is_editable
-    assert marks.parse(properties.fingerprint(obj)) == marks.parse(before)._replace(geometry=marks.EDITED)
-
-
-def test_what_was_computed_is_out_of_date_once_an_edit_is_noted_or_results_are_stored_again():
-    obj = add(mesh_body())
-    measure(obj)
-    edit(obj)
-    for change in (lambda: reason(obj), lambda: staleness.mark_object(obj), lambda: staleness.mark_object(obj)):
-        before = handlers.generation()
-        change()
-        assert handlers.generation() > before
 
 
 def test_measuring_does_not_make_the_symmetry_of_another_shape_hold_again():
@@ -585,17 +369,6 @@ def test_storing_evaluates_no_modifier_again():
     finally:
         bpy.app.handlers.depsgraph_update_post.remove(note)
     assert seen == []
-
-
-@pytest.mark.parametrize("mark", ["", "v1:a:b", "v0:a:b:c", 5])
-def test_numbers_of_which_nothing_is_known_are_not_up_to_date(mark):
-    obj = add(mesh_body())
-    assert reason(obj) is None
-    measure(obj)
-    obj["body_fingerprint"] = mark
-    assert reason(obj) == "stale_fingerprint"
-    del obj["body_fingerprint"]
-    assert reason(obj) == "stale_fingerprint"
 
 
 @pytest.mark.parametrize(
