@@ -16,6 +16,7 @@ import importlib.util
 import json
 import os
 import random
+import re
 import shutil
 import sys
 import tempfile
@@ -243,3 +244,22 @@ def bare_scene():
     bpy = pytest.importorskip("bpy")
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
     return bpy.context.scene
+
+
+@pytest.fixture
+def kept(request):
+    """Compare a text, its numbers rounded to six digits, with the page kept beside the tests; --rewrite keeps it."""
+
+    def rounded(number):
+        value = float(number[0])
+        return "{:.{}g}".format(value, 6 if abs(value) > 1e-6 else 1) if abs(value) > 1e-15 else "0.0"
+
+    def compare(name, text):
+        path = request.path.parent / "kept" / name
+        text = re.sub(r"-?\d+\.\d{6,}(e[-+]\d+)?", rounded, text).rstrip("\n") + "\n"
+        if request.config.getoption("--rewrite"):
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(text, encoding="utf-8")
+        assert text == path.read_text(encoding="utf-8")
+
+    return compare

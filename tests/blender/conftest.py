@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the tests in Blender start from."""
 
-import re
 from contextlib import suppress
 
 import pytest
@@ -47,27 +46,3 @@ def reported(monkeypatch):
 
     monkeypatch.setattr(reports, "report", kept)
     return found
-
-
-def six_digits(text):
-    """A text whose numbers have six digits, one where they are near rounding: the others are another processor's."""
-
-    def rounded(number):
-        value = float(number[0])
-        return "{:.{}g}".format(value, 6 if abs(value) > 1e-6 else 1) if abs(value) > 1e-15 else "0.0"
-
-    return re.sub(r"-?\d+\.\d{6,}(e[-+]\d+)?", rounded, text)
-
-
-@pytest.fixture
-def kept(request):
-    """Compare a text with the one that is kept beside the tests; `pytest --rewrite` keeps the new one."""
-
-    def compare(name, text):
-        path, text = request.path.parent / "kept" / name, six_digits(text) + "\n"
-        if request.config.getoption("--rewrite"):
-            path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_text(text, encoding="utf-8")
-        assert text == path.read_text(encoding="utf-8")
-
-    return compare

@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the overlay draws, as arrays: where it is, how large, in which form. tests/window looks at its pixels."""
 
-from dataclasses import replace
-
 import bpy
 import numpy as np
 import pytest
@@ -148,108 +146,6 @@ def test_discs_are_made_where_they_are_seen_and_named_where_axes_are_long(view):
         assert triangles.min() == 0 and triangles.max() < len(points)
         assert np.isfinite(points).all()
         assert np.abs(view.pixels(points.astype(float)) - view.size / 2.0).max() < view.size.max() + 500.0
-
-
-@pytest.mark.parametrize("scale", [1.0, 2.0])
-def test_discs_are_made_up_to_a_margin_around_the_view_and_named_from_a_length_on(view, scale):
-    """Both in pixels of the screen; a body that reaches farther is made farther away too."""
-    from body_moments.panels.overlay.bodies import Bodies
-    from body_moments.panels.overlay.glyphs import digits, discs
-    from body_moments.panels.overlay.lines import MARGIN, MIN_NAMED, disc_triangles
-
-    view = replace(view, view=np.eye(4))
-    pixel = view.pixel_sizes(np.array([[0.0, 0.0, -8.0]]))[0]  # the view's middle is in the middle
-
-    def count(away, reach):
-        center = np.array([[(view.size[0] / 2.0 + away) * pixel[0], 0.0, -8.0]])
-        gyration = np.full((1, 3), reach * pixel.max())
-        body = Bodies(center, np.eye(3)[None], gyration, np.zeros(1, np.intp))
-        return len(disc_triangles(body, view, scale, True)[0])
-
-    disc = discs().corners.shape[1]
-    for reach, named in ((0.0, 0), (scale * MIN_NAMED - 0.1, 0), (scale * MIN_NAMED + 0.1, 3), (300.0, 3)):
-        wanted = disc + named * digits().corners.shape[1]
-        edge = reach + scale * MARGIN
-        assert [count(away, reach) for away in (-100.0, edge - 0.1, edge + 0.1)] == [wanted, wanted, 0]
-
-
-def test_each_disc_is_that_of_its_body_alone_the_named_ones_last(view):
-    """The nearest of each kind above the others, and of those that are as far away the last one."""
-    from body_moments.panels.overlay.bodies import Bodies
-    from body_moments.panels.overlay.lines import disc_triangles
-
-    count = 40
-    number = np.arange(count)
-    places = np.stack([np.linspace(-1.0, 1.0, count), np.linspace(0.5, -0.5, count), -8.0 + number % 2], axis=1)
-    view = replace(view, view=np.eye(4))
-    is_named = number % 3 == 0
-    gyration = np.where(is_named, 1.0, 1e-3)[:, None].repeat(3, axis=1)
-    bodies = Bodies(places, np.tile(np.eye(3), (count, 1, 1)), gyration, number % 5)
-    order = np.lexsort((number, places[:, 2], is_named))
-    alone = [disc_triangles(bodies.chosen(np.arange(count) == body), view, 1.0, True) for body in order]
-    points, colors, triangles = disc_triangles(bodies, view, 1.0, True)
-    starts = np.cumsum([0, *(len(one) for one, _, _ in alone)])
-    assert (points == np.concatenate([one for one, _, _ in alone])).all()
-    assert (colors == np.concatenate([tints for _, tints, _ in alone], axis=1)).all()
-    assert (triangles == np.concatenate([one + start for (_, _, one), start in zip(alone, starts)])).all()
-
-
-def test_only_what_has_moved_is_looked_at_again(scene, monkeypatch):
-    from body_moments.operators.session import handlers
-    from body_moments.panels.overlay import bodies
-
-    parts = [objects.add(objects.mesh_body(), name) for name in ("First", "Second", "Third")]
-    bpy.ops.object.select_all(action="SELECT")
-    bpy.ops.object.body_moments_measure()
-    bpy.context.view_layer.update()
-    monkeypatch.setattr(bodies, "drawn_objects", lambda *_: parts)  # there is no viewport
-    before, generation = bodies.collect(bpy.context), handlers.generation()
-    assert len(before.bodies) == len(before.alone) == 3
-    parts[1].location, parts[1].rotation_euler = (1.0, -2.0, 3.0), (0.1, 0.2, 0.3)
-    bpy.context.view_layer.update()
-    moved = handlers.moved_since(generation)
-    assert moved == {parts[1].session_uid} and handlers.generation() > generation
-    after, whole = bodies.collect_moved(bpy.context, before, moved), bodies.collect(bpy.context)
-    assert not after.bodies.differ_from(whole.bodies).any()
-    assert after.bodies.differ_from(before.bodies).tolist() == [False, True, False]
-    assert before.bodies.differ_from(before.bodies).any() == np.False_
-    of_others = [(obj.session_uid, parts[1].name) for obj in parts]  # as linked objects may have
-    assert bodies.collect_moved(bpy.context, replace(before, objects=of_others), moved) is not None
-    assert bodies.collect_moved(bpy.context, replace(before, objects=of_others), {parts[0].session_uid}) is None
-    parts[0].data.vertices[0].co.z -= 0.5
-    parts[0].data.update()
-    bpy.context.view_layer.update()
-    assert handlers.moved_since(generation) is None and handlers.moved_since(handlers.generation()) == set()
-    parts[2].body_moments.kind = "SHELL"
-    bpy.context.view_layer.update()
-    assert handlers.moved_since(generation) is None
-
-
-def test_what_depends_on_another_object_is_looked_at_again_when_that_moves(scene, monkeypatch, tmp_path):
-    from body_moments.operators.session import handlers
-    from body_moments.operators.session.trust import Trust
-    from body_moments.panels.overlay import bodies
-    from body_moments.panels.overlay.appearance import VERDICTS
-
-    from tests.blender.grids import vdb_grid, volume_object
-
-    cloud = volume_object(tmp_path / "a.vdb", vdb_grid(np.ones((6, 6, 6), np.float32), offset=(-1, -1, -1)))
-    plain, filled = objects.add(objects.mesh_body(), "Plain", (9, 0, 0)), objects.add(objects.mesh_body(), "Filled")
-    filled.body_moments.density_from, filled.body_moments.density_volume = "VOLUME", cloud
-    objects.only(plain, filled)
-    bpy.ops.object.body_moments_measure()
-    bpy.context.view_layer.update()
-    monkeypatch.setattr(bodies, "drawn_objects", lambda *_: [plain, filled])  # there is no viewport
-    before, generation = bodies.collect(bpy.context), handlers.generation()
-    assert before.alone == {plain.session_uid: 0}
-    cloud.location.x += 1.0
-    bpy.context.view_layer.update()
-    moved = handlers.moved_since(generation)
-    assert moved == {cloud.session_uid}
-    after = bodies.collect_moved(bpy.context, before, moved)
-    assert [VERDICTS[verdict] for verdict in after.bodies.verdicts] == [Trust.EXACT, Trust.OUT_OF_DATE]
-    assert not after.bodies.differ_from(bodies.collect(bpy.context).bodies).any()
-    assert before.bodies.verdicts.tolist() == [0, 0]
 
 
 @pytest.mark.parametrize("inside", [None, [True, True, False, False, True]])

@@ -2,16 +2,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the panel shows of numbers, findings and why they no longer hold, beside what is stored."""
 
-from types import SimpleNamespace
-
 import bpy
 import numpy as np
 import pytest
 from body_moments.core.verdict.finding import finding
 
-from tests.blender.actions.rig.test_rig import character
 from tests.blender.objects import add, measured, mesh_body, only, strip_mesh
-from tests.blender.panels.drawing import Context, Layout, copied, findings_of, labels, shown, shows
+from tests.blender.panels.drawing import copied, findings_of, labels, shown, shows
 
 pytestmark = pytest.mark.usefixtures("scene")
 
@@ -29,32 +26,6 @@ def test_what_measure_and_live_refuse_for_the_same_reason_is_not_shown_twice():
     assert " ".join(labels(shown())).count(sentence) == 1
     assert str(results.failure(obj)) == sentence
     bpy.ops.object.body_moments_live()
-
-
-def test_the_center_of_a_rig_is_at_rest_unless_the_armature_stands_for_its_meshes():
-    armature, skin = character()
-    only(skin)
-    bpy.ops.object.body_moments_measure()
-    only(armature)
-    bpy.ops.object.body_moments_measure_bones()
-    headings = {"OBJECT": "Center of Mass at Rest (World)", "POSE": "Center of Mass (World)"}
-    for mode in ("OBJECT", "POSE", "OBJECT"):
-        bpy.ops.object.mode_set(mode=mode)
-        bpy.context.view_layer.update()
-        assert headings[mode] in labels(shown(without=("selection",)))
-
-
-def test_where_no_window_has_a_scale_it_is_1():
-    from body_moments.panels import rows
-
-    assert rows._width(Context(400, 0.0)) == rows._width(Context(400, 1.0)) == (400 - rows.REGION_MARGIN, 11.0)
-
-
-def test_an_angle_that_rounds_to_zero_has_no_sign():
-    from body_moments.panels import stability
-
-    angles = {0.004: "0.00°", -0.004: "0.00°", -0.006: "−0.01°", 0.006: "0.01°"}
-    assert {angle: stability._degrees(angle) for angle in angles} == angles
 
 
 def test_a_refusal_is_not_held_against_other_settings():
@@ -227,44 +198,6 @@ def test_faces_of_a_mesh_that_are_not_planar_are_a_warning():
     assert findings_of(obj, "warning") == ["non_planar_faces"] and "Warnings (1)" in labels(shown())
 
 
-def test_a_warning_beside_a_note_is_one(capfd):
-    bpy.ops.curve.primitive_bezier_circle_add()
-    curve = bpy.context.object.data
-    curve.bevel_depth, curve.render_resolution_u = 0.1, 30
-    bpy.ops.object.body_moments_measure()
-    assert "Warning: Measured BézierCircle, with warnings" in capfd.readouterr().out.replace("Bezier", "Bézier")
-    found = labels(shown())
-    assert any(label.startswith("Warnings (") for label in found) and any(
-        label.startswith("Notes (") for label in found
-    )
-
-
-def test_words_longer_than_a_line_are_broken_and_numbers_with_spaces_are_not():
-    from body_moments.panels import rows
-
-    lines = rows._wrapped("Trägheitstensor um 20\u2009000 mm", 60, 11.0)
-    assert "".join(lines).replace("-", "").startswith("Trägheitstensor") and "-" in lines[0]
-    assert any("20\u2009000" in line for line in lines)
-    assert all(len(part) > 2 for part in lines)
-    assert rows._wrapped("short", 60, 11.0) == ("short",)
-
-
-def test_a_word_is_broken_where_its_parts_are_as_long_as_a_line_and_none_is_very_short(monkeypatch):
-    from body_moments.panels import rows
-
-    least, last = rows.MIN_PART, rows.MIN_LAST_PART
-    monkeypatch.setattr(rows, "_is_within", lambda text, width: len(text) <= width)
-    for word in ("abcdefghijklmnopqrstuvwxyz"[:length] for length in range(1, 27)):
-        for width in range(1, 28):
-            *parts, rest = rows._parts(word, width)
-            assert "".join(part.removesuffix("-") for part in parts) + rest == word
-            assert bool(parts) == (len(word) > max(least, width)) and len(rest) <= max(least, width)
-            ahead = len(word)
-            for part in parts:
-                assert part.endswith("-") and len(part) - 1 == min(max(least, width - 1), ahead - last)
-                ahead -= len(part) - 1
-
-
 def test_drawing_changes_nothing_and_measures_nothing(monkeypatch):
     from body_moments.operators.bodies import request
 
@@ -364,35 +297,3 @@ def test_a_file_saved_after_an_edit_is_out_of_date_when_opened(tmp_path):
     assert outdated()
     bpy.ops.object.body_moments_measure()
     assert not outdated()
-
-
-def test_the_presets_panel_draws_without_presets(monkeypatch):
-    from body_moments.panels.material_menus import OBJECT_MT_body_moments_materials, OBJECT_PT_body_moments_presets
-
-    monkeypatch.setattr(bpy.utils, "preset_paths", lambda _: [])
-    add(mesh_body())
-    for cls in (OBJECT_MT_body_moments_materials, OBJECT_PT_body_moments_presets):
-        layout = Layout()
-        cls.draw(
-            SimpleNamespace(layout=layout, preset_add_operator=getattr(cls, "preset_add_operator", "")),
-            bpy.context,
-        )
-        assert layout.record
-
-
-def test_a_wall_of_real_thickness_is_called_so_whatever_the_setting_is_now():
-    obj = add(mesh_body())
-    obj.body_moments.kind, obj.body_moments.thickness = "SHELL", 0.01
-    bpy.ops.object.body_moments_measure()
-    assert "Shell" in labels(shown()) and "Wall" not in labels(shown())
-    obj.body_moments.wall = "INWARD"
-    bpy.ops.object.body_moments_measure()
-    assert "Wall" in labels(shown()) and shows(shown(), "panel_wall_limit", length=largest(obj))
-    obj.body_moments.kind = "SOLID"
-    assert "Wall" in labels(shown()) and outdated() == ["settings"]
-
-
-def largest(obj):
-    from body_moments.operators.session import walls
-
-    return walls.max_thickness(obj)

@@ -118,4 +118,4 @@ def test_the_density_of_a_linked_material_cannot_be_set_by_its_local_namesake(tm
     for material, enabled in ((local, True), (names.materials[0], False)):
         layout = Layout()
         density_row(layout, bpy.context.scene, material)
-        assert ".enabled = {!r}".format(enabled) in layout.text()
+        assert ("enabled", enabled) in layout.record

@@ -2,52 +2,21 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What follows from settings, each changed alone in each state, kept as text; grids, given parts, options, copies."""
 
-import re
 from types import SimpleNamespace
 
 import bpy
 import numpy as np
 import pytest
 from body_moments.core.scans.positions import EVEN
-from body_moments.core.verdict.finding import MeasureError, finding
-from body_moments.operators.read.fingerprint import settings_hash
-from body_moments.operators.settings import accepted, density, digest, hooks, preferences, properties
+from body_moments.core.verdict.finding import finding
+from body_moments.operators.settings import accepted, preferences, properties
 from body_moments.operators.settings.given import GIVEN_PROPERTIES, GivenPart, is_point_mass
 from body_moments.operators.settings.grid import GridOptions, positions_text
-from body_moments.operators.settings.options import MeasureOptions
 
 from tests.blender.findings import refused
 from tests.blender.objects import add, mesh_body
 
 pytestmark = pytest.mark.usefixtures("scene")
-STATES = {
-    "one value": {},
-    "one value that is set": {"density": 7000.0},
-    "materials": {"density_from": "MATERIALS"},
-    "polynomial": {"density_from": "POLYNOMIAL", "density_polynomial": " 900 + x "},
-    "coefficients, world": {
-        "density_from": "POLYNOMIAL",
-        "density_polynomial": "900, 1",
-        "density_frame": "WORLD",
-    },
-    "attribute": {"density_from": "ATTRIBUTE", "density_attribute": "rho"},
-    "no attribute": {"density_from": "ATTRIBUTE"},
-    "volume": {"density_from": "VOLUME"},
-    "mass": {"mass_from": "MASS", "mass": 2.0, "use_center": True},
-    "mass, polynomial": {"mass_from": "MASS", "density_from": "POLYNOMIAL", "density_polynomial": "900 + x"},
-    "wire": {"kind": "WIRE"},
-    "shell": {"kind": "SHELL", "thickness": 0.1},
-    "wall": {"kind": "SHELL", "wall": "INWARD"},
-}
-GRIDS = {
-    "density": {},
-    "table": {"values_from": "TABLE", "spline_order": 2},
-    "solid": {"grid_as": "SOLID"},
-    "threshold": {"grid_as": "THRESHOLD", "threshold": 0.3, "threshold_fill": "MATERIAL"},
-    "threshold, filled": {"grid_as": "THRESHOLD", "threshold": 0.3, "threshold_fill": "GRID"},
-    "positions": {"sample_positions": '{"x":[0.0,1.5,3.0]}', "value_density": 2.5, "grid": "density"},
-    "mass": {"mass_from": "MASS", "use_inertia": True},
-}
 OTHERS = {"STRING": "900 + 2*y", "FLOAT": 0.7, "INT": 3, "BOOLEAN": True}
 
 
@@ -79,73 +48,6 @@ def set_up(kind, state):
         fog = bpy.data.objects.get("Fog") or bpy.data.objects.new("Fog", bpy.data.volumes.new("Fog"))
         obj.body_moments.density_volume = fog
     return obj
-
-
-def said(get, *arguments):
-    try:
-        found = get(*arguments)
-    except MeasureError as error:
-        return "refused: " + error.finding.code
-    return repr(found)
-
-
-@pytest.mark.parametrize(("kind", "states"), [("MESH", STATES), ("VOLUME", GRIDS)])
-def test_each_setting_changed_alone(kept, kind, states, monkeypatch, scene):
-    called, lines = [], []
-    for name in (name for name in vars(hooks) if name.startswith("on_")):
-        monkeypatch.setattr(hooks, name, [lambda *_, name=name: called.append(name.removeprefix("on_"))])
-    for title, state in states.items():
-        obj = set_up(kind, state)
-        settings = obj.body_moments
-        found = said(density.density_field, settings)
-        lines += ["=== " + title, "density key: " + digest.density_key(obj, ["Used"], scene)]
-        lines.append("field: " + re.sub(r"polynomial=Polynomial\(.*?\), in", "polynomial=…, in", found))
-        lines.append("density: {!r}".format(density.object_density(settings, scene)))
-        lines.append("anchor: {!r}".format(density.density_anchor(obj)))
-        if kind == "VOLUME":
-            options = GridOptions.of(settings)
-            lines += [repr(options), repr(options.key), options.meaning().code, repr(options.meaning().values)]
-        for name, other in list(changes(settings)):
-            again = set_up(kind, state)
-            before = digest.density_key(again, ["Used"], scene), settings_hash(again, scene)
-            called.clear()
-            setattr(again.body_moments, name, other)
-            now = digest.density_key(again, ["Used"], scene), settings_hash(again, scene)
-            marks = [mark for mark, old, new in zip(("density key", "settings"), before, now) if old != new]
-            lines.append("    {:s}: {:s}; calls {:s}".format(name, ", ".join(marks) or "-", ", ".join(called) or "-"))
-            bpy.data.batch_remove([again.data, again])
-    kept("each_setting_of_a_{:s}.txt".format(kind.lower()), "\n".join(lines))
-
-
-def test_where_a_polynomial_density_comes_from_says_whose_coordinates_are_meant():
-    for frame, text, code in (("OBJECT", " 900 + x", "polynomial"), ("WORLD", "900, 1 ", "coefficients")):
-        settings = set_up("MESH", {"density_from": "POLYNOMIAL", "density_polynomial": text, "density_frame": frame})
-        found = density.density_field(settings.body_moments).polynomial_source()
-        assert found == finding("density_from_" + code, polynomial=text.strip(), frame=frame.lower())
-
-
-def test_what_other_settings_call(monkeypatch, scene):
-    called = []
-    for name in (name for name in vars(hooks) if name.startswith("on_")):
-        monkeypatch.setattr(hooks, name, [lambda *_, name=name: called.append(name)])
-    scene.body_moments.default_material = "Copper"
-    assert called == ["on_default_density_change"]
-    called.clear()
-    bpy.data.collections.new("Parts").body_moments.use_center = True
-    assert called == ["on_change", "on_part_change"]
-
-
-def test_densities_that_nobody_has_set(scene):
-    settings = add(mesh_body()).body_moments
-    assert density.object_density(settings, scene) == 1000.0 and density.is_density_unset(settings, scene)
-    scene.body_moments.default_material = "Copper"
-    assert density.object_density(settings, scene) == 8960.0 and not density.is_density_unset(settings, scene)
-    settings.density = 0.1
-    assert density.object_density(settings, scene) == 0.1 and not density.is_density_unset(settings, scene)
-    made = bpy.data.materials.new("Steel")
-    assert density.material_density(None) is None and density.material_density(made) is None
-    made.body_moments.density = 0.1
-    assert density.material_density(made) == 0.1
 
 
 def test_values_of_grids_become_densities():
@@ -247,30 +149,6 @@ def test_settings_are_copied_with_whether_they_are_set():
     assert {*GIVEN_PROPERTIES} < {*properties.COPIED_PROPERTIES}
 
 
-def test_options_become_settings(scene):
-    scene.unit_settings.scale_length = 0.5
-    settings = add(mesh_body()).body_moments
-    settings.mass_from, settings.density_from = "MASS", "MATERIALS"
-    properties.apply_options(settings, MeasureOptions(), scene)
-    assert (settings.kind, settings.mass_from, settings.density_from) == ("SOLID", "MASS", "MATERIALS")
-    properties.apply_options(
-        settings, MeasureOptions(kind="shell", density=5.0, thickness=0.25, overlap="union"), scene
-    )
-    assert (settings.kind, settings.overlap, settings.thickness, settings.density) == ("SHELL", "UNION", 0.5, 5.0)
-    assert (settings.mass_from, settings.density_from) == ("DENSITY", "VALUE") and settings.linear_density == 1.0
-    properties.apply_options(settings, MeasureOptions(kind="wire", density=7.0), scene)
-    assert (settings.linear_density, settings.density) == (7.0, 5.0)
-    properties.apply_options(settings, MeasureOptions(mass=3.0), scene)
-    assert (settings.mass_from, settings.mass) == ("MASS", 3.0)
-    grid = set_up("VOLUME", {"values_from": "TABLE"}).body_moments
-    properties.apply_options(grid, MeasureOptions(density=4.0), scene)
-    assert (grid.values_from, grid.value_density, grid.density) == ("FACTOR", 4.0, 4.0)
-    point = add(None).body_moments
-    point.mass_from, point.mass = "MASS", 2.0
-    properties.apply_options(point, MeasureOptions(density=4.0), scene)
-    assert (point.mass_from, point.mass) == ("MASS", 2.0) and not point.is_property_set("density")
-
-
 def test_accepted_findings():
     obj, holes, junctions = add(mesh_body()), finding("holes_capped", count=1), finding("t_junctions", count=2)
     assert accepted.accepted_codes(obj) == frozenset()
@@ -283,29 +161,6 @@ def test_accepted_findings():
     assert accepted.set_accepted(obj, "t_junctions", False) and not accepted.set_accepted(obj, "t_junctions", False)
     now = accepted.with_acceptance(marked, accepted.accepted_codes(obj))
     assert now == (marked[0], junctions)
-
-
-def test_a_scene_gets_the_preferences_once_where_it_has_nothing_of_its_own(monkeypatch, scene):
-    source = SimpleNamespace(show_overlay=False)
-    values = {"frame": "OBJECT", "density_unit": "G_CM3", "digits": 9, "digit_grouping": "NONE"}
-    vars(source).update(values, default_material="CUSTOM", default_density=50.0)
-    monkeypatch.setattr(preferences, "preferences", lambda: source)
-    assert {*values, "default_material", "default_density", "show_overlay"} == {*vars(source)}
-    assert {*preferences.COPIED} == {*vars(source)} - {"show_overlay"}
-    settings = scene.body_moments
-    settings.digits = 3
-    settings.overlay.show = True
-    preferences.copy_defaults(scene)
-    assert settings.has_defaults and settings.digits == 3 and settings.overlay.show
-    for name in {*preferences.COPIED} - {"digits"}:
-        assert getattr(settings, name) == getattr(source, name), name
-    settings.property_unset("digits")
-    settings.overlay.property_unset("show")
-    preferences.copy_defaults(scene)
-    assert not settings.is_property_set("digits") and not settings.overlay.is_property_set("show")
-    settings.has_defaults = False
-    preferences.copy_defaults(scene)
-    assert settings.digits == 9 and settings.overlay.is_property_set("show") and not settings.overlay.show
 
 
 def test_a_linked_scene_keeps_what_it_has(monkeypatch, scene, tmp_path):
@@ -321,35 +176,3 @@ def test_a_linked_scene_keeps_what_it_has(monkeypatch, scene, tmp_path):
     assert linked.library is not None and not linked.body_moments.has_defaults
     preferences.copy_defaults(scene)
     assert scene.body_moments.has_defaults
-
-
-def test_without_preferences_a_scene_stays_as_it_is(monkeypatch, scene):
-    monkeypatch.setattr(preferences, "preferences", lambda: None)
-    preferences.copy_defaults(scene)
-    assert not scene.body_moments.has_defaults
-
-
-def test_a_density_comes_from_volumes_alone(scene):
-    poll = properties.BodyMomentsObjectSettings.__annotations__["density_volume"].keywords["poll"]
-    assert poll(None, add(bpy.data.volumes.new("Cloud"))) and not poll(None, add(mesh_body()))
-
-
-def test_preferences_are_those_of_the_add_on_where_it_is_one(monkeypatch):
-    addons = {}
-    context = SimpleNamespace(preferences=SimpleNamespace(addons=addons))
-    monkeypatch.setattr(preferences, "bpy", SimpleNamespace(context=context))
-    assert preferences.preferences() is None
-    addons[preferences.ADDON_ID] = SimpleNamespace(preferences="its own")
-    assert preferences.preferences() == "its own"
-
-
-def test_the_default_density_is_none_its_own_or_that_of_a_material(scene):
-    settings = scene.body_moments
-    for name, wanted, material in (("NONE", None, ""), ("CUSTOM", 1234.5, ""), ("Copper", 8960.0, "Copper")):
-        settings.default_material, settings.default_density = name, 1234.5
-        assert preferences.default_density(scene) == wanted and preferences.default_material(scene) == material
-
-
-@pytest.mark.parametrize("kind", ["Object", "Material", "Scene"])
-def test_settings_have_the_add_ons_name(kind):
-    assert getattr(bpy.types, kind).bl_rna.properties["body_moments"].name == "Body Moments"

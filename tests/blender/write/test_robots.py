@@ -10,10 +10,9 @@ import numpy as np
 import pytest
 
 pytest.importorskip("bpy")
-from body_moments.core.robots.model import Inertial, Joint, Link, Pose, Robot
-from body_moments.core.robots.stated import Description, StatedInertial, StatedLink
+from body_moments.core.robots.model import Inertial, Link, Robot
 from body_moments.core.verdict.finding import FileError, finding
-from body_moments.operators.write.robots import from_records, gltf, mjcf, repair, text, usd
+from body_moments.operators.write.robots import from_records, gltf, mjcf, text, usd
 
 from tests.blender.write.test_documents import of_box
 from tests.close import close
@@ -119,15 +118,6 @@ def record(name, mass=1.0, **link):
     return {"name": name, "mass": mass, "link": {"parents": [], **place, **link}}
 
 
-def test_a_document_without_a_body_is_no_robot():
-    assert from_records.robot_of_records("r", [])[1] == [finding("robot_without_links")]
-    left = [record("massless", 0.0), {"name": "bare", "mass": 1.0}, {**record("none"), "link": None}]
-    robot, said = from_records.robot_of_records("r", left)
-    names = ["massless", "bare", "none"]
-    assert said == [finding("robot_links_left_out", count=3, links=names), finding("robot_without_links")]
-    assert robot.links == () and robot.joints == () and robot.name == "r"
-
-
 def of_surface(name, type_="MESH", kind="solid", **link):
     box = of_box(2.0, (1.0, 2.0, 4.0))
     entry = {**record(name, 2.0, scale=[1.0] * 3, **link), "type": type_, "kind": kind, "center_of_mass": box.center}
@@ -138,37 +128,6 @@ def test_a_link_hangs_on_the_nearest_one_above_that_has_a_mass():
     records = [of_surface("a"), of_surface("b", parents=["b", "gone", "a"]), of_surface("c", parents=["gone"])]
     joints = from_records.robot_of_records("r", records)[0].joints
     assert [(joint.parent, joint.child) for joint in joints] == [("a", "b")]
-
-
-@pytest.mark.parametrize(
-    ("type_", "kind", "has_mesh"),
-    [
-        *(("MESH", "solid", True), ("MESH", "shell", True), ("CURVE", "solid", True), ("MESH", "wire", False)),
-        *(("VOLUME", "solid", False), ("EMPTY", "solid", False), ("ARRAY", "solid", False)),
-    ],
-)
-def test_a_link_of_a_surface_has_its_mesh(type_, kind, has_mesh):
-    (link,) = from_records.robot_of_records("r", [of_surface("a", type_, kind)])[0].links
-    assert [(shape.file, shape.sheet) for shape in link.shapes] == [("meshes/a.stl", kind == "shell")] * has_mesh
-
-
-@pytest.mark.parametrize(("file", "name"), [("/a/Arm.v2.blend", "Arm.v2"), (None, "robot"), ("", "robot")])
-def test_a_robot_is_called_like_its_file(file, name):
-    assert from_records.robot_of_document({"file": file, "objects": [record("a", 0.0)]})[0].name == name
-
-
-def test_poses_that_are_the_same_are_known():
-    assert text.is_identity(Pose())
-    assert not text.is_identity(Pose(np.array([0.0, 0.0, 1e-300])))
-    assert not text.is_identity(Pose(rotation=np.diag([-1.0, -1.0, 1.0])))
-
-
-def test_a_joint_of_a_robot_may_have_the_name_of_a_link_in_usd():
-    """Both are prims of one parent."""
-    inertial = of_box(2.0, (1.0, 2.0, 4.0))
-    robot = Robot("r", (Link("a", inertial), Link("b", inertial)), (Joint("a", "a", "b"),))
-    layer = usd.write(robot)
-    assert 'def Xform "a"' in layer and 'def PhysicsFixedJoint "a_2"' in layer and json.dumps("b") in layer
 
 
 def test_a_motion_has_the_moments_and_axes_in_units_of_the_file_unless_one_is_zero():
@@ -188,25 +147,6 @@ def test_a_motion_has_the_moments_and_axes_in_units_of_the_file_unless_one_is_ze
         assert ("inertiaDiagonal" in thin, "inertiaOrientation" in thin) == (least > 0.0, least > 0.0)
 
 
-@pytest.mark.parametrize(
-    ("old", "indent"),
-    [
-        ('\n  float physics:mass = 3\n  def Sphere "s" {}\n', "  "),
-        ("\n\t\tfloat physics:mass = 3\n", "\t\t"),
-        (" float physics:mass = 3 ", "    "),
-    ],
-)
-def test_attributes_of_usd_are_repaired_with_the_indent_of_what_is_there(old, indent):
-    inertial = StatedInertial(2.0, np.array([0.1, 0.2, 0.3]), np.diag([2.0, 3.0, 4.0]))
-    link = StatedLink("a", inertial, (), (0, len(old)))
-    description = Description("r", "usd", (link,), old.encode())
-    lines = repair.repaired_copy(description, [(link, inertial)]).decode().split("\n")
-    made = [line for line in lines if "physics:" in line or "newton:" in line]
-    assert len(made) >= 4 and all(line.startswith(indent) and line[len(indent)].isalpha() for line in made)
-    assert "physics:mass = 2" in made[0] and not any("= 3" in line for line in lines)
-    assert any("def Sphere" in line for line in lines[len(made) :]) == ("Sphere" in old)
-
-
 @pytest.mark.parametrize("length", range(1, 6))
 def test_a_binary_gltf_has_chunks_of_whole_words_and_keeps_the_others(length):
     document = {"name": "x" * length}
@@ -219,13 +159,3 @@ def test_a_binary_gltf_has_chunks_of_whole_words_and_keeps_the_others(length):
         text = made[20 : 20 + size]
         assert size % 4 == 0 and size - len(text.rstrip(b" ")) < 4 and json.loads(text) == document
         assert made[20 + size :] == rest and gltf.read_json(made) == document
-
-
-def test_names_in_the_text_of_a_gltf_are_legible():
-    assert gltf.replace_json(b"{}", {"name": "Würfel 立方体"}).decode() == '{\n\t"name": "Würfel 立方体"\n}\n'
-
-
-@pytest.mark.parametrize("data", [b"{}", gltf.to_glb("{}")])
-def test_a_gltf_holds_no_number_that_json_does_not_know(data):
-    with pytest.raises(ValueError):
-        gltf.replace_json(data, {"value": float("nan")})
