@@ -2,16 +2,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Every option of `measure` with values that it takes and values that it refuses; and which options go together."""
 
-import json
-from pathlib import Path
-
-import numpy as np
 import pytest
 
 pytest.importorskip("bpy")
-from body_moments.operators import batch
 from body_moments.operators.command import arguments
-from body_moments.operators.command.measure_parser import measure_parser
 from body_moments.operators.write.documents import FORMATS
 
 from tests.blender.batch_files import sentence
@@ -70,29 +64,6 @@ OPTIONS = {
     ),
     **LIMITED,
 }  # fmt: skip
-CHOICES = {
-    "--kind": ("solid", "shell", "wire"),
-    "--wall": ("thin", "inward", "outward", "centered"),
-    "--overlap": ("signed", "union"),
-    "--frame": ("world", "object"),
-    "--stream": ("auto", "always", "never"),
-    "--links": ("object", "collection", "bone"),
-    "--asset-metadata": ("copy", "file"),
-}
-SWITCHES = (
-    "all",
-    "flat",
-    "allow-outside",
-    "surface-moments",
-    "pose",
-    "signature",
-    "thumbnails",
-    "inertial-only",
-    "force",
-)
-SWITCHES += ("meshes", "write", "resume", "errors-exit-0", "no-supervisor")
-TEXTS = {"--object": ["A B"], "--material": "Steel", "--polynomial": "1 + x", "--blender": "b"}
-PATHS = ("--q", "--fourier", "--manifest", "--output")
 # what an option needs, to go together with nothing wrong
 WITH = {
     "--grid": ("--fourier", "f.npz", "--qmax", "1"),
@@ -121,11 +92,6 @@ def refused(capsys, *words, **keywords):
     return said.err.rpartition("body_moments: error: ")[2].strip()
 
 
-def test_every_option_is_in_these_tables():
-    known = {*OPTIONS, *CHOICES, *("--" + name for name in SWITCHES), *TEXTS, *PATHS, "--help", "-h"}
-    assert {text for action in measure_parser()._actions for text in action.option_strings} == known
-
-
 @pytest.mark.parametrize("option", OPTIONS)
 def test_values_are_taken_or_refused_with_their_reason(option, capsys):
     right, wrong = OPTIONS[option]
@@ -141,37 +107,6 @@ def test_values_are_taken_or_refused_with_their_reason(option, capsys):
             values["formats" if option == "--format" else "limit"] = more
         said = refused(capsys, "measure", "{}={}".format(option, text))
         assert said == "argument {}: {}".format(option, sentence(code, **values)), text
-
-
-@pytest.mark.parametrize("option", CHOICES)
-def test_words_are_taken_or_refused(option, capsys):
-    for word in CHOICES[option]:
-        assert getattr(parse(option, word), key(option)) == word
-    assert "invalid choice: 'other'" in refused(capsys, "measure", option, "other")
-
-
-def test_what_is_not_given_is_as_documented():
-    defaults = {"frame": "world", "stream": "auto", "format": "json", "links": "object"}
-    options = vars(arguments.parse(["measure"]))
-    lists = {"files": [], "forced": [], "command": "measure"}
-    false = {name.replace("-", "_"): False for name in SWITCHES}
-    assert options == {**dict.fromkeys(options), **defaults, **false, **lists}
-    for name in SWITCHES:
-        found = vars(parse("--" + name, *WITH.get("--" + name, ())))
-        assert found[name.replace("-", "_")] is True
-    for option, value in TEXTS.items():
-        assert getattr(parse(option, *([value] if isinstance(value, str) else value)), key(option)) == value
-    for option in PATHS:
-        assert getattr(parse(option, "p", *WITH.get(option, ())), key(option)) == Path("p")
-    assert parse("--object", "a", "--object", "b").object == ["a", "b"]
-    assert parse("--origin", "-1,2,3", "b.stl", "--spacing", "1,2,3").origin == (-1.0, 2.0, 3.0)
-    assert parse("--about", "-.5,0,0").about == (-0.5, 0.0, 0.0)
-    assert arguments.parse(["measure", "b", "--density", "2", "a"]).files == ["b", "a"]
-
-
-def test_moments_of_the_surface_are_to_the_order_that_inertia_needs():
-    assert (parse("--surface-moments").order, parse("--surface-moments", "--order", "0").order) == (2, 0)
-    assert parse("--format", "urdf", "--frame", "world").frame == "object" and parse("--format", "csv").frame == "world"
 
 
 @pytest.mark.parametrize(
@@ -212,82 +147,3 @@ def test_what_does_not_go_together_is_refused(words, code, values, capsys):
     for target in ([], ["--output", "/dev/stdout"]):
         assert refused(capsys, "measure", *words, *target) == sentence("usage_meshes_need_output")
     assert parse(*words[1:], "--output", "o").meshes
-
-
-def test_what_goes_together_is_taken(capsys):
-    for words in (
-        ("--format", "sdf", "--links", "bone"),
-        ("--format", "sdf", "--density", "1"),
-        ("--links", "bone", "--density", "1"),
-        ("--fourier", "f", "--q", "q", "--object", "x"),
-        ("--fourier", "f", "--grid", "4", "--qmax", "1", "--output", "o"),
-        ("--positions", "x=p", "--positions", "y=p"),
-        ("--resume", "--output", "o"),
-        ("--jobs", "1", "--timeout", "1", "--memory-mb", "1", "--blender", "b"),
-    ):
-        parse(*words)
-    assert arguments.parse(["measure", "--manifest", "m", "--jobs", "1"], file_needed=True).files == []
-    assert refused(capsys, "measure", file_needed=True) == sentence("usage_file_needed")
-    assert refused(capsys, "weigh") == "argument measure: " + sentence("usage_command", name="weigh")
-    for first, second in (("--density", "--mass"), ("--material", "--polynomial"), ("--density-from", "--mass")):
-        value = "value" if first == "--density-from" else "1"
-        assert "not allowed with argument" in refused(capsys, "measure", first, value, second, "1")
-    assert "unrecognized arguments: --dens" in refused(capsys, "measure", "--dens", "1")
-
-
-def test_options_pass_through_json_and_those_that_change_numbers_are_known():
-    """Another digest of them means other records: of what is only about the run it is the same."""
-    plain = parse()
-    runs = {"--jobs", "--timeout", "--memory-mb", "--resume", "--no-supervisor", "--blender", "--errors-exit-0"}
-    runs |= {"--output", "--force", "--range", "--manifest", "--format"}
-    values = {option: next(iter(right)) for option, (right, _) in OPTIONS.items()}
-    values |= {option: words[-1] for option, words in CHOICES.items()}
-    values |= {option: value if isinstance(value, str) else value[0] for option, value in TEXTS.items()}
-    values |= dict.fromkeys(PATHS, "p") | {"--" + name: None for name in SWITCHES}
-    for option, value in values.items():
-        words = [option] if value is None else ["{}={}".format(option, value)]
-        found = parse(*words, *WITH.get(option, ()))
-        found.forced = [Path("x")]
-        again = arguments.from_record(json.loads(json.dumps(arguments.as_record(found))))
-        lists = {"positions"}  # whose pairs come back as lists
-        assert {**vars(again), "files": found.files, "manifest": found.manifest} | dict.fromkeys(lists) == {
-            **vars(found),
-            **({"range": list(found.range)} if found.range else {}),
-            **dict.fromkeys(lists),
-        }
-        alone = parse(*words, *WITH.get(option, ()))
-        same = arguments.of_numbers(alone) == arguments.of_numbers(parse(*WITH.get(option, ())) if option in (
-            "--meshes", "--resume") else plain)  # fmt: skip
-        assert same == (option in runs), option
-    assert arguments.of_numbers(parse("--format", "urdf")) != arguments.of_numbers(parse("--format", "sdf"))
-    assert arguments.of_numbers(parse("--format", "csv")) == arguments.of_numbers(plain)
-
-
-COMMANDS = ("measure", "audit", "similar", "simplex", "manifest", "merge", "to-csv", "summary", "compare", "report")
-
-
-@pytest.mark.parametrize("command", COMMANDS)
-def test_each_command_has_help_and_refuses_what_it_does_not_know(command, capsys, tmp_path, scene):
-    with open(tmp_path / "out", "w+b") as out:
-        assert batch.main([command, "--help"], channel=out.fileno()) == 0
-        out.seek(0)
-        text = out.read().decode()
-    assert text.startswith("usage: body_moments {} ".format(command)) and "show this help message" in text
-    epilogs = {"measure": "exit code: 0 all measured", "audit": "exit code: 0 nothing but notes"}
-    epilogs |= {"simplex": "exit code: 0 measured, 1 the file cannot be measured"}
-    assert "\n" + epilogs.get(command, "\n") in text  # lines of their own
-    for words in (["x", "--unknown"], ["x", "--hel"]):
-        more = ["--to", "y"] if command == "similar" else []
-        assert batch.main([command, *words, *more], channel=-1) == 2
-        said = capsys.readouterr().err
-        assert said.startswith("usage: body_moments " + command)
-        assert "body_moments: error: unrecognized arguments: " + words[1] in said
-
-
-def test_an_open_simplex_is_said(capsys, tmp_path, scene):
-    for simplices, is_open in (([[0, 1], [1, 2], [2, 0]], False), ([[0, 1], [1, 2]], True)):
-        np.savez(tmp_path / "a.npz", points=np.eye(3, 2), simplices=simplices)
-        with open(tmp_path / "out", "wb") as out:
-            assert batch.main(["simplex", str(tmp_path / "a.npz")], channel=out.fileno()) == 0
-        expected = "body_moments: {}: {}\n".format(tmp_path / "a.npz", sentence("simplex_open"))
-        assert capsys.readouterr().err == (expected if is_open else "")

@@ -169,13 +169,6 @@ def test_a_scene_with_a_cloud_goes_through_every_option(tmp_path):
     assert "Fourier" in document["errors"][0]["reason"]
 
 
-def test_that_an_array_has_no_pose_is_said(tmp_path):
-    np.save(tmp_path / "b.npy", np.ones((2, 3, 4)))
-    code, document = run(tmp_path, tmp_path / "b.npy", "--pose")
-    assert code == 0 and document["objects"][0]["pose"] is None
-    assert "shape_of_grid" in codes(document["objects"][0])
-
-
 def test_uneven_slices_are_measured_where_they_stand(tmp_path):
     samples = np.random.default_rng(3).integers(1, 9, (4, 2, 6)).astype("f4")
     z = np.array([10.0, 10.5, 12.0, 12.25, 15.0, 16.0])
@@ -306,36 +299,3 @@ def test_a_threshold_is_for_volume_objects_too_and_said_to_be_unused_by_others(t
     assert close(entries["VOLUME"]["volume"], truth.volume.total, rel=1e-5)
     assert "threshold_option_unused" in codes(entries["MESH"])
     assert "threshold_option_unused" not in codes(entries["VOLUME"])
-
-
-def test_a_threshold_needs_even_samples_and_a_spline_a_grid_that_fits(tmp_path, monkeypatch):
-    np.save(tmp_path / "b.npy", ball())
-    np.save(tmp_path / "z.npy", np.arange(12.0))
-    words = [tmp_path / "b.npy", "--threshold", "0.5", "--density", "7"]
-    code, document = run(tmp_path, *words, "--positions", f"z={tmp_path / 'z.npy'}")
-    assert code == 1 and not document["objects"]
-    assert document["errors"][0]["reason"] == sentence("threshold_positions")
-    monkeypatch.setattr("body_moments.operators.bodies.array.MAX_SAMPLES", 12**3)
-    assert run(tmp_path, *words, "--spline-order", "4")[0] == 0
-    monkeypatch.setattr("body_moments.operators.bodies.array.MAX_SAMPLES", 12**3 - 1)
-    assert run(tmp_path, *words)[0] == 0  # read block by block
-    code, document = run(tmp_path, *words, "--spline-order", "4")
-    assert code == 1 and not document["objects"]
-    (error,) = document["errors"]
-    assert error["reason"] == sentence("threshold_too_large", grid="b", samples=12**3)
-
-
-@pytest.mark.parametrize("axes", ["z", "xz", "xyz"])
-def test_what_is_said_of_samples_and_their_places(tmp_path, axes):
-    np.save(tmp_path / "box.npy", box())
-    words = []
-    for axis in reversed(axes):
-        np.save(tmp_path / f"{axis}.npy", np.arange(box().shape["xyz".index(axis)]) * 0.5)
-        words += ["--positions", f"{axis}={tmp_path / axis}.npy"]
-    (entry,) = run(tmp_path, tmp_path / "box.npy", *words, "--density", "9")[1]["objects"]
-    found = {one["code"]: one["values"] for one in entry["findings"]}
-    assert ("scan_without_spacing" in found) == (axes != "xyz")
-    assert found["samples_positioned"] == {"axes": list(axes)} and "given_density_ignored" in found
-    assert found["array_density"]["samples"] == [4, 2, 6]
-    assert found["array_density"]["cause"]["code"] == "values_scaled"
-    assert close(entry["mass"], 48.0 * 0.5 ** len(axes), rel=1e-12)

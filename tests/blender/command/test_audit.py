@@ -5,7 +5,6 @@
 import csv
 import io
 import json
-import os
 
 import pytest
 
@@ -13,8 +12,6 @@ pytest.importorskip("bpy")
 from body_moments.operators import batch
 from body_moments.operators.command import audit
 from body_moments.operators.write.robots import audit_report
-
-from tests.blender.batch_files import sentence
 
 BOX = (
     '<link name="{}"><inertial><mass value="{}"/><inertia ixx="{}" iyy="{}" izz="{}" ixy="0" ixz="0" iyz="0"/>'
@@ -110,62 +107,6 @@ def test_no_file_of_a_user_is_replaced_without_being_asked_to(tmp_path, capfd):
     for words in (["--force"], []):  # and the same once more is no loss
         assert not json.loads(answer("--repair", tmp_path / "out", *words, path)[0])["errors"]
     assert "mine" not in copy.read_text(encoding="utf-8")
-
-
-def test_copies_of_one_name_and_a_disk_that_is_full_are_errors_of_the_file(tmp_path, monkeypatch):
-    for name in ("a", "b", "out"):
-        (tmp_path / name).mkdir()
-    paths = [description(tmp_path / name / "r.urdf", WRONG) for name in "ab"]
-    right = description(tmp_path / "a" / "s.urdf", RIGHT)
-    words = ("--repair", tmp_path / "out")
-    text, faults, internal = answer(*words, *paths, right, description(tmp_path / "b" / "s.urdf", RIGHT))
-    first, second, *others = json.loads(text)
-    assert (faults, internal) == (2, 0) and first["repaired"] and not first["errors"]
-    (error,) = second["errors"]
-    assert error["code"] == "audit_copies_alike" and error["values"] == {"name": "r.urdf"}
-    assert second["status"] == "error" and second["links"] == []
-    assert [(one["status"], one["repaired"]) for one in others] == [("ok", None)] * 2  # of which no copy is made
-    kept = (tmp_path / "out" / "r.urdf").read_bytes()
-
-    def full(_):
-        raise OSError(28, "No space left on device")
-
-    monkeypatch.setattr(os, "fsync", full)
-    (error,) = json.loads(answer(*words, "--force", paths[0])[0])["errors"]
-    assert error["code"] == "audit_not_written" and error["values"] == {"error": "No space left on device"}
-    assert [(path.name, path.read_bytes()) for path in (tmp_path / "out").iterdir()] == [("r.urdf", kept)]
-
-
-def test_what_is_found_is_said_of_each_file_and_a_fault_ends_none_of_the_others(tmp_path, monkeypatch, capsys):
-    """The fault is one of the program, too little memory is not."""
-    paths = [description(tmp_path / name, *links) for name, links in (("a.urdf", [RIGHT, WRONG]), ("b.urdf", [RIGHT]))]
-    bad = tmp_path / "c.urdf"
-    bad.write_text("<robot", encoding="utf-8")
-    found = json.loads(answer(*paths, bad)[0])
-    severities = [one["severity"] for link in found[0]["links"] for one in link["findings"]]
-    counts = {level + "s": severities.count(level) for level in ("note", "warning", "error")}
-    assert sum(counts.values()) == 2
-    said = [
-        sentence("audit_done", links=2, **counts),
-        sentence("audit_done", links=1, notes=0, warnings=0, errors=0),
-        found[2]["errors"][0]["message"],
-    ]
-    lines = ["body_moments: {}: {}".format(*one) for one in zip((*paths, bad), said)]
-    assert capsys.readouterr().err.splitlines() == lines
-    real = audit.read_description
-    for fault, internal in ((ZeroDivisionError, 1), (MemoryError, 0)):
-
-        def failing(path, roots, fault=fault):
-            if path == paths[0]:
-                raise fault("here")
-            return real(path, roots)
-
-        monkeypatch.setattr(audit, "read_description", failing)
-        text, faults, own = answer(*paths)
-        first, second = json.loads(text)
-        assert (faults, own, first["status"], second["status"]) == (1, internal, "error", "ok")
-        assert first["errors"][0]["code"] == ("internal_error" if internal else "out_of_memory")
-        assert ("Traceback" in capsys.readouterr().err) == bool(internal)
 
 
 def test_only_an_empty_file_or_the_same_copy_is_replaced(tmp_path):

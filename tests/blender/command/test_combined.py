@@ -94,41 +94,6 @@ def test_assemblies_that_are_assets_are_measured_where_metadata_are_asked_for_an
         assert close(bpy.data.collections["Robot"].asset_data["body_mass"], entry["mass"], 1e-14)
 
 
-def test_assets_that_have_geometry_and_no_numbers_are_named(tmp_path):
-    """Objects, collections and meshes; of what is no asset, is linked, or has no geometry nothing is expected."""
-    library = files.box_file(tmp_path / "library.blend")
-    bpy.data.objects[files.BOX_NAME].asset_mark()
-    bpy.data.meshes[files.BOX_NAME].asset_mark()
-    files.save(tmp_path / "library.blend")
-    files.empty_scene()
-    box, _ = files.add_box("Box"), files.add_box("No Asset").hide_set(True)
-    hidden, instancer, lamp = (
-        files.add_box("Hidden"),
-        bpy.data.objects.new("Instancer", None),
-        bpy.data.lights.new("L", "SUN"),
-    )
-    instancer.instance_type, instancer.instance_collection = "COLLECTION", collection("Boxes")
-    instancer.instance_collection.objects.link(hidden)
-    lamp, empty = bpy.data.objects.new("Lamp", lamp), bpy.data.objects.new("Empty", None)
-    for obj in (instancer, lamp, empty):
-        bpy.context.scene.collection.objects.link(obj)
-    for obj in (hidden, instancer):
-        obj.hide_render = True
-    mesh = bpy.data.meshes.new("Mesh")
-    for asset in (box, hidden, instancer, lamp, empty, mesh, instancer.instance_collection, collection("None")):
-        asset.asset_mark()
-    with bpy.data.libraries.load(library, link=True) as (_, wanted):
-        wanted.objects = [files.BOX_NAME]
-    path = saved(tmp_path)
-    assert "assets_not_measured" not in files.codes(document(path)["total"])
-    found = files.values(document(path, "--asset-metadata", "copy")["total"], "assets_not_measured")
-    assert found == {"names": ["Boxes", "Hidden", "Instancer", "Mesh"]}
-    found = files.values(
-        document(path, "--asset-metadata", "copy", "--object", "No Asset")["total"], "assets_not_measured"
-    )
-    assert found == {"names": ["Box", "Boxes", "Hidden", "Instancer", "Mesh"]}
-
-
 def test_what_is_in_the_metadata_of_an_asset_is_in_its_own_frame(tmp_path):
     """And the file itself is saved where that is asked for, and where there is something to save."""
     box = files.add_box("Box", center=(0, 0, 0))
@@ -163,34 +128,3 @@ def test_what_is_in_the_metadata_of_an_asset_is_in_its_own_frame(tmp_path):
         bpy.ops.wm.open_mainfile(filepath=str(path))
         box = bpy.data.objects["Box"]
         assert "body_mass" in box and ("body_mass" in box.asset_data) == has_mass
-
-
-@pytest.mark.parametrize("where", ["combined.measure_assembly", "combined.measure_rig"])
-def test_a_fault_in_an_assembly_or_a_rig_is_one_of_the_program_and_ends_nothing_else(tmp_path, monkeypatch, where):
-    assembly_of_boxes()
-    character()
-    bpy.ops.object.body_moments_measure_bones()
-    bpy.data.collections["Robot"].body_moments.mass_from = "MASS"
-    path = saved(tmp_path)
-    whole = document(path)
-    monkeypatch.setattr("body_moments.operators.command." + where, lambda *_: 1 / 0)
-    line = files.run(str(path))
-    (found,) = line.documents
-    (error,) = found["errors"]
-    assert line.internal_errors == 1 and error["name"] == ("Robot" if "assembly" in where else "Rig")
-    assert "ZeroDivisionError" in error["reason"] and found["objects"] == whole["objects"]
-    assert ("assemblies" in found, "bones" in found) == ("rig" in where, "assembly" in where)
-
-
-def test_a_fault_while_results_are_stored_is_one_of_the_program_and_the_others_are_stored(tmp_path, monkeypatch):
-    assembly_of_boxes()
-    character()
-    bpy.ops.object.body_moments_measure_bones()
-    bpy.data.collections["Robot"].body_moments.mass_from = "MASS"
-    path = saved(tmp_path)
-    monkeypatch.setattr("body_moments.operators.session.rig.store", lambda *_: 1 / 0)
-    line = files.run("--write", "--density", "2", str(path))
-    (error,) = line.documents[0]["errors"]
-    assert line.internal_errors == 1 and error["name"] == "Rig" and "ZeroDivisionError" in error["reason"]
-    bpy.ops.wm.open_mainfile(filepath=str(path))
-    assert close(bpy.data.collections["Robot"]["body_mass"], 1.0, 1e-14)

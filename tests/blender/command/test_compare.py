@@ -3,17 +3,15 @@
 """`compare`: by how much each number of a record may differ, from both sides; `summary`: all of what it prints."""
 
 import copy
-import json
 import math
 
 import pytest
 
 pytest.importorskip("bpy")
-from body_moments.operators.command import gather
 from body_moments.operators.command.compare import differences
 
 from tests.blender.batch_files import add_box, document
-from tests.blender.command.test_gather import main, result
+from tests.blender.command.test_gather import main
 from tests.blender.flat_objects import sheet
 
 pytestmark = pytest.mark.usefixtures("scene")
@@ -112,88 +110,6 @@ def test_each_number_may_differ_by_the_bounds_of_both_and_the_tolerance(kind):
                 assert [line.startswith(expected) for line in mine] == [True]
                 assert float(mine[0].rpartition(" ")[2]) == pytest.approx(allowed, rel=0.02)
                 assert lines[-1] == "1 bodies compared, {} differences beyond what is allowed".format(int(failed))
-
-
-def test_what_only_one_result_has_is_said(main, tmp_path):
-    add_box("Box")
-    whole = document()
-    entry = whole["objects"][0]
-
-    def one(name, *entries, status="ok", **more):
-        return {
-            **whole,
-            "file": name,
-            "status": status,
-            "objects": [{**entry, "name": each} for each in entries],
-            **more,
-        }
-
-    bones = {"bones": [{**entry, "name": "Arm", "armature": "Rig"}], "assemblies": [{**entry, "name": "All"}]}
-    first = result(tmp_path / "a", one("a", "x", "y"), one("b", "x"), one("c", "x", **bones))
-    second = result(tmp_path / "b", one("a", "y", "z"), one("c", "x", status="error"), one("d", "x"))
-    code, out, _ = main("compare", first, second)
-    assert code == 1 and out.splitlines() == [
-        *("only in the first: a: x", "only in the second: a: z", "only in the first: b"),
-        *(
-            "FAIL  c: status ok and error",
-            "only in the first: c: assembly All",
-            "only in the first: c: bone Arm of Rig",
-        ),
-        *("only in the second: d", "2 bodies compared, 7 differences beyond what is allowed"),
-    ]
-    less = copy.deepcopy(whole)
-    less["objects"][0]["center_of_mass"], less["objects"][0]["volume"] = None, None
-    lines, failed = differences([whole], [less], 1.0, False)
-    assert failed and lines[0] == "FAIL  None: Box: volume is {} and None".format(entry["volume"])
-    assert lines[1] == "FAIL  None: Box: center_of_mass[x] is {} and None".format(entry["center_of_mass"][0])
-    assert differences([whole], [whole], 0.0, True)[0][0] == "FAIL  None: Box: no pose to align by"
-
-
-def test_a_summary_as_a_whole(main, tmp_path, monkeypatch):
-    monkeypatch.setattr(gather, "_LISTED", 2)
-    add_box("Box")
-    whole = document()
-    codes = [("note", "a"), ("warning", "b"), ("warning", "b")]
-
-    def entry(name, method, volume, bound, inputs, area=1.0):
-        findings = [{"severity": level, "code": code} for level, code in codes[: len(name)]]
-        bounds = {"volume": bound, "area": 0.25, "input": {"volume": inputs, "area": None}}
-        return {
-            "name": name,
-            "method": method,
-            "volume": volume,
-            "area": area,
-            "error_bound": bounds,
-            "findings": findings,
-        }
-
-    documents = [
-        {**whole, "file": "a", "objects": [entry("x", "exact", 2.0, 0.5, 0.5), entry("yy", "open", -4.0, 1.0, 0.0)]},
-        {**whole, "file": None, "objects": [entry("zzz", "exact", 0.0, None, None), {**entry("n", "shell", 1, 0, 0),
-                                                                                     "error_bound": None}]},
-        {**whole, "file": "f", "objects": [], "flat": [{"name": "s", "area": 2.0, "findings": [],
-                                                        "error_bound": {"area": 0.75, "input": {"area": 0.25}}}]},
-        *({**whole, "file": name, "objects": [], "status": "error", "errors": [{"name": None, "reason": "No " + name}]}
-          for name in ("p", "q", "r")),
-    ]  # fmt: skip
-    lines = [{"schema": "body-moments-journal/1", "attempts": 1, "seconds": seconds, "document": one}
-             for one, seconds in zip(documents, (0.5, 2.0, 1.25, 0.25, 0.0, 0.125))]  # fmt: skip
-    path = tmp_path / "journal"
-    path.write_text("".join(json.dumps(line) + "\n" for line in lines))
-    code, out, _ = main("summary", path)
-    assert code == 0 and out.splitlines() == [
-        "6 files: 3 ok, 3 error",
-        "5 objects: 2 exact, 1 open, 1 shell, 1 flat",
-        *("", "Not measured:", "error  p: No p", "error  q: No q"),
-        *("", "Findings, by how many objects have them:", "       4  note     a", "       2  warning  b"),
-        *("", "Slowest, in seconds:", "     2.000  -", "     1.250  f"),
-        *("", "Widest bounds of the volume or area, of its size:", "   5.0e-01  f: s", "   5.0e-01  a: x"),
-    ]
-    path.write_text(json.dumps({**whole, "objects": []}) + "\n")
-    assert main("summary", path)[1].splitlines() == ["1 file: 1 ok", "0 objects: -"]
-    old = {name: value for name, value in documents[-1].items() if name != "status"}  # as older versions wrote them
-    path.write_text(json.dumps([old, {**old, "file": "s", "errors": []}], indent=1))
-    assert main("summary", path)[1].splitlines()[:1] == ["2 files: 1 error, 1 ok"]
 
 
 def test_where_no_bound_is_known_nothing_may_differ():

@@ -14,7 +14,6 @@ pytest.importorskip("bpy")
 import bpy
 from body_moments.core.verdict.finding import FileError
 from body_moments.operators.command import files as opening
-from body_moments.operators.command import references
 
 from tests.blender import batch_files as files
 from tests.blender.batch_files import codes, document, measured, reason, run, sentence
@@ -335,12 +334,6 @@ def test_a_file_that_cannot_be_read_is_an_error(tmp_path):
         assert error == {"name": None, "reason": sentence("file_unreadable", error="Input/output error")}
 
 
-def test_an_importer_that_this_blender_does_not_have_is_said(tmp_path, monkeypatch):
-    path = files.write_text(tmp_path / "part.fbx", "x")
-    monkeypatch.setitem(opening._IMPORTERS, ".fbx", lambda path: bpy.ops.wm.no_such_import(filepath=path))
-    assert reason(path) == sentence("importer_missing", suffix=".fbx")
-
-
 @pytest.mark.parametrize("packed", [False, True])
 @pytest.mark.parametrize(
     ("head", "version"),
@@ -367,13 +360,6 @@ def test_a_file_of_a_version_that_this_blender_does_not_read_names_it(tmp_path, 
     expected = sentence("file_version_unsupported", blender=bpy.app.version_string, version=version)
     assert (error["reason"] == expected) == (version is not None)
     assert found["status"] == ("error" if version is None else "unsupported_version")
-
-
-def test_what_only_begins_as_a_packed_file_has_no_version(tmp_path):
-    whole = gzip.compress(b"BLENDER-v999" + bytes(40))
-    for data in (whole[:12], whole[:10] + b"\xff" * 30, b"\x1f\x8b" + bytes(30)):
-        (tmp_path / "part.blend").write_bytes(data)
-        assert document(tmp_path / "part.blend")["status"] == "error"
 
 
 def test_a_file_of_a_newer_blender_that_opens_has_a_warning(tmp_path):
@@ -421,26 +407,3 @@ def test_what_a_usdz_stores_may_be_as_much_as_the_file_and_no_more(tmp_path, siz
     except FileError as error:  # also by newer Pythons themselves, in other words
         told = str(error.finding)
     assert ("(overlapping entries)" in told) == (size > 162)
-
-
-@pytest.mark.parametrize(
-    ("said", "told"),
-    [
-        ("Error: Cannot read file.\nmore\n", "Cannot read file"),
-        ("\n  Python: it broke.\n", "it broke"),
-        ("", "RuntimeError"),
-        (" \n ", "RuntimeError"),
-        ("Error: Traceback (most recent call last):\n  File 1\n    x()\nKeyError: 'a'.\nLocation: b", "KeyError: 'a'"),
-        ("Traceback (most recent call last):\n  File 1\n    x()\n", "RuntimeError"),
-        ("Python: Traceback (most recent call last):\nImportError: b\n", "ImportError: b"),
-    ],
-)  # fmt: skip
-def test_of_what_blender_says_one_line_is_told(said, told):
-    found = opening.reason(RuntimeError(said))
-    assert found == ("its importer failed, " if "Traceback" in said else "") + told
-
-
-def test_usd_is_imported_where_the_standard_error_is_closed(monkeypatch):
-    done = []
-    monkeypatch.setattr(references.os, "dup", failing)
-    assert references.unresolved_references(lambda: done.append(1)) == [] and done == [1]

@@ -79,15 +79,6 @@ def test_a_text_with_a_word_that_is_no_finite_number_is_refused(tmp_path, name):
     assert measured(files.write_text(tmp_path / name, texts("0")[name][0]))["volume"] == pytest.approx(1.0, rel=1e-6)
 
 
-def test_the_word_is_found_wherever_blocks_of_a_text_are_cut(tmp_path, monkeypatch):
-    monkeypatch.setattr(finite.numbers, "BLOCK", 256)
-    path = tmp_path / "t.obj"
-    for word in ("nan", "-1.#IND", "1e999", "1" * 40):
-        for before in range(300):
-            files.write_text(path, "#" * before + "\nv 0 0 0\nv 1 2 " + word)
-            said(path, 1, "at_vertex", vertex=1)
-
-
 def test_all_are_counted_and_a_line_that_goes_on_is_one(tmp_path):
     files.write_text(tmp_path / "t.obj", "v 0 0 0\nv nan 1 \\\ninf\nv 1e99 nan -inf 1 nan\n  v inf 0 0\n")
     said(tmp_path / "t.obj", 6, "at_vertex", vertex=1)
@@ -382,83 +373,6 @@ def test_vertices_without_coordinates_are_left_to_blender(tmp_path):
     path = tmp_path / "a.ply"
     path.write_bytes(b"ply\nformat binary_little_endian 1.0\nelement vertex 4\nend_header\n" + bytes(48))
     finite.check_numbers(str(path), ".ply")
-
-
-def test_whole_numbers_are_finite(tmp_path, gltf):
-    """Those of a quantized glTF, and of vertices in a .ply: their bits as a float would be none."""
-    text, binary = gltf
-    accessor, start = position(text)
-    binary[start:] = b"\xff" * (len(binary) - start)
-    (tmp_path / "box.bin").write_bytes(binary)
-    assert checked(tmp_path / "box.gltf") is not None
-    for kind in (5120, 5122):
-        accessor["componentType"] = kind
-        files.write_text(tmp_path / "box.gltf", json.dumps(text))
-        assert checked(tmp_path / "box.gltf") is None
-    lines = ["element vertex 3", *(f"property int {axis}" for axis in "xyz")]
-    path = tmp_path / "t.ply"
-    path.write_bytes(ply_head("binary_little_endian", *lines).encode() + b"\xff" * 36)
-    assert checked(path) is None
-
-
-@pytest.mark.parametrize("format", ["ascii", "binary_little_endian", "binary_big_endian"])
-def test_a_ply_without_vertices_is_left_to_blender(tmp_path, format):
-    """Also one whose lists of something else come last."""
-    path = tmp_path / "t.ply"
-    lines = ["element other 1", *AXES, "element face 1", "property list uchar float f"]
-    path.write_bytes(ply_head(format, *lines).encode() + b"nan nan nan\n1 nan\n" + b"\xff" * 90)
-    assert checked(path) is None
-
-
-def test_a_gltf_of_text_without_the_bytes_of_a_buffer_says_which(tmp_path, gltf):
-    text, _ = gltf
-    del text["buffers"][0]["uri"]
-    files.write_text(tmp_path / "box.gltf", json.dumps(text))
-    assert reason(tmp_path / "box.gltf") == sentence("gltf_buffer_missing", buffer="BIN")
-    text["buffers"][0]["uri"] = "empty.bin"
-    (tmp_path / "empty.bin").touch()
-    files.write_text(tmp_path / "box.gltf", json.dumps(text))
-    assert reason(tmp_path / "box.gltf") == sentence("gltf_buffer_missing", buffer="empty.bin")
-
-
-def test_a_line_goes_on_behind_each_backslash_at_an_end(tmp_path):
-    """In an .obj, in either direction, and not behind any other."""
-    path = tmp_path / "t.obj"
-    files.write_text(path, "v 0 0 0\nv \\\n1 \\\n2 \\\nnan\nv 0 0 1\n")
-    said(path, 1, "at_vertex", vertex=1)
-    files.write_text(path, "v 0 0 0\nv nan \\\n1 \\\ninf \\\nnan\nv 0 0 1\n")  # the fourth is no coordinate
-    said(path, 2, "at_vertex", vertex=1)
-    files.write_text(path, "v 0 0 0\nv 1 \\ \n2 3\nvn \\\n1 \\\n2 \\\nnan\n")
-    assert checked(path) is None
-
-
-@pytest.mark.parametrize("reach", range(5, 30))
-def test_a_word_is_found_wherever_the_part_of_its_line_that_is_looked_at_begins(tmp_path, monkeypatch, reach):
-    """At a backslash, behind it, behind what it continues, or anywhere else; and at the beginning of the file."""
-    monkeypatch.setattr(finite.numbers, "_REACH", reach)
-    path = tmp_path / "t.obj"
-    for before in ("", "v 0 0 0\n"):
-        for text in ("v 1 \\\n23 \\\n\\\nnan", "v 1234 \\\n2345 nan", "\\\nv 12 nan 0"):
-            files.write_text(path, before + text + "\nv 0 0 1\n")
-            assert checked(path).values["count"] == 1
-    files.write_text(path, "vn 1 \\\n2 nan\n")
-    assert (checked(path) is None) == (reach >= 9)  # up to the beginning of its line
-
-
-@pytest.mark.parametrize("length", [5000, 1 << 20, 3 << 20])
-@pytest.mark.parametrize("name", ["t.obj", "t.ply", "t.stl"])
-def test_a_word_is_found_however_far_from_the_beginning_of_its_line(tmp_path, name, length):
-    path = tmp_path / name
-    texts_of = {
-        "t.obj": "v 0 0 0\nv{space}1 2 {word}\n",
-        "t.ply": ply_head("ascii", "element vertex 2", *AXES) + "0 0 0\n{space}1 2 {word}\n",
-        "t.stl": "solid x\nvertex 0 0 0 {space}vertex 1 2 {word}\n",
-    }
-    for word in ("nan", "1e99"):
-        files.write_text(path, texts_of[name].format(space=" " * length, word=word))
-        assert checked(path).code == "non_finite_coordinates" and checked(path).values["count"] == 1
-    files.write_text(path, texts_of[name].format(space=" " * length, word="3"))
-    assert checked(path) is None
 
 
 @pytest.mark.parametrize("end", ["", " "])

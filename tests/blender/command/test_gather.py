@@ -74,13 +74,6 @@ def test_a_summary_counts_what_became_of_files(main, tmp_path):
     assert main("merge", path, "--output", tmp_path / "b", "--force")[0] == 0
 
 
-def test_a_wrong_command_is_told_with_all_that_there_are(main):
-    code, _, said = main("summry", "a.jsonl")
-    assert code == 2 and "“summry” is no command" in said
-    words = set(said.rpartition("no command: ")[2].replace(",", " ").split())
-    assert words - {"and", "are"} == {"measure", *batch._COMMANDS} - {"child"}
-
-
 def test_of_two_results_about_one_file_the_later_counts(main, tmp_path):
     files.add_box("Box")
     good = {**document(), "file": "b.stl"}

@@ -10,9 +10,7 @@ import random
 import signal
 import subprocess
 import sys
-import time
 import zipfile
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -21,9 +19,7 @@ pytest.importorskip("bpy")
 import bpy
 from body_moments.core.verdict.finding import FileError
 from body_moments.operators import batch
-from body_moments.operators.command import bare_files, inputs, interruption
-from body_moments.operators.command import run as command
-from body_moments.operators.session.moments import as_csv
+from body_moments.operators.command import inputs
 from body_moments.operators.write import text_report
 from body_moments.operators.write.terminal import visible
 
@@ -100,19 +96,6 @@ def test_damaged_wave_vectors_are_wrong_usage(name, tmp_path, main):
     assert (code, out) == (2, "") and "--q" in said and not target.exists()
 
 
-def test_too_many_wave_vectors_or_no_file_of_them(tmp_path, main, monkeypatch):
-    files.add_box()
-    path = written(tmp_path / "q.npy", Q)
-    os.mkfifo(tmp_path / "pipe")
-    words = ("measure", "--fourier", tmp_path / "out.npz", "--q")
-    for wrong in (tmp_path / "none", tmp_path, tmp_path / "pipe", "x" * 5000):
-        assert main(*words, wrong)[0] == 2
-    monkeypatch.setattr("body_moments.operators.command.fourier.MAX_WAVE_VECTORS", 3)
-    assert main(*words, path)[0] == 0
-    monkeypatch.setattr("body_moments.operators.command.fourier.MAX_WAVE_VECTORS", 2)
-    assert main(*words, path)[0] == 2
-
-
 @pytest.fixture
 def library(main, tmp_path):
     for name in "ab":
@@ -167,18 +150,6 @@ def test_malformed_libraries_are_wrong_usage_and_odd_records_are_left_out(main, 
         assert code == 1 and "b: no signature" in said, (name, value)
 
 
-def test_a_library_without_line_ends_is_not_read_whole(main, library, monkeypatch):
-    size = len(library.read_bytes())
-    monkeypatch.setattr("body_moments.core.shape.library.MAX_LINE_BYTES", size)
-    assert main("similar", library, "--to", "a")[0] == 0
-    monkeypatch.setattr("body_moments.core.shape.library.MAX_LINE_BYTES", size - 1)
-    code, _, said = main("similar", library, "--to", "a")
-    assert code == 2 and "line 1" in said
-    monkeypatch.setattr("body_moments.core.shape.library.MAX_LINE_BYTES", 1 << 16)
-    code, _, said = main("similar", "/dev/zero", "--to", "a")
-    assert code == 2 and "line 1" in said
-
-
 @pytest.mark.filterwarnings("ignore")  # NumPy's, of headers that it can still make out
 def test_no_random_damage_of_options_files_is_our_fault(main, library, tmp_path):
     chance = random.Random(4)
@@ -221,23 +192,6 @@ def test_a_range_without_files_does_not_measure_what_is_open(main, tmp_path):
     assert (code, json.loads(out)) == (0, [])
 
 
-def test_results_that_have_no_place_are_wrong_usage_before_anything_is_measured(main, tmp_path, monkeypatch):
-    files.add_box()
-    files.measure_with(monkeypatch, lambda *_: pytest.fail("measured"))
-    (tmp_path / "a").symlink_to(tmp_path / "b")
-    (tmp_path / "b").symlink_to(tmp_path / "a")
-    (tmp_path / "file").write_text("")
-    places = [tmp_path / "a", "x" * 5000, tmp_path / "file" / "x", tmp_path / "a" / "x", tmp_path]
-    for option, more in (("--output", ()), ("--fourier", ("--grid", "2", "--qmax", "1"))):
-        for place in places:
-            assert main("measure", option, place, *more)[:2] == (2, ""), place
-    real = os.access
-    monkeypatch.setattr(os, "access", lambda path, mode: Path(path) != tmp_path and real(path, mode))
-    for option, more in (("--output", ()), ("--fourier", ("--grid", "2", "--qmax", "1"))):
-        code, _, said = main("measure", option, tmp_path / "new", *more)
-        assert code == 2 and "no file can be written in {}".format(tmp_path) in said
-
-
 def test_a_disk_that_fails_while_the_result_is_written_gives_1(main, tmp_path, monkeypatch):
     files.add_box()
 
@@ -258,24 +212,6 @@ def test_too_little_memory_is_no_fault_of_ours(main, monkeypatch):
     files.measure_with(monkeypatch, fail)
     code, out, _ = main("measure")
     assert code == 1 and "Too little memory" in json.loads(out)["errors"][0]["reason"]
-
-
-BAD_GLTF = {
-    "meshes": [{"primitives": [{"attributes": {"POSITION": 5}}]}],
-    "nodes": [{"mesh": 0}],
-    "scenes": [{"nodes": [0]}],
-    "scene": 0,
-}
-
-
-def test_the_failure_of_an_importer_is_told_by_its_exception(tmp_path):
-    path = tmp_path / "part.gltf"
-    path.write_text(json.dumps({"asset": {"version": "2.0"}, **BAD_GLTF}))
-    ended = process(sys.executable, SCRIPT, "measure", path)  # its own console has the importer's traceback
-    code, out = ended.returncode, ended.stdout
-    (error,) = json.loads(out)["errors"]
-    assert code == 1 and "TypeError: 'NoneType' object" in error["reason"]
-    assert not {"Traceback", "Location", "File", "\n"} & {*error["reason"].split()}
 
 
 @pytest.mark.parametrize(
@@ -299,21 +235,6 @@ def test_what_a_damaged_file_refers_to_is_nothing(tmp_path, monkeypatch, text):
 
     monkeypatch.setattr(inputs, "open_file", refuse)
     assert [*inputs.files_read([str(path)])] == [path]
-
-
-def test_limits_come_from_the_environment(main, tmp_path, monkeypatch):
-    path = tmp_path / "a.npy"
-    np.save(path, VALUES)
-    monkeypatch.setenv("BODY_MOMENTS_LIMITS", "samples=59")
-    code, out, _ = main("measure", path)
-    (error,) = json.loads(out)["errors"]
-    assert code == 1 and "60 samples of at most 59" in error["reason"]
-    assert "BODY_MOMENTS_LIMITS to samples=118" in error["reason"]
-    monkeypatch.setenv("BODY_MOMENTS_LIMITS", "samples=118")
-    assert main("measure", path)[0] == 0
-    monkeypatch.setenv("BODY_MOMENTS_LIMITS", "sample=118")
-    code, out, said = main("measure", path)
-    assert (code, out) == (2, "") and "“sample=118”" in said
 
 
 def test_samples_outside_of_the_headers_folder_need_an_option(main, tmp_path):
@@ -372,19 +293,6 @@ def test_an_error_in_a_table_is_no_formula_either(main):
     assert [row["name"] for row in rows] == ["'=cmd|' /C calc'!A0"]
 
 
-def test_the_comment_over_copied_moments_is_one_cell(monkeypatch):
-    monkeypatch.setattr("body_moments.operators.session.moments.in_frame", lambda moments, *_: moments.volume)
-
-    class Computed:
-        name, order = "a,=1;=2\n=3\t=4", 0
-
-        class volume:
-            raw = rounding_error = input_error = np.ones(1)
-
-    first, header, *_ = as_csv(Computed, "VOLUME", "ORIGIN", "WORLD").split("\n")
-    assert first.startswith("# a =1 =2\\n=3\\t=4: volume moments, ") and header.startswith("p,q,r")
-
-
 HOSTILE_NAME = "a\x1b[2J\nbody_moments: all fine\x07\u202egnp.\u2066\x9b1m\u2028"
 
 
@@ -413,41 +321,6 @@ def test_reports_and_tables_for_people_show_control_characters(main, library):
     shown = text_report.text(document)
     assert r"b\x1b[2J\u202e" in shown and r"x\ny: z\x07" in shown
     assert all(line.isprintable() for line in shown.splitlines())
-
-
-def test_progress_is_told_while_a_scan_is_read(main, tmp_path, monkeypatch):
-    np.save(tmp_path / "a.npy", VALUES)
-    assert "samples read" not in main("measure", tmp_path / "a.npy")[2]
-    monkeypatch.setattr(interruption, "PERIOD", 0.0)
-    assert "a.npy: 60 samples read" in main("measure", tmp_path / "a.npy")[2]
-
-
-def test_an_interruption_gives_3_and_no_result(main, tmp_path, monkeypatch):
-    np.save(tmp_path / "a.npy", VALUES)
-    handler, target = signal.default_int_handler, tmp_path / "out.json"
-    before = signal.signal(signal.SIGINT, handler)  # it is ignored in the background of a shell
-
-    def interrupt(*_):
-        os.kill(os.getpid(), signal.SIGINT)
-        time.sleep(1)
-
-    monkeypatch.setattr(bare_files, "measure_array", interrupt)
-    code, out, said = main("measure", tmp_path / "a.npy", "--output", target)
-    assert (code, out) == (3, "") and "interrupted" in said and not target.exists()
-    assert signal.getsignal(signal.SIGINT) is handler
-
-    def importer(*_):
-        try:
-            interrupt()
-        except KeyboardInterrupt:
-            raise FileError("import_failed", error="its importer failed, KeyboardInterrupt") from None
-
-    monkeypatch.setattr(command, "open_file", importer)
-    assert main("measure", tmp_path / "a.stl", tmp_path / "b.stl", "--output", target)[0] == 3
-    np.save(tmp_path / "b.npy", VALUES)
-    monkeypatch.undo()
-    assert main("measure", tmp_path / "b.npy")[0] == 0
-    signal.signal(signal.SIGINT, before)
 
 
 def starts(tmp_path):

@@ -2,19 +2,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Ctrl+C and other signals, and how far a long read is."""
 
-import json
 import os
 import signal
-import threading
-import time
 
 import numpy as np
 import pytest
 
 pytest.importorskip("bpy")
 from body_moments.operators import batch
-from body_moments.operators.command import arguments, audit, run
-from body_moments.operators.command.interruption import Progress, check_interruption, interruptible, stopped_by_signals
+from body_moments.operators.command.interruption import check_interruption, interruptible, stopped_by_signals
 
 from tests.blender.batch_files import add_box, sentence
 
@@ -74,50 +70,6 @@ def test_the_first_signal_stops_and_no_other_disturbs_what_cleans_up(number):
     assert {one: signal.getsignal(one) for one in STOPPING} == own and len(before) == 3
 
 
-def test_other_threads_handle_no_signals():
-    ended = []
-
-    def work():
-        with interruptible(), stopped_by_signals():
-            ended.append(True)
-
-    thread = threading.Thread(target=work)
-    thread.start()
-    thread.join()
-    assert ended == [True]
-
-
-def test_a_long_read_is_reported_now_and_then(monkeypatch, capsys):
-    now = [50.0]
-    monkeypatch.setattr(time, "monotonic", lambda: now[0])
-    told = Progress("a.ply", "progress_faces")
-    for seconds, count in ((4.99, 10), (0.01, 20), (4.99, 30), (0.01, 40)):
-        now[0] += seconds
-        told(count)
-    lines = [sentence("progress_faces", count=count) for count in (30, 100)]
-    assert capsys.readouterr().err == "".join("body_moments: a.ply: {}\n".format(line) for line in lines)
-
-
-def test_an_interrupted_run_and_a_fault_have_codes_of_their_own(monkeypatch, capsys, tmp_path):
-    """Also where an importer has made an error of the interruption."""
-
-    def interrupted(*_):
-        try:
-            signal.raise_signal(signal.SIGINT)
-        except KeyboardInterrupt:
-            raise RuntimeError("import failed") from None
-
-    monkeypatch.setattr(run, "open_file", interrupted)
-    (tmp_path / "a.obj").write_text("v 0 0 0")
-    words = ["measure", str(tmp_path / "a.obj"), "--no-supervisor", "--output", str(tmp_path / "out")]
-    with open(tmp_path / "standard output", "wb") as out:
-        assert batch.main(words, channel=out.fileno()) == 3
-        assert sentence("interrupted") in capsys.readouterr().err and not (tmp_path / "out").exists()
-        monkeypatch.setattr(arguments, "parse", lambda *_: 1 / 0)
-        assert batch.main(words, channel=out.fileno()) == 70
-    assert "ZeroDivisionError" in capsys.readouterr().err
-
-
 @pytest.mark.skipif(not os.path.exists("/dev/full"), reason="not on this system: /dev/full")
 def test_a_result_that_cannot_be_written_is_no_success_of_any_command(tmp_path, capsys):
     """Each gives 0 where there is room; a fault of the program is one all the same."""
@@ -142,23 +94,3 @@ def test_a_result_that_cannot_be_written_is_no_success_of_any_command(tmp_path, 
             assert "usage" not in capsys.readouterr().err
             assert batch.main(words, channel=full.fileno()) == 1, words
             assert sentence("usage_result_not_written", error="No space left on device") in capsys.readouterr().err
-
-
-def test_a_fault_in_an_audit_is_one_of_the_program(tmp_path, monkeypatch, capsys):
-    for name in "ab":
-        (tmp_path / (name + ".urdf")).write_text('<robot><link name="a"/></robot>')
-    read = audit.read_description
-    monkeypatch.setattr(audit, "read_description", lambda path, roots: 1 / 0 if path.stem == "a" else read(path, roots))
-    out = tmp_path / "out"
-    assert batch.main(["audit", *(str(tmp_path / name) for name in ("a.urdf", "b.urdf")), "--output", str(out)]) == 70
-    first, second = json.loads(out.read_text())
-    assert (first["status"], second["status"]) == ("error", "ok") and first["errors"][0]["code"] == "internal_error"
-    assert "ZeroDivisionError" in capsys.readouterr().err
-
-
-def test_wave_vectors_that_cannot_be_are_named_by_their_option(tmp_path, capsys):
-    np.save(tmp_path / "q.npy", np.ones((2, 4)))
-    words = ["measure", "--fourier", str(tmp_path / "f.npz")]
-    for option, more in (("q", [str(tmp_path / "q.npy")]), ("grid", ["4", "--qmax", "1e300"])):
-        assert batch.main([*words, "--" + option, *more]) == 2
-        assert "error: argument --{}: ".format(option) in capsys.readouterr().err

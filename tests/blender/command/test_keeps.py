@@ -7,9 +7,7 @@ import errno
 import json
 import os
 import zlib
-from contextlib import nullcontext
 from pathlib import Path
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -337,15 +335,6 @@ def test_words_of_a_binary_layer_are_found_wherever_its_table_has_them(tmp_path)
     assert [*inputs.references(str(part), False)] == []
 
 
-def test_names_that_no_file_can_have_hide_none_of_the_others(tmp_path):
-    """Nothing between two marks, what is longer than a name may be, also where it stands for tiles, and a zero byte."""
-    (tmp_path / "b").touch()
-    long = b"x" * 5000
-    words = [b"@@@@@@", b"@@@%s@@@" % long, b"@%s/<UDIM>.png@" % long, b"@a\0b@", b"@b@"]
-    (tmp_path / "part.usda").write_bytes(b"#usda 1.0\n" + b"\n".join(words))
-    assert [*inputs.references(str(tmp_path / "part.usda"), False)] == [tmp_path / "b"]
-
-
 @pytest.mark.parametrize(
     "data",
     [
@@ -380,23 +369,6 @@ def test_what_cannot_be_read_is_not_replaced(tmp_path, main, no_measuring, monke
     for words in ((), ("--force",)):
         code, said = main(part, "--output", target, *words)
         assert code == 2 and said.endswith("error: {}\n".format(expected)) and target.read_text() == "mine"
-
-
-def test_each_result_that_has_no_place_gets_a_name_of_its_own(tmp_path):
-    """The number is the first one that is free."""
-    taken = [tmp_path / name for name in ("out.json", "out.1.json", "out.2.json")]
-    for path in taken:
-        path.write_text("mine")
-
-    def refuse(_):
-        raise FileExistsError("it is there")
-
-    for number in (3, 4):
-        with pytest.raises(FileExistsError) as refused, whole_file(tmp_path / "out.json", refuse) as file:
-            file.write(b"ours")
-        kept = tmp_path / "out.{}.json".format(number)
-        assert str(refused.value) == "it is there; it is in {}".format(kept) and kept.read_bytes() == b"ours"
-    assert {path.read_text() for path in taken} == {"mine"} and len([*tmp_path.iterdir()]) == 5
 
 
 @pytest.mark.parametrize("length", [199, 200, 201, 255])
@@ -450,21 +422,3 @@ def test_a_lock_that_another_user_has_left_is_taken(tmp_path, monkeypatch):
     with locked(tmp_path / "a") as alone:
         assert alone and flags == [os.O_RDWR, os.O_RDONLY]
     assert [*tmp_path.iterdir()] == []
-
-
-def test_on_windows_a_lock_goes_when_it_is_closed(tmp_path, monkeypatch):
-    """What is open cannot be removed there."""
-    asked = []
-    system = SimpleNamespace(**{**vars(os), "name": "nt"})
-    library = SimpleNamespace(LK_NBLCK=2, locking=lambda descriptor, *rest: asked.append((os.fstat(descriptor), *rest)))
-    monkeypatch.setattr(file_lock, "os", system)
-    monkeypatch.setattr(file_lock, "msvcrt", library, raising=False)
-    monkeypatch.setattr(file_lock, "removed", lambda _: nullcontext())
-    lock = file_lock.beside(tmp_path / "a", "body_moments.lock")
-    with locked(tmp_path / "a") as alone:
-        assert alone and lock.exists()
-        ((status, *rest),) = asked
-        assert os.path.samestat(status, os.stat(lock)) and rest == [2, 1]
-    assert not lock.exists()
-    with locked(tmp_path / "a"):
-        lock.unlink()  # by another process

@@ -3,7 +3,6 @@
 """The command line's options, on the scene that is open and on .blend files."""
 
 import csv
-import json
 import math
 import os
 
@@ -14,12 +13,10 @@ import bpy
 import numpy as np
 from body_moments.operators import batch
 from body_moments.operators.settings.properties import copy_settings
-from body_moments.operators.write import text_report
 from mathutils import Euler, Matrix
 
 from tests.blender import batch_files as files
 from tests.blender.batch_files import codes, document, measured, run, sentence, values
-from tests.blender.objects import add, strip_mesh
 
 pytestmark = pytest.mark.usefixtures("scene")
 
@@ -46,21 +43,6 @@ def test_without_a_file_the_open_scene_is_measured():
     found = document()
     assert names(found) == [files.BOX_NAME] and found["file"] is None
     assert found["blender"] == ".".join(map(str, bpy.app.version))
-
-
-def test_an_open_file_gives_its_name(tmp_path):
-    path = files.box_file(tmp_path / "part.blend")
-    bpy.ops.wm.open_mainfile(filepath=path)
-    assert document()["file"] == path
-
-
-def test_a_blend_file_that_blender_was_asked_for_and_could_not_open_is_an_error(monkeypatch):
-    words = ["blender", "-b", "missing.blend", "-c", "body_moments", "measure"]
-    monkeypatch.setattr("sys.argv", words)
-    files.add_box()  # the start-up scene, in which the command then runs
-    assert files.reason() and document()["file"] == "missing.blend"
-    monkeypatch.setattr("sys.argv", [*words[:2], *words[3:], "--object", "a.blend"])
-    assert names(document()) == [files.BOX_NAME]
 
 
 def test_objects_are_sorted_and_what_has_no_geometry_is_left_out():
@@ -190,18 +172,6 @@ def test_a_file_from_which_nothing_is_measured_is_an_error(tmp_path):
     assert list(left_out(line.documents[0])) == ["a", "b"]
     assert document(path, "--all")["errors"] == []
     assert errors(document(path, "--object", "z")) == {"z": sentence("object_not_in_scene")}
-
-
-def test_what_is_left_out_is_a_row_of_a_table_and_a_line_of_a_report(tmp_path, standard_output):
-    files.add_box("a")
-    files.add_box("b").hide_render = True
-    path = tmp_path / "out.csv"
-    assert batch.main(["measure", "--format", "csv", "--output", str(path)]) == 0
-    rows = {row["name"]: row for row in csv.DictReader(path.read_text(encoding="utf-8").splitlines())}
-    assert rows["b"]["left_out"] == sentence("not_rendered") and rows["b"]["mass"] == "" == rows["b"]["error"]
-    assert rows["a"]["left_out"] == ""
-    assert batch.main(["measure", "--format", "csv", "--output", str(path)]) == 0  # it is known as ours again
-    assert "Left out\n  b: " + sentence("not_rendered") in text_report.text(document())
 
 
 def test_a_density_that_nobody_set_is_a_finding():
@@ -459,18 +429,6 @@ def test_wrong_usage_ends_with_2_and_a_sentence(words, capfd, standard_output):
     assert printed.out == "" and "error: " in printed.err
 
 
-def test_help_is_no_error(capfd, standard_output):
-    assert batch.main(["measure", "--help"]) == 0
-    told = " ".join(capfd.readouterr().out.split())
-    assert "--unit-scale" in told and "curves that show no surface are left out" in told
-
-
-def test_main_writes_the_result_and_returns_the_exit_code(capfd, standard_output):
-    files.add_box()
-    assert batch.main(["measure"]) == 0
-    assert names(json.loads(capfd.readouterr().out)) == [files.BOX_NAME]
-
-
 @pytest.mark.parametrize("option", ["--output", "--fourier"])
 def test_no_result_is_written_over_the_file_that_is_measured(tmp_path, capfd, standard_output, option):
     path = files.box_file(tmp_path / "part.blend")
@@ -497,15 +455,6 @@ def test_no_result_is_written_over_the_wave_vectors(tmp_path, capfd, standard_ou
     assert "is used twice" in capfd.readouterr().err
 
 
-def test_a_thickness_is_told_to_be_unused_where_there_is_no_shell(tmp_path):
-    files.add_box()
-    for words in (("--thickness", "0.1"), ("--thickness", "0.1", "--kind", "solid")):
-        assert codes(measured("--density", "1", *words)) == ["thickness_option_unused"]
-    assert measured("--density", "1", "--thickness", "0.1", "--kind", "shell")["warnings"] == []
-    np.save(tmp_path / "ones.npy", np.ones((2, 2, 2)))
-    assert "thickness_option_unused" in codes(measured(tmp_path / "ones.npy", "--thickness", "1"))
-
-
 def test_objects_of_other_scenes_are_told_not_to_be_in_the_total():
     box = files.add_box()
     other = bpy.data.scenes.new("Other")
@@ -520,34 +469,6 @@ def test_objects_of_other_scenes_are_told_not_to_be_in_the_total():
     for obj in list(bpy.context.scene.objects):
         bpy.context.scene.collection.objects.unlink(obj)
     assert codes(document()["total"]) == ["other_scenes"]  # where nothing at all was measured too
-
-
-def test_a_total_with_an_open_body_is_told_to_stand_on_nothing():
-    files.add_box("Box")
-    add(strip_mesh(), "Strip")
-    found = document("--object", "Box", "--object", "Strip")
-    assert [entry["method"] for entry in found["objects"]] == ["exact", "open"]
-    assert values(found["total"], "total_of_open_objects") == {"objects": ["Strip"]}
-    assert codes(found["total"]) == ["total_of_open_objects"]
-    assert document("--object", "Strip")["total"]["warnings"] == []  # its own record says so
-
-
-def test_a_shell_without_area_is_not_asked_to_be_a_shell():
-    files.add_box("Box").scale = (0.0, 0.0, 0.0)
-    assert errors(document("--kind", "shell"))["Box"] == sentence("no_face_area")
-    assert errors(document())["Box"] == sentence("zero_scale")
-
-
-def test_options_of_arrays_are_told_to_be_unused_elsewhere():
-    files.add_box()
-    entry = measured("--spacing", "1,2,3", "--density-scale", "1")
-    assert values(entry, "array_options_unused") == {"options": ["--spacing", "--density-scale"]}
-
-
-def test_options_and_files_may_be_mixed(tmp_path):
-    path = files.box_file(tmp_path / "part.stl")
-    line = run("--density", "2", path, "--frame", "object", path, "--unit-scale", "0.001")
-    assert [found["objects"][0]["density"] for found in line.documents] == [2.0, 2.0]
 
 
 def test_a_fault_of_our_own_stops_nothing_else(monkeypatch, capsys):
@@ -567,9 +488,3 @@ def test_a_fault_of_our_own_stops_nothing_else(monkeypatch, capsys):
     assert line.internal_errors == 1 and names(line.documents[0]) == ["b"]
     assert "surprise" in errors(line.documents[0])["a"]
     assert "Traceback" in capsys.readouterr().err
-
-
-def test_every_error_is_told_on_the_standard_error_too(capsys):
-    files.add_box("a")
-    run("--object", "z", "gone.stl")
-    assert "body_moments: gone.stl: " in capsys.readouterr().err

@@ -325,26 +325,6 @@ def test_a_writer_that_waited_too_long_is_refused_and_removes_nothing_of_the_oth
     assert path.read_bytes() == kept and partial.exists() and file_lock.beside(path, "body_moments.lock").exists()
 
 
-def test_a_lock_that_is_removed_again_and_again_has_one_owner_at_a_time(tmp_path, monkeypatch):
-    path = tmp_path / "count"
-    path.write_text("0")
-    monkeypatch.setattr(file_lock, "_PAUSE", 1e-4)
-
-    def count():
-        for _ in range(100):
-            with file_lock.locked(path):
-                before = int(path.read_text() or -1000)
-                time.sleep(0)
-                path.write_text(str(before + 1))
-
-    threads = [threading.Thread(target=count) for _ in range(6)]
-    for thread in threads:
-        thread.start()
-    for thread in threads:
-        thread.join()
-    assert path.read_text() == "600" and [file.name for file in tmp_path.iterdir()] == ["count"]
-
-
 def test_two_processes_write_one_file_and_both_results_are_in_it(tmp_path):
     path = tmp_path / "part.blend"
     files.add_box("A")
@@ -482,41 +462,6 @@ def test_a_file_that_cannot_be_locked_is_measured_and_stays(tmp_path, monkeypatc
     monkeypatch.setattr(file_lock, "_lock", fail)
     assert error_of(document(path, "--write")) == files.sentence("file_not_saved", error="Input/output error")
     assert path.read_bytes() == before and path in tmp_path.iterdir()
-
-
-@pytest.mark.parametrize("change", ["contents", "place"])
-def test_a_file_that_changed_after_blender_has_started_with_it_is_kept(tmp_path, monkeypatch, change):
-    """By its times, for what Blender has read is not known. One that it opened later may be younger."""
-    path = tmp_path / "part.blend"
-    files.box_file(path)
-    time.sleep(0.05)
-    os.utime(bpy.app.tempdir)  # the session is younger now
-    link = tmp_path / "link.blend"
-    link.symlink_to(path)
-    for word in (path, link):
-        bpy.ops.wm.open_mainfile(filepath=str(path))
-        monkeypatch.setattr(sys, "argv", ["blender", "-b", str(word), "--", "measure"])
-        measured("--write")
-        time.sleep(0.05)
-        os.utime(bpy.app.tempdir)
-    kept = path.read_bytes()
-    time.sleep(0.05)
-    if change == "contents":
-        os.utime(path, (2e9, 2e9))
-    else:
-        path.chmod(0o644)  # no time but that of its entry
-        os.utime(path, (1e9, 1e9))
-    for word in (path, link):
-        monkeypatch.setattr(sys, "argv", ["blender", "-b", str(word), "--", "measure"])
-        bpy.ops.wm.open_mainfile(filepath=str(path))
-        assert error_of(run("--write").documents[0]) == files.sentence("file_changed_since_start")
-        assert path.read_bytes() == kept
-    for words in (["blender", "-b", str(tmp_path / "other.blend")], ["blender", "-b"]):
-        monkeypatch.setattr(sys, "argv", words)
-        bpy.ops.wm.open_mainfile(filepath=str(path))
-        measured("--write")
-    monkeypatch.setattr(sys, "argv", ["blender", "-b", str(path)])
-    measured(path, "--write")  # which is opened here
 
 
 def test_a_copy_that_cannot_be_saved_is_an_error_and_the_file_stays(tmp_path, monkeypatch):

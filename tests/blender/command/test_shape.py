@@ -226,16 +226,6 @@ def test_bodies_of_one_name_are_told_apart_by_their_files(tmp_path):
     assert ask(tmp_path, *paths, "--to", "c.blend:Box")[0] == 2
 
 
-def test_records_without_a_signature_are_named(tmp_path, capsys):
-    add_box("Box")
-    path = tmp_path / "plain.jsonl"
-    with open(os.devnull, "wb") as sink:
-        batch.main(["measure", "--format", "jsonl", "--output", str(path)], channel=sink.fileno())
-    good, _ = shape_file(tmp_path)
-    code, _ = ask(tmp_path, good, path, "--to", "Box")
-    assert code == 1 and "--signature" in capsys.readouterr().err
-
-
 def test_a_nurbs_surface_has_the_signature_of_its_display_mesh_and_a_wire_has_none():
     bpy.ops.surface.primitive_nurbs_surface_sphere_add(location=(1, 2, 3))
     ball = document("--pose", "--signature")["objects"][0]
@@ -270,16 +260,6 @@ def test_a_wall_of_curved_patches_has_a_pose_and_no_signature():
     assert codes(entry).count("signature_needs_polygons") == 1 and "signature_of_display_mesh" not in codes(entry)
     (entry,) = document("--pose")["objects"]
     assert "signature" not in entry and "signature_needs_polygons" not in codes(entry)
-
-
-def test_what_has_no_faces_has_no_picture():
-    add_box("Box")
-    bpy.ops.curve.primitive_nurbs_path_add()
-    bpy.context.object.name, bpy.context.object.body_moments.kind = "Wire", "WIRE"
-    bpy.context.object.data.bevel_depth = 0.0
-    found = {entry["name"]: entry["thumbnail"] for entry in document("--thumbnails")["objects"]}
-    assert found["Wire"] is None and found["Box"].startswith("data:image/png;base64,")
-    assert all("thumbnail" not in entry for entry in document()["objects"])
 
 
 def test_a_picture_is_of_the_body_in_meters_whatever_its_unit():

@@ -13,7 +13,6 @@ import numpy as np
 import pytest
 from body_moments.core.polyhedron import facets_of
 from body_moments.operators import batch
-from body_moments.operators.command import simplex
 
 from tests.blender.batch_files import sentence
 from tests.blender.command.test_process import script
@@ -111,15 +110,6 @@ def test_wrong_files_and_options_are_said(tmp_path, capfd):
     assert batch.main(["simplex", str(tmp_path / "a.npz"), "--about", "1,2"], channel=1) == 1
     for words in (["--order", "31"], ["--about", "1,x"], []):
         assert batch.main(["simplex", *([str(tmp_path / "a.npz")] if words else []), *words], channel=1) == 2
-
-
-def test_more_moments_than_a_million_are_too_many(tmp_path, capfd):
-    """To order n in 12 dimensions there are as many as ways to choose n of n + 12."""
-    np.savez(tmp_path / "a.npz", points=np.eye(13, 12), simplices=[range(13)])
-    assert math.comb(22, 10) < simplex.MAX_MOMENTS == 2**20 < math.comb(23, 11)
-    assert batch.main(["simplex", str(tmp_path / "a.npz"), "--order", "11"], channel=1) == 1
-    expected = sentence("simplex_too_many", dimension=12, order=11, limit=simplex.MAX_MOMENTS)
-    assert expected in capfd.readouterr().err
 
 
 def test_moments_whose_bounds_are_beyond_the_range_of_numbers_are_refused(tmp_path, capfd):

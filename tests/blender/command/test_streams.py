@@ -6,10 +6,8 @@ import json
 
 import numpy as np
 import pytest
-from body_moments.core.streams import measure_stream
 from body_moments.operators import batch
 from body_moments.operators.bodies import stream as stream_bodies
-from body_moments.operators.bodies.measurement import measurement_of
 from body_moments.operators.command import bare_files
 from body_moments.operators.settings.options import MeasureOptions
 from body_moments.operators.supervisor import processes
@@ -119,42 +117,6 @@ def test_the_usual_findings_are_there(tmp_path):
     assert code == 1 and [error["name"] for error in document["errors"]] == ["other"] and not document["objects"]
 
 
-@pytest.mark.parametrize(
-    ("given", "expected"),
-    [
-        ({}, {"kind": "solid", "density": 1000.0, "mass": None, "thickness": 0.0}),
-        ({"density": 7.0}, {"kind": "solid", "density": 7.0, "mass": None, "thickness": 0.0}),
-        ({"mass": 3.0}, {"kind": "solid", "density": None, "mass": 3.0, "thickness": 0.0}),
-        ({"kind": "shell", "thickness": 0.5}, {"kind": "shell", "density": 1000.0, "mass": None, "thickness": 0.5}),
-    ],
-)
-@pytest.mark.parametrize(
-    ("asked", "read"), [({}, (3, 0)), ({"order": 2}, (3, 0)), ({"order": 5}, (5, 0)), ({"surface": True}, (3, 3))]
-)
-def test_a_file_is_read_once_to_what_was_asked_for_with_options_without_gaps(
-    tmp_path, monkeypatch, given, expected, asked, read
-):
-    orders, requests = [], []
-
-    def reading(mesh, order, area_order, *rest):
-        orders.append((order, area_order))
-        return measure_stream(mesh, order, area_order, *rest)
-
-    def measuring(reading, body, request):
-        requests.append(request.options)
-        return measurement_of(reading, body, request)
-
-    monkeypatch.setattr(stream_bodies, "measure_stream", reading)
-    monkeypatch.setattr(stream_bodies, "measurement_of", measuring)
-    corners = np.array([(0, 0, 0), (1, 0, 0), (0, 2, 0), (0.3, 0.2, 3)], np.float32)  # without any symmetry
-    path = written(tmp_path, body=(corners, np.array([(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)])))
-    found = stream_bodies.measure_mesh_file(str(path), "part", MeasureOptions(**given, **asked))
-    (used,) = requests
-    assert {name: getattr(used, name) for name in expected} == expected
-    assert (used.overlap, used.wall, found.thickness) == ("signed", "thin", expected["thickness"])
-    assert orders == [(read[0], read[0] if "kind" in given else read[1])]
-
-
 def test_a_sheet_without_a_thickness_has_no_mass(tmp_path):
     code, document = run(tmp_path, written(tmp_path), "--stream", "always", "--kind", "shell")
     assert code == 1 and [error["reason"] for error in document["errors"]] == [sentence("no_thickness")]
@@ -240,28 +202,6 @@ def test_a_mesh_has_a_volume_whatever_its_size(tmp_path, size):
     assert close(found[0].volume, abs(np.linalg.det(corners - points[0]).sum()) / 6.0, rel=1e-12)
     assert close(found[0].mass_properties.mass, 1000.0 * found[0].volume, rel=1e-14)
     assert close(found[1].volume, size**3 * found[0].volume, rel=1e-12)
-
-
-def test_moments_beyond_what_is_known_are_read_from_the_file_again(tmp_path, monkeypatch):
-    bodies = []
-
-    def measuring(reading, body, request):
-        bodies.append(body)
-        return measurement_of(reading, body, request)
-
-    monkeypatch.setattr(stream_bodies, "measurement_of", measuring)
-    for body in (part(), inverted(part())):
-        path = str(written(tmp_path, body=body))
-        for options in ({}, {"order": 5, "surface": True}):
-            stream_bodies.measure_mesh_file(path, "part", MeasureOptions(unit_scale=0.5, **options))
-        known, summed = bodies[-2:]
-        assert (known.volume.order, known.area.order, summed.volume.order, summed.area.order) == (3, 0, 5, 5)
-        assert known.moments(3, False)[1] is known.moments(5, False)[1] is None
-        for order in (2, 3, 5):
-            for one, other in zip(known.moments(order, True), summed.moments(order, True)):
-                assert one.order == other.order == order and one.measure == other.measure
-                apart = np.abs(one.raw - other.about_point(one.about).raw).max()
-                assert apart <= 1e-10 * np.abs(one.raw).max() and one.total > 0.0
 
 
 def test_of_a_sheet_it_does_not_matter_whether_its_faces_enclose_anything(tmp_path):

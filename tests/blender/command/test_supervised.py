@@ -20,11 +20,6 @@ with suppress(ImportError):  # Windows
 
 pytest.importorskip("bpy")
 import bpy
-from body_moments.core.density.spline_tables import MAX_ORDER as MAX_SPLINE_ORDER
-from body_moments.core.polyhedron import MAX_ORDER
-from body_moments.core.scans import SUFFIXES as SCANS
-from body_moments.operators.command import files as readers
-from body_moments.operators.command import option_types
 from body_moments.operators.supervisor import listing, processes
 from body_moments.operators.supervisor.journal import Journal
 
@@ -59,12 +54,6 @@ def killer(tmp_path_factory):
     path = tmp_path_factory.mktemp("killer") / "killer.ply"
     path.write_text("ply\nformat ascii 1.0\nelement vertex 4000000000\nend_header\n")
     return path
-
-
-def test_the_constants_are_those_of_the_core():
-    assert option_types.MAX_ORDER == MAX_ORDER and option_types.MAX_SPLINE_ORDER == MAX_SPLINE_ORDER
-    known = {readers.BLEND, *readers._IMPORTERS, *SCANS} - {".raw"}
-    assert {*listing.SUFFIXES} == known
 
 
 def test_a_file_that_kills_blender_is_a_record_and_the_others_are_there(scans, killer, tmp_path):
