@@ -29,21 +29,6 @@ def test_clear_removes_all_results_of_the_selected_objects_only():
     assert bpy.ops.object.body_moments_clear() == {"CANCELLED"}
 
 
-def test_copy_report_needs_results_and_then_works(tmp_path, capfd):
-    add(mesh_body())
-    assert not bpy.ops.object.body_moments_copy_report.poll()
-    bpy.ops.object.body_moments_measure()
-    for path in (None, tmp_path / "saved.blend"):
-        if path is not None:
-            bpy.ops.wm.save_as_mainfile(filepath=str(path))
-        capfd.readouterr()
-        assert bpy.ops.object.body_moments_copy_report() == {"FINISHED"}
-        lines = capfd.readouterr().out.splitlines()
-        assert [line for line in lines if line.startswith("File")] == ["File: {}".format(path)] * (path is not None)
-    assert bpy.ops.object.body_moments_copy_value(value="3.15", unit="m³") == {"FINISHED"}
-    assert bpy.ops.object.body_moments_copy_value() == {"CANCELLED"}
-
-
 @pytest.mark.parametrize("parent", [True, False])
 def test_the_empty_is_the_principal_frame_and_there_is_one(parent):
     obj = add(mesh_body(), location=(1, 2, 3), rotation=(0.3, 0.4, 0.5), scale=(1, 2, 3))
@@ -100,14 +85,6 @@ def test_an_empty_that_its_object_follows_is_left_where_it_is(how, reported):
         assert (place(obj) == before[0]).all() and (place(empty) == before[1]).all()
         assert empty.parent is None
     assert reported.codes.count("empty_followed") == 2
-
-
-def test_no_empty_is_a_child_of_what_has_no_thickness():
-    obj = add(mesh_body(), scale=(1, 1, 0))
-    obj.body_moments.kind = "SHELL"
-    assert bpy.ops.object.body_moments_add_empty() == {"CANCELLED"}
-    assert not [one for one in bpy.data.objects if one.type == "EMPTY"]
-    assert bpy.ops.object.body_moments_add_empty(parent=False) == {"FINISHED"}
 
 
 def test_an_empty_is_added_to_the_scene_that_it_is_asked_for_in():
@@ -441,15 +418,3 @@ def test_a_scenes_default_material_is_the_density_of_objects_without_one_here_an
     obj.body_moments.density = 5.0
     bpy.ops.object.body_moments_measure()
     assert obj["body_density"] == 5.0
-
-
-def test_faults_of_many_objects_are_looked_for_in_one_evaluation_of_the_scene():
-    bodies = [add(mesh_body(), "Body", location=(4 * i, 0, 0)) for i in range(4)]
-    only(*bodies)
-    evaluations = []
-    bpy.app.handlers.depsgraph_update_post.append(lambda *_: evaluations.append(1))
-    try:
-        assert bpy.ops.object.body_moments_select_faults() == {"FINISHED"}
-    finally:
-        bpy.app.handlers.depsgraph_update_post.pop()
-    assert all(body["body_mass"] > 0.0 for body in bodies) and len(evaluations) < 4

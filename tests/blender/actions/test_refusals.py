@@ -236,17 +236,6 @@ def alike():
     only(add(mesh_body(), "a b"), add(mesh_body(), "a.b", (9, 0, 0)))
 
 
-def collections():
-    root = assembly_of_boxes()
-    empty_one = bpy.data.collections.new("Nothing")
-    bpy.context.scene.collection.children.link(empty_one)
-    assert root
-
-
-def no_collections():
-    empty_assembly()
-
-
 NOWHERE = "/no such folder/file"
 CASES = {  # scene, operator, options, code of the refusal
     "cursor to open": (open_member, "view3d.cursor_to_assembly", {}, "assembly_has_open_members"),
@@ -261,7 +250,7 @@ CASES = {  # scene, operator, options, code of the refusal
     "inertial of an empty mesh": (no_faces, "object.copy_inertial", {}, "no_geometry"),
     "urdf nowhere": (body, "export_scene.urdf", {"filepath": NOWHERE}, "robot_not_written"),
     "urdf of no collections": (
-        no_collections,
+        empty_assembly,
         "export_scene.urdf",
         {"filepath": NOWHERE, "links": "COLLECTION"},
         "assembly_without_members",

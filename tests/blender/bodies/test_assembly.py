@@ -8,7 +8,7 @@ import bpy
 import numpy as np
 import pytest
 from body_moments.core.verdict.finding import MeasureError
-from body_moments.operators.bodies.assembly import measure_assembly, members_key, structure_hash
+from body_moments.operators.bodies.assembly import measure_assembly
 from body_moments.operators.read import measurable_objects
 from body_moments.operators.read.assembly import MemberKind, members_of
 from body_moments.operators.session import staleness
@@ -381,12 +381,6 @@ def test_an_empty_with_a_given_mass_stands_for_its_children_in_a_collection():
     assert [part.member.name for part in assembly.root.parts] == ["child", "other"]
 
 
-def test_nothing_is_refused_by_name():
-    with pytest.raises(MeasureError) as refused:
-        measured(collection("Nothing"))
-    assert refused.value.finding.code == "assembly_without_members" and refused.value.subject == "Nothing"
-
-
 @pytest.mark.parametrize("unit", [0.001, 1.0, 1000.0])
 def test_units_and_places_far_away(unit):
     bpy.context.scene.unit_settings.scale_length = unit
@@ -434,21 +428,6 @@ def test_a_given_inertia_is_no_multiple_of_the_mass():
     settings.mass = 3.0
     bpy.context.view_layer.update()
     assert close(obj["body_mass"], 3.0, 1e-6) and staleness.stale_reason(obj, bpy.context.scene) is None
-
-
-def test_a_given_mass_without_members_is_at_the_origin_and_said_to_be():
-    root = collection()
-    part = collection("Bought", root)
-    part.body_moments.mass_from, part.body_moments.mass = "MASS", 2.5
-    assembly = measured(root)
-    body = assembly.measurement.mass_properties
-    assert close(body.mass, 2.5, 1e-14) and not body.center.any() and not body.inertia.any()
-    (found,) = [one for part in assembly.root.walk() for one in part.findings if one.code == "given_center_missing"]
-    assert str(found)
-    part.body_moments.use_center, part.body_moments.given_center = True, (1, 2, 3)
-    assembly = measured(root)
-    assert close(assembly.measurement.mass_properties.center, [1, 2, 3], 1e-14)
-    assert not [one for part in assembly.root.walk() for one in part.findings if one.code == "given_center_missing"]
 
 
 def instance(into, of, **where):
@@ -517,64 +496,3 @@ def test_inside_of_an_instance_what_is_not_rendered_or_only_cuts_is_left_out():
         assert close(assembly.measurement.mass_properties.mass, 8000.0 + 7000.0, 1e-6)
         setattr(inner, name, False)
     assert shown.name == "Instance"
-
-
-def test_empties_without_children_are_point_masses_or_nothing():
-    made = collection()
-    root, group = empty(made, "Root"), empty(made, "Group")
-    for name, mass, parent in (("Motor", 2.0, root), ("Bare", None, root), ("Screw", 1.0, group)):
-        empty(made, name, mass=mass).parent = parent
-    group.parent = root
-    bpy.context.view_layer.update()
-    found = members_of(root, bpy.context.evaluated_depsgraph_get())
-    kinds = [(member.name, member.kind.name, [below.name for below in member.members]) for member in found.members]
-    assert kinds == [("Group", "EMPTY", ["Screw"]), ("Motor", "POINT", [])]
-
-
-def test_what_is_parented_to_an_instance_is_below_it_beside_its_collection():
-    made, shown = collection(), bpy.data.collections.new("Shown")
-    root, instancer = empty(made, "Root"), empty(made, "Instancer")
-    box(shown, (1, 1, 1), name="Inside")
-    instancer.instance_type, instancer.instance_collection, instancer.parent = "COLLECTION", shown, root
-    box(made, (1, 1, 1), name="Child").parent = instancer
-    bpy.context.view_layer.update()
-    (found,) = members_of(root, bpy.context.evaluated_depsgraph_get()).members
-    assert found.kind.name == "INSTANCE" and [below.name for below in found.members] == ["Shown", "Child"]
-
-
-def test_the_numbers_of_an_assembly_depend_on_who_is_a_member_where_and_on_what_is_given():
-    root = collection()
-    part, of = collection("Bought", root), bpy.data.collections.new("Of")
-    member, point = box(part, (1, 1, 1)), empty(root, "Point", (1, 2, 3), mass=2.0)
-    box(of, (1, 1, 1), name="Shown")
-    shown = instance(root, of)
-
-    def keys():
-        bpy.context.view_layer.update()
-        tree = members_of(root, bpy.context.evaluated_depsgraph_get())
-        return structure_hash(tree), members_key(tree, {member: "of the member"})
-
-    def is_other(owner, name, value):
-        """Of the structure, of the members' results; and what is put back is as it was."""
-        before, kept = keys(), getattr(owner, name)
-        kept = kept if isinstance(kept, (str, bool, float)) else tuple(kept)
-        setattr(owner, name, value)
-        after = keys()
-        setattr(owner, name, kept)
-        assert keys() == before
-        return [one != other for one, other in zip(before, after)]
-
-    given = ("mass", 7.0), ("use_center", True), ("use_inertia", True)
-    for name, value in given:
-        assert is_other(part.body_moments, name, value) == [False, False]
-    assert is_other(part.body_moments, "mass_from", "MASS") == [True, False]
-    part.body_moments.mass_from = "MASS"
-    for name, value in given:
-        assert is_other(part.body_moments, name, value) == [True, False]
-        assert is_other(point.body_moments, name, value) == [False, True]
-    for obj, expected in ((member, [False, True]), (point, [False, True]), (shown, [True, False])):
-        assert is_other(obj, "location", (4, 5, 6)) == expected
-        assert is_other(obj, "name", "Other") == [True, False]
-    assert is_other(member, "hide_render", True) == [True, True]
-    tree = members_of(root, bpy.context.evaluated_depsgraph_get())
-    assert members_key(tree, {}) != keys()[1]

@@ -359,16 +359,6 @@ def test_what_is_impossible_is_an_error_and_what_is_only_otherwise_is_a_note(tmp
         assert bool(values[-1]) or not found.findings
 
 
-def test_a_frame_that_states_zeros_is_only_noted(tmp_path):
-    path = tmp_path / "r.urdf"
-    zero = '<inertial><mass value="0"/><inertia ixx="0" iyy="0" izz="0" ixy="0" ixz="0" iyz="0"/></inertial>'
-    body = '<visual><geometry><sphere radius="1"/></geometry></visual>'
-    path.write_text('<robot name="r"><link name="a">{0}</link><link name="b">{0}{1}</link></robot>'.format(zero, body))
-    frame, ball = audit(path).links
-    assert [one.code for one in frame.findings] == ["inertial_of_frame"]
-    assert [one.code for one in ball.findings] == ["inertial_mass_not_positive"]
-
-
 @pytest.mark.parametrize("turned", [False, True])
 def test_the_axis_that_a_mesh_says_is_up_is_obeyed_only_where_that_makes_it_right(tmp_path, turned):
     """Readers of COLLADA differ, and so do those who made descriptions for them."""
@@ -536,25 +526,6 @@ def test_a_shape_has_moments_where_what_it_bounds_is_certain_and_is_turned_as_it
         piece = _measured(uncertain, upright)
         assert piece.moments is None and piece.upright is upright and len(piece.points) == 8
         assert piece.turned().moments is None and len(piece.turned().points) == 8
-
-
-def test_what_is_said_of_links_without_geometry_or_inertial(tmp_path):
-    """Nothing where all is well; a frame is one without mass and without a tensor."""
-    inertial_of = (
-        '<inertial><mass value="{0}"/><inertia ixx="{1}" iyy="{1}" izz="{1}" ixy="0" ixz="0" iyz="0"/></inertial>'
-    )
-    cases = {
-        "sound": (inertial_of.format(2, 3), []),
-        "frame": (inertial_of.format(0, 0), ["inertial_of_frame"]),
-        "no tensor": (inertial_of.format(2, 0), ["inertial_not_positive"]),
-        "no mass": (inertial_of.format(0, 3), ["inertial_mass_not_positive"]),
-    }
-    path = tmp_path / "r.urdf"
-    links = "".join('<link name="{}">{}</link>'.format(name, text) for name, (text, _) in cases.items())
-    path.write_text('<robot name="r">{}</robot>'.format(links), encoding="utf-8")
-    for found, (name, (_, codes)) in zip(audit(path).links, cases.items(), strict=True):
-        assert [one.code for one in found.findings][: max(1, len(codes))] == codes, name
-        assert found.density is None and found.repaired is None, name
 
 
 @pytest.mark.parametrize("share, is_turned", [(0.1, True), (0.25, True), (0.4, False)])

@@ -3,10 +3,8 @@
 """The results of several bodies as one, field by field."""
 
 import numpy as np
-import pytest
 from body_moments.core.moments.moments import Measure, Moments, monomials
 from body_moments.core.verdict.finding import finding
-from body_moments.core.verdict.health import MeshHealth
 from body_moments.core.verdict.method import Method, Verdict
 from body_moments.operators.bodies.combined import combined_measurement
 from body_moments.operators.bodies.given import properties_of
@@ -86,16 +84,3 @@ def test_bounds_of_several_bodies_are_those_that_were_added_up():
     }
     assert properties.input_error["inertia"] > properties.rounding_error["inertia"] > 0.0
     assert properties.input_error["center"] > properties.rounding_error["center"] > 0.0
-
-
-@pytest.mark.parametrize("given", [None, MeshHealth(closed=True, components=3, cavities=1)])
-def test_several_bodies_are_as_sound_as_is_said_and_else_nothing_is_known(given):
-    found = combined(health=given, method=Method(Verdict.CAPPED), density_from=finding("density_from_mass"))
-    expected = given or MeshHealth(closed=False, components=0)
-    assert found.health.as_record() == expected.as_record()
-    assert found.method == Method(Verdict.CAPPED) and found.density_from.code == "density_from_mass"
-
-
-def test_what_has_a_mass_and_no_volume_has_no_density():
-    assert combined(volume=(0.0, 0.0)).density == 0.0
-    assert close(combined(volume=(0.5, 0.0)).density, DENSITY * SIDES.prod() / 0.5, 1e-15)

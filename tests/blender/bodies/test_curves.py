@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Curve objects: wires, and the flat regions that closed ones bound, from control points."""
 
-import json
 from itertools import product
 from types import SimpleNamespace
 
@@ -13,11 +12,9 @@ from body_moments.core.moments.moments import monomials
 from body_moments.core.nurbs.curve import Curve
 from body_moments.operators.bodies.flat import flat_region
 from body_moments.operators.bodies.measure_object import measure_body, measure_object
-from body_moments.operators.read import curves, measurable
+from body_moments.operators.read import curves
 from body_moments.operators.read.deformation import FALLOFFS, spline_modifiers
 from body_moments.operators.settings.options import MeasureOptions
-from body_moments.operators.write.documents import to_json
-from body_moments.operators.write.record import record
 from mathutils import Matrix
 
 from tests.blender.characters import armature_of
@@ -377,35 +374,6 @@ def test_a_wire_whose_bevel_leaves_some_of_it_bare_is_measured_whole_and_says_so
     assert said(found) == {"bevel_range_ignored": {}}
 
 
-def test_a_wire_is_stored_recorded_and_cleared():
-    obj = circle()
-    obj.body_moments.kind = "WIRE"
-    assert measurable(obj)
-    bpy.ops.object.body_moments_measure()
-    assert obj["body_length"] == pytest.approx(2.0 * np.pi, rel=1e-8) and obj["body_density"] == 0.0
-    entry = record(measured(obj), order=2)
-    assert entry["linear_density"] == pytest.approx(1.0) and entry["density"] is None
-    assert entry["moments"]["length"]["2,0,0"] == pytest.approx(np.pi, rel=1e-7)
-    json.loads("".join(to_json([entry])))
-    obj.data.dimensions, obj.body_moments.kind = "2D", "SHELL"
-    bpy.ops.object.body_moments_measure()
-    assert "body_length" not in obj and obj["body_method"] == "NURBS shell"
-    bpy.ops.object.body_moments_clear()
-    assert not any(key.startswith("body_") and not key.startswith("body_moments") for key in tuple(obj.keys()))
-
-
-def test_a_plain_line_is_still_refused_as_a_solid_and_a_mesh_as_a_wire():
-    obj = circle()
-    assert not measurable(obj)
-    with refused("lines_only_curve"):
-        measured(obj)
-    bpy.ops.mesh.primitive_cube_add()
-    cube = bpy.context.object
-    cube.body_moments.kind = "WIRE"
-    with refused("only_curves_are_wires"):
-        measured(cube)
-
-
 def test_a_flat_region_takes_the_density_that_is_not_one_value_and_says_what_was_measured():
     obj = circle("bezier")
     obj.data.dimensions, obj.data.fill_mode = "2D", "BOTH"
@@ -428,51 +396,6 @@ def test_a_wire_has_its_linear_density_and_is_up_to_date_whatever_its_density_co
     obj.select_set(True)
     assert bpy.ops.object.body_moments_measure() == {"FINISHED"}
     assert staleness.stale_reason(obj, bpy.context.scene) is None
-
-
-def test_a_hook_on_a_flattened_wire_is_refused():
-    obj = circle("bezier")
-    obj.body_moments.kind, obj.data.dimensions, obj.scale = "WIRE", "3D", (1.0, 1.0, 0.0)
-    modifier = obj.modifiers.new("Hook", "HOOK")
-    modifier.object = add(None, "Target", select=False)
-    modifier.vertex_indices_set([0, 1, 2])
-    obj.data.bevel_depth = 0.1  # else its geometry set has the curve
-    with refused("scale_zero_axis", obj.name):
-        measured(obj)
-
-
-def test_a_curve_whose_points_are_one_has_no_length():
-    obj = poly([(1, 2, 3)] * 3)
-    obj.body_moments.kind = "WIRE"
-    with refused("no_length", obj.name):
-        measured(obj)
-
-
-@pytest.mark.parametrize("bevel", [0.0, 0.1])
-def test_splines_of_too_few_points_are_left_out_and_counted(bevel):
-    """Also where they are the only ones."""
-    obj = poly([(0, 0, 0), (3, 0, 0)])
-    obj.body_moments.kind, obj.data.bevel_depth = "WIRE", bevel
-    assert said(measured(obj)) == {}
-    for kind in ("POLY", "NURBS"):
-        obj.data.splines.new(kind).points[0].co = (5, 5, 5, 1)
-    found = measured(obj)
-    assert found.length == pytest.approx(3.0) and found.health.components == 1
-    assert said(found) == {"splines_left_out": {"count": 2, "total": 3}}
-    obj.data.splines.remove(obj.data.splines[0])
-    with refused("no_curve", obj.name):
-        measured(obj)
-
-
-def test_a_bevel_hides_from_nodes_what_a_wire_is_and_that_is_said():
-    obj = poly([(0, 0, 0), (3, 0, 0)])
-    obj.body_moments.kind, obj.data.bevel_depth = "WIRE", 0.1
-    with_nodes(obj, "GeometryNodeTransform", Scale=(2.0, 2.0, 2.0))
-    found = measured(obj)
-    assert found.length == pytest.approx(3.0)
-    assert said(found) == {"curve_before_modifiers": {}}
-    obj.data.bevel_depth = 0.0
-    assert measured(obj).length == pytest.approx(6.0) and said(measured(obj)) == {}
 
 
 @pytest.mark.parametrize("bevel", [0.0, 0.1])
@@ -613,16 +536,6 @@ def test_keys_that_are_not_relative_are_left_to_what_blender_shows():
     assert measured(obj).length == pytest.approx(3.0)
 
 
-@pytest.mark.parametrize("bevel", [0.0, 0.1])
-def test_a_curve_without_splines_is_no_wire(bevel):
-    data = bpy.data.curves.new("Nothing", "CURVE")
-    data.bevel_depth = bevel
-    obj = add(data, "Nothing")
-    obj.body_moments.kind = "WIRE"
-    with refused("no_curve", obj.name):
-        measured(obj)
-
-
 def test_knots_are_known_where_they_give_the_length_that_blender_has():
     """Blender gives the length of a spline, and of its knots nothing."""
     obj = circle()
@@ -662,19 +575,6 @@ def test_knots_are_known_where_they_give_the_length_that_blender_has():
         assert curves._has_known_knots(far, moved) is expected  # of which float32 has fewer digits
 
 
-@pytest.mark.parametrize("bevel", [0.0, 0.1])
-def test_knots_that_nobody_tells_are_refused(monkeypatch, bevel):
-    obj = circle()
-    obj.body_moments.kind, obj.data.bevel_depth = "WIRE", bevel
-    assert measured(obj).length > 6.0
-    monkeypatch.setattr(curves, "_has_known_knots", lambda spline, curve: False)
-    if bevel:
-        with refused("unknown_knots", obj.name):
-            measured(obj)
-        obj.data.splines[0].type = "POLY"  # which has none
-    assert measured(obj).length > 5.0
-
-
 def test_curves_with_knots_of_their_own_are_refused():
     data = bpy.data.hair_curves.new("Hair")
     data.add_curves([5])
@@ -691,32 +591,6 @@ def test_curves_with_knots_of_their_own_are_refused():
     data.attributes["curve_type"].data[0].value = curves.TYPES.index("POLY")
     (found,) = curves._shown_curves(data, "Hair")
     assert found.space.order == 2 and np.array_equal(found.points, points)
-
-
-def test_curves_of_which_nothing_is_said_go_through_their_points_and_are_open():
-    data = bpy.data.hair_curves.new("Hair")
-    data.add_curves([4, 3])
-    for attribute in ("curve_type", "cyclic", "nurbs_order", "knots_mode"):
-        assert attribute not in data.attributes
-    points = np.random.default_rng(3).uniform(-1, 1, (7, 3)).astype(np.float32)
-    data.attributes["position"].data.foreach_set("vector", points.ravel())
-    found = list(curves._shown_curves(data, "Hair"))
-    for curve, own in zip(found, (points[:4], points[4:]), strict=True):
-        assert curve.space.order == 4
-        assert np.abs(curve.evaluate(np.arange(float(len(own)))) - own).max() < 1e-6
-    data.attributes.new("curve_type", "INT8", "CURVE").data.foreach_set("value", [3, 3])
-    assert [curve and curve.space.knots for curve in curves._shown_curves(data, "Hair")] == [
-        curves.blender_space(4, 4, False, False, False).knots,
-        None,
-    ]
-
-
-def test_a_spline_whose_points_are_one_is_as_its_polygon():
-    for kind in ("NURBS", "BEZIER"):
-        data = bpy.data.curves.new("Nothing", "CURVE")
-        spline = data.splines.new(kind)
-        (spline.points if kind == "NURBS" else spline.bezier_points).add(4)
-        assert curves._is_straight(spline) is True and not curves.is_round(add(data))
 
 
 def test_a_hook_falls_off_as_its_curve_says_from_one_to_nothing():

@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Densities that are not one number: materials, polynomials and vertex attributes, from settings to what is said."""
 
-import json
 import math
 
 import bpy
@@ -14,7 +13,6 @@ from body_moments.core.verdict.finding import MeasureError, finding
 from body_moments.operators.bodies.measure_object import measure_object
 from body_moments.operators.session import staleness
 from body_moments.operators.settings.options import MeasureOptions
-from body_moments.operators.write import documents, properties, record, text_report
 
 from tests.blender import batch_files
 from tests.blender.bodies.test_measure_object import add, box, measure
@@ -131,39 +129,6 @@ def test_a_shell_of_materials_follows_every_transform(transform):
         area = np.linalg.norm(np.cross(corners[2] - corners[0], corners[3] - corners[1])) / 2.0
         mass += area * 0.01 * (STEEL if slot else CORK)
     assert measure(obj).mass_properties.mass == pytest.approx(mass, rel=1e-6)
-
-
-def test_a_part_that_mixes_materials_is_named_and_takes_the_mean_by_area():
-    obj = by_material(
-        add(box((0, 0, 0), (1, 1, 1))), material("Cork", CORK), material("Steel", STEEL), faces=[1, 0, 0, 0, 0, 0]
-    )
-    found = measure(obj)
-    mean = (5 * CORK + STEEL) / 6
-    assert found.mass_properties.mass == pytest.approx(mean, rel=1e-14)
-    mixed = finding("mixed_material_component", materials=["Cork", "Steel"], density=pytest.approx(mean))
-    assert list(found.findings) == [mixed] and found.findings[0].elements.tolist() == [0]
-    assert found.density_from.values["materials"][-1]["code"] == "density_mixed_by_area"
-    two = add(box((0, 0, 0), (1, 1, 1)), box((3, 0, 0), (4, 1, 1)))
-    by_material(two, bpy.data.materials["Cork"], bpy.data.materials["Steel"], faces=[0] * 6 + [1] * 5 + [0])
-    (found,) = measure(two).findings
-    assert found.elements.tolist() == [6] and found.values["materials"] == ["Cork", "Steel"]
-
-
-def test_mixed_materials_of_instances_that_are_compared_are_named_with_their_objects():
-    cork, steel = material("Cork", CORK), material("Steel", STEEL)
-    group = bpy.data.collections.new("Group")
-    for name, x, faces in (("Pure", 0.0, [0] * 6), ("Mixed", 0.9, [1, 0, 0, 0, 0, 0])):
-        group.objects.link(
-            by_material(add(box((0, 0, 0), (1, 1, 1)), name=name, location=(x, 0, 0)), cork, steel, faces=faces)
-        )
-    empty = bpy.data.objects.new("Instancer", None)
-    empty.instance_type, empty.instance_collection = "COLLECTION", group
-    empty.body_moments.density_from = "MATERIALS"
-    bpy.context.scene.collection.objects.link(empty)
-    bpy.context.view_layer.update()
-    found = next(one for one in measure(empty).findings if one.code == "mixed_material_component")
-    assert found.values["materials"] == ["Cork", "Steel"] and found.elements.tolist() == [0]
-    assert found.values["sources"] == ["Mixed"]
 
 
 def test_the_mean_by_area_is_that_of_the_areas_as_they_are_seen():
@@ -537,27 +502,6 @@ def test_a_density_that_only_may_be_negative_is_said_and_one_that_touches_zero_i
     assert not measure(by_polynomial(ring, "500*z")).findings
 
 
-@pytest.mark.parametrize("count", [50, 51])
-def test_of_more_instances_than_are_looked_at_the_density_may_be_negative(count):
-    """It is not in any of them, but between."""
-    group = bpy.data.collections.new("Group")
-    mesh = add(box((0, 0, 0), (0.5, 0.5, 0.5))).data
-    for number in range(count):
-        group.objects.link(bpy.data.objects.new("Box", mesh))
-        group.objects[-1].location = (number, -number, 0.0)
-    empty = by_polynomial(bpy.data.objects.new("Instancer", None), "x + y", "WORLD")
-    empty.instance_type, empty.instance_collection = "COLLECTION", group
-    bpy.context.scene.collection.objects.link(empty)
-    bpy.context.view_layer.update()
-    found = measure(empty)
-    assert close(found.mass_properties.mass, count * 0.0625, 1e-12)
-    assert said(found) == ({"density_possibly_negative": {}} if count > 50 else {})
-    found = measure(by_polynomial(empty, "1 + 2*x"))  # in its own coordinates each is as the first
-    assert close(found.mass_properties.mass, count * 0.1875, 1e-12) and not found.findings
-    assert not measure(by_polynomial(empty, "0.5")).findings
-    assert not measure(by_polynomial(empty, "0.1 + (x - y)**2")).findings
-
-
 @pytest.mark.parametrize("thickness", [0.5, 2.0**-13])
 def test_the_first_axis_points_where_the_third_moment_of_the_mass_is_positive(thickness):
     """Of a plate of which the volume about the center of mass is skewed the other way, also where it is so thin that
@@ -679,12 +623,6 @@ def test_a_density_or_mass_from_outside_overrides_all_of_it():
     assert found.density == pytest.approx(2.0) and found.density_from.code == "density_from_mass"
 
 
-def test_the_settings_of_an_older_file_mean_one_value():
-    obj = add(box())
-    assert obj.body_moments.density_from == "VALUE"
-    assert measure(obj).density_from.code == "density_from_value"
-
-
 def test_out_of_date_names_settings_materials_and_slots():
     scene, obj = bpy.context.scene, dumbbell()
     obj.select_set(True)
@@ -712,24 +650,6 @@ def test_out_of_date_names_settings_materials_and_slots():
     obj.body_moments.density_polynomial = "1000 + z"
     obj.body_moments.density_frame = "WORLD"
     assert reason() == "stale_settings"
-
-
-def test_the_record_the_report_and_the_properties_say_where_the_density_came_from():
-    obj = dumbbell()
-    obj.select_set(True)
-    found = measure(obj)
-    entry = record.record(found)
-    assert entry["density_from"] == "materials: Cork 240 kg/m³, Steel 7820 kg/m³"
-    document = documents.document([entry], record.total([found]), [], file=None, blender=None)
-    assert json.loads("".join(documents.to_json([document])))["total"]["mass"] == pytest.approx(STEEL + CORK)
-    assert "materials: Cork 240 kg/m³, Steel 7820 kg/m³" in "".join(documents.to_csv([document]))
-    bpy.ops.object.body_moments_measure()
-    assert obj["body_density_from"] == entry["density_from"]
-    assert obj["body_density"] == pytest.approx((STEEL + CORK) / 2)
-    assert "Density from" in text_report.report_text(bpy.context, [obj])
-    bpy.ops.object.body_moments_clear()
-    assert not [key for key in properties.DESCRIPTIONS if key in obj]
-    assert not properties.density_from(obj)
 
 
 def test_measuring_touches_no_material_and_no_mesh():
@@ -807,32 +727,6 @@ def test_the_command_line_measures_with_the_file_s_settings_unless_it_gives_a_de
     bpy.ops.wm.open_mainfile(filepath=path)
     assert bpy.data.objects["Box"].body_moments.density_from == "VALUE"
     assert measure(bpy.data.objects["Box"]).mass_properties.mass == pytest.approx(20.0)
-
-
-def test_of_many_materials_the_first_are_named():
-    boxes = [box((2 * i, 0, 0), (2 * i + 1, 1, 1)) for i in range(11)]
-    made = [material("Material {:02d}".format(i), 100.0 + i) for i in range(11)]
-    obj = by_material(add(*boxes), *made, faces=[i for i in range(11) for _ in range(6)])
-    text = str(measure(obj).density_from)
-    assert "Material 07 107 kg/m³" in text and "Material 08" not in text and text.endswith("and 3 more")
-
-
-@pytest.mark.parametrize("order_of_parts", [("Pure", "Mixed"), ("Mixed", "Pure")])
-def test_a_mean_by_area_of_any_part_is_said_of_the_density(order_of_parts):
-    cork, steel = material("Cork", CORK), material("Steel", STEEL)
-    group = bpy.data.collections.new("Group")
-    for x, name in enumerate(order_of_parts):
-        faces = [1, 0, 0, 0, 0, 0] if name == "Mixed" else [0] * 6
-        part = by_material(add(box((0, 0, 0), (1, 1, 1)), name=name), cork, steel, faces=faces)
-        part.location.x = 5.0 * x
-        group.objects.link(part)
-    empty = bpy.data.objects.new("Instancer", None)
-    empty.instance_type, empty.instance_collection = "COLLECTION", group
-    empty.body_moments.density_from = "MATERIALS"
-    bpy.context.scene.collection.objects.link(empty)
-    found = measure(empty)
-    assert found.density_from.values["materials"][-1]["code"] == "density_mixed_by_area"
-    assert close(found.mass_properties.mass, CORK + (5 * CORK + STEEL) / 6, rel=1e-13)
 
 
 @pytest.mark.parametrize("size", [0.25, 1.0, 8.0])

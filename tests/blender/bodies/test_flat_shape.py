@@ -5,14 +5,12 @@
 import bpy
 import numpy as np
 import pytest
-from body_moments.core.verdict.finding import MeasureError
-from body_moments.operators.bodies.flat_shape import FlatShape, OutlineDistance, comparable_shape_of, flat_shape_of
-from body_moments.operators.bodies.shape import Shape, register_surfaces, surface_shape_of
+from body_moments.operators.bodies.flat_shape import OutlineDistance, flat_shape_of
+from body_moments.operators.bodies.shape import register_surfaces
 
-from tests.blender.bodies.test_assembly import box_mesh
 from tests.blender.findings import refused
-from tests.blender.flat_objects import regular, sheet, text
-from tests.blender.objects import add, only
+from tests.blender.flat_objects import sheet
+from tests.blender.objects import only
 from tests.close import close
 
 pytestmark = pytest.mark.usefixtures("scene")
@@ -23,11 +21,6 @@ TRIANGLE = np.array([(0.0, 0.0), (4.0, 0.0), (1.0, 2.0)])
 def flat(obj, **more):
     bpy.context.view_layer.update()
     return flat_shape_of(obj, bpy.context.evaluated_depsgraph_get(), **more)
-
-
-def comparable(obj, is_flat=False):
-    bpy.context.view_layer.update()
-    return comparable_shape_of(obj, bpy.context.evaluated_depsgraph_get(), is_flat)
 
 
 def outline(shape):
@@ -128,54 +121,3 @@ def test_what_is_nearly_a_square_is_one_by_the_tolerance_at_any_size(size):
     skin = outline(shape)
     for tolerance, group in ((1e-4, "C1"), (0.02, "C4v")):
         assert [found.group for found in shape.find_symmetries(skin, tolerance)] == [group, group]
-
-
-def test_the_outermost_corners_of_an_outline_its_corners_and_the_middles_of_its_edges_are_looked_at():
-    few = flat(sheet(RECTANGLE, location=(1, 2, 3), rotation=(0.3, 0.2, 0.1)))
-    points = (OutlineDistance(few).points - few.center) @ few.axes
-    assert np.abs(points[:, 2]).max() < 1e-12
-    ends = few.region.points[few.region.edges] - few.moments.about[:2]
-    wanted = np.concatenate([few.corners, few.corners, ends.mean(axis=1)])
-    assert len(points) == len(wanted)
-    near = np.abs(points[:, None, :2] - wanted).max(axis=2) < 1e-9
-    assert near.any(axis=0).all() and near.any(axis=1).all()
-    many = flat(sheet(regular(2000) * [3.0, 1.0]))
-    points = (OutlineDistance(many).points - many.center) @ many.axes
-    assert len(points) == 150 + 750 + 750
-    farthest = many.corners[np.argsort(np.hypot(*many.corners.T))[-100:]]
-    assert (np.abs(points[:, None, :2] - farthest).max(axis=2) < 1e-9).any(axis=0).all()
-
-
-def test_a_sheet_is_a_body_unless_it_is_compared_with_a_flat_shape():
-    plate, box = sheet(RECTANGLE), add(box_mesh(1, 2, 3))
-    for kind, of_itself in (("SHELL", Shape), ("SOLID", FlatShape)):
-        plate.body_moments.kind = kind
-        assert isinstance(comparable(plate), of_itself) and isinstance(comparable(plate, True), FlatShape)
-    assert isinstance(comparable(box), Shape) and isinstance(comparable(box, True), Shape)
-
-
-@pytest.mark.parametrize("is_flat", [False, True])
-def test_why_an_object_has_neither_shape_is_said_as_clearly_as_can_be(is_flat):
-    crossing = sheet([(0, 0), (1, 1), (1, 0), (0, 1)])
-    with refused("section_face_crosses_itself", crossing.name):
-        comparable(crossing, is_flat)
-    bpy.ops.surface.primitive_nurbs_surface_surface_add()
-    patch = bpy.context.object
-    for point in patch.data.splines[0].points:
-        point.co.z = 0.0
-    for obj in (text("", "Empty"), patch):
-        bpy.context.view_layer.update()
-        with pytest.raises(MeasureError) as alone:
-            surface_shape_of(obj, bpy.context.evaluated_depsgraph_get())
-        with refused(alone.value.finding.code, obj.name):
-            comparable(obj, is_flat)
-
-
-def test_a_flat_wall_is_no_flat_shape_unless_it_is_compared_with_one():
-    """It has a body, whose shape is not its own: that is the reason, though its outline is flat."""
-    wall = sheet(RECTANGLE)
-    settings = wall.body_moments
-    settings.kind, settings.wall, settings.thickness = "SHELL", "OUTWARD", 0.1
-    with refused("shape_of_wire_or_wall", wall.name):
-        comparable(wall)
-    assert isinstance(comparable(wall, True), FlatShape)

@@ -2,20 +2,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The moments of parts whose mass is given: each number and each bound, and both sides of what is possible."""
 
-from types import SimpleNamespace
-
 import bpy
 import numpy as np
 import pytest
 from body_moments.core.moments.moments import SECOND_MOMENT_INDEX, Measure, Moments, U, monomials
-from body_moments.operators.bodies.given import _is_outside, given_moments, properties_of
+from body_moments.operators.bodies.given import given_moments, properties_of
 from body_moments.operators.bodies.measure_object import measure_object
 from body_moments.operators.settings.given import GivenPart
 from body_moments.operators.settings.options import MeasureOptions
 
-from tests.blender.bodies.test_assembly import box_mesh
 from tests.blender.findings import refused, said
-from tests.blender.objects import add
 from tests.close import close
 
 pytestmark = pytest.mark.usefixtures("scene")
@@ -89,27 +85,6 @@ def test_a_tensor_may_miss_what_is_possible_by_its_last_digits_and_no_more():
             given_moments(mass, GivenPart(), TURN, LOCATION, cloud())
 
 
-def test_a_center_is_outside_where_no_box_around_a_part_has_it():
-    matrix = np.eye(4)
-    matrix[:3, :3], matrix[:3, 3] = TURN @ np.diag([1.0, 2.0, 4.0]), (10.0, 0.0, 0.0)
-    surface = SimpleNamespace(box=np.array([(2.0, 0.0, 0.0), (3.0, 1.0, 1.0)]))
-    reading = SimpleNamespace(parts=[SimpleNamespace(surface=surface, matrices=np.array([np.eye(4), matrix]))])
-    for unit in (1.0, 0.5):  # the second is from 8 to 10 along x, from 2 to 3 along y, to 4 along z
-        for point, outside in (
-            ((2.5, 0.5, 0.5), False),
-            ((3.0 + 4e-7, 0.5, 0.5), False),
-            ((3.0 + 1e-6, 0.5, 0.5), True),
-            ((2.0 - 1e-6, 0.5, 0.5), True),
-            ((2.5, 0.5, -1e-6), True),
-            ((9.0, 2.5, 3.9), False),
-            ((8.0 - 3e-6, 2.5, 2.0), True),
-            ((9.0, 3.5, 2.0), True),
-            ((5.0, 0.5, 0.5), True),
-        ):
-            assert _is_outside(unit * np.array(point), reading, unit) is outside, (unit, point)
-    assert _is_outside(np.zeros(3), SimpleNamespace(), 1.0) is False
-
-
 def test_a_point_has_no_axes_of_its_own_and_bounds_of_its_place():
     point, _ = given_moments(2.5, GivenPart(), TURN, LOCATION, None)
     found = properties_of(point, TURN)
@@ -155,17 +130,3 @@ def test_an_empty_that_stands_for_a_part_is_measured_as_that(with_inertia):
     }
     other = measure_object(obj, bpy.context.evaluated_depsgraph_get(), MeasureOptions(mass=7.0))
     assert other.mass_properties.mass == 7.0 and other.fingerprint != found.fingerprint
-
-
-def test_a_mass_of_the_caller_is_spread_as_the_settings_give_it_only_where_they_give_a_mass():
-    obj = add(box_mesh(1, 2, 4))
-    settings = obj.body_moments
-    settings.use_center, settings.given_center = True, (0.25, 0.5, 0.75)
-    for mass_from, options, center in (
-        ("MASS", MeasureOptions(mass=4.0), [0.25, 0.5, 0.75]),
-        ("MASS", MeasureOptions(density=0.5), [0.0, 0.0, 0.0]),
-        ("DENSITY", MeasureOptions(mass=4.0), [0.0, 0.0, 0.0]),
-    ):
-        settings.mass_from = mass_from
-        found = measure_object(obj, bpy.context.evaluated_depsgraph_get(), options).mass_properties
-        assert close(found.mass, 4.0, 1e-15) and np.abs(found.center - center).max() < 1e-15

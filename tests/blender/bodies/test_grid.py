@@ -2,11 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Volume objects: voxels to the bit by both ways of reading them, and numbers through every transform and type."""
 
-import os
-import sys
 import tempfile
 from contextlib import nullcontext
-from types import ModuleType, SimpleNamespace
+from types import SimpleNamespace
 
 import bpy
 import numpy as np
@@ -176,22 +174,6 @@ def test_reading_leaves_nothing_behind(tmp_path, monkeypatch, nodes):
     assert snapshot() == before
     assert bpy.context.scene == scene
     assert staleness.stale_reason(obj, scene) is None
-
-
-def test_the_temporary_folder_is_empty_afterwards(tmp_path, monkeypatch):
-    bpy.ops.mesh.primitive_cube_add()
-    fog = mesh_to_volume(bpy.context.object)
-    seen = []
-    original = vdb.VdbGrid.__init__
-
-    def watched(self, path, name):
-        seen.append(path)
-        original(self, path, name)
-
-    monkeypatch.setattr(vdb.VdbGrid, "__init__", watched)
-    measure(fog)
-    assert seen and not os.path.exists(os.path.dirname(seen[0]))
-    assert seen[0].startswith(os.path.join(bpy.app.tempdir, "body_moments_"))
 
 
 TRANSFORMS = {
@@ -448,14 +430,6 @@ def an_instance(tree):
 ONES = np.ones((8, 8, 8), np.float32)
 
 
-def test_what_is_instanced_beside_the_volume_is_said(tmp_path):
-    found = measure(with_nodes(volume_object(tmp_path / "a.vdb", vdb_grid(ONES)), an_instance))
-    assert found.mass_properties.mass == pytest.approx(512.0)
-    assert "instances_beside_volume" in said(found)
-    plain = measure(with_nodes(volume_object(tmp_path / "b.vdb", vdb_grid(ONES))))
-    assert "instances_beside_volume" not in said(plain)
-
-
 def test_instances_of_volumes_name_the_remedy(tmp_path):
     collection = bpy.data.collections.new("Clouds")
     obj = volume_object(tmp_path / "a.vdb", vdb_grid(ONES))
@@ -497,25 +471,11 @@ def test_no_voxel_that_is_not_finite_has_a_density(tmp_path, value, table):
     assert caught.value.finding.code == ("values_non_finite_for_table" if table else negative)
 
 
-def test_an_empty_background_with_a_density_by_the_table_is_said(tmp_path):
-    values = ONES.copy()
-    values[0] = 0.0
-    obj = volume_object(tmp_path / "a.vdb", vdb_grid(values))
-    assert "background_empty" not in said(measure(obj))
-    obj.body_moments.values_from, obj.body_moments.transfer_table = "TABLE", "0 1000, 1 2000"
-    assert said(measure(obj))["background_empty"] == {"value": 0.0}
-
-
 def test_numbers_too_large_or_too_far_are_refused(tmp_path):
     with refused("mass_overflow"):
         measure(volume_object(tmp_path / "a.vdb", vdb_grid(np.full((4, 4, 4), 1e300))))
     with refused("grid_far_from_origin", grid="density"):
         measure(volume_object(tmp_path / "b.vdb", vdb_grid(ONES, offset=(5, 1 << 29, -5))))
-
-
-def test_two_grids_of_one_name_are_said(tmp_path):
-    found = measure(volume_object(tmp_path / "a.vdb", vdb_grid(ONES), vdb_grid(2.0 * ONES)))
-    assert "grid_names_repeated" in said(found)
 
 
 def test_a_volume_that_a_mesh_shows_is_no_sheet(tmp_path):
@@ -531,27 +491,6 @@ def test_a_volume_that_a_mesh_shows_is_no_sheet(tmp_path):
     obj.body_moments.kind = "SHELL"
     with refused("grid_as_shell", obj.name):
         measure(obj)
-
-
-def test_of_a_node_only_what_is_not_empty_is_handed_out(tmp_path):
-    values = np.zeros((100, 90, 80), np.float32)
-    values[40:50, 7, 60:62] = 3.0
-    values[0, 0, 0] = values[-1, -1, -1] = 1e-3
-    grid = vdb_grid(values, offset=(128, 128, 128))
-    grid.fill((300, 300, 300), (300, 300, 300), 2.0)
-    vdb.openvdb().write(str(tmp_path / "a.vdb"), grid)
-    source = vdb.VdbGrid(str(tmp_path / "a.vdb"), "density")
-    found = np.zeros(source.shape)
-    sizes = []
-    for start, block in source.blocks():
-        found[tuple(slice(a, a + n) for a, n in zip(start, block.shape))] = block
-        sizes.append(block.size)
-    assert sorted(sizes) == [1, values.size]
-    assert np.array_equal(found[:100, :90, :80], values) and found[-1, -1, -1] == 2.0
-    values[0, 0, 0] = values[-1, -1, -1] = 0.0
-    vdb.openvdb().write(str(tmp_path / "b.vdb"), vdb_grid(values, offset=(128, 128, 128)))
-    source = vdb.VdbGrid(str(tmp_path / "b.vdb"), "density")
-    assert [block.size for _, block in source.blocks()] == [20]
 
 
 def test_a_level_set_without_a_surface_bounds_nothing(tmp_path):
@@ -580,60 +519,12 @@ def test_a_damaged_file_is_refused_with_the_grid_that_cannot_be_read(tmp_path):
         measure(obj)
 
 
-def test_values_of_another_type_are_named(tmp_path):
-    grid = vdb.openvdb().Vec3SGrid()
-    grid.name = "velocity"
-    grid.fill((0, 0, 0), (3, 3, 3), (1.0, 0.0, 0.0))
-    volume_object(tmp_path / "a.vdb", grid)
-    with refused("grid_value_type", grid="velocity", type="vec3s"):
-        vdb.VdbGrid(str(tmp_path / "a.vdb"), "velocity")
-    with refused("grid_unreadable", grid="density"):
-        vdb.VdbGrid(str(tmp_path / "a.vdb"), "density")
-
-
-def test_without_openvdb_nobody_knows_whether_a_grid_is_a_level_set(tmp_path, monkeypatch):
-    by_nodes(monkeypatch)
-    obj = volume_object(tmp_path / "a.vdb", vdb_grid(ONES))
-    obj.body_moments.grid_as = "SOLID"
-    with refused("level_set_needs_openvdb", obj.name):
-        measure(obj)
-
-
-def test_without_openvdb_a_grid_has_a_size_that_fits(tmp_path, monkeypatch):
-    by_nodes(monkeypatch)
-    obj = volume_object(tmp_path / "a.vdb", vdb_grid(ONES))
-    monkeypatch.setattr(sample_grid, "MAX_VOXELS", 0)
-    with pytest.raises(MeasureError) as caught:
-        measure(obj)
-    samples = caught.value.finding.values["samples"]
-    assert all(8 + 2 <= along <= 8 + 4 for along in samples)  # the box around eight voxels, rounded, and a margin
-    monkeypatch.setattr(sample_grid, "MAX_VOXELS", int(np.prod(samples)))
-    assert measure(obj).mass_properties.mass == pytest.approx(512.0)
-    monkeypatch.setattr(sample_grid, "MAX_VOXELS", int(np.prod(samples)) - 1)
-    with refused("grid_too_large_without_openvdb", obj.name, grid="density", samples=samples):
-        measure(obj)
-
-
 def test_no_voxels_can_be_written_where_the_disk_is_full(monkeypatch):
     bpy.ops.mesh.primitive_cube_add()
     fog = mesh_to_volume(bpy.context.object)
     monkeypatch.setattr(volume_module.tempfile, "TemporaryDirectory", lambda **_: nullcontext("/nowhere/at/all"))
     with refused("temporary_folder_full", fog.name):
         measure(fog)
-
-
-@pytest.mark.parametrize("name", ["openvdb", "pyopenvdb"])
-def test_the_module_is_found_under_either_name_or_said_to_be_missing(monkeypatch, name):
-    monkeypatch.setitem(sys.modules, "openvdb", None)
-    monkeypatch.setitem(sys.modules, "pyopenvdb", None)
-    asked = []
-    monkeypatch.setattr(bpy.utils, "expose_bundled_modules", lambda: asked.append(name), raising=False)
-    assert vdb.openvdb() is None and asked == [name]  # Blender's own modules are hidden until then
-    module = ModuleType(name)
-    monkeypatch.setitem(sys.modules, name, module)
-    assert vdb.openvdb() is module
-    monkeypatch.delattr(bpy.utils, "expose_bundled_modules")  # of an older Blender
-    assert vdb.openvdb() is module
 
 
 def test_a_volume_that_is_nowhere_is_refused(tmp_path):
@@ -646,52 +537,6 @@ def test_a_volume_that_is_nowhere_is_refused(tmp_path):
 def test_what_an_empty_volume_instances_is_its_body():
     obj = with_nodes(linked(bpy.data.objects.new("Empty", bpy.data.volumes.new("Empty"))), an_instance)
     assert close(measure(obj).volume, 1.0, rel=1e-6)
-
-
-def test_a_volume_that_nodes_may_have_changed_is_written_and_read_again(tmp_path):
-    values = random_values(np.float32)
-    obj = volume_object(tmp_path / "a.vdb", vdb_grid(values))
-    truth = measure(obj).mass_properties
-    assert close(truth.mass, values.sum(dtype=float), rel=1e-12)
-    found = measure(with_nodes(obj)).mass_properties
-    assert close(found.mass, truth.mass, rel=1e-12) and close(found.center, truth.center, rel=1e-12)
-
-
-def fake_grid(kind, diagonal=(1.0, 1.0, 1.0, 1.0)):
-    return SimpleNamespace(name="density", data_type=kind, matrix_object=np.diag(diagonal))
-
-
-def test_what_nodes_cannot_sample_needs_openvdb(tmp_path):
-    obj = volume_object(tmp_path / "a.vdb", vdb_grid(ONES))
-    corners = [(0, 0, 0), (1, 1, 1)]
-    for kind in ("DOUBLE", "INT64", "VECTOR_FLOAT"):
-        with refused("grid_needs_openvdb", grid="density"):
-            sample_grid.SampledGrid(obj, depsgraph(), fake_grid(kind), corners)
-    for diagonal in ((0.0, 0.0, 0.0, 0.0), (1.0, 0.0, 1.0, 1.0)):
-        with refused("grid_transform_singular"):
-            sample_grid.SampledGrid(obj, depsgraph(), fake_grid("FLOAT", diagonal), corners)
-
-
-@pytest.mark.parametrize(("version", "knows_whole_numbers"), [((4, 5, 9), False), ((5, 0, 0), True)])
-def test_nodes_sample_floats_alone_before_blender_5(tmp_path, monkeypatch, version, knows_whole_numbers):
-    obj = volume_object(tmp_path / "a.vdb", vdb_grid(ONES))
-    monkeypatch.setattr(sample_grid, "bpy", SimpleNamespace(app=SimpleNamespace(version=version)))
-    monkeypatch.setattr(sample_grid, "MAX_VOXELS", 0)  # of those that it knows it gets as far as that
-    for kind in ("INT", "BOOLEAN", "FLOAT"):
-        is_known = knows_whole_numbers or kind == "FLOAT"
-        with refused("grid_too_large_without_openvdb" if is_known else "grid_needs_openvdb", grid="density"):
-            sample_grid.SampledGrid(obj, depsgraph(), fake_grid(kind), [(0, 0, 0), (1, 1, 1)])
-
-
-def test_nodes_that_give_no_values_are_said_to(tmp_path, monkeypatch):
-    by_nodes(monkeypatch)
-    obj = volume_object(tmp_path / "a.vdb", vdb_grid(ONES))
-    monkeypatch.setattr(sample_grid, "_fill", lambda *_: None)
-    before = [len(group) for group in (bpy.data.meshes, bpy.data.node_groups, bpy.data.objects, bpy.data.scenes)]
-    with refused("grid_not_sampled", obj.name, grid="density"):
-        measure(obj)
-    after = [len(group) for group in (bpy.data.meshes, bpy.data.node_groups, bpy.data.objects, bpy.data.scenes)]
-    assert after == before
 
 
 def test_a_whole_node_of_one_value_is_read_and_an_empty_one_is_not(tmp_path):
@@ -708,13 +553,6 @@ def test_a_whole_node_of_one_value_is_read_and_an_empty_one_is_not(tmp_path):
     vdb.openvdb().write(str(tmp_path / "b.vdb"), large)
     for number, (start, block) in zip(range(2), vdb.VdbGrid(str(tmp_path / "b.vdb"), "density").blocks()):
         assert start == (0, 0, 128 * number) and block.shape == (128, 128, 128) and block.min() == block.max() == 2.0
-
-
-def test_a_volume_that_is_in_no_scene_is_refused(tmp_path):
-    obj = volume_object(tmp_path / "a.vdb", vdb_grid(ONES))
-    bpy.context.scene.collection.objects.unlink(obj)
-    with refused("not_in_scene", obj.name), volume_reading(obj, depsgraph()):
-        pass
 
 
 def test_a_packed_volume_is_read_from_the_file_that_it_is_in(tmp_path):
@@ -738,24 +576,6 @@ def test_nodes_sample_the_box_that_blender_shows_with_room_for_rounding(tmp_path
     assert (found.low <= [-1, -3, 1]).all() and (found.low >= [-1, -3, 0]).all()  # which rounding may make one less
     end = found.low + found.shape
     assert (end >= [6, 8, 6]).all() and (end <= [6, 8, 7]).all()
-
-
-@pytest.mark.parametrize(("planes", "more"), [(1, 1), (2, -1), (2, 0), (4, 0), (99, 0)])
-def test_nodes_sample_as_many_planes_at_a_time_as_fit(tmp_path, monkeypatch, planes, more):
-    """more: voxels than that many planes have, of which one at least is sampled."""
-    by_nodes(monkeypatch)
-    values = random_values(np.float32, (8, 8, 8)) + 1.0
-    obj = volume_object(tmp_path / "a.vdb", vdb_grid(values))
-    with volume_reading(obj, depsgraph()) as reading:
-        side = reading.shape[0]
-        assert reading.shape == (side, side, side) and side in (10, 12) and reading.background == 0.0
-        monkeypatch.setattr(sample_grid, "VOXELS_PER_BLOCK", 1 if planes == 1 else planes * side * side + more)
-        step = planes - (more < 0)
-        blocks = list(reading.blocks())
-        assert [start for start, _ in blocks] == [(k, 0, 0) for k in range(0, side, step)]
-        assert [block.shape for _, block in blocks] == [(min(step, side - k), side, side) for k in range(0, side, step)]
-        inner = tuple(slice(-low, 8 - low) for low in reading.low)
-        assert np.array_equal(dense(reading)[inner], values) and np.count_nonzero(dense(reading)) == 512
 
 
 def test_the_scene_that_nodes_are_evaluated_in_is_at_the_frame_that_is_shown_and_calls_nobody():

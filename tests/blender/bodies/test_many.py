@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 bpy = pytest.importorskip("bpy")
-from body_moments.operators.bodies import many, measurement, stack
+from body_moments.operators.bodies import stack
 from body_moments.operators.bodies.many import measure_many, measured_in_turn
 from body_moments.operators.bodies.measure_object import measure_body
 from body_moments.operators.bodies.stack import Stacked
@@ -175,40 +175,6 @@ def test_the_corpus_together_is_the_corpus_alone(name):
         assert_same(found, expected)
 
 
-def test_slices_change_nothing(monkeypatch):
-    objects = shards(2)
-    whole, _ = all_outcomes(objects)
-    monkeypatch.setattr(many, "MAX_OBJECTS_PER_STACK", 5)
-    for (_, found), (_, again) in zip(whole, all_outcomes(objects)[0]):
-        assert_same(found, again)
-
-
-@pytest.mark.parametrize(
-    ("max_objects", "max_faces", "linked", "sizes"),
-    [
-        (5, 1000, False, [5, 5, 2]),
-        (1000, 15, False, [3, 3, 3, 3]),
-        (1000, 11, False, [3, 3, 3, 3]),
-        (1000, 11, True, [12]),
-    ],
-)
-def test_so_many_objects_and_faces_are_measured_together(monkeypatch, max_objects, max_faces, linked, sizes):
-    """Prisms of two triangles and three quads; those of a mesh count once."""
-    monkeypatch.setattr(many, "MAX_OBJECTS_PER_STACK", max_objects)
-    monkeypatch.setattr(many, "MAX_FACES_PER_STACK", max_faces)
-    objects = []
-    for height in range(1, 13):
-        points, faces = s.prism(s.regular(3), height=float(height))
-        mesh = bpy.data.meshes.new("Prism")
-        mesh.from_pydata(np.asarray(points).tolist(), [], [list(map(int, face)) for face in faces])
-        objects.append(bpy.data.objects.new("Prism", objects[0].data if linked and objects else mesh))
-        bpy.context.scene.collection.objects.link(objects[-1])
-    bpy.context.view_layer.update()
-    together = list(measure_many(objects, bpy.context.evaluated_depsgraph_get()))
-    assert [len(some) for some in together] == sizes
-    assert all(isinstance(found, Stacked) for some in together for _, found in some)
-
-
 def object_of(points, faces, name="Object"):
     mesh = bpy.data.meshes.new(name)
     mesh.from_pydata(np.asarray(points, float).tolist(), [], [list(map(int, face)) for face in faces])
@@ -265,23 +231,6 @@ def test_what_is_set_of_each_and_given_for_all_counts_together_as_alone(settings
     for options in ({}, {"mass": 5.0}, {"mass": 0.0}, {"density": 7.0}, {"density": 0.0}, own, {"order": 2}):
         pairs, depsgraph = all_outcomes([obj], MeasureOptions(**options))
         assert_same(pairs[0][1], alone(obj, depsgraph, MeasureOptions(**options)))
-
-
-def test_what_has_many_faces_or_none_is_measured_by_itself(monkeypatch):
-    """Sixth moments, which tell axes of the others, take long there: as many faces as may be, one more, none."""
-    for module in (many, measurement):
-        monkeypatch.setattr(module, "MAX_FACES_HIGH_ORDER", 6)
-    objects = []
-    for points, faces in (s.box(), s.prism(s.regular(5)), ([], [])):
-        mesh = bpy.data.meshes.new("Mesh")
-        mesh.from_pydata(np.asarray(points).tolist(), [], [list(map(int, face)) for face in faces])
-        objects.append(bpy.data.objects.new("Object", mesh))
-        bpy.context.scene.collection.objects.link(objects[-1])
-    bpy.context.view_layer.update()
-    pairs, depsgraph = all_outcomes(objects)
-    assert [isinstance(found, Stacked) for _, found in pairs] == [True, False, False]
-    for obj, found in pairs:
-        assert_same(found, alone(obj, depsgraph))
 
 
 def test_a_stack_that_fails_measures_each_alone(monkeypatch, capfd):

@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """From an object to its numbers: closed forms through every transform, kind, unit and overlap, and nothing touched."""
 
-import json
 from fractions import Fraction
 from types import SimpleNamespace
 
@@ -10,10 +9,9 @@ import bpy
 import numpy as np
 import pytest
 from body_moments.core.inertia.principal_frame import OwnMoments
-from body_moments.core.mesh.surface import Surface
 from body_moments.core.moments.moments import Measure, Moments
 from body_moments.core.verdict.finding import EditRefusedError
-from body_moments.operators.bodies import measurement, mesh
+from body_moments.operators.bodies import mesh
 from body_moments.operators.bodies.hull import object_hull
 from body_moments.operators.bodies.measure_object import measure_object
 from body_moments.operators.bodies.measurement import _frame_moments
@@ -218,14 +216,6 @@ def test_zero_scale_is_refused_with_the_remedy_and_zero_density_too():
         measure(weightless)
 
 
-def test_the_report_counts_what_could_not_be_measured_and_keeps_the_rest():
-    good, bad = add(box(), name="Good"), add({"points": [(0, 0, 0)], "faces": []}, name="Bad")
-    for obj in (good, bad):
-        obj.select_set(True)
-    assert bpy.ops.object.body_moments_measure() == {"FINISHED"}
-    assert "body_mass" in good and "body_mass" not in bad
-
-
 def test_principal_frames_of_copies_turn_with_the_copies():
     l_prism = (box((0, 0, 0), (3, 1, 1)), box((0, 1, 0), (1, 4, 1)), box((0, 0, 1), (1, 1, 2.5)))
     first = measure(add(*l_prism))
@@ -326,52 +316,6 @@ def test_the_ground_that_instances_stand_on_adds_no_volume_and_takes_none():
 
 def without(shell, *faces):
     return {**shell, "faces": [face for i, face in enumerate(shell["faces"]) if i not in faces]}
-
-
-def with_flipped(shell, *faces):
-    return {**shell, "faces": [face[::-1] if i in faces else face for i, face in enumerate(shell["faces"])]}
-
-
-def test_findings_about_members_of_a_collection_name_them_and_their_own_faces():
-    unit = box((0, 0, 0), (1, 1, 1))
-    good, bad = add(unit, name="Good"), add(with_flipped(without(unit, 5), 2), name="Bad", location=(3, 0, 0))
-    found = measure(collection_of(good, bad))
-    assert str(found.method) == "capped" and found.volume == pytest.approx(2.0)
-    share = pytest.approx(0.2)
-    assert said(found) == {
-        "flipped_faces": {"count": 1, "sources": ["Bad"]},
-        "holes_capped": {"count": 1, "flat": 1, "curved": 0, "share": share, "sources": ["Bad"]},
-    }
-    assert str(found.findings[0]).startswith("“Bad”: Flipped face measured as reversed: 2.")
-    good, bad = add(unit, name="Fine"), add(with_flipped(unit, 2, 4), name="Worse", location=(0.5, 0, 0))
-    found = measure(collection_of(good, bad))
-    flipped = next(one for one in found.findings if one.code == "flipped_faces")
-    assert flipped.elements.tolist() == [2, 4] and flipped.values == {"count": 2, "sources": ["Worse"]}
-    overlap = next(one for one in found.findings if one.code == "components_overlap")
-    assert overlap.elements[5:7] == [[5, "Fine"], [0, "Worse"]] and "0 of “Fine”, 1 of “Fine”" not in str(overlap)
-    parent = add(with_flipped(box((0, 0, 5), (1, 1, 6)), 0), name="Parent")
-    child = add(box((0, 0, 0), (0.1, 0.1, 0.1)), name="Child", parent=parent)
-    parent.instance_type = "VERTS"
-    bpy.context.view_layer.update()
-    assert measure(parent).findings[0].elements.tolist() == [0]
-    assert measure(parent).findings[0].values["sources"] == ["Parent"]
-    parent.instance_type = "NONE"
-    bpy.context.view_layer.update()
-    assert measure(parent).findings[0].elements.tolist() == [0] and not measure(child).findings
-    inverted = add(box((0, 0, 0), (1, 1, 1), turned=True), name="Inverted")
-    assert said(measure(collection_of(inverted))) == {
-        "inverted_components": {"count": 1, "total": 1, "sources": ["Inverted"]}
-    }
-
-
-def test_what_several_members_have_in_common_is_said_once_with_their_names():
-    open_box = without(box((0, 0, 0), (1, 1, 1)), 0)
-    found = measure(
-        collection_of(*(add(open_box, name="Open {:02d}".format(i), location=(3 * i, 0, 0)) for i in range(12)))
-    )
-    names = ["Open {:02d}".format(i) for i in range(12)]
-    assert said(found)["holes_capped"]["sources"] == names and len(found.findings) == 1
-    assert str(found.findings[0]).startswith(", ".join(map("“{:s}”".format, names[:8])) + ", and 4 more: Holes capped")
 
 
 @pytest.mark.parametrize("overlap", [False, True])
@@ -517,71 +461,6 @@ def test_every_letter_is_closed(bevel):
         assert found.volume == pytest.approx(0.2 * front, rel=1e-6)
 
 
-def test_what_nodes_made_is_named_by_the_object_that_has_them():
-    from tests.blender.read_bodies import join, node, nodes
-
-    host = add(with_flipped(box((0, 0, 0), (1, 1, 1)), 2), name="Host", location=(9, 0, 0))
-
-    def build(tree, source):
-        flipped = node(tree, "GeometryNodeFlipFaces", {}, Mesh=node(tree, "GeometryNodeMeshCube").outputs[0]).outputs[0]
-        moved = node(tree, "GeometryNodeTransform", {"Translation": (5, 0, 0)}, Geometry=flipped).outputs[0]
-        instance = node(tree, "GeometryNodeGeometryToInstance", {}, Geometry=moved).outputs[0]
-        return join(tree, source, instance)
-
-    nodes(host, build)
-    found = said(measure(collection_of(host, add(box(), name="Good", location=(-9, 0, 0)))))
-    assert found["flipped_faces"]["sources"] == found["inverted_components"]["sources"] == ["Host"]
-
-
-def test_equal_findings_about_different_faces_stay_apart():
-    unit = box((0, 0, 0), (1, 1, 1))
-    bad, worse = (add(with_flipped(unit, i), name="Bad", location=(3 * i, 0, 0)) for i in (2, 4))
-    found = measure(collection_of(bad, worse))
-    assert [one.elements.tolist() for one in found.findings] == [[2], [4]]
-    assert [one.values["sources"] for one in found.findings] == [["Bad"], ["Bad.001"]]
-
-
-def test_how_drawn_polygons_are_cut_is_a_note_and_how_those_of_a_mesh_are_is_not():
-    bpy.ops.curve.primitive_bezier_circle_add()
-    ring = bpy.context.object
-    ring.data.bevel_depth = 0.3
-    point = ring.data.splines[0].bezier_points[0]
-    point.radius, point.tilt = 3.0, 1.5
-    bent = box()
-    bent["points"] = [(x, y, z + 0.5 * x * y) for x, y, z in bent["points"]]
-    mesh = add(bent, name="Bent", location=(9, 0, 0))
-    assert said(measure(ring)).keys() == {"curves_drawn_as_polygons", "non_planar_faces_of_display_mesh"}
-    assert said(measure(mesh)).keys() == {"non_planar_faces"}
-    both = said(measure(collection_of(ring, mesh)))
-    assert both["non_planar_faces_of_display_mesh"]["sources"] == [ring.name]
-    assert both["non_planar_faces"]["sources"] == ["Bent"]
-
-
-def test_a_small_cap_before_uniting_is_a_note():
-    points = [(x, y, z) for z in (0, 1) for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
-    points += [(1e-3 * x, 1e-3 * y, 1) for x, y, _ in points[:4]]
-    turns = [(i, (i + 1) % 4) for i in range(4)]
-    faces = [(3, 2, 1, 0), *((a + k, b + k, b + k + 4, a + k + 4) for a, b in turns for k in (0, 4))]
-    found = said(measure(add({"points": points, "faces": faces}), overlap="union"))
-    assert found["holes_capped_before_union_slightly"] == {"share": pytest.approx(2.5e-7, rel=1e-3)}
-
-
-def test_a_density_that_nobody_set_is_a_note_in_the_window():
-    part = add(box())
-    part.select_set(True)
-    for density, codes in ((None, ["density_default_kept"]), (1000.0, [])):
-        if density is not None:
-            part.body_moments.density = density
-        assert bpy.ops.object.body_moments_measure() == {"FINISHED"}
-        assert [one["code"] for one in json.loads(part["body_findings"])] == codes
-        assert part["body_warnings"] == ""
-    bpy.ops.curve.primitive_bezier_circle_add()
-    wire = bpy.context.object
-    wire.body_moments.kind = "WIRE"
-    bpy.ops.object.body_moments_measure()
-    assert [one["code"] for one in json.loads(wire["body_findings"])] == ["linear_density_default_kept"]
-
-
 def test_suzanne_raises_no_alarm_and_a_ring_past_itself_does_until_it_is_united():
     bpy.ops.mesh.primitive_monkey_add()
     assert not [code for code in said(measure(bpy.context.object)) if code.startswith("self_")]
@@ -613,16 +492,6 @@ def test_instances_without_a_scale_along_an_axis_enclose_nothing_and_are_counted
     found = measure(collection_of(add(unit), *flat))
     assert found.volume == pytest.approx(1.0)
     assert said(found)["instances_zero_scale"] == {"count": 2}
-
-
-@pytest.mark.parametrize("left", [[], [(0, 1, 2), (0, 1, 3), (0, 1, 4)]])
-def test_a_boolean_that_leaves_nothing_closed_is_refused(monkeypatch, left):
-    obj = add(box(), box((0.5, 0, 0), (1.5, 2, 3)))
-    points = np.array([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), (0, -1, 0)], np.float32)
-    triangles = np.array(left, np.int32).reshape(-1, 3)
-    monkeypatch.setattr(mesh, "union_surface", lambda _: Surface(points, triangles=triangles))
-    with refused("union_failed", obj.name):
-        measure(obj, overlap="union")
 
 
 def test_united_instances_have_no_coordinates_of_their_own():
@@ -693,14 +562,3 @@ def test_axes_that_need_moments_beyond_the_range_of_numbers_are_refused(value, n
     getattr(moments, name)[-1] = value
     with refused("object_too_large"):
         _frame_moments(body, False)
-
-
-@pytest.mark.parametrize(
-    ("limit", "options", "is_said"),
-    [(6, {}, False), (5, {}, True), (5, {"pose": True}, False), (5, {"axes": False}, False)],
-)
-def test_axes_of_many_faces_come_from_third_order_and_where_that_leaves_a_choice_it_is_said(
-    monkeypatch, limit, options, is_said
-):
-    monkeypatch.setattr(measurement, "MAX_FACES_HIGH_ORDER", limit)
-    assert said(measure(add(box()), **options)).keys() == ({"axes_from_third_order"} if is_said else set())

@@ -302,14 +302,6 @@ def test_other_modifiers_on_the_splines_are_recovered_from_the_display_mesh():
     assert fine.volume == pytest.approx(found.volume, rel=2e-5)
 
 
-def test_modifiers_that_work_on_the_mesh_are_measured_so_and_named():
-    obj = primitive("sphere")
-    obj.modifiers.new("Thick", "SOLIDIFY")
-    found = measured(obj)
-    assert not str(found.method).startswith("NURBS") and found.display_volume is None
-    assert said(found)["display_mesh_for_modifiers"] == {"modifiers": ["Thick"]}
-
-
 def test_an_edit_in_edit_mode_is_read():
     obj = primitive("sphere")
     bpy.ops.object.mode_set(mode="EDIT")
@@ -318,14 +310,6 @@ def test_an_edit_in_edit_mode_is_read():
     obj.data.update_tag()
     assert measured(obj).volume == pytest.approx(8.0 * BALL * STORED, rel=1e-8)
     bpy.ops.object.mode_set(mode="OBJECT")
-
-
-def test_splines_that_show_nothing_are_left_out_and_said():
-    obj = primitive("sphere")
-    obj.data.splines.new("NURBS").points.add(4)
-    found = measured(obj)
-    assert str(found.method) in {"NURBS exact", "exact"}
-    assert found.findings
 
 
 def loaf():
@@ -351,43 +335,10 @@ def loaf():
     return bpy.context.object
 
 
-def test_surfaces_that_show_none_are_refused_with_what_to_do():
-    circle = primitive("circle")
-    with refused("lines_only_surface", "SurfCircle"):
-        measured(circle)
-    sheet = primitive("surface")
-    sheet.data.splines[0].use_bezier_u = True
-    with refused("splines_without_surface", "SurfPatch"):
-        measured(sheet)
-    sheet.data.splines[0].use_bezier_u = False
-    assert measured(sheet).volume > 0.0
-
-
 def test_patches_with_a_seam_between_them_are_one_body():
     found = measured(loaf())
     assert str(found.method) == "NURBS reoriented" and found.health.components == 1
     assert found.volume == pytest.approx(1.0, abs=1e-6)
-
-
-def test_a_wall_over_creases_says_what_it_is():
-    obj = loaf()
-    obj.body_moments.kind, obj.body_moments.wall, obj.body_moments.thickness = "SHELL", "INWARD", 0.1
-    found = measured(obj)
-    assert found.volume == pytest.approx(0.6, rel=1e-5)  # 1 - 0.8³ if it were mitred
-    assert said(found)["wall_creases"]["angle"] == pytest.approx(90.0)
-    smooth = primitive("torus")
-    smooth.body_moments.kind, smooth.body_moments.wall, smooth.body_moments.thickness = "SHELL", "INWARD", 0.1
-    assert not measured(smooth).findings
-
-
-@pytest.mark.parametrize("weight, large", [(10.0, False), (1e4, True)])
-def test_a_wall_whose_weights_are_too_far_apart_says_that_its_error_may_be_large(weight, large):
-    rng = np.random.default_rng(0)
-    x, y = np.meshgrid(*2 * [np.linspace(0.0, 1.0, 4)])
-    points = np.stack([x, y, 0.1 * rng.normal(size=x.shape)], axis=2)
-    obj = surface(points, weight ** rng.uniform(-1.0, 1.0, x.shape))
-    obj.body_moments.kind, obj.body_moments.wall, obj.body_moments.thickness = "SHELL", "OUTWARD", 1e-6
-    assert ("wall_error_estimate_large" in said(measured(obj))) == large
 
 
 def test_instances_of_a_surface_are_measured_as_it_is():
@@ -431,14 +382,6 @@ def test_weights_of_zero_leave_the_display_mesh():
     obj.data.update_tag()
     found = measured(obj)
     assert not str(found.method).startswith("NURBS") and said(found)["display_mesh_for_weights"] == {"count": 1}
-
-
-def test_weights_of_zero_that_show_no_number_are_named():
-    obj = primitive("sphere")
-    obj.data.splines[0].points[10].co[3] = 0.0
-    obj.data.update_tag()
-    with refused("non_positive_weights", "SurfSphere"):
-        measured(obj)
 
 
 def test_numbers_follow_an_edit_while_live_is_on():
@@ -515,42 +458,6 @@ def test_live_numbers_follow_hooks_keys_transforms_and_frames():
     bpy.context.view_layer.update()
     found = live.update(obj, bpy.context.evaluated_depsgraph_get()).measurement
     assert found.volume == pytest.approx(measured(obj).volume, rel=1e-12)
-    bpy.ops.object.body_moments_live()
-
-
-def test_live_numbers_follow_what_was_renamed_and_the_linked_one_of_two_with_one_name(tmp_path, monkeypatch):
-    monkeypatch.setattr(live, "IDLE", 0.0)
-    path, own = str(tmp_path / "library.blend"), primitive("sphere")
-    bpy.data.libraries.write(path, {own})
-    with bpy.data.libraries.load(path, link=True) as (_, found):
-        found.objects = [own.name]
-    (linked,) = found.objects
-    bpy.context.scene.collection.objects.link(linked)
-    assert linked.name == own.name
-    for obj in (own, linked):
-        only(obj)
-        bpy.ops.object.body_moments_live()
-    for obj in (own, linked):
-        obj.scale.z = 2.0
-    bpy.context.view_layer.update()
-    own.name = "Renamed"
-    live._tick()
-    for obj in (own, linked):
-        assert live.current_numbers(obj).measurement.volume == pytest.approx(2.0 * BALL * STORED, rel=1e-8)
-
-
-def test_live_numbers_of_other_settings_are_out_of_date():
-    obj, scene = primitive("sphere"), bpy.context.scene
-    bpy.ops.object.body_moments_live()
-    for data, name, value in (
-        (obj.body_moments, "kind", "SHELL"),
-        (obj.body_moments, "density", 2500.0),
-        (scene.unit_settings, "scale_length", 0.5),
-    ):
-        setattr(data, name, value)
-        assert live.is_stale(obj, scene)
-        live.update(obj, bpy.context.evaluated_depsgraph_get())
-        assert not live.is_stale(obj, scene)
     bpy.ops.object.body_moments_live()
 
 
@@ -786,16 +693,6 @@ def test_patches_that_a_scale_of_zero_flattens_are_no_solid_but_a_sheet():
     assert close(measured(obj).area, 2.0 * np.pi, rel=1e-3)
 
 
-@pytest.mark.parametrize("angle, said_of", [(0.019, False), (0.021, True)])
-def test_a_crease_counts_from_a_hundredth_of_a_radian_twice(angle, said_of):
-    tilt = np.tan(angle / 2.0)
-    points = [[(x, y, tilt * abs(x)) for x in (-1.0, 0.0, 1.0)] for y in (0.0, 0.5, 1.0)]
-    obj = surface(points, orders=(2, 2))
-    settings = obj.body_moments
-    settings.kind, settings.wall, settings.thickness = "SHELL", "OUTWARD", 0.01
-    assert ("wall_creases" in said(measured(obj))) == said_of
-
-
 def test_numbers_of_patches_are_estimates_of_their_errors_and_a_sheet_has_no_volume():
     obj = primitive("sphere")
     for settings in ({}, {"kind": "SHELL"}, {"wall": "INWARD"}):
@@ -818,15 +715,6 @@ def test_instances_of_patches_that_overlap_are_united_too():
     united = measured(empty)
     assert str(united.method) == "union" and "union_of_display_mesh" in said(united)
     assert close(united.volume, BALL * 27.0 / 16.0, 0.02)  # of two balls whose centers are a radius apart
-
-
-def test_the_surfaces_of_patches_that_overlap_are_each_of_their_own():
-    empty = instances_of(primitive("sphere"), ((0, 0, 0), (1, 1, 1)), ((1, 0, 0), (1, 1, 1)))
-    bpy.context.scene.unit_settings.scale_length = 0.5
-    bpy.context.view_layer.update()
-    found = measure_body(empty, bpy.context.evaluated_depsgraph_get())
-    of_surfaces = sum(polyhedron_moments(surface)[0].total for surface in found.body.surfaces(False))
-    assert close(of_surfaces, found.body.display_volume, rel=1e-9) and close(of_surfaces, BALL / 4.0, rel=0.02)
 
 
 def test_polygons_beside_patches_are_not_united_with_each_other():

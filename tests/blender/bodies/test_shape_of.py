@@ -6,12 +6,10 @@ import bmesh
 import bpy
 import numpy as np
 import pytest
-from body_moments.operators.bodies import measurement
 from body_moments.operators.bodies.shape import NoShapeError, shape_of, surface_shape_of
-from body_moments.operators.settings.options import MeasureOptions
 
 from tests.blender.bodies.test_assembly import box_mesh
-from tests.blender.findings import refused, said
+from tests.blender.findings import refused
 from tests.blender.grids import vdb_grid, volume_object
 from tests.blender.objects import add, mesh_body, strip_mesh
 from tests.close import close
@@ -39,11 +37,6 @@ def prisms(*corners, offset=0.0):
     mesh = bpy.data.meshes.new("Prisms")
     mesh.from_pydata(points, [], faces)
     return mesh
-
-
-def test_the_axes_of_a_shape_come_from_sixth_order_however_many_faces_it_has(monkeypatch):
-    monkeypatch.setattr(measurement, "MAX_FACES_HIGH_ORDER", 5)
-    assert not said(shape(add(box_mesh(1, 2, 3))).measurement)
 
 
 def test_what_has_no_shape_of_its_own_is_refused_with_its_measurement(tmp_path):
@@ -129,12 +122,6 @@ def test_prisms_that_are_round_to_sixth_order_have_the_axes_that_their_corners_g
     assert np.array(pose["matrix"]).shape == (4, 4)
 
 
-def test_what_patches_show_is_no_prism():
-    bpy.ops.surface.primitive_nurbs_surface_torus_add()
-    obj = bpy.context.object
-    assert shape(obj).is_display_mesh and shape(obj).pose()["symmetry"] == "D∞h"
-
-
 def test_the_signature_of_a_sheet_stops_at_order_20():
     obj = add(mesh_body())
     sizes = {}
@@ -186,17 +173,6 @@ def test_a_sheet_that_is_open_has_a_signature_and_a_solid_that_cannot_be_closed_
         shape(strip)
     strip.body_moments.kind = "SHELL"
     assert shape(strip).moments.measure == "area"
-
-
-def test_a_caller_may_ask_for_the_shape_of_the_sheet_of_what_is_solid():
-    obj = add(box_mesh(1, 2, 3), location=(5, 6, 7))
-    bpy.context.view_layer.update()
-    depsgraph = bpy.context.evaluated_depsgraph_get()
-    for kind, measure, extent, name in (("shell", "area", 22.0, "area"), (None, "volume", 6.0, "volume")):
-        found = shape_of(obj, depsgraph, MeasureOptions(kind=kind, thickness=0.1))
-        assert found.moments.measure == measure and close(found.moments.total, extent, 1e-9)
-        assert close(found.moments.input_error[0], found.measurement.error_bound["input"][name], 1e-12)
-        assert found.threads == 1 and found.fingerprint == found.measurement.fingerprint
 
 
 def test_the_moments_of_what_patches_show_are_those_of_its_polygons():

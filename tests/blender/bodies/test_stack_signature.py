@@ -10,7 +10,7 @@ from body_moments.core.shape.signature import Signature, similarity
 from body_moments.core.verdict.finding import MeasureError
 from body_moments.operators.bodies import stack_signature
 from body_moments.operators.bodies.many import measure_many
-from body_moments.operators.bodies.shape import SURFACE_OPTIONS, NoShapeError, surface_shape_of
+from body_moments.operators.bodies.shape import SURFACE_OPTIONS, surface_shape_of
 from body_moments.operators.bodies.stack_signature import signed_in_turn
 
 from tests.blender.bodies.test_many import KINDS, shards
@@ -59,29 +59,6 @@ def test_signatures_found_together_are_those_found_alone():
     assert together > len(objects) / 2 and mirrored > len(KINDS) / 2
 
 
-def test_an_object_that_shows_the_mesh_of_another_shares_its_signature(monkeypatch):
-    asked = []
-    found = stack_signature.signatures
-    monkeypatch.setattr(
-        stack_signature, "signatures", lambda volume, radius: asked.append(len(radius)) or found(volume, radius)
-    )
-    mesh = bpy.data.meshes.new("Wedge")
-    mesh.from_pydata(
-        [(0, 0, 0), (1, 0.2, 0), (0.3, 2, 0.1), (0.2, 0.4, 3)], [], [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
-    )
-    wedges = [bpy.data.objects.new("Wedge", mesh) for _ in range(6)]
-    for i, wedge in enumerate(wedges):
-        bpy.context.scene.collection.objects.link(wedge)
-        size = 0.2 * (1 + i)  # below one and above
-        wedge.scale = (size, size, -size if i % 2 else size)
-    bpy.context.view_layer.update()
-    signed = signed_in_turn(wedges, bpy.context.evaluated_depsgraph_get(), ORDER)
-    signatures = [signed(wedge) for wedge in wedges]
-    assert asked == [1]
-    assert close([found.size / signatures[0].size for found in signatures], np.arange(1.0, 7.0), 1e-6)
-    assert [np.sign(found.chirality @ signatures[0].chirality) for found in signatures] == [1, -1, 1, -1, 1, -1]
-
-
 def test_a_body_that_is_stretched_or_mirrored_has_a_signature_of_its_own_and_one_far_away_has_none():
     """The last of them are as far away as rounding leaves their shape, and a little farther, among others."""
     mesh = bpy.data.meshes.new("Wedge")
@@ -110,17 +87,6 @@ def test_a_body_that_is_stretched_or_mirrored_has_a_signature_of_its_own_and_one
         likeness = similarity(wanted, found)
         assert likeness.distance() < MATRIX_RTOL and likeness.is_mirror_image is False
     assert kept >= len(scales) + 1
-
-
-def test_the_surfaces_shape_of_sheets_that_are_patches_is_refused_with_their_measurement():
-    bpy.ops.surface.primitive_nurbs_surface_sphere_add()
-    obj = bpy.context.object
-    obj.body_moments.kind, obj.body_moments.thickness, obj.body_moments.density = "SHELL", 0.5, 2.0
-    bpy.context.view_layer.update()
-    with pytest.raises(NoShapeError) as caught:
-        surface_shape_of(obj, bpy.context.evaluated_depsgraph_get())
-    assert caught.value.finding.code == "signature_needs_polygons" and caught.value.subject == obj.name
-    assert close(caught.value.measurement.mass_properties.mass, 4.0 * np.pi, rel=1e-6)
 
 
 def test_of_a_stack_of_bodies_that_need_care_each_is_signed_alone():

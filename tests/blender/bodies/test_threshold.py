@@ -13,10 +13,7 @@ from body_moments.core.verdict.finding import finding
 from body_moments.operators.bodies import threshold as threshold_module
 from body_moments.operators.bodies.measure_object import measure_body
 from body_moments.operators.session import staleness
-from body_moments.operators.session import threshold as threshold_slider
-from body_moments.operators.settings.grid import GridOptions
 from body_moments.operators.settings.options import MeasureOptions
-from body_moments.operators.write import properties
 
 from tests.blender.bodies.test_grid import SHEARED, measure
 from tests.blender.findings import refused, said
@@ -99,17 +96,6 @@ def test_what_reaches_the_edge_is_reported_where_nothing_is_known_beyond(tmp_pat
     assert "threshold_clipped" in said(measure(obj))
 
 
-def test_refusals_name_the_remedy(tmp_path):
-    obj = ramp(tmp_path)
-    obj.body_moments.threshold = 99.0
-    with refused("threshold_not_reached", obj.name, largest=12.0):
-        measure(obj)
-    obj.body_moments.threshold, obj.body_moments.threshold_fill = 2.0, "GRID"
-    obj.body_moments.values_from = "TABLE"
-    with refused("threshold_needs_factor", obj.name):
-        measure(obj)
-
-
 def stored(obj):
     bpy.context.view_layer.objects.active = obj
     obj.select_set(True)
@@ -139,55 +125,12 @@ def test_the_slider_leaves_what_was_edited_since(tmp_path):
     assert staleness.stale_reason(obj, bpy.context.scene) is not None
 
 
-def test_a_large_grid_is_followed_coarsely(tmp_path, monkeypatch):
-    monkeypatch.setattr(threshold_module, "PREVIEW_CELLS", 2000)
-    obj, _ = sampled_ball(tmp_path)
-    reading_sizes = []
-    plain = threshold_module.threshold_grid_body
-    monkeypatch.setattr(
-        "body_moments.operators.session.threshold.threshold_grid_body",
-        lambda grid, *more: reading_sizes.append(grid.values.size) or plain(grid, *more),
-    )
-    stored(obj)
-    obj.body_moments.threshold = 1.0
-    assert len(reading_sizes) == 2 and reading_sizes[0] <= 2000 < reading_sizes[1]
-    assert close(obj["body_volume"], measure(obj).volume, rel=1e-13)
-    assert properties.numbers(obj) is not None
-
-
-@pytest.mark.parametrize("cells, is_coarse", [(2000, True), (24**3, False)])
-def test_coarse_numbers_are_out_of_date_until_the_exact_ones_take_their_place(cells, is_coarse, tmp_path, monkeypatch):
-    monkeypatch.setattr(threshold_module, "PREVIEW_CELLS", cells)
-    obj, _ = sampled_ball(tmp_path)
-    stored(obj)
-    with monkeypatch.context() as patch:
-        patch.setattr(threshold_slider, "_finish", lambda: None)  # a timer that has not come yet
-        for threshold in (1.0, 2.0):
-            obj.body_moments.threshold = threshold
-            reason = staleness.stale_reason(obj, bpy.context.scene)
-            assert reason == ("stale_settings" if is_coarse else None)
-    coarse = obj["body_volume"]
-    threshold_slider._finish()
-    assert staleness.stale_reason(obj, bpy.context.scene) is None
-    assert close(obj["body_volume"], measure(obj).volume, rel=1e-13)
-    assert close(coarse, obj["body_volume"], rel=0.05) and (coarse != obj["body_volume"] or not is_coarse)
-
-
 def test_a_level_set_has_no_threshold(tmp_path):
     grid = vdb_grid(np.ones((4, 4, 4), np.float32), "distance")
     grid.gridClass = "level set"
     obj = volume_object(tmp_path / "level.vdb", grid)
     obj.body_moments.grid_as, obj.body_moments.threshold = "THRESHOLD", 0.5
     with refused("grid_is_level_set", obj.name, grid="distance"):
-        measure(obj)
-
-
-def test_a_grid_may_have_as_many_voxels_as_fit_and_no_more(tmp_path, monkeypatch):
-    obj = ramp(tmp_path)
-    monkeypatch.setattr(threshold_module, "MAX_SAMPLES", 12 * 9 * 7)
-    assert measure(obj).volume > 0.0
-    monkeypatch.setattr(threshold_module, "MAX_SAMPLES", 12 * 9 * 7 - 1)
-    with refused("threshold_too_large", obj.name, grid="density", samples=12 * 9 * 7):
         measure(obj)
 
 
@@ -220,17 +163,6 @@ def test_a_body_of_negative_or_of_too_large_densities_says_which(tmp_path):
         measure(huge)
 
 
-@pytest.mark.parametrize(("side", "other", "step"), [(64, 64, 1), (65, 64, 2), (128, 128, 2), (129, 128, 3)])
-def test_a_grid_that_follows_a_slider_has_at_most_as_many_values_as_a_cube_of_64(side, other, step):
-    """Of larger ones every second or third of each axis is taken."""
-    values = np.arange(side * other * other, dtype=np.int32).reshape(side, other, other)
-    matrix = np.array([[0.5, 0.1, 0.0, 3.0], [0.0, 0.25, 0.2, -2.0], [0.3, 0.0, 1.0, 0.5], [0.0, 0.0, 0.0, 1.0]])
-    grid = threshold_module.ThresholdGrid("Grid", values, matrix, None)
-    found = grid.coarse()
-    assert (found is grid) == (step == 1) and np.array_equal(found.values, values[::step, ::step, ::step])
-    assert np.array_equal(found.matrix, matrix * [step, step, step, 1.0])
-
-
 def body_of(obj, **options):
     bpy.context.view_layer.update()
     return measure_body(obj, bpy.context.evaluated_depsgraph_get(), MeasureOptions(**options)).body
@@ -259,46 +191,11 @@ def test_what_is_known_of_a_body_and_what_is_summed_to_a_higher_order_agree(tmp_
         assert body_of(obj, order=order).higher_mass is None
 
 
-def test_a_spline_is_followed_by_its_linear_neighbors():
-    index = np.arange(-2.0, 3.0)
-    values = 3.0 - (index[:, None, None] ** 2 + index[:, None] ** 2 + index**2)
-    grid = threshold_module.ThresholdGrid("Grid", values, np.eye(4), -60.0)
-    linear, spline = (GridOptions(threshold=0.5, spline_order=order) for order in (2, 4))
-    followed = grid.set_above(spline, 3, True).volume.total
-    assert followed == grid.set_above(linear, 3, True).volume.total
-    assert followed > 1.05 * grid.set_above(spline, 3).volume.total
-
-
-@pytest.mark.parametrize(
-    ("dtype", "kept"),
-    [(np.float32, "f4"), (np.float64, "f8"), (np.int32, "f4"), (np.int64, "f8"), (np.bool_, "f4")],
-)
-def test_values_take_eight_bytes_only_where_those_of_the_grid_do(tmp_path, dtype, kept):
-    obj = volume_object(tmp_path / "ones.vdb", vdb_grid(np.ones((4, 5, 6), dtype)))
-    obj.body_moments.grid_as, obj.body_moments.threshold = "THRESHOLD", 0.5
-    assert body_of(obj).grid.values.dtype == kept
-
-
 def test_more_voxels_than_any_memory_has_are_counted_and_refused():
     for shape, samples in (((1 << 22, 1 << 22, 1 << 22), 1 << 66), (((1 << 29) + 1, 1, 1), (1 << 29) + 1)):
         reading = SimpleNamespace(level_set=False, shape=shape, grid="large", background=None)
         with refused("threshold_too_large", grid="large", samples=samples):
             threshold_module.threshold_grid(reading, 1.0)
-
-
-def test_what_is_said_of_a_body_names_its_grid_its_threshold_and_whether_it_was_clipped(tmp_path):
-    values = np.full((4, 4, 4), 2.0, np.float32)
-    values[1, 1, 1] = 0.0
-    obj = volume_object(tmp_path / "full.vdb", vdb_grid(values, background=5.0))
-    obj.body_moments.grid_as, obj.body_moments.threshold = "THRESHOLD", 1.0
-    found = measure(obj)
-    told = said(found)
-    assert told["threshold_measured"] == {"grid": "density", "threshold": 1.0, "cells": 8}  # all around the empty one
-    assert told["threshold_clipped"] == {"grid": "density"}
-    assert not found.health.closed
-    with refused("threshold_not_reached", obj.name, grid="density", threshold=9.0, largest=2.0):
-        obj.body_moments.threshold = 9.0
-        measure(obj)
 
 
 @pytest.mark.parametrize("fill", ["MATERIAL", "GRID"])

@@ -6,14 +6,13 @@ import bpy
 import numpy as np
 import pytest
 from body_moments.core.verdict.finding import finding
-from body_moments.operators.bodies import voxel_filled
 from body_moments.operators.bodies.measure_object import measure_body, measure_object
 from body_moments.operators.session import staleness
 from body_moments.operators.settings.options import MeasureOptions
 from body_moments.operators.write import properties
 
 from tests.blender.findings import refused, said
-from tests.blender.grids import linked, mesh_to_volume, vdb_grid, volume_object
+from tests.blender.grids import mesh_to_volume, vdb_grid, volume_object
 from tests.blender.objects import strip_mesh
 from tests.close import close
 
@@ -123,15 +122,6 @@ def test_what_is_outside_of_the_grid_is_empty_and_said(tmp_path):
         measure(box)
 
 
-def test_a_source_that_cannot_be_read_says_whose(tmp_path):
-    box = cube()
-    box.body_moments.density_from = "VOLUME"
-    box.body_moments.density_volume = linked(bpy.data.objects.new("Empty", bpy.data.volumes.new("Empty")))
-    cause = finding("volume_without_grids").as_record()
-    with refused("density_volume_unreadable", "Cube", object="Empty", cause=cause):
-        measure(box)
-
-
 def test_stored_numbers_know_when_the_grid_moves(tmp_path):
     volume = cloud(tmp_path, np.ones((4, 4, 4), np.float32))
     box = cube(location=(1.5, 1.5, 1.5))
@@ -226,14 +216,6 @@ def test_settings_are_copied_and_survive_a_file(tmp_path):
     assert bpy.data.objects["Cloud"].body_moments.spline_order == 4
 
 
-def test_what_is_found_about_the_source_names_it(tmp_path):
-    volume = cloud(tmp_path, np.ones((4, 4, 4), np.float32))
-    box = cube(location=(1.5, 1.5, 1.5))
-    box.body_moments.density_from, box.body_moments.density_volume = "VOLUME", volume
-    volume.hide_set(True)
-    assert said(measure(box))["hidden_object_measured"]["sources"] == [volume.name]
-
-
 def test_a_source_with_refused_values_is_named_and_an_open_surface_is_the_objects_own(tmp_path):
     volume = cloud(tmp_path, np.full((4, 4, 4), -1.0, np.float32))
     box = cube(location=(1.5, 1.5, 1.5))
@@ -271,17 +253,6 @@ def test_a_volume_object_that_shows_polygons_has_no_grid(tmp_path):
     box.body_moments.density_from, box.body_moments.density_volume = "VOLUME", volume
     cause = finding("object_without_grid").as_record()
     with refused("density_volume_unreadable", box.name, object=volume.name, cause=cause):
-        measure(box)
-
-
-def test_only_so_many_voxels_around_the_object_are_summed(tmp_path, monkeypatch):
-    volume = cloud(tmp_path, np.ones((9, 9, 9), np.float32))
-    box = cube(location=(2.5, 3.5, 4.5))  # two voxels to a side
-    box.body_moments.density_from, box.body_moments.density_volume = "VOLUME", volume
-    monkeypatch.setattr(voxel_filled, "MAX_VOXELS", 8)
-    assert close(measure(box).mass_properties.mass, 8.0, rel=1e-12)
-    monkeypatch.setattr(voxel_filled, "MAX_VOXELS", 7)
-    with refused("density_grid_too_fine", box.name, object=volume.name, grid="density", samples=[2, 2, 2]):
         measure(box)
 
 

@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Shells of real thickness: the setting, what is found, and the thickness as a slider."""
 
-import json
 import math
 from dataclasses import replace
 from types import SimpleNamespace
@@ -11,16 +10,15 @@ import bpy
 import numpy as np
 import pytest
 from body_moments.core.moments.moments import Measure, Moments, monomials
-from body_moments.core.verdict.finding import MeasureError, finding
+from body_moments.core.verdict.finding import MeasureError
 from body_moments.operators.bodies.measure_object import measure_body, measure_object
 from body_moments.operators.bodies.mesh import mesh_body as polygon_body
-from body_moments.operators.bodies.wall import Walls, _round_down, find_walls
+from body_moments.operators.bodies.wall import Walls, find_walls
 from body_moments.operators.read import read_object
 from body_moments.operators.session import staleness
 from body_moments.operators.session import walls as wall_slider
 from body_moments.operators.settings.options import MeasureOptions
 from body_moments.operators.write import properties
-from mathutils import Matrix
 
 from tests.blender.batch_files import document
 from tests.blender.findings import refused, said
@@ -162,42 +160,6 @@ def test_a_slit_folds_over_before_its_walls_meet():
         measured(slit)
 
 
-def test_two_parts_whose_walls_meet_say_so():
-    one = mesh_body("Pair")
-    import bmesh
-
-    work = bmesh.new()
-    bmesh.ops.create_cube(work, size=1.0)
-    bmesh.ops.create_cube(work, size=1.0, matrix=Matrix.Translation((1.25, 0.1, 0.2)))
-    work.to_mesh(one)
-    work.free()
-    obj = add(one)
-    settings = obj.body_moments
-    settings.kind, settings.wall, settings.thickness = "SHELL", "OUTWARD", 0.1
-    assert "walls_overlap" not in said(measured(obj))
-    settings.thickness = 0.2
-    assert "walls_overlap" in said(measured(obj))
-
-
-def test_walls_of_instances_that_may_meet_say_that_nobody_looked():
-    one = box(wall="OUTWARD", thickness=0.1)
-    inside = bpy.data.collections.new("Inside")
-    bpy.context.scene.collection.objects.unlink(one)
-    other = bpy.data.objects.new("Other", one.data)
-    for obj in (one, other):
-        inside.objects.link(obj)
-    shown = bpy.data.objects.new("Shown", None)
-    shown.instance_type, shown.instance_collection = "COLLECTION", inside
-    bpy.context.scene.collection.objects.link(shown)
-    settings = shown.body_moments
-    settings.kind, settings.wall, settings.thickness = "SHELL", "OUTWARD", 0.1
-    for place, expected in ((1.25, False), (1.2, False), (1.15, True)):
-        other.location.x = place
-        assert ("instance_walls_unchecked" in said(measured(shown))) == expected
-    settings.wall = "INWARD"
-    assert "instance_walls_unchecked" not in said(measured(shown))
-
-
 def test_instances_have_walls_of_one_thickness():
     part = box(thickness=0.125)
     collection = bpy.data.collections.new("Parts")
@@ -230,21 +192,6 @@ def test_instances_turned_every_way_share_one_wall():
     settings.kind, settings.wall, settings.thickness = "SHELL", "OUTWARD", 0.125
     truth = 3 * shell_volume((1, 2, 0.5), 0, 0.125) + 2 * shell_volume((2, 4, 1), 0, 0.125)
     assert measured(holder).volume == pytest.approx(truth, rel=1e-6)
-
-
-def test_an_open_cup_says_that_its_faces_tell_what_is_inward():
-    obj = box()
-    import bmesh
-
-    work = bmesh.new()
-    work.from_mesh(obj.data)
-    work.faces.ensure_lookup_table()
-    bmesh.ops.delete(work, geom=[face for face in work.faces if face.normal.z > 0.5], context="FACES_ONLY")
-    work.to_mesh(obj.data)
-    work.free()
-    found = measured(obj)
-    assert abs(found.volume - (1 - 0.75**2 * 0.875)) < 1e-14  # the rim stays in the plane of the top
-    assert "wall_unoriented" in said(found) and "wall_unoriented" not in said(measured(box()))
 
 
 def test_the_command_line_uses_the_objects_wall_and_its_own_thickness():
@@ -322,17 +269,6 @@ def test_a_thickness_that_folds_leaves_the_numbers_and_says_how_thick_it_may_be(
     assert abs(stored(obj).volume - (1 - 0.5**3)) < 1e-13
 
 
-def test_the_slider_says_that_it_did_not_look_for_walls_that_meet():
-    obj = box()
-    press(obj)
-    assert not obj["body_warnings"]
-    obj.body_moments.thickness = 0.2
-    found = {entry["code"]: entry["values"] for entry in json.loads(obj["body_findings"])}
-    measured = {"wall_measured": {"thickness": 0.2, "side": "inward"}, "wall_overlap_unchecked": {}}
-    assert found == measured | {"density_default_kept": {}}
-    assert obj["body_warnings"] == str(finding("wall_overlap_unchecked"))
-
-
 def test_after_loading_a_file_the_slider_waits_for_measure(tmp_path):
     obj = box()
     press(obj)
@@ -386,25 +322,6 @@ def test_a_head_with_sharp_folds_has_a_thin_wall():
         measured(obj)
 
 
-@pytest.mark.parametrize("scale", [1.0, 3.0])
-@pytest.mark.parametrize("size, code", [(0.8, "wall_thickness_varies"), (2e-3, "wall_thickness_varies_slightly")])
-def test_a_small_corner_of_more_than_three_planes_is_a_note(size, code, scale):
-    """A cube with a skew pyramid on its top."""
-    square = np.array([(-1, -1), (1, -1), (1, 1), (-1, 1)]) / 2.0
-    points = [(x, y, z) for z in (0.0, 1.0) for x, y in square] + [(size * x, size * y, 1.0) for x, y in square]
-    points.append((0.45 * size, 0.1 * size, 1.0 + size))
-    turns = [(i, (i + 1) % 4) for i in range(4)]
-    faces = [(3, 2, 1, 0), *((a, b, b + 4, a + 4) for a, b in turns)]
-    faces += [(a + 4, b + 4, b + 8, a + 8) for a, b in turns] + [(a + 8, b + 8, 12) for a, b in turns]
-    mesh = bpy.data.meshes.new("Skew")
-    mesh.from_pydata(points, [], faces)
-    obj = add(mesh, scale=(scale, scale, scale))
-    settings = obj.body_moments
-    settings.kind, settings.wall, settings.thickness = "SHELL", "OUTWARD", 0.05 * size
-    found = said(measured(obj))
-    assert found.keys() == {"wall_measured", code} and found[code]["minimum"] < 0.99
-
-
 @pytest.mark.parametrize("size", [0.01, 1.0, 300.0])
 @pytest.mark.parametrize("seed", range(4))
 def test_how_uneven_a_wall_is_is_the_largest_share_of_a_moment_that_it_misses(seed, size):
@@ -429,14 +346,6 @@ def test_how_uneven_a_wall_is_is_the_largest_share_of_a_moment_that_it_misses(se
         for i, j, k in powers
     ]
     assert close(walls._unevenness(), max(shares), 1e-8)
-
-
-@pytest.mark.parametrize(
-    ("length", "named"),
-    [(0.25, 0.2499), (0.123456, 0.1234), (98765.4, 98760.0), (1.0, 0.999), (0.0012345, 0.001234), (math.inf, math.inf)],
-)
-def test_the_largest_thickness_is_named_with_four_digits_that_are_less(length, named):
-    assert _round_down(length) == named
 
 
 def test_just_below_the_largest_thickness_there_is_a_wall_and_from_it_on_none():
@@ -470,13 +379,6 @@ def sheet_of(points, faces, wall="OUTWARD", thickness=0.125):
     settings = obj.body_moments
     settings.kind, settings.wall, settings.thickness = "SHELL", wall, thickness
     return obj
-
-
-def test_a_wall_without_a_thickness_is_refused():
-    obj = box()
-    for thickness in (0.0, -1.0):
-        with refused("no_thickness", obj.name):
-            measure_object(obj, bpy.context.evaluated_depsgraph_get(), MeasureOptions(thickness=thickness))
 
 
 def test_faces_that_fold_back_leave_no_room_for_any_wall():

@@ -115,22 +115,6 @@ def test_what_cannot_be_measured_is_an_error_and_no_crash(tmp_path, data, option
     assert error["name"] is None and error["reason"] == reason
 
 
-@pytest.mark.parametrize(
-    "words",
-    [
-        ("--spacing", "1,2"),
-        ("--spacing", "1,0,2"),
-        ("--origin", "1,nan,2"),
-        ("--spline-order", "0"),
-        ("--spline-order", "2.5"),
-        ("--density-scale", "-1"),
-    ],
-)
-def test_impossible_options_are_wrong_usage(tmp_path, words):
-    np.save(tmp_path / "a.npy", box())
-    assert batch.main(in_process("measure", tmp_path / "a.npy", *words), channel=2, file_needed=True) == 2
-
-
 def test_a_scene_with_a_cloud_goes_through_every_option(tmp_path):
     import bpy
 
@@ -219,14 +203,6 @@ def test_wrong_positions_are_an_error_of_the_file(tmp_path, row, words):
         np.save(tmp_path / "z.npy", np.array(row, float))
     code, document = run(tmp_path, tmp_path / "box.npy", "--positions", f"z={tmp_path / 'z.npy'}")
     assert code == 1 and not document["objects"] and words in document["errors"][0]["reason"]
-
-
-@pytest.mark.parametrize("words", [["z.npy"], ["w=z.npy"], ["z="], ["z=a.npy", "--positions", "z=b.npy"]])
-def test_wrong_positions_are_wrong_usage(tmp_path, words, capsys):
-    np.save(tmp_path / "box.npy", box())
-    code = batch.main(["measure", str(tmp_path / "box.npy"), "--positions", *words], channel=2, file_needed=True)
-    said = capsys.readouterr().err
-    assert code == 2 and ("positions" in said or "is not x=FILE.npy" in said)
 
 
 def ball(n=12, dtype="f4"):

@@ -20,7 +20,6 @@ import bpy
 from body_moments.core.verdict.finding import FileError
 from body_moments.operators import batch
 from body_moments.operators.command import inputs
-from body_moments.operators.write import text_report
 from body_moments.operators.write.terminal import visible
 
 from tests.blender import batch_files as files
@@ -173,18 +172,6 @@ def test_no_random_damage_of_options_files_is_our_fault(main, library, tmp_path)
     assert codes <= {0, 1, 2} and {0, 2} < codes | {1}
 
 
-@pytest.mark.parametrize("words", [("--format", "urdf"), ("--fourier", "out.npz", "--grid", "2", "--qmax", "1")])
-def test_what_takes_one_file_takes_the_open_one_and_neither_two_nor_none(words, main, tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    files.add_box()
-    (tmp_path / "files").mkdir()
-    for name in ("a", "b"):
-        (tmp_path / "files" / (name + ".stl")).write_text("")
-    assert main("measure", *words)[0] == 0
-    for files_named in (("files",), ("files", "--range", "2:3")):
-        assert main("measure", *words, *files_named)[:2] == (2, "")
-
-
 def test_a_range_without_files_does_not_measure_what_is_open(main, tmp_path):
     files.add_box()
     (tmp_path / "a.stl").write_text("")
@@ -287,12 +274,6 @@ def test_no_cell_is_a_formula_and_every_text_can_be_read_back(main):
     assert {entry["name"] for entry in json.loads(main("measure")[1])["objects"]} == {*names}
 
 
-def test_an_error_in_a_table_is_no_formula_either(main):
-    files.add_box()
-    rows = list(csv.DictReader(io.StringIO(main("measure", "--format", "csv", "--object", "=cmd|' /C calc'!A0")[1])))
-    assert [row["name"] for row in rows] == ["'=cmd|' /C calc'!A0"]
-
-
 HOSTILE_NAME = "a\x1b[2J\nbody_moments: all fine\x07\u202egnp.\u2066\x9b1m\u2028"
 
 
@@ -307,20 +288,6 @@ def test_control_characters_are_shown_and_json_keeps_them(main, tmp_path):
         said = main("measure", *words)[2]
         assert "\x1b" not in said and "error: " in said
     assert visible("Würfel 立方体 \\n ‘’ é\u200d") == "Würfel 立方体 \\n ‘’ é\u200d"
-
-
-def test_reports_and_tables_for_people_show_control_characters(main, library):
-    text = library.read_text().replace('"name": "b"', '"name": "b\\u001b[2J\\u202e"')
-    library.write_text(text)
-    out = main("similar", library, "--to", "a")[1]
-    assert r"b\x1b[2J\u202e" in out and "\x1b" not in out
-    out = main("similar", library, "--to", "\x1b[2J")
-    assert out[0] == 2 and "\x1b" not in out[2]
-    document = json.loads(text)
-    document["errors"] = [{"name": "x\ny", "reason": "z\x07"}]
-    shown = text_report.text(document)
-    assert r"b\x1b[2J\u202e" in shown and r"x\ny: z\x07" in shown
-    assert all(line.isprintable() for line in shown.splitlines())
 
 
 def starts(tmp_path):

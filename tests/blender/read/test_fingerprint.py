@@ -4,13 +4,11 @@
 
 from types import SimpleNamespace
 
-import bpy
 import numpy as np
 import pytest
 from body_moments.core.mesh.surface import Surface
 from body_moments.operators.read import fingerprint
 
-from tests.blender.objects import add, mesh_body
 from tests.blender.robot_truth import about
 
 pytestmark = pytest.mark.usefixtures("scene")
@@ -73,28 +71,6 @@ def test_what_is_sheared_flat_or_of_no_size_is_known_by_all_of_its_matrix(pair, 
         for key in keys_of(obj):
             assert key == fingerprint.matrix_hash(obj) and not fingerprint.has_transform(standing(np.diag(SCALES)), key)
         assert not fingerprint.has_transform(obj, keys_of(standing(np.diag(SCALES)))[0])
-
-
-@pytest.mark.parametrize("key", ["", "+", "-", "+zz", "+00", "+" + "00" * 13, "*" + "00" * 12])
-def test_a_damaged_key_is_that_of_no_transform(key):
-    assert fingerprint.has_transform(standing(np.diag(SCALES)), key) is False
-
-
-def test_many_transforms_are_known_as_each_by_itself():
-    shear = np.eye(3)
-    shear[0, 1] = 0.5
-    linear = [
-        np.diag(SCALES),
-        shear,
-        -np.diag(SCALES),
-        np.diag([1.0, 0.0, 1.0]),
-        np.diag([1.0, np.inf, 1.0]),
-        np.eye(3),
-    ]
-    objects = [standing(about((1, 2, 3), 0.5) @ part if np.isfinite(part).all() else part) for part in linear]
-    keys = fingerprint.transform_keys(np.array([obj.matrix_world for obj in objects]))
-    assert keys == [fingerprint.transform_key(obj) for obj in objects]
-    assert [key[:1] in "+-" for key in keys] == [True, False, True, False, False, True]
 
 
 @pytest.mark.parametrize(
@@ -165,60 +141,10 @@ def test_settings_that_a_kind_has_no_use_for_do_not_count():
     assert len({settings(kind=kind) for kind in ("SOLID", "SHELL", "WIRE")}) == 3
 
 
-def test_settings_are_known_as_the_interface_holds_them():
-    for name in ("density", "mass"):
-        assert settings(**{name: 0.1}) == settings(**{name: float(np.float32(0.1))}) != settings(**{name: 0.1000001})
-    assert settings(unit_scale=1.0 + 4e-13) == settings() != settings(unit_scale=1.0 + 6e-13)
-    shell = settings(kind="SHELL")
-    assert shell == settings(kind="SHELL", thickness=0.01234564) != settings(kind="SHELL", thickness=0.01234566)
-
-
 def test_fingerprints_of_files_that_were_saved_are_known_for_ever():
     assert fingerprint.fingerprint(b"geometry", "matrix", "settings") == "v1:{}:matrix:settings".format(GEOMETRY)
     assert fingerprint.digest(np.frombuffer(b"geometry", np.uint8)) == GEOMETRY
     assert settings() == SETTINGS and settings(kind="SHELL", wall="INWARD", varying="a") == OTHER_SETTINGS
-
-
-def in_nodes(obj):
-    obj.modifiers.new("Nodes", "NODES")
-
-
-def emitting(obj):
-    obj.modifiers.new("Particles", "PARTICLE_SYSTEM")
-
-
-@pytest.mark.parametrize(
-    "change",
-    [
-        in_nodes,
-        emitting,
-        lambda obj: setattr(obj, "instance_type", "FACES"),
-        lambda obj: bpy.ops.object.mode_set(mode="EDIT"),
-        lambda obj: bpy.ops.object.mode_set(mode="SCULPT"),
-    ],
-)
-def test_a_shape_that_is_not_its_mesh_has_no_digest(change):
-    obj = add(mesh_body())
-    depsgraph = bpy.context.evaluated_depsgraph_get()
-    assert fingerprint.shape_digest(obj, depsgraph) is not None
-    change(obj)
-    bpy.context.view_layer.update()
-    found = fingerprint.shape_digest(obj, bpy.context.evaluated_depsgraph_get())
-    if obj.mode != "OBJECT":
-        bpy.ops.object.mode_set(mode="OBJECT")
-    assert found is None
-
-
-def test_objects_that_have_no_mesh_have_no_digest():
-    depsgraph = bpy.context.evaluated_depsgraph_get()
-    bpy.ops.surface.primitive_nurbs_surface_sphere_add()
-    assert fingerprint.shape_digest(bpy.context.object, depsgraph) is None
-    obj = add(mesh_body())
-    other = add(obj.data, "Other")
-    bpy.ops.object.mode_set(mode="EDIT")
-    assert fingerprint.shape_digest(obj, bpy.context.evaluated_depsgraph_get()) is None
-    bpy.ops.object.mode_set(mode="OBJECT")
-    assert fingerprint.shape_digest(other, bpy.context.evaluated_depsgraph_get()) is not None
 
 
 def test_shapes_are_told_apart_by_points_triangles_and_quads():

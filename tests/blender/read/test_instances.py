@@ -3,7 +3,6 @@
 """Instances are read as one surface with many places, exactly those that Blender draws."""
 
 import math
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -11,7 +10,6 @@ import pytest
 bpy = pytest.importorskip("bpy")
 
 from body_moments.operators.read import measurable_objects, read_object
-from body_moments.operators.read.instances import InstanceCollector
 
 from tests.blender.findings import refused, said
 from tests.blender.read_bodies import (
@@ -241,18 +239,6 @@ def test_instances_on_vertices_inside_a_collection_instance():
     check(instancer, 9)
 
 
-def test_of_what_is_instanced_on_vertices_only_surfaces_count():
-    """Also where another than a cube's own mesh is shown: its nodes give instances of their own."""
-    parent = cube("Parent")
-    parent.instance_type = "VERTS"
-    for name, data in (("Lamp", bpy.data.lights.new("Lamp", "SUN")), ("Nothing", None), ("Body", mesh("Body"))):
-        link(name, data).parent = parent
-    check(parent, 9)
-    body = bpy.data.objects["Body"]
-    nodes(body, lambda tree, source: on_points(tree, grid(tree, 2), node(tree, "GeometryNodeMeshCone").outputs[0]))
-    check(parent, 8 * 4 + 1)
-
-
 def test_an_instancer_that_hides_itself_may_instance_one_on_vertices():
     parent = placed(cube("Parent"))
     parent.instance_type = "VERTS"
@@ -267,17 +253,6 @@ def test_an_instancer_that_hides_itself_may_instance_one_on_vertices():
     count = len(shown(host))
     host.show_instancer_for_viewport = False
     check(host, count - 1)
-
-
-def test_an_emitter_that_hides_itself_is_not_shown_on_vertices_either():
-    parent, child = cube("Parent"), link("Child", mesh("Emitter"))
-    parent.instance_type, child.parent = "VERTS", parent
-    settings = child.modifiers.new("Particles", "PARTICLE_SYSTEM").particle_system.settings
-    settings.type, settings.count = "HAIR", 3
-    check(parent, 9)
-    child.show_instancer_for_viewport = False
-    assert not all([item.show_self for item in depsgraph().object_instances])  # it is there for its particles alone
-    check(parent, 1)
 
 
 def test_a_hidden_instancer_on_vertices_is_refused_not_halved():
@@ -413,23 +388,6 @@ def test_instances_scaled_to_nothing_are_left_out_and_said(count):
     assert not reading.all_singular
 
 
-def left_out(obj):
-    return said(read_object(obj, depsgraph()))["surfaceless_left_out"]["kinds"]
-
-
-def test_points_and_strands_beside_a_body_are_said():
-    host = cube("Host")
-
-    def build(tree, source):
-        points = node(tree, "GeometryNodePoints", {"Count": 7}).outputs[0]
-        line = node(tree, "GeometryNodeCurvePrimitiveLine").outputs[0]
-        return join(tree, source, points, line)
-
-    nodes(host, build)
-    kinds = {kind["code"]: kind["values"]["count"] for kind in left_out(host)}
-    assert kinds == {"kind_points": 7, "kind_curves": 1}
-
-
 def test_an_instanced_object_that_is_not_evaluated_is_never_read_unmodified():
     source = cube("Source")
     source.modifiers.new("Array", "ARRAY").count = 2
@@ -451,19 +409,6 @@ def test_ten_thousand_instances_have_ten_thousand_matrices():
     assert math.isclose(float(np.abs(total).max()), 0.0, abs_tol=1e-2)
 
 
-def test_metaballs_that_are_instanced_are_counted_and_left_out():
-    """Blender draws none."""
-    members = collection("Members", False)
-    cube("Cube", members)
-    for number in range(2):
-        ball = bpy.data.objects.new("Ball", bpy.data.metaballs.new("Ball"))
-        ball.data.elements.new().co = (3.0 * number, 0, 0)
-        members.objects.link(ball)
-    host = empty("Host", members)
-    check(host, 1)
-    assert [(kind["code"], kind["values"]) for kind in left_out(host)] == [("kind_metaballs", {"count": 2})]
-
-
 def test_instances_that_are_all_scaled_to_nothing_are_refused():
     host = cube("Host")
 
@@ -475,36 +420,6 @@ def test_instances_that_are_all_scaled_to_nothing_are_refused():
     nodes(host, build)
     with refused("no_visible_instances", "Host"):
         read_object(host, depsgraph())
-
-
-def test_an_instancer_that_hides_itself_and_shows_nothing_else_is_refused_with_the_remedy():
-    host = cube("Host")
-    host.instance_type, host.show_instancer_for_viewport = "VERTS", False
-    with refused("instancer_hidden", "Host"):
-        read_object(host, depsgraph())
-    host.show_instancer_for_viewport = True
-    check(host, 1)
-
-
-def test_particles_of_which_the_viewport_shows_a_share_are_said():
-    source = cube("Source")
-    emitter = placed(link("Emitter", mesh("Emitter")))
-    modifier = emitter.modifiers.new("Particles", "PARTICLE_SYSTEM")
-    settings = modifier.particle_system.settings
-    settings.type, settings.count = "HAIR", 12
-    settings.render_type, settings.instance_object = "OBJECT", source
-    assert "render_particles_differ" not in said(read_object(emitter, depsgraph()))
-    settings.display_percentage = 25
-    codes = {cause["code"]: cause["values"] for cause in causes(read_object(emitter, depsgraph()))}
-    assert codes["render_particles_differ"] == {"modifier": "Particles", "share": 0.25}
-
-
-def causes(reading):
-    """All findings, and those among their values."""
-    for found in reading.findings:
-        yield {"code": found.code, "values": found.values}
-        for value in found.values.values():
-            yield from (one for one in value if isinstance(one, dict)) if isinstance(value, list) else ()
 
 
 def test_what_the_choice_of_instances_leaves_out_is_not_there():
@@ -531,63 +446,3 @@ def test_what_the_choice_of_instances_leaves_out_is_not_there():
 
     nodes(host, build)
     check(host, 4)
-
-
-def test_an_attribute_is_asked_of_what_has_faces():
-    members = collection("Members")
-    body = cube("Body", members)
-    body.data.attributes.new("density", "FLOAT", "POINT").data.foreach_set("value", range(8))
-    link("Wire", mesh("Wire", [(0, 0, 0), (1, 0, 0)], [], [(0, 1)]), members)
-    instancer = empty("Instancer", members)
-    (part,) = read_object(instancer, depsgraph(), attribute="density").parts
-    assert part.attributes.vertex_values.tolist() == list(range(8)) and not part.attributes.materials
-    with refused("attribute_missing", "Instancer", attribute="mass"):
-        read_object(instancer, depsgraph(), attribute="mass")
-    assert not len(read_object(instancer, depsgraph()).parts[0].attributes.vertex_values)
-
-
-def test_what_is_picked_of_something_without_instances_is_nothing():
-    host = cube("Host")
-
-    def build(tree, source):
-        picked = node(tree, "GeometryNodeInstanceOnPoints", {"Pick Instance": True}, Points=source, Instance=source)
-        return join(tree, source, picked.outputs[0])
-
-    nodes(host, build)
-    check(host, 1)
-
-
-def test_places_beyond_the_range_of_numbers_are_no_warnings():
-    host = cube("Host")
-
-    def build(tree, source):
-        for _ in range(11):
-            point = node(tree, "GeometryNodePoints", {"Count": 1}).outputs[0]
-            source = on_points(tree, point, source, (1e30, 1e30, 1e30))
-        return source
-
-    nodes(host, build)
-    with refused("non_finite_instances", "Host", count=1, total=1):
-        read_object(host, depsgraph())
-
-
-def test_what_has_no_surface_is_counted_once_for_each_place():
-    found = InstanceCollector(None, None)
-    curves, points = SimpleNamespace(curves=range(3)), SimpleNamespace(points=range(9))
-    for count in (2, 5):
-        found._count_surfaceless(SimpleNamespace(curves=curves, pointcloud=points, volume=object()), count)
-    assert found.left_out == {"kind_curves": 21, "kind_points": 63, "kind_volumes": 7}
-    nothing = SimpleNamespace(curves=SimpleNamespace(curves=()), pointcloud=SimpleNamespace(points=()), volume=None)
-    other = InstanceCollector(None, None)
-    other._count_surfaceless(nothing, 3)
-    other._count_surfaceless(SimpleNamespace(curves=None, pointcloud=None, volume=None), 3)
-    assert not other.left_out
-
-
-def test_what_has_no_surface_in_an_instanced_geometry_is_counted_too():
-    found, points = InstanceCollector(None, None), SimpleNamespace(points=range(4))
-    geometry = SimpleNamespace(
-        mesh=None, curves=None, pointcloud=points, volume=None, instances_pointcloud=lambda: None
-    )
-    found._add_geometry_set(geometry, np.zeros((2, 4, 4)))
-    assert found.left_out == {"kind_points": 8} and found.parts() == []

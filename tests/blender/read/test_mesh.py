@@ -9,7 +9,7 @@ bpy = pytest.importorskip("bpy")
 
 import bmesh
 from body_moments.operators.read import read_object
-from body_moments.operators.read.mesh import mesh_points, mesh_surface, plain_mesh, vertex_values
+from body_moments.operators.read.mesh import mesh_surface, plain_mesh, vertex_values
 
 from tests.blender.findings import refused, said
 from tests.blender.read_bodies import (
@@ -103,23 +103,6 @@ def test_a_surface_holds_the_mesh_as_it_is(points, faces):
         assert indices.dtype == np.int32
 
 
-def test_quads_alone_and_triangles_alone_need_no_face_indices():
-    quads = mesh_surface(mesh("Quads", CUBE, CUBE_FACES))
-    assert (len(quads.quads), len(quads.triangles), quads.quad_faces) == (6, 0, None)
-    triangles = mesh_surface(mesh("Triangles", *BODIES["triangles"]))
-    assert (len(triangles.quads), len(triangles.triangles), triangles.triangle_faces) == (
-        0,
-        4,
-        None,
-    )
-
-
-def test_edges_that_nobody_asks_for_are_not_read():
-    data = mesh("Quads", CUBE, CUBE_FACES)
-    assert mesh_surface(data, edges=False).corner_edges is None
-    assert len(mesh_surface(data, edges=True).corner_edges) == 24
-
-
 @pytest.mark.parametrize(("domain", "kind"), [("FACE", "FLOAT"), ("POINT", "INT")])
 def test_an_attribute_has_values_where_it_has_floats_at_vertices(domain, kind):
     data = mesh("Quads", CUBE, CUBE_FACES)
@@ -128,23 +111,6 @@ def test_an_attribute_has_values_where_it_has_floats_at_vertices(domain, kind):
     assert vertex_values(data, "per_vertex").tolist() == [*range(8)]
     with refused("attribute_type", attribute="other"):
         vertex_values(data, "other")
-
-
-def test_many_quads_need_no_face_indices_either():
-    side = 250
-    corner = np.arange(side * side).reshape(side, side)[:-1, :-1].reshape(-1, 1)
-    faces = corner + [0, 1, side + 1, side]
-    points = np.array([(x, y, 0) for x in range(side) for y in range(side)])
-    surface = mesh_surface(mesh("Grid", points, faces))
-    assert np.array_equal(surface.quads, faces) and surface.quad_faces is None
-
-
-def test_the_points_of_a_mesh_are_read_where_it_has_these_corners():
-    data = mesh("Quads", CUBE, CUBE_FACES)
-    corners = np.array(CUBE_FACES).reshape(-1)
-    assert np.array_equal(mesh_points(data, corners), CUBE)
-    for other in (corners[:-4], corners[::-1], np.append(corners, 0)):
-        assert mesh_points(data, other) is None
 
 
 def state_of(obj, state):

@@ -11,8 +11,7 @@ import pytest
 bpy = pytest.importorskip("bpy")
 
 from body_moments.core.verdict.finding import MeasureError, finding
-from body_moments.operators.read import measurable, measurable_objects, read_lines, read_object, read_patches
-from body_moments.operators.read.decisions import _render_differences
+from body_moments.operators.read import measurable, measurable_objects, read_object, read_patches
 from mathutils import Matrix
 
 from tests.blender import findings
@@ -133,11 +132,6 @@ def test_a_nurbs_surface_is_read_as_its_patches_beside_its_display_mesh():
     assert len(reading.parts[0].splines.patches) == 1
 
 
-@pytest.mark.parametrize("make", [cube, shaped], ids=lambda make: make.__name__)
-def test_what_is_read_as_it_is_needs_no_finding(make):
-    assert read(make()).findings == []
-
-
 @pytest.mark.parametrize("make", [bevelled, text, ball], ids=lambda make: make.__name__)
 def test_polygons_that_stand_for_what_is_round_are_said(make):
     obj = make()
@@ -220,39 +214,6 @@ def test_a_round_profile_or_taper_of_a_straight_spline_is_said(mode, name):
         assert drawn(obj) == (shape != other)
 
 
-def test_a_curve_that_only_carries_instances_has_no_polygons_to_speak_of():
-    bpy.ops.curve.primitive_bezier_circle_add()
-    obj = bpy.context.object
-
-    def build(tree, source):
-        points = node(tree, "GeometryNodeCurveToPoints", {}, Curve=source).outputs[0]
-        made = node(
-            tree, "GeometryNodeInstanceOnPoints", Points=points, Instance=node(tree, "GeometryNodeMeshCube").outputs[0]
-        )
-        return join(tree, made.outputs[0], node(tree, "GeometryNodeMeshLine").outputs[0])  # which has no faces
-
-    nodes(obj, build)
-    assert read(obj).instance_count == 10 and not drawn(obj)
-
-
-def test_names_of_metaballs_are_split_as_blender_splits_them():
-    """At the last dot, where a number follows."""
-    names = ["Ball.001", "Ball", "002", "003", "Cup.x", "Cup.y", "Cup.y.004", "a.b.9", "a.b.10"]
-    balls = [metaball(name, 9.0 * number) for number, name in enumerate(names)]
-    sets = [obj.evaluated_get(depsgraph()).evaluated_geometry() for obj in balls]
-    shown = [obj for obj, one in zip(balls, sets) if one.mesh is not None and len(one.mesh.polygons)]
-    assert [obj.name for obj in shown] == ["Ball", "002", "003", "Cup.x", "Cup.y", "a.b.9"]
-    assert measurable_objects(bpy.context.view_layer) == sorted(shown, key=lambda obj: obj.name)
-
-
-def test_the_metaball_with_the_lowest_number_holds_its_familys_polygons():
-    last, mother, other = metaball("Ball.010", 1.0), metaball("Ball.002"), metaball("Bowl", 9.0)
-    assert refused(last, "metaball_of_family", object="Ball.002")
-    assert said(read(mother))["metaball_family"] == {"objects": ["Ball.010"]}
-    assert "metaball_family" not in said(read(other))
-    assert measurable_objects(bpy.context.view_layer) == [mother, other]
-
-
 @pytest.mark.parametrize("kind", ["LIGHT", "CAMERA", "ARMATURE", "LATTICE", "SPEAKER", "LIGHT_PROBE"])
 def test_kinds_without_geometry_are_refused_by_name(kind):
     adders = {
@@ -275,12 +236,6 @@ def test_an_empty_without_instances_is_refused():
     assert not measurable(obj)
     obj.instance_type, obj.instance_collection = "COLLECTION", collection("Hollow")
     assert refused(obj, "collection_without_surface")
-
-
-def test_only_curves_are_read_as_lines():
-    obj = link("Wire", mesh("Wire", [(0, 0, 0), (1, 0, 0)], []))
-    with findings.refused("only_curves_are_wires", "Wire"):
-        read_lines(obj, bpy.context.evaluated_depsgraph_get())
 
 
 def test_what_has_no_faces_is_refused_with_what_it_has():
@@ -408,23 +363,6 @@ def test_an_object_in_a_collection_disabled_in_viewports_is_refused():
         assert refused(obj, "collection_disabled", collection="Home")
 
 
-def test_an_object_whose_collections_are_hidden_for_different_reasons_is_said_to_be():
-    home, other = collection("Home"), collection("Other")
-    obj = doubled("Body", home)
-    other.objects.link(obj)
-    layer_of(home).exclude = layer_of(other).hide_viewport = True
-    assert said(read(obj))["hidden_object_measured"]["cause"] == hidden("Other")
-    layer_of(other).hide_viewport, other.hide_viewport = False, True
-    assert refused(obj, "collection_disabled", collection="Other")
-    third = collection("Third")
-    third.objects.link(obj)
-    layer_of(third).hide_viewport = True
-    assert said(read(obj))["hidden_object_measured"]["cause"] == hidden("Third")
-    third.objects.unlink(obj)
-    layer_of(home).exclude = False
-    assert "hidden_object_measured" not in said(read(obj))
-
-
 def test_an_object_of_another_scene_or_of_none_is_refused():
     obj = doubled("Body")
     bpy.context.scene.collection.objects.unlink(obj)
@@ -494,19 +432,6 @@ def test_different_levels_for_the_render_are_said():
     assert read(obj).findings == []
 
 
-def test_the_resolution_of_the_render_is_said_along_each_axis_that_there_is():
-    both = ["render_resolution_u_differs", "render_resolution_v_differs"]
-    for add, codes in (
-        (bpy.ops.surface.primitive_nurbs_surface_sphere_add, both),
-        (bpy.ops.curve.primitive_nurbs_circle_add, both[:1]),
-    ):
-        add()
-        data = bpy.context.object.data
-        data.render_resolution_u, data.render_resolution_v = data.resolution_u + 1, data.resolution_v + 1
-        found = _render_differences(bpy.context.object, bpy.context.scene)
-        assert [one.code for one in found] == codes
-
-
 def differences(obj):
     return said(read(obj))["render_differs"]["differences"]
 
@@ -519,56 +444,6 @@ def test_modifiers_of_the_viewport_or_of_the_render_alone_are_said():
     assert read(obj).findings == []
     obj.modifiers["Array"].show_viewport = True
     assert differences(obj) == [finding("render_modifier_off", modifier="Array").as_record()]
-
-
-def test_the_levels_of_an_instanced_object_are_said():
-    members = collection("Members")
-    source = cube("Source", members)
-    modifier = source.modifiers.new("Smooth", "SUBSURF")
-    modifier.levels, modifier.render_levels = 1, 2
-    obj = link("Instancer")
-    obj.instance_type, obj.instance_collection = "COLLECTION", members
-    assert said(read(obj))["render_differs"]["sources"] == ["Source"]
-
-
-def test_members_of_an_instanced_collection_that_only_the_viewport_or_the_render_shows_are_said():
-    members, inner = collection("Members"), collection("Inner", False)
-    members.children.link(inner)
-    cube("Kept", members)
-    obj = link("Instancer")
-    obj.instance_type, obj.instance_collection = "COLLECTION", members
-    assert read(obj).findings == []
-    off, cutter, unused = cube("Off", members), cube("Cutter", members), cube("Unused", members)
-    cube("Spare", inner)
-    metaball("Ball", 9.0, members).hide_viewport = True  # which no instance shows
-    lamp = link("Lamp", bpy.data.lights.new("Lamp", "SUN"), members)
-    for one in (off, lamp, unused):
-        one.hide_viewport = True
-    unused.hide_render = cutter.hide_render = inner.hide_viewport = True
-    reading = read(obj)
-    assert reading.instance_count == 2
-    cutter = {"viewport_only_members": {"objects": ["Cutter"]}}
-    assert said(reading) == {"render_only_members": {"objects": ["Off", "Spare"]}, **cutter}
-    inner.hide_render = True
-    assert said(read(obj)) == {"render_only_members": {"objects": ["Off"]}, **cutter}
-    outer = link("Outer")
-    outer.instance_type, outer.instance_collection = "COLLECTION", collection("Outer")
-    link("Again", None, outer.instance_collection).instance_type = "COLLECTION"
-    bpy.data.objects["Again"].instance_collection = members
-    assert read(outer).findings == read(obj).findings
-
-
-def test_errors_of_nodes_are_said():
-    obj = cube()
-
-    def build(tree, source):
-        warning = node(tree, "GeometryNodeWarning", {"Show": True, "Message": "no good"})
-        warning.warning_type = "ERROR"
-        gone = node(tree, "GeometryNodeDeleteGeometry", {}, Geometry=source, Selection=warning.outputs[0])
-        return join(tree, source, gone.outputs[0])
-
-    nodes(obj, build)
-    assert said(read(obj))["modifier_error"] == {"modifier": "Nodes", "error": "no good"}
 
 
 # Transforms.
@@ -822,27 +697,3 @@ def test_patches_alone_are_read_of_what_shows_nothing_else():
     assert read_patches(obj, depsgraph()) is None
     obj.modifiers.clear()
     assert read_patches(obj, depsgraph()) is not None
-
-
-def test_the_resolution_of_an_ocean_is_said():
-    obj = cube()
-    modifier = obj.modifiers.new("Sea", "OCEAN")
-    modifier.viewport_resolution, modifier.resolution = 3, 5
-    (found,) = _render_differences(obj, bpy.context.scene)
-    assert found.code == "render_levels_differ" and found.values == {"modifier": "Sea", "viewport": 3, "render": 5}
-    modifier.resolution = 3
-    assert not [*_render_differences(obj, bpy.context.scene)]
-    obj.modifiers.clear()
-    modifier = obj.modifiers.new("Turned", "SCREW")
-    modifier.steps, modifier.render_steps = 5, 6
-    (found,) = _render_differences(obj, bpy.context.scene)
-    assert found.code == "render_levels_differ" and found.values == {"modifier": "Turned", "viewport": 5, "render": 6}
-
-
-def test_the_resolution_of_metaballs_in_the_render_is_said():
-    obj = metaball("Ball")
-    obj.data.resolution, obj.data.render_resolution = 0.4, 0.2
-    (found,) = _render_differences(obj, bpy.context.scene)
-    assert (found.code, found.values) == ("render_resolution_differs", {"viewport": 0.4, "render": 0.2})
-    obj.data.render_resolution = 0.4
-    assert not [*_render_differences(obj, bpy.context.scene)]

@@ -8,7 +8,6 @@ import bpy
 import numpy as np
 import pytest
 from body_moments.operators.scene import changes as side_by_side
-from body_moments.operators.scene import reframe
 
 from tests.blender.objects import add, mesh_body, only, place, seen
 
@@ -189,26 +188,6 @@ def test_one_that_is_refused_leaves_the_others_beside_it_to_be_done(reported):
         assert np.abs(seen(obj) - points).max() < 1e-5
 
 
-def test_one_that_is_refused_beside_another_is_tried_again_alone(monkeypatch):
-    """As if nobody knew that the second one's shape depends on the first."""
-    first, second = bodies(2)
-    wrap_around(second, first)
-    monkeypatch.setattr(reframe, "dependents", lambda objects: {obj: {obj} for obj in objects})
-    reached = reframe.set_world_matrix
-
-    def slower(plan):
-        yield from reached(plan)
-        if plan.obj == first:
-            yield  # moved, and its data is not yet
-
-    monkeypatch.setattr(reframe, "set_world_matrix", slower)
-    before, was = seen(second), place(second)
-    only(first, second)
-    assert run("origin_to_center") == {"FINISHED"}
-    assert np.abs(place(second) - was).max() > 0.1
-    assert np.abs(seen(second) - before).max() < 2e-5
-
-
 def test_where_one_fails_without_a_reason_the_others_are_put_back():
     put_back = []
 
@@ -278,21 +257,3 @@ def test_where_the_scene_cannot_be_evaluated_what_was_changed_is_put_back():
     with pytest.raises(KeyboardInterrupt):
         side_by_side.run_change(context, running)
     assert states == ["changed", "as it was"] and updates == [0, 1, 2]
-
-
-def test_changes_go_into_rounds_after_all_that_touch_the_same():
-    first, second, third = bodies(3)
-    changes = [
-        ("first", {first}),
-        ("beside", {second}),
-        ("after both", {first, second}),
-        ("after that", {second, third}),
-        ("free", set()),
-        ("last", {first, third}),
-    ]
-    assert side_by_side.independent_rounds(changes) == [
-        ["first", "beside", "free"],
-        ["after both"],
-        ["after that"],
-        ["last"],
-    ]

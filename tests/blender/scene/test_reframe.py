@@ -7,12 +7,10 @@ from types import SimpleNamespace
 import bpy
 import numpy as np
 import pytest
-from body_moments.core.verdict.finding import EditRefusedError
 from body_moments.operators.scene import reframe
 from body_moments.operators.scene.reframe_meshes import (
     Plan,
     data_change,
-    location_tolerance,
     reframe_own_meshes,
     shows_own_mesh,
 )
@@ -184,14 +182,6 @@ def test_matrices_of_points_keep_what_is_seen():
     assert np.abs(now @ change @ points - was @ points).max() < 1e-9
 
 
-def test_an_origin_is_known_to_some_steps_of_what_it_hangs_on():
-    parent, obj = add(None, "Parent", (0, 3000, 0)), add(mesh_body())
-    assert location_tolerance(obj, 5.0) == pytest.approx(2e-6)
-    obj.parent = parent
-    bpy.context.view_layer.update()
-    assert location_tolerance(obj, 5.0) == pytest.approx(2e-6 + 4.0 * 2.0**-23 * 3000.0)
-
-
 def target_of(obj, turn=0.5, shift=(1.0, 2.0, 3.0)):
     matrix = np.array(Matrix.Rotation(turn, 4, "Z") @ obj.matrix_world, np.float64)
     matrix[:3, 3] += shift
@@ -290,48 +280,6 @@ def test_the_same_change_of_shared_data_is_made_once():
     assert max(np.abs(seen(obj) - was).max() for obj, was in zip(objects, before)) < 1e-5
 
 
-def test_plans_go_together_to_a_limit():
-    mesh = mesh_body()
-    objects = [add(mesh, "Body {:d}".format(i), select=False) for i in range(2)]
-    size = 2.0
-    for factor, count in ((0.9, 1), (1.1, 2)):
-        for entry, reach in (((1, 3), 1.0), ((0, 0), np.abs(np.array(objects[0].bound_box)).max())):
-            plans = [Plan(obj, np.eye(4), size, False) for obj in objects]
-            change = np.eye(4)
-            change[entry] += factor * 1e-5 * size / reach
-            plans[1].target = np.linalg.inv(change)
-            assert len(reframe._groups(plans)) == count
-    objects[1].parent = objects[0]
-    assert len(reframe._groups([Plan(obj, np.eye(4), size, False) for obj in objects])) == 2
-
-
-def test_why_a_shape_cannot_be_kept():
-    for kind, options, code, values in (
-        ("CAST", {}, "shape_depends_on_origin", {"modifiers": ["Mod"]}),
-        ("CAST", {"show_viewport": False}, "shape_depends_on_origin_unknown", {}),
-        ("SUBSURF", {}, "shape_depends_on_origin_unknown", {}),
-    ):
-        cause = reframe._overriding_cause(modified(kind, **options))
-        assert (cause.code, cause.values) == (code, values)
-
-
-@pytest.mark.parametrize("is_seen", [True, False])
-def test_what_changes_where_it_goes_is_put_back(is_seen, monkeypatch):
-    obj = modified("DISPLACE", texture_coords="GLOBAL", texture=bpy.data.textures.new("Clouds", "CLOUDS"))
-    obj.modifiers[0].show_viewport = is_seen
-    bpy.context.view_layer.update()
-    if not is_seen:
-        monkeypatch.setattr(reframe, "same_shape", lambda *_: False)
-    before, was = seen(obj), place(obj)
-    with pytest.raises(EditRefusedError) as error:
-        reframe.move(bpy.context, Plan(obj, target_of(obj), 3.0, False))
-    code = "shape_depends_on_location" + ("" if is_seen else "_unknown")
-    assert error.value.finding.code == code and error.value.finding.values == (
-        {"modifiers": ["Mod"]} if is_seen else {}
-    )
-    assert np.array_equal(place(obj), was) and np.array_equal(seen(obj), before)
-
-
 def test_an_error_of_ours_leaves_the_object_and_is_reported(monkeypatch):
     obj = add(mesh_body())
     obj.modifiers.new("Triangulate", "TRIANGULATE")
@@ -427,18 +375,6 @@ def test_what_something_else_holds_a_little_elsewhere_or_turned_is_left(factor, 
         context = SimpleNamespace(view_layer=SimpleNamespace(update=update))
         assert reframe_own_meshes(context, plans) == ([obj, other] if is_done else [other])
         assert (tuple(obj.location) == (1.0, 2.0, 3.0)) != is_done
-
-
-def test_a_place_that_is_reached_at_once_takes_one_evaluation():
-    obj = add(mesh_body(), location=(3, 0, 0))
-    bpy.context.view_layer.update()
-    target = target_of(obj)
-    steps = 0
-    for _ in reframe.set_world_matrix(Plan(obj, target, 3.0, False)):
-        bpy.context.view_layer.update()
-        steps += 1
-    assert steps == 2
-    assert np.abs(np.array(obj.matrix_world) - target).max() < 1e-5
 
 
 def test_free_normals_turn_with_the_points():

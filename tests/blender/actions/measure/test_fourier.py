@@ -10,7 +10,6 @@ import bpy
 from body_moments.core.fourier import instances as fourier_body
 from body_moments.core.fourier.wave_vectors import FrequencyGrid
 from body_moments.core.mesh.surface import Surface
-from body_moments.operators import batch
 from body_moments.operators.bodies import fourier
 from body_moments.operators.bodies.fourier import object_transform
 from body_moments.operators.command import fourier as command
@@ -224,57 +223,6 @@ def test_a_file_that_cannot_be_written_is_an_error(tmp_path, wave_vectors, monke
     assert [path.name for path in tmp_path.iterdir()] == ["q.npy"]
 
 
-@pytest.mark.parametrize(
-    "words",
-    [
-        ["--q", "Q"],
-        ["--grid", "8"],
-        ["--qmax", "1"],
-        ["--fourier", "OUT"],
-        ["--fourier", "OUT", "--grid", "8"],
-        ["--fourier", "OUT", "--qmax", "8"],
-        ["--fourier", "OUT", "--q", "Q", "--grid", "8", "--qmax", "1"],
-        ["--fourier", "OUT", "--q", "Q", "--qmax", "1"],
-        ["--fourier", "OUT", "--grid", "1", "--qmax", "1"],
-        ["--fourier", "OUT", "--grid", "x", "--qmax", "1"],
-        ["--fourier", "OUT", "--grid", str(command.MAX_GRID + 1), "--qmax", "1"],
-        ["--fourier", "OUT", "--grid", "8", "--qmax", "0"],
-        ["--fourier", "OUT", "--grid", "8", "--qmax", "inf"],
-        ["--fourier", "OUT", "--q", "none.npy"],
-        ["--fourier", "OUT", "--q", "TEXT"],
-        ["--fourier", "OUT", "--q", "FLAT"],
-        ["--fourier", "OUT", "--q", "NAN"],
-        ["--fourier", "OUT", "--q", "OBJECTS"],
-        ["--fourier", "OUT", "--q", "NPZ"],
-        ["--fourier", "Q", "--q", "Q"],
-        ["--fourier", "OUT", "--q", "Q", "--output", "OUT"],
-        ["--fourier", "no/such/folder/out.npz", "--q", "Q"],
-        ["--fourier", ".", "--q", "Q"],
-        ["--fourier", "OUT", "--q", "Q", "--object", "a", "--object", "b"],
-        ["--fourier", "OUT", "--q", "Q", "a.stl", "b.stl"],
-    ],
-    ids=" ".join,
-)
-def test_wrong_usage_ends_with_2_and_writes_nothing(words, tmp_path, capsys):
-    np.save(tmp_path / "Q", Q)
-    np.save(tmp_path / "FLAT", Q[:, :2])
-    np.save(tmp_path / "NAN", Q * np.nan)
-    np.save(tmp_path / "OBJECTS", np.array([None]), allow_pickle=True)
-    np.savez(tmp_path / "NPZ", q=Q)
-    (tmp_path / "TEXT.npy").write_text("1 2 3")
-    (tmp_path / "NPZ.npz").rename(tmp_path / "NPZ.npy")
-    before = sorted(path.name for path in tmp_path.iterdir())
-    names = {name: str(tmp_path / "{}.npy".format(name)) for name in ("Q", "FLAT", "NAN", "OBJECTS", "NPZ", "TEXT")}
-    names["OUT"] = str(tmp_path / "out.npz")
-    with pytest.raises(SystemExit) as ended:
-        from body_moments.operators.command import arguments, checks
-
-        checks.check(arguments.parse(["measure", *(names.get(word, word) for word in words)]))
-    assert ended.value.code == batch.WRONG_USAGE
-    assert "error: " in capsys.readouterr().err
-    assert sorted(path.name for path in tmp_path.iterdir()) == before
-
-
 def test_the_operator_writes_the_file_and_an_image(tmp_path):
     box = objects.add(objects.mesh_body(), location=(1, 2, 3))
     selected, mode = bpy.context.selected_objects, bpy.context.mode
@@ -298,22 +246,6 @@ def test_the_operator_writes_the_file_and_an_image(tmp_path):
     for found, slice_ in ((gray[:, :12], values[:, :, 6]), (gray[:, 14:26], values[:, 6]), (gray[:, 28:], values[6])):
         assert np.abs(found.T - (1 + np.log10(slice_ / values.max()).clip(-6, 0) / 6)).max() <= 1 / 255
     assert (bpy.context.selected_objects, bpy.context.mode) == (selected, mode)
-
-
-def test_the_operator_refuses_with_a_reason(tmp_path):
-    mesh = bpy.data.meshes.new("Plane")
-    mesh.from_pydata([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [], [(0, 1, 2)])
-    objects.add(mesh, "Flat")
-    path = tmp_path / "a.npz"
-    with pytest.raises(RuntimeError, match="Flat: .*open"):
-        bpy.ops.object.body_moments_fourier(filepath=str(path), count=6)
-    assert not path.exists() and not bpy.data.images
-    assert bpy.ops.object.body_moments_fourier(filepath=str(path), count=6, of="AREA") == {"FINISHED"}
-    with pytest.raises(RuntimeError, match="does not exist"):
-        bpy.ops.object.body_moments_fourier(filepath=str(tmp_path / "no" / "a.npz"), count=6, of="AREA")
-    bpy.context.view_layer.objects.active = None
-    with pytest.raises(RuntimeError, match="Make an object"):
-        bpy.ops.object.body_moments_fourier(filepath=str(path))
 
 
 def test_an_archive_in_place_of_an_array_is_refused(tmp_path):

@@ -356,32 +356,6 @@ def test_results_of_bones_drive():
     assert close(location(), 8.0, 1e-6)
 
 
-def half_a_box():
-    """A box on two bones: all faces but the lowest go with the upper one."""
-    armature = bpy.data.objects.new("Rig", bpy.data.armatures.new("Rig"))
-    bpy.context.scene.collection.objects.link(armature)
-    bpy.context.view_layer.objects.active = armature
-    bpy.ops.object.mode_set(mode="EDIT")
-    for name, low in (("Lower", -1.0), ("Upper", 0.0)):
-        bone = armature.data.edit_bones.new(name)
-        bone.head, bone.tail = (0.0, 0.0, low), (0.0, 0.0, low + 1.0)
-    bpy.ops.object.mode_set(mode="OBJECT")
-    box = bpy.data.objects.new("Box", box_mesh(1.0, 1.0, 2.0))
-    bpy.context.scene.collection.objects.link(box)
-    heights = [vertex.co.z for vertex in box.data.vertices]
-    for name, height, weight in (
-        ("Lower", min(heights), 1.0),
-        ("Upper", max(heights), 1.0),
-        ("Upper", min(heights), 0.5),
-    ):
-        group = box.vertex_groups.get(name) or box.vertex_groups.new(name=name)
-        group.add([k for k, z in enumerate(heights) if z == height], weight, "REPLACE")
-    box.modifiers.new("Armature", "ARMATURE").object = armature
-    bpy.context.view_layer.update()
-    only(armature)
-    return armature
-
-
 def test_the_surface_of_a_link_is_what_its_inertial_is_of_however_characters_are_turned():
     armatures = []
     for location, rotation in (((5, -3, 2), (0.4, -0.7, 1.9)), ((-40, 3, 1), (-1.1, 0.3, 0.8))):
