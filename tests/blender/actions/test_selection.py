@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What all operators on the selection share: one report a run, progress, the order of the objects."""
+"""Selected objects in order, parents first, and joints in another context."""
 
 import bpy
 import pytest

@@ -575,24 +575,6 @@ def test_knots_are_known_where_they_give_the_length_that_blender_has():
         assert curves._has_known_knots(far, moved) is expected  # of which float32 has fewer digits
 
 
-def test_curves_with_knots_of_their_own_are_refused():
-    data = bpy.data.hair_curves.new("Hair")
-    data.add_curves([5])
-    for name, value in (("curve_type", 3), ("knots_mode", 0)):
-        attribute = data.attributes.get(name) or data.attributes.new(name, "INT8", "CURVE")
-        attribute.data[0].value = value
-    points = np.array([(0, 0, 0), (1, 2, 0), (3, 2, 0), (4, 0, 0), (5, -1, 0)], np.float32)
-    data.attributes["position"].data.foreach_set("vector", points.ravel())
-    (found,) = curves._shown_curves(data, "Hair")
-    assert found.space.order == 4 and np.array_equal(found.points, points)
-    data.attributes["knots_mode"].data[0].value = curves.CUSTOM_KNOTS_MODE
-    with refused("unknown_knots", "Hair"):
-        list(curves._shown_curves(data, "Hair"))
-    data.attributes["curve_type"].data[0].value = curves.TYPES.index("POLY")
-    (found,) = curves._shown_curves(data, "Hair")
-    assert found.space.order == 2 and np.array_equal(found.points, points)
-
-
 def test_a_hook_falls_off_as_its_curve_says_from_one_to_nothing():
     """At a quarter of the radius: three quarters of the way from there."""
     near, root = 0.75, 0.75**0.5

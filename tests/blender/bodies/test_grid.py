@@ -430,34 +430,6 @@ def an_instance(tree):
 ONES = np.ones((8, 8, 8), np.float32)
 
 
-def test_instances_of_volumes_name_the_remedy(tmp_path):
-    collection = bpy.data.collections.new("Clouds")
-    obj = volume_object(tmp_path / "a.vdb", vdb_grid(ONES))
-    collection.objects.link(obj)
-    empty = linked(bpy.data.objects.new("Instance", None))
-    empty.instance_type, empty.instance_collection = "COLLECTION", collection
-    with refused("only_volume_instances"):
-        measure(empty)
-
-
-def test_voxels_made_coarser_by_simplify_are_said(tmp_path):
-    values = np.random.default_rng(0).random((32, 32, 32)).astype(np.float32)
-    obj = volume_object(tmp_path / "a.vdb", vdb_grid(values))
-    render = bpy.context.scene.render
-    render.use_simplify, render.simplify_volumes = True, 0.25
-    try:
-        own = measure(obj)  # from its file, in full
-        assert own.mass_properties.mass == pytest.approx(values.sum(dtype=float), rel=1e-12)
-        assert "grid_simplified" not in said(own)
-        coarse = measure(with_nodes(obj))
-        assert coarse.mass_properties.center != pytest.approx(own.mass_properties.center, rel=1e-3)
-        assert said(coarse)["grid_simplified"] == {"share": 0.25}
-        for render.use_simplify, render.simplify_volumes in ((True, 1.0), (False, 0.25)):
-            assert "grid_simplified" not in said(measure(obj))
-    finally:
-        render.use_simplify, render.simplify_volumes = False, 1.0
-
-
 @pytest.mark.parametrize("value", [np.inf, -np.inf, np.nan])
 @pytest.mark.parametrize("table", [False, True])
 def test_no_voxel_that_is_not_finite_has_a_density(tmp_path, value, table):

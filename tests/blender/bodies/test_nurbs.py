@@ -4,7 +4,6 @@
 
 from itertools import product
 
-import body_moments
 import bpy
 import numpy as np
 import pytest
@@ -13,15 +12,15 @@ from body_moments.core.moments.monomials import monomials
 from body_moments.core.nurbs.blender_knots import blender_space, display_parameters, display_table
 from body_moments.core.nurbs.patch import Patch
 from body_moments.core.polyhedron import polyhedron_moments
-from body_moments.core.verdict.method import Method, Source, Verdict
+from body_moments.core.verdict.method import Source
 from body_moments.operators.bodies.measure_object import measure_body, measure_object
-from body_moments.operators.session import handlers, live
+from body_moments.operators.session import live
 from body_moments.operators.settings.options import MeasureOptions
 from body_moments.operators.write.record import record
 
 from tests.blender.findings import refused, said
 from tests.blender.objects import add, measured, only, place
-from tests.blender.spline_bodies import set_points, surface
+from tests.blender.spline_bodies import surface
 from tests.close import close
 
 pytestmark = pytest.mark.usefixtures("scene")
@@ -183,16 +182,6 @@ def test_a_wall_follows_the_scale_of_the_surface_but_keeps_its_thickness():
     obj.body_moments.kind, obj.body_moments.wall, obj.body_moments.thickness = "SHELL", "INWARD", 0.1
     obj.scale = (2.0, 2.0, -2.0)
     assert measured(obj).volume == pytest.approx(BALL * (8.0 - 1.9**3), rel=1e-6)
-
-
-@pytest.mark.parametrize("source", ["POLYNOMIAL", "MATERIALS"])
-@pytest.mark.parametrize("kind", ["SOLID", "SHELL"])
-def test_a_density_that_varies_needs_polygons_and_says_so(kind, source):
-    obj = primitive("sphere")
-    obj.body_moments.kind = kind
-    obj.body_moments.density_from, obj.body_moments.density_polynomial = source, "1000 + z"
-    found = measured(obj)
-    assert not str(found.method).startswith("NURBS") and "display_mesh_for_density" in said(found)
 
 
 def test_moments_of_higher_order_are_exact_too():
@@ -359,54 +348,12 @@ def test_instances_of_a_surface_are_measured_as_it_is():
     assert other.volume == pytest.approx(6.0 * BALL * STORED, rel=1e-8)
 
 
-def test_a_union_needs_polygons_and_says_so():
-    obj = primitive("sphere")
-    assert measure_object(obj, bpy.context.evaluated_depsgraph_get(), MeasureOptions(overlap="union")).method == Method(
-        Verdict.EXACT, Source.NURBS
-    )
-    other = primitive("sphere")
-    other.location.x = 1.0
-    only(obj, other)
-    bpy.ops.object.join()
-    both = measured(bpy.context.object)
-    assert both.health.overlapping_components == 2 and said(both)["components_overlap"] == {"count": 2}
-    bpy.context.object.body_moments.overlap = "UNION"
-    united = measured(bpy.context.object)
-    assert str(united.method) == "union" and "union_of_display_mesh" in said(united)
-    assert united.volume < 0.9 * both.volume
-
-
 def test_weights_of_zero_leave_the_display_mesh():
     obj = primitive("sphere")
     obj.data.splines[0].points[17].co[3] = 0.0
     obj.data.update_tag()
     found = measured(obj)
     assert not str(found.method).startswith("NURBS") and said(found)["display_mesh_for_weights"] == {"count": 1}
-
-
-def test_numbers_follow_an_edit_while_live_is_on():
-    obj = primitive("torus")
-    bpy.ops.object.body_moments_measure()
-    stored = obj["body_volume"]
-    assert live.current_numbers(obj) is None
-    bpy.ops.object.body_moments_live()
-    assert close(live.current_numbers(obj).measurement.volume, stored, rel=1e-12)
-    rng = np.random.default_rng(0)
-    points = np.array([point.co[:3] for point in obj.data.splines[0].points])
-    weights = np.array([point.co[3] for point in obj.data.splines[0].points])
-    for _ in range(3):
-        points[rng.integers(64)] += rng.uniform(-0.1, 0.1, 3)
-        set_points(obj.data.splines[0], points[None], weights)
-        bpy.context.view_layer.update()
-        assert live.is_pending(obj)
-        found = live.update(obj, bpy.context.evaluated_depsgraph_get()).measurement
-        now = measured(obj)
-        assert str(found.method) == str(now.method) == "NURBS exact"
-        assert close(found.volume, now.volume, rel=1e-12)
-        assert np.allclose(found.mass_properties.inertia, now.mass_properties.inertia, rtol=1e-11, atol=1e-9)
-    assert obj["body_volume"] == stored  # shown, never stored
-    bpy.ops.object.body_moments_live()
-    assert live.current_numbers(obj) is None
 
 
 @pytest.mark.parametrize(
@@ -459,40 +406,6 @@ def test_live_numbers_follow_hooks_keys_transforms_and_frames():
     found = live.update(obj, bpy.context.evaluated_depsgraph_get()).measurement
     assert found.volume == pytest.approx(measured(obj).volume, rel=1e-12)
     bpy.ops.object.body_moments_live()
-
-
-def test_live_numbers_follow_undo_and_stop_at_a_file_and_when_unregistered(tmp_path):
-    obj = primitive("sphere")
-    bpy.ops.object.body_moments_live()
-    bpy.ops.ed.undo_push(message="Before")
-    obj.data.splines[0].points[10].co.x = 3.0
-    obj.data.update_tag()
-    bpy.context.view_layer.update()
-    bpy.ops.ed.undo_push(message="After")
-    live._followed.get(obj).is_pending = False
-    bpy.ops.ed.undo()
-    bpy.context.view_layer.update()
-    obj = bpy.context.object
-    assert live.is_live(obj) and live.is_pending(obj)
-    path = str(tmp_path / "live.blend")
-    bpy.ops.wm.save_as_mainfile(filepath=path)
-    bpy.ops.wm.open_mainfile(filepath=path)
-    assert not live.is_live(bpy.context.object) and not len(live._followed)
-    bpy.ops.object.body_moments_live()
-    body_moments.unregister()
-    body_moments.register()
-    assert not live.is_live(bpy.context.object) and not len(live._followed)
-    assert bpy.app.handlers.depsgraph_update_post.count(handlers._on_update) == 1
-    assert live._note_updates not in handlers.on_update
-    for _ in range(2):
-        bpy.ops.object.body_moments_live()
-        bpy.ops.object.body_moments_live()
-    bpy.ops.object.body_moments_live()
-    assert handlers.on_update.count(live._note_updates) == 1
-    bpy.ops.object.body_moments_live()
-    bpy.context.object.location.x += 1.0
-    bpy.context.view_layer.update()
-    assert live._note_updates not in handlers.on_update
 
 
 def test_a_hook_under_a_flattened_object_leaves_the_display_mesh():

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A surface to hold points against: which of its own points it is compared by, and how far others are from it."""
+"""Distances of points and surfaces from triangles, at every size."""
 
 from types import SimpleNamespace
 

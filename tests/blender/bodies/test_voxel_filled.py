@@ -228,34 +228,6 @@ def test_a_source_with_refused_values_is_named_and_an_open_surface_is_the_object
         measure(box)
 
 
-def test_what_is_no_grid_of_densities_is_refused_with_both_names(tmp_path):
-    grid = vdb_grid(np.ones((4, 4, 4), np.float32), "distance")
-    grid.gridClass = "level set"
-    volume = volume_object(tmp_path / "level.vdb", grid)
-    box = cube(location=(1.5, 1.5, 1.5))
-    box.body_moments.density_from, box.body_moments.density_volume = "VOLUME", volume
-    with refused("density_grid_is_level_set", box.name, object=volume.name, grid="distance"):
-        measure(box)
-    box.body_moments.kind = "SHELL"
-    with refused("density_volume_of_shell", box.name):
-        measure(box)
-
-
-def test_a_volume_object_that_shows_polygons_has_no_grid(tmp_path):
-    volume = cloud(tmp_path, np.ones((4, 4, 4), np.float32))
-    volume.modifiers.new("Volume to Mesh", "VOLUME_TO_MESH")
-    tree = bpy.data.node_groups.new("Polygons", "GeometryNodeTree")
-    tree.interface.new_socket("Geometry", in_out="OUTPUT", socket_type="NodeSocketGeometry")
-    made, end = tree.nodes.new("GeometryNodeMeshCube"), tree.nodes.new("NodeGroupOutput")
-    tree.links.new(made.outputs[0], end.inputs[0])
-    volume.modifiers.new("Polygons", "NODES").node_group = tree
-    box = cube(location=(1.5, 1.5, 1.5))
-    box.body_moments.density_from, box.body_moments.density_volume = "VOLUME", volume
-    cause = finding("object_without_grid").as_record()
-    with refused("density_volume_unreadable", box.name, object=volume.name, cause=cause):
-        measure(box)
-
-
 def test_densities_whose_sum_is_too_large_are_refused(tmp_path):
     volume = cloud(tmp_path, np.full((9, 9, 9), 1e300))
     box = cube(location=(2.5, 3.5, 4.5))

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Every option of `measure` with values that it takes and values that it refuses; and which options go together."""
+"""Options of `measure` with valid and invalid values, and combinations that are refused."""
 
 import pytest
 

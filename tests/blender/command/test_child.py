@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a child of the supervisor answers, and how a process of the command line begins and ends, within this one."""
+"""Messages between the supervisor and its children, within this process."""
 
 import sys
 from contextlib import contextmanager

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""`compare`: by how much each number of a record may differ, from both sides; `summary`: all of what it prints."""
+"""`compare`: the allowed difference of each number of a record, from both sides."""
 
 import copy
 import math

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Ctrl+C and other signals, and how far a long read is."""
+"""Ctrl+C and other signals."""
 
 import os
 import signal

@@ -324,17 +324,6 @@ def literals(text, more=b""):
     return bytes([0, len(text) << 4]) + text + more
 
 
-def test_words_of_a_binary_layer_are_found_wherever_its_table_has_them(tmp_path):
-    (tmp_path / "a.usda").touch()
-    part, word = tmp_path / "part.usdc", literals(b"\0a.usda\0")
-    for before in (0, 1, 2, 63):
-        part.write_bytes(crate(word, before=before))
-        assert [*inputs.references(str(part), False)] == [tmp_path / "a.usda"]
-        assert [*inputs._named_in(part, inputs._NAMES)] == [tmp_path / "a.usda"]
-    part.write_bytes(crate(word, before=64))
-    assert [*inputs.references(str(part), False)] == []
-
-
 @pytest.mark.parametrize(
     "data",
     [
@@ -369,18 +358,6 @@ def test_what_cannot_be_read_is_not_replaced(tmp_path, main, no_measuring, monke
     for words in ((), ("--force",)):
         code, said = main(part, "--output", target, *words)
         assert code == 2 and said.endswith("error: {}\n".format(expected)) and target.read_text() == "mine"
-
-
-@pytest.mark.parametrize("length", [199, 200, 201, 255])
-def test_a_long_name_can_be_written_and_locked(tmp_path, length):
-    """Beside a file of a name to which nothing can be added there are others, of names that differ with it."""
-    first, second = tmp_path / ("a" * length), tmp_path / ("a" * (length - 1) + "b")
-    with locked(first), locked(second, 0.0), whole_file(tmp_path / ("c" * length)) as file:
-        locks = {path.name for path in tmp_path.iterdir()}
-        assert len(locks) == 4 and all(name.startswith(".") for name in locks)
-        assert any("a" * 199 in name for name in locks) == (length <= 200)
-        file.write(b"x")
-    assert [path.name for path in tmp_path.iterdir()] == ["c" * length]
 
 
 def test_where_there_are_no_locks_a_file_is_written_all_the_same(tmp_path, monkeypatch):

@@ -12,7 +12,6 @@ pytest.importorskip("bpy")
 import bpy
 import numpy as np
 from body_moments.operators import batch
-from body_moments.operators.settings.properties import copy_settings
 from mathutils import Euler, Matrix
 
 from tests.blender import batch_files as files
@@ -198,13 +197,6 @@ def test_a_density_that_nobody_set_is_a_finding():
     assert codes(measured("--object", wire.name)) == ["linear_density_defaulted"]
     wire.body_moments.linear_density = 1.0
     assert measured("--object", wire.name)["findings"] == []
-
-
-def test_a_copied_density_is_set_though_it_is_the_default():
-    source, target = files.add_box("source"), files.add_box("target")
-    source.body_moments.density = 1000.0
-    copy_settings(source.body_moments, target.body_moments)
-    assert measured("--object", "target")["findings"] == []
 
 
 def test_a_driver_or_a_script_that_did_not_run_is_a_finding(tmp_path):
@@ -453,22 +445,6 @@ def test_no_result_is_written_over_the_wave_vectors(tmp_path, capfd, standard_ou
         assert batch.main(["measure", "--q", str(waves), *map(str, words)]) == 2
     assert waves.read_bytes() == kept and not out.exists()
     assert "is used twice" in capfd.readouterr().err
-
-
-def test_objects_of_other_scenes_are_told_not_to_be_in_the_total():
-    box = files.add_box()
-    other = bpy.data.scenes.new("Other")
-    other.collection.objects.link(box)
-    bpy.data.scenes.new("Empty")
-    assert document()["total"]["warnings"] == []  # nothing is missing
-    other.collection.objects.link(bpy.data.objects.new("There", box.data))
-    found = document()
-    assert values(found["total"], "other_scenes") == {"scene": "Scene", "scenes": ["Other"]}
-    assert len(found["total"]["warnings"]) == 1 and names(found) == [files.BOX_NAME]
-    assert document("--object", files.BOX_NAME)["total"]["warnings"] == []
-    for obj in list(bpy.context.scene.objects):
-        bpy.context.scene.collection.objects.unlink(obj)
-    assert codes(document()["total"]) == ["other_scenes"]  # where nothing at all was measured too
 
 
 def test_a_fault_of_our_own_stops_nothing_else(monkeypatch, capsys):

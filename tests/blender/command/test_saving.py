@@ -191,18 +191,6 @@ def test_a_linked_object_keeps_its_record_and_its_refusal_is_an_error(tmp_path):
     assert "body_mass" in reopened(path)["Local"]
 
 
-def test_a_refusal_to_store_names_the_object_as_its_record_does(tmp_path):
-    library = files.box_file(tmp_path / "library.blend")
-    files.empty_scene()
-    files.add_box(files.BOX_NAME)
-    with bpy.data.libraries.load(library, link=True) as (_, wanted):
-        wanted.objects = [files.BOX_NAME]
-    bpy.context.scene.collection.objects.link(wanted.objects[0])
-    found = document(files.save(tmp_path / "part.blend"), "--write")
-    names = {entry["name"] for entry in found["objects"]}
-    assert len(names) == 2 and [entry["name"] for entry in found["errors"]] == [*(names - {files.BOX_NAME})]
-
-
 def meanwhile(monkeypatch, action):
     """Do something once while the object is measured."""
     real, waiting = measuring.measure_object, [action]
@@ -255,14 +243,6 @@ def test_a_file_that_is_gone_does_not_come_back(tmp_path, monkeypatch):
     meanwhile(monkeypatch, path.unlink)
     (error,) = document(path, "--write")["errors"]
     assert "no longer there" in error["reason"] and list(tmp_path.iterdir()) == []
-
-
-def test_new_times_alone_are_no_change(tmp_path, monkeypatch):
-    path = tmp_path / "part.blend"
-    files.box_file(path)
-    meanwhile(monkeypatch, lambda: os.utime(path, (1e9, 1e9)))
-    measured(path, "--write")
-    assert "body_mass" in reopened(path)[files.BOX_NAME]
 
 
 @pytest.fixture

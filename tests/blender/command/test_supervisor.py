@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs over files whose children are programs of a few lines, which do all that a child may do but measure."""
+"""Runs over files with scripted children that crash, hang, grow or answer nonsense."""
 
 import json
 import os

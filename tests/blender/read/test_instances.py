@@ -170,17 +170,6 @@ def test_instances_nest_as_deep_as_blender_shows_them():
     check(empty("Instancer", inner), 7)
 
 
-def test_a_collection_is_instanced_where_instancing_is_on_and_there_is_one():
-    members, used = collection("Members", False), collection("Used", False)
-    host = cube("Host", members)
-    host.instance_collection = used
-    cube("Unseen", used)
-    link("Nothing", None, members).instance_type = "COLLECTION"
-    off = link("Off", None, members)
-    off.instance_collection = used
-    check(host_of(members), 1)
-
-
 def host_of(members):
     return placed(empty("Instancer", members))
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""When the members of an assembly are the same bodies after their objects got other origins and axes."""
+"""Members count once their results are part of the whole assembly."""
 
 import bpy
 import numpy as np

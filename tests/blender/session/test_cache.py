@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the session remembers is of loaded objects only, and Blender's reports reach all who asked for them."""
+"""The session remembers loaded objects only, by uid, and registers each handler once."""
 
 import pytest
 

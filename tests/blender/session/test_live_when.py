@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""When objects with Live on are followed and measured: by a clock and a window that stand still unless told."""
+"""Live numbers of scaled objects: area, volume, density and mass."""
 
 import bpy
 import pytest

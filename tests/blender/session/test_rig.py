@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is stored of a character's bones, and when it no longer holds. tests/blender/actions/rig has what users do."""
+"""Edits of a skin are noted for its armature. tests/blender/actions/rig has the operators."""
 
 from types import SimpleNamespace
 

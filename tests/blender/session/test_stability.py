@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is remembered of how an object stands: for which shape, which gravity and which place that holds."""
+"""Stability follows the place, the scene's gravity and the stored numbers."""
 
 import bpy
 import numpy as np

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A frame of an animation costs the session nothing but writing down what was updated, and nothing of it is lost."""
+"""Updates during animation, undo and removal are counted for the right objects."""
 
 import pytest
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What follows from settings, each changed alone in each state, kept as text; grids, given parts, options, copies."""
+"""Settings: values of grids, positions of samples, given parts, acceptance, copies and linked scenes."""
 
 from types import SimpleNamespace
 

@@ -1,8 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Whole documents, kept as text: of measured objects in each format, of a robot in each format. What is in them is
-tested where it is measured; here is what they look like.
-"""
+"""Files that writers make: meshes of robots, glTF, JSON, thumbnails, pages, and stored sections that are damaged."""
 
 import base64
 import json

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Numbers in every unit that a scene can be set to, kept as text."""
+"""Densities in the units that a scene can choose, and bounds rounded upward."""
 
 import itertools
 from math import inf

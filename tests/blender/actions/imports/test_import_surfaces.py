@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which files Import Surfaces reads, in which unit, what it selects, and what it says of each."""
+"""Units of imported surface files."""
 
 import bpy
 import pytest

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Sections of meshes, curves and texts against closed forms, and what is said where they are none."""
+"""Sections of meshes, curves and texts against closed forms, their refusals, and when they are out of date."""
 
 import math
 from types import SimpleNamespace
@@ -13,7 +13,7 @@ from body_moments.operators.read.section import read_section
 from tests.blender.findings import refused as refusal
 from tests.blender.findings import said
 from tests.blender.objects import add, mesh_body, only
-from tests.blender.panels.drawing import Layout, copied, labels
+from tests.blender.panels.drawing import Layout
 from tests.close import close
 
 pytestmark = pytest.mark.usefixtures("scene")
@@ -363,15 +363,6 @@ def test_hidden_objects_and_infinite_points_are_refused():
     assert refused(add(mesh), "non_finite_vertices", count=1)
 
 
-def test_nothing_of_the_file_is_changed_by_reading():
-    objects = [add(curve_of(I_BEAM)), add(text_of("Ab")), add(flat_mesh(I_BEAM))]
-    before = [(kind, len(getattr(bpy.data, kind))) for kind in ("curves", "objects", "meshes")]
-    for obj in objects:
-        section_of(obj)
-    assert before == [(kind, len(getattr(bpy.data, kind))) for kind in ("curves", "objects", "meshes")]
-    assert objects[0].data.fill_mode == "BOTH"
-
-
 def test_the_operator_stores_the_section_and_reads_it_back_to_the_last_digit():
     obj = add(curve_of(I_BEAM), location=(1, 2, 3), rotation=(0.1, 0.2, 0.3))
     truth, what, findings = section_of(obj)
@@ -446,28 +437,6 @@ def test_body_and_section_grow_old_apart():
     bpy.ops.object.mode_set(mode="OBJECT")
 
 
-def test_a_section_that_is_refused_leaves_results_up_to_date():
-    from body_moments.operators.session import staleness
-
-    obj = add(curve_of(square(0, 0, 4), square(2, 2, 4)))
-    obj.body_moments.kind = "SHELL"
-    bpy.context.view_layer.update()
-    assert bpy.ops.object.body_moments_measure() == {"FINISHED"}
-    assert bpy.ops.object.body_moments_measure_section() == {"CANCELLED"}
-    bpy.context.view_layer.update()
-    assert staleness.stale_reason(obj, bpy.context.scene) is None
-
-
-def test_measuring_the_body_does_not_put_its_section_out_of_date():
-    obj = add(flat_mesh(I_BEAM))
-    obj.body_moments.kind = "SHELL"
-    bpy.context.view_layer.update()
-    bpy.ops.object.body_moments_measure_section()
-    assert bpy.ops.object.body_moments_measure() == {"FINISHED"}
-    bpy.context.view_layer.update()
-    assert outdated(obj) is None
-
-
 def test_a_section_survives_the_file_and_clear_takes_it_away(tmp_path):
     add(flat_mesh(I_BEAM))
     bpy.ops.object.body_moments_measure_section()
@@ -494,22 +463,6 @@ def drawn(closed=()):
     layout = Layout(closed=closed)
     panel.draw(SimpleNamespace(layout=layout), bpy.context)
     return layout.record
-
-
-def test_the_panel_shows_what_engineers_look_for_and_copies_all_digits():
-    obj = add(curve_of(I_BEAM), location=(5, 0, 0))
-    assert "Not Measured" in labels(drawn())
-    bpy.ops.object.body_moments_measure_section()
-    record, section = drawn(), stored(obj).section
-    found = labels(record)
-    for text in ("Area", "Perimeter", "Ix", "Iy", "Ixy", "I1", "I2", "Polar Jp", "Angle from x to 1", "Wx", "i1", "0°"):
-        assert text in found
-    assert "1.875 m²" in found
-    assert [float(text) for text in copied(record, "m⁴")[1:4]] == section.second.tolist()
-    assert float(copied(record, "m²")[0]) == section.area
-    obj.location.x = 1.0
-    bpy.context.view_layer.update()
-    assert "Out of date: Transform changed" in " ".join(labels(drawn()))
 
 
 def region_of(obj, **options):

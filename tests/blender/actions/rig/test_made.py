@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What Add Center of Mass and Create Physics Rig make of each bone, of light ones and of those without a part."""
+"""Centers and joints that operators make for each bone of a character."""
 
 import bpy
 import numpy as np

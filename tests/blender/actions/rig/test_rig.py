@@ -10,15 +10,14 @@ from body_moments.core.polyhedron.first_order import volume_and_center
 from body_moments.operators.bodies.measure_object import measure_object
 from body_moments.operators.bodies.rig import measure_rig
 from body_moments.operators.read.links import bone_freedom, bone_parents
-from body_moments.operators.session import handlers, results, shown
+from body_moments.operators.session import handlers, shown
 from body_moments.operators.session import rig as session
 from body_moments.operators.session.robot_links import bone_links
-from body_moments.operators.session.shown import shown_bone
 from body_moments.operators.write import properties
 
 from tests.blender.bodies.test_assembly import box_mesh
 from tests.blender.characters import PARENTS, armature_of, pose, skin_of
-from tests.blender.objects import only, strip_mesh
+from tests.blender.objects import only
 from tests.close import close
 from tests.core import characters as made
 
@@ -266,23 +265,6 @@ def test_modifiers_after_the_armature_count():
     assert len(rig.parts) == 7
 
 
-def test_selected_bones_are_drawn_where_they_are_now():
-    armature, skin = character()
-    bpy.ops.object.body_moments_measure_bones()
-    armature.location = (3, 2, 1)
-    pose(armature, 3)
-    bone = armature.pose.bones["arm.L"]
-    shown = shown_bone(bone, bpy.context.scene)
-    matrix = np.array(armature.matrix_world @ bone.matrix, np.float64)
-    center = matrix @ [*bone["body_center_of_mass"].to_list(), 1.0]
-    assert np.abs(shown.center - center[:3]).max() < 1e-5 and shown.verdict == "exact"
-    assert close(shown.mass, 8000.0, 1e-6)
-    only(skin, armature)
-    bpy.ops.object.body_moments_measure()
-    total = results.total(bpy.context)
-    assert total.count == 1  # the character is not counted beside its skin
-
-
 @pytest.mark.parametrize("unit", [1.0, 0.5])
 def test_a_physics_rig_has_exact_masses_and_joints_at_the_bones(unit):
     bpy.context.scene.unit_settings.scale_length = unit
@@ -439,18 +421,6 @@ def test_a_density_that_varies_is_shared_as_its_mean():
     assert close(rig.measurement.mass_properties.mass, whole.mass_properties.mass, 1e-9)
     arm = next(part for part in rig.parts if part.name == "arm.L")
     assert close(arm.mass.total, 8.0 * mean, 2e-6)
-
-
-def test_a_skin_that_cannot_be_closed_is_said():
-    armature, skin = character()
-    work = bmesh.new()
-    work.from_mesh(skin.data)
-    work.from_mesh(strip_mesh())
-    work.to_mesh(skin.data)
-    work.free()
-    rig = measured(armature)
-    told = {found.code: found.values for found in rig.measurement.findings}
-    assert told["rig_open_mesh"] == {"sources": [skin.name]}
 
 
 def test_the_area_of_a_stretched_skin_is_what_is_seen():

@@ -207,13 +207,6 @@ def test_mirror_images_and_other_sizes_are_selected_where_asked_for(options, mor
     assert selected() == {"Wanted", "Copy"} | more
 
 
-def test_without_selecting_the_selection_stays():
-    scene_of_shapes()
-    only(bpy.data.objects["Wanted"], bpy.data.objects["Other"])
-    run("find_similar", select=False)
-    assert selected() == {"Wanted", "Other"} and found()["Copy"] == "copy"
-
-
 def prism(name, points, **where):
     """A triangular prism, its points turned and moved within the object, which rounds them."""
     turn = np.array([[0.36, 0.48, -0.8], [-0.8, 0.6, 0.0], [0.48, 0.64, 0.6]])
@@ -300,15 +293,6 @@ def test_the_symmetry_of_what_blender_adds(make, group):
     assert obj.body_moments_symmetry.group == group
 
 
-def test_a_ball_of_nurbs_has_the_symmetry_of_its_display_mesh_and_says_so(reported):
-    bpy.ops.surface.primitive_nurbs_surface_sphere_add()
-    obj = bpy.context.object
-    assert run("find_symmetry") == {"FINISHED"}
-    kept = obj.body_moments_symmetry
-    assert kept.group != "C1" and kept.of_display_mesh
-    assert "symmetry_found_of_display_mesh" in reported.codes
-
-
 def test_the_elements_are_in_the_object_s_own_axes():
     bpy.ops.mesh.primitive_cone_add(vertices=5, rotation=(0.3, 0.4, 0.5), location=(1, 2, 3))
     obj = bpy.context.object
@@ -350,32 +334,6 @@ def test_a_symmetry_is_out_of_date_after_an_edit_and_not_after_a_motion():
     bpy.context.view_layer.update()
     assert staleness.symmetry_stale_reason(obj) == "stale_geometry"
     assert obj.body_moments_symmetry.group == "C1"
-
-
-@pytest.mark.parametrize("panel", ["VIEW3D_PT_body_moments_shape", "OBJECT_PT_body_moments_shape"])
-def test_the_panel_shows_what_was_found(panel):
-    from types import SimpleNamespace
-
-    from tests.blender.panels.drawing import Layout, labels
-
-    def drawn():
-        layout = Layout()
-        layout.use_property_decorate = False
-        getattr(bpy.types, panel).draw(SimpleNamespace(layout=layout), bpy.context)
-        return layout.record
-
-    scene_of_shapes()
-    assert not labels(drawn())
-    run("find_similar")
-    bpy.ops.mesh.primitive_cone_add(vertices=5)
-    run("find_symmetry")
-    record = drawn()
-    text = labels(record)
-    assert "Symmetry C5v" in text and "5-Fold Axis" in text and text.count("Mirror Plane") == 5
-    assert "Similar to Wanted" in text and any(line.startswith("mirror image, ") for line in text)
-    assert "Similarity, Distance" in text and any(line.startswith("scaled copy ×2, 0.") for line in text)
-    names = {entry[2].name for entry in record if entry[0] == "operator" and hasattr(entry[2], "name")}
-    assert names == {"Copy", "Image", "Big", "Other"}
 
 
 def test_a_signature_goes_beyond_order_20_by_quadrature():

@@ -1,7 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Sculpt Balance where it does not come there after it has moved something, what it says of moves, and how little it
-moves."""
+"""Sculpt Balance moves bent faces the least, and keeps the side that faces look to."""
 
 from dataclasses import replace
 from itertools import pairwise

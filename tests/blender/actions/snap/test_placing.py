@@ -1,7 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What snapping operators share: what counts as being there, what is stored again, and from where orientations are
-made."""
+"""Snapping: orders of axes, empties that stay as they were, libraries, free axes and rounding of scales."""
 
 import bpy
 import numpy as np
