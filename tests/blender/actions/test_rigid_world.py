@@ -7,7 +7,6 @@ import bpy
 import pytest
 
 from tests.blender.actions.rig.test_rig import character
-from tests.blender.actions.test_redo_panel import state
 from tests.blender.objects import add, mesh_body, only
 
 pytestmark = pytest.mark.usefixtures("scene")
@@ -17,6 +16,14 @@ OPERATORS = {  # and whether they add joints
     "set_rigid_body_mass": ({"add": True}, False),
     "equal_inertia": ({"rigid_body": True}, False),
 }
+
+
+def state():
+    """Return the place of each object, whether it has a rigid body or a joint, and the members of collections."""
+    return {
+        obj.name: (obj.matrix_world.copy(), obj.rigid_body is None, obj.rigid_body_constraint is None)
+        for obj in bpy.data.objects
+    }, {one.name: sorted(obj.name for obj in one.objects) for one in bpy.data.collections}
 
 
 def run(name):
