@@ -2,18 +2,19 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The project's commands, for any Python 3.11 or newer with nothing else installed.
 
-    python tests/project.py demo         measure a real body: a report, a record and a picture
-    python tests/project.py test         pass the tests, on every Blender there is
-    python tests/project.py test solid   pass those of one subject on one Blender, in seconds
-    python tests/project.py build        build the extension's zip into dist/
-    python tests/project.py benchmark    times and ratios against trimesh and libigl
-    python tests/project.py tables       the tables of Soldea, Elber and Rivlin beside ours
-    python tests/project.py lint         check the rules, the format and the types
-    python tests/project.py soak         what takes long: hostile files, kills, random damage, ...
+    python3 tests/project.py demo         measure a real body: a report, a record and a picture
+    python3 tests/project.py test         pass the tests, on every Blender there is
+    python3 tests/project.py test solid   pass those of one subject on one Blender, in seconds
+    python3 tests/project.py build        build the extension's zip into dist/
+    python3 tests/project.py benchmark    times and ratios against trimesh and libigl
+    python3 tests/project.py tables       the tables of Soldea, Elber and Rivlin beside ours
+    python3 tests/project.py lint         check the rules, the format and the types
+    python3 tests/project.py soak         what takes long: hostile files, kills, random damage, ...
 
 Each sets up what it needs in .envs/: one environment for each Blender that exists as a Python
 module, with the Python which that module is made for. Environments are used again until their
-requirements change. A real Blender, for the demo and for the window tests, is the one named by the
+requirements change. Libraries that the module lacks are installed on Debian and Ubuntu, if the
+user may. A real Blender, for the demo and for the window tests, is the one named by the
 variable BLENDER, else (window tests only) `blender` on the PATH. The window tests pass on the one that
 BLENDER_45 names, too.
 """
@@ -24,12 +25,14 @@ import functools
 import hashlib
 import json
 import os
+import re
 import shutil
 import signal
 import subprocess
 import sys
 import threading
 import time
+from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
@@ -41,6 +44,9 @@ WINDOWS = os.name == "nt"
 CI = os.environ.get("CI", "").lower() in ("1", "true", "yes")
 RUNNING = "{}.{}".format(*sys.version_info)  # the version of the Python that runs this
 
+INSTALL = ("apt-get", "install", "-y", "--no-install-recommends")
+LIBRARIES_LOCK = threading.Lock()
+
 # Blender as a module -> the Python which its wheel is made for
 BLENDERS = {"4.5": "3.11", "5.2": "3.13"}
 # group of tests -> minutes on one of two idle cores; the window's takes both, after all the others
@@ -50,7 +56,16 @@ SILENCE_LIMIT = 1800  # seconds without a line of output after which a run of py
 EXIT_LIMIT = 240  # seconds that an interpreter may take to end once its tests are over
 INTERRUPT_LIMIT = 10  # seconds that what was interrupted may take to clean up
 
-NO_PYTHON = "Neither Python 3.11 nor 3.13 is here. Install one of them, or uv, and try again."
+NO_PYTHON = "Neither Python 3.11 nor 3.13 is here with venv. Install one of them (on Debian: python3-venv), or uv, and try again."
+REAL_BLENDER = "a real Blender on the PATH, or named by the variable BLENDER"
+NO_LIBRARIES = """\
+Blender {version} cannot be loaded: {problem}
+On Debian and Ubuntu this brings its libraries:
+
+    {command}
+
+On Fedora: sudo dnf install libX11 libXext libXfixes libXi libXrender libICE libSM libxkbcommon libglvnd-glx; Arch has the same
+in lower case, and libglvnd. On macOS and Windows nothing else is needed."""
 PROBE = """\
 import ensurepip, platform, sys, venv
 assert sys.maxsize > 2**32 and platform.python_implementation() == "CPython"
@@ -229,9 +244,44 @@ def prepare(name: str, python: str, version: str, requirements: list[str]) -> Pa
 def prepare_blender(version: str) -> Path | None:
     """The Python that has this Blender as a module, or None where there is no Python for it."""
     wanted = BLENDERS[version]
-    if python := find_python(wanted):
-        return prepare(f"blender-{version}", python, wanted, [f"requirements-{version}.txt"])
-    return None
+    if not (python := find_python(wanted)):
+        return None
+    executable = prepare(f"blender-{version}", python, wanted, [f"requirements-{version}.txt"])
+    with LIBRARIES_LOCK:  # apt-get runs once at a time
+        if find_load_problem(executable):
+            bring_libraries()
+            if problem := find_load_problem(executable):
+                command = " ".join(["sudo", *INSTALL, *blender_packages()])
+                raise Failed(NO_LIBRARIES.format(version=version, problem=problem, command=command))
+    return executable
+
+
+def find_load_problem(python: Path) -> str:
+    """Return the last line of the error that Blender's module gives when it is loaded, or nothing."""
+    command = [python, "-P", "-c", "import bpy"]
+    done = subprocess.run(command, env=clean_environment(), capture_output=True, encoding="utf-8", errors="replace")
+    return done.stderr.strip().rpartition("\n")[2] if done.returncode else ""
+
+
+def blender_packages() -> list[str]:
+    """Return the names of Debian's packages that Blender's module is linked with."""
+    text = (TESTS / "packages-debian.txt").read_text(encoding="utf-8")
+    return re.search("^Blender: (.*)$", text, re.MULTILINE)[1].split()
+
+
+def bring_libraries() -> None:
+    """Install the libraries of Blender's module, if this is Debian or Ubuntu and the user may."""
+    if not shutil.which("apt-get"):
+        return
+    sudo = [] if os.geteuid() == 0 else ["sudo", "-n"]
+    try:
+        call([*sudo, "true"], "sudo")
+    except (Failed, OSError):
+        return
+    print("Installing the libraries of Blender ...", flush=True)
+    with contextlib.suppress(Failed):  # old lists of packages may do
+        call([*sudo, "apt-get", "update"], "apt-get update")
+    call([*sudo, *INSTALL, *blender_packages()], "apt-get install")
 
 
 def prepare_consumers(version: str) -> Path:
@@ -311,7 +361,7 @@ def run_tests(
     result = ENVS / "results" / f"{group}-{version}.json"
     result.parent.mkdir(exist_ok=True)
     result.unlink(missing_ok=True)
-    command = [python, "-P", "-m", "pytest", "-q", "-rfEs", "-o", "console_output_style=classic"]
+    command = [python, "-P", "-m", "pytest", "-q", "-rfE", "-o", "console_output_style=classic"]
     command += [f"--result-file={result}", *(files or [TESTS / group]), *extra]
     started = time.monotonic()
     code = runner.run(label, command, result, **variables)
@@ -323,7 +373,7 @@ def run_tests(
             runner.print(label, f"exit code {code} came after the tests were over")
     else:
         runner.print(label, f"exit code {code} came before the tests were over")
-        outcome = {"passed": 0, "failed": 0, "skipped": 0, "exit": code or 1}
+        outcome = {"passed": 0, "failed": 0, "skipped": 0, "left_out": {}, "exit": code or 1}
     nothing_selected = outcome["exit"] == 5 and extra
     if outcome["exit"] and not nothing_selected:
         outcome["failed"] = max(outcome["failed"], 1)
@@ -343,9 +393,13 @@ def in_lanes(function: Callable, lanes: Iterable) -> list[dict]:
 
 
 def finish(outcomes: list[dict], remarks: Iterable[str] = (), failed: int = 0) -> int:
-    """Print what all of it came to; the command's exit code."""
+    """Print the tests that were left out, by reason, and the total; return the command's exit code."""
     total = {word: sum(outcome[word] for outcome in outcomes) for word in ("passed", "failed", "skipped")}
     total["failed"] += failed
+    left_out = sum((Counter(outcome["left_out"]) for outcome in outcomes), Counter())
+    for reason, count in left_out.most_common():
+        tests, need = ("tests", "that need") if count > 1 else ("test", "that needs")
+        print(f"Left out: {count} {tests} {re.sub('^needs', need, reason)}")
     for sentence in remarks:
         print(sentence)
     if not any(total.values()):
@@ -427,7 +481,9 @@ def test(options: argparse.Namespace) -> int:
         return outcomes
 
     outcomes = in_lanes(lane, versions)
-    if "window" in groups:  # alone: drawing without a graphics card takes both cores
+    if "window" in groups and not (os.environ.get("BLENDER") or shutil.which("blender")):
+        remarks.append(f"Left out: the window tests, which need {REAL_BLENDER}.")
+    elif "window" in groups:  # alone: drawing without a graphics card takes both cores
         version = max(versions)
         outcomes.append(run_tests(runner, prepare_blender(version), version, "window", extra))
         if older := os.environ.get("BLENDER_45"):
