@@ -44,9 +44,6 @@ WINDOWS = os.name == "nt"
 CI = os.environ.get("CI", "").lower() in ("1", "true", "yes")
 RUNNING = "{}.{}".format(*sys.version_info)  # the version of the Python that runs this
 
-INSTALL = ("apt-get", "install", "-y", "--no-install-recommends")
-LIBRARIES_LOCK = threading.Lock()
-
 # Blender as a module -> the Python which its wheel is made for
 BLENDERS = {"4.5": "3.11", "5.2": "3.13"}
 # group of tests -> minutes on one of two idle cores; the window's takes both, after all the others
@@ -56,16 +53,16 @@ SILENCE_LIMIT = 1800  # seconds without a line of output after which a run of py
 EXIT_LIMIT = 240  # seconds that an interpreter may take to end once its tests are over
 INTERRUPT_LIMIT = 10  # seconds that what was interrupted may take to clean up
 
-NO_PYTHON = "Neither Python 3.11 nor 3.13 is here with venv. Install one of them (on Debian: python3-venv), or uv, and try again."
-REAL_BLENDER = "a real Blender on the PATH, or named by the variable BLENDER"
+INSTALL = ["apt-get", "install", "-y", "--no-install-recommends"]
+INSTALLING = threading.Lock()  # apt-get refuses to run twice at a time
+NO_PYTHON = "Neither Python 3.11 nor 3.13 with venv is here. Install one of them, or uv, and try again."
 NO_LIBRARIES = """\
-Blender {version} cannot be loaded: {problem}
-On Debian and Ubuntu this brings its libraries:
+Blender cannot be loaded: {}
+On Debian and Ubuntu its libraries come by
 
-    {command}
+    sudo {}
 
-On Fedora: sudo dnf install libX11 libXext libXfixes libXi libXrender libICE libSM libxkbcommon libglvnd-glx; Arch has the same
-in lower case, and libglvnd. On macOS and Windows nothing else is needed."""
+elsewhere by the same names without numbers (Fedora: libX11, libXi, libglvnd-glx, ...); macOS and Windows have them."""
 PROBE = """\
 import ensurepip, platform, sys, venv
 assert sys.maxsize > 2**32 and platform.python_implementation() == "CPython"
@@ -241,47 +238,43 @@ def prepare(name: str, python: str, version: str, requirements: list[str]) -> Pa
     return executable
 
 
-def prepare_blender(version: str) -> Path | None:
-    """The Python that has this Blender as a module, or None where there is no Python for it."""
+def prepare_blender(version: str, addition: str | None = None) -> Path | None:
+    """Return the Python that has this Blender as a module, or None if there is no Python for it.
+
+    The requirements of an addition are installed beside it, in an environment of their own.
+    """
     wanted = BLENDERS[version]
     if not (python := find_python(wanted)):
         return None
-    executable = prepare(f"blender-{version}", python, wanted, [f"requirements-{version}.txt"])
-    with LIBRARIES_LOCK:  # apt-get runs once at a time
+    requirements = [f"requirements-{name}.txt" for name in (version, addition) if name]
+    executable = prepare(addition or f"blender-{version}", python, wanted, requirements)
+    with INSTALLING:
         if find_load_problem(executable):
-            bring_libraries()
+            packages = re.search("^Blender: (.*)", (TESTS / "packages-debian.txt").read_text(), re.MULTILINE)[1].split()
+            install_packages(packages)
             if problem := find_load_problem(executable):
-                command = " ".join(["sudo", *INSTALL, *blender_packages()])
-                raise Failed(NO_LIBRARIES.format(version=version, problem=problem, command=command))
+                raise Failed(NO_LIBRARIES.format(problem, " ".join([*INSTALL, *packages])))
     return executable
 
 
 def find_load_problem(python: Path) -> str:
     """Return the last line of the error that Blender's module gives when it is loaded, or nothing."""
-    command = [python, "-P", "-c", "import bpy"]
+    command = [python, "-P", "-c", "import os, bpy; os._exit(0)"]  # bpy 4.5 can crash at the end
     done = subprocess.run(command, env=clean_environment(), capture_output=True, encoding="utf-8", errors="replace")
     return done.stderr.strip().rpartition("\n")[2] if done.returncode else ""
 
 
-def blender_packages() -> list[str]:
-    """Return the names of Debian's packages that Blender's module is linked with."""
-    text = (TESTS / "packages-debian.txt").read_text(encoding="utf-8")
-    return re.search("^Blender: (.*)$", text, re.MULTILINE)[1].split()
-
-
-def bring_libraries() -> None:
-    """Install the libraries of Blender's module, if this is Debian or Ubuntu and the user may."""
-    if not shutil.which("apt-get"):
-        return
-    sudo = [] if os.geteuid() == 0 else ["sudo", "-n"]
+def install_packages(packages: list[str]) -> None:
+    """Install packages on Debian and Ubuntu, if the user may without a password."""
+    sudo = [] if WINDOWS or os.geteuid() == 0 else ["sudo", "-n"]
     try:
-        call([*sudo, "true"], "sudo")
+        call([*sudo, "apt-get", "--version"], "apt-get")
     except (Failed, OSError):
         return
-    print("Installing the libraries of Blender ...", flush=True)
+    print(f"Installing {' '.join(packages)} ...", flush=True)
     with contextlib.suppress(Failed):  # old lists of packages may do
         call([*sudo, "apt-get", "update"], "apt-get update")
-    call([*sudo, *INSTALL, *blender_packages()], "apt-get install")
+    call([*sudo, *INSTALL, *packages], "apt-get install")
 
 
 def prepare_consumers(version: str) -> Path:
@@ -423,52 +416,44 @@ def subjects() -> dict[str, dict[str, list[Path]]]:
     return result
 
 
-def test_subject(options: argparse.Namespace) -> int:
+def test_subject(subject: str, extra: list[str]) -> int:
     """Pass the tests of one subject on one Blender: those that need no Blender beside those that do."""
     known = subjects()
-    if options.subject not in known:
+    if subject not in known:
         folders = {path.name for group in SUBJECT_GROUPS for path in (TESTS / group).rglob("*/") if path.is_dir()}
         names = ", ".join(sorted(folders - {"__pycache__"}))
-        raise Failed(f"No tests are about {options.subject!r}. Folders: {names}; or a word of a test file's name.")
+        raise Failed(f"No tests are about {subject!r}. Folders: {names}; or a word of a test file's name.")
     version = any_blender()
     python = prepare_blender(version)
-    print(f"The tests of {options.subject}, on Blender {version} alone; at most half a minute on two idle cores.")
-    runner, extra = Runner(), pytest_options(options)
-
-    def lane(item: tuple[str, list[Path]]) -> list[dict]:
-        group, files = item
-        return [run_tests(runner, python, version, group, extra, files)]
-
-    return finish(in_lanes(lane, known[options.subject].items()))
+    print(f"The tests of {subject}, on Blender {version} alone; at most half a minute on two idle cores.")
+    runner, groups = Runner(), known[subject]
+    return finish(in_lanes(lambda name: [run_tests(runner, python, version, name, extra, groups[name])], groups))
 
 
 # The project's commands
 
 
-def pytest_options(options: argparse.Namespace) -> list[str]:
-    return [*options.arguments, *(["-k", options.k] if options.k else [])]
-
-
 def test(options: argparse.Namespace) -> int:
     """Pass the tests and what `lint` checks: both Blenders side by side, then the window's alone."""
+    extra = [*options.arguments, *(["-k", options.k] if options.k else [])]
     if options.subject:
-        return test_subject(options)
+        return test_subject(options.subject, extra)
     groups = options.only or list(GROUPS)
-    extra = pytest_options(options)
-    left_out, remarks = [], []
-    for version, wanted in BLENDERS.items():  # one after the other: this may install uv
-        if not find_python(wanted):
-            left_out.append(f"This was one half of the tests: Blender {version} needs Python {wanted}.")
-    if len(left_out) == len(BLENDERS):
+    versions = [version for version, wanted in BLENDERS.items() if find_python(wanted)]  # this may install uv
+    if not versions:
         raise Failed(NO_PYTHON)
-    versions = [version for version, wanted in BLENDERS.items() if find_python(wanted)]
+    absent = BLENDERS.keys() - versions
+    remarks = [f"Left out: the half on Blender {version}, which needs Python {BLENDERS[version]}" for version in absent]
+    if "window" in groups and not (os.environ.get("BLENDER") or shutil.which("blender")):
+        groups = [group for group in groups if group != "window"]
+        remarks.append("Left out: the window tests, which need a real Blender: on the PATH, or named by BLENDER")
     minutes = sum(GROUPS[group] for group in groups)
     print(
         f"Tests of {', '.join(groups)} on Blender {' and '.join(versions)}: about {minutes} minutes on two idle cores,"
         " four times that on a slow machine. Environments that are not there yet come first.",
         flush=True,
     )
-    runner, failures = Runner(), []
+    runner, failures = Runner(), [len(absent)] if CI else []
 
     def lane(version: str) -> list[dict]:
         python = prepare_blender(version)
@@ -481,19 +466,15 @@ def test(options: argparse.Namespace) -> int:
         return outcomes
 
     outcomes = in_lanes(lane, versions)
-    if "window" in groups and not (os.environ.get("BLENDER") or shutil.which("blender")):
-        remarks.append(f"Left out: the window tests, which need {REAL_BLENDER}.")
-    elif "window" in groups:  # alone: drawing without a graphics card takes both cores
+    if "window" in groups:  # alone: drawing without a graphics card takes both cores
         version = max(versions)
         outcomes.append(run_tests(runner, prepare_blender(version), version, "window", extra))
         if older := os.environ.get("BLENDER_45"):
             python = prepare_blender(version)  # of pytest alone: the tests talk to Blender's process
             outcomes.append(run_tests(runner, python, "4.5", "window", extra, BLENDER=older))
         else:
-            remarks.append("The window of Blender 4.5 was not tested: BLENDER_45 names none.")
-    if CI:  # there, nothing may be left out
-        failures.append(len(left_out))
-    return finish(outcomes, [*left_out, *remarks], sum(failures))
+            remarks.append("Left out: the window of Blender 4.5: BLENDER_45 names none")
+    return finish(outcomes, remarks, sum(failures))
 
 
 def demo(options: argparse.Namespace) -> int:
@@ -537,11 +518,7 @@ def build(options: argparse.Namespace) -> int:
 
 
 def benchmark(options: argparse.Namespace) -> int:
-    version = any_blender()
-    wanted = BLENDERS[version]
-    requirements = [f"requirements-{version}.txt", "requirements-benchmark.txt"]
-    python = prepare("benchmark", find_python(wanted), wanted, requirements)
-    return show([python, "-P", TESTS / "benchmark.py", *options.arguments])
+    return show([prepare_blender(any_blender(), "benchmark"), "-P", TESTS / "benchmark.py", *options.arguments])
 
 
 def tables(options: argparse.Namespace) -> int:

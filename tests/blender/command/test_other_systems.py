@@ -6,6 +6,7 @@ place of them, everything else is real.
 
 import ctypes
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -61,6 +62,7 @@ def test_memory_on_windows(monkeypatch):
 
 
 @elsewhere
+@pytest.mark.skipif(not shutil.which("ps"), reason="needs ps")
 def test_memory_on_macos():
     told, known = processes._memory_by_tool(os.getpid()), processes.memory_of(os.getpid())
     assert told > (1 << 20) and (known is None or 0.5 * known < told)

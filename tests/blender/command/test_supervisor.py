@@ -467,7 +467,6 @@ def test_how_processes_end_is_said():
     ended = subprocess.Popen(["true"])
     os.waitid(os.P_PID, ended.pid, os.WEXITED | os.WNOWAIT)  # it is listed still, and has no memory
     assert processes.memory_of(ended.pid) is None and ended.wait() == 0
-    assert 0.5 * expected < processes._memory_by_tool(os.getpid()) and processes._memory_by_tool(2**22 + 1) is None
 
 
 def test_a_tool_tells_in_kibibytes_or_nothing_where_it_hangs(tmp_path, monkeypatch):
