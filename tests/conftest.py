@@ -87,7 +87,7 @@ if PACKAGE not in sys.modules:
     _load_root()
     _drop_hidden_tolerances()
 
-from tests import may_skip
+from tests.may_skip import MAY_SKIP
 
 
 def pytest_addoption(parser):
@@ -123,10 +123,16 @@ class _Progress:
     def __init__(self, config: pytest.Config, path: Path):
         self.config, self.path = config, path
         self.counts = dict.fromkeys(("passed", "failed", "skipped"), 0)
+        self.left_out = Counter()
         self.left, self.total, self.done = Counter(), 0, 0
 
     def print(self, text: str) -> None:
         self.config.pluginmanager.getplugin("terminalreporter").write_line(text)
+
+    def count(self, report: pytest.TestReport | pytest.CollectReport) -> None:
+        self.counts[report.outcome] += 1
+        if report.skipped:
+            self.left_out[_skip_reason(report).partition(":")[0]] += 1
 
     def pytest_collection_finish(self, session):
         self.left = Counter(item.path for item in session.items)
@@ -136,8 +142,6 @@ class _Progress:
     @pytest.hookimpl(tryfirst=True)
     def pytest_report_teststatus(self, report):
         """No letters: lines for files, and for failures as they happen."""
-        if hasattr(report, "wasxfail"):
-            return "xfailed" if report.skipped else "xpassed", "", "XFAIL"
         if report.outcome == "failed" and report.when != "call":
             return "error", "", "ERROR"
         if report.outcome != "passed":
@@ -146,7 +150,7 @@ class _Progress:
 
     def pytest_runtest_logreport(self, report):
         if report.when == "call" or report.outcome != "passed":
-            self.counts[report.outcome] += 1
+            self.count(report)
         if report.outcome == "failed":
             self.print("FAILED {}".format(report.nodeid))
 
@@ -166,11 +170,11 @@ class _Progress:
 
     def pytest_collectreport(self, report):
         if report.outcome != "passed":
-            self.counts[report.outcome] += 1
+            self.count(report)
 
     @pytest.hookimpl(trylast=True)
     def pytest_sessionfinish(self, exitstatus):
-        text = json.dumps({"exit": int(exitstatus), **self.counts})
+        text = json.dumps({"exit": int(exitstatus), "left_out": self.left_out, **self.counts})
         partial = self.path.with_suffix(".partial")
         partial.write_text(text, encoding="utf-8")
         partial.replace(self.path)
@@ -182,13 +186,15 @@ def pytest_configure(config):
         config.pluginmanager.register(_Progress(config, Path(path)))
 
 
+def _skip_reason(report) -> str:
+    return report.longrepr[-1].removeprefix("Skipped: ")
+
+
 def _fail_undeclared_skip(report):
-    """Where CI is set, a skip that tests/may_skip.py does not declare is a failure."""
-    if CI and report.skipped and not hasattr(report, "wasxfail"):
-        reason = report.longrepr[-1].removeprefix("Skipped: ")
-        if not may_skip.allowed(reason):
-            report.outcome = "failed"
-            report.longrepr = "skipped, which tests/may_skip.py does not declare: {}".format(reason)
+    """Turn a skip that tests/may_skip.py does not declare into a failure, if CI is set."""
+    if CI and report.skipped and not _skip_reason(report).startswith(tuple(MAY_SKIP)):
+        report.outcome = "failed"
+        report.longrepr = "skipped, which tests/may_skip.py does not declare: " + _skip_reason(report)
     return report
 
 

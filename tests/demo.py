@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The demo's body, its picture and its report; `python tests/project.py demo` calls this.
+"""The demo's body, its picture and its report; `python3 tests/project.py demo` calls this.
 
     demo.py build BODY.blend                       a bracket with holes, in millimeters
     demo.py picture BODY.blend RECORD.json PNG     the bracket with its centre and principal axes

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Tables 2 and 3 of Soldea, Elber and Rivlin beside the numbers of core/density/spline_grid.py.
 
-    python tests/paper_tables.py        with numpy; or python tests/project.py tables
+    python tests/paper_tables.py        with numpy; or python3 tests/project.py tables
 
 What the paper leaves unsaid, and its Analytic columns fix: the unit is the patch's width W; samples stand at
 (i - N/2) h, h = W / N; a sample is 1 strictly inside of the body, else 0; splines are cubic with full supports. Its

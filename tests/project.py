@@ -2,18 +2,19 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The project's commands, for any Python 3.11 or newer with nothing else installed.
 
-    python tests/project.py demo         measure a real body: a report, a record and a picture
-    python tests/project.py test         pass the tests, on every Blender there is
-    python tests/project.py test solid   pass those of one subject on one Blender, in seconds
-    python tests/project.py build        build the extension's zip into dist/
-    python tests/project.py benchmark    times and ratios against trimesh and libigl
-    python tests/project.py tables       the tables of Soldea, Elber and Rivlin beside ours
-    python tests/project.py lint         check the rules, the format and the types
-    python tests/project.py soak         what takes long: hostile files, kills, random damage, ...
+    python3 tests/project.py demo         measure a real body: a report, a record and a picture
+    python3 tests/project.py test         pass the tests, on every Blender there is
+    python3 tests/project.py test solid   pass those of one subject on one Blender, in seconds
+    python3 tests/project.py build        build the extension's zip into dist/
+    python3 tests/project.py benchmark    times and ratios against trimesh and libigl
+    python3 tests/project.py tables       the tables of Soldea, Elber and Rivlin beside ours
+    python3 tests/project.py lint         check the rules, the format and the types
+    python3 tests/project.py soak         what takes long: hostile files, kills, random damage, ...
 
 Each sets up what it needs in .envs/: one environment for each Blender that exists as a Python
 module, with the Python which that module is made for. Environments are used again until their
-requirements change. A real Blender, for the demo and for the window tests, is the one named by the
+requirements change. Libraries that the module lacks are installed on Debian and Ubuntu, if the
+user may. A real Blender, for the demo and for the window tests, is the one named by the
 variable BLENDER, else (window tests only) `blender` on the PATH. The window tests pass on the one that
 BLENDER_45 names, too.
 """
@@ -24,12 +25,14 @@ import functools
 import hashlib
 import json
 import os
+import re
 import shutil
 import signal
 import subprocess
 import sys
 import threading
 import time
+from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
@@ -50,7 +53,16 @@ SILENCE_LIMIT = 1800  # seconds without a line of output after which a run of py
 EXIT_LIMIT = 240  # seconds that an interpreter may take to end once its tests are over
 INTERRUPT_LIMIT = 10  # seconds that what was interrupted may take to clean up
 
-NO_PYTHON = "Neither Python 3.11 nor 3.13 is here. Install one of them, or uv, and try again."
+INSTALL = ["apt-get", "install", "-y", "--no-install-recommends"]
+INSTALLING = threading.Lock()  # apt-get refuses to run twice at a time
+NO_PYTHON = "Neither Python 3.11 nor 3.13 with venv is here. Install one of them, or uv, and try again."
+NO_LIBRARIES = """\
+Blender cannot be loaded: {}
+On Debian and Ubuntu its libraries come by
+
+    sudo {}
+
+elsewhere by the same names without numbers (Fedora: libX11, libXi, libglvnd-glx, ...); macOS and Windows have them."""
 PROBE = """\
 import ensurepip, platform, sys, venv
 assert sys.maxsize > 2**32 and platform.python_implementation() == "CPython"
@@ -226,12 +238,43 @@ def prepare(name: str, python: str, version: str, requirements: list[str]) -> Pa
     return executable
 
 
-def prepare_blender(version: str) -> Path | None:
-    """The Python that has this Blender as a module, or None where there is no Python for it."""
+def prepare_blender(version: str, addition: str | None = None) -> Path | None:
+    """Return the Python that has this Blender as a module, or None if there is no Python for it.
+
+    The requirements of an addition are installed beside it, in an environment of their own.
+    """
     wanted = BLENDERS[version]
-    if python := find_python(wanted):
-        return prepare(f"blender-{version}", python, wanted, [f"requirements-{version}.txt"])
-    return None
+    if not (python := find_python(wanted)):
+        return None
+    requirements = [f"requirements-{name}.txt" for name in (version, addition) if name]
+    executable = prepare(addition or f"blender-{version}", python, wanted, requirements)
+    with INSTALLING:
+        if find_load_problem(executable):
+            packages = re.search("^Blender: (.*)", (TESTS / "packages-debian.txt").read_text(), re.MULTILINE)[1].split()
+            install_packages(packages)
+            if problem := find_load_problem(executable):
+                raise Failed(NO_LIBRARIES.format(problem, " ".join([*INSTALL, *packages])))
+    return executable
+
+
+def find_load_problem(python: Path) -> str:
+    """Return the last line of the error that Blender's module gives when it is loaded, or nothing."""
+    command = [python, "-P", "-c", "import os, bpy; os._exit(0)"]  # bpy 4.5 can crash at the end
+    done = subprocess.run(command, env=clean_environment(), capture_output=True, encoding="utf-8", errors="replace")
+    return done.stderr.strip().rpartition("\n")[2] if done.returncode else ""
+
+
+def install_packages(packages: list[str]) -> None:
+    """Install packages on Debian and Ubuntu, if the user may without a password."""
+    sudo = [] if WINDOWS or os.geteuid() == 0 else ["sudo", "-n"]
+    try:
+        call([*sudo, "apt-get", "--version"], "apt-get")
+    except (Failed, OSError):
+        return
+    print(f"Installing {' '.join(packages)} ...", flush=True)
+    with contextlib.suppress(Failed):  # old lists of packages may do
+        call([*sudo, "apt-get", "update"], "apt-get update")
+    call([*sudo, *INSTALL, *packages], "apt-get install")
 
 
 def prepare_consumers(version: str) -> Path:
@@ -311,7 +354,7 @@ def run_tests(
     result = ENVS / "results" / f"{group}-{version}.json"
     result.parent.mkdir(exist_ok=True)
     result.unlink(missing_ok=True)
-    command = [python, "-P", "-m", "pytest", "-q", "-rfEs", "-o", "console_output_style=classic"]
+    command = [python, "-P", "-m", "pytest", "-q", "-rfE", "-o", "console_output_style=classic"]
     command += [f"--result-file={result}", *(files or [TESTS / group]), *extra]
     started = time.monotonic()
     code = runner.run(label, command, result, **variables)
@@ -323,7 +366,7 @@ def run_tests(
             runner.print(label, f"exit code {code} came after the tests were over")
     else:
         runner.print(label, f"exit code {code} came before the tests were over")
-        outcome = {"passed": 0, "failed": 0, "skipped": 0, "exit": code or 1}
+        outcome = {"passed": 0, "failed": 0, "skipped": 0, "left_out": {}, "exit": code or 1}
     nothing_selected = outcome["exit"] == 5 and extra
     if outcome["exit"] and not nothing_selected:
         outcome["failed"] = max(outcome["failed"], 1)
@@ -343,9 +386,13 @@ def in_lanes(function: Callable, lanes: Iterable) -> list[dict]:
 
 
 def finish(outcomes: list[dict], remarks: Iterable[str] = (), failed: int = 0) -> int:
-    """Print what all of it came to; the command's exit code."""
+    """Print the tests that were left out, by reason, and the total; return the command's exit code."""
     total = {word: sum(outcome[word] for outcome in outcomes) for word in ("passed", "failed", "skipped")}
     total["failed"] += failed
+    left_out = sum((Counter(outcome["left_out"]) for outcome in outcomes), Counter())
+    for reason, count in left_out.most_common():
+        tests, need = ("tests", "that need") if count > 1 else ("test", "that needs")
+        print(f"Left out: {count} {tests} {re.sub('^needs', need, reason)}")
     for sentence in remarks:
         print(sentence)
     if not any(total.values()):
@@ -369,52 +416,44 @@ def subjects() -> dict[str, dict[str, list[Path]]]:
     return result
 
 
-def test_subject(options: argparse.Namespace) -> int:
+def test_subject(subject: str, extra: list[str]) -> int:
     """Pass the tests of one subject on one Blender: those that need no Blender beside those that do."""
     known = subjects()
-    if options.subject not in known:
+    if subject not in known:
         folders = {path.name for group in SUBJECT_GROUPS for path in (TESTS / group).rglob("*/") if path.is_dir()}
         names = ", ".join(sorted(folders - {"__pycache__"}))
-        raise Failed(f"No tests are about {options.subject!r}. Folders: {names}; or a word of a test file's name.")
+        raise Failed(f"No tests are about {subject!r}. Folders: {names}; or a word of a test file's name.")
     version = any_blender()
     python = prepare_blender(version)
-    print(f"The tests of {options.subject}, on Blender {version} alone; at most half a minute on two idle cores.")
-    runner, extra = Runner(), pytest_options(options)
-
-    def lane(item: tuple[str, list[Path]]) -> list[dict]:
-        group, files = item
-        return [run_tests(runner, python, version, group, extra, files)]
-
-    return finish(in_lanes(lane, known[options.subject].items()))
+    print(f"The tests of {subject}, on Blender {version} alone; at most half a minute on two idle cores.")
+    runner, groups = Runner(), known[subject]
+    return finish(in_lanes(lambda name: [run_tests(runner, python, version, name, extra, groups[name])], groups))
 
 
 # The project's commands
 
 
-def pytest_options(options: argparse.Namespace) -> list[str]:
-    return [*options.arguments, *(["-k", options.k] if options.k else [])]
-
-
 def test(options: argparse.Namespace) -> int:
     """Pass the tests and what `lint` checks: both Blenders side by side, then the window's alone."""
+    extra = [*options.arguments, *(["-k", options.k] if options.k else [])]
     if options.subject:
-        return test_subject(options)
+        return test_subject(options.subject, extra)
     groups = options.only or list(GROUPS)
-    extra = pytest_options(options)
-    left_out, remarks = [], []
-    for version, wanted in BLENDERS.items():  # one after the other: this may install uv
-        if not find_python(wanted):
-            left_out.append(f"This was one half of the tests: Blender {version} needs Python {wanted}.")
-    if len(left_out) == len(BLENDERS):
+    versions = [version for version, wanted in BLENDERS.items() if find_python(wanted)]  # this may install uv
+    if not versions:
         raise Failed(NO_PYTHON)
-    versions = [version for version, wanted in BLENDERS.items() if find_python(wanted)]
+    absent = BLENDERS.keys() - versions
+    remarks = [f"Left out: the half on Blender {version}, which needs Python {BLENDERS[version]}" for version in absent]
+    if "window" in groups and not (os.environ.get("BLENDER") or shutil.which("blender")):
+        groups = [group for group in groups if group != "window"]
+        remarks.append("Left out: the window tests, which need a real Blender: on the PATH, or named by BLENDER")
     minutes = sum(GROUPS[group] for group in groups)
     print(
         f"Tests of {', '.join(groups)} on Blender {' and '.join(versions)}: about {minutes} minutes on two idle cores,"
         " four times that on a slow machine. Environments that are not there yet come first.",
         flush=True,
     )
-    runner, failures = Runner(), []
+    runner, failures = Runner(), [len(absent)] if CI else []
 
     def lane(version: str) -> list[dict]:
         python = prepare_blender(version)
@@ -434,10 +473,8 @@ def test(options: argparse.Namespace) -> int:
             python = prepare_blender(version)  # of pytest alone: the tests talk to Blender's process
             outcomes.append(run_tests(runner, python, "4.5", "window", extra, BLENDER=older))
         else:
-            remarks.append("The window of Blender 4.5 was not tested: BLENDER_45 names none.")
-    if CI:  # there, nothing may be left out
-        failures.append(len(left_out))
-    return finish(outcomes, [*left_out, *remarks], sum(failures))
+            remarks.append("Left out: the window of Blender 4.5: BLENDER_45 names none")
+    return finish(outcomes, remarks, sum(failures))
 
 
 def demo(options: argparse.Namespace) -> int:
@@ -481,11 +518,7 @@ def build(options: argparse.Namespace) -> int:
 
 
 def benchmark(options: argparse.Namespace) -> int:
-    version = any_blender()
-    wanted = BLENDERS[version]
-    requirements = [f"requirements-{version}.txt", "requirements-benchmark.txt"]
-    python = prepare("benchmark", find_python(wanted), wanted, requirements)
-    return show([python, "-P", TESTS / "benchmark.py", *options.arguments])
+    return show([prepare_blender(any_blender(), "benchmark"), "-P", TESTS / "benchmark.py", *options.arguments])
 
 
 def tables(options: argparse.Namespace) -> int:

@@ -21,7 +21,7 @@ def _scripts() -> Path:
     """The folder of scripts of the installed bpy module."""
     found = importlib.util.find_spec("bpy")
     if found is None:
-        raise SystemExit("This Python has no bpy module; use `python tests/project.py build`.")
+        raise SystemExit("This Python has no bpy module; use `python3 tests/project.py build`.")
     folder = Path(found.origin).parent
     return next(folder.glob("*.*/scripts"))
 

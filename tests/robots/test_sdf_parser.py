@@ -23,7 +23,7 @@ def parse(tmp_path_factory):
     compiler, config = shutil.which("g++"), shutil.which("pkg-config")
     flags = config and subprocess.run([config, "--cflags", "--libs", LIBRARY], capture_output=True, text=True)
     if not compiler or not flags or flags.returncode:
-        pytest.skip("no libsdformat")
+        pytest.skip("needs libsdformat")
     folder = tmp_path_factory.mktemp("sdf")
     program = str(folder / "read_sdf")
     subprocess.run([compiler, "-std=c++17", str(SOURCE), "-o", program, *flags.stdout.split()], check=True)

@@ -42,7 +42,7 @@ def blender() -> str:
     """The command of a real Blender."""
     command = harness.blender_command()
     if command is None:
-        pytest.skip("no real Blender: put one on the PATH or name it with the variable BLENDER")
+        pytest.skip("needs a real Blender: put one on the PATH or name it with the variable BLENDER")
     return command
 
 
@@ -85,7 +85,7 @@ def cube_file(run_blender, tmp_path_factory) -> Path:
 def open_window(run_blender, file: Path, folder: Path):
     """Blender's window with a file in it; skips where there is no screen to show it on."""
     if missing := harness.missing_tools():
-        pytest.skip("no screen for Blender's window: {} not found".format(", ".join(missing)))
+        pytest.skip("needs {}".format(", ".join(missing)))
     artefacts = ROOT / "tests" / "window" / "artefacts"
     artefacts.mkdir(exist_ok=True)
     log = folder / "blender.log"

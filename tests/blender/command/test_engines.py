@@ -54,7 +54,7 @@ def environment(job, **more):
 
 
 @in_blender
-@pytest.mark.skipif(not OPENJD, reason="no openjd-cli")
+@pytest.mark.skipif(not OPENJD, reason="needs openjd-cli")
 def test_open_job_description(job):
     values = {"Python": sys.executable, "Script": SCRIPT, "Blender": BLENDER, "Manifest": job / "list"}
     values |= {"Folder": job / "results", "Last": COUNT - 1, "Size": SIZE}
@@ -66,7 +66,7 @@ def test_open_job_description(job):
 
 
 @in_blender
-@pytest.mark.skipif(not shutil.which("parallel"), reason="no GNU parallel")
+@pytest.mark.skipif(not shutil.which("parallel"), reason="needs GNU parallel")
 def test_gnu_parallel(job):
     ended = process("bash", ENGINES / "body_moments.parallel.sh", "--jobs", "2", env=environment(job, COUNT=COUNT))
     assert ended.returncode == 0, ended.stderr
@@ -92,13 +92,13 @@ def slurm():
     """The environment of a Slurm that takes jobs."""
     missing = [name for name, path in slurm_controller.PROGRAMS.items() if path is None]
     if missing:
-        pytest.skip("no Slurm: " + ", ".join(missing))
+        pytest.skip("needs Slurm: " + ", ".join(missing))
     with tempfile.TemporaryDirectory(prefix="slurm_") as name:  # a socket's name must be short
         try:
             with slurm_controller.slurm(Path(name)) as environment:
                 yield environment
         except slurm_controller.NotStarted as error:
-            pytest.skip("no Slurm: its controller does not start here: {}".format(error))
+            pytest.skip("needs Slurm: its controller does not start here: {}".format(error))
 
 
 @in_blender
@@ -170,7 +170,7 @@ def compiled(tmp_path, settings):
     return process("node", stubs, source, json.dumps(settings), timeout=60)
 
 
-@pytest.mark.skipif(not shutil.which("node"), reason="no Node")
+@pytest.mark.skipif(not shutil.which("node"), reason="needs Node")
 def test_the_job_type_of_flamenco(job):
     """With stubs of its interface; the workers' part is done here."""
     settings = {"manifest": str(job / "list"), "script": SCRIPT, "folder": str(job / "results"), "count": COUNT}

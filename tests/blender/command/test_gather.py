@@ -195,7 +195,7 @@ document.body.innerHTML="<pre></pre>";document.querySelector("pre").textContent=
 """
 
 
-@pytest.mark.skipif(not CHROMIUM, reason="no Chromium: the report is not opened")
+@pytest.mark.skipif(not CHROMIUM, reason="needs chromium")
 def test_the_report_sorts_and_filters_in_a_browser(tmp_path):
     """The page's own policy lets no other script run, so the one that drives it is let in by taking the policy away."""
     path = page(tmp_path)

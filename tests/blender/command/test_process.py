@@ -25,7 +25,7 @@ ROOT = Path(__file__).resolve().parent.parent.parent.parent
 SCRIPT = str(ROOT / "operators" / "batch.py")
 BLENDER = os.environ.get("BLENDER") or shutil.which("blender")
 in_blender = pytest.mark.skipif(
-    not BLENDER, reason="no real Blender: put one on the PATH or name it with the variable BLENDER"
+    not BLENDER, reason="needs a real Blender: put one on the PATH or name it with the variable BLENDER"
 )
 
 

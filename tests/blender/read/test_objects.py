@@ -588,7 +588,7 @@ def test_dynamic_topology_is_refused_as_its_mesh_cannot_be_seen():
     bpy.ops.object.mode_set(mode="SCULPT")
     bpy.ops.sculpt.dynamic_topology_toggle()
     if not obj.use_dynamic_topology_sculpting:
-        pytest.skip("Dynamic topology cannot be turned on without a window")
+        pytest.skip("needs a window: Dynamic topology cannot be turned on without")
     assert refused(obj, "dynamic_topology")
 
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A few random sessions; `python tests/soak sessions` runs more of them."""
+"""A few random sessions; `python3 tests/project.py soak sessions` runs more of them."""
 
 import pytest
 

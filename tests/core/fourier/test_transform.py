@@ -424,7 +424,7 @@ def test_memory_is_bounded_by_blocks():
 def test_it_is_no_worse_than_libformfactor(truth):
     """BornAgain's form factors are libformfactor's: ∫ exp(+i q·r) over a tetrahedron that stands on its base. It is
     large, and in the environment of one Blender."""
-    bornagain = pytest.importorskip("bornagain")
+    bornagain = pytest.importorskip("bornagain", reason="needs BornAgain")
     body = bornagain.PlatonicTetrahedron(1.0)
     around = 2 * np.pi / 3 * np.arange(1, 4)
     base = np.stack([np.cos(around), np.sin(around), np.zeros(3)], axis=1) / 3**0.5

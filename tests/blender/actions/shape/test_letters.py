@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Of the letters and digits of two fonts, moved, turned, scaled, of another resolution and noisy, each is found again.
 
-`python tests/soak letters` tries more of them, and noise of 0.1 %.
+`python3 tests/project.py soak letters` tries more of them, and noise of 0.1 %.
 """
 
 import numpy as np
