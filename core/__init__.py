@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Moments of bodies: numbers in, numbers out, with numpy and the standard library only.
 
-Every body becomes raw moments about a stated point (`Moments`), and everything else is derived from them.
+Every body becomes raw moments about a stated point (`Moments`), by default the middle of its bounding box, and
+everything else is derived from them.
 `from body_moments.core import ...` has the dozen names that most uses need:
 
     Surface                                  triangles and quads over shared points

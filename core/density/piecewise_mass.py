@@ -34,6 +34,7 @@ from ..moments.moments import (
     monomial_index,
     monomials,
 )
+from ..numerics.arguments import check_type, float_array, index_array, number_array
 
 TRIANGLES_PER_BLOCK = 4096  # triangles whose table of 20 monomials stays in the cache
 MIN_TRIANGLES_PER_BLOCK = 64
@@ -64,6 +65,8 @@ def _block_size(order: int) -> int:
 def solid_mass_moments(points: NDArray, triangles: NDArray, density: NDArray, like: Moments) -> Moments:
     """Return ∫ ρ x^p y^q z^r dV of the parts that triangles bound, each part of one density.
 
+    They are about the point of `like`.
+
     Parameters
     ----------
     points : (n, 3) array
@@ -93,6 +96,10 @@ def solid_mass_moments(points: NDArray, triangles: NDArray, density: NDArray, li
     >>> round(mass.total, 9)
     100.0
     """
+    check_type("like", like, Moments)
+    points = number_array("points", points, "n", 3)
+    triangles = index_array("triangles", triangles, "t", 3, count=len(points))
+    density = float_array("density", density, len(triangles))
     sums, sizes, tau = _accumulate(points, triangles, density, like, solid=True)
     reach = _reach(points, triangles, like.about)
     raw = sums * _scales(like.order, 3)

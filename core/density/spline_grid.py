@@ -28,6 +28,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..moments.moments import Measure, Moments, U, monomials
+from ..numerics.arguments import check_type, float_array, number_array
 from ..verdict.finding import MeasureError
 from .spline_tables import SplineAxis
 
@@ -45,6 +46,8 @@ def density_moments(
     value: Callable[[NDArray], NDArray] | None = None,
 ) -> Moments:
     """Return the mass moments of a density that is a trivariate B-spline, in the coordinates of the knots.
+
+    They are about the middle of the knots; where the mass is far from it, about the knot nearest to its center.
 
     Parameters
     ----------
@@ -81,8 +84,12 @@ def density_moments(
     (120.0, [0.5, 1.0, 1.5])
     """
     axes = tuple(axes)
-    if not callable(coefficients) and coefficients.shape != tuple(axis.count for axis in axes):
-        raise ValueError("{}, knots for {}".format(coefficients.shape, tuple(axis.count for axis in axes)))
+    for axis in axes:
+        check_type("axes", axis, SplineAxis)
+    if len(axes) != 3:
+        raise ValueError("axes must be three, not {:d}".format(len(axes)))
+    if not callable(coefficients):
+        coefficients = number_array("coefficients", coefficients, *(axis.count for axis in axes))
     about = np.array([axis.center for axis in axes])
     moments = _moments_about(coefficients, axes, order, value, about)
     if order < 2 or not moments.total > 0.0:
@@ -106,7 +113,8 @@ def grid_moments(
 ) -> Moments:
     """Return the mass moments of a grid whose samples are densities.
 
-    The samples are the coefficients of a spline with full supports, uniform along each axis without positions.
+    They are about the image of the middle of the grid; where the mass is far from it, of the knot nearest to its
+    center. The samples are the coefficients of a spline with full supports, uniform along each axis without positions.
 
     Parameters
     ----------
@@ -142,7 +150,9 @@ def grid_moments(
     >>> round(grid_moments(np.full((10, 10, 5), 1000.0), (10, 10, 5), spacing).total, 9)
     1000.0
     """
-    matrix = np.asarray(matrix, np.float64)
+    if not callable(samples):
+        samples = number_array("samples", samples, *shape)
+    matrix = float_array("matrix", matrix, 4, 4)
     if not np.isfinite(matrix).all() or not np.linalg.det(matrix[:3, :3]):
         raise MeasureError("grid_transform_singular")
     axes = [
@@ -150,7 +160,7 @@ def grid_moments(
         for count, row in zip(shape, positions)
     ]
     if [axis.count for axis in axes] != list(shape):
-        raise ValueError("positions for other samples")
+        raise ValueError("positions must be as many as the samples of an axis")
     inside = density_moments(samples, axes, order, value)
     return replace(replace(inside, measure=Measure.VOLUME).transform(matrix), measure=Measure.MASS)
 
@@ -183,7 +193,7 @@ class TrivariateSpline:
     """
 
     def __init__(self, coefficients: ArrayLike, axes: Sequence[SplineAxis], order: int = 2) -> None:
-        self.coefficients = np.array(coefficients, np.float64)
+        self.coefficients = float_array("coefficients", coefficients, "nx", "ny", "nz").copy()
         self.axes = tuple(axes)
         self.moments = density_moments(self.coefficients, self.axes, order)
         self._powers = monomials(order)
@@ -241,7 +251,7 @@ class TrivariateSpline:
         ValueError
             If the block exceeds the coefficients, or a value is not finite.
         """
-        values = np.asarray(values, np.float64)
+        values = float_array("values", values, "a", "b", "c")
         place = tuple(slice(first, first + count) for first, count in zip(start, values.shape))
         old = self.coefficients[place]
         if old.shape != values.shape or min(start) < 0:

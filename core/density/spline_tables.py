@@ -20,6 +20,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..numerics.arguments import float_array
 from ..numerics.bspline import SplineSpace
 from ..numerics.quadrature import gauss_legendre
 
@@ -56,11 +57,11 @@ class SplineAxis:
     domain: tuple[float, float] | None = None
 
     def __post_init__(self) -> None:
-        knots = np.asarray(self.knots, np.float64)
+        knots = float_array("knots", self.knots, "n")
         object.__setattr__(self, "knots", knots)
         if not 1 <= self.order <= MAX_ORDER:
             raise ValueError("order beyond 1…{:d}".format(MAX_ORDER))
-        if knots.ndim != 1 or len(knots) <= self.order:
+        if len(knots) <= self.order:
             raise ValueError("too few knots")
         if not np.isfinite(knots).all() or (np.diff(knots) < 0.0).any():
             raise ValueError("knots must ascend")
@@ -80,8 +81,8 @@ class SplineAxis:
         go on with the last distance. Even positions give `uniform`. ValueError where positions do not ascend, or there
         are fewer than two.
         """
-        x = np.asarray(positions, np.float64)
-        if x.ndim != 1 or len(x) < 2 or not np.isfinite(x).all() or not (np.diff(x) > 0.0).all():
+        x = float_array("positions", positions, "n")
+        if len(x) < 2 or not np.isfinite(x).all() or not (np.diff(x) > 0.0).all():
             raise ValueError("positions must ascend")
         steps = np.arange(1, (order + 1) // 2 + 1)
         x = np.concatenate([x[0] - (x[1] - x[0]) * steps[::-1], x, x[-1] + (x[-1] - x[-2]) * steps])

@@ -23,6 +23,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..moments.moments import Measure, Moments, U, monomials
+from ..numerics.arguments import float_array, number_array
 from ..numerics.arrays import power_table
 from ..numerics.quadrature import gauss_legendre
 from ..verdict.finding import MeasureError
@@ -76,6 +77,8 @@ def threshold_body(
 ) -> ThresholdBody:
     """Return the moments of the set where the trilinear interpolant of samples is at least a threshold.
 
+    They are about the place of the sample in the middle of the grid.
+
     Parameters
     ----------
     samples : (nx, ny, nz) array_like
@@ -118,14 +121,14 @@ def threshold_body(
     >>> round(body.volume.total, 12), round(body.area.total, 12), body.clipped
     (11.0, 4.0, True)
     """
-    samples = np.asarray(samples)
+    samples = number_array("samples", samples, "nx", "ny", "nz")
     if background is not None and background >= threshold:
         background = None
     margin = 0 if background is None else 1
     shape = np.array(samples.shape) + 2 * margin
     if (shape < 2).any():
         raise ValueError("two samples per axis")
-    matrix = np.eye(4) if matrix is None else np.asarray(matrix, np.float64)
+    matrix = np.eye(4) if matrix is None else float_array("matrix", matrix, 4, 4)
     linear = matrix[:3, :3]
     if not np.isfinite(matrix).all() or not np.linalg.det(linear):
         raise MeasureError("grid_transform_singular")

@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..moments.moments import Measure, Moments, U, monomials
+from ..numerics.arguments import float_array
 from ..numerics.arrays import batches, power_table
 from ..numerics.quadrature import triangle_rule
 from ..verdict.finding import MeasureError
@@ -29,6 +30,8 @@ MAX_VOXELS = 1 << 27  # voxels of the box around the surface
 
 def inside_moments(triangles: ArrayLike, densities: NDArray, order: int = 3) -> tuple[Moments, float]:
     """Return the mass moments of what a surface encloses, filled with the density of a grid of voxels.
+
+    They are about the middle of the bounding box within the grid, rounded to a corner of voxels.
 
     Parameters
     ----------
@@ -59,9 +62,11 @@ def inside_moments(triangles: ArrayLike, densities: NDArray, order: int = 3) -> 
     >>> round(mass.total, 9), round(volume, 9)
     (4.0, 1.333333333)
     """
-    triangles = np.asarray(triangles, np.float64).reshape(-1, 3, 3)
+    triangles = float_array("triangles", triangles, "n", 3, 3, finite=True)
+    if not len(triangles):
+        raise MeasureError("no_faces")
     with np.errstate(invalid="ignore"):  # of NaN that signal
-        densities = np.asarray(densities, np.float64)
+        densities = float_array("densities", densities, "nx", "ny", "nz")
     if not np.isfinite(densities).all():
         raise MeasureError("density_non_finite")
     shape = np.array(densities.shape)

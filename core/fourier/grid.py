@@ -27,6 +27,7 @@ from numpy.typing import NDArray
 
 from ..mesh.surface import Surface
 from ..moments.moments import Measure
+from ..numerics.arguments import check_type
 from ..numerics.compensated import compensated_normals
 from ..numerics.quadrature import triangle_rule
 from .nufft import WIDTHS, Spreading, aliasing
@@ -88,6 +89,7 @@ class GridTransform(Transform):
     spreading: Spreading  # where any triangle takes points
 
     def __init__(self, surface: Surface, grid: FrequencyGrid, of: Measure, tolerance: float, threads: int = 1):
+        check_type("grid", grid, FrequencyGrid)
         super().__init__(surface, grid, of, threads)
         self.surface, self.grid, faces = surface, grid, self.faces
         # what a mean over the area may be off by: half of the tolerance each for the points and for the kernel

@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 from ..mesh.surface import Surface
 from ..moments.affine_maps import distinct_linear_parts
 from ..moments.moments import Measure
+from ..numerics.arguments import check_type, float_array
 from ..numerics.compensated import phase_factors
 from ..verdict.finding import MeasureError
 from .grid import GridTransform
@@ -109,6 +110,8 @@ class BodyTransform:
 
 def _distinct_images(surface: Surface, matrices: NDArray) -> Iterator[tuple[Surface, NDArray[np.float64]]]:
     """The surface about its center under each different linear map, and where those images stand, (k, 3)."""
+    check_type("parts", surface, Surface)
+    matrices = float_array("parts", matrices, "k", 4, 4)
     triangles = surface.all_triangles()[0]
     if not len(triangles):
         return

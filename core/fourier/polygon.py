@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..moments.moments import U
+from ..numerics.arguments import float_array
 from ..numerics.compensated import phase_factors
 from .spectrum import Spectrum
 from .transform import ROUNDING_FACTOR, ZERO_WAVE_NUMBER
@@ -55,9 +56,9 @@ def polygon_transform(loops: Sequence[ArrayLike], q: ArrayLike) -> Spectrum:
     >>> np.round(polygon_transform([square], [[0.0, 0.0], [np.pi, 0.0]]).values, 6).tolist()
     [(1+0j), -0.63662j]
     """
-    corners = [np.asarray(loop, np.float64) for loop in loops]
-    if not corners or any(loop.ndim != 2 or loop.shape[1] != 2 or len(loop) < 3 for loop in corners):
-        raise ValueError("not loops (n, 2)")
+    corners = [float_array("loops", loop, "n", 2, finite=True) for loop in loops]
+    if not corners or min(map(len, corners)) < 3:
+        raise ValueError("loops must have three points or more")
     points = np.concatenate(corners)
     starts = np.cumsum([0, *map(len, corners)])
     following = np.arange(1, len(points) + 1)

@@ -23,8 +23,9 @@ from math import factorial, hypot
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.surface import Surface, indices_in_range
-from ..numerics.arrays import spread_bits
+from ..mesh.surface import Surface
+from ..numerics.arguments import check_type
+from ..numerics.arrays import indices_in_range, spread_bits
 from ..numerics.compensated import compensated_normals
 from ..verdict.finding import MeasureError
 from ..verdict.tolerances import MAX_COORDINATE, MIN_SIZE
@@ -48,7 +49,8 @@ class SortedTriangles:
     """
 
     def __init__(self, surface: Surface):
-        points = np.asarray(surface.points)
+        check_type("surface", surface, Surface)
+        points = surface.points
         if not all(indices_in_range(faces, len(points)) for faces in (surface.triangles, surface.quads)):
             raise ValueError("no such vertex")
         triangles = surface.all_triangles()[0]

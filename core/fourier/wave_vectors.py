@@ -82,7 +82,7 @@ class FrequencyGrid:
     def expand(self, values: NDArray[np.complex128]) -> NDArray[np.complex128]:
         """Return the (count³,) values everywhere from those of `GridWaves`, which are at half of the places."""
         side, n, h = 2 * self.half + 1, self.count, self.half
-        values = values.reshape(side, side, h + 1)
+        values = np.asarray(values).reshape(side, side, h + 1)
         full = np.empty((n, n, n), np.complex128)
         upper = n - h  # 0 and above
         full[:, :, h:] = values[:n, :n, :upper]

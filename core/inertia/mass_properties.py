@@ -16,7 +16,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..moments.moments import SECOND_MOMENT_INDEX, Measure, Moments, U, monomial_count, sum_moments
+from ..numerics.arguments import check_type, float_array
 from ..numerics.arrays import PerBody
+from ..numerics.rotations import rotation_array
 from ..verdict.finding import MeasureError
 from .principal_frame import OwnMoments, PrincipalFrame, principal_frame, principal_frames
 from .third_moment_frames import ThirdMomentFrames
@@ -89,6 +91,7 @@ class MassProperties:
         ValueError
             If the order is below 3 or the density is negative or not finite.
         """
+        check_type("moments", moments, Moments)
         if moments.order < 3:
             raise ValueError("moments below third order")
         if not 0.0 <= density < np.inf:
@@ -168,7 +171,7 @@ class MassProperties:
         -------
         (3, 3) array
         """
-        arm = np.asarray(point, np.float64) - self.center
+        arm = float_array("point", point, 3) - self.center
         return self.inertia + self.mass * (arm @ arm * IDENTITY_3 - np.outer(arm, arm))
 
     def as_moments(self) -> Moments:
@@ -184,10 +187,13 @@ class MassProperties:
         return np.sqrt(self.principal.moments / self.mass)
 
     def in_frame(self, rotation: NDArray, origin: NDArray) -> MassProperties:
-        """Return the same body in the frame whose axes are the columns of `rotation` and whose origin is `origin`."""
+        """Return the same body in the frame whose axes are the columns of `rotation` and whose origin is `origin`.
+        ValueError if that is no rotation.
+        """
+        rotation = rotation_array("rotation", rotation)
         inverse = rotation.swapaxes(-1, -2)
         inertia = inverse @ self.inertia @ rotation
-        arm = self.center - origin
+        arm = self.center - float_array("origin", origin, *self.center.shape)
         return replace(
             self,
             center=(inverse @ arm[..., None])[..., 0],
@@ -224,6 +230,8 @@ def combine(bodies: Sequence[tuple[Moments, float]], preferred_axes: NDArray | N
     >>> round(combine([(volume, 6.0), (volume.transform(np.diag([2.0, 1.0, 1.0, 1.0])), 6.0)]).mass, 9)
     3.0
     """
+    for moments, _ in bodies:
+        check_type("bodies", moments, Moments)
     weighed = [replace(moments, measure=Measure.MASS) * density for moments, density in bodies]
     return MassProperties.from_moments(sum_moments(weighed), preferred_axes=preferred_axes)
 

@@ -25,7 +25,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..moments.moments import Moments
+from ..numerics.arguments import check_type, float_array
 from ..numerics.arrays import PerBody
+from ..numerics.rotations import rotation_array
 from ..verdict.finding import MeasureError, finding
 from .canonical_frame import NOISE_LEVEL, EquivalentFrames, canonical_frames
 from .canonical_stack import choose_about_axis, choose_half_turns
@@ -89,7 +91,7 @@ class PrincipalFrame:
 
     def rotate(self, rotation: NDArray) -> PrincipalFrame:
         """Return the same frame in coordinates new = rotation @ old."""
-        return replace(self, axes=rotation @ self.axes)
+        return replace(self, axes=rotation_array("rotation", rotation) @ self.axes)
 
     def at(self, which: int | list[int]) -> PrincipalFrame:
         """Return one frame of a stack, or a stack of some of them."""
@@ -167,7 +169,8 @@ def principal_frame(
     >>> frame.symmetry, frame.is_unique, np.round(frame.moments, 4).tolist()
     ('asymmetric', True, [0.1589, 0.3886, 0.5025])
     """
-    preferred_axes = np.eye(3) if preferred_axes is None else np.asarray(preferred_axes, np.float64)
+    check_type("moments", moments, Moments)
+    preferred_axes = np.eye(3) if preferred_axes is None else rotation_array("preferred_axes", preferred_axes)
 
     def higher_of_all(_which: NDArray[np.intp]) -> OwnMoments:
         assert higher is not None
@@ -293,6 +296,7 @@ def equivalent_frames(moments: Moments, noise: float = NOISE_LEVEL) -> Equivalen
     >>> len(equivalent_frames(polyhedron_moments(surface, 6)[0]).frames)
     3
     """
+    check_type("moments", moments, Moments)
     fixed = _of_one_body(moments, noise / NOISE_LEVEL)
     return canonical_frames(moments, fixed.spread(0), fixed.frames(0))
 
@@ -334,6 +338,8 @@ def nearest_frame(equivalent: EquivalentFrames, preferred_axes: NDArray) -> NDAr
     >>> round(float(np.linalg.det(frame)), 9)
     1.0
     """
+    check_type("equivalent", equivalent, EquivalentFrames)
+    preferred_axes = rotation_array("preferred_axes", preferred_axes)
     free = undetermined_axes(equivalent.revolution_axes)
     frames = complete_free_axes(equivalent.frames, free, preferred_axes)
     return nearest_frames(frames[None], preferred_axes[None], equivalent.tilt)[0]
@@ -379,6 +385,7 @@ def zhang_chen_frame(moments: Moments, refine: Callable[[], Moments] | None = No
     >>> zhang_chen_frame(polyhedron_moments(surface)[0]).is_unique
     True
     """
+    check_type("moments", moments, Moments)
     fixed = _of_one_body(moments)
     if refine is not None and not (np.abs(fixed.skewness[0, :2]) > 2.0 * fixed.skewness_error[0, :2]).all():
         fixed = _of_one_body(refine())
@@ -412,6 +419,7 @@ def pose_matrix(center: NDArray, axes: NDArray) -> NDArray[np.float64]:
     >>> pose_matrix(np.array([1.0, 2.0, 3.0]), np.eye(3))[:3, 3].tolist()
     [-1.0, -2.0, -3.0]
     """
+    axes = rotation_array("axes", axes)
     matrix = np.eye(4)
-    matrix[:3, :3], matrix[:3, 3] = axes.T, -axes.T @ center
+    matrix[:3, :3], matrix[:3, 3] = axes.T, -axes.T @ float_array("center", center, 3)
     return matrix + 0.0  # no negative zeros

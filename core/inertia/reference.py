@@ -16,6 +16,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..moments.moments import SECOND_MOMENT_INDEX, Moments, U
+from ..numerics.arguments import check_type, float_array
+from ..numerics.rotations import rotation_array
 from ..verdict.finding import QueryError
 from .mass_properties import MassProperties
 
@@ -44,6 +46,10 @@ class Reference:
     origin: NDArray[np.float64]
     axes: NDArray[np.float64] = field(default_factory=IDENTITY_3.copy)
 
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "origin", float_array("origin", self.origin, 3))
+        object.__setattr__(self, "axes", rotation_array("axes", self.axes))
+
     @classmethod
     def through_points(cls, first: ArrayLike, second: ArrayLike) -> Reference:
         """Return the frame whose Z axis runs from the first point to the second, and whose origin is the first.
@@ -62,7 +68,7 @@ class Reference:
         QueryError
             Where the points are one, or so near that they fix no direction.
         """
-        first, second = np.asarray(first, np.float64), np.asarray(second, np.float64)
+        first, second = float_array("first", first, 3), float_array("second", second, 3)
         way = second - first
         length = float(np.linalg.norm(way))
         if not length > MIN_AXIS_RATIO * max(np.abs(first).max(), np.abs(second).max()):
@@ -99,6 +105,7 @@ class Reference:
         >>> np.round(Reference(np.zeros(3)).refer(properties).inertia[0], 9).tolist()
         [2.0, -0.5, -0.5]
         """
+        check_type("properties", properties, MassProperties)
         arm = properties.center - self.origin
         tensor = properties.inertia + properties.mass * (arm @ arm * IDENTITY_3 - np.outer(arm, arm))
         inertia = self.axes.T @ tensor @ self.axes
@@ -153,6 +160,7 @@ class Reference:
         >>> Reference(np.zeros(3)).refer_moments(point, 2.0).inertia.diagonal().tolist()
         [32.0, 18.0, 50.0]
         """
+        check_type("moments", moments, Moments)
         shifted = moments.truncate(2).in_frame(self.axes, self.origin).about_point(np.zeros(3)) * density
         total = shifted.total
         if not total > 2.0 * shifted.rounding_error[0]:

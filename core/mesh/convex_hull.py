@@ -20,6 +20,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..numerics.arguments import float_array
 from ..numerics.arrays import batches, segment_ranges
 from ..numerics.vectors import cross
 from ..verdict.finding import MeasureError
@@ -76,7 +77,7 @@ class ConvexHull:
         ConvexHull
             With outward faces, where the map mirrors, too.
         """
-        matrix = np.asarray(linear, np.float64)
+        matrix = float_array("linear", linear, 3, 3, finite=True)
         is_mirrored = bool(np.linalg.det(matrix) < 0.0)
         return replace(
             self,
@@ -114,7 +115,7 @@ def convex_hull(points: ArrayLike, tolerance: float = 1e-8, max_corners: int | N
     >>> len(convex_hull([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0.2, 0.2, 0]]).triangles)
     2
     """
-    points = np.asarray(points, np.float64)
+    points = float_array("points", points, "n", 3, finite=True)
     extent = float(np.ptp(points, axis=0).max()) if len(points) else 0.0
     if not extent > 0.0:
         raise MeasureError("hull_without_extent")
@@ -351,7 +352,9 @@ def convex_polygon(points: ArrayLike, tolerance: float = 0.0) -> NDArray[np.intp
     >>> convex_polygon([[0, 0], [2, 0], [1, 0.5], [2, 2], [0, 2], [1, 0]]).tolist()
     [0, 1, 3, 4]
     """
-    points = np.asarray(points, np.float64)
+    points = float_array("points", points, "n", 2, finite=True)
+    if not len(points):
+        raise ValueError("points must not be empty")
     ends = np.lexsort((points[:, 1], points[:, 0]))[[0, -1]]
     least = tolerance * float(np.ptp(points, axis=0).max())
     if np.abs(points[ends[1]] - points[ends[0]]).max() <= least:

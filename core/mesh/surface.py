@@ -15,11 +15,20 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..numerics.arguments import check_type, float_array, index_array, number_array
 from ..numerics.vectors import cross, dot
 
 POINTS_PER_ROW = 512  # points whose coordinates are compared as one row
 NO_TRIANGLES = np.empty((0, 3), np.int32)
 NO_QUADS = np.empty((0, 4), np.int32)
+INDEX_SHAPES = {
+    "triangles": ("m", 3),
+    "quads": ("q", 4),
+    "triangle_faces": ("m",),
+    "quad_faces": ("q",),
+    "corner_vertices": ("c",),
+    "corner_edges": ("c",),
+}
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,13 +71,19 @@ class Surface:
     displacement: NDArray[np.float64] | None = None
 
     def __post_init__(self) -> None:
-        for name in ("triangles", "quads", "triangle_faces", "quad_faces", "corner_vertices", "corner_edges"):
-            indices = getattr(self, name)
-            if indices is not None and indices.dtype not in (np.int32, np.int64):
+        points = number_array("points", self.points, "n", 3)
+        # Of either byte order, as files have it, float32 must be known as such; other numbers become float64.
+        kind = np.float32 if points.dtype.newbyteorder("=") == np.float32 else np.float64
+        object.__setattr__(self, "points", points.astype(kind, copy=False))
+        for name, shape in INDEX_SHAPES.items():
+            values = getattr(self, name)
+            if values is not None:
+                indices = index_array(name, values, *shape)
                 # Numbers of faces, edges and vertices are added to others, which must neither overflow nor round.
-                object.__setattr__(self, name, indices.astype(np.int64))
-        if not self.points.dtype.isnative:  # files of the other byte order: float32 must be known as such
-            object.__setattr__(self, "points", self.points.astype(self.points.dtype.newbyteorder("=")))
+                kind = indices.dtype if indices.dtype in (np.int32, np.int64) else np.int64
+                object.__setattr__(self, name, indices.astype(kind, copy=False))
+        if self.displacement is not None:
+            object.__setattr__(self, "displacement", float_array("displacement", self.displacement, 3))
 
     @cached_property
     def box(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -112,9 +127,9 @@ class Surface:
         Surface
             Of triangles alone.
         """
-        rows = np.asarray(linear, np.float64)
+        rows, offset = float_array("linear", linear, 3, 3), float_array("offset", offset, 3)
         x, y, z = self.points.T.astype(np.float64)
-        points = np.stack([a[0] * x + a[1] * y + a[2] * z + t for a, t in zip(rows, np.asarray(offset))], axis=1)
+        points = np.stack([a[0] * x + a[1] * y + a[2] * z + t for a, t in zip(rows, offset)], axis=1)
         triangles, faces = self.all_triangles()
         if np.linalg.det(rows) < 0.0:
             triangles = triangles[:, ::-1]
@@ -148,18 +163,8 @@ class Surface:
         ValueError
             If the shapes or types differ, or an index has no point.
         """
-        points, triangles = np.asarray(points), np.asarray(triangles)
-        if points.ndim != 2 or points.shape[1] != 3 or triangles.ndim != 2 or triangles.shape[1] != 3:
-            raise ValueError("points (n, 3), triangles (m, 3)")
-        if triangles.dtype.kind not in "iu":
-            raise ValueError("triangles must be integers")
-        if np.iscomplexobj(points):
-            raise ValueError("coordinates must be real")
-        if points.dtype.newbyteorder("=") not in (np.float32, np.float64):
-            points = points.astype(np.float64)
-        if not indices_in_range(triangles, len(points)):
-            raise ValueError("no such point")
-        return cls(points, triangles)
+        points = number_array("points", points, "n", 3)
+        return cls(points, index_array("triangles", triangles, "m", 3, count=len(points)))
 
     def all_triangles(self) -> tuple[NDArray[np.integer], NDArray[np.integer]]:
         """Return (m + 2q, 3) triangles with the quads cut as drawn, and the (m + 2q,) face of each."""
@@ -170,12 +175,6 @@ class Surface:
         cut = quads[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)
         quad_faces = np.arange(len(quads)) if self.quad_faces is None else self.quad_faces
         return np.concatenate([self.triangles, cut]), np.concatenate([faces, np.repeat(quad_faces, 2)])
-
-
-def indices_in_range(indices: NDArray[np.integer], count: int) -> bool:
-    """Whether all indices are in 0 to count - 1."""
-    unsigned = indices.view(indices.dtype.str.replace("i", "u"))  # in which a negative index is a large one
-    return not indices.size or bool(unsigned.max() < count)
 
 
 def normals(points: NDArray, triangles: NDArray[np.integer]) -> NDArray[np.float64]:
@@ -196,6 +195,7 @@ def normals(points: NDArray, triangles: NDArray[np.integer]) -> NDArray[np.float
     >>> normals(np.eye(4, 3, -1), np.array([[0, 1, 2]])).tolist()
     [[0.0, 0.0, 1.0]]
     """
+    points, triangles = number_array("points", points, "n", 3), index_array("triangles", triangles, "m", 3)
     a, b, c = (points[triangles[:, k]].astype(np.float64, copy=False) for k in range(3))
     return np.cross(b - a, c - a)
 
@@ -223,6 +223,7 @@ def join_surfaces(surfaces: Sequence[Surface]) -> Surface:
     """
     points, triangles, faces, start, face = [], [], [], 0, 0
     for surface in surfaces:
+        check_type("surfaces", surface, Surface)
         cut, source_face = surface.all_triangles()
         points.append(surface.points.astype(np.float64))
         triangles.append(cut + start)

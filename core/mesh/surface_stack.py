@@ -11,8 +11,9 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from ..numerics.arrays import indices_in_range
 from ..numerics.graph import connected_components
-from .surface import Surface, flipped_quads, indices_in_range
+from .surface import Surface, flipped_quads
 
 
 @dataclass(frozen=True, eq=False)

@@ -13,6 +13,8 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..numerics.arguments import float_array, index_array
+
 TRIANGLES_PER_BLOCK = 1 << 15  # triangles at a time
 
 
@@ -42,11 +44,12 @@ def winding_number(points: NDArray, triangles: NDArray, point: ArrayLike) -> flo
     >>> round(winding_number(np.eye(4, 3, -1), triangles, (0.1, 0.1, 0.1)), 9)
     1.0
     """
+    points = float_array("points", points, "n", 3)
+    triangles = index_array("triangles", triangles, "m", 3, count=len(points))
+    point = float_array("point", point, 3)
     total = 0.0
     for start in range(0, len(triangles), TRIANGLES_PER_BLOCK):
-        a, b, c = (
-            points[triangles[start : start + TRIANGLES_PER_BLOCK, k]] - np.asarray(point, float) for k in range(3)
-        )
+        a, b, c = (points[triangles[start : start + TRIANGLES_PER_BLOCK, k]] - point for k in range(3))
         la, lb, lc = (np.sqrt((v * v).sum(axis=1)) for v in (a, b, c))
         volume = (a * np.cross(b, c)).sum(axis=1)
         below = la * lb * lc + (a * b).sum(axis=1) * lc + (b * c).sum(axis=1) * la + (c * a).sum(axis=1) * lb

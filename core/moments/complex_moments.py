@@ -18,6 +18,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
+from ..numerics.arguments import check_type, float_array
 from .moments import Moments, U
 from .monomials import monomial_index
 from .solid_harmonics import circular_coefficients
@@ -84,7 +85,8 @@ def complex_moments(moments: Moments, bounds: NDArray | None = None) -> dict[tup
     >>> found[2, 0].value, round(found[1, 1].value.real, 9)
     (0j, 2.666666667)
     """
-    bounds = moments.rounding_error if bounds is None else bounds
+    check_type("moments", moments, Moments)
+    bounds = moments.rounding_error if bounds is None else float_array("bounds", bounds, len(moments))
     found = {}
     for (p, q), positions, factors in _expansions(moments.order):
         terms = factors * moments.raw[positions]

@@ -9,6 +9,7 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..numerics.arguments import check_type, float_array
 from .affine_maps import absolute_moments, to_trailing_axis, transform_by_horner
 from .moments import Moments, U, image, measure_scale_factors
 from .monomials import monomial_count, monomials
@@ -19,13 +20,15 @@ MAPS_PER_BLOCK = 2048  # maps at a time at order 3, fewer at higher ones: their 
 def sum_of_images(moments: Moments, matrices: NDArray, about: ArrayLike | None = None) -> Moments:
     """Add the images of one body under several affine maps: instances.
 
+    They are about the mean of the images of `moments.about`, unless `about` says otherwise.
+
     Parameters
     ----------
     moments : Moments
     matrices : (k, 4, 4) array
         As for `Moments.transform`.
     about : (3,) array_like, optional
-        The point of the result; by default the mean of the images of `moments.about`.
+        The reference point.
 
     Returns
     -------
@@ -34,7 +37,7 @@ def sum_of_images(moments: Moments, matrices: NDArray, about: ArrayLike | None =
     Raises
     ------
     ValueError
-        If the matrices are not finite (k, 4, 4), or not similarities where areas or lengths need them.
+        If the matrices are none or not finite (k, 4, 4), or not similarities where areas or lengths need them.
 
     Examples
     --------
@@ -43,13 +46,14 @@ def sum_of_images(moments: Moments, matrices: NDArray, about: ArrayLike | None =
     >>> round(sum_of_images(Moments(np.array([1.0, 0.0, 0.0, 0.0]), np.zeros(3)), matrices).total, 9)
     9.0
     """
-    matrices = np.asarray(matrices, np.float64)
-    if matrices.shape[1:] != (4, 4) or not len(matrices) or not np.isfinite(matrices).all():
-        raise ValueError("matrices not finite (4, 4)")
+    check_type("moments", moments, Moments)
+    matrices = float_array("matrices", matrices, "k", 4, 4, finite=True)
+    if not len(matrices):
+        raise ValueError("matrices must not be empty")
     linear, offsets = to_trailing_axis(matrices)
     point, order = moments.about[:, None], moments.order
     origins = linear[:, 0] * point[0] + linear[:, 1] * point[1] + linear[:, 2] * point[2] + offsets
-    center: NDArray[np.float64] = origins.mean(axis=1) if about is None else np.asarray(about, np.float64)
+    center = origins.mean(axis=1) if about is None else float_array("about", about, 3, finite=True)
     if len(matrices) == 1:
         return image(moments, matrices[0], center)
     raw, error, extra = np.zeros((3, len(moments.raw)))

@@ -12,7 +12,7 @@ What affine maps do to them is in `affine_maps`, sums over many images of one bo
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from typing import cast
@@ -20,11 +20,30 @@ from typing import cast
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..numerics.arguments import check_type, float_array
 from ..numerics.arrays import PerBody
-from .affine_maps import SIMILARITY_RTOL, absolute_moments, anisotropy, apply_linear, apply_translation
-from .monomials import monomial_count, monomial_index, monomials, order_from_count, product_indices, tensor_index
+from ..numerics.rotations import rotation_array
+from ..verdict.finding import MeasureError
+from .affine_maps import (
+    SIMILARITY_RTOL,
+    absolute_moments,
+    anisotropy,
+    apply_linear,
+    apply_translation,
+    are_singular,
+)
+from .monomials import (
+    check_exponents,
+    monomial_count,
+    monomial_index,
+    monomials,
+    order_from_count,
+    product_indices,
+    tensor_index,
+)
 
 U = np.finfo(np.float64).eps / 2.0  # unit roundoff
+TINY = np.finfo(np.float64).tiny  # smaller numbers lack digits
 FLOAT32_HALF_ULP = 2.0**-24  # of float32, relatively
 # u: numpy adds up contiguous rows in pairs of sums of at most 128 in 8 lanes, so this is generous
 PAIRWISE_SUM_ROUNDINGS = 64
@@ -49,11 +68,13 @@ class Measure(StrEnum):
     MASS = "mass"
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Moments:
     """Raw moments of one body about a stated point, ∫ (x-ox)^p (y-oy)^q (z-oz)^r dm, with error bounds.
 
-    They add (`+`), scale by a density (`*`) and follow affine maps (`transform`). `moments[p, q, r]` is one of them.
+    The point is the middle of the body's bounding box unless whoever measured gave another one; `about_point`,
+    `about_center` and `in_frame` lead to others. Moments add (`+`), scale by a density (`*`) and follow affine maps
+    (`transform`). `moments[p, q, r]` is one of them; iteration yields the exponents (p, q, r), as of a mapping.
     All arrays may have the same leading axes: then they are those of a stack of bodies, and what is given to methods
     and what they return has these axes too.
 
@@ -90,20 +111,43 @@ class Moments:
     input_error: NDArray[np.float64] = cast("NDArray[np.float64]", None)
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "measure", Measure(self.measure))
-        if self.rounding_error is None:
-            object.__setattr__(self, "rounding_error", np.zeros_like(self.raw))
-        if self.input_error is None:
-            object.__setattr__(self, "input_error", np.zeros_like(self.raw))
+        raw = float_array("raw", self.raw, ..., "K")
+        if raw.shape[-1] != monomial_count(order_from_count(raw.shape[-1])):
+            expected = "real numbers of shape (..., monomial_count(order))"
+            raise ValueError("raw must be {}, not {} of shape {}".format(expected, raw.dtype, raw.shape))
+        about = float_array("about", self.about, *raw.shape[:-1], 3)
+        bounds = {
+            name: np.zeros_like(raw) if bound is None else float_array(name, bound, *raw.shape)
+            for name, bound in (("rounding_error", self.rounding_error), ("input_error", self.input_error))
+        }
+        for name, value in {"raw": raw, "about": about, "measure": Measure(self.measure), **bounds}.items():
+            object.__setattr__(self, name, value)
 
     @property
     def order(self) -> int:
         """The largest p+q+r."""
         return order_from_count(self.raw.shape[-1])
 
+    def __repr__(self) -> str:
+        about = tuple(self.about.tolist()) if self.about.ndim == 1 else "{} points".format(self.about[..., 0].size)
+        return "Moments(order={:d}, about={}, {!s}={!r})".format(self.order, about, self.measure, self.total)
+
     def __getitem__(self, exponents: tuple[int, int, int]) -> PerBody:
-        value = self.raw[..., monomial_index(*exponents)]
+        p, q, r = check_exponents(exponents, 3, self.order)
+        value = self.raw[..., monomial_index(p, q, r)]
         return value if value.ndim else float(value)
+
+    def __len__(self) -> int:
+        return self.raw.shape[-1]
+
+    def __iter__(self) -> Iterator[tuple[int, int, int]]:
+        return (tuple(row) for row in monomials(self.order).tolist())
+
+    def to_dense(self) -> NDArray[np.float64]:
+        """(order + 1, order + 1, order + 1) array[p, q, r], as `skimage.measure.moments` has it; 0 beyond the order."""
+        dense = np.zeros((*self.raw.shape[:-1], *3 * (self.order + 1,)))
+        dense[(..., *monomials(self.order).T)] = self.raw
+        return dense
 
     @property
     def total(self) -> PerBody:
@@ -143,6 +187,8 @@ class Moments:
             input_error=self.input_error[..., :k],
         )
 
+    __array_ufunc__ = None  # a numpy number on the left multiplies the moments, not their exponents
+
     def __mul__(self, factor: float | NDArray) -> Moments:
         """Scale by a constant: a density, a thickness, a sign."""
         if np.ndim(factor):  # one for each of a stack
@@ -159,6 +205,8 @@ class Moments:
 
     def __add__(self, other: Moments) -> Moments:
         """Add another body, about this one's point, to the lower of the two orders."""
+        if not isinstance(other, Moments):
+            return NotImplemented
         return sum_moments([self, other.about_point(self.about)])
 
     def about_point(self, point: ArrayLike) -> Moments:
@@ -178,11 +226,9 @@ class Moments:
         ValueError
             If the point is not three finite numbers.
         """
-        point = np.asarray(point, np.float64)
+        point = float_array("point", point, *self.about.shape, finite=True)
         if np.array_equal(point, self.about):
             return self
-        if point.shape != self.about.shape or not np.isfinite(point).all():
-            raise ValueError("about must be finite (3,)")
         offset = self.about - point
         away = np.abs(offset)
         values = np.stack(
@@ -203,14 +249,20 @@ class Moments:
         Parameters
         ----------
         rotation : (3, 3) array_like
-            The frame's axes as columns.
+            The frame's axes as columns, determinant 1.
         origin : (3,) array_like
 
         Returns
         -------
         Moments
+
+        Raises
+        ------
+        ValueError
+            If the matrix is no rotation, or the origin is not finite.
         """
-        inverse, origin = np.asarray(rotation, np.float64).swapaxes(-1, -2), np.asarray(origin, np.float64)
+        inverse = rotation_array("rotation", rotation).swapaxes(-1, -2)
+        origin = float_array("origin", origin, *self.about.shape, finite=True)
         matrix = np.concatenate([inverse, -inverse @ origin[..., None]], axis=-1)
         # A change of axes stretches nothing, whatever is measured and however the rotation was rounded.
         return replace(
@@ -236,10 +288,10 @@ class Moments:
         ------
         ValueError
             If the matrix is not finite (4, 4), or no similarity where one is needed.
+        MeasureError
+            If the image is too small for its volume, area or length to be a number.
         """
-        affine = np.asarray(matrix, np.float64)
-        if affine.shape != (*self.about.shape[:-1], 4, 4) or not np.isfinite(affine).all():
-            raise ValueError("matrices not finite (4, 4)")
+        affine = float_array("matrix", matrix, *self.about.shape[:-1], 4, 4, finite=True)
         return image(self, affine, (affine[..., :3, :3] @ self.about[..., None])[..., 0] + affine[..., :3, 3])
 
 
@@ -258,7 +310,9 @@ def sum_moments(parts: Sequence[Moments]) -> Moments:
     Raises
     ------
     ValueError
-        If they measure different things.
+        If there are none, or they measure different things.
+    TypeError
+        If one is not Moments.
 
     Examples
     --------
@@ -268,6 +322,10 @@ def sum_moments(parts: Sequence[Moments]) -> Moments:
     >>> both.total, both.center.tolist()
     (2.0, [1.0, 0.0, 0.0])
     """
+    if not len(parts):
+        raise ValueError("parts must not be empty")
+    for part in parts:
+        check_type("parts", part, Moments)
     first = parts[0]
     if len(parts) == 1:
         return first
@@ -322,6 +380,8 @@ def image(moments: Moments, matrices: NDArray, center: NDArray) -> Moments:
     ------
     ValueError
         If areas or lengths are mapped by what is no similarity.
+    MeasureError
+        If a map shrinks more than numbers can say.
     """
     order, about = moments.order, moments.about
     linear, offsets = matrices[..., :3, :3], matrices[..., :3, 3]
@@ -365,6 +425,9 @@ def measure_scale_factors(measure: Measure, linear: NDArray) -> tuple[NDArray, N
     a, b, c = linear
     terms = [(a[i] * b[j] * c[k], a[i] * b[k] * c[j]) for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1))]
     det = np.abs(sum([plus - minus for plus, minus in terms], exact))
+    vanished = det < TINY
+    if vanished.any() and not are_singular(linear.transpose(2, 0, 1)[vanished]).all():
+        raise MeasureError("object_too_small")
     permanent = sum([np.abs(plus) + np.abs(minus) for plus, minus in terms], exact)
     if measure == Measure.VOLUME:
         return det, 8 * U * permanent, exact

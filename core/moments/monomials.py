@@ -43,6 +43,17 @@ def order_from_count(count: int) -> int:
     return order
 
 
+def check_exponents(exponents: object, dimension: int, order: int) -> tuple[int, ...]:
+    """Return the exponents of one moment. TypeError if they are not `dimension` integers, IndexError if no moment to
+    this order has them."""
+    powers = tuple(exponents) if isinstance(exponents, (tuple, list, np.ndarray)) else ()
+    if len(powers) != dimension or not all(isinstance(power, (int, np.integer)) for power in powers):
+        raise TypeError("moments have {:d} integer exponents, not {!r}".format(dimension, exponents))
+    if min(powers) < 0 or sum(powers) > order:
+        raise IndexError("no moment {} to order {:d}".format(tuple(map(int, powers)), order))
+    return powers
+
+
 def monomial_index(p: Index, q: Index, r: Index) -> Index:
     """Return where raw[p, q, r] stands: graded by degree, within a degree by (q + r, r).
 
@@ -55,12 +66,20 @@ def monomial_index(p: Index, q: Index, r: Index) -> Index:
     -------
     int
 
+    Raises
+    ------
+    IndexError
+        If an exponent is negative.
+
     Examples
     --------
     >>> from body_moments.core.moments import monomial_index
     >>> monomial_index(1, 0, 0), monomial_index(2, 0, 0), monomial_index(0, 0, 2)
     (1, 4, 9)
     """
+    negative = (p | q | r) < 0
+    if negative if isinstance(negative, bool) else negative.any():
+        raise IndexError("negative exponents: {}".format((p, q, r)))
     s = q + r
     n = p + s
     return n * (n + 1) * (n + 2) // 6 + s * (s + 1) // 2 + r

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..numerics.arguments import check_type
 from ..verdict.finding import MeasureError
 from .affine_maps import apply_translation
 from .moments import Measure, Moments, U
@@ -32,7 +33,7 @@ def normalize(moments: Moments, by: str = "size") -> Moments:
     Raises
     ------
     ValueError
-        If `by` is "size" and the moments are neither of a volume nor of an area.
+        If `by` is neither, or is "size" and the moments are neither of a volume nor of an area.
     MeasureError
         If there is too little to divide by.
 
@@ -45,6 +46,9 @@ def normalize(moments: Moments, by: str = "size") -> Moments:
     >>> round(normalize(volume)[2, 0, 0], 9)
     0.123822272
     """
+    check_type("moments", moments, Moments)
+    if by not in ("size", "gyration"):
+        raise ValueError("by must be 'size' or 'gyration', not {!r}".format(by))
     dimension = {Measure.VOLUME: 3, Measure.AREA: 2}.get(moments.measure)
     if by == "size" and dimension is None:
         raise ValueError("masses need 'gyration'")

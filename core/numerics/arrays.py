@@ -14,6 +14,12 @@ from numpy.typing import NDArray
 PerBody: TypeAlias = Any
 
 
+def indices_in_range(indices: NDArray[np.integer], count: int) -> bool:
+    """Whether all indices are in 0 to count - 1."""
+    unsigned = indices.view(indices.dtype.str.replace("i", "u"))  # in which a negative index is a large one
+    return not indices.size or bool(unsigned.max() < count)
+
+
 def spread_bits(value: NDArray[np.int64]) -> NDArray[np.int64]:
     """Ten bits with two zeros after each: a third of a Morton code."""
     value = (value | value << 16) & 0x030000FF

@@ -16,6 +16,8 @@ from functools import cached_property, lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
+from .arguments import float_array
+
 
 @dataclass(frozen=True)
 class SplineSpace:
@@ -53,7 +55,8 @@ class SplineSpace:
     count: int
 
     def __post_init__(self) -> None:
-        knots = np.asarray(self.knots, np.float64)
+        knots = float_array("knots", self.knots, "n")
+        object.__setattr__(self, "knots", tuple(knots.tolist()))
         if self.order < 1 or self.count < 1 or len(knots) < 2 * self.order or self.function_count < self.count:
             raise ValueError("too few control points")
         if not np.isfinite(knots).all() or (np.diff(knots) < 0.0).any():
@@ -122,7 +125,7 @@ class SplineSpace:
         """
         knots = np.asarray(self.knots)
         near = knots[np.asarray(spans)[:, None] + np.arange(2 - self.order, self.order)]
-        low, high = intervals[:, :1], intervals[:, 1:]
+        low, high = np.split(float_array("intervals", intervals, len(near), 2), 2, axis=1)
         b = np.arange(self.order)
         values = np.ones((len(near), self.order, 1))
         for order in range(2, self.order + 1):
@@ -183,7 +186,7 @@ class SplineSpace:
     ) -> NDArray[np.float64]:
         """(n, count) what each control point weighs at each of n parameters, or in a derivative there. spans: (n,)
         those that they belong to, where a knot may end one or begin the next."""
-        parameters = np.asarray(parameters, np.float64)
+        parameters = float_array("parameters", parameters, "n")
         spans = self.find_spans(parameters) if spans is None else spans
         values = self.derivatives(spans, parameters, derivative)[derivative]
         table = np.zeros((len(parameters), self.count))

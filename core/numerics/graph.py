@@ -14,6 +14,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from .arguments import index_array
+
 # corners at a time: large enough for threads to help. A multiple of 3 and 4, so that no face is split
 EDGES_PER_BLOCK = 3 << 16
 NODES_PER_BLOCK = 1 << 14  # in the cache with the paths that lead from them
@@ -43,6 +45,8 @@ def connected_components(count: int, a: NDArray[np.integer], b: NDArray[np.integ
     >>> component.tolist(), number
     ([0, 0, 1, 1], 2)
     """
+    a = index_array("a", a, "k")
+    b = index_array("b", b, len(a))
     label, number = None, count
     while True:
         blocks = [slice(start, start + EDGES_PER_BLOCK) for start in range(0, len(a), EDGES_PER_BLOCK)]

@@ -7,6 +7,19 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .arguments import float_array
+
+ROTATION_ATOL = 1e-5  # a rotation of float32 numbers is one to about 1e-7
+
+
+def rotation_array(name: str, values: ArrayLike) -> NDArray[np.float64]:
+    """Return a parameter as (..., 3, 3) rotations, right-handed and orthonormal as far as float32 goes."""
+    rotation = float_array(name, values, ..., 3, 3, finite=True)
+    off = np.abs(rotation.swapaxes(-1, -2) @ rotation - np.eye(3)).max(initial=0.0)
+    if off > ROTATION_ATOL or (np.linalg.det(rotation) < 0.0).any():
+        raise ValueError("{} must be a rotation: orthonormal columns, determinant 1".format(name))
+    return rotation
+
 
 def rotation_matrix(quaternion: ArrayLike) -> NDArray[np.float64]:
     """Convert a quaternion to a rotation matrix, orthonormal to float64.
@@ -26,7 +39,7 @@ def rotation_matrix(quaternion: ArrayLike) -> NDArray[np.float64]:
     >>> np.round(rotation_matrix([1, 0, 0, 1]), 6).tolist()
     [[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]
     """
-    q = np.array(quaternion, np.float64)  # before the norm: mathutils returns float32
+    q = float_array("quaternion", quaternion, ..., 4)  # before the norm: mathutils returns float32
     w, x, y, z = np.moveaxis(q / np.sqrt(np.add.reduce(q * q, axis=-1))[..., None], -1, 0)
     rows = (
         (1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - w * z), 2.0 * (x * z + w * y)),
@@ -59,7 +72,7 @@ def quaternion(rotation: NDArray) -> NDArray[np.float64]:
     >>> quaternion(np.eye(3)).tolist()
     [1.0, 0.0, 0.0, 0.0]
     """
-    m = np.moveaxis(rotation, (-2, -1), (0, 1))
+    m = np.moveaxis(float_array("rotation", rotation, ..., 3, 3), (-2, -1), (0, 1))
     # Shepperd's method: 4 q qᵀ has no cancellation in the column of its largest diagonal entry.
     outer = np.array(
         [

@@ -15,6 +15,7 @@ from typing import cast
 import numpy as np
 from numpy.typing import NDArray
 
+from ..numerics.arguments import check_type
 from ..numerics.bspline import SplineSpace
 from .blender_knots import blender_space
 from .patch import Patch
@@ -56,6 +57,7 @@ def bezier_patches(patch: Patch, domain: tuple[tuple[float, float] | None, tuple
     >>> part.points[0, 0].tolist()
     [0.25, 0.0, 0.0]
     """
+    check_type("patch", patch, Patch)
     pieces = [list(_pieces(space, part)) for space, part in zip(patch.spaces, domain)]
     homogeneous = patch.points if patch.weights is None else patch.points * patch.weights[..., None]
     if patch.weights is not None:

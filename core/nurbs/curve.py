@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..numerics.arguments import check_type, float_array
 from ..numerics.bspline import SplineSpace
 from ..verdict.finding import MeasureError
 
@@ -21,23 +22,19 @@ def checked_points(
 
     ValueError for another shape; MeasureError for what is not finite, and weights that are not positive.
     """
-    points = _frozen_copy(points)
-    if points.shape != (*shape, 3):
-        raise ValueError("points not {}".format((*shape, 3)))
+    points = _frozen_copy(float_array("points", points, *shape, 3))
     if not np.isfinite(points).all():
         raise MeasureError("non_finite_control_points")
     if weights is None:
         return points, None
-    weights = _frozen_copy(weights)
-    if weights.shape != shape:
-        raise ValueError("weights not {}".format(shape))
+    weights = _frozen_copy(float_array("weights", weights, *shape))
     if not (np.isfinite(weights).all() and (weights > 0.0).all()):
         raise MeasureError("non_positive_weights")
     return points, None if (weights == weights.flat[0]).all() else weights
 
 
-def _frozen_copy(values: ArrayLike) -> NDArray[np.float64]:
-    copy = np.array(values, np.float64, order="C")
+def _frozen_copy(values: NDArray[np.float64]) -> NDArray[np.float64]:
+    copy = np.array(values, order="C")
     copy.setflags(write=False)
     return copy
 
@@ -76,13 +73,14 @@ class Curve:
     weights: NDArray[np.float64] | None = None
 
     def __post_init__(self) -> None:
+        check_type("space", self.space, SplineSpace)
         points, weights = checked_points(self.points, self.weights, (self.space.count,))
         object.__setattr__(self, "points", points)
         object.__setattr__(self, "weights", weights)
 
     def evaluate(self, parameters: ArrayLike) -> NDArray[np.float64]:
         """Return its (n, 3) points at n parameters."""
-        return self.apply_weights(self.space.collocation_matrix(np.asarray(parameters, np.float64)))
+        return self.apply_weights(self.space.collocation_matrix(parameters))
 
     def apply_weights(self, table: NDArray) -> NDArray[np.float64]:
         """Return the (n, 3) points where a table (n, count) weights its control points."""
@@ -94,7 +92,7 @@ class Curve:
 
     def velocity(self, parameters: ArrayLike) -> NDArray[np.float64]:
         """Return the (n, 3) derivatives at n parameters."""
-        values, slopes = (self.space.collocation_matrix(np.asarray(parameters, np.float64), k) for k in (0, 1))
+        values, slopes = (self.space.collocation_matrix(parameters, k) for k in (0, 1))
         points = self.points - self.points[0]
         if self.weights is None:
             return np.einsum("ni,id->nd", slopes, points)
@@ -105,6 +103,7 @@ class Curve:
 
     def transform(self, matrix: NDArray) -> Curve:
         """Return its image under an affine map (4, 4)."""
+        matrix = float_array("matrix", matrix, 4, 4)
         return Curve(self.space, self.points @ matrix[:3, :3].T + matrix[:3, 3], self.weights)
 
     def reverse(self) -> Curve:

@@ -22,6 +22,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..moments.moments import Measure, Moments, U, monomials
+from ..numerics.arguments import check_type
+from ..verdict.tolerances import check_size
 from .bezier import bernstein, halves
 from .curve import Curve
 from .patch_moments import ROUNDING, VOLUME_RTOL
@@ -34,13 +36,16 @@ MAX_WEIGHT_RATIO = 1e8  # the largest weight of a piece by its smallest: beyond 
 
 def curves_center(curves: Sequence[Curve]) -> NDArray[np.float64]:
     """(3,) the middle of the box around all control points: the reference point."""
+    for curve in curves:
+        check_type("curves", curve, Curve)
     low = np.min([curve.points.min(axis=0) for curve in curves], axis=0)
     high = np.max([curve.points.max(axis=0) for curve in curves], axis=0)
+    check_size(*(high - low).tolist())
     return low + (high - low) / 2.0
 
 
 def length_moments(curves: Sequence[Curve], order: int = 3) -> Moments:
-    """Return ∫ x^p y^q z^r ds along curves, about the middle of their box.
+    """Return ∫ x^p y^q z^r ds along curves, about the middle of the control points' bounding box.
 
     Parameters
     ----------

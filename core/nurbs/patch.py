@@ -15,7 +15,9 @@ from functools import cached_property, lru_cache
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..numerics.arguments import check_type, float_array
 from ..numerics.bspline import SplineSpace
+from ..verdict.tolerances import check_size
 from .curve import Curve, checked_points
 
 
@@ -53,6 +55,8 @@ class Patch:
     weights: NDArray[np.float64] | None = None
 
     def __post_init__(self) -> None:
+        for space in self.spaces:
+            check_type("spaces", space, SplineSpace)
         points, weights = checked_points(self.points, self.weights, (self.spaces[0].count, self.spaces[1].count))
         object.__setattr__(self, "points", points)
         object.__setattr__(self, "weights", weights)
@@ -66,7 +70,8 @@ class Patch:
 
     def transform(self, matrix: NDArray) -> Patch:
         """Return its image under an affine map (4, 4)."""
-        return replace(self, points=self.points @ np.asarray(matrix)[:3, :3].T + np.asarray(matrix)[:3, 3])
+        matrix = float_array("matrix", matrix, 4, 4)
+        return replace(self, points=self.points @ matrix[:3, :3].T + matrix[:3, 3])
 
     def reverse_orientation(self) -> Patch:
         """Return the same surface facing the other way."""
@@ -78,9 +83,7 @@ class Patch:
 
     def evaluate_grid(self, s: ArrayLike, t: ArrayLike) -> NDArray[np.float64]:
         """Return its (len(s), len(t), 3) points."""
-        return self.apply_weights(
-            *(space.collocation_matrix(np.asarray(values)) for space, values in zip(self.spaces, (s, t)))
-        )
+        return self.apply_weights(*(space.collocation_matrix(values) for space, values in zip(self.spaces, (s, t))))
 
     def apply_weights(self, *tables: NDArray) -> NDArray[np.float64]:
         """Return the (m, n, 3) points where two tables, (m, count_s) and (n, count_t), weight its control points."""
@@ -114,6 +117,8 @@ def _sample_table(space: SplineSpace, each: int) -> NDArray[np.float64]:
 
 def control_box(patches: Sequence[Patch]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """(3,) and (3,) the least and the largest coordinates of all control points."""
+    for patch in patches:
+        check_type("patches", patch, Patch)
     return (
         np.min([patch.points.min(axis=(0, 1)) for patch in patches], axis=0),
         np.max([patch.points.max(axis=(0, 1)) for patch in patches], axis=0),
@@ -129,4 +134,5 @@ def patches_center(patches: Sequence[Patch]) -> NDArray[np.float64]:
 def patches_size(patches: Sequence[Patch]) -> float:
     """The diagonal of the box around all control points."""
     low, high = control_box(patches)
+    check_size(*(high - low).tolist())
     return float(np.linalg.norm(high - low))

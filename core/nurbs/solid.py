@@ -85,6 +85,8 @@ def measure_patches(
 ) -> PatchIntegrals:
     """Measure the body that B-spline patches bound.
 
+    Its moments are about the middle of the control points' bounding box.
+
     Parameters
     ----------
     patches : sequence of Patch
@@ -268,6 +270,8 @@ def measure_sheet(
     patches: Sequence[Patch], inner: float, outer: float, *, stored: float = 0.0
 ) -> tuple[Moments, Moments, bool]:
     """Measure a sheet of real thickness along patches.
+
+    Its moments are about the middle of the control points' bounding box.
 
     Parameters
     ----------

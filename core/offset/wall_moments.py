@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from ..mesh.edges import find_edges
 from ..mesh.surface import Surface
 from ..moments.moments import Measure, Moments, U, monomials
+from ..numerics.arguments import check_type
 from ..numerics.quadrature import gauss_legendre
 from ..numerics.vectors import cross
 from ..polyhedron.integration import polyhedron_moments
@@ -26,7 +27,7 @@ NODES_PER_BLOCK = 1 << 14
 
 
 def wall_moments(wall: OffsetSolid, inward: float, outward: float, order: int) -> Moments:
-    """Return the volume moments of a wall to any order.
+    """Return the volume moments of a wall to any order, about the middle of the surface's bounding box.
 
     Parameters
     ----------
@@ -54,6 +55,7 @@ def wall_moments(wall: OffsetSolid, inward: float, outward: float, order: int) -
     >>> round(wall_moments(plate, 0.0, 0.5, 6).about_point((0, 0, 0))[2, 0, 4] * 1920, 9)
     1.0
     """
+    check_type("wall", wall, OffsetSolid)
     known = wall.moments(inward, outward)
     if order <= ORDER:
         return known.truncate(order)

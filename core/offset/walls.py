@@ -26,11 +26,13 @@ from ..mesh.edges import find_edges
 from ..mesh.surface import Surface
 from ..mesh.welding import first_at_equal_position
 from ..moments.moments import PAIRWISE_SUM_ROUNDINGS, Measure, Moments, U, monomial_count, monomial_index, monomials
+from ..numerics.arguments import check_type
 from ..numerics.graph import connected_components
 from ..numerics.vectors import cross
 from ..solid.boundary_loops import vertex_pairs
 from ..solid.nesting import classify_pairs, self_overlaps, surfaces_intersect
 from ..verdict.finding import MeasureError
+from ..verdict.tolerances import check_size
 from .directions import UNEVEN_RTOL, blocks, offset_directions
 
 ORDER = 3
@@ -104,7 +106,7 @@ class OffsetSolid:
     degenerate_triangles: int
 
     def moments(self, inward: float, outward: float) -> Moments:
-        """Return the volume moments to third order of a wall.
+        """Return the volume moments to third order of a wall, about the middle of the surface's bounding box.
 
         Parameters
         ----------
@@ -247,9 +249,11 @@ def offset_solid(surface: Surface) -> OffsetSolid:
     >>> round(wall.moments(0.1, 0.0).total, 9), round(float(wall.max_thickness("inward")), 5)
     (0.488, 0.5)
     """
+    check_type("surface", surface, Surface)
     points, triangles = _weld_equal(surface)
     stored = float(np.linalg.norm(surface.coordinate_error))
     low, high = points.min(axis=0), points.max(axis=0)
+    check_size(*(high - low).tolist())
     about = low / 2.0 + high / 2.0
     directions = offset_directions(points, triangles, stored)
     vectors = directions.vectors

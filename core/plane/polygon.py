@@ -16,6 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..numerics.arguments import float_array, index_array
 from ..numerics.arrays import segment_ranges, sums_by_index
 from ..numerics.graph import connected_components
 from ..polyhedron.n_dimensions import SimplexMoments, enclosed_moments, facet_moments
@@ -58,6 +59,8 @@ class OutlineDefects:
 def area_moments(points: ArrayLike, edges: ArrayLike, order: int, about: ArrayLike | None = None) -> SimplexMoments:
     """Return ∫ x^p y^q dA of a region for all p + q ≤ order, with error bounds.
 
+    They are about the middle of the bounding box of the used points, unless `about` says otherwise.
+
     Parameters
     ----------
     points : (n, 2) array_like
@@ -65,7 +68,7 @@ def area_moments(points: ArrayLike, edges: ArrayLike, order: int, about: ArrayLi
         Directed; the inside lies to the left of each.
     order : int
     about : (2,) array_like, optional
-        By default the center of the points' box.
+        The reference point.
 
     Returns
     -------
@@ -84,12 +87,20 @@ def area_moments(points: ArrayLike, edges: ArrayLike, order: int, about: ArrayLi
     >>> round(moments[0, 0], 9), round(moments[2, 0] * 3, 9)
     (1.0, 1.0)
     """
-    points, edges = np.asarray(points), np.asarray(edges)
+    points, edges = edge_arrays(points, edges)
     ends = [np.bincount(edges[:, i], minlength=len(points)) for i in (0, 1)]
     loose = int(np.count_nonzero(ends[0] != ends[1]))
     if loose:
         raise MeasureError("outline_open", count=loose)
-    return enclosed_moments(points, edges, order, about)
+    return enclosed_moments(points, edges, order, about, allow_open=True)
+
+
+def edge_arrays(
+    points: ArrayLike, edges: ArrayLike, dimension: int = 2
+) -> tuple[NDArray[np.float64], NDArray[np.integer]]:
+    """Return (n, 2) points, or in space (n, 3), and (m, 2) edges between them as arrays."""
+    points = float_array("points", points, "n", dimension)
+    return points, index_array("edges", edges, "m", 2, count=len(points))
 
 
 def outline_moments(
@@ -117,7 +128,8 @@ def directed_edges(loops: Sequence[ArrayLike]) -> NDArray[np.intp]:
     >>> directed_edges([[0, 1, 2]]).tolist()
     [[0, 1], [1, 2], [2, 0]]
     """
-    loop_edges = [np.stack([np.asarray(loop), np.roll(loop, -1)], axis=1) for loop in loops]
+    loops = [index_array("loops", loop, "k") for loop in loops]
+    loop_edges = [np.stack([loop, np.roll(loop, -1)], axis=1) for loop in loops]
     return np.concatenate(loop_edges).astype(np.intp) if loop_edges else np.empty((0, 2), np.intp)
 
 
@@ -147,6 +159,8 @@ def orient_loops(points: NDArray, loops: Sequence[NDArray]) -> NDArray[np.intp]:
     >>> orient_loops(square, [np.arange(4)])[0].tolist()
     [3, 2]
     """
+    points = float_array("points", points, "n", 2)
+    loops = [index_array("loops", loop, "k", count=len(points)) for loop in loops]
     lows, highs = (
         np.array([extreme(points[loop], axis=0) for loop in loops]).reshape(-1, 2) for extreme in (np.min, np.max)
     )
@@ -213,6 +227,7 @@ def find_defects(points: NDArray, edges: NDArray, error: float = 0.0) -> Outline
     >>> find_defects(bow_tie, directed_edges([range(4)])).crossings
     1
     """
+    points, edges = edge_arrays(points, edges)
     if not len(edges):
         return OutlineDefects(0, False, False)
     points = points - points[edges.ravel()].min(axis=0)

@@ -18,7 +18,7 @@ from ..moments.moments import Measure, Moments
 from ..moments.monomials import monomial_count, monomial_index
 from ..polyhedron.n_dimensions import multi_indices
 from ..verdict.finding import MeasureError
-from .polygon import area_moments
+from .polygon import area_moments, edge_arrays
 
 BOUND_ROUNDING = 1.0 + 1e-9  # what the sums that make a bound may lack themselves
 EDGES_PER_BLOCK = 4096
@@ -43,6 +43,8 @@ def region_moments(
 ) -> Moments:
     """Return ∫ x^p y^q dA of the region to the left of directed edges, for all p + q ≤ order, with error bounds.
 
+    They are about the centroid, as far as floats go, unless `about` says otherwise.
+
     Parameters
     ----------
     points : (n, 2) array_like
@@ -50,7 +52,7 @@ def region_moments(
         Closed: as often as one starts at a point, one ends there.
     order : int
     about : (2,) array_like, optional
-        By default the centroid, as far as floats go.
+        The reference point.
     rounded : float
         How far rounding may have moved each coordinate of the points.
     stored : float
@@ -78,7 +80,7 @@ def region_moments(
     >>> moments.total, moments.about.tolist(), round(moments[2, 2, 0] * 9, 9)
     (4.0, [1.0, 1.0, 0.0], 4.0)
     """
-    points, edges = np.asarray(points, np.float64), np.asarray(edges)
+    points, edges = edge_arrays(points, edges)
     if about is None:
         first = area_moments(points, edges, 1)
         bounds = first.rounding_error + _swept(points, edges, first.about, rounded, 1)

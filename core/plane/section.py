@@ -20,8 +20,9 @@ from numpy.typing import NDArray
 from ..mesh.surface import normals
 from ..mesh.welding import first_at_equal_position
 from ..moments.moments import U
+from ..numerics.arguments import check_type, float_array, index_array
 from ..verdict.finding import MeasureError
-from .polygon import boundary_edges, outline_areas, outline_moments
+from .polygon import boundary_edges, edge_arrays, outline_areas, outline_moments
 from .region_moments import plane_positions, region_moments
 
 # of a region's size: points farther off their plane are not planar; an area is off by the square of this
@@ -60,7 +61,7 @@ class Plane:
 
     def project(self, points: NDArray) -> NDArray[np.float64]:
         """Return the (n, 2) coordinates of points along the plane's x and y axes."""
-        x, y, z = (points - self.origin).T
+        x, y, z = (float_array("points", points, "n", 3) - self.origin).T
         return np.stack([x * a[0] + y * a[1] + z * a[2] for a in self.axes.T[:2]], axis=1)
 
 
@@ -195,6 +196,10 @@ def fit_plane(
     >>> plane.origin.tolist(), plane.axes[:, 2].tolist()
     ([0.0, 0.0, 1.0], [0.0, 0.0, 1.0])
     """
+    points = float_array("points", points, "n", 3)
+    triangles = index_array("triangles", triangles, "m", 3, count=len(points))
+    prefer, origin = float_array("prefer", prefer, 3, 3), float_array("origin", origin, 3)
+    facing = None if facing is None else float_array("facing", facing, 3)
     vectors = normals(points, triangles)
     sizes = np.sqrt((vectors * vectors).sum(axis=1))
     used = points[np.unique(triangles)]
@@ -283,6 +288,8 @@ def measure_section(plane: Plane, points: NDArray, edges: NDArray, error: float 
     >>> round(section.area, 9), section.center.tolist(), np.round(section.second * 12, 9).tolist()
     (2.0, [1.0, 0.5, 0.0], [2.0, 8.0, 0.0])
     """
+    check_type("plane", plane, Plane)
+    points, edges = edge_arrays(points, edges, 3)
     flat = plane.project(points)
     used = flat[edges.ravel()]
     rounded = projection_rounding(plane, points, used)

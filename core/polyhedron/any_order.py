@@ -28,10 +28,12 @@ from typing import cast
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.surface import Surface, flipped_quads, indices_in_range
+from ..mesh.surface import Surface, flipped_quads
 from ..moments.moments import Measure, Moments, U
 from ..moments.monomials import count_of_degree, monomial_count, monomials, quotient_indices
+from ..numerics.arrays import indices_in_range
 from ..verdict.finding import MeasureError
+from ..verdict.tolerances import check_size
 from .any_order_kernel import UNDERFLOW_BOUND, AnyOrderKernel, Sums, absolute_sums, row_count
 from .third_order import box_center, finite_box, nothing, quad_corners
 from .third_order_kernel import NO_VERTEX
@@ -204,6 +206,7 @@ class _StreamIntegrator:
         if self.center is None:
             self.center = box_center(low, high, surface.points.dtype)
         largest = float(np.maximum(high - self.center, self.center - low).max())
+        check_size(4.0 * largest)
         if self.exponent is None:
             self.exponent = _exponent(largest)
         beyond = frexp(largest)[1] - self.exponent

@@ -17,9 +17,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..mesh.boundary import BoundarySum
 from ..mesh.planarity import PlanarityAccumulator
-from ..mesh.surface import Surface, indices_in_range
+from ..mesh.surface import Surface
 from ..moments.moments import Moments
 from ..moments.monomials import monomial_count
+from ..numerics.arguments import check_order, check_type, float_array, number_array
+from ..numerics.arrays import indices_in_range
 from ..verdict.finding import MeasureError
 from . import any_order, third_order
 from .third_order import box_center, finite_box, nothing
@@ -76,12 +78,12 @@ def polyhedron_moments(
 ) -> tuple[Moments, Moments | None]:
     """Return the moments of the body that a closed surface bounds, and of the surface itself.
 
-    The volume's are positive for outward faces, signed otherwise. Those of a surface that does not close would depend
-    on the reference point: it is refused unless `allow_open`. `solid.measure_solid` repairs it, and its body has
-    moments of any order. `rounding_error` bounds the rounding of every moment, `input_error` the change that storing
-    coordinates as float32 may have made (of a closed surface). Memory beside what `body` holds: for each thread a
-    block's scratch, some 13 MB at order 4, 30 MB at order 20 and 65 MB at order 30, and some 15 MB for the bounds; to
-    third order less.
+    They are about the center of the bounding box, unless `about` says otherwise. The volume's are positive for outward
+    faces, signed otherwise. Those of a surface that does not close would depend on the reference point: it is refused
+    unless `allow_open`. `solid.measure_solid` repairs it, and its body has moments of any order. `rounding_error`
+    bounds the rounding of every moment, `input_error` the change that storing coordinates as float32 may have made (of
+    a closed surface). Memory beside what `body` holds: for each thread a block's scratch, some 13 MB at order 4, 30 MB
+    at order 20 and 65 MB at order 30, and some 15 MB for the bounds; to third order less.
 
     Parameters
     ----------
@@ -94,8 +96,8 @@ def polyhedron_moments(
         Of the area's moments; 0 for the area alone. To third order that costs little and makes the volume's
         `input_error` the smaller. By default no areas.
     about : (3,) array_like, optional
-        The reference point, by default the center of the bounding box; of a stream that can be read only once, that of
-        its first piece. Far from the body digits are lost, and `rounding_error` states how many: give a point in it.
+        The reference point. A stream that can be read only once has by default that of its first piece. Far from the
+        body digits are lost, and `rounding_error` states how many: give a point in it.
     reach : float, optional
         How far the body extends from there, roughly; of such a stream by default what its first piece does.
     exact : bool
@@ -123,7 +125,7 @@ def polyhedron_moments(
         If coordinates are not finite, a face has an index without a point, or a piece of a stream reaches much farther
         than the first.
     MeasureError
-        If the faces do not close, or a moment is beyond the range of numbers.
+        If the faces do not close, are too small (below 1e-60), or a moment is beyond the range of numbers.
 
     Notes
     -----
@@ -139,17 +141,16 @@ def polyhedron_moments(
     >>> round(volume[8, 0, 0] * 990, 9)
     1.0
     """
-    for number in (order, 0 if area_order is None else area_order):
-        if not isinstance(number, (int, np.integer)) or number < 0:
-            raise ValueError("order not a natural number")
+    check_order("order", order)
+    if area_order is not None:
+        check_order("area_order", area_order)
     if about is not None:
-        about = np.array(about, np.float64)
-        if about.shape != (3,) or not np.isfinite(about).all():
-            raise ValueError("about must be finite (3,)")
+        about = float_array("about", about, 3, finite=True)
     highest, boundary = order if area_order is None else max(order, area_order), BoundarySum()
     if isinstance(body, Surface):
         stream = iter([body])
     else:
+        check_type("body", body, Iterable)
         planarity = None  # of one surface
         if isinstance(body, (list, tuple)):
             body = [_as_surface(piece) for piece in body]
@@ -186,9 +187,7 @@ def _summed(stream: Iterable[Surface], boundary: BoundarySum) -> Iterator[Surfac
 def _as_surface(piece: Surface | NDArray) -> Surface:
     if isinstance(piece, Surface):
         return piece
-    corners = np.asarray(piece)
-    if corners.shape[1:] != (3, 3) or np.iscomplexobj(corners):
-        raise ValueError("corners not real (m, 3, 3)")
+    corners = number_array("corners", piece, "m", 3, 3)
     return Surface(corners.reshape(-1, 3), np.arange(3 * len(corners)).reshape(-1, 3))
 
 

@@ -25,7 +25,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..moments.moments import PAIRWISE_SUM_ROUNDINGS, U
+from ..moments.monomials import check_exponents
+from ..numerics.arguments import check_order, float_array
 from ..verdict.finding import MeasureError
+from .simplices import closes, simplex_arrays
 
 NUMBERS_PER_BLOCK = 1 << 20  # numbers in the table of a block
 MIN_SIMPLICES_PER_BLOCK = 64  # simplices in a block, whatever the table takes
@@ -78,14 +81,23 @@ def multi_indices(dimension: int, order: int) -> NDArray[np.int64]:
 
 
 def multi_index_position(dimension: int, order: int, exponents: tuple[int, ...]) -> int:
-    """Where one moment stands. KeyError beyond the order."""
-    return _positions(dimension, order)[tuple(exponents)]
+    """Where one moment stands. IndexError beyond the order."""
+    return _positions(dimension, order)[check_exponents(exponents, dimension, order)]
 
 
 def enclosed_moments(
-    points: ArrayLike, simplices: ArrayLike, order: int, about: ArrayLike | None = None, signs: ArrayLike | None = None
+    points: ArrayLike,
+    simplices: ArrayLike,
+    order: int,
+    about: ArrayLike | None = None,
+    signs: ArrayLike | None = None,
+    *,
+    allow_open: bool = False,
 ) -> SimplexMoments:
     """Return the moments of what a boundary of simplices encloses, in any dimension.
+
+    They are about the middle of the bounding box of the used points, unless `about` says otherwise. Those of a boundary
+    that does not close would depend on that point: it is refused unless `allow_open`.
 
     Parameters
     ----------
@@ -95,10 +107,13 @@ def enclosed_moments(
         counter-clockwise from outside in space.
     order : int
     about : (n,) array_like, optional
-        By default the center of the points' box.
+        The reference point.
     signs : (k,) array_like, optional
         1 or -1, the orientation of each simplex beside the order of its corners; on a line, where a corner alone has
         none, it distinguishes upper ends from lower ones.
+    allow_open : bool
+        Whether simplices are taken as they are: what does not close is closed by the cone from the reference point.
+        Saves the check, too.
 
     Returns
     -------
@@ -110,7 +125,7 @@ def enclosed_moments(
     ValueError
         If coordinates are not finite or an index has no point.
     MeasureError
-        If moments are beyond the range of numbers.
+        If the simplices do not close, or moments are beyond the range of numbers.
 
     Notes
     -----
@@ -122,13 +137,15 @@ def enclosed_moments(
     >>> round(enclosed_moments([[0, 0], [2, 0], [0, 2]], [[0, 1], [1, 2], [2, 0]], 0)[0, 0], 12)
     2.0
     """
-    return _measure(points, simplices, order, about, signs, enclosed=True)
+    return _measure(points, simplices, order, about, signs, enclosed=True, allow_open=allow_open)
 
 
 def facet_moments(
     points: ArrayLike, simplices: ArrayLike, order: int, about: ArrayLike | None = None
 ) -> SimplexMoments:
     """Return the moments of the boundary itself: length in the plane, area in space, points on a line.
+
+    They are about the middle of the bounding box of the used points, unless `about` says otherwise.
 
     Parameters
     ----------
@@ -150,7 +167,7 @@ def facet_moments(
     >>> round(facet_moments([[0, 0], [3, 0], [3, 4]], [[0, 1], [1, 2], [2, 0]], 0)[0, 0], 12)
     12.0
     """
-    return _measure(points, simplices, order, about, None, enclosed=False)
+    return _measure(points, simplices, order, about, None, enclosed=False, allow_open=True)
 
 
 def _measure(
@@ -160,34 +177,28 @@ def _measure(
     about: ArrayLike | None,
     signs: ArrayLike | None,
     enclosed: bool,
+    allow_open: bool,
 ) -> SimplexMoments:
-    points, simplices = np.asarray(points), np.asarray(simplices)
-    if points.ndim != 2 or not points.shape[1] or np.iscomplexobj(points):
-        raise ValueError("points not real (n, d)")
-    points = points.astype(np.float64, copy=False)
+    points, simplices = simplex_arrays(points, simplices)
     dimension = points.shape[1]
-    if simplices.ndim != 2 or simplices.shape[1] != dimension:
-        raise ValueError("simplices not (k, d)")
-    if simplices.size and simplices.dtype.kind not in "iu":
-        raise ValueError("simplices must be integers")
-    if simplices.size and not (simplices.min() >= 0 and simplices.max() < len(points)):
-        raise ValueError("no such point")
-    if not isinstance(order, (int, np.integer)) or order < 0:
-        raise ValueError("order not a natural number")
+    check_order("order", order)
     indices = multi_indices(dimension, order)
     used = points[simplices.ravel()] if simplices.size else np.zeros((1, dimension))
     low, high = used.min(axis=0), used.max(axis=0)
     if not all(map(isfinite, [*low, *high])):
         raise ValueError("coordinates must be finite")
-    center: NDArray[np.float64] = low / 2.0 + high / 2.0 if about is None else np.asarray(about, np.float64)
-    if center.shape != (dimension,) or not np.isfinite(center).all():
-        raise ValueError("about must be finite (d,)")
+    center = low / 2.0 + high / 2.0 if about is None else float_array("about", about, dimension, finite=True)
     reach = float(np.maximum(np.abs(high - center), np.abs(low - center)).max())
     exponent = int(np.frexp(reach)[1])  # the body is brought to size 1, which rounds nothing
 
-    if signs is not None and np.shape(signs) != (len(simplices),):
-        raise ValueError("signs not (k,)")
     measure = dimension if enclosed else dimension - 1
+    extent = float((high / 2.0 - low / 2.0).max())
+    if extent > 0.0 and int(np.frexp(extent)[1]) * measure < np.finfo(np.float64).minexp:
+        raise MeasureError("object_too_small")
+    if signs is not None:
+        signs = float_array("signs", signs, len(simplices))
+    if not (allow_open or closes(points, simplices, signs)):
+        raise MeasureError("boundary_open")
     degree = indices.sum(axis=1)
     raw, size = np.zeros((2, len(indices)))
     block = max(MIN_SIMPLICES_PER_BLOCK, NUMBERS_PER_BLOCK // (2 * len(indices)))
@@ -199,7 +210,7 @@ def _measure(
         corners = np.ldexp(corners - center[:, None], -exponent)
         weight, weight_size = _weights(corners, edges, enclosed)
         if signs is not None:
-            weight = weight * np.asarray(signs, np.float64)[start : start + block]
+            weight = weight * signs[start : start + block]
         raw += np.add.reduce(_recursion(corners, order) * weight, axis=1)
         size += np.add.reduce(_recursion(np.abs(corners), order) * weight_size, axis=1)
 

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from ..mesh.surface import Surface
 from ..moments.moments import Measure, Moments, U
+from ..numerics.arguments import check_type, float_array
 
 PRODUCTS_PER_BLOCK = 1 << 17  # products of a map with a normal at a time
 SUM_ROUNDINGS = 128  # u: within a block numpy adds up in pairs of sums of at most 128 in 8 lanes
@@ -45,7 +46,8 @@ def area_of_images(surface: Surface, linear: NDArray) -> Moments:
     >>> round(area_of_images(triangle, np.array([np.diag([2.0, 3.0, 1.0]), np.eye(3)])).total, 12)
     3.5
     """
-    linear = np.asarray(linear, np.float64)
+    check_type("surface", surface, Surface)
+    linear = float_array("linear", linear, "k", 3, 3)
     triangles, _ = surface.all_triangles()
     a, b, c = (surface.points[triangles[:, i]].T.astype(np.float64) for i in range(3))
     first, second = b - a, c - a

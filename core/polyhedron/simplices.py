@@ -7,6 +7,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..numerics.arguments import float_array, index_array
+
 
 def facets_of(points: ArrayLike, simplices: ArrayLike) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
     """Return the facets around full simplices, each turned so that what it encloses is positive.
@@ -30,13 +32,23 @@ def facets_of(points: ArrayLike, simplices: ArrayLike) -> tuple[NDArray[np.intp]
     >>> round(enclosed_moments(points, facets, 0, signs=signs)[0, 0], 12)
     0.5
     """
-    points, simplices = np.asarray(points, np.float64), np.asarray(simplices)
+    points, simplices = simplex_arrays(points, simplices, 1)
     corners = points[simplices]
     turned = np.sign(np.linalg.det(corners[:, 1:] - corners[:, :1]))
     count = simplices.shape[1]
     facets = [np.delete(simplices, k, axis=1) for k in range(count)]
     signs = [turned * (-1.0) ** k for k in range(count)]
     return np.concatenate(facets), np.concatenate(signs)
+
+
+def simplex_arrays(
+    points: ArrayLike, simplices: ArrayLike, more: int = 0
+) -> tuple[NDArray[np.float64], NDArray[np.integer]]:
+    """Return (m, n) points and (k, n + `more`) simplices as arrays."""
+    points = float_array("points", points, "m", "n")
+    if not points.shape[1]:
+        raise ValueError("points must have coordinates, not shape {}".format(points.shape))
+    return points, index_array("simplices", simplices, "k", points.shape[1] + more, count=len(points))
 
 
 def closes(points: ArrayLike, simplices: ArrayLike, signs: ArrayLike | None = None) -> bool:
@@ -57,6 +69,8 @@ def closes(points: ArrayLike, simplices: ArrayLike, signs: ArrayLike | None = No
     (True, False)
     """
     _, corners, parity = _sorted_corners(points, simplices, signs)
+    if not len(corners):
+        return True
     ridges = np.concatenate([np.delete(corners, k, axis=1) for k in range(corners.shape[1])])
     uses = np.concatenate([parity * (-1.0) ** k for k in range(corners.shape[1])])
     _, which = np.unique(ridges, axis=0, return_inverse=True)

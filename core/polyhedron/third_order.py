@@ -36,9 +36,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..mesh.planarity import PlanarityAccumulator
-from ..mesh.surface import NO_QUADS, Surface, indices_in_range
+from ..mesh.surface import NO_QUADS, Surface
 from ..moments.moments import PAIRWISE_SUM_ROUNDINGS, Measure, Moments, U
 from ..moments.monomials import monomial_count
+from ..numerics.arrays import indices_in_range
+from ..verdict.tolerances import check_size
 from .third_order_kernel import (
     NO_VERTEX,
     TRIPLES,
@@ -101,6 +103,7 @@ def integrate(
     center = box_center(low, high, points.dtype) if about is None else np.asarray(about, np.float64)
     reach = np.maximum(high - center, center - low) * (1.0 + 4.0 * U)
     largest = max(reach.tolist())
+    check_size(4.0 * largest)  # the diagonal of the box is shorter
     if largest and not 1.0 / MAX_UNSCALED_REACH < largest < MAX_UNSCALED_REACH:
         return _measure_rescaled(surface, int(np.log2(largest)), threads, about, area, area_moments, exact)
     exact = exact or count <= MAX_TRIANGLES_EXACT_THIRD

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from ..mesh.surface import Surface
 from ..moments.moments import Moments
+from ..numerics.arguments import float_array, index_array, number_array
 from ..numerics.graph import connected_components
 from ..polyhedron.integration import polyhedron_moments
 
@@ -52,7 +53,7 @@ class BonePiece:
     face_count: int
 
     def moments(self, order: int = 3) -> Moments:
-        """Return the moments of its volume, in the surface's coordinates."""
+        """Return the moments of its volume, about the middle of its bounding box in the surface's coordinates."""
         return polyhedron_moments(self.surface, order, exact=True)[0]
 
 
@@ -86,7 +87,9 @@ def bone_pieces(
     >>> len(bone_pieces(points, triangles, np.zeros(4, int)))
     1
     """
-    points = np.asarray(points, np.float64)
+    points = float_array("points", points, "n", 3)
+    triangles = index_array("triangles", triangles, "t", 3, count=len(points))
+    bone = index_array("bone", bone, len(triangles))
     owner, start, stop = _cut_edges(len(points), triangles, bone)
     cut, apexes = _apexes(points, start, stop)
     corners = np.concatenate([triangles, np.stack([stop, start, len(points) + cut], axis=1)])
@@ -127,6 +130,9 @@ def bones_of_caps(
     >>> bones_of_caps(triangles, np.array([False, False, False, True]), np.array([5, 5, 5, 0])).tolist()
     [5, 5, 5, 5]
     """
+    triangles = index_array("triangles", triangles, "t", 3)
+    is_cap = number_array("is_cap", is_cap, len(triangles)).astype(bool)
+    bone = index_array("bone", bone, len(triangles))
     result = np.where(is_cap, NO_BONE, bone)
     side_start, side_stop = triangles.ravel(), np.roll(triangles, -1, axis=1).ravel()
     sides = np.minimum(side_start, side_stop), np.maximum(side_start, side_stop)

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..numerics.arguments import check_type, float_array, index_array
 from ..numerics.arrays import sums_by_index
 
 TIE_RTOL = 1e-5  # weights are float32, and a mirrored face adds them up in another order
@@ -43,11 +44,16 @@ class VertexWeights:
     bone: NDArray[np.integer]
     weight: NDArray[np.floating]
 
+    def __post_init__(self) -> None:
+        vertex = index_array("vertex", self.vertex, "w")
+        object.__setattr__(self, "vertex", vertex)
+        object.__setattr__(self, "bone", index_array("bone", self.bone, len(vertex)))
+        object.__setattr__(self, "weight", float_array("weight", self.weight, len(vertex)))
+
     def normalized(self) -> NDArray[np.float64]:
         """Return (w,) the weights by the sum of those on their vertex, as an armature deforms."""
-        weight = np.asarray(self.weight, np.float64)
-        total = np.bincount(self.vertex, weight)[self.vertex]
-        return np.divide(weight, total, out=np.zeros_like(weight), where=total > 0.0)
+        total = np.bincount(self.vertex, self.weight)[self.vertex]
+        return np.divide(self.weight, total, out=np.zeros_like(self.weight), where=total > 0.0)
 
     def unweighted(self, count: int) -> NDArray[np.intp]:
         """Return the vertices below `count` that no bone has any weight on."""
@@ -89,7 +95,10 @@ def dominant_bones(
     >>> dominant_bones(np.zeros(3, int), np.arange(3), points, weights, bones)[0].tolist()
     [0]
     """
-    points, bones = np.asarray(points, np.float64), np.asarray(bones, np.float64)
+    check_type("weights", weights, VertexWeights)
+    points, bones = float_array("points", points, "n", 3), float_array("bones", bones, "b", 2, 3)
+    faces = index_array("faces", faces, "c")
+    corners = index_array("corners", corners, len(faces), count=len(points))
     number = len(bones)
     size = np.bincount(faces)
     center = np.stack([np.bincount(faces, points[corners, k]) / np.maximum(size, 1) for k in range(3)], axis=1)

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from ..inertia.mass_properties import combine
 from ..moments.moments import SECOND_MOMENT_INDEX, Measure, Moments, monomial_count
+from ..numerics.arguments import check_type, float_array
 
 AGREEING_RTOL = 8.0 * float(np.finfo(np.float64).eps)  # of the largest entry
 
@@ -39,6 +40,10 @@ class Pose:
 
     position: NDArray[np.float64] = field(default_factory=lambda: np.zeros(3))
     rotation: NDArray[np.float64] = field(default_factory=lambda: np.eye(3))
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "position", float_array("position", self.position, 3))
+        object.__setattr__(self, "rotation", float_array("rotation", self.rotation, 3, 3))
 
     def __matmul__(self, other: Pose) -> Pose:
         """Return where the other frame stands, given in this one."""
@@ -80,6 +85,10 @@ class Inertial:
     moments: NDArray[np.float64]
     axes: NDArray[np.float64]
 
+    def __post_init__(self) -> None:
+        for name, shape in {"center": (3,), "inertia": (3, 3), "moments": (3,), "axes": (3, 3)}.items():
+            object.__setattr__(self, name, float_array(name, getattr(self, name), *shape))
+
     @classmethod
     def with_agreeing_axes(
         cls, mass: float, center: NDArray, inertia: NDArray, moments: NDArray, axes: NDArray
@@ -99,6 +108,8 @@ class Inertial:
         -------
         Inertial
         """
+        inertia, axes = float_array("inertia", inertia, 3, 3), float_array("axes", axes, 3, 3)
+        moments = float_array("moments", moments, 3)
         largest = np.abs(inertia).max()
         along = axes.T @ inertia @ axes
         if np.abs(along - np.diag(moments)).max() > AGREEING_RTOL * largest:
@@ -112,6 +123,7 @@ class Inertial:
 
     def place(self, pose: Pose) -> Inertial:
         """Return the same along the axes of the frame in which the link's stands at `pose`."""
+        check_type("pose", pose, Pose)
         turn = pose.rotation
         inertia = turn @ self.inertia @ turn.T
         return Inertial(
@@ -176,6 +188,9 @@ class FreeAxis:
     lower: float = -inf
     upper: float = inf
 
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "axis", float_array("axis", self.axis, 3))
+
     @property
     def is_limited(self) -> bool:
         """Whether either limit is a number."""
@@ -238,6 +253,9 @@ class Link:
     pose: Pose = field(default_factory=Pose)
     shapes: tuple[Shape, ...] = ()
     scale: NDArray[np.float64] = field(default_factory=lambda: np.ones(3))
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "scale", float_array("scale", self.scale, 3))
 
 
 @dataclass(frozen=True, eq=False)

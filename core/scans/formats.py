@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from ..numerics.arguments import check_type, float_array
 from ..verdict.finding import FileError, Finding, finding
 from .limits import DEFAULT_LIMITS, Limits
 from .nifti import read_nifti
@@ -131,17 +132,18 @@ def sample_matrix(
     >>> matrix.diagonal().tolist(), findings
     ([0.002, 0.002, 0.003, 1.0], ())
     """
+    check_type("scan", scan, Scan)
     findings = []
-    matrix = scan.matrix.copy()
+    matrix = float_array("scan.matrix", scan.matrix, 4, 4).copy()
     meters_per_unit = (unit_scale or 1.0) if scan.unit is None else scan.unit
     if scan.unit is not None and unit_scale is not None:
         findings.append(finding("scan_own_unit"))
     given = unit_scale or 1.0
     matrix[:3] *= meters_per_unit
     if spacing is not None:
-        matrix[:3, :3] = np.diag(spacing) * given
+        matrix[:3, :3] = np.diag(float_array("spacing", spacing, 3)) * given
     if origin is not None:
-        matrix[:3, 3] = np.asarray(origin, float) * given
+        matrix[:3, 3] = float_array("origin", origin, 3) * given
     if scan.is_placed and (spacing is not None or origin is not None):
         fields = [name for name, value in (("spacing", spacing), ("origin", origin)) if value is not None]
         findings.append(finding("scan_placement_overridden", fields=fields))

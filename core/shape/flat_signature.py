@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 from ..moments.complex_moments import complex_moments
 from ..moments.moments import Moments, U
 from ..moments.monomials import monomial_count, monomials
+from ..numerics.arguments import check_type
 from .disc_zernike import MAX_DISC_ORDER, disc_zernike
 from .flat_couplings import INVARIANT_ORDER, is_chiral, pairs, triples
 from .signature import Signature
@@ -58,6 +59,7 @@ def flat_signature(moments: Moments, radius: float) -> Signature:
     >>> round(likeness.shape, 6), round(likeness.scale, 6), likeness.is_mirror_image
     (0.0, 2.0, False)
     """
+    check_type("moments", moments, Moments)
     order = min(moments.order, MAX_DISC_ORDER)
     moments = moments.truncate(order)
     size = sqrt((moments[2, 0, 0] + moments[0, 2, 0]) / moments.total)

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
 
+from ..numerics.arguments import check_type
 from ..verdict.finding import FileError, Finding, finding
 from .signature import MAX_SIMILAR_DIFFERENCE, Likeness, Signature, similarity
 
@@ -148,6 +149,7 @@ def rank(
     >>> [entry.name for entry, likeness in rank(bodies[1].signature, bodies)]
     ['same', 'wide']
     """
+    check_type("query", query, Signature)
     ranked = [(entry, similarity(query, entry.signature)) for entry in entries]
     return sorted(ranked, key=lambda row: round(row[1].distance(any_size, any_hand), DECIMALS))
 
@@ -176,6 +178,7 @@ def classify(similarity: Likeness) -> Similarity:
     >>> str(classify(Likeness(0.0, 2.0, 0.0, False)))
     'scaled_copy'
     """
+    check_type("similarity", similarity, Likeness)
     if similarity.shape > MAX_SIMILAR_DIFFERENCE:
         return Similarity.DIFFERENT
     if similarity.shape > SAME_SHAPE_DISTANCE:

@@ -21,6 +21,7 @@ from ..inertia.frame_choice import complete_free_axes
 from ..inertia.principal_frame import equivalent_frames, undetermined_axes
 from ..moments.moments import Moments
 from ..moments.symmetric_tensors import distinct_arrays, invert_through_point
+from ..numerics.arguments import check_type
 
 HALF_TURNS = np.array([[1.0, 1.0, 1.0], [1.0, -1.0, -1.0], [-1.0, 1.0, -1.0], [-1.0, -1.0, 1.0]])
 EQUAL_RESIDUAL_RTOL = 1e-4  # of the size: residuals nearer than this are equal, and the smallest turn is taken
@@ -84,6 +85,8 @@ def match(source: Moments, target: Moments, residual: Residual, size: float) -> 
     >>> np.round(fit.rotation, 6).tolist() == turn.tolist(), fit.is_mirror_image
     (True, False)
     """
+    check_type("source", source, Moments)
+    check_type("target", target, Moments)
     first = equivalent_frames(source).frames[0]
     rotation, distances = best_rotation(_candidate_rotations(first, equivalent_frames(target)), residual, size)
     largest, mirrored = float(distances.max()), False

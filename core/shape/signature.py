@@ -26,6 +26,7 @@ from numpy.typing import NDArray
 
 from ..moments.moments import Measure, Moments, monomials
 from ..moments.solid_harmonics import along_first, couple, harmonic_moments
+from ..numerics.arguments import check_type
 from ..numerics.arrays import PerBody
 from ..verdict.finding import FileError
 from . import flat_couplings
@@ -190,6 +191,7 @@ def signature(moments: Moments, radius: float, zernike: Multiplets | None = None
     >>> round(signature(volume, radius).size, 6)
     0.33541
     """
+    check_type("moments", moments, Moments)
     size = sqrt(moments.second().trace() / moments.total)
     return Signature(size, *_numbers(moments.raw, moments, size, radius, zernike))
 
@@ -273,6 +275,8 @@ def similarity(a: Signature, b: Signature) -> Likeness:
     >>> round(likeness.shape, 6), round(likeness.scale, 6)
     (0.0, 3.0)
     """
+    check_type("a", a, Signature)
+    check_type("b", b, Signature)
     if a.dimension != b.dimension:
         return Likeness(1.0, b.size / a.size, 0.0, None)
     n = min(len(a.zernike), len(b.zernike))

@@ -22,6 +22,7 @@ from ..inertia.canonical_frame import NOISE_LEVEL
 from ..inertia.principal_frame import equivalent_frames
 from ..moments.moments import Moments
 from ..moments.symmetric_tensors import distinct_arrays, invert_through_point
+from ..numerics.arguments import check_type
 
 EQUAL_OPERATION_ATOL = 1e-6  # matrices of one operation are equal to this
 MAX_AXIS_ORDER = 128  # the highest order of an axis that is looked for
@@ -113,6 +114,7 @@ def symmetry(
     >>> symmetry(polyhedron_moments(surface, 6)[0]).group
     'C3v'
     """
+    check_type("moments", moments, Moments)
     central = moments.about_center()
     alike, mirrored = equivalent_frames(central, noise), equivalent_frames(invert_through_point(central), noise)
     order = moments.order

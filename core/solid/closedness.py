@@ -14,14 +14,16 @@ from numpy.typing import NDArray
 from ..mesh.edges import closed_side_faces
 from ..mesh.planarity import Planarity, PlanarityAccumulator
 from ..mesh.side_pairs import faces_across_sides
-from ..mesh.surface import Surface, indices_in_range
+from ..mesh.surface import Surface
 from ..moments.moments import Moments
+from ..numerics.arguments import check_type
+from ..numerics.arrays import indices_in_range
 from ..numerics.graph import connected_components, connected_neighbors
 from ..polyhedron import third_order
 from ..polyhedron.integration import polyhedron_moments
 from ..verdict.finding import MeasureError
 from ..verdict.health import MeshHealth
-from ..verdict.tolerances import MAX_COORDINATE, MIN_SIZE, welding_tolerance
+from ..verdict.tolerances import MAX_COORDINATE, check_size, welding_tolerance
 from .repaired_mesh import RepairedMesh
 
 SUM_ROUNDING = 1e-13  # of a sum of numbers of one sign: by how much rounding may change it
@@ -86,6 +88,7 @@ def check_surface(surface: Surface) -> CheckedSurface:
         Where there are no faces, faces name vertices that do not exist, or positions are not finite, or too large or
         too small for their powers to be numbers.
     """
+    check_type("surface", surface, Surface)
     faces = [corners for corners in (surface.quads, surface.triangles) if len(corners)]
     if not faces:
         raise MeasureError("no_faces")
@@ -120,8 +123,7 @@ def check_surface(surface: Surface) -> CheckedSurface:
             raise MeasureError("non_finite_vertices", elements=elements, count=len(misplaced), total=total)
     if not max(size, float(np.abs([low, high]).max())) < MAX_COORDINATE:
         raise MeasureError("object_too_large")
-    if 0.0 < size < MIN_SIZE:
-        raise MeasureError("object_too_small")
+    check_size(*(high - low).tolist())
     error = float(np.linalg.norm(surface.coordinate_error))
     return CheckedSurface(surface, vertices, size, error, tolerance=welding_tolerance(size, error))
 

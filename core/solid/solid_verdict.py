@@ -41,7 +41,7 @@ class SolidIntegrals:
     Attributes
     ----------
     volume : Moments
-        To order 3, about the body's reference point.
+        To order 3, about the middle of the bounding box.
     area : Moments
         Of the input's faces, without caps.
     health : MeshHealth
@@ -84,6 +84,9 @@ class SolidIntegrals:
     ) -> tuple[Moments, Moments | None]:
         """Return the body's moments to any order.
 
+        They are about the middle of the given points' bounding box, the point of ``volume``, unless `about` says
+        otherwise. Those of an open body depend on it.
+
         Parameters
         ----------
         order : int
@@ -91,7 +94,7 @@ class SolidIntegrals:
         area_order : int, optional
             Of the area's, which are those of the faces that were given, as ``area`` is. By default none.
         about : (3,) array_like, optional
-            The point that they are about; by default that of ``volume``, on which those of an open body depend.
+            The reference point.
         threads : int
 
         Returns

@@ -24,6 +24,7 @@ from numpy.typing import NDArray
 
 from ..mesh.surface import Surface, normals
 from ..moments.moments import Moments, U
+from ..numerics.arguments import check_type, float_array, index_array
 from ..numerics.arrays import first_occurrence, sums_by_index
 from ..offset.walls import first_positive_root
 from ..polyhedron.integration import polyhedron_moments
@@ -106,10 +107,11 @@ def balance(
     >>> np.round(result.after, 9).tolist()
     [0.25, 0.25, 0.3]
     """
-    across = np.eye(3) if across is None else np.asarray(across, np.float64)
-    movable = np.asarray(movable, np.intp)
-    weights = np.ones(len(movable)) if weights is None else np.asarray(weights, np.float64)
-    problem = _Problem(surface, shell, across, np.asarray(target, np.float64))
+    check_type("surface", surface, Surface)
+    across = np.eye(3) if across is None else float_array("across", across, "r", 3)
+    movable = index_array("movable", movable, "k", count=len(surface.points))
+    weights = np.ones(len(movable)) if weights is None else float_array("weights", weights, len(movable))
+    problem = _Problem(surface, shell, across, float_array("target", target, 3))
     fans = _Fans(surface, shell)
     area = fans.areas[movable]
     used = (area > 0.0) & (weights > 0.0)

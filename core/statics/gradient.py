@@ -25,6 +25,7 @@ from numpy.typing import NDArray
 
 from ..mesh.surface import Surface
 from ..moments.moments import SECOND_MOMENT_INDEX, Measure, U, monomial_count, monomial_index, monomials
+from ..numerics.arguments import check_type, float_array
 from ..numerics.vectors import cross
 
 TRIANGLES_PER_BLOCK = 65536  # triangles at a time
@@ -146,7 +147,8 @@ def area_gradient(surface: Surface, about: NDArray, order: int = 2) -> Gradient:
 
 def _gradient(surface: Surface, about: NDArray, order: int, shares: Callable) -> Gradient:
     area, kinds = shares is _area_shares, monomial_count(order)
-    about = np.asarray(about, np.float64)
+    check_type("surface", surface, Surface)
+    about = float_array("about", about, 3)
     points = surface.points.astype(np.float64)
     triangles, _ = surface.all_triangles()
     out, scale = np.zeros((3 * kinds, len(points))), np.zeros(len(points))

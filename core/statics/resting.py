@@ -20,6 +20,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..mesh.convex_hull import ConvexHull
 from ..mesh.surface import normals
+from ..numerics.arguments import check_type, float_array
 from ..numerics.arrays import sums_by_index
 from ..numerics.graph import connected_components
 from ..verdict.finding import MeasureError
@@ -107,7 +108,8 @@ def resting_poses(hull: ConvexHull, center: ArrayLike, tolerance: float = PLANE_
     >>> len(resting_poses(wedge, center=[1 / 3, 2 / 3, 1 / 2]).shares)
     5
     """
-    points = hull.points - np.asarray(center, np.float64)
+    check_type("hull", hull, ConvexHull)
+    points = hull.points - float_array("center", center, 3)
     extent = float(np.ptp(hull.points, axis=0).max())
     least = max(tolerance * extent, 2.0 * hull.gap)
     faces = _faces(points, hull, least)

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..mesh.convex_hull import convex_polygon
+from ..numerics.arguments import float_array
 
 CONTACT_RTOL = 1e-6  # of the body's extent: points that high above the lowest one touch the ground
 ON_EDGE = 4.0 * float(np.finfo(np.float64).eps)  # of the corners' distances: what rounding makes of none
@@ -85,7 +86,7 @@ def ground_axes(down: ArrayLike) -> NDArray[np.float64]:
     >>> ground_axes([0.0, 0.0, -9.81])[:, 2].tolist()
     [0.0, 0.0, 1.0]
     """
-    up = -np.asarray(down, np.float64)
+    up = -float_array("down", down, 3)
     up = up / float(np.linalg.norm(up))
     first = np.eye(3)[np.argmin(np.abs(up))]
     first = first - (first @ up) * up
@@ -120,7 +121,9 @@ def find_support(
     >>> find_support(corners, center=[2.0, 1.0, 0.5], down=[1.0, 0.0, 0.0]).height
     2.0
     """
-    points, center = np.asarray(points, np.float64), np.asarray(center, np.float64)
+    points, center = float_array("points", points, "n", 3), float_array("center", center, 3)
+    if not len(points):
+        raise ValueError("points must not be empty")
     axes = ground_axes(down)
     local = (points - center) @ axes
     low = float(local[:, 2].min())

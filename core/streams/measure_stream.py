@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from ..mesh.boundary import BoundarySum
 from ..mesh.surface import Surface
 from ..moments.moments import Moments
+from ..numerics.arguments import check_type
 from ..polyhedron.integration import polyhedron_moments
 from ..polyhedron.third_order import box_center
 from ..verdict.finding import FileError
@@ -58,6 +59,9 @@ def measure_stream(
 ) -> StreamIntegrals:
     """Measure a mesh that is larger than memory.
 
+    Its moments are about the center of the bounding box: of all vertices of a .ply; of another file, of a thousand
+    faces all over it, if the mesh does not reach much farther. Then it is read twice.
+
     Parameters
     ----------
     mesh : MeshFile
@@ -78,11 +82,6 @@ def measure_stream(
     MeasureError
         If a moment is beyond the range of numbers.
 
-    Notes
-    -----
-    Moments are taken about the center of a box of a thousand faces all over the file, of a .ply of all its vertices.
-    A mesh that reaches much farther is read twice.
-
     Examples
     --------
     >>> import struct, tempfile
@@ -98,6 +97,7 @@ def measure_stream(
     >>> isinstance(found, StreamIntegrals), found.closed, round(found.volume.total * 6, 12)
     (True, True, 1.0)
     """
+    check_type("mesh", mesh, MeshFile)
     for find_box in (mesh.sampled_box, mesh.box):
         stream = _Stream(mesh, *find_box(), progress)
         try:

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +19,7 @@ from .stl import StlFile
 SUFFIXES = ".stl", ".ply"
 
 
+@runtime_checkable
 class MeshFile(Protocol):
     """A mesh that is read in blocks, as often as it is asked for.
 

@@ -4,11 +4,21 @@
 
 from __future__ import annotations
 
+from math import hypot
+
+from .finding import MeasureError
+
 MAX_COORDINATE, MIN_SIZE = 1e50, 1e-60  # lengths whose sixth, and whose fifth, power is still a number
 FLAT_CAP_VOLUME_RTOL = 1e-7  # of diagonal times area: what capping a flat sheet of float32 points leaves
 CLOSED_SHEET_VOLUME_RTOL = 1e-14  # the same for a closed one
 WELDING_RTOL = 1e-6  # of the body's diagonal
 NEGLIGIBLE = 1e-4  # of mass, size and inertia: a decision that changes them by less is a note
+
+
+def check_size(*sides: float) -> None:
+    """Raise MeasureError if the diagonal of a box is so short, but not zero, that volumes in it are no numbers."""
+    if 0.0 < hypot(*sides) < MIN_SIZE:
+        raise MeasureError("object_too_small")
 
 
 def welding_tolerance(size: float, error: float) -> float:

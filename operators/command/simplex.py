@@ -81,7 +81,7 @@ def answer(options: argparse.Namespace) -> str:
         "closed": is_closed,
         "order": options.order,
         "about": about.tolist(),
-        **_as_record(enclosed_moments(points, facets, options.order, about, signs)),
+        **_as_record(enclosed_moments(points, facets, options.order, about, signs, allow_open=True)),
         **described(findings),
     }
     if options.boundary:

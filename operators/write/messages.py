@@ -150,6 +150,10 @@ MESSAGES: dict[str, Message] = {
         "The surface does not close, and its volume depends on the reference point. Use the moments of the body that "
         "measure_solid makes of it."
     ),
+    "boundary_open": _error(
+        "The facets do not close, and the moments of what they enclose depend on the reference point. Add the missing "
+        "ones, or turn those that face the other way by “signs”."
+    ),
     "no_volume": _error(
         "The faces enclose no volume. Set Kind to Shell, close the mesh, or use Measure Section for a flat shape."
     ),

@@ -136,19 +136,21 @@ def test_the_readme_example_uses_the_library_s_names_alone():
     assert modules == ["body_moments.core"]
 
 
-def test_the_readme_example_measures_the_repaired_body(capsys):
-    """Of a cube without a lid: the moments are those of the body that was measured, at every order."""
-    points = np.array([[x, y, z] for x in (0.0, 1.0) for y in (0.0, 1.0) for z in (0.0, 1.0)])
-    quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4)]  # without x, y, 1
-    triangles = np.array([[quad[i] for i in cut] for quad in quads for cut in ((0, 1, 2), (0, 2, 3))])
-    names = {"points": points, "triangles": triangles}
+def test_readme_example_runs_as_printed(capsys):
+    """A cube without a lid: the moments are those of the body that was measured, at every order."""
+    names = {}
     exec(compile(readme_example(), "README.md", "exec"), names)
     assert str(names["body"].method) == "capped"
     assert names["properties"].mass == pytest.approx(7850.0, rel=1e-12, abs=0.0)
     assert names["volume"].total == pytest.approx(1.0, rel=1e-12, abs=0.0)
     assert names["volume"][4, 0, 2] == pytest.approx(1.0 / 15.0, rel=1e-12, abs=0.0)
     assert names["area"].total == pytest.approx(5.0, rel=1e-12, abs=0.0)  # the faces that were given: no cap
+    assert names["area"].about.tolist() == [0.5, 0.5, 0.5]  # the middle of the bounding box
     assert "capped" in capsys.readouterr().out
+
+
+def test_python_page_has_the_readme_example():
+    assert readme_example() in (ROOT / "docs" / "python.md").read_text(encoding="utf-8")
 
 
 DEFAULTS = """
@@ -179,6 +181,7 @@ find_defects error=0.0
 region_moments rounded=0.0 stored=0.0
 fit_plane error=0.0
 measure_section error=0.0 shared=0.0
+enclosed_moments allow_open=False
 polyhedron_moments order=3 exact=False allow_open=False threads=1
 BonePiece.moments order=3
 rank any_size=False any_hand=False

@@ -13,6 +13,10 @@ MESSAGES = {
         "Die Oberfläche schließt sich nicht, und ihr Volumen hängt vom Bezugspunkt ab. Die Momente des Körpers "
         "nehmen, den measure_solid daraus macht.",
     ),
+    "boundary_open": (
+        "Die Facetten schließen sich nicht, und die Momente dessen, was sie umschließen, hängen vom Bezugspunkt ab. "
+        "Die fehlenden hinzufügen oder die verkehrt gerichteten mit „signs“ umdrehen.",
+    ),
     "no_volume": (
         "Die Flächen umschließen kein Volumen. Art auf Schale setzen, das Netz schließen oder für einen ebenen "
         "Umriss Querschnitt messen verwenden.",

@@ -121,7 +121,6 @@ def test_a_uniform_function_has_variance_k_twelfths(order):
     "knots, order, domain, text",
     [
         ([0.0, 1.0], 2, None, "few knots"),
-        ([[0.0, 1.0], [0.0, 1.0]], 1, None, "few knots"),
         ([0.0, 2.0, 1.0], 1, None, "ascend"),
         ([0.0, np.nan, 1.0], 1, None, "ascend"),
         ([0.0, 1.0], 0, None, "order"),

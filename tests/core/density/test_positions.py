@@ -139,7 +139,7 @@ def test_a_density_linear_between_samples_is_met_by_trilinear_splines():
     assert (cells.knots[1:-1] > rows[0][:-1]).all() and (cells.knots[1:-1] < rows[0][1:]).all()
 
 
-@pytest.mark.parametrize("wrong", [[1.0], [], [0.0, 0.0], [1.0, 0.0], [0.0, np.nan], [0.0, np.inf], [[0.0], [1.0]]])
+@pytest.mark.parametrize("wrong", [[1.0], [], [0.0, 0.0], [1.0, 0.0], [0.0, np.nan], [0.0, np.inf]])
 def test_wrong_positions_are_a_programmers_error(wrong):
     with pytest.raises(ValueError, match="positions must ascend"):
         SplineAxis.at_positions(wrong)

@@ -4,10 +4,12 @@
 
 import json
 import math
+import re
 from fractions import Fraction
 
 import numpy as np
 import pytest
+from body_moments.core.inertia import MassProperties, Reference, pose_matrix
 from body_moments.core.moments.affine_maps import are_similarities
 from body_moments.core.moments.images import sum_of_images
 from body_moments.core.moments.moments import (
@@ -460,6 +462,123 @@ def test_of_a_stack_totals_are_those_of_each():
     assert Moments(np.arange(24.0).reshape(2, 3, 4), np.zeros((2, 3, 3))).total.tolist() == [[0, 4, 8], [12, 16, 20]]
 
 
+@pytest.mark.parametrize("exponents", [(-1, 0, 0), (0, 0, -1), (5, -1, 0), (3, 0, 0), (1, 1, 1), (np.int64(-1), 0, 0)])
+def test_exponents_without_moment_are_an_index_error(exponents):
+    moments = Moments(np.arange(10.0), np.zeros(3))
+    named = "({:d}, {:d}, {:d}) to order 2".format(*exponents)
+    for body in (moments, moments.at(None)):
+        with pytest.raises(IndexError, match=re.escape(named)):
+            body[exponents]
+
+
+@pytest.mark.parametrize("exponents", [1, (1, 0), (1, 0, 0, 0), (1.0, 0, 0), slice(2), "xyz", None, ...])
+def test_indices_other_than_three_integers_are_a_type_error(exponents):
+    with pytest.raises(TypeError, match="3 integer exponents, not"):
+        Moments(np.arange(10.0), np.zeros(3))[exponents]
+
+
+def test_negative_exponents_have_no_monomial():
+    for exponents in ((-1, 0, 0), (0, -1, 1), (np.array([0, 1]), np.array([0, -1]), np.array([0, 0]))):
+        with pytest.raises(IndexError, match="negative"):
+            monomial_index(*exponents)
+
+
+def test_repr_of_moments_begins_with_order_and_point():
+    moments = Moments([2.0, *np.zeros(9)], (0.5, 1.0, 0.0), "area")
+    assert repr(moments) == "Moments(order=2, about=(0.5, 1.0, 0.0), area=2.0)"
+    stack = Moments(np.ones((4, 1)), np.zeros((4, 3)))
+    assert repr(stack).startswith("Moments(order=0, about=4 points, volume=array(")
+
+
+def test_iteration_over_moments_yields_their_exponents():
+    moments = Moments(np.arange(20.0), np.zeros(3))
+    assert [moments[exponents] for exponents in moments] == list(range(20)) and len(moments) == 20
+    assert (1, 1, 1) in moments and (4, 0, 0) not in moments
+    stack = Moments(np.zeros((5, 4)), np.zeros((5, 3)))
+    assert len(stack) == 4 and list(stack) == [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
+
+
+def test_dense_moments_of_a_box_are_products():
+    """As of an image: array[p, q, r] = Σ x^p y^q z^r, zero where p + q + r exceeds the order."""
+    raw = np.array(box_moments((0, 0, 0), (1, 2, 3), 4), float)
+    dense = Moments(raw, np.zeros(3)).to_dense()
+    powers = [np.array([side ** (n + 1) / (n + 1) for n in range(5)]) for side in (1.0, 2.0, 3.0)]
+    truth = np.einsum("p,q,r->pqr", *powers)
+    truth[np.indices(truth.shape).sum(axis=0) > 4] = 0.0
+    assert close(dense, truth, rel=1e-15)
+    stack = Moments(np.stack([raw, 2.0 * raw]), np.zeros((2, 3)))
+    assert np.array_equal(stack.to_dense(), np.stack([dense, 2.0 * dense]))
+
+
+def test_numpy_numbers_on_the_left_scale_moments():
+    moments = Moments(np.arange(10.0), np.zeros(3))
+    for factor in (np.float64(2.0), np.array(2.0), np.int64(2)):
+        assert np.array_equal((factor * moments).raw, 2.0 * moments.raw)
+
+
+def test_moments_do_not_add_to_numbers():
+    with pytest.raises(TypeError, match="unsupported operand"):
+        Moments(np.ones(4), np.zeros(3)) + 1.0
+
+
+@pytest.mark.parametrize(
+    "matrix",
+    [
+        2.0 * np.eye(3),
+        np.diag([1.0, 1.0, -1.0]),
+        np.ones((3, 3)),
+        np.eye(3) + 1e-4 * np.eye(3, k=1),
+        np.full((3, 3), np.nan),
+    ],
+)
+def test_frames_that_are_no_rotation_are_refused(matrix):
+    moments = Moments(np.array([1.0, *np.zeros(3), 1.0, 0.0, 0.0, 2.0, 0.0, 4.0, *np.zeros(10)]), np.zeros(3))
+    properties = MassProperties.from_moments(moments)
+    for turn in (
+        lambda: moments.in_frame(matrix, np.zeros(3)),
+        lambda: properties.in_frame(matrix, np.zeros(3)),
+        lambda: properties.principal.rotate(matrix),
+        lambda: pose_matrix(np.zeros(3), matrix),
+        lambda: Reference(np.zeros(3), matrix),
+    ):
+        with pytest.raises(ValueError, match="(rotation|axes) must be (a rotation|finite)"):
+            turn()
+
+
+def test_float32_rotations_are_frames():
+    angle = 0.7
+    rotation = np.array([[np.cos(angle), -np.sin(angle), 0], [np.sin(angle), np.cos(angle), 0], [0, 0, 1]], np.float32)
+    moments = Moments(np.array([1.0, 1.0, 0.0, 0.0]), np.zeros(3))
+    assert close(moments.in_frame(rotation, np.zeros(3))[1, 0, 0], np.cos(angle), rel=1e-6)
+
+
+@pytest.mark.parametrize("measure", ["volume", "area", "length"])
+def test_images_too_small_for_their_size_are_refused(measure):
+    moments = Moments(np.ones(4), np.zeros(3), measure)
+    tiny = np.diag([1e-200, 1e-200, 1e-200, 1.0])
+    with refused("object_too_small"):
+        moments.transform(tiny)
+    with refused("object_too_small"):
+        sum_of_images(moments, [np.eye(4), tiny])
+    small = np.diag([1e-60, 1e-60, 1e-60, 1.0])
+    assert close(Moments(np.ones(4), np.zeros(3)).transform(small).total, 1e-180, rel=1e-14)
+
+
+def test_flattening_maps_leave_no_volume():
+    for flat in (np.diag([1.0, 1.0, 0.0, 1.0]), np.diag([1.0, 0.0, 0.0, 1.0]), np.diag([0.0, 0.0, 0.0, 1.0])):
+        assert Moments(np.ones(4), np.zeros(3)).transform(flat).total == 0.0
+
+
+def test_no_bodies_have_no_sum():
+    with pytest.raises(ValueError, match="parts must not be empty"):
+        sum_moments([])
+
+
+def test_unknown_normalizations_are_refused():
+    with pytest.raises(ValueError, match="'size' or 'gyration', not 'mass'"):
+        normalize(Moments(np.ones(10), np.zeros(3)), "mass")
+
+
 def test_different_measures_do_not_add():
     with pytest.raises(ValueError, match="different measures"):
         sum_moments([Moments(np.ones(1), np.zeros(3)), Moments(np.ones(1), np.zeros(3), "area")])
@@ -473,16 +592,16 @@ def test_the_order_follows_from_the_number_of_moments(order):
 @pytest.mark.parametrize("matrix", [np.eye(3), np.full((4, 4), np.nan), np.eye(4)[None], np.zeros((0, 4, 4))])
 def test_maps_that_are_none_are_refused(matrix):
     body = Moments(np.ones(20), np.zeros(3))
-    with pytest.raises(ValueError, match="matrices"):
+    with pytest.raises(ValueError, match="matrix must be"):
         body.transform(matrix)
     if matrix.ndim < 3 or not len(matrix):
-        with pytest.raises(ValueError, match="matrices"):
+        with pytest.raises(ValueError, match="matrices must"):
             sum_of_images(body, matrix)
 
 
 @pytest.mark.parametrize("point", [(1, 2), (1, 2, np.nan), (np.inf, 0, 0)])
 def test_points_that_are_none_are_refused(point):
-    with pytest.raises(ValueError, match="about"):
+    with pytest.raises(ValueError, match="point must be"):
         Moments(np.ones(20), np.zeros(3)).about_point(point)
 
 

@@ -282,11 +282,11 @@ def test_samples_are_made_finer_as_long_as_chords_are_not_too_many(gap, least, m
 
 def test_control_points_and_weights_are_as_many_as_the_space_has():
     space = clamped_space(2)
-    with pytest.raises(ValueError, match="points not"):
+    with pytest.raises(ValueError, match="points must"):
         Curve(space, np.zeros((3, 3)))
-    with pytest.raises(ValueError, match="points not"):
+    with pytest.raises(ValueError, match="points must"):
         Curve(space, np.zeros((2, 2)))
-    with pytest.raises(ValueError, match="weights not"):
+    with pytest.raises(ValueError, match="weights must"):
         Curve(space, np.eye(2, 3), np.ones(3))
     assert Curve(space, np.eye(2, 3), np.array([1.0, 2.0])).weights.tolist() == [1.0, 2.0]
 

@@ -72,7 +72,7 @@ def affine(n, seed):
 def test_the_order_of_the_moments_in_space_is_that_of_all_other_moments():
     assert np.array_equal(multi_indices(3, 7), monomials(7))
     assert multi_index_position(3, 7, (1, 2, 3)) == [tuple(row) for row in monomials(7)].index((1, 2, 3))
-    with pytest.raises(KeyError):
+    with pytest.raises(IndexError, match=r"\(1, 1, 1\) to order 2"):
         multi_index_position(3, 2, (1, 1, 1))
 
 
@@ -178,6 +178,35 @@ def test_a_body_far_away_is_as_exact_about_its_own_center(offset):
         truth = rational.enclosed(exactly, facets.tolist(), row, tuple(Fraction(x) for x in found.about))
         assert abs(Fraction(found.raw[i]) - truth) <= Fraction(found.rounding_error[i])
         assert abs(float(truth) - found.raw[i]) < 1e-15
+
+
+@pytest.mark.parametrize("n", [1, 2, 3, 4])
+def test_open_boundaries_are_refused_unless_allowed(n):
+    points, facets, signs = cube(n)
+    signs = np.ones(len(facets)) if signs is None else signs
+    with refused("boundary_open"):
+        enclosed_moments(points, facets[1:], 1, signs=signs[1:])
+    with refused("boundary_open"):
+        enclosed_moments(points, facets, 1, signs=np.r_[-signs[:1], signs[1:]])
+    cone = enclosed_moments(points, facets[1:], 0, about=np.full(n, 0.5), signs=signs[1:], allow_open=True)
+    assert close(cone.raw[0], 1.0 - 0.5 / math.factorial(n), rel=1e-13)
+
+
+@pytest.mark.parametrize(("n", "size"), [(2, 1e-160), (3, 1e-108), (3, 1e-200), (6, 1e-60)])
+def test_bodies_too_small_for_their_size_are_refused(n, size):
+    points, facets, signs = unit_simplex(n)
+    with refused("object_too_small"):
+        enclosed_moments(points * size, facets, 0, signs=signs)
+    assert enclosed_moments(points * size ** (1 / 3), facets, 0, signs=signs).raw[0] > 0.0
+
+
+@pytest.mark.parametrize("exponents", [(-1, 0), (0, 3), (2, 1), 1, (1, 0, 0), (0.5, 0)])
+def test_exponents_without_moment_are_refused_in_any_dimension(exponents):
+    points, facets, _ = cube(2)
+    moments = enclosed_moments(points, facets, 2)
+    for of in (moments.__getitem__, moments.bound):
+        with pytest.raises((IndexError, TypeError), match="to order 2|2 integer exponents"):
+            of(exponents)
 
 
 @pytest.mark.parametrize("size", [1e-100, 1e-30, 1e-9, 1e12])

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from body_moments.core.shape import library
 from body_moments.core.shape.library import Entry, Similarity, classify, rank, read_library
-from body_moments.core.shape.signature import Likeness
+from body_moments.core.shape.signature import Likeness, Signature
 from body_moments.core.verdict.finding import FileError
 
 
@@ -31,7 +31,8 @@ def test_a_shape_is_the_same_to_a_ten_thousandth_and_similar_to_a_tenth():
 def test_what_is_as_alike_to_rounding_stays_in_its_order(monkeypatch, apart, order):
     distances = {"first": 0.25 + apart, "second": 0.25}
     monkeypatch.setattr(library, "similarity", lambda _, name: Likeness(distances[name], 1.0, 0.0, False))
-    found = rank(None, [Entry(name, "", name) for name in distances])
+    query = Signature(1.0, *4 * (np.empty(0),))
+    found = rank(query, [Entry(name, "", name) for name in distances])
     assert [entry.name for entry, _ in found] == order
 
 

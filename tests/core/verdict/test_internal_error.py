@@ -5,7 +5,7 @@
 import traceback
 
 import pytest
-from body_moments.core.rigs import dominant_bones
+from body_moments.core.numerics.arrays import segment_starts
 from body_moments.core.verdict.finding import MeasureError, finding
 from body_moments.core.verdict.internal_error import finding_of
 
@@ -28,11 +28,11 @@ def test_a_fault_outside_says_its_kind_and_message_and_prints_its_traceback(text
 
 
 def test_a_fault_inside_says_its_innermost_line_of_ours():
-    with pytest.raises(ValueError) as caught:
-        dominant_bones(None, None, [], None, [])
+    with pytest.raises(TypeError) as caught:
+        segment_starts(None)
     frames = traceback.extract_tb(caught.value.__traceback__)
-    (line,) = {frame.lineno for frame in frames if frame.filename.endswith("dominance.py")}
-    assert finding_of(caught.value).values["where"] == "core/rigs/dominance.py:{}".format(line)
+    (line,) = {frame.lineno for frame in frames if frame.filename.endswith("arrays.py")}
+    assert finding_of(caught.value).values["where"] == "core/numerics/arrays.py:{}".format(line)
 
 
 class KeyboardError(Exception):

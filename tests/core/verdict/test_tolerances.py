@@ -4,7 +4,10 @@
 
 import numpy as np
 import pytest
-from body_moments.core import Surface, measure_solid
+from body_moments.core import Surface, measure_solid, polyhedron_moments
+from body_moments.core.numerics import clamped_space
+from body_moments.core.nurbs import Curve, Patch, length_moments, measure_patches, measure_sheet
+from body_moments.core.offset import offset_solid
 from body_moments.core.solid.duplicate_faces import _copies_findings
 from body_moments.core.verdict.method import Verdict
 from body_moments.core.verdict.tolerances import welding_tolerance
@@ -66,3 +69,21 @@ def test_what_changes_a_body_by_little_is_a_note(share, more):
     area, one = np.array([1.0 - share, share]), np.array([1])
     found = [finding.code for finding in _copies_findings(one, one, area)]
     assert found == ["duplicate_faces_ignored" + more, "duplicate_faces_counted" + more]
+
+
+@pytest.mark.parametrize("size", [1e-62, 1e-120, 1e-200, 1e-310])
+def test_bodies_too_small_for_a_volume_are_refused(size):
+    points, triangles = size * np.eye(4, 3, -1), np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    surface, line = Surface(points, triangles), clamped_space(2)
+    patch = Patch((line, line), size * np.array([[[0, 0, 0], [0, 1, 0]], [[1, 0, 0], [1, 1, 1]]]))
+    for measure in (
+        lambda: measure_solid(surface),
+        lambda: polyhedron_moments(surface),
+        lambda: polyhedron_moments([surface], 5, about=(0, 0, 0)),
+        lambda: offset_solid(surface),
+        lambda: measure_patches([patch]),
+        lambda: measure_sheet([patch], 0.0, 0.1 * size),
+        lambda: length_moments([Curve(line, points[:2])]),
+    ):
+        with refused("object_too_small"):
+            measure()
