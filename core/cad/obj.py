@@ -8,6 +8,7 @@ Y up becomes Z up. Faces, lines and curves are that importer's.
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field
@@ -18,13 +19,13 @@ from numpy.typing import NDArray
 
 from ..nurbs.patch import Patch
 from ..verdict.finding import FileError
+from ..verdict.number_text import parse_number, parse_whole
 from .surfaces import MAX_ORDER, MAX_SURFACES, Refusals, SurfaceBody, SurfaceFile, SurfaceRefusedError, blender_patches
 
 KIND = "surf"
 TRIMS = {"trim", "hole"}
 UPRIGHT = np.array([[1.0, 0.0, 0.0, 0.0], [0.0, 0.0, -1.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 0.0, 1.0]])
 _WORD = re.compile(rb"(?:^|[\r\n])[ \t]*surf[ \t\\]")
-_NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eEdD][+-]?\d+)?")
 _WANTED = {"v", "cstype", "deg", "surf", "parm", "end", "o", "call", "curv", "curv2", "bmat", *TRIMS}
 
 
@@ -129,9 +130,10 @@ class _Reader:
 
 
 def _number(word: str) -> float:
-    if not _NUMBER.fullmatch(word):
-        raise ValueError("not a number")
-    return float(word.replace("D", "E").replace("d", "e"))
+    value = parse_number(word)
+    if not math.isfinite(value):
+        raise ValueError("not finite")
+    return value
 
 
 def _patches(element: _Element, points: NDArray, weights: NDArray) -> list[Patch]:
@@ -140,7 +142,7 @@ def _patches(element: _Element, points: NDArray, weights: NDArray) -> list[Patch
         raise SurfaceRefusedError("surface_trimmed")
     if element.type not in ("bspline", "bezier"):
         raise SurfaceRefusedError("surface_of_unsupported", base=element.type or "cstype")
-    degrees = [int(word) for word in element.degrees]
+    degrees = [parse_whole(word) for word in element.degrees]
     if len(degrees) != 2 or min(degrees) < 1:
         raise ValueError("degrees")
     if max(degrees) >= MAX_ORDER:  # before knots are repeated so often
@@ -167,7 +169,7 @@ def _patches(element: _Element, points: NDArray, weights: NDArray) -> list[Patch
 
 def _indices(words: list[str], count: int) -> NDArray[np.int64]:
     """The vertices that are meant, from 0."""
-    numbers = np.array([int(word.partition("/")[0]) for word in words], np.int64)
+    numbers = np.array([parse_whole(word.partition("/")[0]) for word in words], np.int64)
     numbers = np.where(numbers > 0, numbers - 1, numbers + count)
     if (numbers < 0).any() or (numbers >= count).any():
         raise ValueError("no such vertex")

@@ -9,6 +9,7 @@ from dataclasses import dataclass, fields, replace
 from pathlib import Path
 
 from ..verdict.finding import FileError, QueryError
+from ..verdict.number_text import parse_number
 
 
 @dataclass(frozen=True)
@@ -34,7 +35,7 @@ class Limits:
         for part in filter(None, text.replace(",", " ").split()):
             name, _, number = part.partition("=")
             try:
-                given[name] = int(float(number))
+                given[name] = int(parse_number(number))
             except (ValueError, OverflowError):
                 given[name] = 0
             if name not in names or given[name] < 1:

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..verdict.finding import FileError
+from ..verdict.number_text import parse_number, parse_whole
 from .limits import Limits
 from .scan import Scan, damaged, map_samples, shape_of, unpack_samples
 
@@ -90,7 +91,8 @@ def read_nrrd(path: Path, limits: Limits) -> Scan:
 
     def numbers(name: str, kind: type, default: str = "") -> list:
         try:
-            return [kind(word) for word in fields.get(name, default).split()]
+            parse = parse_whole if kind is int else parse_number
+            return [parse(word) for word in fields.get(name, default).split()]
         except (ValueError, OverflowError):
             raise FileError("nrrd_field_not_numbers", field=name, text=fields[name]) from None
 
@@ -204,7 +206,7 @@ def _vector(text: str, name: str) -> list[float] | None:
     if text == "none":
         return None
     try:
-        row = [float(word) for word in text[1:-1].split(",", 3)] if text[0] + text[-1] == "()" else []
+        row = [parse_number(word.strip()) for word in text[1:-1].split(",", 3)] if text[0] + text[-1] == "()" else []
     except ValueError:
         row = []
     if len(row) != 3 or not np.isfinite(row).all():

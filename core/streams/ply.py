@@ -13,10 +13,11 @@ from numpy.typing import NDArray
 from ..mesh.surface import Surface, normals
 from ..verdict.finding import FileError, finding
 from .boxes import BoxOfBlocks
-from .ply_header import MAX_HEADER, Element, Header, parse_header
+from .misread import map_file
+from .ply_header import INDICES, MAX_HEADER, Element, Header, parse_header
 from .ply_rows import RowReader, RowsError
+from .ply_text import check_ply_text
 
-INDICES = "vertex_indices", "vertex_index"
 MAX_SPREAD = 4  # vertices between the first and the last of a block for each of its corners; else they are copied
 CONCAVE_RTOL = 1e-6  # of a polygon's normal: less against it is rounding
 
@@ -87,6 +88,8 @@ class PlyFile:
         """(n, 3) float32 where the file has them as such or as text, else float64."""
         (vertices, *_) = (element for element in self._header.elements if element.name == "vertex")
         columns = [vertices.index(axis) for axis in "xyz"]
+        if not self._header.order:
+            check_ply_text(map_file(self._path), self._header)
         kinds = {vertices.properties[column].type for column in columns}
         exact = self._header.order and kinds != {"f4"}
         points = np.empty((vertices.rows, 3), np.float64 if exact else np.float32)

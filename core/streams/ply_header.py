@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 MAX_HEADER = 1 << 20  # bytes
+INDICES = "vertex_indices", "vertex_index"  # of the vertices of a face
 END = re.compile(rb"^end_header[ \t]*\r?\n", re.MULTILINE)
 ORDERS = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
 TYPES = {

@@ -17,8 +17,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..mesh.surface import Surface
-from ..verdict.finding import FileError, finding
+from ..verdict.finding import FileError
 from .boxes import BoxOfBlocks
+from .misread import map_file
+from .stl_text import check_stl_text
 
 HEAD, RECORD = 84, 50  # bytes before the triangles, and of each
 CORNERS = np.dtype({"names": ["at"], "formats": ["(3,3)<f4"], "offsets": [12], "itemsize": RECORD})
@@ -26,14 +28,10 @@ TRIANGLES_PER_BLOCK, TRIANGLES_IN_CACHE = 1 << 17, 1 << 13
 SAMPLES = 1000  # triangles that show where the body is
 TEXT_PER_BLOCK = 1 << 22  # bytes
 TEXT_PER_TRIANGLE = 250  # bytes, about
-MAX_WAITING = 1 << 23  # bytes of a text without the end of a triangle: beyond that it is none
 SOLID_LINE = re.compile(rb"^[ \t]*(?:end)?solid\b[^\n]*$", re.IGNORECASE | re.MULTILINE)
 FACET_END = re.compile(rb"\bendfacet\b", re.IGNORECASE)
 # facet normal x y z outer loop vertex x y z vertex x y z vertex x y z endloop endfacet
 FACET_WORDS = 21
-KEYWORDS = {0: b"facet", 1: b"normal", 5: b"outer", 6: b"loop"} | {
-    **{7: b"vertex", 11: b"vertex", 15: b"vertex", 19: b"endloop", 20: b"endfacet"}
-}
 NUMBERS = (8, 9, 10, 12, 13, 14, 16, 17, 18)
 
 
@@ -51,6 +49,8 @@ class StlFile:
         self._binary = len(head) == HEAD and size == HEAD + RECORD * count
         if not self._binary and not head.lstrip().lower().startswith(b"solid"):
             raise FileError("stl_size")
+        if not self._binary:
+            check_stl_text(map_file(path))
         self.face_count = count if self._binary else size // TEXT_PER_TRIANGLE
 
     def sampled_box(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -83,39 +83,23 @@ class StlFile:
                 yield Surface(corners.reshape(-1, 3), rows[: len(corners)])
 
     def _text_corners(self, file: BinaryIO) -> Iterator[NDArray[np.float32]]:
-        waiting, done = b"", 0
+        waiting = b""
         while chunk := file.read(TEXT_PER_BLOCK):
             waiting += chunk
-            ends = [match.end() for match in FACET_END.finditer(waiting)]
-            if not ends:
-                if len(waiting) > MAX_WAITING:
-                    raise self._damaged(done)
-                continue
-            corners = self._parse(waiting[: ends[-1]], done)
-            waiting, done = waiting[ends[-1] :], done + len(corners)
+            end = max((match.end() for match in FACET_END.finditer(waiting)), default=0)
+            corners = _parse(waiting[:end])
+            waiting = waiting[end:]
             for start in range(0, len(corners), TRIANGLES_PER_BLOCK):
                 yield corners[start : start + TRIANGLES_PER_BLOCK]
-        if SOLID_LINE.sub(b"", waiting).strip() or not re.search(rb"endsolid", waiting, re.IGNORECASE):
+        if not re.search(rb"endsolid", waiting, re.IGNORECASE):
             raise FileError("stl_cut_short")
 
-    def _parse(self, text: bytes, done: int) -> NDArray[np.float32]:
-        facets = SOLID_LINE.sub(b"", text).lower()
-        words = facets.split()
-        sound = len(words) % FACET_WORDS == 0 and all(
-            set(words[place::FACET_WORDS]) == {word} for place, word in KEYWORDS.items()
-        )
-        if not sound or b"_" in facets:  # which Python takes as a part of numbers
-            raise self._damaged(done)
-        try:
-            columns = [np.array([*map(float, words[place::FACET_WORDS])]) for place in NUMBERS]
-        except ValueError as error:
-            raise self._damaged(done) from error
-        with np.errstate(over="ignore"):  # refused with the infinite ones
-            return np.stack(columns, axis=1).astype(np.float32).reshape(-1, 3, 3)
 
-    def _damaged(self, done: int) -> FileError:
-        cause = finding("damage_facets", count=done)
-        return FileError("file_damaged", file=self._path.name, cause=cause.as_record())
+def _parse(text: bytes) -> NDArray[np.float32]:
+    """Return the corners of whole facets, which `check_stl_text` has seen."""
+    words = SOLID_LINE.sub(b"", text).split()
+    columns = [np.array([*map(float, words[place::FACET_WORDS])]) for place in NUMBERS]
+    return np.stack(columns, axis=1).astype(np.float32).reshape(-1, 3, 3)
 
 
 def _binary_corners(file: BinaryIO) -> Iterator[NDArray[np.float32]]:

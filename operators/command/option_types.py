@@ -8,6 +8,7 @@ import argparse
 import math
 
 from ...core.verdict.finding import finding
+from ...core.verdict.number_text import parse_number, parse_whole
 from ..write.documents import FORMATS
 
 # As in the core, which needs numpy: the process that supervises others may have none.
@@ -30,7 +31,7 @@ def command(text: str) -> str:
 def _float(text: str) -> float:
     """NaN for what is no number."""
     try:
-        return float(text)
+        return parse_number(text.strip())
     except ValueError:
         return math.nan
 
@@ -38,7 +39,7 @@ def _float(text: str) -> float:
 def _int(text: str) -> int:
     """-1 for what is no whole number."""
     try:
-        return int(text)
+        return parse_whole(text.strip())
     except ValueError:
         return -1
 

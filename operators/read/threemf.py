@@ -22,8 +22,10 @@ from numpy.typing import NDArray
 
 from ...core.scans.limits import DEFAULT_LIMITS, Limits
 from ...core.verdict.finding import FileError, system_reason
+from ...core.verdict.number_text import parse_numbers, parse_whole
 
 MAX_INSTANCES = 100_000  # meshes that the build places
+MAX_TEXT = 60  # letters of a wrong field that are shown
 UNITS = {"micron": 1e-6, "millimeter": 1e-3, "centimeter": 1e-2, "inch": 0.0254, "foot": 0.3048, "meter": 1.0}
 _KNOWN = ("core/2015/02", "material/2015/02", "production/2015/06")  # what is understood, or changes no shape
 _PACKAGE = "http://schemas.openxmlformats.org/package/2006/relationships"
@@ -155,8 +157,6 @@ class _Package:
         if key not in self._arrays:
             points = np.frombuffer(found.points, np.float64).reshape(-1, 3)
             triangles = np.frombuffer(found.triangles, np.int64).reshape(-1, 3)
-            if not (np.abs(points) < 3.4e38).all():
-                raise ValueError("a coordinate is no finite number")
             if triangles.size and not (triangles.min() >= 0 and triangles.max() < len(points)):
                 raise ValueError("a triangle has a vertex that is not there")
             self._arrays[key] = points, triangles
@@ -165,7 +165,7 @@ class _Package:
 
 def _parser() -> expat.XMLParserType:
     def refuse(*_: object) -> None:
-        raise ValueError("it has a document type, which 3MF forbids")
+        raise FileError("threemf_damaged", error="it has a document type, which 3MF forbids")
 
     parser = expat.ParserCreate(namespace_separator=" ")
     parser.buffer_text = True
@@ -199,7 +199,7 @@ class _Model:
 
     def __init__(self, part: str, pieces: Iterator[bytes]) -> None:
         self._part = part
-        self.unit = "millimeter"
+        self.unit, self._tag = "millimeter", ""
         self.objects: dict[str, _Object] = {}
         self.items: list[tuple[str, str, NDArray[np.float64]]] = []
         self._object = _Object("")
@@ -207,16 +207,21 @@ class _Model:
         parser = _parser()
         parser.StartNamespaceDeclHandler = lambda prefix, uri: self._spaces.__setitem__(prefix or "", uri or "")
         parser.StartElementHandler = self._start
-        _feed(parser, pieces)
+        try:
+            _feed(parser, pieces)
+        except ValueError as error:  # with the text of a field
+            place = {"line": parser.CurrentLineNumber, "element": self._tag, "text": str(error)[:MAX_TEXT]}
+            raise FileError("threemf_field", **place) from error
 
     def _start(self, name: str, values: dict[str, str]) -> None:
         space, _, tag = name.rpartition(" ")
         if not space.endswith("core/2015/02"):
             return
+        self._tag = tag
         if tag == "vertex":
-            self._object.points.extend((float(values["x"]), float(values["y"]), float(values["z"])))
+            self._object.points.extend(_numbers(values.get(axis, ""), 1)[0] for axis in "xyz")
         elif tag == "triangle":
-            self._object.triangles.extend((int(values["v1"]), int(values["v2"]), int(values["v3"])))
+            self._object.triangles.extend(_whole(values.get(corner, "")) for corner in ("v1", "v2", "v3"))
         elif tag == "object":
             self._object = self.objects[values["id"]] = _Object(values.get("name", ""))
         elif tag == "component":
@@ -226,7 +231,7 @@ class _Model:
         elif tag == "model":
             self.unit = values.get("unit", self.unit)
             if self.unit not in UNITS:
-                raise ValueError("its unit is {}".format(self.unit))
+                raise ValueError(self.unit)
             for prefix in values.get("requiredextensions", "").split():
                 if not self._spaces.get(prefix, prefix).endswith(_KNOWN):
                     raise FileError("threemf_extension", name=self._spaces.get(prefix, prefix))
@@ -235,8 +240,17 @@ class _Model:
         path = next((value for name, value in values.items() if name.endswith("production/2015/06 path")), self._part)
         matrix = np.eye(4)
         if "transform" in values:
-            numbers = np.array(values["transform"].split(), np.float64).reshape(4, 3)
-            if not np.isfinite(numbers).all():
-                raise ValueError("a transform is not finite")
-            matrix[:3] = numbers.T  # the file's vectors are rows
+            matrix[:3] = np.reshape(_numbers(values["transform"], 12), (4, 3)).T  # the file's vectors are rows
         return path, values["objectid"], matrix
+
+
+def _numbers(text: str, count: int) -> list[float]:
+    """Return so many numbers that single precision has. Raise ValueError with the text if there are others."""
+    numbers = parse_numbers(text)
+    if len(numbers) != count or not all(abs(number) < 3.4e38 for number in numbers):
+        raise ValueError(text)
+    return numbers
+
+
+def _whole(text: str) -> int:
+    return parse_whole(text.strip(" \t\r\n"))

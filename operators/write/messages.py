@@ -871,7 +871,6 @@ MESSAGES: dict[str, Message] = {
     "damage_packed_start": _error("its compressed part, or what follows it, does not begin as gzip does"),
     "damage_packed": _error("its compressed part cannot be decompressed ({error})"),
     "damage_packed_end": _error("its compressed part is cut short"),
-    "damage_facets": _error("after {count} triangles its text is not that of an STL file"),
     "damage_ply_header": _error("its header is not that of a PLY file"),
     "damage_ply_rows": _error("it ends, or has something else than numbers, before its {count} rows of “{name}” do"),
     "damage_ply_index": _error("a face has a vertex that is not among its {vertices}"),
@@ -1300,6 +1299,12 @@ MESSAGES: dict[str, Message] = {
         "{count} numbers in the file are not finite (NaN or infinity), the first at {place}. Repair the file, or "
         "export it again.",
     ),
+    "line_misread": _error("Line {line} would be misread: {cause}. Repair the file, or export it again."),
+    "field_not_number": _note("“{text}” is not a finite decimal number"),
+    "field_not_whole": _note("“{text}” is not a whole number"),
+    "field_not_vertex": _note("“{text}” refers to a vertex that is not there"),
+    "field_not_word": _note("“{text}” stands in the place of “{expected}”"),
+    "field_count": _note("“{text}” has too few numbers or too many"),
     "at_vertex": _note("vertex {vertex}"),
     "at_triangle": _note("triangle {triangle}"),
     "at_mesh_vertex": _note("vertex {vertex} of “{mesh}”"),
@@ -1310,6 +1315,9 @@ MESSAGES: dict[str, Message] = {
         "The buffer “{buffer}” is cut short: {size} of {expected} bytes. Export the file again."
     ),
     "threemf_damaged": _error("The 3MF file is damaged: {error}. Export it again."),
+    "threemf_field": _error(
+        "The 3MF file has “{text}” in <{element}> on line {line}, which cannot be read. Export it again."
+    ),
     "threemf_extension": _error(
         "The 3MF file needs an extension that changes its shape and is not read: {name}. Export it as plain meshes."
     ),
@@ -1938,7 +1946,7 @@ MESSAGES: dict[str, Message] = {
         "--allow-outside."
     ),
     "include_twice": _error("It includes a file twice: {name}."),
-    "description_number": _warning("Numbers cannot be read: “{text}”."),
+    "description_number": _warning("Line {line}: <{element}> has “{text}” in the place of numbers. Correct it."),
     "mesh_on_network": _warning("A mesh is on a network, and was not loaded: {name}. Download it."),
     "mesh_outside": _warning(
         "A mesh is outside of the folders that may be read: {name}. Name its folder with --root, or allow all with "

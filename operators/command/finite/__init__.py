@@ -3,18 +3,19 @@
 """Whether the coordinates in a file are finite numbers, before Blender imports them.
 
 Blender's importers of .stl, .obj, .ply, .glb, .gltf and .fbx put 0, or the vertex before, where a coordinate is NaN,
-infinite, or too large for float32, and say nothing: a body that nobody made would be measured as exact. Files are
-mapped and looked at in blocks. Numbers that place no point (normals, colors, weights) may be anything. A file that is
-damaged otherwise is left to Blender, which says so.
+infinite, too large for float32, or in a text no number, and say nothing: a body that nobody made would be measured as
+exact. Files are mapped and looked at in blocks. Numbers that place no point (normals, colors, weights) may be NaN and
+infinite. A file that is damaged otherwise is left to Blender, which says so.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
 
+from ....core.streams.misread import map_file
 from .fbx import check_fbx
 from .gltf import Buffers, check_gltf, unquote
-from .numbers import MAX_FLOAT32, Data, mapped
+from .numbers import MAX_FLOAT32, Data
 from .ply import check_ply
 from .stl_obj import check_obj, check_stl
 
@@ -25,7 +26,7 @@ def check_numbers(path: str, kind: str) -> None:
     """Raise FileError where a coordinate in the file is no finite number, or OSError. kind: the file's suffix."""
     check = _CHECKS.get(kind)
     if check is not None:
-        check(mapped(path), path)
+        check(map_file(path), path)
 
 
 _CHECKS: dict[str, Callable[[Data, str], None]] = {

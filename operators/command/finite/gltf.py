@@ -16,8 +16,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ....core.streams.misread import map_file
 from ....core.verdict.finding import FileError, finding
-from .numbers import MALFORMED, MAX_FLOAT32, Data, bad_in_table, mapped, refuse
+from .numbers import MALFORMED, MAX_FLOAT32, Data, bad_in_table, refuse
 
 _GLTF_WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "MAT4": 16}
 _GLTF_FLOAT = 5126
@@ -124,7 +125,7 @@ class Buffers:
         else:
             name = unquote(uri)
             try:
-                data, start = mapped(os.path.join(self.folder, name)), 0
+                data, start = map_file(os.path.join(self.folder, name)), 0
             except (OSError, ValueError) as error:  # ValueError: it is empty
                 raise FileError("gltf_buffer_missing", buffer=name) from error
         if len(data) - start < size:

@@ -1,38 +1,27 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What all formats share: files as bytes, tables of numbers, and the numbers in a text."""
+"""What all formats share: files as bytes, tables of numbers, and the numbers that may be large in a text."""
 
 from __future__ import annotations
 
-import mmap
 import os
-import re
 import struct
 import zlib
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ....core.streams.misread import MAX_FLOAT32, Data
 from ....core.verdict.finding import FileError, Finding
-
-MAX_FLOAT32 = 3.4028235677973366e38  # what is as large or larger is infinite in float32
+from ....core.verdict.number_text import parse_number
 
 BLOCK = 1 << 18  # bytes of text at a time, and numbers, so that what is computed of them stays in the cache
 _THREADS = min(4, os.cpu_count() or 1)
-_REACH = 1 << 20  # bytes to either side in which a line is looked for
 OVERLAP = 64  # bytes that blocks of text share, so that none cuts what makes a number suspicious
 MALFORMED = (ValueError, KeyError, IndexError, TypeError, AttributeError, RecursionError, struct.error, zlib.error)
-
-Data = mmap.mmap | bytes
-
-
-def mapped(path: str) -> mmap.mmap:
-    """The bytes of a file that is not empty, until nothing refers to them any more."""
-    with open(path, "rb") as file:
-        return mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ)
 
 
 def refuse(count: int, place: Finding) -> None:
@@ -65,13 +54,13 @@ def bad_in_table(rows: NDArray) -> tuple[int, int]:
 # Text
 
 
-def suspicious(data: Data, start: int = 0) -> Iterator[int]:
+def suspicious(data: Data) -> Iterator[int]:
     """Places in a text, ascending, of what may be a number that is not finite: nan, inf, 1.#IND, and large exponents
     or many digits, of which there is little in a sound file.
     """
     view = np.frombuffer(data, np.uint8)
     with ThreadPoolExecutor(_THREADS) as threads:
-        for places in threads.map(partial(_suspicious_in_block, view), range(start, len(view), BLOCK)):
+        for places in threads.map(partial(_suspicious_in_block, view), range(0, len(view), BLOCK)):
             yield from places
 
 
@@ -111,50 +100,9 @@ def _large(text: NDArray[np.uint8], lower: NDArray[np.uint8]) -> NDArray[np.intp
 
 def is_finite(word: bytes) -> bool:
     try:
-        return abs(float(word)) < MAX_FLOAT32 and b"_" not in word
+        return abs(parse_number(word.decode("utf-8", "replace"))) < MAX_FLOAT32
     except ValueError:
         return False
-
-
-def _line(data: Data, start: int, place: int) -> tuple[int, int]:
-    """Where the line begins and ends that holds a place, as far as it reaches. A backslash at its end continues it."""
-    lowest, highest = max(start, place - _REACH), min(place + _REACH, len(data))
-    begin = max(data.rfind(b"\n", lowest, place) + 1, lowest)
-    while begin > lowest and data[begin - 2 : begin] == b"\\\n":
-        begin = max(data.rfind(b"\n", lowest, begin - 1) + 1, lowest)
-    end = place
-    while end < highest:
-        end = data.find(b"\n", end, highest) + 1 or highest
-        if data[end - 2 : end] != b"\\\n":
-            break
-    return begin, end
-
-
-def bad_in_text(
-    data: Data, coordinates: Callable[[bytes, int], Iterable[bytes]], start: int = 0
-) -> tuple[int, int | None]:
-    """How many coordinates in a text's lines are not finite, and where the first of their lines begins.
-
-    coordinates: of a line that begins there, the words of its coordinates.
-    """
-    count, first, done = 0, None, 0
-    for place in suspicious(data, start):
-        if place < done:
-            continue
-        begin, done = _line(data, start, place)
-        line = data[begin:done].replace(b"\\\n", b" ")
-        words = list(coordinates(line, begin))
-        bad = sum(not is_finite(word) for word in words)
-        if not words and begin > start and (data[begin - 1 : begin] != b"\n" or data[begin - 2 : begin] == b"\\\n"):
-            bad = 1  # in the middle of a line, nobody knows what it is
-        if bad and not count:
-            first = begin
-        count += bad
-    return count, first
-
-
-def count_matches(data: Data, what: re.Pattern[bytes], end: int) -> int:
-    return sum(1 for _ in what.finditer(data, 0, end))
 
 
 def count_bytes(data: Data, byte: bytes, begin: int, end: int) -> int:

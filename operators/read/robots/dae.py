@@ -14,6 +14,7 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
+from ....core.verdict.number_text import parse_number, parse_numbers, parse_whole, parse_wholes
 from .limits import MAX_DEPTH
 from .usda import fan
 from .xml import Node, parse
@@ -34,7 +35,7 @@ def read_dae(data: bytes) -> tuple[*Arrays, NDArray[np.float64] | None]:
     by_id = {node.get("id"): node for node in root.walk() if node.get("id")}
     asset = root.find("asset")
     unit = asset.find("unit") if asset else None
-    scale = float(unit.get("meter", "1")) if unit else 1.0
+    scale = parse_number(unit.get("meter", "1")) if unit else 1.0
     up = asset.find("up_axis") if asset else None
     matrix = np.diag([scale, scale, scale, 1.0])
     points: list[NDArray] = []
@@ -74,7 +75,7 @@ def _matrix(node: Node) -> NDArray[np.float64]:
     for child in node.children:
         if child.tag not in ("matrix", "translate", "rotate", "scale"):
             continue
-        values, step = np.array(child.text.split(), np.float64), np.eye(4)
+        values, step = np.array(parse_numbers(child.text)), np.eye(4)
         if child.tag == "matrix":
             step = values.reshape(4, 4)
         elif child.tag == "translate":
@@ -97,11 +98,11 @@ def _geometry(geometry: Node, by_id: dict[str, Node]) -> Iterator[Arrays]:
         if primitives.tag not in ("triangles", "polylist", "polygons"):
             continue
         inputs = primitives.all("input")
-        stride = max(int(element.get("offset", "0")) for element in inputs) + 1
+        stride = max(parse_whole(element.get("offset", "0")) for element in inputs) + 1
         vertex = next(element for element in inputs if element.get("semantic") == "VERTEX")
         points = _positions(by_id[vertex.get("source").removeprefix("#")], by_id)
-        offset = int(vertex.get("offset", "0"))
-        lists = [np.array(element.text.split(), np.int64) for element in primitives.all("p")]
+        offset = parse_whole(vertex.get("offset", "0"))
+        lists = [np.array(parse_wholes(element.text), np.int64) for element in primitives.all("p")]
         if not lists:
             continue
         corners = np.concatenate(lists).reshape(-1, stride)[:, offset]
@@ -109,7 +110,7 @@ def _geometry(geometry: Node, by_id: dict[str, Node]) -> Iterator[Arrays]:
             yield points, corners.reshape(-1, 3)
         elif primitives.tag == "polylist":
             counts = primitives.find("vcount")
-            sizes = np.array(counts.text.split() if counts else [], np.int64)
+            sizes = np.array(parse_wholes(counts.text if counts else ""), np.int64)
             if sizes.sum() != len(corners):
                 raise ValueError("vcount")
             yield points, fan(sizes, corners)
@@ -123,6 +124,6 @@ def _positions(vertices: Node, by_id: dict[str, Node]) -> NDArray[np.float64]:
         if element.get("semantic") == "POSITION":
             source = by_id[element.get("source").removeprefix("#")]
     array, accessor = source.find("float_array"), source.find("technique_common", "accessor")
-    stride = int(accessor.get("stride", "3")) if accessor else 3
-    values = np.array(array.text.split() if array else [], np.float64)
+    stride = parse_whole(accessor.get("stride", "3")) if accessor else 3
+    values = np.array(parse_numbers(array.text if array else ""))
     return values[: len(values) // stride * stride].reshape(-1, stride)[:, :3]

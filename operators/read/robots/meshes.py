@@ -13,8 +13,10 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from ....core.cad.obj_text import check_obj_text
 from ....core.mesh.surface import Surface
 from ....core.numerics.rotations import rotation_matrix
+from ....core.streams.stl_text import check_stl_text
 from ....core.verdict.finding import FileError, system_reason
 from .dae import read_dae
 from .limits import MAX_MESH, MAX_TRIANGLES
@@ -51,6 +53,10 @@ def read_mesh(path: Path) -> tuple[Surface, NDArray[np.float64] | None]:
         raise FileError("mesh_too_large", name=path.name)
     try:
         points, triangles, *upright = reader(data)
+    except FileError as error:
+        if error.finding.code != "line_misread":
+            raise
+        raise FileError("mesh_damaged", name=path.name, error=error.finding.as_record()) from error
     except _DAMAGE as error:
         raise FileError("mesh_damaged", name=path.name, error=type(error).__name__) from error
     if not len(triangles) or len(triangles) > MAX_TRIANGLES:
@@ -69,6 +75,7 @@ def read_stl(data: bytes) -> Arrays:
             return _joined(rows["corners"].reshape(-1, 3))
     if not data.lstrip()[:5].lower() == b"solid":
         raise ValueError("stl")
+    check_stl_text(data)
     return _joined(np.array(_VERTEX.findall(data), np.float64).reshape(-1, 3))
 
 
@@ -82,6 +89,7 @@ def _joined(corners: NDArray) -> Arrays:
 
 def read_obj(data: bytes) -> Arrays:
     """Triangles of all objects of an OBJ; faces of more corners are cut into fans."""
+    check_obj_text(data)
     points: list[bytes] = []
     sizes: list[int] = []
     corners: list[int] = []

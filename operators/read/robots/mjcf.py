@@ -13,8 +13,9 @@ from numpy.typing import NDArray
 from ....core.numerics.rotations import rotation_matrix
 from ....core.robots.model import Pose, Shape
 from ....core.robots.stated import Description, StatedInertial, StatedLink, StatedShape
-from ....core.verdict.finding import Finding, finding
-from .xml import NOWHERE, Node, numbers
+from ....core.verdict.finding import Finding
+from ....core.verdict.number_text import parse_numbers
+from .xml import NOWHERE, Node, number, numbers, unreadable
 
 ABOUT = {"x": (1, 2), "y": (2, 0), "z": (0, 1)}
 SIZES = {"sphere": 1, "ellipsoid": 3, "box": 3, "capsule": 2, "cylinder": 2}
@@ -27,7 +28,7 @@ class _Model:
     degrees: bool = True
     euler: str = "xyz"
     mesh_folder: str = ""
-    meshes: dict[str, tuple[str, tuple[float, ...]]] = field(default_factory=dict)
+    meshes: dict[str, tuple[str, str]] = field(default_factory=dict)  # path and scale
     classes: dict[str, dict[str, dict[str, str]]] = field(default_factory=dict)
 
 
@@ -58,9 +59,8 @@ def _settings(root: Node) -> _Model:
         for mesh in assets.all("mesh"):
             file = mesh.get("file")
             name = mesh.get("name") or file.replace("\\", "/").rpartition("/")[2].rpartition(".")[0]
-            scale = numbers(mesh.get("scale", of_mesh.get("scale", "")), 3, (1.0, 1.0, 1.0))
             path = file if file.startswith("/") or not model.mesh_folder else model.mesh_folder + "/" + file
-            model.meshes[name] = path, tuple(scale.tolist())
+            model.meshes[name] = path, mesh.get("scale", of_mesh.get("scale", ""))
     return model
 
 
@@ -80,13 +80,13 @@ def _link(body: Node, model: _Model, current: str, count: int) -> StatedLink:
     try:
         inertial = None if node is None else _inertial(node, model)
     except ValueError as error:
-        findings.append(finding("description_number", text=str(error)))
+        findings.append(unreadable(node or body, error))
     for geom in body.all("geom"):
         of_class = model.classes.get(geom.get("class") or current, {}).get("geom", {})
         try:
             shapes += _shape({**of_class, **geom.attributes}, model)
-        except (ValueError, IndexError) as error:
-            findings.append(finding("description_number", text=str(error)))
+        except ValueError as error:
+            findings.append(unreadable(geom, error))
     span = None if node is None or node.start == NOWHERE else (node.start, node.end)
     name = body.get("name") or "body {}".format(count + 1)
     return StatedLink(name, inertial, tuple(shapes), span, False, tuple(findings))  # else MuJoCo takes it from geoms
@@ -100,7 +100,7 @@ def _inertial(node: Node, model: _Model) -> StatedInertial:
     else:
         tensor = np.diag(numbers(node.get("diaginertia"), 3, (0.0, 0.0, 0.0)))
     center = numbers(node.get("pos"), 3, (0.0, 0.0, 0.0))
-    return StatedInertial(float(node.get("mass") or 0.0), center, tensor, rotation, angles, quaternion)
+    return StatedInertial(number(node.get("mass"), 0.0), center, tensor, rotation, angles, quaternion)
 
 
 Rotation = tuple[NDArray[np.float64], tuple[float, float, float] | None, tuple[float, ...] | None]
@@ -160,21 +160,23 @@ def _shape(attributes: dict[str, str], model: _Model) -> list[StatedShape]:
     position = numbers(attributes.get("pos", ""), 3, (0.0, 0.0, 0.0))
     collides = attributes.get("contype", "1") != "0" or attributes.get("conaffinity", "1") != "0"
     role = "collision" if collides else "visual"
-    size = [float(word) for word in attributes.get("size", "").split()]
+    size = parse_numbers(attributes.get("size", ""))
     if kind == "mesh":
-        file, scale = model.meshes.get(attributes.get("mesh", ""), ("", (1.0, 1.0, 1.0)))
+        file, text = model.meshes.get(attributes.get("mesh", ""), ("", ""))
+        scale = tuple(numbers(text, 3, (1.0, 1.0, 1.0)).tolist())
         return [StatedShape(Shape("mesh", scale, Pose(position, rotation), file), role, angles)]
     if kind not in SIZES:
         return []
-    if "fromto" in attributes and kind in ("capsule", "cylinder"):
+    has_ends = "fromto" in attributes and kind in ("capsule", "cylinder")
+    if len(size) < (1 if has_ends else SIZES[kind]):
+        raise ValueError(attributes.get("size", ""))
+    if has_ends:
         ends = numbers(attributes["fromto"], 6, ())
         along = ends[:3] - ends[3:]
         length = float(np.linalg.norm(along))
         rotation, _, _ = _rotation({"zaxis": " ".join(map(repr, (along / length).tolist()))}, model)
         pose = Pose((ends[:3] + ends[3:]) / 2.0, rotation)
         return [StatedShape(Shape(kind, (size[0], length), pose), role)]
-    if len(size) < SIZES[kind]:
-        raise ValueError(attributes.get("size", ""))
     values = {
         "sphere": size[:1],
         "ellipsoid": size[:3],

@@ -11,9 +11,9 @@ import numpy as np
 from ....core.numerics.rotations import rotation_matrix
 from ....core.robots.model import Pose, Shape
 from ....core.robots.stated import Description, StatedInertial, StatedLink, StatedShape, pose_of_angles
-from ....core.verdict.finding import Finding, finding
+from ....core.verdict.finding import Finding
 from .urdf import ENTRIES
-from .xml import Node, numbers
+from .xml import Node, number, numbers, unreadable
 
 Angles = tuple[float, float, float] | None
 
@@ -32,14 +32,14 @@ def _link(node: Node, model: Node, several: bool) -> StatedLink:
         if inertial_node is not None and inertial_node.get("auto") not in ("true", "1"):
             inertial, span = _inertial(inertial_node), (inertial_node.start, inertial_node.end)
     except ValueError as error:
-        findings.append(finding("description_number", text=str(error)))
+        findings.append(unreadable(inertial_node or node, error))
     shapes = []
     for role in ("visual", "collision"):
         for element in node.all(role):
             try:
                 shapes += _shape(element, role)
             except ValueError as error:
-                findings.append(finding("description_number", text=str(error)))
+                findings.append(unreadable(element, error))
     static = _text(model, "static") in ("true", "1")
     name = "{}::{}".format(model.get("name"), node.get("name")) if several else node.get("name")
     moves = bool(shapes) and not static and inertial_node is None
@@ -55,10 +55,9 @@ def _inertial(node: Node) -> StatedInertial:
     pose, angles, quaternion = _pose(node)
     tensor = np.eye(3)
     for name, i, j in ENTRIES:
-        text = _text(node, "inertia", name)
-        tensor[i, j] = tensor[j, i] = float(text) if text else float(i == j)
-    mass = _text(node, "mass")
-    return StatedInertial(float(mass) if mass else 1.0, pose.position, tensor, pose.rotation, angles, quaternion)
+        tensor[i, j] = tensor[j, i] = number(_text(node, "inertia", name), float(i == j))
+    mass = number(_text(node, "mass"), 1.0)
+    return StatedInertial(mass, pose.position, tensor, pose.rotation, angles, quaternion)
 
 
 def _pose(node: Node) -> tuple[Pose, Angles, tuple[float, ...] | None]:
@@ -89,9 +88,9 @@ def _shape(node: Node, role: str) -> list[StatedShape]:
         elif kind == "ellipsoid":
             shape = Shape(kind, tuple(numbers(_text(element, "radii"), 3, (1.0, 1.0, 1.0)).tolist()), pose)
         elif kind == "sphere":
-            shape = Shape(kind, (float(_text(element, "radius") or 1.0),), pose)
+            shape = Shape(kind, (number(_text(element, "radius"), 1.0),), pose)
         elif kind in ("cylinder", "capsule"):
-            size = float(_text(element, "radius") or 1.0), float(_text(element, "length") or 1.0)
+            size = number(_text(element, "radius"), 1.0), number(_text(element, "length"), 1.0)
             shape = Shape(kind, size, pose)
         if shape is not None:
             return [StatedShape(shape, role, angles)]

@@ -8,8 +8,8 @@ import numpy as np
 
 from ....core.robots.model import Pose, Shape
 from ....core.robots.stated import Description, StatedInertial, StatedLink, StatedShape, pose_of_angles
-from ....core.verdict.finding import Finding, finding
-from .xml import Node, numbers
+from ....core.verdict.finding import Finding
+from .xml import Node, number, numbers, unreadable
 
 ENTRIES = (("ixx", 0, 0), ("ixy", 0, 1), ("ixz", 0, 2), ("iyy", 1, 1), ("iyz", 1, 2), ("izz", 2, 2))
 
@@ -26,14 +26,14 @@ def _link(node: Node) -> StatedLink:
     try:
         inertial = None if inertial_node is None else _inertial(inertial_node)
     except ValueError as error:
-        findings.append(finding("description_number", text=str(error)))
+        findings.append(unreadable(inertial_node or node, error))
     shapes = []
     for role in ("visual", "collision"):
         for element in node.all(role):
             try:
                 shapes += _shape(element, role)
             except ValueError as error:
-                findings.append(finding("description_number", text=str(error)))
+                findings.append(unreadable(element, error))
     span = None if inertial_node is None else (inertial_node.start, inertial_node.end)
     return StatedLink(node.get("name"), inertial, tuple(shapes), span, bool(shapes), tuple(findings))
 
@@ -43,10 +43,8 @@ def _inertial(node: Node) -> StatedInertial:
     mass, inertia = node.find("mass"), node.find("inertia")
     tensor = np.zeros((3, 3))
     for name, i, j in ENTRIES:
-        tensor[i, j] = tensor[j, i] = float((inertia.get(name) if inertia else "") or 0.0)
-    return StatedInertial(
-        float((mass.get("value") if mass else "") or 0.0), pose.position, tensor, pose.rotation, angles
-    )
+        tensor[i, j] = tensor[j, i] = number(inertia.get(name) if inertia else "", 0.0)
+    return StatedInertial(number(mass.get("value") if mass else "", 0.0), pose.position, tensor, pose.rotation, angles)
 
 
 def _origin(node: Node) -> tuple[Pose, tuple[float, float, float]]:
@@ -67,9 +65,9 @@ def _shape(node: Node, role: str) -> list[StatedShape]:
         elif element.tag == "box":
             shape = Shape("box", tuple(numbers(element.get("size"), 3, (1.0, 1.0, 1.0)).tolist()), pose)
         elif element.tag == "sphere":
-            shape = Shape("sphere", (float(element.get("radius")),), pose)
+            shape = Shape("sphere", (number(element.get("radius")),), pose)
         elif element.tag in ("cylinder", "capsule"):
-            shape = Shape(element.tag, (float(element.get("radius")), float(element.get("length"))), pose)
+            shape = Shape(element.tag, (number(element.get("radius")), number(element.get("length"))), pose)
         if shape is not None:
             return [StatedShape(shape, role, angles)]
     return []

@@ -18,13 +18,14 @@ from ....core.numerics.rotations import polar_rotation, rotation_matrix
 from ....core.robots.model import Pose, Shape
 from ....core.robots.stated import Description, StatedInertial, StatedLink, StatedShape
 from ....core.verdict.finding import FileError, Finding, finding
+from ....core.verdict.number_text import parse_number
 from .limits import MAX_DEPTH, MAX_ELEMENTS
 
 _TOKEN = re.compile(
     r'\s+|#[^\n]*|"""(?:.|\n)*?"""|\'\'\'(?:.|\n)*?\'\'\'|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])*\''
     r"|@@@(?:.|\n)*?@@@|@[^@\n]*@|<[^>\n]*>|[(){}\[\]=,;]|[^\s(){}\[\]=,;\"'@<#]+"
 )
-_NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*(?:[eE][-+]?\d+)?|\.\d+(?:[eE][-+]?\d+)?|inf|nan)")
+_FIELD = re.compile(r"[^\s()\[\],]+")
 _SPECIFIERS = {"def", "over", "class"}
 
 
@@ -41,10 +42,10 @@ class Prim:
     children: list[Prim] = field(default_factory=list)
 
     def numbers(self, name: str) -> NDArray[np.float64] | None:
-        """Return the numbers of an attribute, None where it has none."""
-        if name not in self.values:
+        """Return the numbers of an attribute, None where it has none. Raises ValueError with a text that is none."""
+        if self.values.get(name, "None") == "None":
             return None
-        return np.array(_NUMBER.findall(self.values[name]), np.float64)
+        return np.array([parse_number(word) for word in _FIELD.findall(self.values[name])], np.float64)
 
     def vector(self, name: str, default: tuple[float, ...]) -> NDArray[np.float64]:
         """Return the numbers of an attribute, as many as its default has. Raises ValueError where there are others."""
@@ -153,7 +154,8 @@ def read(data: bytes) -> Description:
     try:
         return _description(text, data)
     except (IndexError, KeyError, ValueError, RecursionError) as error:
-        raise FileError("usda_invalid", line=text.count("\n") + 1) from error
+        place = text.find(str(error)) if isinstance(error, ValueError) else -1
+        raise FileError("usda_invalid", line=text.count("\n", 0, place if place >= 0 else None) + 1) from error
 
 
 def _description(text: str, data: bytes) -> Description:
@@ -175,8 +177,8 @@ def _description(text: str, data: bytes) -> Description:
 
 
 def _scale(metadata: str, name: str, default: float) -> float:
-    match = re.search(r"\b{}\s*=\s*({})".format(name, _NUMBER.pattern), metadata)
-    return float(match[1]) if match else default
+    match = re.search(r"\b{}\s*=\s*([^\s()]+)".format(name), metadata)
+    return parse_number(match[1]) if match else default
 
 
 def _visit(
@@ -230,11 +232,19 @@ def _link(prim: Prim, matrix: NDArray, path: str, scales: Mapping[str, float], t
     try:
         inertial = _inertial(prim, to_link @ matrix, scales)
     except ValueError as error:
-        findings.append(finding("description_number", text=str(error)))
+        findings.append(_unreadable(prim, error, text))
     shapes: list[StatedShape] = []
-    _collect(prim, matrix, to_link, scales["length"], shapes)
+    try:
+        _collect(prim, matrix, to_link, scales["length"], shapes)
+    except ValueError as error:
+        findings.append(_unreadable(prim, error, text))
     span = len(text[: prim.start].encode()), len(text[: prim.end].encode())
     return StatedLink(path, inertial, tuple(shapes), span, False, tuple(findings), to_link @ matrix)
+
+
+def _unreadable(prim: Prim, error: Exception, text: str) -> Finding:
+    line = text.count("\n", 0, max(text.find(str(error), prim.start, prim.end), prim.start)) + 1
+    return finding("description_number", text=str(error), element=prim.name, line=line)
 
 
 def _inertial(prim: Prim, local: NDArray, scales: Mapping[str, float]) -> StatedInertial | None:

@@ -13,7 +13,8 @@ from xml.parsers import expat
 import numpy as np
 from numpy.typing import NDArray
 
-from ....core.verdict.finding import FileError
+from ....core.verdict.finding import FileError, Finding, finding
+from ....core.verdict.number_text import parse_numbers
 from .limits import MAX_DEPTH, MAX_ELEMENTS
 
 NOWHERE = -1  # in place of a position, of what another file states
@@ -22,11 +23,12 @@ _TAG = re.compile(rb"""(?:[^>"']|"[^"]*"|'[^']*')*>""")  # attributes may hold t
 
 @dataclass(eq=False)
 class Node:
-    """One element. start, end: of its bytes in the file, or NOWHERE."""
+    """One element. start, end: of its bytes in the file, or NOWHERE. line: in its file."""
 
     tag: str
     attributes: dict[str, str]
     start: int
+    line: int = 1
     end: int = NOWHERE
     text: str = ""
     children: list[Node] = field(default_factory=list)
@@ -49,6 +51,11 @@ class Node:
             node = waiting.pop()
             yield node
             waiting.extend(reversed(node.children))
+
+    def texts(self) -> Iterator[str]:
+        """Yield its text and those of its attributes."""
+        yield self.text
+        yield from self.attributes.values()
 
     def get(self, name: str, default: str = "") -> str:
         """Return an attribute."""
@@ -76,7 +83,7 @@ class _Builder:
         self.count += 1
         if self.count > MAX_ELEMENTS or len(self.open) > MAX_DEPTH:
             raise FileError("xml_too_large", limit=MAX_ELEMENTS, depth=MAX_DEPTH)
-        node = Node(tag, attributes, self.parser.CurrentByteIndex)
+        node = Node(tag, attributes, self.parser.CurrentByteIndex, self.parser.CurrentLineNumber)
         self.open[-1].children.append(node)
         self.open.append(node)
 
@@ -105,12 +112,22 @@ def parse(data: bytes) -> Node:
     return builder.document.children[0]  # expat has seen that there is one
 
 
-def numbers(text: str, count: int, default: Sequence[float]) -> NDArray[np.float64]:
-    """Return so many numbers of a text, the defaults where there are none. Raises ValueError for other counts."""
-    words = text.split()
-    if not words:
-        return np.array(default, np.float64)
-    values = np.array([float(word) for word in words])
+def numbers(text: str, count: int, default: Sequence[float] = ()) -> NDArray[np.float64]:
+    """Return so many numbers of a text, the defaults if it is empty. Raise ValueError with a wrong text."""
+    values = parse_numbers(text) or default
     if len(values) != count:
         raise ValueError(text)
-    return values
+    return np.array(values, np.float64)
+
+
+def number(text: str, default: float | None = None) -> float:
+    """Return the number of a text, the default if it is empty. Raise ValueError with a wrong text."""
+    return float(numbers(text, 1, () if default is None else (default,))[0])
+
+
+def unreadable(node: Node, error: Exception) -> Finding:
+    """Return the finding about a text that is no number, and the element that holds it, else the node above."""
+    text = str(error)
+    holders = [one for one in node.walk() if any(text in (words, *words.split()) for words in one.texts())]
+    holder = holders[0] if len(holders) == 1 else node
+    return finding("description_number", text=text, element=holder.tag, line=holder.line)

@@ -18,7 +18,6 @@ MESSAGES = {
     "damage_packed_start": ("ihr komprimierter Teil oder was darauf folgt beginnt nicht wie gzip",),
     "damage_packed": ("ihr komprimierter Teil lässt sich nicht entpacken ({error})",),
     "damage_packed_end": ("ihr komprimierter Teil ist abgeschnitten",),
-    "damage_facets": ("nach {count} Dreiecken ist ihr Text nicht der einer STL-Datei",),
     "damage_ply_header": ("ihr Kopf ist nicht der einer PLY-Datei",),
     "damage_ply_rows": ("sie endet oder hat anderes als Zahlen vor dem Ende ihrer {count} Zeilen von „{name}“",),
     "damage_ply_index": ("eine Fläche hat einen Scheitelpunkt, der nicht unter ihren {vertices} ist",),
@@ -33,6 +32,12 @@ MESSAGES = {
         "{count} Zahlen in der Datei sind nicht endlich (NaN oder unendlich), die erste bei {place}. Die Datei "
         "reparieren oder neu exportieren.",
     ),
+    "line_misread": ("Zeile {line} würde falsch gelesen: {cause}. Die Datei reparieren oder neu exportieren.",),
+    "field_not_number": ("„{text}“ ist keine endliche Dezimalzahl",),
+    "field_not_whole": ("„{text}“ ist keine ganze Zahl",),
+    "field_not_vertex": ("„{text}“ verweist auf einen Scheitelpunkt, den es nicht gibt",),
+    "field_not_word": ("„{text}“ steht anstelle von „{expected}“",),
+    "field_count": ("„{text}“ hat zu wenige oder zu viele Zahlen",),
     "at_vertex": ("Scheitelpunkt {vertex}",),
     "at_triangle": ("Dreieck {triangle}",),
     "file_type": ("Nicht unterstützter Dateityp. Unterstützt: {suffixes}.",),
@@ -307,6 +312,9 @@ MESSAGES = {
     "file_not_regular": ("Keine gewöhnliche Datei.",),
     "file_unreadable": ("Die Datei lässt sich nicht lesen: {error}.",),
     "threemf_damaged": ("Die 3MF-Datei ist beschädigt: {error}. Sie neu exportieren.",),
+    "threemf_field": (
+        "Die 3MF-Datei hat „{text}“ in <{element}> auf Zeile {line}, was sich nicht lesen lässt. Sie neu exportieren.",
+    ),
     "threemf_extension": (
         "Die 3MF-Datei braucht eine Erweiterung, die ihre Form ändert und nicht gelesen wird: {name}. Sie als "
         "einfache Netze exportieren.",

@@ -146,7 +146,7 @@ WRONG = {
         '<robot name="r"><link name="a"><inertial><origin xyz="1 2"/></inertial><visual><origin rpy="1"/><geometry>'
         '<sphere radius="1"/></geometry></visual><collision><geometry><sphere radius="big"/></geometry></collision>'
         '<collision><geometry><sphere radius="2"/></geometry></collision></link></robot>',
-        ["1 2", "1", "could not convert string to float: 'big'"],
+        ["1 2", "1", "big"],
     ),
     "robot.sdf": (
         '<sdf><model name="m"><link name="a"><inertial><pose>1</pose></inertial><visual><geometry><box><size>1 2</size>'
@@ -160,7 +160,7 @@ WRONG = {
         ' quat="0 0 0 0"/><geom type="capsule" fromto="0 0 0 0 0 1"/><geom size="1" axisangle="0 0 0 1"/><geom size="1"'
         ' xyaxes="0 0 0 1 0 0"/><geom size="1" xyaxes="0 2 0 0 3 0"/><geom size="1" zaxis="0 0 0"/><geom size="2"/>'
         "</body></worldbody></mujoco>",
-        ["1 2", "1 2", "0 0 0 0", "list index out of range", "0 0 0 1", "0 0 0 1 0 0", "0 2 0 0 3 0", "0 0 0"],
+        ["1 2", "1 2", "0 0 0 0", "", "0 0 0 1", "0 0 0 1 0 0", "0 2 0 0 3 0", "0 0 0"],
     ),
 }
 

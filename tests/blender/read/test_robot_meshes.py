@@ -71,12 +71,12 @@ def test_stl_and_obj(tmp_path, seed):
         relative = [index - 9 for index in face] if number % 2 else [index + 1 for index in face]
         faces.append("f " + " ".join("{}{}".format(i, ["", "/1", "//2", "/1/2"][number]) for i in relative))
     obj = ["# f 1 2 3", "", *("v {} 0.5 0.5 0.5".format(text(point)) for half in halves for point in half)]
-    (tmp_path / "c.obj").write_text("\n".join([*obj, "vn 0 0 1", "g all", *faces]).replace(" ", " \\\n", 1))
+    (tmp_path / "c.obj").write_text("\n".join([*obj, *["vn 0 0 1"] * 2, "g all", *faces]).replace(" ", " \\\n", 1))
     assert check(tmp_path / "c.obj", corners) is None
     for name, content in (
         ("a.stl", binary[:-1].replace(b"solid", b"")),
         ("a.stl", bytes(80) + struct.pack("<I", len(rows) + 1) + binary[84:]),
-        ("b.stl", b"solid vertex 0 0 0 vertex 1 0 0 endsolid"),
+        ("b.stl", b"solid\nvertex 0 0 0 vertex 1 0 0 endsolid"),
         ("b.stl", facets.encode()),
         ("c.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4"),
         ("c.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 -4"),

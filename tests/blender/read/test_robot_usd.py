@@ -268,7 +268,7 @@ def test_usd_operations_of_other_counts_do_nothing(tmp_path):
 def test_usd_shapes_are_as_large_as_each_axis_says(tmp_path):
     scale = 'float3 xformOp:scale = ({})\nuniform token[] xformOpOrder = ["xformOp:scale"]\n'
     prims = [
-        *('def Cube "a" {', 'def Sphere "a" { double radius = (3, 4)', 'def Sphere "a" { double radius = none'),
+        *('def Cube "a" {', 'def Sphere "a" { double radius = (3, 4)', 'def Sphere "a" { double radius = None'),
         *('def Cylinder "a" { uniform token axis = "{}"'.replace("{}", axis) for axis in ("X", "Y", "Z", "W")),
         *('def Capsule "a" { token axis = "X"', 'def Capsule "a" {', 'def Cone "a" {'),
     ]

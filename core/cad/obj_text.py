@@ -1,0 +1,153 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The numbers in statements of .obj files: vertices and their indices, parameters of free-form curves and surfaces.
+
+Blender puts 0 where a number is missing or none, leaves out faces with a wrong index, and does not read the statement
+behind a byte order mark.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import chain
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..streams.misread import (
+    BLOCK,
+    MARK,
+    SHORT,
+    SHORT_OR_NAN,
+    SHORT_WHOLE,
+    Data,
+    count_fault,
+    find_number_fault,
+    find_whole_fault,
+    refuse_line,
+    shorten,
+)
+from ..verdict.finding import Finding, finding
+
+VERTICES = {b"v": 3, b"vt": 1, b"vn": 3, b"vp": 1}  # the least count of numbers
+INDICES = {b"f": 3, b"l": 2, b"p": 1}  # the least count of indices
+WHOLE = {b"deg": 1, b"curv2": 2}  # the least count of whole numbers
+FREE_FORM = {b"surf": 4, b"curv": 2}  # the count of numbers before the indices
+_KINDS = b"|".join([*VERTICES, *INDICES, *WHOLE, *FREE_FORM, b"parm"])
+_MARKED = re.compile(MARK + rb"[ \t]*(?:" + _KINDS + rb")(?!\S)")
+_SPACES = bytes.maketrans(bytes(range(10)) + bytes(range(11, 13)) + bytes(range(14, 32)), b" " * 30)  # not \n, \r
+_NEXT = b" \v "  # joins a line and its continuation, so that lines can still be counted
+_INDEX = rb"%b(?:/(?:%b)?+){0,2}+" % (SHORT_WHOLE, SHORT_WHOLE)
+_ONE_INDEX = re.compile(_INDEX)
+_FIELDS = {name: rb"(?:[ \r\v]++%b)" % field for name, field in ((b"n", SHORT), (b"m", SHORT_OR_NAN), (b"i", _INDEX))}
+_LINES = re.compile(
+    rb"(?:(?:v(?:%(n)b{3,}+|t%(m)b++|n%(m)b{3,}+)|f%(i)b{3,}+|l%(i)b{2,}+|p%(i)b++)[ \r\v]*+\n"
+    rb"|[ \r\v]*+(?!(?:%(kinds)b)(?!\S))[^\n]*+\n)*+" % {**_FIELDS, b"kinds": _KINDS}
+)
+
+
+def check_obj_text(data: Data) -> None:
+    """Raise FileError if an importer would misread a statement."""
+    if _MARKED.match(data[:BLOCK]):
+        refuse_line(data, 0, finding("field_not_word", text="U+FEFF", expected="v"))
+    counts = np.zeros(3, np.int64)  # of v, vt and vn before the block
+    for start, text in _blocks(data):
+        suspects, counts = _find_suspects(text, counts)
+        for at, before in suspects:
+            fault = _find_fault(text[at : text.index(b"\n", at)], before)
+            if fault is not None:
+                for _ in range(text.count(b"\n", 0, at) + text.count(b"\v", 0, at)):
+                    start = data.find(b"\n", start) + 1
+                refuse_line(data, start, fault)
+
+
+def _blocks(data: Data) -> Iterator[tuple[int, bytes]]:
+    """Yield the starts and texts of blocks of whole statements, a line each."""
+    start = 0
+    while start < len(data):
+        end = data.rfind(b"\n", start, start + BLOCK) + 1 or data.find(b"\n", start) + 1 or len(data)
+        while end < len(data) and data[max(start, end - 3) : end].endswith((b"\\\n", b"\\\r\n")):
+            end = data.find(b"\n", end) + 1 or len(data)
+        text = data[start:end].translate(_SPACES).replace(b"\\\r\n", _NEXT).replace(b"\\\n", _NEXT)
+        yield start, text if text.endswith(b"\n") else text + b"\n"
+        start = end
+
+
+def _find_suspects(text: bytes, counts: NDArray) -> tuple[list[tuple[int, NDArray]], NDArray]:
+    """Return the places of statements that may be wrong, with the counts of v, vt and vn before each, and the counts
+    behind the text. counts: those before the text."""
+    letters = np.frombuffer(text + b"\n\n\n", np.uint8)  # so that three letters of any word can be looked at
+    is_word = letters > ord(" ")
+    is_word[1:] &= letters[:-1] <= ord(" ")
+    ends = np.flatnonzero(letters[:-3] == ord("\n"))
+    starts = np.append(0, ends[:-1] + 1)
+    words = np.append(np.flatnonzero(is_word), len(text))
+    first = words[np.searchsorted(words, starts)]
+    kind, second, third = (np.where(first < ends, letters[first + shift], 0) for shift in range(3))
+    is_vertex = kind == ord("v")
+    kinds = [is_vertex & (second <= ord(" "))]
+    kinds += [is_vertex & (second == ord(letter)) & (third <= ord(" ")) for letter in "tn"]
+    behind = counts[:, None] + np.cumsum(kinds, axis=1)
+    before = behind - kinds
+    is_odd = np.zeros(len(starts), bool)
+    at = 0
+    while (at := _LINES.match(text, at).end()) < len(text):  # type: ignore[union-attr]
+        is_odd[np.searchsorted(starts, at)] = True
+        at = text.index(b"\n", at) + 1
+    is_indexed = np.isin(kind, [ord(letter) for letter in "flp"]) & (second <= ord(" ")) & ~is_odd
+    if is_indexed.any():
+        at, role, value = _indices(letters[:-3], is_word, np.repeat(is_indexed, ends - starts + 1))
+        least = before[:, np.argmax(is_indexed)]
+        at, role, value = (row[(value == 0) | (value > least[role])] for row in (at, role, value))
+        line = np.searchsorted(starts, at, "right") - 1
+        limit = before[role, line]
+        # Importers ignore vt and vn if there are none.
+        is_odd[line[((value == 0) | (value > limit)) & ((role == 0) | (limit > 0))]] = True
+    return [(int(starts[line]), before[:, line]) for line in np.flatnonzero(is_odd)], behind[:, -1]
+
+
+def _indices(letters: NDArray, is_word: NDArray, is_inside: NDArray) -> tuple[NDArray, NDArray, NDArray]:
+    """Return the places of indices, whether each is of v, vt or vn (0, 1, 2), and how far they count."""
+    is_part = is_inside & ((letters - ord("0") < 10) | (letters == ord("-")) | (letters == ord("+")))
+    at = np.flatnonzero(is_part & ~np.append(False, is_part[:-1]))
+    text = np.where(is_part, letters, np.uint8(ord(" "))).tobytes()
+    value = np.abs(np.fromstring(text, np.int64, sep=" "))
+    is_first = is_word[at]
+    slashes = np.cumsum(np.where(is_first, 0, 1 + (letters[at - 2] == ord("/"))))
+    return at, slashes - np.maximum.accumulate(np.where(is_first, slashes, 0)), value
+
+
+def _find_fault(line: bytes, before: Sequence[int]) -> Finding | None:
+    """Return what an importer would misread in a statement, or None. before: counts of v, vt and vn."""
+    kind = line.split(None, 1)[0]
+    # Blender takes a comment behind an index without a space for a part of it.
+    words = re.split(rb"\s#" if kind in INDICES else b"#", line)[0].split()[1:]
+    faults: Iterable[Finding | None]
+    if kind in VERTICES:
+        least = VERTICES[kind]
+        faults = (find_number_fault(word, kind == b"v" and place < 3) for place, word in enumerate(words))
+    elif kind in INDICES:
+        least, faults = INDICES[kind], (_find_index_fault(word, before) for word in words)
+    elif kind in WHOLE:
+        least, faults = WHOLE[kind], map(find_whole_fault, words)
+    else:
+        numbers = FREE_FORM.get(kind, len(words))
+        least = numbers + 1 if kind in FREE_FORM else 2
+        values = words[1:] if kind == b"parm" else words[:numbers]
+        faults = chain(
+            (find_number_fault(word, True) for word in values),
+            (_find_index_fault(word, before) for word in words[numbers:]),
+        )
+    fault = next(filter(None, faults), None)
+    return count_fault(line.split()) if fault is None and len(words) < least else fault
+
+
+def _find_index_fault(word: bytes, before: Sequence[int]) -> Finding | None:
+    """Return why a word is no index of v, vt and vn, or None. Importers ignore vt and vn where there are none."""
+    if not _ONE_INDEX.fullmatch(word):
+        return finding("field_not_whole", text=shorten(word))
+    for role, (number, count) in enumerate(zip(word.split(b"/"), before)):
+        if number and not 0 < abs(int(number)) <= count and (count or not role):
+            return finding("field_not_vertex", text=shorten(word))
+    return None

@@ -1,0 +1,70 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Fields of text files that importers would misread in silence, and the refusal that names line and text.
+
+Most lines are checked by a regular expression that knows only short numbers, all others word by word.
+"""
+
+from __future__ import annotations
+
+import mmap
+import re
+from pathlib import Path
+from typing import NoReturn
+
+from ..verdict.finding import FileError, Finding, finding
+from ..verdict.number_text import parse_number, parse_whole
+
+MAX_FLOAT32 = 3.4028235677973366e38  # larger numbers are infinite in float32
+MAX_TEXT = 60  # letters of a line that are shown
+BLOCK = 1 << 18  # bytes
+MARK = b"\xef\xbb\xbf"  # of the order of bytes
+# Decimal numbers below 1e38, so that nobody needs to compute them, and these or NaN.
+SHORT = rb"[+-]?(?:[0-9]{1,8}+(?:\.[0-9]*+)?+|\.[0-9]++)(?:[eE](?:-[0-9]++|\+?0?[0-2]?[0-9]))?+"
+SHORT_OR_NAN = rb"(?:" + SHORT + rb"|[+-]?[nN][aA][nN])"
+SHORT_WHOLE = rb"[+-]?[0-9]{1,18}+"
+_NOT_FINITE = re.compile(rb"[+-]?(?:nan|inf|infinity|nan\([\w]*\)|1\.#\w+)", re.IGNORECASE)  # as C prints them
+
+Data = mmap.mmap | bytes
+
+
+def map_file(path: str | Path) -> mmap.mmap:
+    """Return the bytes of a file that is not empty."""
+    with open(path, "rb") as file:
+        return mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ)
+
+
+def find_number_fault(word: bytes, places_point: bool) -> Finding | None:
+    """Return why a word is no number, or None. Only numbers that place a point must be finite in float32."""
+    try:
+        value = parse_number(word.decode("utf-8", "replace"))
+    except ValueError:
+        is_number = not places_point and _NOT_FINITE.fullmatch(word) is not None
+    else:
+        is_number = not places_point or abs(value) < MAX_FLOAT32
+    return None if is_number else finding("field_not_number", text=shorten(word))
+
+
+def find_whole_fault(word: bytes) -> Finding | None:
+    """Return why a word is no whole number, or None."""
+    try:
+        parse_whole(word.decode("utf-8", "replace"))
+    except ValueError:
+        return finding("field_not_whole", text=shorten(word))
+    return None
+
+
+def count_fault(words: list[bytes]) -> Finding:
+    """Return the finding about a line with too few or too many fields."""
+    return finding("field_count", text=shorten(b" ".join(words)))
+
+
+def shorten(text: bytes) -> str:
+    """Return the beginning of a text as it is shown."""
+    return text[: 4 * MAX_TEXT].decode("utf-8", "replace")[:MAX_TEXT]
+
+
+def refuse_line(data: Data, at: int, fault: Finding) -> NoReturn:
+    """Raise the FileError about the line that holds a place."""
+    line = 1 + sum(data[start : min(start + BLOCK, at)].count(b"\n") for start in range(0, at, BLOCK))
+    raise FileError("line_misread", line=line, cause=fault.as_record())

@@ -1,0 +1,56 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The grammar of .stl files in text: words, wherever lines end, but for the names of solids.
+
+Blender takes a fourth corner, a corner in a comment or in the name of another solid, and a number that is none, for
+corners of the next triangles.
+"""
+
+from __future__ import annotations
+
+import re
+from itertools import islice
+
+from ..verdict.finding import FileError, Finding, finding
+from .misread import SHORT, SHORT_OR_NAN, Data, find_number_fault, refuse_line, shorten
+
+_FIRST_LINE = re.compile(rb"(?:\xef\xbb\xbf)?[ \t]*solid[^\n]*", re.IGNORECASE)
+_NORMAL, _CORNER = ((rb"(?:\s++" + number + rb"){3}") for number in (SHORT_OR_NAN, SHORT))
+_LINES = re.compile(
+    rb"(?:\s*+(?:(?:end)?solid\b(?:(?!\s(?:vertex|facet)\s)[^\n])*+(?!\S)|facet\s++normal%b\s++outer\s++loop"
+    rb"(?:\s++vertex%b){3}\s++endloop\s++endfacet(?!\S)))*+\s*+" % (_NORMAL, _CORNER),
+    re.IGNORECASE,
+)
+_WORD = re.compile(rb"\S+")
+_CORNER_WORDS = ["vertex", True, True, True]  # whether a number places a point
+_FACET_WORDS = ["facet", "normal", *3 * [False], "outer", "loop", *3 * _CORNER_WORDS, "endloop", "endfacet"]
+
+
+def check_stl_text(data: Data) -> None:
+    """Raise FileError if an importer would misread a word."""
+    first = _FIRST_LINE.match(data)
+    at = first.end() if first else 0
+    while (at := _end(data, at)) < len(data):
+        words = list(islice(_WORD.finditer(data, at), len(_FACET_WORDS)))
+        is_cut = len(words) < len(_FACET_WORDS)
+        for word, expected in zip(words[:-1] if is_cut else words, _FACET_WORDS):
+            fault = _find_fault(word[0], expected)
+            if fault is not None:
+                refuse_line(data, word.start(), fault)
+        if is_cut:
+            raise FileError("stl_cut_short")
+        at = words[-1].end()
+
+
+def _find_fault(word: bytes, expected: str | bool) -> Finding | None:
+    if isinstance(expected, bool):
+        return find_number_fault(word, expected)
+    if word.lower() == expected.encode():
+        return None
+    return finding("field_not_word", text=shorten(word), expected=expected)
+
+
+def _end(data: Data, at: int) -> int:
+    """Return the end of the facets and names of solids that begin at a place."""
+    matched = _LINES.match(data, at)
+    return matched.end() if matched else at
