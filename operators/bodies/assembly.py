@@ -143,7 +143,7 @@ def measure_members(
 
 def assemble(root: Member, results: Results, depsgraph: Depsgraph, options: MeasureOptions = AS_SET) -> Assembly:
     """Return the assembly that measured members come to. MeasureError where it has no mass."""
-    unit = options.unit_scale or shortest_decimal(depsgraph.scene.unit_settings.scale_length)
+    unit = options.meters_per_unit(depsgraph.scene)
     whole = member_body(root, results, unit)
     return Assembly(whole, assembly_measurement(whole, depsgraph, unit))
 

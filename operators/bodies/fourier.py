@@ -17,7 +17,6 @@ from ...core.fourier.spectrum import APPROXIMATE, Spectrum
 from ...core.fourier.wave_vectors import FrequencyGrid
 from ...core.mesh.surface import Surface
 from ...core.moments.moments import Measure
-from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import Finding, MeasureError, ReadError, finding
 from ...core.verdict.method import Verdict
 from ..read import Reading, read_object, shows_flat_region
@@ -72,7 +71,7 @@ def object_transform(
     ∫ exp(-i q·x) dV of a solid, and thickness times ∫ exp(-i q·x) dA of a shell.
     Raises MeasureError where there is no transform.
     """
-    unit = options.unit_scale or shortest_decimal(depsgraph.scene.unit_settings.scale_length)
+    unit = options.meters_per_unit(depsgraph.scene)
     resolved = with_object_settings(options, obj, unit, depsgraph.scene)
     reading = read_object(obj, depsgraph)
     shell = resolved.kind == "shell"

@@ -112,7 +112,7 @@ class _Collector:
 
     def __init__(self, depsgraph: bpy.types.Depsgraph, options: MeasureOptions):
         self.depsgraph, self.options, self.scene = depsgraph, options, depsgraph.scene
-        self.unit = options.unit_scale or shortest_decimal(self.scene.unit_settings.scale_length)
+        self.unit = options.meters_per_unit(self.scene)
         self.members: list[StackMember] = []
         self.shapes: list[MeshShape] = []
         self.faces = 0

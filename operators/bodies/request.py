@@ -57,7 +57,7 @@ class Request:
         opened: ExitStack | None = None,
     ) -> Request:
         """Return what is asked of an object. unit: meters per Blender unit, by default the scene's."""
-        unit = unit or given.unit_scale or shortest_decimal(depsgraph.scene.unit_settings.scale_length)
+        unit = unit or given.meters_per_unit(depsgraph.scene)
         return cls(
             with_object_settings(given, obj, unit, _scene(depsgraph)),
             unit,

@@ -42,7 +42,8 @@ def parse(argv: list[str], file_needed: bool = False) -> argparse.Namespace:
         if len(options.files) > 1:
             fail(finding("robot_one_file", count=len(options.files)))
         options.frame = "object"  # of the links
-        given = [name for name in ("density", "mass", "kind", "thickness") if getattr(options, name) is not None]
+        of_bodies = ("density", "mass", "material", "kind", "thickness", "wall", "overlap")
+        given = [name for name in of_bodies if getattr(options, name) is not None]
         if options.links == "bone" and given:
             fail(finding("usage_links_of_bones", option=given[0]))
     if options.meshes and (options.output is None or is_stdout(options.output)):

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from argparse import Namespace
 from collections.abc import Sequence
+from dataclasses import replace
 from functools import partial
 from typing import Any
 
@@ -31,12 +32,25 @@ from .objects import failure
 MeasuredObject = tuple[str, bpy.types.Object | None, Measurement]
 
 
-def complete(document: dict[str, Any], measured: Sequence[MeasuredObject], options: Namespace) -> dict[str, Any]:
-    """Return a document with its records as links and the entry `robot`, where such a format is asked for; what the
-    format cannot say goes to the standard error."""
+def complete(
+    document: dict[str, Any],
+    measured: Sequence[MeasuredObject],
+    options: Namespace,
+    measure_options: MeasureOptions,
+    *,
+    is_opened: bool,
+) -> dict[str, Any]:
+    """Return a document with its records as links and the entry `robot`, if such a format is asked for; print the
+    findings of the format to the standard error.
+
+    measure_options: of the measurements. is_opened: whether the file is the open scene, with its collections and bones.
+    """
     if options.format not in ROBOT_FORMATS:
         return document
-    made = _by_object(document, measured) if options.links == "object" else _of_scene(document, measured, options)
+    if options.links == "object" or not is_opened:
+        made = _by_object(document, measured, measure_options)
+    else:
+        made = _of_scene(document, measured, options.links, measure_options)
     with_meshes, embedded = options.meshes and not options.inertial_only, options.format in EMBEDDING
     text, findings = robot_text(
         made.robot,
@@ -53,7 +67,9 @@ def complete(document: dict[str, Any], measured: Sequence[MeasuredObject], optio
     return {**document, "robot": text, "errors": [*document["errors"], *refused]}
 
 
-def _by_object(document: dict[str, Any], measured: Sequence[MeasuredObject]) -> SceneLinks:
+def _by_object(
+    document: dict[str, Any], measured: Sequence[MeasuredObject], measure_options: MeasureOptions
+) -> SceneLinks:
     """From the records of objects, which get the entry `link`."""
     labels = {obj: label for label, obj, _ in measured if obj is not None}
     links = {label: link_entry(one) if obj is None else object_entry(obj, one, labels) for label, obj, one in measured}
@@ -61,20 +77,22 @@ def _by_object(document: dict[str, Any], measured: Sequence[MeasuredObject]) -> 
         if entry["name"] in links:
             entry["link"] = links[entry["name"]]
     robot, findings = robot_of_document(document)
-    return SceneLinks(robot, findings, {label: [obj] for obj, label in labels.items()})
+    unit = measure_options.meters_per_unit(bpy.context.scene)
+    return SceneLinks(robot, findings, unit, {label: [obj] for obj, label in labels.items()})
 
 
-def _of_scene(document: dict[str, Any], measured: Sequence[MeasuredObject], options: Namespace) -> SceneLinks:
+def _of_scene(
+    document: dict[str, Any], measured: Sequence[MeasuredObject], links: str, measure_options: MeasureOptions
+) -> SceneLinks:
     """From the scene's collections or bones."""
     name, context = robot_name(document["file"]), bpy.context
     try:
-        if options.links == "bone":
+        if links == "bone":
             return bone_links(context, name, [obj for obj in context.view_layer.objects if not obj.hide_render])
-        given = MeasureOptions(**{key: getattr(options, key) for key in ("kind", "density", "mass", "thickness")})
         objects = [obj for _, obj, _ in measured if obj is not None]
-        return collection_links(context, name, context.scene.collection, objects, given)
+        return collection_links(context, name, context.scene.collection, objects, replace(measure_options, order=None))
     except MeasureError as error:
-        return SceneLinks(Robot(name, ()), [error.finding])
+        return SceneLinks(Robot(name, ()), [error.finding], measure_options.meters_per_unit(context.scene))
 
 
 def _write_meshes(made: SceneLinks, options: Namespace) -> Finding:

@@ -117,20 +117,20 @@ class Run:
     def _measured(self, path: str | None, file: str | None, place: Place | None) -> dict[str, Any]:
         measured: list[tuple[str, bpy.types.Object, Measurement]] = []
         objects, flats, errors, caveats, left_out, combined = [], [], [], [], [], Combined()
-        self._status = None
+        self._status, wanted, is_opened = None, self._measure_options, False
         try:
             if path is not None and is_bare(path, self.options, self.memory):
                 bare = BareFile(path, self.options)
-                bare.measure(self._measure_options, self.progress)
+                bare.measure(wanted, self.progress)
                 objects, measured, errors = bare.objects, bare.measured, bare.errors
                 self._status = _STATUSES.get(bare.refusal.finding.code) if bare.refusal else None
-                wanted = self._measure_options
                 caveats += open_body_caveats((label, one.method) for label, _, one in measured)
             else:
                 opened = self._open(path, file)
+                is_opened = True
                 # Not by way of the scene, whose unit scale is a float32 with limits.
                 unit = (self.options.unit_scale or 1.0) if is_unitless(path) else None
-                wanted = replace(self._measure_options, unit_scale=unit)
+                wanted = replace(wanted, unit_scale=unit)
                 chosen, left_out, errors = objects_to_measure(self.options.object, self.options.all)
                 errors += [failure(None, reason) for reason in (*opened.errors, *missing_links())]
                 of_file = (
@@ -182,7 +182,7 @@ class Run:
             status=self._status,
         )
         made |= combined.records(self.options.frame) | ({"flat": flats} if self.options.flat else {})
-        return robots.complete(made, measured, self.options)
+        return robots.complete(made, measured, self.options, wanted, is_opened=is_opened)
 
     def _measure_each(
         self,

@@ -14,7 +14,6 @@ from numpy.typing import NDArray
 
 from ...core.measurement import Measurement
 from ...core.mesh.surface import Surface, join_surfaces
-from ...core.numerics.float32 import shortest_decimal
 from ...core.robots.model import Robot
 from ...core.verdict.finding import EditRefusedError, Finding, MeasureError, finding
 from ..bodies.assembly import measure_assembly
@@ -32,12 +31,13 @@ from ..write.robots.from_records import brief_record, robot_of_records
 class SceneLinks:
     """A robot made from the scene.
 
-    robot, findings: and what was left out. members: the objects of each link. pieces: of each bone, the surfaces and
-    the maps that put them into the world, m.
+    robot, findings: and what was left out. unit: meters per Blender unit, for the inertials and for `surface`.
+    members: the objects of each link. pieces: of each bone, the surfaces and the maps that put them into the world, m.
     """
 
     robot: Robot
     findings: list[Finding]
+    unit: float
     members: dict[str, list[Object]] = field(default_factory=dict)
     pieces: dict[str, tuple[tuple[Surface, NDArray[np.float64]], ...]] = field(default_factory=dict)
 
@@ -46,7 +46,7 @@ class SceneLinks:
         pose = self.robot.link(label).pose
         if label not in self.pieces:
             depsgraph = context.evaluated_depsgraph_get()
-            return link_surface(self.members.get(label, ()), depsgraph, pose, meters_per_unit(context))
+            return link_surface(self.members.get(label, ()), depsgraph, pose, self.unit)
         to_link = pose.inverse()
         return join_surfaces(
             [
@@ -56,11 +56,6 @@ class SceneLinks:
                 for surface, matrix in self.pieces[label]
             ]
         )
-
-
-def meters_per_unit(context: Context) -> float:
-    """Return what a Blender unit is in the scene."""
-    return shortest_decimal(context.scene.unit_settings.scale_length)
 
 
 def candidates(context: Context, collection: str, selected: bool) -> list[Object]:
@@ -96,7 +91,8 @@ def object_links(
         records.append(brief_record(labels[obj], measurement, object_entry(obj, measurement, labels)))
     robot, findings = robot_of_records(name, records)
     members = {label: [obj] for obj, label in labels.items()}
-    return SceneLinks(robot, [*findings, *left_out(failures, len(chosen))], members)
+    unit = AS_SET.meters_per_unit(context.scene)
+    return SceneLinks(robot, [*findings, *left_out(failures, len(chosen))], unit, members)
 
 
 def collection_links(
@@ -120,7 +116,8 @@ def collection_links(
     if not records:
         raise EditRefusedError(failures[0])
     robot, findings = robot_of_records(name, records)
-    return SceneLinks(robot, [*findings, *left_out(failures, len(collections))], members)
+    unit = options.meters_per_unit(context.scene)
+    return SceneLinks(robot, [*findings, *left_out(failures, len(collections))], unit, members)
 
 
 def bone_links(context: Context, name: str, objects: list[Object]) -> SceneLinks:
@@ -147,7 +144,7 @@ def bone_links(context: Context, name: str, objects: list[Object]) -> SceneLinks
     if not records:
         raise EditRefusedError("robot_without_bones")
     robot, left = robot_of_records(name, records)
-    return SceneLinks(robot, [*findings, *left], pieces=pieces)
+    return SceneLinks(robot, [*findings, *left], AS_SET.meters_per_unit(context.scene), pieces=pieces)
 
 
 def left_out(failures: list[Finding], total: int) -> list[Finding]:

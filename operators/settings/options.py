@@ -7,6 +7,10 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Any
 
+from bpy.types import Scene
+
+from ...core.numerics.float32 import shortest_decimal
+
 
 @dataclass(frozen=True)
 class MeasureOptions:
@@ -33,6 +37,10 @@ class MeasureOptions:
     pose: bool = False
     compare: bool = True
     axes: bool = True
+
+    def meters_per_unit(self, scene: Scene) -> float:
+        """Return the length of a Blender unit in meters: the given one, else the scene's."""
+        return self.unit_scale or shortest_decimal(scene.unit_settings.scale_length)
 
 
 @dataclass(frozen=True)

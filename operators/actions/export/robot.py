@@ -19,7 +19,7 @@ from bpy_extras.io_utils import ExportHelper
 from ....core.verdict.finding import EditRefusedError, FileError, Finding, MeasureError, finding, system_reason
 from ...read.links import USD_ROOT, sheared_objects, usd_path
 from ...session import robot_links as scenes
-from ...session.robot_links import SceneLinks, meters_per_unit
+from ...session.robot_links import SceneLinks
 from ...write import reports
 from ...write.messages import sentence
 from ...write.robots import gltf, usd
@@ -206,7 +206,7 @@ class EXPORT_SCENE_OT_body_moments_usd(GeometryExport, Operator):
         if scaled:
             findings.append(finding("robot_scaled", count=len(scaled), links=scaled))
         remarks = list(map(sentence, findings))
-        text = usd.write_over(robot, paths, "./" + geometry.name, meters_per_unit(context), remarks)
+        text = usd.write_over(robot, paths, "./" + geometry.name, made.unit, remarks)
         with whole_file(path) as file:
             file.write(text.encode("utf-8"))
         return findings
@@ -227,7 +227,7 @@ class EXPORT_SCENE_OT_body_moments_gltf(GeometryExport, Operator):
         self._run_exporter("export_scene.gltf", path, options)
         data = path.read_bytes()
         document = gltf.read_json(data)
-        findings += gltf.add_rigid_bodies(document, made.robot, meters_per_unit(context))
+        findings += gltf.add_rigid_bodies(document, made.robot, made.unit)
         with whole_file(path) as file:
             file.write(gltf.replace_json(data, document))
         return findings

@@ -115,7 +115,8 @@ def test_values_are_taken_or_refused_with_their_reason(option, capsys):
         (["a", "b", "--format", "urdf"], "robot_one_file", {"count": 2}),
         *(
             (["--format", "sdf", "--links", "bone", option, value], "usage_links_of_bones", {"option": option[2:]})
-            for option, value in (("--density", "1"), ("--mass", "1"), ("--kind", "solid"), ("--thickness", "1"))
+            for option, value in (("--density", "1"), ("--mass", "1"), ("--kind", "solid"), ("--thickness", "1"),
+                                  ("--material", "Brass"), ("--wall", "thin"), ("--overlap", "union"))
         ),
         (["a", "--meshes", "--format", "urdf"], None, {}),
         *(

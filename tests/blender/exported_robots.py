@@ -1,0 +1,124 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Exported robots read back: each link's inertial beside the mesh that the file gives it."""
+
+import base64
+import json
+from dataclasses import dataclass
+
+import numpy as np
+from body_moments.core.numerics.rotations import rotation_matrix
+from body_moments.operators.command import audit
+from body_moments.operators.read.robots.descriptions import read_description
+from body_moments.operators.read.robots.meshes import read_mesh
+from body_moments.operators.read.robots.paths import Roots
+from body_moments.operators.write.robots import gltf
+
+SUFFIXES = {"urdf": ".urdf", "sdf": ".sdf", "mjcf": ".xml", "usd": ".usda", "gltf": ".gltf"}
+TYPES = {5121: "<u1", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
+KHR = "KHR_physics_rigid_bodies"
+
+
+@dataclass
+class ExportedLink:
+    """A link in kg and meters: its inertial, and the corners (n, 3, 3) of its mesh's triangles, none without a mesh."""
+
+    mass: float
+    center: np.ndarray
+    inertia: np.ndarray
+    corners: np.ndarray
+
+    @property
+    def sides(self):
+        """(3,) the extent of the mesh along the axes of the link, of a glTF along the scene's."""
+        points = self.corners.reshape(-1, 3)
+        return points.max(axis=0) - points.min(axis=0)
+
+
+def assert_filled(link, density, rel=1e-5):
+    """The inertial is that of the mesh filled with this density: sums over tetrahedra from the origin."""
+    a, b, c = link.corners.astype(np.float64).transpose(1, 0, 2)
+    volumes = np.einsum("ij,ij->i", a, np.cross(b, c)) / 6.0
+    total, size = density * volumes.sum(), link.sides.max()
+    assert abs(link.mass - total) <= rel * total
+    center = (volumes[:, None] * (a + b + c) / 4.0).sum(axis=0) / volumes.sum()
+    assert np.abs(link.center - center).max() <= rel * size
+    a, b, c = a - center, b - center, c - center
+    volumes = np.einsum("ij,ij->i", a, np.cross(b, c)) / 6.0
+    apex = np.zeros_like(a)
+    pairs = sum(np.einsum("ni,nj->nij", p, q) * (1 + (p is q)) for p in (a, b, c, apex) for q in (a, b, c, apex)) / 20
+    second = density * np.einsum("n,nij->ij", volumes, pairs)
+    inertia = np.trace(second) * np.eye(3) - second
+    assert np.abs(link.inertia - inertia).max() <= rel * np.abs(inertia).max()
+
+
+def exported_links(path):
+    """Return the links of a file by name; of a format that the audit reads, it has to find nothing but notes."""
+    data = path.read_bytes()
+    if path.suffix in (".gltf", ".glb"):
+        return _gltf_links(data)
+    _, faults, internal = audit.answer(audit.parse(["audit", str(path)]))
+    assert (faults, internal) == (0, 0)
+    roots = Roots.of(path)
+    links = [link for link in read_description(path, roots).links if link.inertial is not None]
+    return {link.name.rsplit("/", 1)[-1]: _stated(link, roots) for link in links}
+
+
+def _stated(link, roots):
+    corners = [_corners(shape, roots) for shape in link.shapes if shape.role == "collision"]
+    corners = np.concatenate(corners) if corners else np.zeros((0, 3, 3))
+    return ExportedLink(link.inertial.mass, link.inertial.center, link.inertial.inertia, corners)
+
+
+def _corners(stated, roots):
+    if stated.points is not None:
+        return stated.points[stated.triangles]
+    surface, _ = read_mesh(roots.find(stated.shape.file))
+    pose = stated.shape.pose
+    return surface.points[surface.all_triangles()[0]] @ pose.rotation.T + pose.position
+
+
+def _gltf_links(data):
+    """In the axes of the scene, which are y up."""
+    document = gltf.read_json(data)
+    uri = document.get("buffers", [{}])[0].get("uri")
+    start = 28 + int.from_bytes(data[12:16], "little")  # of the second chunk's bytes in a .glb
+    binary = data[start:] if uri is None else base64.b64decode(uri.split(",", 1)[1])
+    nodes, links = document["nodes"], {}
+
+    def matrix(node):
+        x, y, z, w = node.get("rotation", (0, 0, 0, 1))
+        placed = np.eye(4)
+        placed[:3, :3] = rotation_matrix([w, x, y, z]) * np.array(node.get("scale", (1.0, 1.0, 1.0)))
+        placed[:3, 3] = node.get("translation", (0, 0, 0))
+        return placed
+
+    def array(index):
+        accessor = document["accessors"][index]
+        view = document["bufferViews"][accessor["bufferView"]]
+        width = {"SCALAR": 1, "VEC3": 3}[accessor["type"]]
+        start = view.get("byteOffset", 0) + accessor.get("byteOffset", 0)
+        values = np.frombuffer(binary, TYPES[accessor["componentType"]], accessor["count"] * width, start)
+        return values.reshape(-1, width).astype(np.float64)
+
+    def visit(index, above, body):
+        node = nodes[index]
+        here = above @ matrix(node)
+        motion = node.get("extensions", {}).get(KHR, {}).get("motion")
+        if motion is not None:
+            turn = here[:3, :3] / np.linalg.norm(here[:3, :3], axis=0)
+            x, y, z, w = motion["inertiaOrientation"]
+            turn = turn @ rotation_matrix([w, x, y, z])
+            center = here[:3, :3] @ motion["centerOfMass"] + here[:3, 3]
+            inertia = (turn * motion["inertiaDiagonal"]) @ turn.T
+            body = links[node["name"]] = ExportedLink(motion["mass"], center, inertia, np.zeros((0, 3, 3)))
+        for primitive in document["meshes"][node["mesh"]]["primitives"] if "mesh" in node else ():
+            points = array(primitive["attributes"]["POSITION"]) @ here[:3, :3].T + here[:3, 3]
+            corners = points[array(primitive["indices"]).astype(int).reshape(-1, 3)]
+            body.corners = np.concatenate([body.corners, corners])
+        for child in node.get("children", ()):
+            visit(child, here, body)
+
+    for index in document["scenes"][0]["nodes"]:
+        visit(index, np.eye(4), None)
+    return links
