@@ -1911,7 +1911,8 @@ MESSAGES: dict[str, Message] = {
         "{count} links have no nodes of their own in the file: {links}.",
     ),
     "gltf_unit_scale": _note(
-        "Blender writes its units to glTF as meters. Center and inertia are in these, at {scale:g} m a unit."
+        "Blender writes its units to glTF as meters: a node above all others scales them by {scale:g}. Readers differ "
+        "about bodies that are scaled."
     ),
     "gltf_unreadable": _error("Blender's exporter has not written a glTF file."),
     "robot_geometry_not_written": _error("Blender's exporter failed: {error}."),

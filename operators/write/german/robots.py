@@ -62,8 +62,8 @@ MESSAGES = {
         "{count} Glieder haben in der Datei keine eigenen Knoten: {links}.",
     ),
     "gltf_unit_scale": (
-        "Blender schreibt seine Einheiten als Meter nach glTF. Mittelpunkt und Trägheit stehen darin, mit {scale:g} "
-        "m je Einheit.",
+        "Blender schreibt seine Einheiten als Meter nach glTF: ein Knoten über allen anderen skaliert sie mit "
+        "{scale:g}. Skalierte Körper lesen Programme verschieden.",
     ),
     "gltf_unreadable": ("Blenders Exporter hat keine glTF-Datei geschrieben.",),
     "robot_geometry_not_written": ("Blenders Exporter ist gescheitert: {error}.",),

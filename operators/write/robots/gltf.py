@@ -3,8 +3,9 @@
 """Rigid bodies in a glTF file that Blender's exporter has written: KHR_physics_rigid_bodies and OMI_physics_body.
 
 The nodes stay as they are; those of bodies get the two extensions. Blender's z up is glTF's y up: (x, y, z) becomes
-(x, z, -y). Blender writes its own units as meters, whatever the scene's unit scale, and so are these. A body that
-others are fixed to has the mass of all of them; nodes without a motion of their own move with the one above.
+(x, z, -y). Blender writes its own units as meters, whatever the scene's unit scale, so a node above all others scales
+them. A body that others are fixed to has the mass of all of them; nodes without a motion of their own move with the one
+above.
 """
 
 from __future__ import annotations
@@ -27,17 +28,15 @@ UNIFORM_RTOL = 1e-6  # of scales that float32 rounding alone sets apart
 _GLB, _JSON = 0x46546C67, 0x4E4F534A
 
 
-def motion(inertial: Inertial, meters_per_unit: float, scale: ArrayLike) -> dict[str, Any]:
-    """Return what both extensions call a motion, in the axes and units of the file.
+def motion(inertial: Inertial, scale: ArrayLike = 1.0) -> dict[str, Any]:
+    """Return what both extensions call a motion, in the axes of the file.
 
     Parameters
     ----------
     inertial : Inertial
         Along the axes of Blender's object.
-    meters_per_unit : float
-        Of the Blender scene.
-    scale : (3,) array_like
-        Of the object, in whose unscaled space the center is.
+    scale : float or (3,) array_like
+        Meters per unit of the node's own space along Blender's axes, for the center.
 
     Returns
     -------
@@ -45,17 +44,17 @@ def motion(inertial: Inertial, meters_per_unit: float, scale: ArrayLike) -> dict
     """
     values: dict[str, Any] = {
         "mass": inertial.mass,
-        "centerOfMass": (Y_UP @ (inertial.center / (meters_per_unit * np.asarray(scale))) + 0.0).tolist(),
+        "centerOfMass": (Y_UP @ (inertial.center / np.asarray(scale)) + 0.0).tolist(),
     }
     if inertial.moments[0] > 0.0:  # zero would be automatic, or infinite
         w, x, y, z = quaternion(Y_UP @ inertial.axes).tolist()
-        values["inertiaDiagonal"] = (inertial.moments / meters_per_unit**2).tolist()
+        values["inertiaDiagonal"] = inertial.moments.tolist()
         values["inertiaOrientation"] = [x, y, z, w]
     return values
 
 
 def add_rigid_bodies(document: dict[str, Any], robot: Robot, meters_per_unit: float) -> list[Finding]:
-    """Give the nodes of a glTF document their motions, in place.
+    """Give the nodes of a glTF document their motions, and the document its unit, in place.
 
     Parameters
     ----------
@@ -86,7 +85,7 @@ def add_rigid_bodies(document: dict[str, Any], robot: Robot, meters_per_unit: fl
             continue
         if np.abs(link.scale - 1.0).max() > UNIFORM_RTOL:
             scaled.append(link.name)
-        values = motion(inertial, meters_per_unit, link.scale.tolist())
+        values = motion(inertial, meters_per_unit * link.scale)
         extensions = found[0].setdefault("extensions", {})
         extensions[KHR] = {"motion": values}
         extensions[OMI] = {"motion": {"type": "dynamic", **values}}
@@ -98,6 +97,9 @@ def add_rigid_bodies(document: dict[str, Any], robot: Robot, meters_per_unit: fl
         findings.append(finding("robot_scaled", count=len(scaled), links=scaled))
     if meters_per_unit != 1.0:
         findings.append(finding("gltf_unit_scale", scale=meters_per_unit))
+        for scene in [scene for scene in document.get("scenes", []) if scene.get("nodes")]:
+            nodes.append({"name": "Meters", "scale": [meters_per_unit] * 3, "children": scene["nodes"]})
+            scene["nodes"] = [len(nodes) - 1]
     return findings
 
 

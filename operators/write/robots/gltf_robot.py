@@ -63,7 +63,7 @@ class _Document:
         index = self._node(self.names[link.name], Pose() if inertial_only else link.pose)
         self.of_link[link.name] = index
         if link.inertial is not None:
-            values = motion(link.inertial, 1.0, (1.0, 1.0, 1.0))
+            values = motion(link.inertial)
             self.nodes[index]["extensions"] = {
                 KHR: {"motion": values},
                 OMI: {"motion": {"type": "dynamic", **values}},

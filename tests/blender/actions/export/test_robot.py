@@ -20,6 +20,7 @@ from body_moments.operators.bodies.rig import measure_rig
 from body_moments.operators.write.robots import gltf
 
 from tests.blender.characters import armature_of, pose, skin_of
+from tests.blender.exported_robots import SUFFIXES, assert_filled, exported_links
 from tests.blender.objects import add, mesh_body, only
 from tests.close import close
 from tests.core import characters
@@ -63,6 +64,25 @@ def test_a_file_has_its_meshes_beside_it(tmp_path):
     assert root.get("name") == "robot" and len(root.findall("link")) == 4
     for mesh in root.iter("mesh"):
         assert (tmp_path / mesh.get("filename")).stat().st_size == 84 + 50 * 20
+
+
+@pytest.mark.parametrize("unit", [1.0, 0.01, 0.001, 0.0254])
+@pytest.mark.parametrize(
+    ("name", "links"),
+    [(name, links) for name in SUFFIXES for links in ("OBJECT", "COLLECTION") if (name, links) != ("usd", "OBJECT")],
+)
+def test_meshes_are_in_the_meters_of_the_inertials(tmp_path, name, links, unit):
+    """USD by object states the unit of Blender's own geometry instead."""
+    bpy.context.scene.unit_settings.scale_length = unit
+    add(mesh_body("Upper"), "Upper", (5, 3, -2), (0.3, 0.4, 0.5))
+    add(mesh_body("Tool"), "Tool", (0, 0, 4), (0, 0, 1), (2, 2, 2))
+    path = tmp_path / ("robot" + {**SUFFIXES, "gltf": ".glb"}[name])
+    assert export(name, path, links=links) == {"FINISHED"}
+    links = exported_links(path).values()
+    for link in links:
+        assert_filled(link, 1000.0)
+    volume = 0.7 * (3.25 - 1.0 + 2.25)
+    assert close(sum(link.mass for link in links), 9.0 * 1000.0 * volume * unit**3, 1e-5)
 
 
 def test_selected_objects_of_a_format_without_meshes(tmp_path):
@@ -130,27 +150,21 @@ def test_usd_is_blenders_geometry_under_a_layer_of_masses(tmp_path, unit):
 
 
 @pytest.mark.parametrize("unit", [1.0, 0.001])
-def test_gltf_has_its_bodies_in_the_axes_of_its_nodes(tmp_path, unit):
-    """The node's own matrix puts center and tensor where they are in the world, turned to y up."""
+def test_gltf_bodies_hold_what_is_fixed_to_them(tmp_path, unit, reported):
     bpy.context.scene.unit_settings.scale_length = unit
     upper, fore, tool = pair()
     assert export("gltf", tmp_path / "robot.glb") == {"FINISHED"}
     document = gltf.read_json((tmp_path / "robot.glb").read_bytes())
     nodes = {node["name"]: node for node in document["nodes"]}
     assert {*document["extensionsUsed"]} >= {"KHR_physics_rigid_bodies", "OMI_physics_body"}
-    assert "extensions" not in nodes["Fore.001"]
+    assert "extensions" not in nodes["Fore.001"] and ("gltf_unit_scale" in reported.codes) == (unit != 1.0)
     motion = nodes["Upper"]["extensions"]["KHR_physics_rigid_bodies"]["motion"]
     assert nodes["Upper"]["extensions"]["OMI_physics_body"]["motion"] == {"type": "dynamic", **motion}
-    world = combine([measured(obj).mass_moments for obj in (upper, fore)])
-    y_up = np.array([[1, 0, 0], [0, 0, 1], [0, -1, 0]])
-    x, y, z, w = nodes["Upper"]["rotation"]
-    turn = rotation_matrix([w, x, y, z])
-    center = turn @ motion["centerOfMass"] + nodes["Upper"]["translation"]
-    assert close(center, y_up @ world.center / unit, 1e-6) and close(motion["mass"], world.mass, 1e-14)
-    x, y, z, w = motion["inertiaOrientation"]
-    found = turn @ tensor(motion["inertiaDiagonal"], [w, x, y, z]) @ turn.T * unit**2
-    truth = y_up @ world.inertia @ y_up.T
-    assert np.abs(found - truth).max() < 1e-6 * np.abs(truth).max()
+    links = exported_links(tmp_path / "robot.glb")
+    assert links.keys() == {"Upper", "Tool"}
+    for link in links.values():
+        assert_filled(link, 1000.0)
+    assert close(links["Upper"].mass, whole(upper, fore).mass, 1e-14)
 
 
 def test_a_file_that_is_dropped_is_not_written_over():
