@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..inertia.mass_properties import combine
+from ..mesh.surface import Surface
 from ..moments.moments import SECOND_MOMENT_INDEX, Measure, Moments, monomial_count
 from ..numerics.arguments import check_type, float_array
 
@@ -148,6 +149,8 @@ class Shape:
         Of a mesh, with slashes; relative to the file that names it.
     sheet : bool
         Whether the mesh bounds no volume.
+    surface : Surface, optional
+        Of a mesh that is to be written, in meters along the axes of the shape.
 
     Examples
     --------
@@ -161,6 +164,7 @@ class Shape:
     pose: Pose = field(default_factory=Pose)
     file: str = ""
     sheet: bool = False
+    surface: Surface | None = None
 
 
 @dataclass(frozen=True, eq=False)

@@ -15,7 +15,6 @@ from typing import Any, NoReturn
 from ...core.verdict.finding import finding
 from ..write.documents import ROBOT_FORMATS
 from .measure_parser import DEFAULT_ORDER, measure_parser
-from .output import is_stdout
 
 TARGETS = ("output", "fourier")  # options whose files are written
 
@@ -24,6 +23,7 @@ _OF_RUNS = {
     *("command", "files", "format", "output", "force", "forced", "jobs", "timeout", "memory_mb", "range", "manifest"),
     *("resume", "no_supervisor", "blender", "errors_exit_0"),
 }
+_BINARY_SUFFIXES = {"gltf": (".glb",), "usd": (".usdc", ".usdz")}  # readers take no text in files of these names
 _PATHS = ("output", "fourier", "q", "manifest")
 _TRIPLES = ("spacing", "origin", "about")
 
@@ -46,8 +46,8 @@ def parse(argv: list[str], file_needed: bool = False) -> argparse.Namespace:
         given = [name for name in of_bodies if getattr(options, name) is not None]
         if options.links == "bone" and given:
             fail(finding("usage_links_of_bones", option=given[0]))
-    if options.meshes and (options.output is None or is_stdout(options.output)):
-        fail(finding("usage_meshes_need_output"))
+        if options.output is not None and options.output.suffix.lower() in _BINARY_SUFFIXES.get(options.format, ()):
+            fail(finding("usage_text_format", format=options.format))
     if options.surface_moments and options.order is None:
         options.order = DEFAULT_ORDER
     if options.no_supervisor or not has_files:

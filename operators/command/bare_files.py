@@ -81,7 +81,6 @@ class BareFile:
         options = self.options
         given = [one for one in _NOT_OF_STREAMS if getattr(options, one) not in (None, "thin", "value")]
         given += ["overlap"] * (options.overlap == "union") + ["kind"] * (options.kind == "wire")
-        given += ["meshes"] * bool(options.meshes)
         if given:
             raise QueryError("stream_options", options=["--" + one.replace("_", "-") for one in given])
         findings = [*unit_findings(self.path, options.unit_scale)]

@@ -227,16 +227,17 @@ def _add_results(parser: argparse.ArgumentParser) -> None:
         help="urdf, sdf, mjcf, usd, gltf: what is one rigid body (object)",
     )
     add(
-        "--meshes",
+        "--no-meshes",
         action="store_true",
-        help="urdf, sdf, mjcf: write the meshes that the file names, in a folder beside --output; usd, gltf: into it",
+        help="urdf, sdf, mjcf, usd, gltf: leave geometry out (with --output: meshes in a folder beside it, of usd and "
+        "gltf in the file itself)",
     )
     add("--output", type=Path, metavar="PATH", help="(standard output)")
     add(
         "--force",
         action="store_true",
-        help="--output and --fourier may replace any file that is not read (only results of body_moments; an older "
-        "result at --output is kept as PATH.old)",
+        help="--output, its meshes and --fourier may replace any file that is not read (only results of body_moments; "
+        "an older result at --output is kept as PATH.old)",
     )
     add(
         "--write",

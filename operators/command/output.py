@@ -57,6 +57,11 @@ def is_stdout(path: Path) -> bool:
     return str(path) in _STDOUT
 
 
+def is_stream(path: Path | None) -> bool:
+    """Whether a result goes to the standard output, a pipe or a device, beside which no other file can be."""
+    return path is None or is_stdout(path) or path.exists() and not path.is_file()
+
+
 def write(parts: Iterable[str], path: Path | None, channel: int, check: Callable[[Path], None] | None = None) -> None:
     """Write a result to `path`, or to a descriptor where it is None. check: as in `whole_file`. Raises OSError."""
     # A file name that is not UTF-8 holds lone surrogates. Escaped so, they are what JSON writes for

@@ -11,23 +11,25 @@ from argparse import Namespace
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
+from pathlib import Path
 from typing import Any
 
 import bpy
 
 from ...core.measurement import Measurement
 from ...core.robots.model import Robot
-from ...core.verdict.finding import Finding, MeasureError, Severity, finding, system_reason
+from ...core.verdict.finding import MeasureError, Severity, finding, system_reason
 from ..read.links import link_entry, object_entry
 from ..session.robot_links import SceneLinks, bone_links, collection_links
 from ..settings.options import MeasureOptions
 from ..write.documents import ROBOT_FORMATS
 from ..write.messages import sentence, severity
-from ..write.robots.formats import EMBEDDING, robot_text
+from ..write.robots.formats import robot_text, with_geometry
 from ..write.robots.from_records import robot_name, robot_of_document
-from ..write.robots.stl import write_meshes
+from ..write.robots.shapes import with_primitives
 from ..write.terminal import print_message
 from .objects import failure
+from .output import is_stream
 
 MeasuredObject = tuple[str, bpy.types.Object | None, Measurement]
 
@@ -51,16 +53,15 @@ def complete(
         made = _by_object(document, measured, measure_options)
     else:
         made = _of_scene(document, measured, options.links, measure_options)
-    with_meshes, embedded = options.meshes and not options.inertial_only, options.format in EMBEDDING
-    text, findings = robot_text(
-        made.robot,
-        options.format,
-        made.findings,
-        inertial_only=options.inertial_only,
-        surface_of=partial(made.surface, bpy.context) if with_meshes and embedded else None,
-    )
-    if with_meshes and not embedded:
-        findings.append(_write_meshes(made, options))
+    robot, told, failed = with_primitives(made.robot, "none"), [], []
+    if not (options.no_meshes or options.inertial_only or is_stream(options.output)):
+        surface_of, read = partial(made.surface, bpy.context), Path(document["file"]) if document["file"] else None
+        try:
+            robot, told = with_geometry(made.robot, options.format, surface_of, options.output, read, options.force)
+        except OSError as error:
+            failed = [finding("robot_meshes_not_written", error=system_reason(error))]
+    text, findings = robot_text(robot, options.format, [*made.findings, *told], inertial_only=options.inertial_only)
+    findings += failed
     for one in findings:
         print_message(sentence(one))
     refused = [failure(None, one) for one in findings if severity(one) == Severity.ERROR]
@@ -93,10 +94,3 @@ def _of_scene(
         return collection_links(context, name, context.scene.collection, objects, replace(measure_options, order=None))
     except MeasureError as error:
         return SceneLinks(Robot(name, ()), [error.finding], measure_options.meters_per_unit(context.scene))
-
-
-def _write_meshes(made: SceneLinks, options: Namespace) -> Finding:
-    try:
-        return write_meshes(made.robot, lambda label: made.surface(bpy.context, label), options.output.parent)
-    except OSError as error:
-        return finding("robot_meshes_not_written", error=system_reason(error))

@@ -114,7 +114,7 @@ class _Places:
     def __init__(self, options: Namespace, ends: ExitStack) -> None:
         self._replaced: list[Path] = []
         target = options.output
-        self.journal_is_kept = not (target is None or output.is_stdout(target) or _is_device(target))
+        self.journal_is_kept = not output.is_stream(target)
         if target is None or not self.journal_is_kept:
             folder = Path(tempfile.mkdtemp(prefix="body_moments_"))
             ends.callback(shutil.rmtree, folder, ignore_errors=True)
@@ -141,10 +141,6 @@ class _Places:
         for path in self._replaced:
             if path.exists() and not own_results.is_empty(path):
                 os.replace(path, path.with_name(path.name + _OLD))
-
-
-def _is_device(path: Path) -> bool:
-    return path.exists() and not path.is_file()
 
 
 def _check_ours(path: Path, force: bool) -> None:

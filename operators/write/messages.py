@@ -1511,7 +1511,7 @@ MESSAGES: dict[str, Message] = {
     "usage_order": _error("{text!r} is not an order from 0 to {limit}"),
     "usage_order_too_high": _error("{text!r} is above the highest order, {limit}"),
     "usage_links_of_bones": _error("--links bone takes what the bones' settings say, and no --{option}"),
-    "usage_meshes_need_output": _error("--meshes needs --output, beside which they are written"),
+    "usage_text_format": _error("argument --output: {format} is written as text. Use the suffix .gltf, .usd or .usda"),
     "usage_format_unknown": _error("{text!r} is not one of {formats}"),
     "usage_needs_fourier": _error("argument --{option}: needs --fourier OUT.npz"),
     "usage_fourier_points": _error("argument --fourier: needs either --q Q.npy, or --grid N and --qmax Q"),
@@ -1920,7 +1920,7 @@ MESSAGES: dict[str, Message] = {
     "robot_copied": _note("Inertial of {count} link copied.", "Inertials of {count} links copied."),
     "primitives_added": _note("{count} shape added", "{count} shapes added"),
     "primitive_has_parent": _error("It has a parent, or is linked. Clear the parent to simulate it."),
-    "robot_meshes_written": _note("{count} mesh written to {folder}.", "{count} meshes written to {folder}."),
+    "robot_links_bare": _note("{count} link has no geometry: {links}.", "{count} links have no geometry: {links}."),
     "robot_meshes_not_written": _error("The meshes cannot be written: {error}."),
     "mjcf_inertia_too_small": _warning(
         "MuJoCo refuses a moving body with a mass or principal moment below {limit:g} kg or kg·m²: {links}, with "
@@ -1928,6 +1928,10 @@ MESSAGES: dict[str, Message] = {
         "MuJoCo refuses moving bodies with a mass or principal moment below {limit:g} kg or kg·m²: {count} of them, "
         "{links}, down to {least:.3g}. Set boundmass and boundinertia of the compiler, fix them to their parents, or "
         "model in larger units.",
+    ),
+    "mjcf_mesh_too_large": _warning(
+        "MuJoCo refuses meshes of more than {limit} triangles: {links}. Reduce them with a Decimate modifier, or leave "
+        "geometry out."
     ),
     "usd_inertia_too_small": _warning(
         "The inertia of {links} is too small for the single precision of PhysicsMassAPI. Read newton:inertia, or use "

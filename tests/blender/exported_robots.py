@@ -3,7 +3,6 @@
 """Exported robots read back: each link's inertial beside the mesh that the file gives it."""
 
 import base64
-import json
 from dataclasses import dataclass
 
 import numpy as np

@@ -17,7 +17,7 @@ from body_moments.core.robots.primitives import capsule_size, equal_inertia_shap
 from body_moments.operators.write.robots import gltf, mjcf, usd
 from body_moments.operators.write.robots.formats import robot_text
 from body_moments.operators.write.robots.marker import is_ours
-from body_moments.operators.write.robots.shapes import with_primitives
+from body_moments.operators.write.robots.shapes import with_meshes, with_primitives
 from body_moments.operators.write.robots.stl import to_stl
 from pxr import Sdf, Usd, UsdGeom, UsdPhysics
 
@@ -289,11 +289,11 @@ def test_meshes_stand_in_what_can_hold_them():
     rng = np.random.default_rng(3)
     points, triangles = shaped(rng, "sheared")
     pose = Pose(rng.normal(size=3), rotation(rng))
-    link = Link("solid", inertial(points, triangles), pose, (Shape("mesh", file="meshes/solid.stl"),))
-    robot = Robot("meshes", (link,))
-    surface = Surface.from_triangles(points, triangles)
+    link = Link("solid", inertial(points, triangles), pose, (Shape("mesh"),))
+    bare = Robot("meshes", (link,))
+    robot, _ = with_meshes(bare, lambda _: Surface.from_triangles(points, triangles))
     true = points @ pose.rotation.T + pose.position
-    document = json.loads(robot_text(robot, "gltf", surface_of=lambda _: surface)[0])
+    document = json.loads(robot_text(robot, "gltf")[0])
     data = base64.b64decode(document["buffers"][0]["uri"].partition(",")[2])
     views = document["bufferViews"]
     parts = [data[view["byteOffset"] : view["byteOffset"] + view["byteLength"]] for view in views]
@@ -305,7 +305,7 @@ def test_meshes_stand_in_what_can_hold_them():
     assert near(document["accessors"][0]["min"], found.min(axis=0), 0.0)
     assert len(views) == 2 and document["accessors"][1]["count"] == triangles.size
     layer = Sdf.Layer.CreateAnonymous(".usda")
-    assert layer.ImportFromString(robot_text(robot, "usd", surface_of=lambda _: surface)[0])
+    assert layer.ImportFromString(robot_text(robot, "usd")[0])
     stage = Usd.Stage.Open(layer)
     (mesh,) = [UsdGeom.Mesh(prim) for prim in stage.Traverse() if prim.IsA(UsdGeom.Mesh)]
     assert mesh.GetPrim().HasAPI(UsdPhysics.MeshCollisionAPI)
@@ -314,7 +314,7 @@ def test_meshes_stand_in_what_can_hold_them():
     faces = np.array(mesh.GetFaceVertexIndicesAttr().Get()).reshape(-1, 3)
     assert near(shown[faces], true[triangles], 1e-6)
     for name in ("usd", "gltf"):
-        assert "Mesh" not in robot_text(robot, name)[0] and '"mesh"' not in robot_text(robot, name)[0]
+        assert "Mesh" not in robot_text(bare, name)[0] and '"mesh"' not in robot_text(bare, name)[0]
 
 
 def test_inertials_alone_in_gltf():

@@ -23,9 +23,8 @@ from ...session.robot_links import SceneLinks
 from ...write import reports
 from ...write.messages import sentence
 from ...write.robots import gltf, usd
-from ...write.robots.formats import EMBEDDING, robot_text
+from ...write.robots.formats import robot_text, with_geometry
 from ...write.robots.shapes import with_primitives
-from ...write.robots.stl import write_meshes
 from ...write.whole_file import whole_file
 from .. import selection
 from ..modal import progress
@@ -37,7 +36,7 @@ LINKS = (
     ("BONE", "Bones", "Each bone of a character is a link in its rest frame, with joints of the bones' limits"),
 )
 GEOMETRY = (
-    ("MESH", "Meshes", "Name a mesh file for each link"),
+    ("MESH", "Meshes", "Write a mesh for each link, in meters"),
     ("BOX", "Boxes", "The box of the same mass, center and inertia"),
     ("ELLIPSOID", "Ellipsoids", "The ellipsoid of the same mass, center and inertia"),
     ("CAPSULE", "Capsules", "The capsule of the same mass and center, with the inertia that comes nearest"),
@@ -46,9 +45,9 @@ GEOMETRY = (
 
 
 class RobotExport(ExportHelper):
-    """What the exporters share. FORMAT: of `WRITERS`. WRITES_MESHES: whether beside the file."""
+    """What the exporters share. FORMAT: of `WRITERS`."""
 
-    FORMAT, WRITES_MESHES = "", True
+    FORMAT = ""
     bl_options = {"REGISTER", "PRESET"}
 
     use_selection: BoolProperty(
@@ -57,9 +56,6 @@ class RobotExport(ExportHelper):
     collection: StringProperty(name="Source Collection", options={"HIDDEN"})
     links: EnumProperty(name="Links", description="What is one rigid body", items=LINKS, default="OBJECT")
     geometry: EnumProperty(name="Geometry", description="What links look like and collide as", items=GEOMETRY)
-    write_meshes: BoolProperty(
-        name="Write Meshes", description="Write the mesh files that the links name beside the file", default=True
-    )
     inertial_only: BoolProperty(
         name="Inertials Only", description="Write mass, center and inertia of each link and nothing else", default=False
     )
@@ -94,15 +90,14 @@ class RobotExport(ExportHelper):
 
     def _export(self, context: Context, objects: list[Object], path: Path) -> list[Finding]:
         made = self._links(context, objects, path.stem)
-        robot = made.robot if self.geometry == "MESH" else with_primitives(made.robot, self.geometry.lower())
-        surface_of = partial(made.surface, context) if self.geometry == "MESH" and self.write_meshes else None
-        text, findings = robot_text(
-            robot, self.FORMAT, made.findings, inertial_only=self.inertial_only, surface_of=surface_of
-        )
+        robot, bare = made.robot, []
+        if self.geometry != "MESH":
+            robot = with_primitives(robot, self.geometry.lower())
+        elif not self.inertial_only:
+            robot, bare = with_geometry(robot, self.FORMAT, partial(made.surface, context), path)
+        text, findings = robot_text(robot, self.FORMAT, [*made.findings, *bare], inertial_only=self.inertial_only)
         with whole_file(path) as file:
             file.write(self._encode(text, path))
-        if surface_of is not None and not self.inertial_only and self.FORMAT not in EMBEDDING:
-            findings.append(write_meshes(robot, surface_of, path.parent))
         return [finding("robot_exported", count=len(robot.links), file=path.name), *findings]
 
     def _encode(self, text: str, _path: Path) -> bytes:
@@ -121,8 +116,6 @@ class RobotExport(ExportHelper):
         column = layout.column()
         column.enabled = not self.inertial_only
         column.prop(self, "geometry")
-        if self.geometry == "MESH" and self.WRITES_MESHES:
-            column.prop(self, "write_meshes")
 
 
 class EXPORT_SCENE_OT_body_moments_urdf(RobotExport, Operator):
@@ -158,7 +151,6 @@ class EXPORT_SCENE_OT_body_moments_mjcf(RobotExport, Operator):
 class GeometryExport(RobotExport):
     """Of those that leave the geometry of objects to Blender's own exporter; all else is a file of our own."""
 
-    WRITES_MESHES = False
     _export_over: Callable[[Context, SceneLinks, Path], list[Finding]]  # writes the geometry as Blender does, with the
     # masses, and returns what is to be said about them
 

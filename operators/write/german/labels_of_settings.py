@@ -10,7 +10,7 @@ TEXTS = {
     "Geometry": "Geometrie",
     "What links look like and collide as": "Als was Glieder aussehen und zusammenstoßen",
     "Meshes": "Netze",
-    "Name a mesh file for each link": "Für jedes Glied eine Netzdatei nennen",
+    "Write a mesh for each link, in meters": "Für jedes Glied ein Netz schreiben, in Metern",
     "Boxes": "Quader",
     "The box of the same mass, center and inertia": (
         "Der Quader von gleicher Masse, gleichem Mittelpunkt und gleicher Trägheit"
@@ -19,7 +19,6 @@ TEXTS = {
     "Capsules": "Kapseln",
     "None": "Keine",
     "Links have no geometry": "Glieder haben keine Geometrie",
-    "Write Meshes": "Netze schreiben",
     "Inertials Only": "Nur Inertials",
     "Export MJCF": "MJCF exportieren",
     "Export SDF": "SDF exportieren",

@@ -73,7 +73,10 @@ MESSAGES = {
     "primitive_has_parent": (
         "Es hat ein Elternobjekt oder ist verknüpft. Das Elternobjekt lösen, um es zu simulieren.",
     ),
-    "robot_meshes_written": ("{count} Netz nach {folder} geschrieben.", "{count} Netze nach {folder} geschrieben."),
+    "robot_links_bare": (
+        "{count} Glied hat keine Geometrie: {links}.",
+        "{count} Glieder haben keine Geometrie: {links}.",
+    ),
     "mjcf_inertia_too_small": (
         "MuJoCo weist einen bewegten Körper mit einer Masse oder einem Hauptmoment unter {limit:g} kg oder kg·m² "
         "zurück: {links}, mit {least:.3g}. boundmass und boundinertia des Compilers setzen, ihn an seinem "
@@ -82,11 +85,16 @@ MESSAGES = {
         "{count} davon, {links}, bis hinab zu {least:.3g}. boundmass und boundinertia des Compilers setzen, sie an "
         "ihren Elternobjekten festmachen oder in größeren Einheiten modellieren.",
     ),
+    "mjcf_mesh_too_large": (
+        "MuJoCo weist Netze mit mehr als {limit} Dreiecken zurück: {links}. Sie mit einem Dezimieren-Modifikator "
+        "verkleinern oder die Geometrie weglassen.",
+    ),
     "usd_inertia_too_small": (
         "Die Trägheit von {links} ist zu klein für die einfache Genauigkeit von PhysicsMassAPI. newton:inertia "
         "lesen oder eine Stage in kleineren Einheiten verwenden.",
     ),
     "robot_meshes_not_written": ("Die Meshes lassen sich nicht schreiben: {error}.",),
+    "result_foreign_file": ("{path} ist kein Ergebnis von body_moments und ginge verloren",),
     "xml_entities": (
         "Die Datei vereinbart einen Dokumenttyp, mit dem sich Entitäten vereinbaren ließen. Er muss entfernt werden.",
     ),

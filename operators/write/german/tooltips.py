@@ -350,9 +350,6 @@ TEXTS = {
     "The capsule of the same mass and center, with the inertia that comes nearest": (
         "Die Kapsel von gleicher Masse und gleichem Mittelpunkt mit der nächsten Trägheit"
     ),
-    "Write the mesh files that the links name beside the file": (
-        "Die Netzdateien, die die Glieder nennen, neben die Datei schreiben"
-    ),
     "Write mass, center and inertia of each link and nothing else": (
         "Masse, Mittelpunkt und Trägheit jedes Glieds schreiben und sonst nichts"
     ),

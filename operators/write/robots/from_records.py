@@ -8,7 +8,6 @@ makes it: where the object stands, what it hangs on and how it may move. So what
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Mapping, Sequence
 from math import inf
 from pathlib import PurePath
@@ -20,11 +19,8 @@ from ....core.measurement import Measurement
 from ....core.numerics.rotations import rotation_matrix
 from ....core.robots.model import FreeAxis, Inertial, Joint, Link, Pose, Robot, Shape
 from ....core.verdict.finding import Finding, finding
-from .text import unique_names
 
 DEFAULT_NAME = "robot"
-MESH_FOLDER = "meshes"
-_NOT_IN_FILES = re.compile(r"[^\w.-]", re.ASCII)
 
 
 def robot_of_document(document: Mapping[str, Any]) -> tuple[Robot, list[Finding]]:
@@ -52,8 +48,7 @@ def robot_of_records(name: str, records: Sequence[Mapping[str, Any]]) -> tuple[R
     list of Finding
     """
     usable = {record["name"]: record for record in records if record.get("link") and record["mass"]}
-    files = mesh_files(usable)
-    links = [_link(record, files[label]) for label, record in usable.items()]
+    links = [_link(record) for record in usable.values()]
     joints = []
     for label, record in usable.items():
         parent = next((above for above in record["link"]["parents"] if above in usable and above != label), None)
@@ -82,13 +77,7 @@ def brief_record(name: str, measurement: Measurement, link: Mapping[str, Any]) -
     }
 
 
-def mesh_files(names: Iterable[str]) -> dict[str, str]:
-    """Return the file of each link's mesh, beside the robot's own file; names differ by more than upper case."""
-    stems = unique_names(names, lambda name: _NOT_IN_FILES.sub("_", name).lower() or "_")
-    return {name: "{}/{}.stl".format(MESH_FOLDER, stem) for name, stem in stems.items()}
-
-
-def _link(record: Mapping[str, Any], file: str) -> Link:
+def _link(record: Mapping[str, Any]) -> Link:
     place = record["link"]
     inertial = Inertial.with_agreeing_axes(
         record["mass"],
@@ -98,12 +87,8 @@ def _link(record: Mapping[str, Any], file: str) -> Link:
         np.array(record["principal_axes"]),
     )
     pose = Pose(np.array(place["position"]), rotation_matrix(place["rotation"]))
-    shapes = (Shape("mesh", file=file, sheet=record["kind"] == "shell"),) if _has_surface(record) else ()
+    shapes = () if record["kind"] == "wire" else (Shape("mesh", sheet=record["kind"] == "shell"),)
     return Link(record["name"], inertial, pose, shapes, np.array(place["scale"]))
-
-
-def _has_surface(record: Mapping[str, Any]) -> bool:
-    return record["type"] not in ("VOLUME", "EMPTY", "ARRAY") and record["kind"] != "wire"
 
 
 def _free(axes: Iterable[Mapping[str, Any]]) -> tuple[FreeAxis, ...]:

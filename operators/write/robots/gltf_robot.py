@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import base64
 import json
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from math import inf
 from typing import Any
 
@@ -28,7 +28,6 @@ from .shapes import box_of_ellipsoid, ellipsoids_as_boxes
 from .text import unique_names
 
 SHAPES = "KHR_implicit_shapes"
-SurfaceOf = Callable[[str], Surface | None]
 
 
 def check(robot: Robot) -> list[Finding]:
@@ -36,11 +35,9 @@ def check(robot: Robot) -> list[Finding]:
     return ellipsoids_as_boxes(robot)
 
 
-def write(
-    robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = False, surface_of: SurfaceOf | None = None
-) -> str:
-    """Return a robot as text of a .gltf file; parameters as of `usd.write`."""
-    document = _Document(robot, surface_of)
+def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = False) -> str:
+    """Return a robot as text of a .gltf file; parameters as of `urdf.write`."""
+    document = _Document(robot)
     for link in robot.ordered():
         document.add_link(link, inertial_only)
     for joint in () if inertial_only else robot.joints:
@@ -49,8 +46,8 @@ def write(
 
 
 class _Document:
-    def __init__(self, robot: Robot, surface_of: SurfaceOf | None) -> None:
-        self.robot, self.surface_of = robot, surface_of
+    def __init__(self, robot: Robot) -> None:
+        self.robot = robot
         self.names = unique_names([link.name for link in robot.links], str)
         self.nodes: list[dict[str, Any]] = []
         self.of_link: dict[str, int] = {}
@@ -88,11 +85,10 @@ class _Document:
     def _add_shape(self, parent: int, link: Link, shape: Shape) -> None:
         geometry: dict[str, Any]
         if shape.kind == "mesh":
-            surface = None if self.surface_of is None else self.surface_of(link.name)
-            if surface is None or not len(surface.all_triangles()[0]):
+            if shape.surface is None:
                 return
             index = self._node(link.name + " mesh", shape.pose, parent)
-            self.nodes[index]["mesh"] = self._mesh(surface)
+            self.nodes[index]["mesh"] = self._mesh(shape.surface)
             geometry = {"node": index, "convexHull": True}
         else:
             index = self._node("{} {}".format(link.name, shape.kind), shape.pose, parent)

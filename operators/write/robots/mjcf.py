@@ -15,6 +15,7 @@ from ....core.verdict.finding import Finding, finding
 from .text import document, is_identity, number, numbers, unique_names, xml_text
 
 LEAST = 1e-15  # mjMINVAL: MuJoCo refuses what moves and has less mass or inertia, kg and kg·m²
+MOST_TRIANGLES = 200_000  # MuJoCo refuses larger STL files
 
 
 def check(robot: Robot) -> list[Finding]:
@@ -24,11 +25,15 @@ def check(robot: Robot) -> list[Finding]:
         for link in robot.links
         if link.inertial is not None
     }
-    small = [name for name, value in least.items() if value < LEAST]
-    if not small:
-        return []
-    smallest = min(least.values())
-    return [finding("mjcf_inertia_too_small", count=len(small), links=small, least=smallest, limit=LEAST)]
+    findings, small = [], [name for name, value in least.items() if value < LEAST]
+    if small:
+        smallest = min(least.values())
+        findings.append(finding("mjcf_inertia_too_small", count=len(small), links=small, least=smallest, limit=LEAST))
+    surfaces = [(link.name, shape.surface) for link in robot.links for shape in link.shapes]
+    large = [name for name, one in surfaces if one is not None and len(one.all_triangles()[0]) > MOST_TRIANGLES]
+    if large:
+        findings.append(finding("mjcf_mesh_too_large", count=len(large), links=large, limit=MOST_TRIANGLES))
+    return findings
 
 
 def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = False) -> str:

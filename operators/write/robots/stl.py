@@ -4,16 +4,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import re
+from collections.abc import Iterable
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
 from ....core.mesh.surface import Surface
 from ....core.robots.model import Robot
-from ....core.verdict.finding import Finding, finding
+from ....core.verdict.finding import finding
+from ..whole_file import whole_file
+from .text import unique_names
 
+MESH_FOLDER = "meshes"
+_MARKER = b"Body Moments".ljust(80, b"\0")  # the header, by which an older result is known
 _TRIANGLE = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
+_NOT_IN_FILES = re.compile(r"[^\w.-]", re.ASCII)
 
 
 def to_stl(surface: Surface) -> bytes:
@@ -31,31 +38,73 @@ def to_stl(surface: Surface) -> bytes:
     triangles = surface.all_triangles()[0]
     rows = np.zeros(len(triangles), _TRIANGLE)
     rows["corners"] = surface.points[triangles]
-    return b"Body Moments".ljust(80, b"\0") + np.uint32(len(rows)).astype("<u4").tobytes() + rows.tobytes()
+    return _MARKER + np.uint32(len(rows)).astype("<u4").tobytes() + rows.tobytes()
 
 
-def write_meshes(robot: Robot, surface_of: Callable[[str], Surface | None], folder: Path) -> Finding:
-    """Write each mesh that a robot's links name, and return what was written. Raises OSError.
+def write_meshes(robot: Robot, output: Path, read: Path | None = None, force: bool = False) -> Robot:
+    """Write the surfaces of a robot's meshes, and return the robot that names their files.
 
     Parameters
     ----------
     robot : Robot
-    surface_of : callable
-        Returns a link's surface by its name, None where it has none.
-    folder : Path
-        Where the robot's own file is.
+    output : Path
+        The robot's own file. The meshes are in a folder of its name, in the folder `meshes` beside it.
+    read : Path, optional
+        A file that is read, and never replaced.
+    force : bool
+        Whether files that are no meshes of ours may be replaced.
 
     Returns
     -------
-    Finding
+    Robot
+
+    Raises
+    ------
+    OSError
+        If one of the files cannot be written or must not be replaced. In the latter case none is written.
     """
-    written = 0
-    for link in robot.links:
-        for shape in link.shapes:
-            surface = surface_of(link.name) if shape.kind == "mesh" else None
-            if surface is not None:
-                path = folder / shape.file
-                path.parent.mkdir(parents=True, exist_ok=True)
-                path.write_bytes(to_stl(surface))
-                written += 1
-    return finding("robot_meshes_written", count=written, folder=str(folder))
+    files = mesh_files([link.name for link in robot.links], output.stem)
+    surfaces = {
+        files[link.name]: shape.surface for link in robot.links for shape in link.shapes if shape.surface is not None
+    }
+    for file in surfaces:
+        _check_replaceable(output.parent / file, read, force)
+    for file, surface in surfaces.items():
+        path = output.parent / file
+        for folder in (path.parent.parent, path.parent):
+            folder.mkdir(exist_ok=True)
+        with whole_file(path) as stream:
+            stream.write(to_stl(surface))
+    links = [
+        replace(
+            link,
+            shapes=tuple(
+                replace(shape, file=files[link.name]) if shape.surface is not None else shape for shape in link.shapes
+            ),
+        )
+        for link in robot.links
+    ]
+    return replace(robot, links=tuple(links))
+
+
+def mesh_files(names: Iterable[str], stem: str) -> dict[str, str]:
+    """Return the file of each link's mesh, relative to the robot's own file, whose name without suffix is `stem`; names
+    differ by more than upper case."""
+    files = unique_names(names, _file_name)
+    return {name: "{}/{}/{}.stl".format(MESH_FOLDER, _file_name(stem), file) for name, file in files.items()}
+
+
+def _file_name(name: str) -> str:
+    return _NOT_IN_FILES.sub("_", name).lower() or "_"
+
+
+def _check_replaceable(path: Path, read: Path | None, force: bool) -> None:
+    """Raise FileExistsError if a mesh must not take the place of `path`."""
+    if not path.is_file():
+        return
+    if read is not None and read.exists() and path.samefile(read):
+        raise FileExistsError(str(finding("usage_overwrites_input", option="output", path=str(path))))
+    with open(path, "rb") as file:
+        head = file.read(len(_MARKER))
+    if head and head != _MARKER and not force:
+        raise FileExistsError(str(finding("result_foreign_file", path=str(path))))

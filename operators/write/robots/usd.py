@@ -10,7 +10,7 @@ carries the mass of all of them, because the mass of a parent overrides that of 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from math import degrees, inf
 
 import numpy as np
@@ -38,26 +38,8 @@ def check(robot: Robot) -> list[Finding]:
     return [finding("usd_inertia_too_small", count=len(small), links=small)] if small else []
 
 
-def write(
-    robot: Robot,
-    remarks: Sequence[str] = (),
-    *,
-    inertial_only: bool = False,
-    surface_of: Callable[[str], Surface | None] | None = None,
-) -> str:
-    """Return a robot as a layer of its own, in meters, with a prim for each link.
-
-    Parameters
-    ----------
-    robot, remarks, inertial_only
-        As of `urdf.write`.
-    surface_of : callable, optional
-        Returns a link's surface by its name, along its axes in meters. Its meshes are then a part of the layer.
-
-    Returns
-    -------
-    str
-    """
+def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = False) -> str:
+    """Return a robot as a layer of its own, in meters, with a prim for each link; parameters as of `urdf.write`."""
     names = unique_names([link.name for link in robot.links], identifier)
     joints = unique_names([joint.name for joint in robot.joints], identifier, names.values())
     lines = header(robot.name, remarks, 1.0, ROOT)
@@ -73,8 +55,8 @@ def write(
             for count, shape in enumerate(link.shapes, start=1):
                 if shape.kind != "mesh":
                     lines += _indented(_shape(shape, "shape_{}".format(count)), 2)
-                elif surface_of is not None and (surface := surface_of(link.name)) is not None:
-                    lines += _indented(_mesh(surface, shape.pose, "shape_{}".format(count)), 2)
+                elif shape.surface is not None:
+                    lines += _indented(_mesh(shape.surface, shape.pose, "shape_{}".format(count)), 2)
         lines += _indented(["}"])
     for joint in () if inertial_only else robot.joints:
         lines += _indented(_joint(robot, joint, joints[joint.name], names))

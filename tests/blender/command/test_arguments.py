@@ -71,7 +71,6 @@ WITH = {
     "--q": ("--fourier", "f.npz"),
     "--fourier": ("--q", "q.npy"),
     "--resume": ("--output", "o.json"),
-    "--meshes": ("--output", "o.json"),
 }
 
 
@@ -118,7 +117,8 @@ def test_values_are_taken_or_refused_with_their_reason(option, capsys):
             for option, value in (("--density", "1"), ("--mass", "1"), ("--kind", "solid"), ("--thickness", "1"),
                                   ("--material", "Brass"), ("--wall", "thin"), ("--overlap", "union"))
         ),
-        (["a", "--meshes", "--format", "urdf"], None, {}),
+        (["a", "--format", "gltf", "--output", "a.GLB"], "usage_text_format", {"format": "gltf"}),
+        (["a", "--format", "usd", "--output", "a.usdc"], "usage_text_format", {"format": "usd"}),
         *(
             ([*more, option, value], "usage_needs_supervisor", {"option": option[2:]})
             for option, value in (("--jobs", "1"), ("--timeout", "1"), ("--memory-mb", "1"), ("--blender", "b"))
@@ -142,9 +142,4 @@ def test_values_are_taken_or_refused_with_their_reason(option, capsys):
     ],
 )  # fmt: skip
 def test_what_does_not_go_together_is_refused(words, code, values, capsys):
-    if code is not None:
-        assert refused(capsys, "measure", *words) == sentence(code, **values)
-        return
-    for target in ([], ["--output", "/dev/stdout"]):
-        assert refused(capsys, "measure", *words, *target) == sentence("usage_meshes_need_output")
-    assert parse(*words[1:], "--output", "o").meshes
+    assert refused(capsys, "measure", *words) == sentence(code, **values)

@@ -12,8 +12,8 @@ import bpy
 
 from tests.blender.batch_files import add_box, document
 from tests.blender.characters import PARENTS, armature_of, skin_of
-from tests.blender.command.test_robots import text
-from tests.blender.exported_robots import SUFFIXES, assert_filled, exported_links
+from tests.blender.command.test_robots import exported, text
+from tests.blender.exported_robots import SUFFIXES, assert_filled
 from tests.close import close
 from tests.core import characters
 from tests.core.bodies import box
@@ -26,12 +26,6 @@ DENSITY = 2700.0
 Y_UP = {"gltf": [0, 2, 1]}  # the order of the axes where y is up
 
 every_export = pytest.mark.parametrize(("name", "unit"), [*itertools.product(SUFFIXES, UNITS)])
-
-
-def export(folder, name, *words):
-    path = folder / ("robot" + SUFFIXES[name])
-    text("measure", "--format", name, "--meshes", "--output", path, *words)
-    return exported_links(path)
 
 
 def box_stl(folder):
@@ -52,7 +46,7 @@ def assert_box(link, name, unit):
 def test_unit_scale_option_holds_for_masses_and_meshes(tmp_path, name, unit, links):
     path = box_stl(tmp_path)
     options = ("--links", links, "--density", DENSITY, "--unit-scale", unit)
-    (link,) = export(tmp_path, name, *options, path).values()
+    (link,) = exported(tmp_path, name, *options, path).values()
     assert_box(link, name, unit)
 
 
@@ -61,7 +55,7 @@ def test_unit_scale_option_holds_for_masses_and_meshes(tmp_path, name, unit, lin
 def test_scene_unit_holds_for_masses_and_meshes(tmp_path, name, unit, links):
     bpy.context.scene.unit_settings.scale_length = unit
     add_box("Part", (70.0, 0.0, 0.0), SIDES)
-    (link,) = export(tmp_path, name, "--links", links, "--density", DENSITY).values()
+    (link,) = exported(tmp_path, name, "--links", links, "--density", DENSITY).values()
     assert_box(link, name, unit)
 
 
@@ -70,7 +64,7 @@ def test_bones_are_links_in_meters(tmp_path, name, unit):
     bpy.context.scene.unit_settings.scale_length = unit
     character = characters.box_skeleton()
     skin_of(character, armature_of(character, parents=PARENTS), density=DENSITY)
-    links = export(tmp_path, name, "--links", "bone")
+    links = exported(tmp_path, name, "--links", "bone")
     assert len(links) == len(character.names)
     for link in links.values():
         assert_filled(link, DENSITY)
@@ -93,7 +87,7 @@ def test_child_links_hang_at_their_places_in_meters(tmp_path, unit):
 @pytest.mark.parametrize("option", [("--material", "Aluminum"), ("--kind", "shell", "--thickness", "0.001")])
 def test_collections_weigh_what_the_options_say(tmp_path, option):
     path = box_stl(tmp_path)
-    (link,) = export(tmp_path, "urdf", "--links", "collection", "--unit-scale", "0.001", *option, path).values()
+    (link,) = exported(tmp_path, "urdf", "--links", "collection", "--unit-scale", "0.001", *option, path).values()
     assert close(link.mass, document(*option, "--unit-scale", "0.001", path)["total"]["mass"], 1e-12)
 
 

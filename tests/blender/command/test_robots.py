@@ -3,6 +3,7 @@
 """--format urdf, sdf, mjcf, usd and gltf: the scene's objects as links, with the numbers of their records."""
 
 import json
+import os
 import re
 from xml.etree import ElementTree
 
@@ -19,9 +20,12 @@ from body_moments.operators.write import documents
 
 from tests.blender.batch_files import document, parsed
 from tests.blender.characters import PARENTS, armature_of, skin_of
+from tests.blender.exported_robots import SUFFIXES, assert_filled, exported_links
 from tests.blender.objects import add, mesh_body
 from tests.close import close
 from tests.core import characters
+from tests.core.bodies import box
+from tests.core.mesh_files import stl
 
 pytestmark = pytest.mark.usefixtures("scene")
 UNITS = (1.0, 0.001)
@@ -49,6 +53,13 @@ def text(*words):
     if line.options.output is not None:
         output.write(found, line.options.output, -1)
     return found
+
+
+def exported(folder, name, *words):
+    """The links of a robot written to a folder, read back."""
+    path = folder / ("robot" + SUFFIXES[name])
+    text("measure", "--format", name, "--output", path, *words)
+    return exported_links(path)
 
 
 def refused(*words):
@@ -146,27 +157,128 @@ def test_inertials_alone_name_no_mesh(tmp_path):
     for name in ("urdf", "sdf", "mjcf", "usd", "gltf"):
         found = text("measure", "--format", name, "--inertial-only")
         assert "mesh" not in found and "joint" not in found.lower() and "Fore" in found
-    text("measure", "--format", "urdf", "--inertial-only", "--meshes", "--output", str(tmp_path / "robot.urdf"))
+    text("measure", "--format", "urdf", "--inertial-only", "--output", str(tmp_path / "robot.urdf"))
     assert [path.name for path in tmp_path.iterdir()] == ["robot.urdf"]
 
 
 def test_meshes_are_written_beside_the_file_along_the_axes_of_their_links(tmp_path):
     arm(0.001)
     path = tmp_path / "robot.urdf"
-    text("measure", "--format", "urdf", "--meshes", "--output", str(path))
+    text("measure", "--format", "urdf", "--output", str(path))
     record = {entry["name"]: entry for entry in document("--frame", "object")["objects"]}["Fore arm"]
     named = [mesh.get("filename") for mesh in ElementTree.parse(path).getroot().iter("mesh")]
-    assert {tmp_path / name for name in named} == {*(tmp_path / "meshes").iterdir()}
+    assert {tmp_path / name for name in named} == {*(tmp_path / "meshes" / "robot").iterdir()}
     for name in ("usd", "gltf"):  # which hold them
         path = tmp_path / name / ("robot." + name)
         path.parent.mkdir()
-        text("measure", "--format", name, "--meshes", "--output", str(path))
+        text("measure", "--format", name, "--output", str(path))
         assert [*path.parent.iterdir()] == [path]
         assert len(re.findall(r'def Mesh|"primitives"', path.read_text(encoding="utf-8"))) == 3
-    again = document(str(tmp_path / "meshes" / "fore_arm.stl"), "--unit-scale", "1")["objects"][0]
+    again = document(str(tmp_path / "meshes" / "robot" / "fore_arm.stl"), "--unit-scale", "1")["objects"][0]
     assert close(again["volume"], record["volume"], 1e-6)
     assert np.abs(np.subtract(again["center_of_mass"], record["center_of_mass"])).max() < 1e-6 * 0.005
-    assert refused("measure", "--format", "urdf", "--meshes")
+
+
+@pytest.mark.parametrize("name", SUFFIXES)
+def test_meshes_are_left_out_of_streams_and_on_request(tmp_path, name):
+    """What goes to the standard output has no file beside it that it could name."""
+    arm()
+    path = tmp_path / ("robot" + SUFFIXES[name])
+    for words in ((), ("--output", "/dev/stdout"), ("--output", "/dev/null"), ("--no-meshes", "--output", path)):
+        line = Run(parsed("measure", "--format", name, *words))
+        line.measure()
+        found = line.documents[0]["robot"]
+        assert "mesh" not in found.lower() and "Fore" in found and not line.errors
+    assert not [*tmp_path.iterdir()] and not os.path.exists("/dev/meshes")
+
+
+@pytest.mark.parametrize("links", ["object", "collection"])
+def test_instances_are_shown_by_their_link(tmp_path, links):
+    part = bpy.data.collections.new("Part")
+    part.objects.link(bpy.data.objects.new("Body", mesh_body()))
+    instancer = add(None, "Twice as large", (1, 2, 3), (0.1, 0.2, 0.3), (2, 2, 2))
+    instancer.instance_type, instancer.instance_collection = "COLLECTION", part
+    bpy.context.view_layer.update()
+    (link,) = exported(tmp_path, "urdf", "--links", links).values()
+    assert_filled(link, 1000.0)
+
+
+@pytest.mark.parametrize("name", SUFFIXES)
+def test_links_without_faces_have_no_geometry_and_a_note(tmp_path, name, capsys):
+    add(mesh_body("Solid"), "Solid")
+    wire = bpy.data.curves.new("Wire", "CURVE")
+    wire.dimensions = "3D"
+    spline = wire.splines.new("POLY")
+    spline.points.add(3)
+    spline.points.foreach_set("co", [0, 0, 0, 1, 1, 0, 0, 1, 1, 2, 0, 1, 1, 2, 3, 1])
+    add(wire, "Wire").body_moments.kind = "WIRE"
+    links = exported(tmp_path, name)
+    assert len(links["Solid"].corners) and not len(links["Wire"].corners)
+    assert str(finding("robot_links_bare", count=1, links=["Wire"])) in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("name", ["urdf", "sdf", "mjcf"])
+def test_meshes_in_blocks_are_links_without_geometry(tmp_path, name):
+    path = tmp_path / "part.stl"
+    path.write_bytes(stl(box((0, 0, 0), (1, 2, 3))))
+    (link,) = exported(tmp_path, name, "--stream", "always", path).values()
+    assert close(link.mass, 6000.0, 1e-12) and not len(link.corners)
+    assert sorted(file.name for file in tmp_path.iterdir()) == ["part.stl", "robot" + SUFFIXES[name]]
+
+
+def test_robots_in_one_folder_keep_their_own_meshes(tmp_path):
+    """Of links with one name."""
+    body = add(mesh_body(), "Part")
+    text("measure", "--format", "urdf", "--output", tmp_path / "small.urdf")
+    body.scale = (2, 2, 2)
+    bpy.context.view_layer.update()
+    text("measure", "--format", "urdf", "--output", tmp_path / "large.urdf")
+    small, large = (exported_links(tmp_path / (name + ".urdf"))["Part"] for name in ("small", "large"))
+    assert close(large.sides, 2.0 * small.sides, 1e-6)
+
+
+def test_only_meshes_of_ours_are_replaced(tmp_path):
+    """Neither is one of somebody else's without --force, nor is any of the others then."""
+    arm()
+    words = ("measure", "--format", "urdf", "--output", str(tmp_path / "robot.urdf"))
+    for _ in range(2):
+        text(*words)
+    upper, tool = (tmp_path / "meshes" / "robot" / (name + ".stl") for name in ("upper", "tool"))
+    upper.unlink()
+    tool.write_bytes(b"mine" * 30)
+    line = Run(parsed(*words))
+    line.measure()
+    reason = str(finding("result_foreign_file", path=str(tool)))
+    (entry,) = line.documents[0]["errors"]
+    assert entry["reason"] == str(finding("robot_meshes_not_written", error=reason))
+    assert tool.read_bytes() == b"mine" * 30 and not upper.exists() and "mesh" not in line.documents[0]["robot"]
+    text(*words, "--force")
+    assert upper.is_file() and tool.read_bytes().startswith(b"Body Moments")
+    tool.write_bytes(b"")
+    text(*words)
+    assert tool.read_bytes().startswith(b"Body Moments")
+
+
+def test_the_mesh_that_is_measured_is_never_replaced(tmp_path):
+    """A result of ours as it may be, and with --force."""
+    add(mesh_body(), "Part")
+    text("measure", "--format", "urdf", "--output", tmp_path / "robot.urdf")
+    path = tmp_path / "meshes" / "robot" / "part.stl"
+    before = path.read_bytes()
+    words = (
+        "measure",
+        "--format",
+        "urdf",
+        "--unit-scale",
+        "0.001",
+        "--output",
+        tmp_path / "robot.urdf",
+        "--force",
+        path,
+    )
+    line = Run(parsed(*words))
+    line.measure()
+    assert line.errors == 1 and path.read_bytes() == before
 
 
 def test_an_older_robot_of_ours_is_replaced_and_another_is_not(tmp_path):
@@ -198,9 +310,9 @@ def test_collections_and_bones_are_links_too(tmp_path):
     armature = armature_of(character, parents=PARENTS)
     skin_of(character, armature)
     path = tmp_path / "rig.urdf"
-    root = ElementTree.fromstring(text("measure", "--format", "urdf", "--links", "bone", "--meshes", "--output", path))
+    root = ElementTree.fromstring(text("measure", "--format", "urdf", "--links", "bone", "--output", path))
     assert {*character.names} <= {link.get("name") for link in root.iter("link")}
-    assert len([*(tmp_path / "meshes").iterdir()]) == len(character.names)
+    assert len([*(tmp_path / "meshes" / "rig").iterdir()]) == len(character.names)
     assert refused("measure", "--format", "urdf", "--links", "bone", "--density", "1")
 
 
@@ -218,7 +330,7 @@ def test_a_scan_and_a_mesh_in_blocks_are_links_of_their_own(tmp_path):
         (link,) = ElementTree.fromstring(text(*words, *["--density=7"] * (path == mesh))).iter("link")
         assert link.get("name") == path.stem and close(float(link.find("inertial/mass").get("value")), mass, 1e-12)
         assert close(numbers(link.find("inertial/origin").get("xyz")), np.array(center), 1e-12)
-        assert (link.find("visual") is None) == (path == samples)
+        assert link.find("visual") is None
 
 
 def test_a_robot_without_links_is_an_error():
@@ -234,9 +346,9 @@ def test_meshes_that_cannot_be_written_are_an_error_beside_the_robot(tmp_path):
     arm()
     (tmp_path / "meshes").write_text("mine")
     path = tmp_path / "robot.urdf"
-    line = Run(parsed("measure", "--format", "urdf", "--meshes", "--output", str(path)))
+    line = Run(parsed("measure", "--format", "urdf", "--output", str(path)))
     line.measure()
     (entry,) = line.documents[0]["errors"]
     assert line.errors == 1 and line.internal_errors == 0 and (tmp_path / "meshes").read_text() == "mine"
     assert entry == {"name": None, "reason": str(finding("robot_meshes_not_written", error="File exists"))}
-    assert line.documents[0]["robot"].startswith("<?xml")
+    assert line.documents[0]["robot"].startswith("<?xml") and "mesh" not in line.documents[0]["robot"]

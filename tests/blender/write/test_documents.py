@@ -37,8 +37,11 @@ def of_box(mass, sides, center=(0.0, 0.0, 0.0), turn=TURN):
 
 def robot():
     """A link of each kind of shape, a joint of each kind, names that no format has, two roots."""
+    corners = np.array([(0, 0, 0), (9, 9, 9), (1, 0, 0), (0, 2, 0), (0, 0, 3)], float)  # the second is in no triangle
+    surface = Surface.from_triangles(corners, np.array([(0, 3, 2), (0, 2, 4), (0, 4, 3), (2, 3, 4)]))
+    box = Shape("box", (1.0, 2.0, 3.0), Pose(np.array([0.5, 0.0, 0.0])))
     shapes = {
-        "base": (Shape("mesh", file="meshes/base.stl"), Shape("box", (1.0, 2.0, 3.0), Pose(np.array([0.5, 0.0, 0.0])))),
+        "base": (Shape("mesh", file="meshes/base.stl", surface=surface), box),
         "arm <1>": (Shape("mesh", (2.0, 1.0, 1.0), Pose(np.zeros(3), TURN), "meshes/arm.stl", True),),
         "arm_1_": (Shape("ellipsoid", (1.0, 2.0, 3.0)),),
         "world": (Shape("capsule", (0.5, 2.0), Pose(np.array([0.0, 1.0, 0.0]), QUARTERS)),),
@@ -69,20 +72,15 @@ def robot():
     return Robot('A "robot"', tuple(links), joints)
 
 
-def surface_of(name):
-    corners = np.array([(0, 0, 0), (9, 9, 9), (1, 0, 0), (0, 2, 0), (0, 0, 3)], float)  # the second is in no triangle
-    faces = np.array([(0, 3, 2), (0, 2, 4), (0, 4, 3), (2, 3, 4)])
-    return Surface.from_triangles(corners, faces) if name == "base" else None
-
-
 def test_the_meshes_of_a_robot_are_written_where_its_file_names_them(tmp_path):
-    """Of the links that have surfaces, and of these the shapes that are meshes."""
+    """Of the shapes that have surfaces."""
     for _ in range(2):  # in place of those of before
-        written = stl.write_meshes(robot(), surface_of, tmp_path / "new")
-        assert written == finding("robot_meshes_written", count=1, folder=str(tmp_path / "new"))
+        written = stl.write_meshes(robot(), tmp_path / "New arm.urdf")
+    names = [[shape.file for shape in link.shapes] for link in written.links]
+    assert names[:2] == [["meshes/new_arm/base.stl", ""], ["meshes/arm.stl"]]
     (path,) = (one for one in tmp_path.rglob("*") if one.is_file())
-    data, surface = path.read_bytes(), surface_of("base")
-    assert path == tmp_path / "new" / "meshes" / "base.stl" and data[:80] == b"Body Moments".ljust(80, b"\0")
+    data, surface = path.read_bytes(), robot().links[0].shapes[0].surface
+    assert path == tmp_path / names[0][0] and data[:80] == b"Body Moments".ljust(80, b"\0")
     rows = np.frombuffer(data[84:], [("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("more", "<u2")])
     assert len(rows) == int.from_bytes(data[80:84], "little") == 4
     assert not rows["normal"].any() and not rows["more"].any()

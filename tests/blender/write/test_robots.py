@@ -12,7 +12,7 @@ import pytest
 pytest.importorskip("bpy")
 from body_moments.core.robots.model import Inertial, Link, Robot
 from body_moments.core.verdict.finding import FileError, finding
-from body_moments.operators.write.robots import from_records, gltf, mjcf, text, usd
+from body_moments.operators.write.robots import from_records, gltf, mjcf, stl, text, usd
 
 from tests.blender.write.test_documents import of_box
 from tests.close import close
@@ -76,8 +76,8 @@ def test_names_that_become_one_are_numbered():
     names = ["a b", "a-b", "a_b", "a_b_2", "c"]
     assert text.unique_names(names, usd.identifier) == dict(zip(names, ["a_b", "a_b_2", "a_b_3", "a_b_2_2", "c"]))
     assert text.unique_names(["a", "b"], str, ["a", "a_2"]) == {"a": "a_3", "b": "b"}
-    files = from_records.mesh_files(["Arm", "ARM", "äb", ""])
-    assert files == {"Arm": "meshes/arm.stl", "ARM": "meshes/arm_2.stl", "äb": "meshes/_b.stl", "": "meshes/_.stl"}
+    files = {"Arm": "arm.stl", "ARM": "arm_2.stl", "äb": "_b.stl", "": "_.stl"}
+    assert stl.mesh_files(files, "My Robot") == {name: "meshes/my_robot/" + file for name, file in files.items()}
 
 
 def test_a_root_without_a_mass_is_passed_over_in_a_gltf():
@@ -118,9 +118,14 @@ def record(name, mass=1.0, **link):
     return {"name": name, "mass": mass, "link": {"parents": [], **place, **link}}
 
 
-def of_surface(name, type_="MESH", kind="solid", **link):
+def of_surface(name, **link):
     box = of_box(2.0, (1.0, 2.0, 4.0))
-    entry = {**record(name, 2.0, scale=[1.0] * 3, **link), "type": type_, "kind": kind, "center_of_mass": box.center}
+    entry = {
+        **record(name, 2.0, scale=[1.0] * 3, **link),
+        "type": "MESH",
+        "kind": "solid",
+        "center_of_mass": box.center,
+    }
     return entry | {"inertia": box.inertia, "principal_moments": box.moments, "principal_axes": box.axes}
 
 

@@ -115,7 +115,7 @@ def test_collections_are_links_with_all_that_they_hold(tmp_path):
     assert close(np.array(inertial.get("pos").split(), float), body.center, 1e-14)
     found = tensor(*(np.array(inertial.get(key).split(), float) for key in ("diaginertia", "quat")))
     assert np.abs(found - body.inertia).max() < 1e-14 * np.abs(body.inertia).max()
-    assert (tmp_path / "meshes" / "arm.stl").stat().st_size == 84 + 2 * 50 * 20
+    assert (tmp_path / "meshes" / "arm" / "arm.stl").stat().st_size == 84 + 2 * 50 * 20
 
 
 def test_the_links_of_a_collections_exporter_are_the_collections_in_it(tmp_path):
@@ -249,9 +249,9 @@ def test_bones_are_links_in_their_rest_frames_with_their_limits(tmp_path):
     place = np.array(joints[0].find("origin").get("xyz").split(), float)
     rest = armature.data.bones[names[0]].matrix_local.inverted() @ armature.data.bones[names[1]].head_local
     assert np.abs(place - np.array(rest)).max() < 1e-5
-    assert (tmp_path / "meshes" / (names[1].lower() + ".stl")).is_file()
+    assert (tmp_path / "meshes" / "rig" / (names[1].lower() + ".stl")).is_file()
     only(armature)
-    export("mjcf", tmp_path / "rig.xml", links="BONE", use_selection=True, write_meshes=False)
+    export("mjcf", tmp_path / "rig.xml", links="BONE", use_selection=True, geometry="NONE")
     first = ElementTree.parse(tmp_path / "rig.xml").getroot().find("worldbody/body")
     assert first.find("freejoint") is not None and len(first.findall("body")) == len(names) - 1
     export("gltf", tmp_path / "rig.glb", links="BONE")

@@ -1,0 +1,114 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Files as they are written by default, with their meshes, opened by the programs that read them."""
+
+import json
+
+import mujoco
+import numpy as np
+import pytest
+from body_moments.core.mesh.surface import Surface
+from body_moments.core.robots.model import FreeAxis, Joint, Link, Pose, Robot, Shape
+from body_moments.operators.write.robots import mjcf
+from body_moments.operators.write.robots.formats import robot_text, with_geometry
+from pxr import Usd, UsdGeom, UsdPhysics
+from urdf_parser_py.urdf import URDF
+
+from tests.close import close
+from tests.core.bodies import box
+from tests.robots.links import inertial, rotation, shaped
+
+SHEET = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], float), np.array([[0, 1, 2], [0, 2, 3]])
+
+
+def arm():
+    """A robot and its links' surfaces: two joined links, a sheet apart, a link without faces; names with accents."""
+    rng = np.random.default_rng(11)
+    bodies = {"Rümpf 1": shaped(rng, "sheared"), "hand": box((-0.1, -0.2, 0.0), (0.3, 0.1, 0.5)), "sheet": SHEET}
+    bodies["wire"] = box((0, 0, 0), (1, 2, 3))
+    links = [
+        Link(
+            name,
+            inertial(*(bodies["hand"] if name == "sheet" else body)),
+            Pose(rng.normal(size=3), rotation(rng)),
+            (Shape("mesh", sheet=name == "sheet"),),
+        )
+        for name, body in bodies.items()
+    ]
+    joint = Joint("wrist", "Rümpf 1", "hand", (FreeAxis("rotate", np.array([0.0, 0.0, 1.0]), -1.0, 1.0),))
+    surfaces = {name: Surface.from_triangles(*body) for name, body in bodies.items() if name != "wire"}
+    return Robot("arm", tuple(links), (joint,)), surfaces
+
+
+def written(folder, name, suffix):
+    """The robot of a file, and the file."""
+    robot, surfaces = arm()
+    path = folder / ("my arm" + suffix)
+    robot, findings = with_geometry(robot, name, surfaces.get, path)
+    path.write_text(robot_text(robot, name, findings)[0], encoding="utf-8")
+    return robot, path
+
+
+def extent(points):
+    return points.max(axis=0) - points.min(axis=0)
+
+
+@pytest.mark.parametrize(("name", "suffix"), [("mjcf", ".xml"), ("urdf", ".urdf")])
+def test_mujoco_opens_files_with_their_meshes(tmp_path, name, suffix):
+    """Without the flat mesh in URDF, which cannot say that it does not collide."""
+    robot, path = written(tmp_path, name, suffix)
+    if name == "urdf":
+        robot = Robot("arm", robot.links[:2], robot.joints)
+        path.write_text(robot_text(robot, name)[0], encoding="utf-8")
+    model = mujoco.MjModel.from_xml_path(str(path))
+    assert model.nmesh == sum(bool(link.shapes) for link in robot.links)
+    for link in robot.links if name == "mjcf" else robot.links[1:]:
+        assert abs(model.body(link.name).mass[0] / link.inertial.mass - 1.0) < 1e-12
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    assert np.isfinite(data.qacc).all()
+
+
+def test_usd_opens_a_layer_with_its_meshes(tmp_path):
+    robot, path = written(tmp_path, "usd", ".usda")
+    stage = Usd.Stage.Open(str(path))
+    meshes = [UsdGeom.Mesh(prim) for prim in stage.Traverse() if prim.IsA(UsdGeom.Mesh)]
+    shown = [np.array(mesh.GetPointsAttr().Get(), float) for mesh in meshes]
+    true = [shape.surface.points for link in robot.links for shape in link.shapes]
+    assert UsdGeom.GetStageMetersPerUnit(stage) == 1.0
+    assert close([extent(points) for points in shown], [extent(points) for points in true], 1e-6)
+    bodies = [prim for prim in stage.Traverse() if prim.HasAPI(UsdPhysics.RigidBodyAPI)]
+    assert len(bodies) == len(robot.links) and [*tmp_path.iterdir()] == [path]
+
+
+def test_urdf_names_the_meshes_that_are_there(tmp_path):
+    robot, path = written(tmp_path, "urdf", ".urdf")
+    links = URDF.from_xml_string(path.read_bytes()).links
+    files = [link.collision.geometry.filename for link in links if link.collision is not None]
+    assert files == [shape.file for link in robot.links for shape in link.shapes] and len({*files}) == 3
+    assert {*tmp_path.rglob("*.stl")} == {tmp_path / file for file in files}
+
+
+def test_gltf_holds_its_meshes(tmp_path):
+    robot, path = written(tmp_path, "gltf", ".gltf")
+    document = json.loads(path.read_text(encoding="utf-8"))
+    positions = [mesh["primitives"][0]["attributes"]["POSITION"] for mesh in document["meshes"]]
+    shown = [np.subtract(document["accessors"][i]["max"], document["accessors"][i]["min"]) for i in positions]
+    true = [extent(shape.surface.points)[[0, 2, 1]] for link in robot.links for shape in link.shapes]
+    assert close(shown, np.array(true), 1e-6) and [*tmp_path.iterdir()] == [path]
+
+
+@pytest.mark.parametrize("count", [mjcf.MOST_TRIANGLES, mjcf.MOST_TRIANGLES + 2])
+def test_mujoco_refuses_the_meshes_that_have_a_warning(tmp_path, count):
+    points, triangles = box((0, 0, 0), (1, 2, 3))
+    surface = Surface.from_triangles(points, np.resize(triangles, (count, 3)))
+    link = Link("large", inertial(points, triangles), shapes=(Shape("mesh"),))
+    robot, _ = with_geometry(Robot("large", (link,)), "mjcf", lambda _: surface, tmp_path / "large.xml")
+    text, findings = robot_text(robot, "mjcf")
+    (tmp_path / "large.xml").write_text(text, encoding="utf-8")
+    if not findings:
+        assert mujoco.MjModel.from_xml_path(str(tmp_path / "large.xml")).nmesh == 1
+        return
+    assert [found.code for found in findings] == ["mjcf_mesh_too_large"] and count > mjcf.MOST_TRIANGLES
+    with pytest.raises(ValueError, match="number of faces"):
+        mujoco.MjModel.from_xml_path(str(tmp_path / "large.xml"))
