@@ -127,10 +127,10 @@ def test_an_array_under_a_controller_of_slurm(job, slurm):
 
     journal = job / "results" / "part-2.jsonl.journal"
     assert commands.wait_until(lambda: journal.exists() and journal.read_bytes().count(b"\n") == 1, 120.0)
-    slow.unlink()  # the next time it is missing, which is a record
     slurm_controller.asked(slurm, "scontrol", "requeue", number + "_2")
     now = ("scontrol", "update", "JobId=" + number + "_2", "StartTime=now")  # not after Slurm's two minutes
     commands.wait_until(lambda: state(number + "_2") == "PENDING", 60.0)
+    slow.unlink()  # Only after the first run has ended, or that run could record the missing file.
     slurm_controller.asked(slurm, *now)
     assert commands.wait_until(lambda: state(merge) in ("COMPLETED", "FAILED"), 300.0), state(merge)
     told = (job / "log-2").read_text()
