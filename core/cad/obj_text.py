@@ -38,9 +38,11 @@ _KINDS = b"|".join([*VERTICES, *INDICES, *WHOLE, *FREE_FORM, b"parm"])
 _MARKED = re.compile(MARK + rb"[ \t]*(?:" + _KINDS + rb")(?!\S)")
 _SPACES = bytes.maketrans(bytes(range(10)) + bytes(range(11, 13)) + bytes(range(14, 32)), b" " * 30)  # not \n, \r
 _NEXT = b" \v "  # joins a line and its continuation, so that lines can still be counted
-_INDEX = rb"%b(?:/(?:%b)?+){0,2}+" % (SHORT_WHOLE, SHORT_WHOLE)
-_ONE_INDEX = re.compile(_INDEX)
-_FIELDS = {name: rb"(?:[ \r\v]++%b)" % field for name, field in ((b"n", SHORT), (b"m", SHORT_OR_NAN), (b"i", _INDEX))}
+_INDEX = rb"%(n)b(?:/(?:%(n)b)?+){0,2}+"
+_SHORT_INDEX, _ANY_INDEX = (_INDEX % {b"n": number} for number in (SHORT_WHOLE, rb"[+-]?[0-9]++"))
+_FIELDS = {
+    name: rb"(?:[ \r\v]++%b)" % field for name, field in ((b"n", SHORT), (b"m", SHORT_OR_NAN), (b"i", _SHORT_INDEX))
+}
 _LINES = re.compile(
     rb"(?:(?:v(?:%(n)b{3,}+|t%(m)b++|n%(m)b{3,}+)|f%(i)b{3,}+|l%(i)b{2,}+|p%(i)b++)[ \r\v]*+\n"
     rb"|[ \r\v]*+(?!(?:%(kinds)b)(?!\S))[^\n]*+\n)*+" % {**_FIELDS, b"kinds": _KINDS}
@@ -121,8 +123,8 @@ def _indices(letters: NDArray, is_word: NDArray, is_inside: NDArray) -> tuple[ND
 def _find_fault(line: bytes, before: Sequence[int]) -> Finding | None:
     """Return what an importer would misread in a statement, or None. before: counts of v, vt and vn."""
     kind = line.split(None, 1)[0]
-    # Blender takes a comment behind an index without a space for a part of it.
-    words = re.split(rb"\s#" if kind in INDICES else b"#", line)[0].split()[1:]
+    # Behind an index without a space, a comment is a part of it; 1.#IND has none.
+    words = re.split(rb"\s#" if kind in INDICES else rb"(?<!\.)#", line)[0].split()[1:]
     faults: Iterable[Finding | None]
     if kind in VERTICES:
         least = VERTICES[kind]
@@ -145,9 +147,10 @@ def _find_fault(line: bytes, before: Sequence[int]) -> Finding | None:
 
 def _find_index_fault(word: bytes, before: Sequence[int]) -> Finding | None:
     """Return why a word is no index of v, vt and vn, or None. Importers ignore vt and vn where there are none."""
-    if not _ONE_INDEX.fullmatch(word):
+    if not re.fullmatch(_ANY_INDEX, word):
         return finding("field_not_whole", text=shorten(word))
     for role, (number, count) in enumerate(zip(word.split(b"/"), before)):
-        if number and not 0 < abs(int(number)) <= count and (count or not role):
+        is_there = len(number) < 19 and 0 < abs(int(number or 0)) <= count
+        if number and not is_there and (count or not role):
             return finding("field_not_vertex", text=shorten(word))
     return None

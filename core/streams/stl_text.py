@@ -16,10 +16,13 @@ from .misread import SHORT, SHORT_OR_NAN, Data, find_number_fault, refuse_line, 
 
 _FIRST_LINE = re.compile(rb"(?:\xef\xbb\xbf)?[ \t]*solid[^\n]*", re.IGNORECASE)
 _NORMAL, _CORNER = ((rb"(?:\s++" + number + rb"){3}") for number in (SHORT_OR_NAN, SHORT))
-_LINES = re.compile(
-    rb"(?:\s*+(?:(?:end)?solid\b(?:(?!\s(?:vertex|facet)\s)[^\n])*+(?!\S)|facet\s++normal%b\s++outer\s++loop"
-    rb"(?:\s++vertex%b){3}\s++endloop\s++endfacet(?!\S)))*+\s*+" % (_NORMAL, _CORNER),
-    re.IGNORECASE,
+_LOWER, _ANY_CASE = (
+    re.compile(
+        rb"(?:\s*+(?:(?:end)?solid\b(?:(?!\s(?:vertex|facet)\s)[^\n])*+(?!\S)|facet\s++normal%b\s++outer\s++loop"
+        rb"(?:\s++%b%b){3}\s++endloop\s++endfacet(?!\S)))*+\s*+" % (_NORMAL, vertex, _CORNER),
+        re.IGNORECASE,
+    )
+    for vertex in (rb"(?-i:vertex)", rb"vertex")
 )
 _WORD = re.compile(rb"\S+")
 _CORNER_WORDS = ["vertex", True, True, True]  # whether a number places a point
@@ -30,11 +33,13 @@ def check_stl_text(data: Data) -> None:
     """Raise FileError if an importer would misread a word."""
     first = _FIRST_LINE.match(data)
     at = first.end() if first else 0
-    while (at := _end(data, at)) < len(data):
+    # Blender reads no other spelling, so that all must be this one or none.
+    is_lower = data.find(b"vertex", at) >= 0
+    while (at := _find_end(data, at, _LOWER if is_lower else _ANY_CASE)) < len(data):
         words = list(islice(_WORD.finditer(data, at), len(_FACET_WORDS)))
         is_cut = len(words) < len(_FACET_WORDS)
         for word, expected in zip(words[:-1] if is_cut else words, _FACET_WORDS):
-            fault = _find_fault(word[0], expected)
+            fault = _find_fault(word[0], expected, is_lower)
             if fault is not None:
                 refuse_line(data, word.start(), fault)
         if is_cut:
@@ -42,15 +47,15 @@ def check_stl_text(data: Data) -> None:
         at = words[-1].end()
 
 
-def _find_fault(word: bytes, expected: str | bool) -> Finding | None:
+def _find_fault(word: bytes, expected: str | bool, is_lower: bool) -> Finding | None:
     if isinstance(expected, bool):
         return find_number_fault(word, expected)
-    if word.lower() == expected.encode():
+    if expected.encode() in (word, word if is_lower and expected == "vertex" else word.lower()):
         return None
     return finding("field_not_word", text=shorten(word), expected=expected)
 
 
-def _end(data: Data, at: int) -> int:
+def _find_end(data: Data, at: int, facets: re.Pattern[bytes]) -> int:
     """Return the end of the facets and names of solids that begin at a place."""
-    matched = _LINES.match(data, at)
+    matched = facets.match(data, at)
     return matched.end() if matched else at

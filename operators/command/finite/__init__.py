@@ -12,14 +12,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from ....core.streams.misread import map_file
+from ....core.streams.misread import Data, map_file
 from .fbx import check_fbx
 from .gltf import Buffers, check_gltf, unquote
-from .numbers import MAX_FLOAT32, Data
 from .ply import check_ply
 from .stl_obj import check_obj, check_stl
 
-__all__ = ["MAX_FLOAT32", "Buffers", "check_numbers", "unquote"]
+__all__ = ["Buffers", "check_numbers", "unquote"]
 
 
 def check_numbers(path: str, kind: str) -> None:

@@ -14,8 +14,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ....core.streams.misread import SHORT, Data, find_number_fault, refuse_line
 from ....core.verdict.finding import finding
-from .numbers import BLOCK, MALFORMED, OVERLAP, Data, bad_in_table, count_bytes, is_finite, refuse, suspicious
+from .numbers import BLOCK, MALFORMED, bad_in_table, refuse
 
 _FBX_MAGIC = b"Kaydara FBX Binary  \0\x1a\0"
 _FBX_TYPES = {b"d": np.dtype("<f8"), b"f": np.dtype("<f4")}
@@ -50,28 +51,21 @@ def check_fbx(data: Data, _path: str) -> None:
                     refuse(count, finding("at_vertex", vertex=first))
 
 
-_FBX_ARRAY = re.compile(rb"\bVertices\s*:(?:\s*\*\d+\s*\{\s*a:)?$")
-_FBX_NUMBER = re.compile(rb"[^\s,:{}]+")
+_FBX_ARRAY = re.compile(rb"Vertices(?<!\wVertices)\s*:(?:\s*\*\d+\s*\{\s*a\s*:)?")
+_FBX_NUMBERS = re.compile(rb"(?:[\s,]*+%b(?=[\s,}]|\Z))*+[\s,]*+" % SHORT)
+_FBX_WORD = re.compile(rb"[^\s,:{}]++(?!\s*:)")  # not the name of what follows
 
 
 def _check_ascii_fbx(data: Data) -> None:
-    count, first, before, done = 0, 0, 0, 0
-    begin, of_vertices = 0, False  # of the last array that was met
-    for place in suspicious(data):
-        if place < done:
-            continue
-        colon = data.rfind(b":", before, place)
-        if colon >= 0:
-            begin, before = colon + 1, colon
-            of_vertices = _FBX_ARRAY.search(data[max(0, colon - 100) : begin]) is not None
-        window = max(begin, place - OVERLAP)
-        words = _FBX_NUMBER.finditer(data[window : place + OVERLAP])
-        word = next((word for word in words if window + word.end() > place), None)
-        done = place + 1 if word is None else window + word.end()
-        if of_vertices and word is not None and not is_finite(word[0]):
-            first = first if count else count_bytes(data, b",", begin, place) // 3
-            count += 1
-    refuse(count, finding("at_vertex", vertex=first))
+    for array in _FBX_ARRAY.finditer(data):
+        is_named = data[max(0, array.start() - 100) : array.start()].rpartition(b"\n")[2].strip()
+        numbers = None if is_named else _FBX_NUMBERS.match(data, array.end())
+        while numbers is not None:
+            word = _FBX_WORD.match(data, numbers.end())
+            fault = None if word is None else find_number_fault(word[0], True)
+            if fault is not None:
+                refuse_line(data, numbers.end(), fault)
+            numbers = None if word is None else _FBX_NUMBERS.match(data, word.end())
 
 
 def _fbx_children(data: Data, parent: FbxNode, wide: bool, name: bytes) -> Iterator[FbxNode]:

@@ -16,9 +16,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ....core.streams.misread import map_file
+from ....core.streams.misread import MAX_FLOAT32, Data, map_file
 from ....core.verdict.finding import FileError, finding
-from .numbers import MALFORMED, MAX_FLOAT32, Data, bad_in_table, refuse
+from .numbers import MALFORMED, bad_in_table, refuse
 
 _GLTF_WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "MAT4": 16}
 _GLTF_FLOAT = 5126

@@ -10,10 +10,11 @@ from contextlib import suppress
 
 import numpy as np
 
+from ....core.streams.misread import Data
 from ....core.streams.ply_header import MAX_HEADER, Header, Property, parse_header
 from ....core.streams.ply_text import check_ply_text
 from ....core.verdict.finding import finding
-from .numbers import MALFORMED, Data, bad_in_table, refuse
+from .numbers import MALFORMED, bad_in_table, refuse
 
 
 def check_ply(data: Data, _path: str) -> None:

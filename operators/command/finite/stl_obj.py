@@ -9,9 +9,10 @@ import struct
 import numpy as np
 
 from ....core.cad.obj_text import check_obj_text
+from ....core.streams.misread import Data
 from ....core.streams.stl_text import check_stl_text
 from ....core.verdict.finding import finding
-from .numbers import Data, bad_in_table, refuse
+from .numbers import bad_in_table, refuse
 
 
 def check_stl(data: Data, _path: str) -> None:

@@ -10,22 +10,27 @@ from body_moments.operators.write.documents import FORMATS
 
 from tests.blender.batch_files import sentence
 
+NO_NUMBERS = ("1_0", "٣", "1.0D0", "0x1", "1e", "1.0.0", "--1")
 NUMBERS = {"0.5": 0.5, "1e-300": 1e-300, "1e300": 1e300}
 POSITIVE = (
     NUMBERS,
-    {text: "usage_not_positive" for text in ("0", "-1", "nan", "inf", "-inf", "1e999", "x", "", "1,2")},
+    {text: "usage_not_positive" for text in ("0", "-1", "nan", "inf", "-inf", "1e999", "x", "", "1,2", *NO_NUMBERS)},
 )
 TRIPLES = {"1,-2,3e5": (1.0, -2.0, 3e5), "0,0,0": (0.0, 0.0, 0.0)}
-NO_TRIPLES = {text: "usage_not_triple" for text in ("1", "1,2", "1,2,3,4", "1,2,nan", "1,inf,2", "a,b,c", "1,,2")}
+NO_TRIPLES = {
+    text: "usage_not_triple"
+    for text in ("1", "1,2", "1,2,3,4", "1,2,nan", "1,inf,2", "a,b,c", "1,,2", "1_0,2,3", "٣,2,3")
+}
 COUNTS = {
     text: "usage_not_positive" for text in ("0", "-1", "1.5", "x", "", "1000000000", "²", "٣", "000000000", "1e3")
 }
 ORDERS = {"-1": {"usage_order": 30}, "x": {"usage_order": 30}, "1.5": {"usage_order": 30}}
+ORDERS |= {"1_0": {"usage_order": 30}, "٣": {"usage_order": 30}}
 LIMITED = {
     "--order": ({"0": 0, "7": 7, "30": 30}, {**ORDERS, "31": {"usage_order_too_high": 30}}),
     "--grid": (
         {"2": 2, "256": 256},
-        {text: {"usage_frequency_count": 256} for text in ("1", "257", "0", "-3", "x", "2.5")},
+        {text: {"usage_frequency_count": 256} for text in ("1", "257", "0", "-3", "x", "2.5", "1_0", "٣")},
     ),
     "--spline-order": (
         {"1": 1, "16": 16},
@@ -35,7 +40,10 @@ LIMITED = {
 OPTIONS = {
     **dict.fromkeys(("--density", "--mass", "--thickness", "--unit-scale", "--density-scale", "--qmax"), POSITIVE),
     **dict.fromkeys(("--timeout", "--memory-mb"), POSITIVE),
-    "--threshold": ({**NUMBERS, "-2.5": -2.5, "0": 0.0}, dict.fromkeys(("nan", "inf", "-inf", ""), "usage_not_number")),
+    "--threshold": (
+        {**NUMBERS, "-2.5": -2.5, "0": 0.0},
+        dict.fromkeys(("nan", "inf", "-inf", "", "1_0"), "usage_not_number"),
+    ),
     "--jobs": ({"1": 1, "999999999": 999999999}, COUNTS),
     "--origin": (TRIPLES, NO_TRIPLES),
     "--spacing": (

@@ -310,7 +310,7 @@ def failing(_path, *_):
 @pytest.mark.parametrize(
     ("name", "reader"),
     [
-        ("part.stl", "finite.stl_obj.bad_in_text"),
+        ("part.stl", "finite.stl_obj.check_stl_text"),
         ("part.igs", "import_surfaces.read_surfaces"),
         ("part.obj", "import_surfaces.has_surfaces"),
         ("part.3mf", "import_3mf.read_3mf"),

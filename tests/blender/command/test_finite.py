@@ -22,8 +22,8 @@ pytestmark = pytest.mark.usefixtures("registered")
 
 WORDS = ["nan", "-NaN", "NAN(0x1)", "inf", "+INF", "-Infinity", "1e999", "-1E+39", "1e0039", "4" + "0" * 38]
 WORDS += ["1.#INF", "-1.#IND", "1.#QNAN", "7" * 31 + "e8", "0.5e39", "3.5e38", "7" * 30 + "e09", "4.e38"]
+NO_NUMBERS = ["1.0x0", "1.0D0", "l.0", "--1", "1e", "1.0.0", "0x1", "1_0", "٣"]
 FINITE = ["1e-999", "1E+02", "-1.5e+037", "0." + "1" * 60, "3.4e38", "1e+00", "2.0e-39", ".5", "0" * 40 + "1", "1e05"]
-PLACES = {"vertex": "at_vertex", "triangle": "at_triangle"}
 
 
 def refused(count, code, **place):
@@ -52,7 +52,7 @@ AXES = [f"property float {axis}" for axis in "xyz"]
 
 
 def texts(word):
-    """A tetrahedron whose third corner has that word as its x, by the name of a file: text, code, place."""
+    """A tetrahedron whose third corner has that word as its x, and the line of the word, by the name of a file."""
     corners = [list(map(str, corner)) for corner in files.CORNERS]
     corners[2][0] = word
     stl = files.stl_text(corners).replace("facet normal 0 0 0", "facet normal nan nan nan")
@@ -61,27 +61,35 @@ def texts(word):
     ply = ply_head("ascii", "element vertex 4", *AXES, "element face 4", "property list uchar int vertex_indices")
     ply += "".join("{} {} {}\n".format(*corner) for corner in corners)
     ply += "".join("3 {} {} {}\n".format(*face) for face in files.FACES)
-    # The first corner of FACES with the number 2 is in the first face, and three faces have one.
-    return {"t.stl": (stl, 3, "triangle", 0), "t.obj": (obj, 1, "vertex", 2), "t.ply": (ply, 1, "vertex", 2)}
+    return {"t.stl": (stl, 5), "t.obj": (obj, 7), "t.ply": (ply, 13)}
 
 
 @pytest.mark.parametrize("name", ["t.stl", "t.obj", "t.ply"])
-def test_a_text_with_a_word_that_is_no_finite_number_is_refused(tmp_path, name):
+def test_text_with_nan_or_infinity_is_refused(tmp_path, name):
     for word in WORDS:
-        text, count, of, place = texts(word)[name]
+        text, line = texts(word)[name]
         files.write_text(tmp_path / name, text)
-        said(tmp_path / name, count, PLACES[of], **{of: place})
+        cause = finding("field_not_number", text=word[:60]).as_record()
+        assert checked(tmp_path / name) == finding("line_misread", line=line, cause=cause)
     for word in FINITE:
         files.write_text(tmp_path / name, texts(word)[name][0])
         assert checked(tmp_path / name) is None, word
-    text, count, of, place = texts("nan")[name]
-    assert reason(files.write_text(tmp_path / name, text)) == refused(count, PLACES[of], **{of: place})
     assert measured(files.write_text(tmp_path / name, texts("0")[name][0]))["volume"] == pytest.approx(1.0, rel=1e-6)
 
 
-def test_all_are_counted_and_a_line_that_goes_on_is_one(tmp_path):
-    files.write_text(tmp_path / "t.obj", "v 0 0 0\nv nan 1 \\\ninf\nv 1e99 nan -inf 1 nan\n  v inf 0 0\n")
-    said(tmp_path / "t.obj", 6, "at_vertex", vertex=1)
+@pytest.mark.parametrize("name", ["t.stl", "t.obj", "t.ply"])
+def test_words_that_are_no_numbers_are_refused_streamed_or_not(tmp_path, name):
+    path = tmp_path / name
+    for word in (*NO_NUMBERS, "1,0"):
+        text, line = texts(word)[name]
+        files.write_text(path, text)
+        cause = finding("field_not_number", text=word).as_record()
+        for stream in ("never", "always")[: 1 + (name != "t.obj")]:
+            assert reason(path, "--stream", stream) == sentence("line_misread", line=line, cause=cause)
+    text, line = texts("")[name]  # one number is missing
+    files.write_text(path, text)
+    for stream in ("never", "always")[: 1 + (name != "t.obj")]:
+        assert "Line {} ".format(line + (name == "t.stl")) in reason(path, "--stream", stream)
 
 
 def rows_of(order):
@@ -115,23 +123,6 @@ def test_a_binary_ply_is_read_in_its_order_of_bytes_behind_whatever_comes_first(
     body = [struct.pack(order + "Bh3f", 1, 7, 0, 0, 0), struct.pack(order + "B3f", 0, 0, 0, math.nan)]
     path.write_bytes(ply_head(kind, *lists).encode() + b"".join(body) + body[0])
     said(path, 1, "at_vertex", vertex=1)
-
-
-def test_an_ascii_ply_has_its_vertices_where_the_header_says(tmp_path):
-    elements = [
-        "element other 2",
-        "property float nan",
-        "element vertex 2",
-        "property float q",
-        *AXES,
-        "element last 1",
-    ]
-    head = ply_head("ascii", *elements, "property float x")
-    path = tmp_path / "t.ply"
-    files.write_text(path, head + "nan\ninf\nnan 0 0 0\nnan 0 0 1\nnan\n")
-    assert checked(path) is None
-    files.write_text(path, head + "nan\ninf\nnan 0 0 0\nnan 0 nan -inf\nnan\n")
-    said(path, 2, "at_vertex", vertex=1)
 
 
 def test_a_binary_stl_may_have_any_normals(tmp_path):
@@ -328,16 +319,16 @@ def test_the_vertices_of_an_fbx_of_text_are_looked_at(tmp_path, head):
     text = '; FBX 7.4.0 project file\nObjects:  {\n\tGeometry: 1, "Geometry::inf", "Mesh" {\n'
     text += "\t\tNormals: *3 {\n\t\t\ta: nan,1e999,0\n\t\t}\n\t\t"
     after = "\n\t\t}\n\t\tWeights: *1 {\n\t\t\ta: nan\n\t\t}\n\t}\n}\n"
-    for word in (*FINITE, *WORDS):
-        files.write_text(path, text + head + "0,0,0,1,0,0,0," + word + ",0,\n0,0,3" + after)
-        if word in FINITE:
-            assert checked(path) is None, word
-        else:
-            said(path, 1, "at_vertex", vertex=2)
-    files.write_text(path, text + head + "0,nan,inf,1,0,0,0,1e999,0," + "7" * 45 + ",0,3" + after)
-    said(path, 4, "at_vertex", vertex=0)
-    files.write_text(path, "Vertices: 0,0,0,nan,0,0")
-    said(path, 1, "at_vertex", vertex=1)
+    for word in (*FINITE, *WORDS, *NO_NUMBERS):
+        files.write_text(path, text + head + "0,0,0,1,0,0,0,\n" + word + ",0,\n0,0,3" + after)
+        line = (text + head).count("\n") + 2
+        cause = finding("field_not_number", text=word[:60]).as_record()
+        assert checked(path) == (None if word in FINITE else finding("line_misread", line=line, cause=cause))
+    cause = finding("field_not_number", text="nan").as_record()
+    files.write_text(path, "; Vertices: are numbers\nVertices: 0,0,0,nan,0,0")
+    assert checked(path) == finding("line_misread", line=2, cause=cause)
+    files.write_text(path, "Vertices: 0,0,0,1,\n0,0\nPolygonVertexIndex: 0,nan\nOther: *1 {\na: nan}")
+    assert checked(path) is None
 
 
 def test_an_fbx_of_blender_is_looked_at(tmp_path):
@@ -373,15 +364,3 @@ def test_vertices_without_coordinates_are_left_to_blender(tmp_path):
     path = tmp_path / "a.ply"
     path.write_bytes(b"ply\nformat binary_little_endian 1.0\nelement vertex 4\nend_header\n" + bytes(48))
     finite.check_numbers(str(path), ".ply")
-
-
-@pytest.mark.parametrize("end", ["", " "])
-def test_the_first_and_the_last_bytes_of_a_file_count(tmp_path, end):
-    path = tmp_path / "t.obj"
-    files.write_text(path, "v nan 0 0\nv 1 0 0" + end)
-    said(path, 1, "at_vertex", vertex=0)
-    files.write_text(path, "v 1 0 0\nv 0 0 inf" + end)
-    said(path, 1, "at_vertex", vertex=1)
-    path = tmp_path / "t.stl"
-    files.write_text(path, "vertex nan 0 0\nvertex 1 1e99 inf" + end)
-    said(path, 3, "at_triangle", triangle=0)

@@ -123,6 +123,31 @@ def test_a_wrong_file_is_an_error_with_a_reason(tmp_path, name):
     assert found["objects"] == [] and "3MF" in error["reason"] and "Internal" not in error["reason"]
 
 
+@pytest.mark.parametrize("word", ["1_0", "٣", "1.0D0", "0x1", "--1", "", "1 2", "1,0", "INF"])
+@pytest.mark.parametrize(
+    "element, field",
+    [("vertex", 'x="1"'), ("triangle", 'v2="1"'), ("item", MOVED), ("component", MOVED)],
+)
+def test_word_for_a_number_is_named_with_its_element(tmp_path, element, field, word):
+    parts = '<object id="2"><components><component objectid="1" transform="{}"/></components></object>'.format(MOVED)
+    text = model(ONE + "\n" + parts, '\n<item objectid="2" transform="{}"/>'.format(MOVED))
+    at = text.index(field, text.index("<" + element + " ") if element != "vertex" else 0)
+    wrong = field[: field.rindex("1")] + word + field[field.rindex("1") + 1 :] if field != MOVED else word + field[1:]
+    path = package(tmp_path / "a.3mf", text[:at] + wrong + text[at + len(field) :])
+    with pytest.raises(FileError) as caught:
+        threemf.read_3mf(str(path))
+    found = caught.value.finding
+    line = {"vertex": 1, "triangle": 1, "component": 2, "item": 3}[element]
+    assert (found.code, found.values["line"], found.values["element"]) == ("threemf_field", line, element)
+    assert word.split()[:1] == found.values["text"].split()[:1] or found.values["text"] == wrong
+
+
+def test_numbers_of_xml_schema_are_read(tmp_path):
+    corners = [(" 0 ", "+0", "-0.0"), ("+1.", "0e5", ".0"), ("0", "\t2E0\n", "0"), ("0", "0", "3.0e+00")]
+    text = model('<object id="1">{}</object>'.format(mesh(corners)), ITEM)
+    assert close(measured(package(tmp_path / "a.3mf", text), "--unit-scale", 1)["volume"], 1e-9, rel=1e-6)
+
+
 def test_no_random_damage_is_our_fault(tmp_path):
     data = package(tmp_path / "a.3mf", model(ONE, ITEM)).read_bytes()
     chance = np.random.default_rng(1)

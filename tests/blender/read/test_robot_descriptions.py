@@ -173,6 +173,42 @@ def test_wrong_numbers_are_findings_and_what_is_right_beside_them_is_read(tmp_pa
     assert link.inertial is None and [shape.shape.size for shape in link.shapes] == [(2.0,)]
 
 
+PLACES = {
+    "robot.urdf": """<robot name="r">
+<link name="a">
+<inertial><origin xyz="0 0 1"/>
+<mass value="@"/><inertia ixx="1" iyy="1" izz="1"/></inertial>
+<collision><geometry>
+<sphere radius="@"/></geometry></collision></link></robot>""",
+    "robot.sdf": """<sdf><model name="m">
+<link name="a"><inertial><pose>0 0 1 0 0 0</pose>
+<inertia><ixx>1</ixx></inertia>
+<mass>@</mass></inertial><collision><geometry><sphere>
+<size/>
+<radius>@</radius></sphere></geometry></collision></link></model></sdf>""",
+    "robot.xml": """<mujoco><worldbody>
+<body name="a">
+
+<inertial mass="@" pos="0 0 1"/>
+
+<geom type="sphere" size="@"/></body></worldbody></mujoco>""",
+}
+ELEMENTS = {"robot.urdf": ("mass", "sphere"), "robot.sdf": ("mass", "radius"), "robot.xml": ("inertial", "geom")}
+
+
+@pytest.mark.parametrize("name", PLACES)
+def test_word_for_a_number_is_named_with_its_line(tmp_path, name):
+    for word in ("1_0", "٣", "1.0D0", "0x1", "1e", "--1", "1,0", "1\xa02"):
+        (link,) = read(tmp_path, PLACES[name].replace("@", word), name).links
+        found = [one.values for one in link.findings]
+        assert [one["line"] for one in found] == [4, 6] and {one["text"] for one in found} == {word}
+        assert tuple(one["element"] for one in found) == ELEMENTS[name]
+        assert link.inertial is None and not link.shapes
+    for word in ("+1", "1.", ".1e1", " 1E0\t"):
+        (link,) = read(tmp_path, PLACES[name].replace("@", word), name).links
+        assert not link.findings and link.inertial.mass == 1.0 and link.shapes[0].shape.size == (1.0,)
+
+
 @SEEDS
 def test_urdf(tmp_path, seed):
     rng = np.random.default_rng(seed)

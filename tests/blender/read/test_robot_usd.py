@@ -189,6 +189,11 @@ def test_usd_leaves_out_meshes_that_are_damaged(tmp_path):
     wrong = "float3 physics:diagonalInertia = (1, 2)\nfloat physics:mass = 1\n"
     (link,) = read(tmp_path, body.format(wrong, "")).links
     assert [(one.code, one.values["text"]) for one in link.findings] == [("description_number", "(1, 2)")]
+    for word in ("1_0", "٣", "1.0x0"):
+        wrong = 'float physics:mass = {0}\ndef Sphere "s" {{\ndouble radius = {0}x\n}}'.format(word)
+        (link,) = read(tmp_path, body.format(wrong, "")).links
+        found = [(one.values["text"], one.values["element"], one.values["line"]) for one in link.findings]
+        assert found == [(word, "b", 3), (word + "x", "b", 5)] and not link.shapes
 
 
 @pytest.mark.parametrize(

@@ -372,6 +372,8 @@ def nrrd_with(old: str, new: str) -> bytes:
         (nrrd_with("type: float", "type: block"), "nrrd_type", {"type": "block"}),
         (nrrd_with("sizes: 3 4 5", "sizes: 3 4"), "nrrd_dimension_mismatch", {}),
         (nrrd_with("sizes: 3 4 5", "sizes: 3 4 x"), "nrrd_field_not_numbers", {"field": "sizes", "text": "3 4 x"}),
+        (nrrd_with("sizes: 3 4 5", "sizes: 3 4 0_5"), "nrrd_field_not_numbers", {"field": "sizes", "text": "3 4 0_5"}),
+        (nrrd(values(), "spacings: 1 2_0 1"), "nrrd_field_not_numbers", {"field": "spacings", "text": "1 2_0 1"}),
         (nrrd_with("sizes: 3 4 5", "sizes: 3 4 -5"), "scan_size", {"samples": [3, 4, -5]}),
         (nrrd_with("sizes: 3 4 5", "sizes: 3 4 5000000000000"), "scan_size", {"samples": [3, 4, 5000000000000]}),
         (nrrd_with("dimension: 3", "dimension: 4"), "nrrd_dimension_mismatch", {}),
@@ -389,6 +391,11 @@ def nrrd_with(old: str, new: str) -> bytes:
             nrrd(values(), "space directions: (1,0,0) (0,1,0) (0,0)"),
             "nrrd_vector",
             {"field": "space directions", "text": "(0,0)"},
+        ),
+        (
+            nrrd(values(), "space directions: (1,0,0) (0,1_0,0) (0,0,1)"),
+            "nrrd_vector",
+            {"field": "space directions", "text": "(0,1_0,0)"},
         ),
         (nrrd(values(), "data file: nowhere.raw"), "nrrd_data_file_missing", {"file": "nowhere.raw"}),
         *(

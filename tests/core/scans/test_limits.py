@@ -216,7 +216,18 @@ def test_limits_are_given_by_a_text(text, limits):
 
 
 @pytest.mark.parametrize(
-    "text", ["samples", "samples=", "samples=0", "samples=-1", "samples=nan", "samples=1e999", "x=1", "allow_outside=1"]
+    "text",
+    [
+        "samples",
+        "samples=",
+        "samples=0",
+        "samples=-1",
+        "samples=nan",
+        "samples=1e999",
+        "samples=1_0",
+        "x=1",
+        "allow_outside=1",
+    ],
 )
 def test_a_text_that_gives_no_limits_is_refused(text):
     with pytest.raises(MeasureError) as refused:

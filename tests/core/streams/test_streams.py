@@ -393,7 +393,7 @@ TETRAHEDRON = "0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n"
 def test_a_ply_without_vertices_or_with_indices_between_them_is_refused(tmp_path):
     with refused("file_damaged"):
         measured(tmp_path, "a.ply", ply_text(FACES, TETRAHEDRON))
-    with refused("file_damaged"):
+    with refused("line_misread"):
         measured(tmp_path, "a.ply", ply_text(VERTICES + FACES, TETRAHEDRON.replace("3 1 2 3", "3 1.5 2 3")))
 
 
