@@ -27,6 +27,7 @@ from .misread import (
 from .ply_header import INDICES, Element, Header, Property
 
 LENGTHS = range(9)  # of the lists that are checked together; rows with longer ones are checked word by word
+FEW_ROWS, MANY_PROPERTIES = 16, 100  # for which an expression would take longer than it saves
 _BLANK = rb"[ \t]*+"
 _REST = re.compile(rb"[^\s\0\x1a]")
 
@@ -49,7 +50,9 @@ class _Rows:
     def __init__(self, data: Data, element: Element, vertex_count: int) -> None:
         self._data, self._properties, self._vertex_count = data, element.properties, vertex_count
         self._is_face, self._places = element.name == "face", element.name == "vertex"
-        self._pattern = re.compile(rb"(?:%b%b[ \t\r]*+(?:\n|\Z))*+" % (_BLANK, _pattern_of(element)))
+        is_worth = element.rows > FEW_ROWS and len(element.properties) < MANY_PROPERTIES
+        row = _pattern_of(element) if is_worth else rb"(?!)"
+        self._pattern = re.compile(rb"(?:%b%b[ \t\r]*+(?:\n|\Z))*+" % (_BLANK, row))
         only_lists = all(_is_whole(one) for one in element.properties)
         self._type = np.dtype(np.int64 if only_lists else np.float64)
 

@@ -2,8 +2,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Words of .stl and .ply files in text that importers would misread, and the lines that they stand on."""
 
+import time
+
 import pytest
 from body_moments.core.streams import open_mesh_file, ply_text
+from body_moments.core.streams.ply_header import parse_header
+from body_moments.core.streams.ply_text import check_ply_text
 from body_moments.core.streams.stl_text import check_stl_text
 from body_moments.core.verdict.number_text import parse_number, parse_numbers, parse_whole
 
@@ -150,6 +154,7 @@ PLY_FIELDS += [(7, 0, "whole"), (7, 1, "whole"), (7, 5, "index"), (7, 6, "number
 @pytest.mark.parametrize("block", [1 << 18, 3])
 def test_ply_with_a_word_for_a_number_is_refused(tmp_path, monkeypatch, block, row, place, kind):
     monkeypatch.setattr(ply_text, "BLOCK", block)
+    monkeypatch.setattr(ply_text, "FEW_ROWS", 0 if block > 3 else 16)
     is_whole, line = kind in ("whole", "index"), 18 + row
     code = "field_not_whole" if is_whole else "field_not_number"
     wrong = (NO_WHOLES if is_whole else NO_NUMBERS) + ["nan", "1e39"] * (kind == "point")
@@ -189,3 +194,15 @@ def test_ply_polygons_of_many_sides_are_read(tmp_path):
     open_mesh_file(write(tmp_path / "a.ply", text))
     with misread(57, "field_not_vertex", text="20"):
         open_mesh_file(write(tmp_path / "a.ply", text.replace(" 19 1\n", " 20 1\n")))
+
+
+def test_ply_header_of_many_properties_is_read_soon():
+    """Expressions for all of them would take minutes."""
+    lists = "".join("property list uchar int p{}\n".format(number) for number in range(10_000))
+    elements = "".join("element e{} 1\nproperty float x\n".format(number) for number in range(10_000))
+    text = "ply\nformat ascii 1.0\nelement a 30\n" + lists + elements + "end_header\n"
+    text += 30 * (10_000 * "0 " + "\n") + 9_999 * "1\n" + "x"
+    start = time.process_time()
+    with misread(text.count("\n") + 1, "field_not_number", text="x"):
+        check_ply_text(text.encode(), parse_header(text.encode()))
+    assert time.process_time() - start < 10.0
