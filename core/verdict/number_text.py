@@ -11,22 +11,23 @@ from __future__ import annotations
 import re
 
 _DECIMAL = r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?"
-_NUMBER = re.compile(_DECIMAL + "|[+-]?(?:[nN][aA][nN]|[iI][nN][fF])")
-_WHOLE = re.compile("[+-]?[0-9]+")
-_WORD = re.compile("[^ \t\r\n]+")  # between the white space of XML
+_is_number = re.compile(_DECIMAL + "|[+-]?(?:[nN][aA][nN]|[iI][nN][fF])").fullmatch
+_is_whole = re.compile("[+-]?[0-9]+").fullmatch
+SPACES = " \t\r\n"  # the white space of XML
+_WORD = re.compile("[^{}]+".format(SPACES))
 
 
 def parse_number(text: str) -> float:
     """Return the value of a decimal number, or of NaN and INF as XML Schema has them. Raise ValueError with the text
     if it is none."""
-    if _NUMBER.fullmatch(text) is None:
+    if not _is_number(text):
         raise ValueError(text)
     return float(text)
 
 
 def parse_whole(text: str) -> int:
     """Return the value of a whole number. Raise ValueError with the text if it is none."""
-    if _WHOLE.fullmatch(text) is None:
+    if not _is_whole(text):
         raise ValueError(text)
     return int(text)
 

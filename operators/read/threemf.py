@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 
 from ...core.scans.limits import DEFAULT_LIMITS, Limits
 from ...core.verdict.finding import FileError, system_reason
-from ...core.verdict.number_text import parse_numbers, parse_whole
+from ...core.verdict.number_text import SPACES, parse_number, parse_numbers, parse_whole
 
 MAX_INSTANCES = 100_000  # meshes that the build places
 MAX_TEXT = 60  # letters of a wrong field that are shown
@@ -219,9 +219,11 @@ class _Model:
             return
         self._tag = tag
         if tag == "vertex":
-            self._object.points.extend(_numbers(values.get(axis, ""), 1)[0] for axis in "xyz")
+            self._object.points.extend([_coordinate(values.get(axis, "")) for axis in "xyz"])
         elif tag == "triangle":
-            self._object.triangles.extend(_whole(values.get(corner, "")) for corner in ("v1", "v2", "v3"))
+            self._object.triangles.extend(
+                parse_whole(values.get(corner, "").strip(SPACES)) for corner in ("v1", "v2", "v3")
+            )
         elif tag == "object":
             self._object = self.objects[values["id"]] = _Object(values.get("name", ""))
         elif tag == "component":
@@ -240,17 +242,25 @@ class _Model:
         path = next((value for name, value in values.items() if name.endswith("production/2015/06 path")), self._part)
         matrix = np.eye(4)
         if "transform" in values:
-            matrix[:3] = np.reshape(_numbers(values["transform"], 12), (4, 3)).T  # the file's vectors are rows
+            matrix[:3] = _transform(values["transform"])
         return path, values["objectid"], matrix
 
 
-def _numbers(text: str, count: int) -> list[float]:
-    """Return so many numbers that single precision has. Raise ValueError with the text if there are others."""
-    numbers = parse_numbers(text)
-    if len(numbers) != count or not all(abs(number) < 3.4e38 for number in numbers):
+def _transform(text: str) -> NDArray[np.float64]:
+    """Return (3, 4) of a transform, whose vectors are rows. Raise ValueError with a wrong text."""
+    numbers = np.array(parse_numbers(text))
+    if len(numbers) != 12 or not np.isfinite(numbers).all():
         raise ValueError(text)
-    return numbers
+    return numbers.reshape(4, 3).T
 
 
-def _whole(text: str) -> int:
-    return parse_whole(text.strip(" \t\r\n"))
+def _coordinate(text: str) -> float:
+    """Return a number that single precision has. Raise ValueError with a wrong text."""
+    value = parse_number(text.strip(SPACES))
+    if not abs(value) < 3.4e38:
+        raise ValueError(text)
+    return value
+
+
+def _index(text: str) -> int:
+    return parse_whole(text.strip(SPACES))
