@@ -79,7 +79,7 @@ BOUND = 0.1  # the share of a reported bound that a number may move by
 RELATIVE = 1e-13  # where none is reported, beside the largest number of its kind
 EPSILON = 4 * np.finfo(float).eps  # beside the number itself, for bounds that are smaller than its last digits
 OF_BOUNDS = 1e-3  # by which a bound may move beside itself: it is made of roundings
-OF_ESTIMATES = 0.1  # likewise where it is the difference of two rules that agree
+OF_ESTIMATES = 0.1  # likewise if it is the difference of two rules that agree, or of points that Blender computes
 OF_DISPLAY = 1e-6  # beside the volume of a display mesh, whose points Blender computes in float32
 # Beside the largest of each: Zernike descriptors to order 20 are differences of far larger numbers, and the
 # chirality of a body that has none is rounding.
@@ -184,7 +184,7 @@ class Tolerance:
         if name in ("volume", "area", "inertia"):
             return self.of(name, numbers)
         if name == "center_of_mass":
-            return self.of(name, numbers) if self.bound else RELATIVE * (size + self.reach())
+            return self.of(name, numbers if self.bound else [size + self.reach()])
         if name == "principal_moments":
             return self.of("inertia", numbers)
         if name == "inertia_products":
@@ -220,7 +220,7 @@ class Tolerance:
         if isinstance(one, bool) or not isinstance(one, (int, float)):
             return 0.0
         estimated = self.bound.get("estimated") or str(self.entry.get("method")).startswith(("NURBS", "wire"))
-        return (OF_ESTIMATES if estimated else OF_BOUNDS) * abs(one)
+        return (OF_ESTIMATES if estimated or self.loose else OF_BOUNDS) * abs(one)
 
     def of_moments(self, moments: dict):
         """RELATIVE beside the largest of an order, or extent × length^order: odd ones are zero for many bodies. Above
