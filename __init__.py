@@ -13,7 +13,7 @@ from .core.verdict.finding import Finding, use_sentences
 
 
 def _sentence(finding: Finding) -> str:
-    from .operators.write.messages import sentence
+    from .core.verdict.messages import sentence
 
     return sentence(finding)
 

@@ -48,13 +48,13 @@ if TYPE_CHECKING:
     from .density.spline_grid import grid_moments
     from .fourier.transform import solid_transform
     from .inertia.mass_properties import MassProperties
-    from .inertia.principal_frame import pose_matrix, principal_frame
+    from .inertia.principal_frames import pose_matrix, principal_frame
     from .mesh.surface import Surface
     from .moments.moments import Moments
     from .polyhedron.integration import polyhedron_moments
     from .scans.formats import read_scan
-    from .shape.signature import signature
-    from .solid.measure_solid import measure_solid
+    from .shape.signatures import signature
+    from .solid.measure import measure_solid
     from .verdict.finding import Finding, MeasureError
 
 __all__ = [

@@ -41,9 +41,10 @@ def main(argv: list[str], *, channel: int | None = None, file_needed: bool = Fal
     standard output, which nothing else in this process reaches from then on. file_needed: whether
     no file can be open.
     """
+    from ..command import interruption
+    from ..command.files import output
+    from ..core.measurement.plain_text import print_message
     from ..core.verdict.finding import finding
-    from .command import interruption, output
-    from .write.terminal import print_message
 
     channel = output.claim_stdout() if channel is None else channel
     try:
@@ -59,8 +60,8 @@ def main(argv: list[str], *, channel: int | None = None, file_needed: bool = Fal
 
 def _answer(argv: list[str], channel: int, file_needed: bool) -> int:
     """Do what is asked for, and return the exit code."""
-    from .command import output
-    from .command.parser import HelpRequested
+    from ..command.files import output
+    from ..command.parser import HelpRequested
 
     try:
         return _COMMANDS.get("".join(argv[:1]), _measure)(argv, channel, file_needed)
@@ -72,7 +73,8 @@ def _answer(argv: list[str], channel: int, file_needed: bool) -> int:
 
 def _measure(argv: list[str], channel: int, file_needed: bool) -> int:
     """Measure files by way of children, or in this process."""
-    from .command import arguments, supervised
+    from ..command.measure import supervised
+    from ..command.options import arguments
 
     options = arguments.parse(argv, file_needed)
     if (options.files or options.manifest) and not options.no_supervisor:
@@ -81,10 +83,11 @@ def _measure(argv: list[str], channel: int, file_needed: bool) -> int:
     options.files = supervised.files_of(options)
     _load_settings()
 
-    from .command import checks, output, own_results
-    from .command.run import Run
-    from .supervisor import processes
-    from .write.documents import FORMATS
+    from ..command.files import output, own_results
+    from ..command.measure.run import Run
+    from ..command.options import checks
+    from ..command.supervisor import processes
+    from ..core.measurement.documents import FORMATS
 
     checks.check(options)
     run = Run(options, memory=processes.memory_share())
@@ -99,13 +102,13 @@ def _measure(argv: list[str], channel: int, file_needed: bool) -> int:
 
 def _serve(argv: list[str], channel: int, _file_needed: bool) -> int:
     """Be a child of the supervisor. Ends the process."""
-    from .supervisor.lifeline import Lifeline
+    from ..command.supervisor.lifeline import Lifeline
 
     line = Lifeline(channel, int(argv[1]) if argv[1:] else None)  # first: importing bpy may take seconds
     try:
         _load_settings()
 
-        from .command import child
+        from ..command.measure import child
 
         child.serve(line)
     except BaseException:
@@ -116,9 +119,10 @@ def _serve(argv: list[str], channel: int, _file_needed: bool) -> int:
 
 def _similar(argv: list[str], channel: int, _file_needed: bool) -> int:
     """Compare what was measured, and print the nearest."""
+    from ..command.files import output
+    from ..command.results import similar
+    from ..core.measurement.plain_text import print_message
     from ..core.verdict.finding import MeasureError
-    from .command import output, similar
-    from .write.terminal import print_message
 
     options = similar.parse(argv)
     try:
@@ -132,7 +136,8 @@ def _similar(argv: list[str], channel: int, _file_needed: bool) -> int:
 
 def _audit(argv: list[str], channel: int, _file_needed: bool) -> int:
     """Check robot descriptions."""
-    from .command import audit, output, own_results
+    from ..command import audit
+    from ..command.files import output, own_results
 
     options = audit.parse(argv)
     text, faults, internal = audit.answer(options)
@@ -145,9 +150,10 @@ def _audit(argv: list[str], channel: int, _file_needed: bool) -> int:
 
 def _simplex(argv: list[str], channel: int, _file_needed: bool) -> int:
     """Measure simplices in n dimensions."""
+    from ..command import simplex
+    from ..command.files import output
+    from ..core.measurement.plain_text import print_message
     from ..core.verdict.finding import MeasureError
-    from .command import output, simplex
-    from .write.terminal import print_message
 
     options = simplex.parse(argv)
     try:
@@ -160,7 +166,7 @@ def _simplex(argv: list[str], channel: int, _file_needed: bool) -> int:
 
 def _gather(argv: list[str], channel: int, _file_needed: bool) -> int:
     """Prepare and gather the results of many files."""
-    from .command import gather
+    from ..command.results import gather
 
     return gather.run(argv, channel)
 
@@ -176,7 +182,7 @@ def _load_settings() -> None:
     """The settings that objects, collections and bones carry, where the add-on is not registered."""
     import bpy
 
-    from .settings import assembly, bone, properties, reference
+    from ..blender.settings import assembly, bone, properties, reference
 
     if not hasattr(bpy.types.Object, PACKAGE):
         for part in (properties, assembly, reference, bone):
@@ -231,7 +237,7 @@ def _run_script() -> None:
 def _run() -> int:
     """Load the add-on from its folder and run the command line of this process."""
     _load_package()
-    output = importlib.import_module(PACKAGE + ".operators.command.output")
+    output = importlib.import_module(PACKAGE + ".command.files.output")
     channel = output.claim_stdout()  # first of all: importing bpy may print
     words = sys.argv
     bpy = sys.modules.get("bpy")

@@ -10,15 +10,16 @@ from __future__ import annotations
 
 from bpy.types import Collection, Context, Panel, PropertyGroup, UILayout, UIList
 
-from ..operators.read.assembly import Root, is_assembly, settings_of
-from ..operators.session import assembly as stored_assembly
-from ..operators.write import properties
-from ..operators.write.messages import severity
-from ..operators.write.translations import localized
-from ..operators.write.units import Units
-from . import remedies, rows
-from .given import given_rows
-from .numbers import AXIS_LABELS, PRINCIPAL_LABELS
+from ..blender.read.assembly import Root, is_assembly, settings_of
+from ..blender.session.stored import assembly as stored_assembly
+from ..blender.write import properties
+from ..blender.write.translations import localized
+from ..blender.write.units import Units
+from ..core.verdict.messages import severity
+from . import rows
+from .density.given import given_rows
+from .measure import remedies
+from .measure.numbers import AXIS_LABELS, PRINCIPAL_LABELS
 from .places import in_both_places
 from .settings import setting
 

@@ -16,11 +16,11 @@ import bpy
 import numpy as np
 from bpy.types import Context, UILayout
 
+from ..blender.write.translations import localized, localized_sentence
+from ..blender.write.units import SI_UNITS, Units
 from ..core.verdict.finding import Finding, Severity, finding
-from ..operators.actions.measure.copy import OBJECT_OT_body_moments_copy_value
-from ..operators.write.messages import severity
-from ..operators.write.translations import localized, localized_sentence
-from ..operators.write.units import SI_UNITS, Units
+from ..core.verdict.messages import severity
+from ..operators.measure.copy import OBJECT_OT_body_moments_copy_value
 
 # share of a row that its label takes, one of few letters, and of one
 LABEL_SHARE, SHORT_LABEL_SHARE, INDEX_LABEL_SHARE = 0.36, 0.3, 0.12

@@ -7,7 +7,7 @@ from __future__ import annotations
 import bpy
 from bpy.types import PropertyGroup, UILayout
 
-from ..operators.write.translations import localized
+from ..blender.write.translations import localized
 from . import rows
 
 VALUE_SHARE = 0.6  # of a row, beside the label

@@ -6,10 +6,10 @@ from __future__ import annotations
 
 from bpy.types import Context, Object, UILayout
 
+from ..blender.session.tracking import staleness
+from ..blender.write.translations import localized
 from ..core.verdict.finding import finding, truncate
-from ..operators.session import staleness
-from ..operators.write.messages import SIMILARITY
-from ..operators.write.translations import localized
+from ..core.verdict.messages import SIMILARITY
 from . import rows
 from .places import in_both_places
 

@@ -49,11 +49,11 @@ from body_moments.core.fourier.transform import run_to_completion, solid_transfo
 from body_moments.core.fourier.wave_vectors import FrequencyGrid
 from body_moments.core.inertia.mass_properties import MassProperties
 from body_moments.core.mesh.surface import Surface
-from body_moments.core.offset.walls import offset_solid
 from body_moments.core.papers.sheynin_tuzikov_2001 import triangle_moments as explicit_moments
 from body_moments.core.polyhedron import integration
-from body_moments.core.solid.measure_solid import measure_solid
+from body_moments.core.solid.measure import measure_solid
 from body_moments.core.statics.gradient import area_gradient, volume_gradient
+from body_moments.core.wall.walls import offset_solid
 
 polyhedron_moments = partial(integration.polyhedron_moments, allow_open=True)  # as a measurement calls it
 
@@ -414,9 +414,9 @@ def blender(side: int, rounds: int) -> None:
     """An evaluated mesh: reading, measuring, the full verdict, and Blender's own volume."""
     import bmesh
     import bpy
-    from body_moments.operators.bodies.measure_object import measure_object
-    from body_moments.operators.read import read_object
-    from body_moments.operators.settings.options import MeasureOptions
+    from body_moments.blender.bodies.measure_object import measure_object
+    from body_moments.blender.read import read_object
+    from body_moments.blender.settings.options import MeasureOptions
 
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
     body = mesh_object("Torus", *torus(side, side, 0.05))
@@ -461,9 +461,9 @@ def blender(side: int, rounds: int) -> None:
 def instances(count: int, rounds: int) -> None:
     """Many instances of one mesh, scattered by geometry nodes."""
     import bpy
-    from body_moments.operators.bodies.measure_object import measure_object
-    from body_moments.operators.read.mesh import mesh_surface
-    from body_moments.operators.settings.options import MeasureOptions
+    from body_moments.blender.bodies.measure_object import measure_object
+    from body_moments.blender.read.mesh import mesh_surface
+    from body_moments.blender.settings.options import MeasureOptions
 
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
     source = mesh_object("Source", *torus(100, 100, 0.05))
@@ -774,8 +774,8 @@ def densities(rounds: int) -> None:
 def volumes(rounds: int) -> None:
     """Voxels read from Volume objects, by each of the two ways."""
     import bpy
-    from body_moments.operators.read import volume as reader
-    from body_moments.operators.read.vdb import openvdb
+    from body_moments.blender.read.grids import volume as reader
+    from body_moments.blender.read.grids.vdb import openvdb
 
     module = openvdb()
     if module is None:

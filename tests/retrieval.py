@@ -43,8 +43,8 @@ load_package()
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.numerics.graph import connected_components
 from body_moments.core.polyhedron import polyhedron_moments
-from body_moments.core.shape.signature import Signature, signature, similarity
-from body_moments.core.solid.measure_solid import measure_solid
+from body_moments.core.shape.signatures import Signature, signature, similarity
+from body_moments.core.solid.measure import measure_solid
 
 from tests.core import bodies, shapes
 

@@ -22,8 +22,8 @@ from itertools import product
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..moments.exponents import monomial_count, monomial_index, monomials, order_from_count
 from ..moments.moments import U
-from ..moments.monomials import monomial_count, monomial_index, monomials, order_from_count
 from ..numerics.arrays import power_table
 from ..verdict.finding import MeasureError
 

@@ -14,9 +14,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..moments.affine_maps import absolute_moments, multiply_by_linear_form, to_trailing_axis, transform_by_horner
+from ..moments.exponents import monomial_count, monomials, order_from_count, product_indices
 from ..moments.images import MAPS_PER_BLOCK
 from ..moments.moments import Measure, Moments, U, measure_scale_factors
-from ..moments.monomials import monomial_count, monomials, order_from_count, product_indices
 from ..numerics.rotations import polar_rotation
 from .polynomial import Polynomial
 

@@ -3,7 +3,7 @@
 """Mass, center, inertia and radii of gyration; the principal frame, made unique by higher moments."""
 
 from .mass_properties import MassProperties, combine
-from .principal_frame import (
+from .principal_frames import (
     PrincipalFrame,
     equivalent_frames,
     nearest_frame,

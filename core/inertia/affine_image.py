@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .mass_properties import MassProperties
-from .principal_frame import PrincipalFrame
+from .principal_frames import PrincipalFrame
 
 
 def affine_image(

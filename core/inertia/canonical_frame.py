@@ -20,8 +20,8 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
+from ..moments.exponents import monomial_index, monomials
 from ..moments.moments import Measure, Moments
-from ..moments.monomials import monomial_index, monomials
 from ..moments.symmetric_tensors import _contract, _rotate_tensor, _tensor_positions, distinct_arrays, tensor_index
 from ..verdict.finding import MeasureError
 

@@ -16,8 +16,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..moments.affine_maps import rotate_moments
+from ..moments.exponents import monomial_count, monomial_index, monomials, order_from_count
 from ..moments.moments import Moments
-from ..moments.monomials import monomial_count, monomial_index, monomials, order_from_count
 from ..verdict.finding import MeasureError
 from .canonical_frame import FLAT_EXTENT_RTOL, NOISE_GROWTH
 from .third_moment_frames import FIXED_AXIS, HALF_TURN_SIGNS, SYMMETRIES, ThirdMomentFrames

@@ -20,7 +20,7 @@ from ..numerics.arguments import check_type, float_array
 from ..numerics.arrays import PerBody
 from ..numerics.rotations import rotation_array
 from ..verdict.finding import MeasureError
-from .principal_frame import OwnMoments, PrincipalFrame, principal_frame, principal_frames
+from .principal_frames import OwnMoments, PrincipalFrame, principal_frame, principal_frames
 from .third_moment_frames import ThirdMomentFrames
 
 IDENTITY_3 = np.eye(3)

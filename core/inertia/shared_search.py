@@ -18,8 +18,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..moments.affine_maps import rotate_moments
+from ..moments.exponents import monomial_count, monomials
 from ..moments.moments import Measure, Moments
-from ..moments.monomials import monomial_count, monomials
 from ..moments.symmetric_tensors import tensor_index
 from ..verdict.finding import MeasureError
 from .canonical_frame import (

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Triangle and quad surfaces: arrays, edges, welding, planarity, boxes, bounding-volume hierarchy."""
 
-from .convex_hull import ConvexHull, convex_hull, convex_polygon
+from .hulls import ConvexHull, convex_hull, convex_polygon
 from .surface import Surface, join_surfaces, normals
 from .winding import winding_number
 

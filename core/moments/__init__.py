@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Raw moments about a point, their sums, affine images and error bounds; the monomials that index them."""
 
-from .complex_moments import complex_moments
+from .complex_form import complex_moments
+from .exponents import monomial_count, monomial_index, monomials
 from .images import sum_of_images
 from .moments import Measure, Moments, sum_moments
-from .monomials import monomial_count, monomial_index, monomials
 from .normalized import normalize
 
 __all__ = [

@@ -17,14 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..numerics.arrays import segment_ranges, segment_starts
-from .monomials import (
-    count_of_degree,
-    monomial_count,
-    monomial_index,
-    monomials,
-    product_indices,
-    quotient_indices,
-)
+from .exponents import count_of_degree, monomial_count, monomial_index, monomials, product_indices, quotient_indices
 
 # Where the columns of a matrix, scaled to unit length, span less volume than this, the rounding of
 # float32 entries alone may have made it: such a matrix cannot be distinguished from one that flattens.

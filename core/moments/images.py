@@ -11,8 +11,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..numerics.arguments import check_type, float_array
 from .affine_maps import absolute_moments, to_trailing_axis, transform_by_horner
+from .exponents import monomial_count, monomials
 from .moments import Moments, U, image, measure_scale_factors
-from .monomials import monomial_count, monomials
 
 MAPS_PER_BLOCK = 2048  # maps at a time at order 3, fewer at higher ones: their functionals stay in the cache
 

@@ -24,15 +24,8 @@ from ..numerics.arguments import check_type, float_array
 from ..numerics.arrays import PerBody
 from ..numerics.rotations import rotation_array
 from ..verdict.finding import MeasureError
-from .affine_maps import (
-    SIMILARITY_RTOL,
-    absolute_moments,
-    anisotropy,
-    apply_linear,
-    apply_translation,
-    are_singular,
-)
-from .monomials import (
+from .affine_maps import SIMILARITY_RTOL, absolute_moments, anisotropy, apply_linear, apply_translation, are_singular
+from .exponents import (
     check_exponents,
     monomial_count,
     monomial_index,

@@ -9,8 +9,8 @@ import numpy as np
 from ..numerics.arguments import check_type
 from ..verdict.finding import MeasureError
 from .affine_maps import apply_translation
+from .exponents import monomials
 from .moments import Measure, Moments, U
-from .monomials import monomials
 
 
 def normalize(moments: Moments, by: str = "size") -> Moments:

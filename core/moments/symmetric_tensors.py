@@ -10,8 +10,8 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
+from .exponents import tensor_index
 from .moments import Moments, monomials
-from .monomials import tensor_index
 
 
 def distinct_arrays(arrays: NDArray, within: float) -> NDArray[np.float64]:

@@ -7,7 +7,7 @@ from .blender_knots import blender_space
 from .curve import Curve
 from .curve_moments import length_moments
 from .patch import Patch
-from .planar_region import planar_region
+from .planar_regions import planar_region
 from .solid import measure_patches, measure_sheet
 from .tracked_solid import TrackedSolid
 

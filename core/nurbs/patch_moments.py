@@ -23,8 +23,8 @@ from math import ceil
 import numpy as np
 from numpy.typing import NDArray
 
+from ..moments.exponents import monomial_count
 from ..moments.moments import Measure, Moments, U, monomials
-from ..moments.monomials import monomial_count
 from ..numerics.bspline import SplineSpace
 from ..numerics.quadrature import gauss_legendre, gauss_legendre_with_ends
 from ..numerics.vectors import cross, dot

@@ -29,7 +29,7 @@ from ..verdict.finding import MeasureError
 from .curve import Curve
 from .patch import Patch
 from .patch_moments import vector_area
-from .planar_region import self_intersects
+from .planar_regions import self_intersects
 
 SAMPLES_PER_SIDE = 33  # points at least by which sides are compared
 PAIRS_PER_BLOCK = 4096  # pairs of sides compared at a time

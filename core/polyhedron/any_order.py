@@ -29,8 +29,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..mesh.surface import Surface, flipped_quads
+from ..moments.exponents import count_of_degree, monomial_count, monomials, quotient_indices
 from ..moments.moments import Measure, Moments, U
-from ..moments.monomials import count_of_degree, monomial_count, monomials, quotient_indices
 from ..numerics.arrays import indices_in_range
 from ..verdict.finding import MeasureError
 from ..verdict.tolerances import check_size

@@ -28,8 +28,8 @@ from math import factorial, prod
 import numpy as np
 from numpy.typing import NDArray
 
+from ..moments.exponents import count_of_degree, monomial_count, monomials, quotient_indices
 from ..moments.moments import U
-from ..moments.monomials import count_of_degree, monomial_count, monomials, quotient_indices
 from .workspace import Workspace, gather
 
 FACES_PER_CHUNK = 32  # faces that share one bound of their coordinates

@@ -14,8 +14,8 @@ from math import factorial
 import numpy as np
 from numpy.typing import NDArray
 
+from ..moments.exponents import count_of_degree, monomial_count, monomials, quotient_indices
 from ..moments.moments import Measure, Moments, U
-from ..moments.monomials import count_of_degree, monomial_count, monomials, quotient_indices
 from ..numerics.vectors import cross, dot
 
 TRIANGLES_PER_BLOCK = 256  # whose levels stay in the cache

@@ -18,8 +18,8 @@ from numpy.typing import ArrayLike, NDArray
 from ..mesh.boundary import BoundarySum
 from ..mesh.planarity import PlanarityAccumulator
 from ..mesh.surface import Surface
+from ..moments.exponents import monomial_count
 from ..moments.moments import Moments
-from ..moments.monomials import monomial_count
 from ..numerics.arguments import check_order, check_type, float_array, number_array
 from ..numerics.arrays import indices_in_range
 from ..verdict.finding import MeasureError

@@ -24,8 +24,8 @@ from math import comb, factorial, isfinite
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..moments.exponents import check_exponents
 from ..moments.moments import PAIRWISE_SUM_ROUNDINGS, U
-from ..moments.monomials import check_exponents
 from ..numerics.arguments import check_order, float_array
 from ..verdict.finding import MeasureError
 from .simplices import closes, simplex_arrays

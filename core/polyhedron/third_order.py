@@ -37,8 +37,8 @@ from numpy.typing import NDArray
 
 from ..mesh.planarity import PlanarityAccumulator
 from ..mesh.surface import NO_QUADS, Surface
+from ..moments.exponents import monomial_count
 from ..moments.moments import PAIRWISE_SUM_ROUNDINGS, Measure, Moments, U
-from ..moments.monomials import monomial_count
 from ..numerics.arrays import indices_in_range
 from ..verdict.tolerances import check_size
 from .third_order_kernel import (

@@ -17,8 +17,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from ..moments.exponents import monomials
 from ..moments.moments import Measure, Moments, U
-from ..moments.monomials import monomials
 from .third_order_kernel import PAIR_INDEX, TRIPLES
 
 EXPONENTS = monomials(3)

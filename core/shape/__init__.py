@@ -2,11 +2,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What a shape is apart from where it stands: symmetry, signature, registration, libraries of shapes."""
 
-from .flat_signature import flat_signature
+from .flat_signatures import flat_signature
 from .library import classify, rank, read_library
 from .registration import match
-from .signature import Signature, signature, similarity
-from .symmetry import symmetry
+from .signatures import Signature, signature, similarity
+from .symmetries import symmetry
 
 __all__ = [
     "Signature",

@@ -14,9 +14,9 @@ from math import factorial, pi, sqrt
 import numpy as np
 from numpy.typing import NDArray
 
-from ..moments.complex_moments import complex_moments
+from ..moments.complex_form import complex_moments
+from ..moments.exponents import monomials
 from ..moments.moments import Moments
-from ..moments.monomials import monomials
 
 MAX_DISC_ORDER = 20  # the highest order that raw moments in float64 give
 

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from .disc_zernike import disc_degrees
 from .registration import MAX_FIT_RTOL, MIRROR_SHARE, Residual, RigidMatch, best_rotation
-from .symmetry import FIRST_SAMPLES, MAX_AXIS_ORDER, Distance, Symmetry
+from .symmetries import FIRST_SAMPLES, MAX_AXIS_ORDER, Distance, Symmetry
 
 ANGLES = 720  # at which overlaps are sampled
 MAX_CANDIDATES = 24  # rotations, the largest overlaps first, that are compared by outlines
@@ -51,7 +51,7 @@ def match_flat(
 
     Examples
     --------
-    >>> from body_moments.core.plane import directed_edges, region_moments
+    >>> from body_moments.core.flat import directed_edges, region_moments
     >>> from body_moments.core.shape.disc_zernike import disc_zernike
     >>> from body_moments.core.shape.flat_pose import match_flat
     >>> points, turn = np.array([[0.0, 0.0], [3.0, 0.0], [0.0, 1.0]]), np.array([[0.0, -1.0], [1.0, 0.0]])

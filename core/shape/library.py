@@ -13,7 +13,7 @@ from pathlib import Path
 
 from ..numerics.arguments import check_type
 from ..verdict.finding import FileError, Finding, finding
-from .signature import MAX_SIMILAR_DIFFERENCE, Likeness, Signature, similarity
+from .signatures import MAX_SIMILAR_DIFFERENCE, Likeness, Signature, similarity
 
 # signatures nearer than this are one shape's: some float32 steps, and no more than a careless export
 SAME_SHAPE_DISTANCE = 1e-4
@@ -174,7 +174,7 @@ def classify(similarity: Likeness) -> Similarity:
     Examples
     --------
     >>> from body_moments.core.shape import classify
-    >>> from body_moments.core.shape.signature import Likeness
+    >>> from body_moments.core.shape.signatures import Likeness
     >>> str(classify(Likeness(0.0, 2.0, 0.0, False)))
     'scaled_copy'
     """

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from ..inertia.canonical_frame import EquivalentFrames
 from ..inertia.frame_choice import complete_free_axes
-from ..inertia.principal_frame import equivalent_frames, undetermined_axes
+from ..inertia.principal_frames import equivalent_frames, undetermined_axes
 from ..moments.moments import Moments
 from ..moments.symmetric_tensors import distinct_arrays, invert_through_point
 from ..numerics.arguments import check_type

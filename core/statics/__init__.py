@@ -4,7 +4,7 @@
 center.
 """
 
-from .balance import BalanceResult, balance
+from .balancing import BalanceResult, balance
 from .gradient import Gradient, area_gradient, volume_gradient
 from .resting import RestingPoses, resting_poses
 from .support import Support, find_support

@@ -18,7 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..mesh.convex_hull import ConvexHull
+from ..mesh.hulls import ConvexHull
 from ..mesh.surface import normals
 from ..numerics.arguments import check_type, float_array
 from ..numerics.arrays import sums_by_index

@@ -15,7 +15,7 @@ from math import atan2
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..mesh.convex_hull import convex_polygon
+from ..mesh.hulls import convex_polygon
 from ..numerics.arguments import float_array
 
 CONTACT_RTOL = 1e-6  # of the body's extent: points that high above the lowest one touch the ground

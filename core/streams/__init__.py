@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Meshes in files that are larger than memory, measured in blocks."""
 
-from .measure_stream import StreamIntegrals, measure_stream
+from .measure import StreamIntegrals, measure_stream
 from .mesh_file import open_mesh_file
 
 __all__ = [

@@ -3,7 +3,7 @@
 """What was noticed, decided or refused, as data; and the exceptions that carry a refusal.
 
 A finding is a code, the values that its sentence needs, and the elements that it is about. Its severity and its
-sentence belong to the code and stand in one table, `operators/write/messages.py`: no code reads a sentence. This file
+sentence belong to the code and stand in one table, `core/verdict/messages.py`: no code reads a sentence. This file
 knows that table only as a function that the add-on's root hands in, so that `str` of a refusal is a sentence wherever
 it is caught.
 """

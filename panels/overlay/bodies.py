@@ -11,9 +11,11 @@ import numpy as np
 from bpy.types import Context, Object
 from numpy.typing import NDArray
 
+from ...blender.session.live import live
+from ...blender.session.stored import results
+from ...blender.session.stored.shown import changes_alone, shown_body, shown_bone
+from ...blender.session.tracking import posed
 from ...core.numerics.float32 import shortest_decimal
-from ...operators.session import live, posed, results
-from ...operators.session.shown import changes_alone, shown_body, shown_bone
 from . import appearance as look
 
 

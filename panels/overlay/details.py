@@ -11,9 +11,9 @@ import numpy as np
 from bpy.types import Context, Object
 from numpy.typing import NDArray
 
+from ...blender.session.stored import balance_groups, faults, stability
+from ...blender.settings.overlay import BodyMomentsOverlaySettings
 from ...core.statics.support import Support
-from ...operators.session import balance_groups, faults, stability
-from ...operators.settings.overlay import BodyMomentsOverlaySettings
 from . import appearance as look
 from .bodies import drawn_objects
 

@@ -22,8 +22,8 @@ from gpu_extras.batch import batch_for_shader
 from mathutils import Matrix
 from numpy.typing import NDArray
 
-from ...operators.session import handlers
-from ...operators.settings.overlay import BodyMomentsOverlaySettings
+from ...blender.session.tracking import handlers
+from ...blender.settings.overlay import BodyMomentsOverlaySettings
 from . import appearance as look
 from . import lines
 from .bodies import Bodies, Collected, collect, collect_moved

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from ...operators.settings.overlay import BodyMomentsOverlaySettings
+from ...blender.settings.overlay import BodyMomentsOverlaySettings
 from . import appearance as look
 from . import glyphs, solids
 from .bodies import Bodies

@@ -107,7 +107,7 @@ def Mesh "Tetra"
 
 def parsed(*words):
     """The options of a command line, as a process has them that measures by itself."""
-    from body_moments.operators.command import arguments, checks
+    from body_moments.command.options import arguments, checks
 
     options = arguments.parse([*map(str, words)])
     checks.check(options)
@@ -116,7 +116,7 @@ def parsed(*words):
 
 def run(*words):
     """The command line in this process, with its documents; nothing is written anywhere."""
-    from body_moments.operators.command.run import Run
+    from body_moments.command.measure.run import Run
 
     line = Run(parsed("measure", *words))
     line.measure()
@@ -173,5 +173,5 @@ def values(entry, code):
 
 def measure_with(monkeypatch, measure):
     """Let the command line measure each object by itself, by this in place of `measure_object`."""
-    monkeypatch.setattr("body_moments.operators.command.run.measured_together", lambda *_: None)
-    monkeypatch.setattr("body_moments.operators.command.measuring.measure_object", measure)
+    monkeypatch.setattr("body_moments.command.measure.run.measured_together", lambda *_: None)
+    monkeypatch.setattr("body_moments.command.measure.measuring.measure_object", measure)

@@ -35,7 +35,7 @@ class Reported(list):
 @pytest.fixture
 def reported(monkeypatch):
     """What operators report from now on, as findings."""
-    from body_moments.operators.write import reports
+    from body_moments.blender.write import reports
 
     found, report = Reported(), reports.report
 

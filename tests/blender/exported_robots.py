@@ -6,12 +6,12 @@ import base64
 from dataclasses import dataclass
 
 import numpy as np
+from body_moments.command import audit
 from body_moments.core.numerics.rotations import rotation_matrix
-from body_moments.operators.command import audit
-from body_moments.operators.read.robots.descriptions import read_description
-from body_moments.operators.read.robots.meshes import read_mesh
-from body_moments.operators.read.robots.paths import Roots
-from body_moments.operators.write.robots import gltf
+from body_moments.core.robots.read.descriptions import read_description
+from body_moments.core.robots.read.meshes import read_mesh
+from body_moments.core.robots.read.paths import Roots
+from body_moments.core.robots.write import gltf
 
 SUFFIXES = {"urdf": ".urdf", "sdf": ".sdf", "mjcf": ".xml", "usd": ".usda", "gltf": ".gltf"}
 TYPES = {5121: "<u1", 5123: "<u2", 5125: "<u4", 5126: "<f4"}

@@ -74,8 +74,8 @@ def place(obj):
 
 def measured(obj):
     """The measurement of an object as it is now."""
-    from body_moments.operators.bodies.measure_object import measure_object
-    from body_moments.operators.settings.options import MeasureOptions
+    from body_moments.blender.bodies.measure_object import measure_object
+    from body_moments.blender.settings.options import MeasureOptions
 
     bpy.context.view_layer.update()
     return measure_object(obj, bpy.context.evaluated_depsgraph_get(), MeasureOptions())

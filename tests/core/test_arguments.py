@@ -27,23 +27,21 @@ from body_moments.core.density import (
     solid_mass_moments,
     threshold_body,
 )
-from body_moments.core.fourier import (
-    BodyTransform,
-    FrequencyGrid,
-    GridTransform,
-    polygon_transform,
-    surface_transform,
+from body_moments.core.flat import (
+    Plane,
+    area_moments,
+    directed_edges,
+    find_defects,
+    fit_plane,
+    measure_section,
+    orient_loops,
+    region_moments,
 )
+from body_moments.core.fourier import BodyTransform, FrequencyGrid, GridTransform, polygon_transform, surface_transform
 from body_moments.core.inertia import Reference, combine, equivalent_frames, nearest_frame, zhang_chen_frame
 from body_moments.core.mesh import convex_hull, convex_polygon, join_surfaces, normals, winding_number
 from body_moments.core.moments import complex_moments, normalize, sum_moments, sum_of_images
-from body_moments.core.numerics import (
-    SplineSpace,
-    clamped_space,
-    connected_components,
-    quaternion,
-    rotation_matrix,
-)
+from body_moments.core.numerics import SplineSpace, clamped_space, connected_components, quaternion, rotation_matrix
 from body_moments.core.nurbs import (
     Curve,
     Patch,
@@ -54,23 +52,13 @@ from body_moments.core.nurbs import (
     measure_sheet,
     planar_region,
 )
-from body_moments.core.offset import offset_solid, wall_moments
-from body_moments.core.plane import (
-    Plane,
-    area_moments,
-    directed_edges,
-    find_defects,
-    fit_plane,
-    measure_section,
-    orient_loops,
-    region_moments,
-)
 from body_moments.core.polyhedron import area_of_images, enclosed_moments, facet_moments, facets_of
-from body_moments.core.rigs import VertexWeights, bone_pieces, bones_of_caps, dominant_bones
+from body_moments.core.rig import VertexWeights, bone_pieces, bones_of_caps, dominant_bones
 from body_moments.core.robots import FreeAxis, Inertial, Link, Pose
 from body_moments.core.scans import Scan, sample_matrix
 from body_moments.core.shape import classify, flat_signature, match, rank, similarity, symmetry
 from body_moments.core.statics import area_gradient, balance, find_support, resting_poses, volume_gradient
+from body_moments.core.wall import offset_solid, wall_moments
 
 POINTS = np.eye(4, 3, -1) * (3.0, 2.0, 1.0)
 TRIANGLES = np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])

@@ -9,8 +9,8 @@ from pathlib import Path
 
 import bpy
 import pytest
+from body_moments.core.verdict import messages
 from body_moments.operators import batch
-from body_moments.operators.write import messages
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 COMMANDS = ("measure", "similar", "audit", "simplex", "manifest", "merge", "to-csv", "summary", "compare", "report")

@@ -34,8 +34,8 @@ REFUSED = NETWORK | {
 }
 REFUSED_NAMES = {"eval", "exec", "compile", "__import__", "bl_info"}
 # The supervisor alone starts processes, Blender with this add-on, so that no file can end the run over all of them.
-STARTS_PROCESSES = {"operators/supervisor/" + name for name in ("processes.py", "pool.py", "whole_run.py")}
-ASKS_WINDOWS = {"operators/supervisor/windows.py"}
+STARTS_PROCESSES = {"command/supervisor/" + name for name in ("processes.py", "pool.py", "whole_run.py")}
+ASKS_WINDOWS = {"command/supervisor/windows.py"}
 ALLOWED = (set(sys.stdlib_module_names) - REFUSED) | BLENDER | {"numpy"}
 
 
@@ -86,7 +86,7 @@ def test_the_supervisor_needs_neither_numpy_nor_blender():
         "submodule_search_locations=[sys.argv[1]])\n"
         "sys.modules['body_moments'] = module = importlib.util.module_from_spec(spec)\n"
         "spec.loader.exec_module(module)\n"
-        "import body_moments.operators.command.supervised\n"
+        "import body_moments.command.measure.supervised\n"
         "assert not {'numpy', 'bpy', 'mathutils'} & set(sys.modules)\n"
     )
     subprocess.run([sys.executable, "-P", "-S", "-c", code, str(ROOT)], check=True, timeout=480)
@@ -147,7 +147,7 @@ def words(text: str) -> int:
 
 
 def test_the_core_says_nothing():
-    """It makes findings; sentences stand in operators/write/messages.py. The names of materials are data."""
+    """It makes findings; sentences stand in core/verdict/messages.py. The names of materials are data."""
     documented = {id(node.value) for _, node, _ in nodes() if isinstance(node, ast.Expr)}
     assert_none(
         [

@@ -14,11 +14,11 @@ from body_moments.core.mesh.surface import Surface
 from body_moments.core.numerics.rotations import rotation_matrix
 from body_moments.core.robots.model import Joint, Link, Pose, Robot, Shape
 from body_moments.core.robots.primitives import capsule_size, equal_inertia_shape
-from body_moments.operators.write.robots import gltf, mjcf, usd
-from body_moments.operators.write.robots.formats import robot_text
-from body_moments.operators.write.robots.marker import is_ours
-from body_moments.operators.write.robots.shapes import with_meshes, with_primitives
-from body_moments.operators.write.robots.stl import to_stl
+from body_moments.core.robots.write import gltf, mjcf, usd
+from body_moments.core.robots.write.formats import robot_text
+from body_moments.core.robots.write.marker import is_ours
+from body_moments.core.robots.write.shapes import with_meshes, with_primitives
+from body_moments.core.robots.write.stl import to_stl
 from pxr import Sdf, Usd, UsdGeom, UsdPhysics
 
 from tests.robots.links import ball, bodies, inertial, rotation, shaped, shapes

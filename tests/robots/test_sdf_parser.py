@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from body_moments.core.robots.model import Inertial, Link, Pose, Robot
-from body_moments.operators.write.robots import sdf
+from body_moments.core.robots.write import sdf
 
 from tests.robots.links import bodies, shapes
 

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.robots.model import FreeAxis, Joint, Link, Pose, Robot, Shape
-from body_moments.operators.write.robots import mjcf
-from body_moments.operators.write.robots.formats import robot_text, with_geometry
+from body_moments.core.robots.write import mjcf
+from body_moments.core.robots.write.formats import robot_text, with_geometry
 from pxr import Usd, UsdGeom, UsdPhysics
 from urdf_parser_py.urdf import URDF
 

@@ -57,6 +57,6 @@ def measured(paths: list[Path], folder: Path) -> list[dict]:
 
 
 def hostile_lines(paths: list[Path]) -> list[str]:
-    from body_moments.operators.supervisor.listing import write_lines
+    from body_moments.command.supervisor.listing import write_lines
 
     return list(write_lines(map(str, paths)))

@@ -18,7 +18,7 @@ from pathlib import Path
 
 import bpy
 import numpy as np
-from body_moments.operators.write import documents
+from body_moments.core.measurement import documents
 
 CORNERS = ((0, 0, 0), (1, 0, 0), (0, 2, 0), (0, 0, 3))
 FACES = ((0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3))

@@ -24,8 +24,8 @@ RESOLUTIONS = 6, 40
 def outline(character: str, font_name: str, resolution: int):
     """(n, 2) the corners of a letter and its directed edges."""
     import bpy
-    from body_moments.core.plane import orient_loops
-    from body_moments.operators.read.section import read_section
+    from body_moments.blender.read.section import read_section
+    from body_moments.core.flat import orient_loops
 
     from tests.blender.flat_objects import text
 
@@ -39,7 +39,7 @@ def outline(character: str, font_name: str, resolution: int):
 
 
 def signed(points, edges):
-    from body_moments.core.plane import region_moments
+    from body_moments.core.flat import region_moments
     from body_moments.core.shape import flat_signature
 
     moments = region_moments(points, edges, 20)

@@ -16,10 +16,12 @@ from collections import Counter
 import bmesh
 import bpy
 import numpy as np
+from body_moments.blender.read.fingerprint import MAX_DIGESTED_FACES
+from body_moments.blender.session.live import live
+from body_moments.blender.session.stored import results, trust
+from body_moments.blender.session.tracking import handlers, staleness
+from body_moments.blender.write import properties
 from body_moments.core.verdict.finding import MeasureError
-from body_moments.operators.read.fingerprint import MAX_DIGESTED_FACES
-from body_moments.operators.session import handlers, live, results, staleness, trust
-from body_moments.operators.write import properties
 
 from tests.blender.objects import add, measured, mesh_body
 

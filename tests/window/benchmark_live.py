@@ -37,7 +37,9 @@ def load_package():
 
 load_package().register()
 
-from body_moments.operators.session import handlers, live, results
+from body_moments.blender.session.live import live
+from body_moments.blender.session.stored import results
+from body_moments.blender.session.tracking import handlers
 
 noted = handlers._note_update
 

@@ -139,7 +139,7 @@ def test_a_refusal_is_read_in_the_panel_and_dismissed(window):
     window.ask(BRICK + "part.modifiers.new('Cast', 'CAST')")
     place = window.get(f"list({PART}.location)")
     window.choose(MENU, "object.body_moments_origin_to_center")
-    refused = f"__import__('sys').modules['{PACKAGE}.operators.session.outcome'].last()"
+    refused = f"__import__('sys').modules['{PACKAGE}.blender.session.stored.outcome'].last()"
     window.wait(f"{refused} is not None")
     assert "“Cast”" in window.get(f"str({refused}.findings[0])")
     assert window.get(f"list({PART}.location)") == place
@@ -191,7 +191,7 @@ PRESSED = {
     ),
     "object.body_moments_compute_moments": (
         "",
-        f"__import__('sys').modules['{PACKAGE}.operators.session.moments'].computed_moments({PART}) is not None",
+        f"__import__('sys').modules['{PACKAGE}.blender.session.stored.moments'].computed_moments({PART}) is not None",
     ),
     "object.body_moments_find_symmetry": ("", f"{PART}.body_moments_symmetry.group == 'D2h'"),
     "object.body_moments_find_similar": (

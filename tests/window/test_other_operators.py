@@ -58,7 +58,7 @@ for name, below in (("Lower", True), ("Upper", False)):
 part.modifiers.new("Armature", "ARMATURE").object = rig
 bpy.context.view_layer.update()
 """
-REFUSED = f"__import__('sys').modules['{PACKAGE}.operators.session.outcome'].last() is not None"
+REFUSED = f"__import__('sys').modules['{PACKAGE}.blender.session.stored.outcome'].last() is not None"
 RIG_OBJECT = "bpy.data.objects['Rig']"
 # operator: options, what is there before, what must have happened
 CLICKED = {

@@ -103,7 +103,7 @@ def test_live_follows_a_drag_in_the_list_and_the_panel(listed):
         "bpy.context.view_layer.objects.active = obj"
     )
     window.press("object.body_moments_live")
-    module = "__import__('sys').modules['bl_ext.user_default.body_moments.operators.session.results']"
+    module = "__import__('sys').modules['bl_ext.user_default.body_moments.blender.session.stored.results']"
     volume = f"{module}.in_world(bpy.data.objects['Large'], bpy.context.scene).volume"
     window.wait(f"abs({volume} - 27.0) < 1e-4")
     window.ask("bpy.ops.object.mode_set(mode='EDIT')\nbpy.ops.mesh.select_all(action='SELECT')")
@@ -175,7 +175,7 @@ def test_columns_sort_and_warnings_come_first_on_request(three):
     window.ask("bpy.ops.object.select_all(action='SELECT')")
     window.redraw()
     window.picture("list-warnings-first")
-    total = "__import__('sys').modules['bl_ext.user_default.body_moments.operators.session.results'].total(bpy.context)"
+    total = "__import__('sys').modules['bl_ext.user_default.body_moments.blender.session.stored.results'].total(bpy.context)"
     assert window.get(f"[{total}.count, {total}.stale, {total}.doubtful]") == [3, ["C"], []]
 
 

@@ -16,7 +16,7 @@ bpy.utils.unregister_class(panel)
 panel.bl_options = set()
 bpy.utils.register_class(panel)
 """
-SESSION = f"import sys\nstability = sys.modules['{PACKAGE}.operators.session.stability']\n"
+SESSION = f"import sys\nstability = sys.modules['{PACKAGE}.blender.session.stored.stability']\n"
 SUPPORT = SESSION + f"found = stability.support({CUBE})\nresult = [found.stands, found.margin, found.height]"
 STEP_ARROW = 286, 168  # pixels right of and below the pointer where F9 was pressed: the arrow at the end of the Step
 KEYS = (

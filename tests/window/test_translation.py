@@ -5,7 +5,7 @@
 import pytest
 
 PACKAGE = "bl_ext.user_default.body_moments"
-LOOK_UP = f"__import__('sys').modules['{PACKAGE}.operators.write.translations'].localized"
+LOOK_UP = f"__import__('sys').modules['{PACKAGE}.blender.write.translations'].localized"
 OPEN_BOX = """
 for obj in list(bpy.data.objects):
     bpy.data.objects.remove(obj)

@@ -7,11 +7,11 @@ from fractions import Fraction
 import bpy
 import numpy as np
 import pytest
+from body_moments.blender.bodies.assembly.assembly import measure_assembly
+from body_moments.blender.read import measurable_objects
+from body_moments.blender.read.assembly import MemberKind, members_of
+from body_moments.blender.session.tracking import staleness
 from body_moments.core.verdict.finding import MeasureError
-from body_moments.operators.bodies.assembly import measure_assembly
-from body_moments.operators.read import measurable_objects
-from body_moments.operators.read.assembly import MemberKind, members_of
-from body_moments.operators.session import staleness
 from mathutils import Matrix
 
 from tests.blender.grids import vdb_grid, volume_object

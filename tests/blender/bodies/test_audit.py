@@ -11,16 +11,16 @@ pytest.importorskip("bpy")
 import numpy as np
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.numerics.rotations import rotation_matrix
+from body_moments.core.robots.audit import Auditor, _measured, _primitive
 from body_moments.core.robots.model import Inertial, Link, Pose, Robot, Shape
+from body_moments.core.robots.read.descriptions import read_description
+from body_moments.core.robots.read.paths import Roots
+from body_moments.core.robots.repair import repaired_copy
+from body_moments.core.robots.write import mjcf, sdf, urdf, usd
+from body_moments.core.robots.write.stl import to_stl
+from body_moments.core.robots.write.text import roll_pitch_yaw
 from body_moments.core.verdict.finding import FileError, Severity
-from body_moments.operators.bodies.audit import Auditor, _measured, _primitive
-from body_moments.operators.read.robots.descriptions import read_description
-from body_moments.operators.read.robots.paths import Roots
-from body_moments.operators.write.messages import severity
-from body_moments.operators.write.robots import mjcf, sdf, urdf, usd
-from body_moments.operators.write.robots.repair import repaired_copy
-from body_moments.operators.write.robots.stl import to_stl
-from body_moments.operators.write.robots.text import roll_pitch_yaw
+from body_moments.core.verdict.messages import severity
 
 from tests.blender.findings import refused
 from tests.close import close

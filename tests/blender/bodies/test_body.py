@@ -5,15 +5,10 @@
 import bpy
 import numpy as np
 import pytest
+from body_moments.blender.bodies.body import extend_input_error, own_moments, with_input_error, with_known
+from body_moments.blender.bodies.measure_object import measure_body
+from body_moments.blender.settings.options import MeasureOptions
 from body_moments.core.moments.moments import Measure, Moments, monomial_count, monomials
-from body_moments.operators.bodies.body import (
-    extend_input_error,
-    own_moments,
-    with_input_error,
-    with_known,
-)
-from body_moments.operators.bodies.measure_object import measure_body
-from body_moments.operators.settings.options import MeasureOptions
 
 from tests.blender.objects import add
 from tests.close import close

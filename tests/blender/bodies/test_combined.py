@@ -3,11 +3,11 @@
 """The results of several bodies as one, field by field."""
 
 import numpy as np
+from body_moments.blender.bodies.assembly.combined import combined_measurement
+from body_moments.blender.bodies.assembly.given import properties_of
 from body_moments.core.moments.moments import Measure, Moments, monomials
 from body_moments.core.verdict.finding import finding
 from body_moments.core.verdict.method import Method, Verdict
-from body_moments.operators.bodies.combined import combined_measurement
-from body_moments.operators.bodies.given import properties_of
 
 from tests.close import close
 

@@ -8,13 +8,13 @@ from types import SimpleNamespace
 import bpy
 import numpy as np
 import pytest
+from body_moments.blender.bodies.flat.flat import flat_region
+from body_moments.blender.bodies.measure_object import measure_body, measure_object
+from body_moments.blender.read.nurbs import curves
+from body_moments.blender.read.nurbs.deformation import FALLOFFS, spline_modifiers
+from body_moments.blender.settings.options import MeasureOptions
 from body_moments.core.moments.moments import monomials
 from body_moments.core.nurbs.curve import Curve
-from body_moments.operators.bodies.flat import flat_region
-from body_moments.operators.bodies.measure_object import measure_body, measure_object
-from body_moments.operators.read import curves
-from body_moments.operators.read.deformation import FALLOFFS, spline_modifiers
-from body_moments.operators.settings.options import MeasureOptions
 from mathutils import Matrix
 
 from tests.blender.characters import armature_of
@@ -389,7 +389,7 @@ def test_a_flat_region_takes_the_density_that_is_not_one_value_and_says_what_was
 
 @pytest.mark.parametrize("source", ["POLYNOMIAL", "MATERIALS"])
 def test_a_wire_has_its_linear_density_and_is_up_to_date_whatever_its_density_comes_from(source):
-    from body_moments.operators.session import staleness
+    from body_moments.blender.session.tracking import staleness
 
     obj = circle()
     obj.body_moments.kind, obj.body_moments.density_from = "WIRE", source

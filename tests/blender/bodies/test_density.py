@@ -7,12 +7,12 @@ import math
 import bpy
 import numpy as np
 import pytest
+from body_moments.blender.bodies.measure_object import measure_object
+from body_moments.blender.session.tracking import staleness
+from body_moments.blender.settings.options import MeasureOptions
 from body_moments.core.density.polynomial import parse_polynomial
 from body_moments.core.inertia.mass_properties import combine
 from body_moments.core.verdict.finding import MeasureError, finding
-from body_moments.operators.bodies.measure_object import measure_object
-from body_moments.operators.session import staleness
-from body_moments.operators.settings.options import MeasureOptions
 
 from tests.blender import batch_files
 from tests.blender.bodies.test_measure_object import add, box, measure
@@ -680,7 +680,7 @@ def test_a_material_from_the_table_sets_one_value_but_leaves_materials():
 
 
 def test_the_command_lines_density_makes_the_setting_one_value():
-    from body_moments.operators.settings import properties as settings
+    from body_moments.blender.settings import properties as settings
 
     obj = by_polynomial(add(box()), "1000 + z")
     settings.apply_options(obj.body_moments, MeasureOptions(density=5.0), bpy.context.scene)

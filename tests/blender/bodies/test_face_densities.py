@@ -6,12 +6,8 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from body_moments.blender.bodies.density.varying_density import _FaceDensities, _similarity_groups, _vertex_density
 from body_moments.core.verdict.finding import ReadError, finding
-from body_moments.operators.bodies.varying_density import (
-    _FaceDensities,
-    _similarity_groups,
-    _vertex_density,
-)
 
 
 class Material:

@@ -5,8 +5,8 @@
 import bpy
 import numpy as np
 import pytest
-from body_moments.operators.bodies.flat_shape import OutlineDistance, flat_shape_of
-from body_moments.operators.bodies.shape import register_surfaces
+from body_moments.blender.bodies.flat.flat_shape import OutlineDistance, flat_shape_of
+from body_moments.blender.bodies.shape.shape import register_surfaces
 
 from tests.blender.findings import refused
 from tests.blender.flat_objects import sheet

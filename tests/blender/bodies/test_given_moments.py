@@ -5,11 +5,11 @@
 import bpy
 import numpy as np
 import pytest
+from body_moments.blender.bodies.assembly.given import given_moments, properties_of
+from body_moments.blender.bodies.measure_object import measure_object
+from body_moments.blender.settings.given import GivenPart
+from body_moments.blender.settings.options import MeasureOptions
 from body_moments.core.moments.moments import SECOND_MOMENT_INDEX, Measure, Moments, U, monomials
-from body_moments.operators.bodies.given import given_moments, properties_of
-from body_moments.operators.bodies.measure_object import measure_object
-from body_moments.operators.settings.given import GivenPart
-from body_moments.operators.settings.options import MeasureOptions
 
 from tests.blender.findings import refused, said
 from tests.close import close

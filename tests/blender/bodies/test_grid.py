@@ -9,17 +9,17 @@ from types import SimpleNamespace
 import bpy
 import numpy as np
 import pytest
+from body_moments.blender.bodies.grids.grid import density_body
+from body_moments.blender.bodies.measure_object import measure_body, measure_object
+from body_moments.blender.read.grids import sample_grid, vdb
+from body_moments.blender.read.grids import volume as volume_module
+from body_moments.blender.read.grids.volume import volume_reading
+from body_moments.blender.session.tracking import staleness
+from body_moments.blender.settings.digest import grid_key
+from body_moments.blender.settings.grid import GridOptions
+from body_moments.blender.settings.options import MeasureOptions
+from body_moments.blender.write import properties
 from body_moments.core.verdict.finding import MeasureError, ReadError, finding
-from body_moments.operators.bodies.grid import density_body
-from body_moments.operators.bodies.measure_object import measure_body, measure_object
-from body_moments.operators.read import sample_grid, vdb
-from body_moments.operators.read import volume as volume_module
-from body_moments.operators.read.volume import volume_reading
-from body_moments.operators.session import staleness
-from body_moments.operators.settings.digest import grid_key
-from body_moments.operators.settings.grid import GridOptions
-from body_moments.operators.settings.options import MeasureOptions
-from body_moments.operators.write import properties
 
 from tests.blender.findings import refused, said
 from tests.blender.grids import linked, mesh_to_volume, vdb_grid, volume_object

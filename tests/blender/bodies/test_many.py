@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 
 bpy = pytest.importorskip("bpy")
-from body_moments.operators.bodies import stack
-from body_moments.operators.bodies.many import measure_many, measured_in_turn
-from body_moments.operators.bodies.measure_object import measure_body
-from body_moments.operators.bodies.stack import Stacked
-from body_moments.operators.session import results
-from body_moments.operators.settings.options import AS_SET, MeasureOptions
-from body_moments.operators.write import properties
+from body_moments.blender.bodies.measure_object import measure_body
+from body_moments.blender.bodies.stacks import stack
+from body_moments.blender.bodies.stacks.many import measure_many, measured_in_turn
+from body_moments.blender.bodies.stacks.stack import Stacked
+from body_moments.blender.session.stored import results
+from body_moments.blender.settings.options import AS_SET, MeasureOptions
+from body_moments.blender.write import properties
 
 from tests.blender.objects import only
 from tests.corpus import scenes

@@ -188,7 +188,7 @@ def test_the_panel_computes_moments_of_the_mass():
     settings = bpy.context.scene.body_moments
     settings.moments_order, settings.moments_of = 5, "MASS"
     assert bpy.ops.object.body_moments_compute_moments() == {"FINISHED"}
-    from body_moments.operators.session import moments as table
+    from body_moments.blender.session.stored import moments as table
 
     computed = table.computed_moments(obj)
     degrees, missing = table.current_numbers(obj, bpy.context.scene)

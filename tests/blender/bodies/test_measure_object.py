@@ -8,14 +8,14 @@ from types import SimpleNamespace
 import bpy
 import numpy as np
 import pytest
-from body_moments.core.inertia.principal_frame import OwnMoments
+from body_moments.blender.bodies.measure_object import measure_object
+from body_moments.blender.bodies.measurement import _frame_moments
+from body_moments.blender.bodies.mesh import mesh
+from body_moments.blender.bodies.mesh.hull import object_hull
+from body_moments.blender.settings.options import MeasureOptions
+from body_moments.core.inertia.principal_frames import OwnMoments
 from body_moments.core.moments.moments import Measure, Moments
 from body_moments.core.verdict.finding import EditRefusedError
-from body_moments.operators.bodies import mesh
-from body_moments.operators.bodies.hull import object_hull
-from body_moments.operators.bodies.measure_object import measure_object
-from body_moments.operators.bodies.measurement import _frame_moments
-from body_moments.operators.settings.options import MeasureOptions
 
 from tests.blender.findings import refused, said
 from tests.close import close
@@ -390,7 +390,7 @@ def test_a_unit_scale_is_used_in_double_precision():
 
 
 def test_out_of_date_names_what_has_changed():
-    from body_moments.operators.session import staleness
+    from body_moments.blender.session.tracking import staleness
 
     scene, obj = bpy.context.scene, add(box())
     obj.select_set(True)
@@ -437,7 +437,7 @@ def test_a_library_override_is_refused_because_it_would_lose_its_results(tmp_pat
     bpy.context.scene.collection.objects.link(wanted.objects[0])
     override = wanted.objects[0].override_create(remap_local_usages=True)
     bpy.context.view_layer.update()
-    from body_moments.operators.write import properties
+    from body_moments.blender.write import properties
 
     with pytest.raises(EditRefusedError) as caught:
         properties.store(override, measure(override))

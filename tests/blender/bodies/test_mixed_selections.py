@@ -10,9 +10,10 @@ import numpy as np
 import pytest
 
 bpy = pytest.importorskip("bpy")
+from body_moments.blender.session.stored import outcome, results
+from body_moments.blender.write import properties
+from body_moments.core.verdict import messages
 from body_moments.core.verdict.finding import Severity
-from body_moments.operators.session import outcome, results
-from body_moments.operators.write import messages, properties
 
 from tests.blender.bodies.test_many import KINDS, stored_on
 from tests.blender.objects import only

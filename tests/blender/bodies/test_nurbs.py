@@ -7,16 +7,16 @@ from itertools import product
 import bpy
 import numpy as np
 import pytest
+from body_moments.blender.bodies.measure_object import measure_body, measure_object
+from body_moments.blender.session.live import live
+from body_moments.blender.settings.options import MeasureOptions
+from body_moments.core.measurement.record import record
 from body_moments.core.mesh.surface import Surface
-from body_moments.core.moments.monomials import monomials
+from body_moments.core.moments.exponents import monomials
 from body_moments.core.nurbs.blender_knots import blender_space, display_parameters, display_table
 from body_moments.core.nurbs.patch import Patch
 from body_moments.core.polyhedron import polyhedron_moments
 from body_moments.core.verdict.method import Source
-from body_moments.operators.bodies.measure_object import measure_body, measure_object
-from body_moments.operators.session import live
-from body_moments.operators.settings.options import MeasureOptions
-from body_moments.operators.write.record import record
 
 from tests.blender.findings import refused, said
 from tests.blender.objects import add, measured, only, place

@@ -5,10 +5,10 @@
 from types import SimpleNamespace
 
 import numpy as np
+from body_moments.blender.bodies.mesh import instances
+from body_moments.blender.read.reading import Part
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.polyhedron import polyhedron_moments
-from body_moments.operators.bodies import instances
-from body_moments.operators.read.reading import Part
 
 from tests.close import close
 from tests.core.bodies import box

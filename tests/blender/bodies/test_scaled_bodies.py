@@ -5,10 +5,10 @@
 import bpy
 import numpy as np
 import pytest
+from body_moments.blender.bodies.flat.flat import flat_region
+from body_moments.blender.bodies.measure_object import measure_object
+from body_moments.blender.settings.options import MeasureOptions
 from body_moments.core.moments.moments import monomials
-from body_moments.operators.bodies.flat import flat_region
-from body_moments.operators.bodies.measure_object import measure_object
-from body_moments.operators.settings.options import MeasureOptions
 
 from tests.blender.objects import add, mesh_body
 from tests.blender.spline_bodies import surface

@@ -6,7 +6,7 @@ import bmesh
 import bpy
 import numpy as np
 import pytest
-from body_moments.operators.bodies.shape import NoShapeError, shape_of, surface_shape_of
+from body_moments.blender.bodies.shape.shape import NoShapeError, shape_of, surface_shape_of
 
 from tests.blender.bodies.test_assembly import box_mesh
 from tests.blender.findings import refused

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 bpy = pytest.importorskip("bpy")
-from body_moments.core.shape.signature import Signature, similarity
+from body_moments.blender.bodies.shape import stack_signature
+from body_moments.blender.bodies.shape.shape import SURFACE_OPTIONS, surface_shape_of
+from body_moments.blender.bodies.shape.stack_signature import signed_in_turn
+from body_moments.blender.bodies.stacks.many import measure_many
+from body_moments.core.shape.signatures import Signature, similarity
 from body_moments.core.verdict.finding import MeasureError
-from body_moments.operators.bodies import stack_signature
-from body_moments.operators.bodies.many import measure_many
-from body_moments.operators.bodies.shape import SURFACE_OPTIONS, surface_shape_of
-from body_moments.operators.bodies.stack_signature import signed_in_turn
 
 from tests.blender.bodies.test_many import KINDS, shards
 from tests.close import close

@@ -6,9 +6,9 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from body_moments.blender.bodies.shape.shape import SurfaceDistance, register_surfaces
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.numerics.rotations import rotation_matrix
-from body_moments.operators.bodies.shape import SurfaceDistance, register_surfaces
 
 from tests.close import close
 

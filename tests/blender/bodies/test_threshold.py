@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 
 bpy = pytest.importorskip("bpy")
+from body_moments.blender.bodies.grids import threshold as threshold_module
+from body_moments.blender.bodies.measure_object import measure_body
+from body_moments.blender.session.tracking import staleness
+from body_moments.blender.settings.options import MeasureOptions
 from body_moments.core.verdict.finding import finding
-from body_moments.operators.bodies import threshold as threshold_module
-from body_moments.operators.bodies.measure_object import measure_body
-from body_moments.operators.session import staleness
-from body_moments.operators.settings.options import MeasureOptions
 
 from tests.blender.bodies.test_grid import SHEARED, measure
 from tests.blender.findings import refused, said

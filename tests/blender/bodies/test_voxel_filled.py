@@ -5,11 +5,11 @@
 import bpy
 import numpy as np
 import pytest
+from body_moments.blender.bodies.measure_object import measure_body, measure_object
+from body_moments.blender.session.tracking import staleness
+from body_moments.blender.settings.options import MeasureOptions
+from body_moments.blender.write import properties
 from body_moments.core.verdict.finding import finding
-from body_moments.operators.bodies.measure_object import measure_body, measure_object
-from body_moments.operators.session import staleness
-from body_moments.operators.settings.options import MeasureOptions
-from body_moments.operators.write import properties
 
 from tests.blender.findings import refused, said
 from tests.blender.grids import mesh_to_volume, vdb_grid, volume_object

@@ -9,16 +9,16 @@ from types import SimpleNamespace
 import bpy
 import numpy as np
 import pytest
+from body_moments.blender.bodies.measure_object import measure_body, measure_object
+from body_moments.blender.bodies.mesh.mesh import mesh_body as polygon_body
+from body_moments.blender.bodies.wall import Walls, find_walls
+from body_moments.blender.read import read_object
+from body_moments.blender.session.stored import walls as wall_slider
+from body_moments.blender.session.tracking import staleness
+from body_moments.blender.settings.options import MeasureOptions
+from body_moments.blender.write import properties
 from body_moments.core.moments.moments import Measure, Moments, monomials
 from body_moments.core.verdict.finding import MeasureError
-from body_moments.operators.bodies.measure_object import measure_body, measure_object
-from body_moments.operators.bodies.mesh import mesh_body as polygon_body
-from body_moments.operators.bodies.wall import Walls, find_walls
-from body_moments.operators.read import read_object
-from body_moments.operators.session import staleness
-from body_moments.operators.session import walls as wall_slider
-from body_moments.operators.settings.options import MeasureOptions
-from body_moments.operators.write import properties
 
 from tests.blender.batch_files import document
 from tests.blender.findings import refused, said

@@ -6,8 +6,8 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from body_moments.blender.read import fingerprint
 from body_moments.core.mesh.surface import Surface
-from body_moments.operators.read import fingerprint
 
 from tests.blender.robot_truth import about
 

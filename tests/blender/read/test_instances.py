@@ -9,7 +9,7 @@ import pytest
 
 bpy = pytest.importorskip("bpy")
 
-from body_moments.operators.read import measurable_objects, read_object
+from body_moments.blender.read import measurable_objects, read_object
 
 from tests.blender.findings import refused, said
 from tests.blender.read_bodies import (

@@ -5,14 +5,14 @@
 import bpy
 import numpy as np
 import pytest
+from body_moments.blender.bodies.flat.flat import flat_region
+from body_moments.blender.bodies.flat.flat_shape import flat_shape_of
+from body_moments.blender.bodies.measure_object import measure_object
+from body_moments.blender.bodies.mesh.hull import object_hull
+from body_moments.blender.bodies.shape.shape import shape_of
+from body_moments.blender.read.grids import volume
+from body_moments.blender.settings.options import MeasureOptions
 from body_moments.core.verdict.finding import MeasureError
-from body_moments.operators.bodies.flat import flat_region
-from body_moments.operators.bodies.flat_shape import flat_shape_of
-from body_moments.operators.bodies.hull import object_hull
-from body_moments.operators.bodies.measure_object import measure_object
-from body_moments.operators.bodies.shape import shape_of
-from body_moments.operators.read import volume
-from body_moments.operators.settings.options import MeasureOptions
 
 from tests.blender.flat_objects import regular, sheet, text
 from tests.blender.grids import vdb_grid, volume_object

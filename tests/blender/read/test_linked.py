@@ -99,15 +99,15 @@ def test_an_override_is_given_nothing_that_its_file_would_lose(overridden, opera
 
 
 def test_the_panel_says_that_settings_of_an_override_are_not_kept(overridden):
-    from tests.blender.panels.drawing import labels, shown
+    from tests.panels.drawing import labels, shown
 
     assert str(finding("panel_override")) in " ".join(labels(shown()))
 
 
 def test_the_density_of_a_linked_material_cannot_be_set_by_its_local_namesake(tmp_path):
-    from body_moments.panels.material_menus import density_row
+    from body_moments.panels.density.density.material_menus import density_row
 
-    from tests.blender.panels.drawing import Layout
+    from tests.panels.drawing import Layout
 
     bpy.data.materials.new("Stahl").use_fake_user = True
     bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "a.blend"))

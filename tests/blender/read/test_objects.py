@@ -10,8 +10,8 @@ import pytest
 
 bpy = pytest.importorskip("bpy")
 
+from body_moments.blender.read import measurable, measurable_objects, read_object, read_patches
 from body_moments.core.verdict.finding import MeasureError, finding
-from body_moments.operators.read import measurable, measurable_objects, read_object, read_patches
 from mathutils import Matrix
 
 from tests.blender import findings

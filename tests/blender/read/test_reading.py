@@ -5,11 +5,11 @@
 import bpy
 import numpy as np
 import pytest
+from body_moments.blender.read.reading import to_si
+from body_moments.blender.read.union import union_surface
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.moments.moments import FLOAT32_HALF_ULP
 from body_moments.core.polyhedron import polyhedron_moments
-from body_moments.operators.read.reading import to_si
-from body_moments.operators.read.union import union_surface
 
 from tests.blender.read_bodies import CUBE, CUBE_FACES
 from tests.close import close

@@ -9,9 +9,9 @@ import pytest
 
 pytest.importorskip("bpy")
 import numpy as np
+from body_moments.core.robots.read import dae, meshes
+from body_moments.core.robots.read.meshes import read_mesh
 from body_moments.core.verdict.finding import FileError
-from body_moments.operators.read.robots import dae, meshes
-from body_moments.operators.read.robots.meshes import read_mesh
 
 from tests.blender.robot_truth import about, near, quaternion, text
 

@@ -8,8 +8,8 @@ import pytest
 
 pytest.importorskip("bpy")
 import numpy as np
+from body_moments.core.robots.read import descriptions, limits, usda, xml
 from body_moments.core.verdict.finding import FileError
-from body_moments.operators.read.robots import descriptions, limits, usda, xml
 
 from tests.blender.robot_truth import about, check_repair, near, quaternion, random_inertial, read
 

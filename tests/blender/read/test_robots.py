@@ -14,12 +14,12 @@ import contextlib
 import bpy
 import numpy as np
 from body_moments.core.polyhedron import polyhedron_moments
+from body_moments.core.robots.read import xml
+from body_moments.core.robots.read.descriptions import read_description
+from body_moments.core.robots.read.meshes import read_mesh
+from body_moments.core.robots.read.paths import Roots
+from body_moments.core.streams.threemf import read_3mf
 from body_moments.core.verdict.finding import FileError
-from body_moments.operators.read.robots import xml
-from body_moments.operators.read.robots.descriptions import read_description
-from body_moments.operators.read.robots.meshes import read_mesh
-from body_moments.operators.read.robots.paths import Roots
-from body_moments.operators.read.threemf import read_3mf
 
 from tests.blender import batch_files
 from tests.close import close

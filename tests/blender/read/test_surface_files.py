@@ -6,11 +6,11 @@ measured are their volumes."""
 import bpy
 import numpy as np
 import pytest
+from body_moments.blender.scene.surface_objects import import_bodies, surface_object
 from body_moments.core.cad import read_surfaces
 from body_moments.core.numerics.bspline import SplineSpace, clamped_space
 from body_moments.core.nurbs.blender_knots import display_parameters
 from body_moments.core.nurbs.patch import Patch
-from body_moments.operators.scene.surface_objects import import_bodies, surface_object
 
 from tests.blender.objects import measured
 from tests.close import close
@@ -142,7 +142,7 @@ def test_a_file_that_may_not_be_read_is_refused(tmp_path, reported, monkeypatch)
     def denied(*_):
         raise PermissionError(13, "Permission denied")
 
-    monkeypatch.setattr("body_moments.operators.actions.imports.import_surfaces.read_surfaces", denied)
+    monkeypatch.setattr("body_moments.operators.imports.import_surfaces.read_surfaces", denied)
     with pytest.raises(RuntimeError):
         bpy.ops.object.body_moments_import_surfaces(filepath=str(written(tmp_path, unrolled(sphere()))))
     assert reported.codes[-1] == "file_unreadable"

@@ -7,7 +7,7 @@ from types import SimpleNamespace
 import bpy
 import numpy as np
 import pytest
-from body_moments.operators.scene import changes as side_by_side
+from body_moments.blender.scene import changes as side_by_side
 
 from tests.blender.objects import add, mesh_body, only, place, seen
 

@@ -7,13 +7,8 @@ from types import SimpleNamespace
 import bpy
 import numpy as np
 import pytest
-from body_moments.operators.scene import reframe
-from body_moments.operators.scene.reframe_meshes import (
-    Plan,
-    data_change,
-    reframe_own_meshes,
-    shows_own_mesh,
-)
+from body_moments.blender.scene import reframe
+from body_moments.blender.scene.reframe_meshes import Plan, data_change, reframe_own_meshes, shows_own_mesh
 from mathutils import Matrix
 
 from tests.blender.findings import refused

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 bpy = pytest.importorskip("bpy")
-from body_moments.operators.scene import reframe, reframe_meshes
+from body_moments.blender.scene import reframe, reframe_meshes
 
 from tests.corpus import shapes as s
 

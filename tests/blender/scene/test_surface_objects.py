@@ -5,10 +5,10 @@
 import bpy
 import numpy as np
 import pytest
+from body_moments.blender.scene import surface_objects
 from body_moments.core.cad.surfaces import SurfaceBody
 from body_moments.core.numerics import clamped_space
 from body_moments.core.nurbs import Patch
-from body_moments.operators.scene import surface_objects
 
 pytestmark = pytest.mark.usefixtures("scene")
 SHAPES = (4, 4), (2, 3), (4, 3), (4, 4), (3, 2)  # orders along v and u

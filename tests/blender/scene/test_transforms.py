@@ -7,8 +7,8 @@ import itertools
 import bpy
 import numpy as np
 import pytest
+from body_moments.blender.scene import transforms
 from body_moments.core.verdict.finding import EditRefusedError
-from body_moments.operators.scene import transforms
 from mathutils import Quaternion
 
 from tests.blender.findings import refused

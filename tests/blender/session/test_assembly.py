@@ -5,13 +5,13 @@
 import bpy
 import numpy as np
 import pytest
-from body_moments.operators.session import assembly
+from body_moments.blender.session.stored import assembly
 from mathutils import Matrix, Vector
 
-from tests.blender.actions.assembly.test_assembly import activate
 from tests.blender.bodies.test_assembly import box, collection
 from tests.blender.objects import add, only
 from tests.close import close
+from tests.operators.assembly.test_assembly import activate
 
 pytestmark = pytest.mark.usefixtures("registered", "scene")
 

@@ -7,10 +7,12 @@ import pytest
 pytest.importorskip("bpy")
 import body_moments
 import bpy
+from body_moments.blender.session.live import live
+from body_moments.blender.session.stored import moments as moments_table
+from body_moments.blender.session.stored import results, walls
+from body_moments.blender.session.tracking import handlers, staleness
+from body_moments.blender.session.tracking.cache import SessionCache
 from body_moments.core.verdict.finding import finding
-from body_moments.operators.session import handlers, live, results, staleness, walls
-from body_moments.operators.session import moments as moments_table
-from body_moments.operators.session.cache import SessionCache
 
 from tests.blender.objects import add, mesh_body, only
 

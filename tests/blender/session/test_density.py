@@ -8,10 +8,11 @@ import pytest
 
 pytest.importorskip("bpy")
 import bpy
-from body_moments.operators.session import results, staleness
-from body_moments.operators.session.shown import shown_body
-from body_moments.operators.session.trust import Trust
-from body_moments.operators.write import properties
+from body_moments.blender.session.stored import results
+from body_moments.blender.session.stored.shown import shown_body
+from body_moments.blender.session.stored.trust import Trust
+from body_moments.blender.session.tracking import staleness
+from body_moments.blender.write import properties
 
 from tests.blender.objects import add, measured, mesh_body, only
 from tests.close import close
@@ -162,7 +163,7 @@ def varying(obj):
 @pytest.mark.parametrize("large", [False, True])
 @pytest.mark.parametrize("change", [edited, scaled, other_kind, varying])
 def test_what_is_out_of_date_stays_so_whatever_the_density(change, large, monkeypatch):
-    from body_moments.operators.read import fingerprint
+    from body_moments.blender.read import fingerprint
 
     if large:
         monkeypatch.setattr(fingerprint, "MAX_DIGESTED_FACES", 0)

@@ -14,9 +14,9 @@ from mathutils import Vector
 
 from tests.blender.flat_objects import sheet, text
 from tests.blender.objects import add, mesh_body, only
-from tests.blender.panels.drawing import labels
 from tests.blender.session.test_moments import compute, drawn, settings
 from tests.close import close
+from tests.panels.drawing import labels
 
 pytestmark = pytest.mark.usefixtures("scene")
 
@@ -25,7 +25,7 @@ L_SHAPE = [(0, 0), (3, 0), (3, 1), (1, 1), (1, 2.5), (0, 2.5)]
 
 def table():
     """(the comment, the rows as they are)"""
-    from body_moments.operators.session import moments as moments_table
+    from body_moments.blender.session.stored import moments as moments_table
 
     group = bpy.context.scene.body_moments
     text = moments_table.as_csv(
@@ -178,7 +178,7 @@ def test_invariants_beyond_the_range_of_numbers_are_refused_not_copied():
 
 
 def test_moments_in_the_plane_are_about_the_foot_of_the_reference():
-    from body_moments.operators.session import moments as moments_table
+    from body_moments.blender.session.stored import moments as moments_table
 
     obj = sheet(L_SHAPE)
     only(obj)
@@ -215,7 +215,7 @@ def test_outlines_that_cross_are_the_reason_and_not_the_missing_volume(reported)
 
 
 def test_a_flat_shape_has_its_center_in_the_world_and_invariants_within_the_range_of_numbers():
-    from body_moments.operators.session import moments as moments_table
+    from body_moments.blender.session.stored import moments as moments_table
 
     obj = sheet(L_SHAPE, location=(4.0, -2.0, 1.0), rotation=(0.5, -0.25, 1.0))
     only(obj)

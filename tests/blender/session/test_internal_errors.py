@@ -12,19 +12,21 @@ import pytest
 pytest.importorskip("bpy")
 import body_moments
 import bpy
+from body_moments.blender.bodies import measure_object as measure
+from body_moments.blender.bodies import request
+from body_moments.blender.bodies.stacks import many
+from body_moments.blender.scene import reframe
+from body_moments.blender.session.live import live
+from body_moments.blender.session.stored import results
+from body_moments.blender.write import properties, section
 from body_moments.operators import batch
-from body_moments.operators.actions.measure import section as measure_section
-from body_moments.operators.actions.measure.measure_selected import OBJECT_OT_body_moments_measure
-from body_moments.operators.actions.snap import empty
-from body_moments.operators.bodies import many, request
-from body_moments.operators.bodies import measure_object as measure
-from body_moments.operators.scene import reframe
-from body_moments.operators.session import live, results
-from body_moments.operators.write import properties, section
+from body_moments.operators.measure import section as measure_section
+from body_moments.operators.measure.measure_selected import OBJECT_OT_body_moments_measure
+from body_moments.operators.snap import empty
 
 from tests.blender import batch_files as files
-from tests.blender.actions.measure.test_stepwise import finished, pressed
 from tests.blender.objects import add, mesh_body, only, place
+from tests.operators.measure.test_stepwise import finished, pressed
 
 pytestmark = pytest.mark.usefixtures("registered", "scene")
 
@@ -47,7 +49,7 @@ OPERATORS = {
 
 @pytest.fixture(autouse=True)
 def in_steps(monkeypatch):
-    monkeypatch.setattr("body_moments.operators.actions.measure.measure_selected.MAX_OBJECTS_WITHOUT_REDRAW", 0)
+    monkeypatch.setattr("body_moments.operators.measure.measure_selected.MAX_OBJECTS_WITHOUT_REDRAW", 0)
 
 
 def three(flat=False):

@@ -10,8 +10,8 @@ import pytest
 
 pytest.importorskip("bpy")
 import bpy
-from body_moments.operators.session import results
-from body_moments.operators.session.listing import SortBy, listed_masses, listing
+from body_moments.blender.session.stored import results
+from body_moments.blender.session.stored.listing import SortBy, listed_masses, listing
 
 from tests.blender.bodies.test_assembly import box_mesh
 from tests.blender.objects import add, mesh_body, only, strip_mesh

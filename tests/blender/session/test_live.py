@@ -11,9 +11,11 @@ import pytest
 
 pytest.importorskip("bpy")
 import bpy
-from body_moments.operators.session import live, posed, results, updates
-from body_moments.operators.session.shown import shown_body
-from body_moments.operators.session.trust import Trust
+from body_moments.blender.session.live import live
+from body_moments.blender.session.stored import results
+from body_moments.blender.session.stored.shown import shown_body
+from body_moments.blender.session.stored.trust import Trust
+from body_moments.blender.session.tracking import posed, updates
 from mathutils import Euler, Matrix
 
 from tests.blender.objects import add, measured, mesh_body, only

@@ -4,7 +4,7 @@
 
 import bpy
 import pytest
-from body_moments.operators.session import live
+from body_moments.blender.session.live import live
 
 from tests.blender.objects import add, mesh_body, only
 from tests.close import close

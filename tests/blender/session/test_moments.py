@@ -12,9 +12,9 @@ import pytest
 from body_moments.core.verdict.finding import MeasureError, finding
 
 from tests.blender import batch_files as files
-from tests.blender.command.test_options import box_moment
-from tests.blender.panels.drawing import Layout, labels
 from tests.close import close
+from tests.command.test_options import box_moment
+from tests.panels.drawing import Layout, labels
 
 pytestmark = pytest.mark.usefixtures("scene")
 
@@ -35,7 +35,7 @@ def settings(**values):
 
 
 def drawn():
-    from body_moments.panels.moments import VIEW3D_PT_body_moments_orders as panel
+    from body_moments.panels.measure.moments import VIEW3D_PT_body_moments_orders as panel
 
     layout = Layout()
     panel.draw(SimpleNamespace(layout=layout), bpy.context)
@@ -48,7 +48,7 @@ def compute(order=4):
 
 
 def rows():
-    from body_moments.operators.session import moments as moments_table
+    from body_moments.blender.session.stored import moments as moments_table
 
     group = bpy.context.scene.body_moments
     text = moments_table.as_csv(
@@ -96,7 +96,7 @@ def test_every_row_of_the_copy_has_its_bounds(box):
 
 
 def test_what_was_computed_is_called_out_of_date_when_the_object_changes(box):
-    from body_moments.operators.session import moments as moments_table
+    from body_moments.blender.session.stored import moments as moments_table
 
     def reason():
         bpy.context.view_layer.update()
@@ -120,7 +120,7 @@ def test_what_was_computed_is_called_out_of_date_when_the_object_changes(box):
 
 
 def test_computing_leaves_the_object_and_the_undo_stack_alone(box):
-    from body_moments.operators.actions.measure.moments import CLASSES
+    from body_moments.operators.measure.moments import CLASSES
 
     compute()
     assert "body_volume" not in box and "body_fingerprint" not in box
@@ -144,7 +144,7 @@ def test_a_shell_shows_its_thin_volume(box):
 
 
 def test_a_flat_shell_has_the_moments_of_its_sheet_and_of_its_outline():
-    from body_moments.operators.session.moments import computed_moments
+    from body_moments.blender.session.stored.moments import computed_moments
 
     bpy.ops.mesh.primitive_plane_add(size=2.0)
     obj = bpy.context.object
@@ -179,7 +179,7 @@ def test_a_wire_is_refused_with_the_reason(reported):
 
 
 def test_moments_of_a_mass_that_is_not_known_to_their_order_are_refused_with_the_reason(box):
-    from body_moments.operators.session import moments as moments_table
+    from body_moments.blender.session.stored import moments as moments_table
 
     compute(5)
     unknown = replace(moments_table.computed_moments(box), mass=None)
@@ -189,7 +189,7 @@ def test_moments_of_a_mass_that_is_not_known_to_their_order_are_refused_with_the
 
 
 def test_a_wall_has_moments_to_any_order(box):
-    from body_moments.operators.session import moments as moments_table
+    from body_moments.blender.session.stored import moments as moments_table
 
     box.body_moments.kind, box.body_moments.wall, box.body_moments.thickness = "SHELL", "INWARD", 0.01
     settings(moments_order=8)
@@ -203,8 +203,8 @@ def test_a_wall_has_moments_to_any_order(box):
 
 
 def test_a_script_gets_the_moments_of_an_object_as_the_readme_says(box):
-    from body_moments.operators.bodies.measure_object import measure_object
-    from body_moments.operators.settings.options import MeasureOptions
+    from body_moments.blender.bodies.measure_object import measure_object
+    from body_moments.blender.settings.options import MeasureOptions
 
     options = MeasureOptions(order=12, surface=True)
     one = measure_object(bpy.context.object, bpy.context.evaluated_depsgraph_get(), options)
@@ -235,7 +235,7 @@ def test_moments_beyond_the_range_of_numbers_are_refused_not_shown(box, reported
 
 
 def test_moments_of_what_undo_took_back_are_out_of_date(box):
-    from body_moments.operators.session import moments as moments_table
+    from body_moments.blender.session.stored import moments as moments_table
 
     bpy.ops.ed.undo_push(message="As it was")
     bpy.ops.object.mode_set(mode="EDIT")
@@ -255,7 +255,7 @@ def test_moments_of_what_undo_took_back_are_out_of_date(box):
 
 @pytest.mark.parametrize("frame", ["WORLD", "OBJECT"])
 def test_normalized_moments_of_a_mass_are_those_of_a_unit_mass_with_unit_radius_of_gyration(box, frame):
-    from body_moments.operators.session import moments as moments_table
+    from body_moments.blender.session.stored import moments as moments_table
 
     box.body_moments.density = 2500.0
     compute(2)

@@ -5,8 +5,8 @@
 import bpy
 import numpy as np
 import pytest
+from body_moments.blender.session.live import motion
 from body_moments.core.statics.mixes import sample_count
-from body_moments.operators.session import motion
 
 from tests.blender.findings import refused
 from tests.blender.objects import add, measured, mesh_body, strip_mesh

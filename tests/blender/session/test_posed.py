@@ -4,7 +4,8 @@
 
 import bpy
 import pytest
-from body_moments.operators.session import live, posed
+from body_moments.blender.session.live import live
+from body_moments.blender.session.tracking import posed
 
 from tests.blender.objects import add, mesh_body, only
 

@@ -5,7 +5,7 @@
 import pytest
 
 pytest.importorskip("bpy")
-from body_moments.operators.read import fingerprint
+from body_moments.blender.read import fingerprint
 
 from tests.soak import sessions
 

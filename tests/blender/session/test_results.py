@@ -7,10 +7,11 @@ from types import SimpleNamespace
 import bpy
 import numpy as np
 import pytest
+from body_moments.blender.session.stored import results
+from body_moments.blender.session.stored.shown import shown_body
+from body_moments.blender.session.tracking import handlers
+from body_moments.blender.write.properties import BOUND_KEYS
 from body_moments.core.inertia.mass_properties import combine
-from body_moments.operators.session import handlers, results
-from body_moments.operators.session.shown import shown_body
-from body_moments.operators.write.properties import BOUND_KEYS
 
 from tests.blender.bodies.test_assembly import box, collection
 from tests.blender.objects import add, measured, mesh_body, only, strip_mesh

@@ -1,16 +1,17 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Edits of a skin are noted for its armature. tests/blender/actions/rig has the operators."""
+"""Edits of a skin are noted for its armature. tests/operators/rig has the operators."""
 
 from types import SimpleNamespace
 
 import pytest
-from body_moments.operators.read.tracking import tracking_paused
-from body_moments.operators.session import handlers, rig
+from body_moments.blender.read.tracking import tracking_paused
+from body_moments.blender.session.stored import rig
+from body_moments.blender.session.tracking import handlers
 
-from tests.blender.actions.rig.test_rig import character, measured
 from tests.blender.bodies.test_assembly import box_mesh
 from tests.blender.objects import add
+from tests.operators.rig.test_rig import character, measured
 
 pytestmark = pytest.mark.usefixtures("registered", "scene")
 

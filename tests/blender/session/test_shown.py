@@ -7,13 +7,13 @@ import pytest
 pytest.importorskip("bpy")
 import bpy
 import numpy as np
-from body_moments.operators.session import staleness
-from body_moments.operators.session.shown import Trust, shown_body, shown_bone
+from body_moments.blender.session.stored.shown import Trust, shown_body, shown_bone
+from body_moments.blender.session.tracking import staleness
 from mathutils import Matrix
 
-from tests.blender.actions.rig.test_rig import character
 from tests.blender.objects import add, measured, mesh_body, only, strip_mesh
 from tests.close import close
+from tests.operators.rig.test_rig import character
 
 pytestmark = pytest.mark.usefixtures("scene")
 

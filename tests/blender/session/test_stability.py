@@ -5,12 +5,13 @@
 import bpy
 import numpy as np
 import pytest
-from body_moments.operators.session import faults, handlers, stability
+from body_moments.blender.session.stored import faults, stability
+from body_moments.blender.session.tracking import handlers
 
-from tests.blender.actions.setup.test_remedy_buttons import boxes
-from tests.blender.actions.test_stability import box
 from tests.blender.objects import add, only
 from tests.close import close
+from tests.operators.setup.test_remedy_buttons import boxes
+from tests.operators.test_stability import box
 
 pytestmark = pytest.mark.usefixtures("scene")
 

@@ -8,8 +8,8 @@ pytest.importorskip("bpy")
 import bmesh
 import body_moments
 import bpy
-from body_moments.operators.read import fingerprint
-from body_moments.operators.session import handlers, staleness
+from body_moments.blender.read import fingerprint
+from body_moments.blender.session.tracking import handlers, staleness
 
 from tests.blender.objects import add, mesh_body, only
 
@@ -383,10 +383,10 @@ def test_storing_evaluates_no_modifier_again():
     ],
 )
 def test_numbers_that_a_person_has_overwritten_break_nothing(key, value):
+    from body_moments.blender.write import text_report
     from body_moments.core.verdict.finding import finding
-    from body_moments.operators.write import text_report
 
-    from tests.blender.panels.drawing import shown
+    from tests.panels.drawing import shown
 
     good, obj = add(mesh_body(), "Good"), add(mesh_body())
     measure(obj, good)
@@ -398,7 +398,7 @@ def test_numbers_that_a_person_has_overwritten_break_nothing(key, value):
 
 
 def test_the_symmetry_and_the_moments_of_an_instancer_are_out_of_date_too():
-    from body_moments.operators.session import moments as moments_table
+    from body_moments.blender.session.stored import moments as moments_table
 
     member = add(mesh_body(), "Member")
     shown = instancer("Instancer", member)

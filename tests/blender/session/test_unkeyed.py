@@ -8,7 +8,8 @@ import pytest
 pytest.importorskip("bpy")
 import bpy
 import numpy as np
-from body_moments.operators.session import live, staleness
+from body_moments.blender.session.live import live
+from body_moments.blender.session.tracking import staleness
 
 from tests.blender.grids import linked, mesh_to_volume
 from tests.blender.objects import add, measured, mesh_body, only
@@ -183,7 +184,7 @@ def test_the_slider_of_a_wall_keeps_what_is_not_keyed_yet():
 
 @pytest.mark.parametrize("frame, subframe", [(7, 0.25), (-3, 0.0)])
 def test_sampling_voxels_keeps_what_is_not_keyed_yet_and_sees_the_frame_that_is_shown(monkeypatch, frame, subframe):
-    monkeypatch.setattr("body_moments.operators.read.volume.openvdb", lambda: None)
+    monkeypatch.setattr("body_moments.blender.read.grids.volume.openvdb", lambda: None)
     bpy.context.scene.frame_set(frame, subframe=subframe)
     cube = linked(bpy.data.objects.new("Cube", mesh_body()))
     cube.modifiers.new("Solidify", "SOLIDIFY").thickness = 0.01

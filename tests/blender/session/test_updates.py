@@ -6,7 +6,8 @@ import pytest
 
 pytest.importorskip("bpy")
 import bpy
-from body_moments.operators.session import handlers, results, staleness, updates
+from body_moments.blender.session.stored import results
+from body_moments.blender.session.tracking import handlers, staleness, updates
 
 from tests.blender.objects import add, mesh_body, only
 

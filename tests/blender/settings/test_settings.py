@@ -7,11 +7,11 @@ from types import SimpleNamespace
 import bpy
 import numpy as np
 import pytest
+from body_moments.blender.settings import accepted, preferences, properties
+from body_moments.blender.settings.given import GIVEN_PROPERTIES, GivenPart, is_point_mass
+from body_moments.blender.settings.grid import GridOptions, positions_text
 from body_moments.core.scans.positions import EVEN
 from body_moments.core.verdict.finding import finding
-from body_moments.operators.settings import accepted, preferences, properties
-from body_moments.operators.settings.given import GIVEN_PROPERTIES, GivenPart, is_point_mass
-from body_moments.operators.settings.grid import GridOptions, positions_text
 
 from tests.blender.findings import refused
 from tests.blender.objects import add, mesh_body

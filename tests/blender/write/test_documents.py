@@ -10,19 +10,20 @@ from math import inf, nan
 import bpy
 import numpy as np
 import pytest
+from body_moments.blender.write import properties
+from body_moments.blender.write.thumbnail import SIZE, thumbnail
+from body_moments.core.measurement import documents
+from body_moments.core.measurement.page import to_html
+from body_moments.core.measurement.plain_text import visible
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.robots.model import FreeAxis, Inertial, Joint, Link, Pose, Robot, Shape
+from body_moments.core.robots.write import audit_report, gltf, stl
 from body_moments.core.verdict.finding import finding
-from body_moments.operators.write import documents, properties
-from body_moments.operators.write.html.report import to_html
-from body_moments.operators.write.robots import audit_report, gltf, stl
-from body_moments.operators.write.terminal import visible
-from body_moments.operators.write.thumbnail import SIZE, thumbnail
 
 from tests.blender import batch_files
-from tests.blender.actions.measure.test_section import I_BEAM, flat_mesh
 from tests.blender.bodies.test_assembly import box_mesh
 from tests.blender.objects import add, only
+from tests.operators.measure.test_section import I_BEAM, flat_mesh
 
 TURN = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
 QUARTERS = np.array([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
@@ -173,7 +174,7 @@ def test_a_row_of_the_page_has_the_records_picture_or_the_box_of_its_inertia(sce
 
 
 def test_a_section_that_somebody_else_has_stored_is_none(scene):
-    from body_moments.operators.write import section
+    from body_moments.blender.write import section
 
     beam = add(flat_mesh(I_BEAM), "Beam")
     only(beam)

@@ -8,9 +8,9 @@ import pytest
 
 pytest.importorskip("bpy")
 import bpy
+from body_moments.blender.bodies.measure_object import measure_object
+from body_moments.blender.write import properties
 from body_moments.core.verdict.finding import EditRefusedError, finding
-from body_moments.operators.bodies.measure_object import measure_object
-from body_moments.operators.write import properties
 
 from tests.blender import batch_files as files
 

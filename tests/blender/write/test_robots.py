@@ -10,9 +10,10 @@ import numpy as np
 import pytest
 
 pytest.importorskip("bpy")
+from body_moments.core.robots import from_records
 from body_moments.core.robots.model import Inertial, Link, Robot
+from body_moments.core.robots.write import gltf, mjcf, stl, text, usd
 from body_moments.core.verdict.finding import FileError, finding
-from body_moments.operators.write.robots import from_records, gltf, mjcf, stl, text, usd
 
 from tests.blender.write.test_documents import of_box
 from tests.close import close

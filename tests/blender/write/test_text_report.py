@@ -8,9 +8,9 @@ import pytest
 
 pytest.importorskip("bpy")
 import bpy
-from body_moments.operators.bodies.measure_object import measure_object
-from body_moments.operators.write import text_report
-from body_moments.operators.write.properties import store
+from body_moments.blender.bodies.measure_object import measure_object
+from body_moments.blender.write import text_report
+from body_moments.blender.write.properties import store
 from mathutils import Euler, Matrix
 
 from tests.blender import batch_files as files

@@ -12,10 +12,11 @@ from types import SimpleNamespace
 
 import bpy
 import pytest
-from body_moments.operators.write import messages, translations
+from body_moments.blender.write import translations
+from body_moments.core.verdict import messages
 
 from tests.blender.objects import add, mesh_body
-from tests.blender.panels.drawing import labels, shown
+from tests.panels.drawing import labels, shown
 
 
 def placeholders(text):

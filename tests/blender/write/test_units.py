@@ -6,7 +6,7 @@ import itertools
 from math import inf
 
 import pytest
-from body_moments.operators.write.units import Units, rounded_up
+from body_moments.blender.write.units import Units, rounded_up
 
 
 @pytest.mark.parametrize(

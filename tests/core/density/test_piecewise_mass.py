@@ -13,7 +13,7 @@ from body_moments.core.density.piecewise_mass import sheet_mass_moments, solid_m
 from body_moments.core.inertia.mass_properties import MassProperties
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.moments.moments import FLOAT32_HALF_ULP, Moments, U, monomials
-from body_moments.core.solid.measure_solid import measure_solid
+from body_moments.core.solid.measure import measure_solid
 
 from tests.close import close
 from tests.core import bodies, exact

@@ -12,9 +12,9 @@ from body_moments.core.density.polynomial_mass import local_coordinates, polynom
 from body_moments.core.inertia.mass_properties import MassProperties
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.mesh.winding import winding_number
+from body_moments.core.moments.exponents import monomial_index
 from body_moments.core.moments.images import sum_of_images
 from body_moments.core.moments.moments import Moments, U, monomials
-from body_moments.core.moments.monomials import monomial_index
 from body_moments.core.polyhedron import polyhedron_moments
 from hypothesis import example, given, settings
 from hypothesis import strategies as st

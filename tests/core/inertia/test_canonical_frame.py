@@ -14,7 +14,7 @@ from body_moments.core.inertia.canonical_frame import (
     _normalization,
     _sphere_directions,
 )
-from body_moments.core.inertia.principal_frame import (
+from body_moments.core.inertia.principal_frames import (
     equivalent_frames,
     nearest_frame,
     pose_matrix,
@@ -22,11 +22,10 @@ from body_moments.core.inertia.principal_frame import (
     zhang_chen_frame,
 )
 from body_moments.core.mesh.surface import Surface
-from body_moments.core.moments.moments import Moments, monomials
-from body_moments.core.moments.monomials import monomial_index
+from body_moments.core.moments.moments import Moments, monomial_index, monomials
 from body_moments.core.moments.symmetric_tensors import invert_through_point
 from body_moments.core.polyhedron import polyhedron_moments
-from body_moments.core.solid.measure_solid import measure_solid
+from body_moments.core.solid.measure import measure_solid
 
 from tests.close import close
 from tests.core import bodies, shapes

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from body_moments.core.inertia.canonical_stack import _along_axes, _choose, _harmonics, choose_about_axis
 from body_moments.core.inertia.third_moment_frames import HALF_TURN_SIGNS
+from body_moments.core.moments.exponents import monomials
 from body_moments.core.moments.moments import Moments
-from body_moments.core.moments.monomials import monomials
 
 from tests.close import close
 from tests.core import bodies

@@ -17,8 +17,8 @@ from body_moments.core.inertia.canonical_frame import (
 )
 from body_moments.core.inertia.third_moment_frames import HALF_TURN_SIGNS
 from body_moments.core.moments.affine_maps import rotate_moments
+from body_moments.core.moments.exponents import monomial_index
 from body_moments.core.moments.moments import Moments, monomials
-from body_moments.core.moments.monomials import monomial_index
 
 from tests.close import close
 from tests.core import bodies

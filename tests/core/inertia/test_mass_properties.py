@@ -10,7 +10,7 @@ import pytest
 from body_moments.core.inertia.mass_properties import MassProperties, are_physical, combine
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.moments.moments import SECOND_MOMENT_INDEX, Measure, Moments, U, monomials, sum_moments
-from body_moments.core.solid.measure_solid import measure_solid
+from body_moments.core.solid.measure import measure_solid
 
 from tests.close import close
 from tests.core import exact

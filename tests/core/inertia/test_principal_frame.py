@@ -5,7 +5,7 @@ taken nearest to the preferred axes and said."""
 
 import numpy as np
 import pytest
-from body_moments.core.inertia.principal_frame import principal_frame
+from body_moments.core.inertia.principal_frames import principal_frame
 from body_moments.core.moments.moments import Moments, monomials, sum_moments
 
 from tests.close import close

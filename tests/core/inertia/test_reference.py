@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from body_moments.core.inertia import MassProperties, Reference
 from body_moments.core.moments import Measure, Moments
-from body_moments.core.moments.monomials import monomials
+from body_moments.core.moments.exponents import monomials
 from body_moments.core.verdict.finding import QueryError
 
 from tests.close import close

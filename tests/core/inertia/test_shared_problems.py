@@ -22,8 +22,8 @@ from body_moments.core.inertia.shared_search import (
 )
 from body_moments.core.inertia.third_moment_frames import HALF_TURN_SIGNS
 from body_moments.core.moments.affine_maps import rotate_moments
+from body_moments.core.moments.exponents import monomials
 from body_moments.core.moments.moments import Moments
-from body_moments.core.moments.monomials import monomials
 
 from tests.close import close
 from tests.core import bodies, shapes

@@ -17,7 +17,7 @@ from body_moments.core.mesh.surface import Surface, flipped_quads
 from body_moments.core.mesh.welding import first_at_equal_position, first_at_near_position, same_vertices_groups
 from body_moments.core.numerics.arrays import first_occurrence
 from body_moments.core.numerics.graph import connected_components
-from body_moments.core.solid.measure_solid import measure_solid
+from body_moments.core.solid.measure import measure_solid
 from hypothesis import given
 
 from tests.core.bodies import CORNERS, SIDES, box, joined, mesh, moebius, ring, soup, sphere, welded

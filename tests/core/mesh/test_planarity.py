@@ -13,7 +13,7 @@ from body_moments.core.mesh.surface import Surface
 from body_moments.core.mesh.surface_stack import SurfaceStack
 from body_moments.core.polyhedron import integration
 from body_moments.core.polyhedron import third_order as polyhedron
-from body_moments.core.solid.measure_solid import measure_solid
+from body_moments.core.solid.measure import measure_solid
 
 from tests.close import close
 from tests.core.bodies import CORNERS, SIDES, mesh, ring, rotation

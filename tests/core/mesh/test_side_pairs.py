@@ -10,7 +10,7 @@ from body_moments.core.mesh import side_pairs
 from body_moments.core.mesh.side_pairs import faces_across_sides
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.numerics.graph import connected_components, connected_neighbors
-from body_moments.core.solid.measure_solid import measure_solid
+from body_moments.core.solid.measure import measure_solid
 from body_moments.core.verdict.method import Verdict
 
 from tests.core import bodies

@@ -13,7 +13,7 @@ from body_moments.core.moments.affine_maps import (
     rotate_moments,
     translation_matrices,
 )
-from body_moments.core.moments.monomials import monomial_count, monomials, tensor_index
+from body_moments.core.moments.exponents import monomial_count, monomials, tensor_index
 from body_moments.core.moments.symmetric_tensors import _tensor_positions, distinct_arrays
 
 from tests.core import bodies

@@ -9,7 +9,7 @@ from body_moments.core.density.polynomial_mass import polynomial_mass_of_images
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.moments import Moments, sum_of_images
 from body_moments.core.moments.affine_maps import absolute_moments
-from body_moments.core.moments.monomials import monomials
+from body_moments.core.moments.exponents import monomials
 from body_moments.core.polyhedron import polyhedron_moments
 
 # No symmetry: the faces on one side are stretched more than those on the other, and the center moves.

@@ -5,12 +5,7 @@
 from itertools import product
 
 import numpy as np
-from body_moments.core.moments.complex_moments import (
-    ComplexBound,
-    complex_moments,
-    flusser_invariants,
-    hu_invariants,
-)
+from body_moments.core.moments.complex_form import ComplexBound, complex_moments, flusser_invariants, hu_invariants
 from body_moments.core.moments.moments import Moments, U, monomials
 
 RNG = np.random.default_rng(7)

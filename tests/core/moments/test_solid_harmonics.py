@@ -6,7 +6,7 @@ from math import pi, sqrt
 
 import numpy as np
 import pytest
-from body_moments.core.moments.monomials import monomials
+from body_moments.core.moments.exponents import monomials
 from body_moments.core.moments.solid_harmonics import _three_j, harmonic_moments
 
 from tests.close import close

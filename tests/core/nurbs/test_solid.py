@@ -15,7 +15,7 @@ from body_moments.core.nurbs.curve import Curve
 from body_moments.core.nurbs.patch import Patch
 from body_moments.core.nurbs.patch_moments import volume_moments
 from body_moments.core.nurbs.patch_topology import find_topology
-from body_moments.core.nurbs.planar_region import planar_region
+from body_moments.core.nurbs.planar_regions import planar_region
 from body_moments.core.nurbs.solid import measure_patches, measure_sheet
 from body_moments.core.solid import nesting
 from body_moments.core.verdict.finding import Finding

@@ -9,7 +9,7 @@ from functools import partial
 import numpy as np
 import pytest
 from body_moments.core.mesh.surface import Surface, flipped_quads, join_surfaces
-from body_moments.core.moments.monomials import monomial_count
+from body_moments.core.moments.exponents import monomial_count
 from body_moments.core.polyhedron import integration
 from body_moments.core.polyhedron import third_order as polyhedron
 from body_moments.core.polyhedron import third_order_kernel as blocks

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from body_moments.core.shape import library
 from body_moments.core.shape.library import Entry, Similarity, classify, rank, read_library
-from body_moments.core.shape.signature import Likeness, Signature
+from body_moments.core.shape.signatures import Likeness, Signature
 from body_moments.core.verdict.finding import FileError
 
 

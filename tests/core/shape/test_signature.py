@@ -9,11 +9,12 @@ from math import factorial, pi, sqrt
 
 import numpy as np
 import pytest
+from body_moments.core.flat import directed_edges, region_moments
+from body_moments.core.measurement.record import plain
 from body_moments.core.moments.moments import U, stack_moments
 from body_moments.core.numerics.quadrature import triangle_rule
-from body_moments.core.plane import directed_edges, region_moments
 from body_moments.core.polyhedron import polyhedron_moments
-from body_moments.core.shape.flat_signature import flat_signature
+from body_moments.core.shape.flat_signatures import flat_signature
 from body_moments.core.shape.library import (
     SAME_SHAPE_DISTANCE,
     UNDECIDED_HANDEDNESS,
@@ -22,16 +23,8 @@ from body_moments.core.shape.library import (
     rank,
     read_library,
 )
-from body_moments.core.shape.signature import (
-    FREQUENCIES,
-    MIN_CHIRALITY,
-    Signature,
-    signature,
-    signatures,
-    similarity,
-)
+from body_moments.core.shape.signatures import FREQUENCIES, MIN_CHIRALITY, Signature, signature, signatures, similarity
 from body_moments.core.verdict.finding import Finding
-from body_moments.operators.write.record import plain
 
 from tests.close import close
 from tests.core import bodies, shapes

@@ -6,10 +6,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from body_moments.core.flat import directed_edges, region_moments
 from body_moments.core.inertia.axial_harmonics import axial_harmonics
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.moments.moments import Moments
-from body_moments.core.plane import directed_edges, region_moments
 from body_moments.core.shape.disc_zernike import disc_zernike
 from body_moments.core.shape.flat_pose import (
     MIRROR,
@@ -18,7 +18,7 @@ from body_moments.core.shape.flat_pose import (
     holds_by_outline,
     turns_about_normal,
 )
-from body_moments.core.shape.symmetry import Symmetry, _around_axis, confirm, symmetry
+from body_moments.core.shape.symmetries import Symmetry, _around_axis, confirm, symmetry
 
 from tests.core import bodies, shapes
 from tests.core.recursion import moments

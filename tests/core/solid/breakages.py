@@ -4,8 +4,8 @@
 
 import numpy as np
 from body_moments.core.mesh.surface import Surface
-from body_moments.core.solid.measure_solid import measure_solid
-from body_moments.operators.write.messages import severity
+from body_moments.core.solid.measure import measure_solid
+from body_moments.core.verdict.messages import severity
 
 from tests.core.bodies import (
     TOP,

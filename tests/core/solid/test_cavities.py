@@ -4,7 +4,7 @@
 
 import numpy as np
 import pytest
-from body_moments.core.solid.measure_solid import measure_solid
+from body_moments.core.solid.measure import measure_solid
 
 from tests.close import close
 from tests.core.bodies import box, inverted, joined, moved, rotation, sphere, surface

@@ -5,7 +5,7 @@
 import numpy as np
 import pytest
 from body_moments.core.solid.instance_overlaps import compare_places
-from body_moments.core.solid.measure_solid import measure_solid
+from body_moments.core.solid.measure import measure_solid
 
 from tests.core.bodies import box, inverted, joined, rotation, surface, welded, without
 

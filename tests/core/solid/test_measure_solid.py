@@ -12,7 +12,7 @@ from body_moments.core.mesh import bvh as shell_tree
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.polyhedron import third_order as polyhedron
 from body_moments.core.solid.duplicate_faces import copied_faces
-from body_moments.core.solid.measure_solid import measure_solid
+from body_moments.core.solid.measure import measure_solid
 from body_moments.core.verdict.finding import Finding, MeasureError
 
 from tests.close import close

@@ -10,7 +10,7 @@ from body_moments.core.mesh.boxes import overlapping_box_pairs
 from body_moments.core.mesh.bvh import Bvh, sort_components
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.solid import nesting
-from body_moments.core.solid.measure_solid import measure_solid
+from body_moments.core.solid.measure import measure_solid
 from body_moments.core.solid.nesting import (
     ComponentRelations,
     cavity_host,

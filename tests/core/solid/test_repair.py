@@ -11,7 +11,7 @@ from body_moments.core.mesh.surface import Surface
 from body_moments.core.moments.moments import Moments
 from body_moments.core.nurbs.solid import PatchIntegrals
 from body_moments.core.solid.closedness import check_surface, integrate_and_prove, prove_closed
-from body_moments.core.solid.measure_solid import measure_solid
+from body_moments.core.solid.measure import measure_solid
 from body_moments.core.solid.orientation import orient_components
 from body_moments.core.solid.repair import STEPS, repair_surface
 from body_moments.core.solid.self_intersection import SelfIntersection

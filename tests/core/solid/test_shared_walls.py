@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from body_moments.core.mesh.edges import find_edges
 from body_moments.core.numerics.graph import connected_components
-from body_moments.core.solid.measure_solid import measure_solid
+from body_moments.core.solid.measure import measure_solid
 from body_moments.core.solid.shared_walls import _layers
 from hypothesis import given
 

@@ -5,7 +5,7 @@
 import numpy as np
 import pytest
 from body_moments.core.mesh.surface import Surface
-from body_moments.core.solid.measure_solid import measure_solid
+from body_moments.core.solid.measure import measure_solid
 from body_moments.core.solid.solid_verdict import cap_finding
 from body_moments.core.verdict.finding import Finding
 from body_moments.core.verdict.tolerances import NEGLIGIBLE

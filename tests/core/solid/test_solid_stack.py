@@ -5,7 +5,7 @@
 import numpy as np
 import pytest
 from body_moments.core.mesh.surface import Surface
-from body_moments.core.solid.measure_solid import measure_solid
+from body_moments.core.solid.measure import measure_solid
 from body_moments.core.solid.solid_stack import can_be_stacked, measure_stack, small_moments_to_order
 from body_moments.core.verdict.health import Intersection
 from body_moments.core.verdict.method import Verdict

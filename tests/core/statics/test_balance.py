@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.polyhedron import polyhedron_moments
-from body_moments.core.statics.balance import (
+from body_moments.core.statics.balancing import (
     _center_jacobian,
     _Fans,
     _is_solvable,

@@ -7,10 +7,10 @@ import pytest
 from body_moments.core import Surface, measure_solid, polyhedron_moments
 from body_moments.core.numerics import clamped_space
 from body_moments.core.nurbs import Curve, Patch, length_moments, measure_patches, measure_sheet
-from body_moments.core.offset import offset_solid
 from body_moments.core.solid.duplicate_faces import _copies_findings
 from body_moments.core.verdict.method import Verdict
 from body_moments.core.verdict.tolerances import welding_tolerance
+from body_moments.core.wall import offset_solid
 
 from tests.core.bodies import box, soup, without
 from tests.core.findings import codes, refused

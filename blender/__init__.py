@@ -1,0 +1,3 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Blender in, Blender out: settings, reading, bodies, changes of the scene, the session and stored results."""

@@ -1,0 +1,367 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Assemblies: each member is measured once, and their masses add up, with exact parallel-axis terms.
+
+What an instance of a collection shows weighs as its members do: mass moments are kept apart by the power of the scale
+that their mass grows with, which is 3 for solids, 2 for shells, 1 for wires and 0 where the mass is given.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Generator, Iterable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
+
+import bpy
+import numpy as np
+from bpy.types import Depsgraph, Object
+
+from ....core.measurement.measurement import DENSITY_FROM_MASS, Measurement
+from ....core.moments.affine_maps import are_similarities
+from ....core.moments.moments import Measure, Moments, U, sum_moments
+from ....core.numerics.float32 import shortest_decimal
+from ....core.numerics.rotations import rotation_matrix
+from ....core.verdict import internal_error
+from ....core.verdict.finding import Finding, MeasureError, ReadError, finding
+from ...read.assembly import Member, MemberKind, Root, members_of, settings_of
+from ...read.fingerprint import digest, fingerprint, matrix_hash
+from ...read.objects import locate
+from ...read.reading import to_si
+from ...read.total_caveats import open_body_caveats
+from ...settings.density import unset_density
+from ...settings.given import GivenPart
+from ...settings.options import AS_SET, MeasureOptions
+from ..body import KNOWN_ORDER
+from ..measure_object import Measured
+from ..mesh.instances import merge_health
+from ..stacks.many import measure_many
+from ..stacks.stack import Stacked
+from .combined import combined_measurement
+from .given import given_moments
+
+POWERS = {"solid": 3, "shell": 2, "wire": 1, "point": 0}
+Results = dict[Object, Measured | Stacked | Finding]
+
+
+@dataclass(frozen=True, eq=False)
+class MemberBody:
+    """What a member of an assembly comes to, SI, world axes.
+
+    Attributes
+    ----------
+    member : Member
+    masses : mapping of int to Moments
+        In kg to third order, by the power of an instance's scale that they grow with; empty where nothing counts.
+    volume, area, volume_error, area_error : float
+        m³ and m², with bounds of their rounding.
+    volume_input, area_input : float
+        What float32 coordinates may have moved of both.
+    measured : Measured or Stacked, optional
+        Of an object, with its measurement.
+    refusal : Finding, optional
+        Why it could not be measured.
+    parts : tuple of MemberBody
+        Its own members.
+    findings : tuple of Finding
+        About this member alone.
+    """
+
+    member: Member
+    masses: Mapping[int, Moments] = field(default_factory=dict)
+    volume: float = 0.0
+    area: float = 0.0
+    volume_error: float = 0.0
+    area_error: float = 0.0
+    volume_input: float = 0.0
+    area_input: float = 0.0
+    measured: Measured | Stacked | None = None
+    measurement: Measurement | None = None
+    refusal: Finding | None = None
+    parts: tuple[MemberBody, ...] = ()
+    findings: tuple[Finding, ...] = ()
+
+    @property
+    def mass(self) -> Moments | None:
+        """All of its mass, None where there is none."""
+        return sum_moments(list(self.masses.values())) if self.masses else None
+
+    def walk(self) -> Iterator[MemberBody]:
+        """Yield this one and all below it, each before its own members."""
+        yield self
+        for part in self.parts:
+            yield from part.walk()
+
+
+@dataclass(frozen=True, eq=False)
+class Assembly:
+    """An assembly as one body.
+
+    Attributes
+    ----------
+    root : MemberBody
+        The whole, with its tree.
+    measurement : Measurement
+        Of the whole.
+    """
+
+    root: MemberBody
+    measurement: Measurement
+
+
+def measure_assembly(root: Root, depsgraph: Depsgraph, options: MeasureOptions = AS_SET) -> Assembly:
+    """Measure a collection, or an empty with its children, as one body.
+
+    Parameters
+    ----------
+    root : Object or Collection
+    depsgraph : Depsgraph
+        Up to date.
+    options : MeasureOptions
+        What overrides the members' settings.
+
+    Raises
+    ------
+    MeasureError
+        Where it has no mass.
+    """
+    member = members_of(root, depsgraph)
+    results: Results = {}
+    for _ in measure_members(member, depsgraph, results, options):
+        pass
+    return assemble(member, results, depsgraph, options)
+
+
+def measure_members(
+    root: Member, depsgraph: Depsgraph, results: Results, options: MeasureOptions = AS_SET
+) -> Generator[int, None, None]:
+    """Measure each object of an assembly once, into `results`; yields how many are done. What refuses ends nothing."""
+    objects = {member.data: None for member in root.walk() if member.is_measured or _is_sheared(member)}
+    for together in measure_many(list(objects), depsgraph, options):
+        for obj, outcome in together:
+            results[obj] = internal_error.finding_of(outcome) if isinstance(outcome, Exception) else outcome
+        yield len(results)
+
+
+def assemble(root: Member, results: Results, depsgraph: Depsgraph, options: MeasureOptions = AS_SET) -> Assembly:
+    """Return the assembly that measured members come to. MeasureError where it has no mass."""
+    unit = options.meters_per_unit(depsgraph.scene)
+    whole = member_body(root, results, unit)
+    return Assembly(whole, assembly_measurement(whole, depsgraph, unit))
+
+
+def member_body(member: Member, results: Results, unit: float) -> MemberBody:
+    """Return what a member comes to. unit: meters per Blender unit."""
+    parts = tuple(member_body(part, results, unit) for part in member.members)
+    if member.kind in (MemberKind.OBJECT, MemberKind.POINT):
+        own = MemberBody(member) if member.left_out is not None else _object_body(member, results[member.data])
+        return _sum(own, (own, *parts), parts)
+    whole = _sum(MemberBody(member), parts, parts)
+    if member.kind == MemberKind.INSTANCE:
+        return _instance_body(whole, results, unit)
+    return _with_given_mass(whole, unit)
+
+
+def assembly_measurement(whole: MemberBody, depsgraph: Depsgraph, unit: float) -> Measurement:
+    """Return the results of an assembly as one body. MeasureError where it has no mass."""
+    data, mass = whole.member.data, whole.mass
+    if mass is None:
+        raise ReadError("assembly_without_members", subject=data.name)
+    rotation, location, place = np.eye(3), np.zeros(3), ""
+    if isinstance(data, bpy.types.Object):
+        at = locate(data, depsgraph)
+        rotation, location, place = at.rotation, at.location * unit, matrix_hash(data)
+    measured = [part.measurement for part in whole.walk() if part.measurement is not None]
+    given = settings_of(data).mass_from == "MASS"
+    return combined_measurement(
+        name=data.name,
+        type="COLLECTION" if isinstance(data, bpy.types.Collection) else data.type,
+        kind="assembly",
+        mass=mass,
+        volume=(whole.volume, whole.volume_error),
+        area=(whole.area, whole.area_error),
+        inputs=(whole.volume_input, whole.area_input),
+        rotation=rotation,
+        location=location,
+        fingerprint=fingerprint(
+            members_key(whole.member, _fingerprints(whole)).encode(), place, structure_hash(whole.member)
+        ),
+        findings=tuple(findings_of(whole, depsgraph.scene)),
+        density_from=DENSITY_FROM_MASS if given else finding("density_from_members"),
+        health=merge_health((measurement.health, 1, measurement.area) for measurement in measured)
+        if measured
+        else None,
+    )
+
+
+def members_key(root: Member, fingerprints: Mapping[Object, str]) -> str:
+    """Return what changes with the results of any measured member. fingerprints: of the objects' results."""
+    keys = []
+    for member in root.walk():
+        if member.kind == MemberKind.POINT:  # an empty with children carries those results, not its own
+            settings = member.data.body_moments
+            keys.append(GivenPart.of(settings, 1.0).key + repr(settings.mass) + matrix_hash(member.data))
+        elif member.is_measured:
+            keys.append(fingerprints.get(member.data, "") + matrix_hash(member.data))  # which moving leaves as they are
+    return "\n".join(keys)
+
+
+def structure_hash(root: Member) -> str:
+    """Return a digest of who is a member, where instances stand, and what is given of assemblies."""
+    keys = []
+    for member in root.walk():
+        key = [member.kind.value, member.name, member.left_out.code if member.left_out else ""]
+        if member.kind in (MemberKind.COLLECTION, MemberKind.EMPTY):
+            settings = settings_of(member.data)
+            if settings.mass_from == "MASS":
+                key.append(repr((shortest_decimal(settings.mass), GivenPart.of(settings, 1.0).key)))
+        if member.matrix is not None:
+            key.append(member.matrix.astype(np.float32).tobytes().hex())
+        keys.append("|".join(key))
+    return digest("\n".join(keys).encode())
+
+
+def findings_of(whole: MemberBody, scene: bpy.types.Scene) -> Iterator[Finding]:
+    """Yield what is to be said of an assembly: of the whole itself, then of its members by name."""
+    yield from whole.findings
+    members = list(whole.walk())
+    refused = [part.member.name for part in members if part.refusal is not None]
+    if refused:
+        yield finding("members_not_measured", count=len(refused), names=refused)
+    left_out: dict[str, list[str]] = {}
+    for part in members:
+        if part.member.left_out is not None:
+            left_out.setdefault(_LEFT_OUT.get(part.member.left_out.code, "members_excluded"), []).append(
+                part.member.name
+            )
+    for code, names in left_out.items():
+        yield finding(code, count=len(names), names=names)
+    objects = [(part.member, part.measurement) for part in members if part.measurement is not None]
+    hidden = [member.name for member, measured in objects if _has_code(measured.findings, "hidden_object_measured")]
+    if hidden:
+        yield finding("members_hidden", count=len(hidden), names=hidden)
+    unset = [member.name for member, measured in objects if unset_density(member.data, measured, scene) is not None]
+    if unset:
+        yield finding("members_density_unset", count=len(unset), names=unset)
+    yield from open_body_caveats((member.name, measured.method) for member, measured in objects)
+    given = [part.member.name for part in members[1:] if _has_code(part.findings, "assembly_mass_given")]
+    if given:
+        yield finding("members_mass_given", count=len(given), names=given)
+
+
+_LEFT_OUT = {
+    "member_counted_before": "members_counted_before",
+    "boolean_operand": "members_left_out",
+    "not_rendered": "members_left_out",
+}
+
+
+def _has_code(findings: Iterable[Finding], code: str) -> bool:
+    return any(each.code == code for each in findings)
+
+
+def _fingerprints(whole: MemberBody) -> dict[Object, str]:
+    return {part.member.data: part.measurement.fingerprint for part in whole.walk() if part.measurement is not None}
+
+
+def _object_body(member: Member, result: Measured | Stacked | Finding) -> MemberBody:
+    if isinstance(result, Finding):
+        return MemberBody(member, refusal=result)
+    measurement = result.measurement
+    moments, factor = measurement.mass_moments
+    power = 0 if member.data.body_moments.mass_from == "MASS" else POWERS[measurement.kind]
+    mass = replace(moments.truncate(KNOWN_ORDER), measure=Measure.MASS) * factor
+    bound = measurement.error_bound
+    return MemberBody(
+        member,
+        {power: mass},
+        measurement.volume,
+        measurement.area,
+        bound["volume"],
+        bound["area"],
+        bound["input"]["volume"],
+        bound["input"]["area"],
+        measured=result,
+        measurement=measurement,
+    )
+
+
+def _sum(like: MemberBody, bodies: Iterable[MemberBody], parts: tuple[MemberBody, ...]) -> MemberBody:
+    """The member with all these bodies together as its own."""
+    bodies = [body for body in bodies if body.masses]
+    masses: dict[int, list[Moments]] = {}
+    for body in bodies:
+        for power, moments in body.masses.items():
+            masses.setdefault(power, []).append(moments)
+    volumes, areas = [body.volume for body in bodies], [body.area for body in bodies]
+    return replace(
+        like,
+        masses={power: sum_moments(several) for power, several in masses.items()},
+        volume=float(np.sum(volumes)),
+        area=float(np.sum(areas)),
+        volume_error=sum(body.volume_error for body in bodies) + len(bodies) * U * float(np.abs(volumes).sum()),
+        area_error=sum(body.area_error for body in bodies) + len(bodies) * U * float(np.abs(areas).sum()),
+        volume_input=sum(body.volume_input for body in bodies),
+        area_input=sum(body.area_input for body in bodies),
+        parts=parts,
+    )
+
+
+def _with_given_mass(whole: MemberBody, unit: float) -> MemberBody:
+    """A collection, or an empty with its children, with the mass that its settings give it."""
+    data = whole.member.data
+    settings = settings_of(data)
+    if settings.mass_from != "MASS":
+        return whole
+    given, mass = GivenPart.of(settings, unit), shortest_decimal(settings.mass)
+    rotation, location = np.eye(3), np.zeros(3)
+    if isinstance(data, bpy.types.Object):
+        place, turn, _scale = data.matrix_world.decompose()
+        rotation, location = rotation_matrix(turn), np.array(place[:], np.float64) * unit
+    try:
+        moments, findings = given_moments(mass, given, rotation, location, whole.mass)
+    except MeasureError as error:
+        return replace(whole, masses={}, refusal=error.finding)
+    if whole.mass is None and given.center is None and isinstance(data, bpy.types.Collection):
+        findings.append(finding("given_center_missing"))
+    findings.insert(0, finding("assembly_mass_given", mass=mass))
+    return replace(whole, masses={0: moments}, findings=tuple(findings))
+
+
+def _is_sheared(member: Member) -> bool:
+    """Whether an instance stretches its members, so that no one factor turns their areas into those shown."""
+    return member.matrix is not None and not are_similarities(member.matrix[None, :3, :3])[0]
+
+
+def _instance_body(whole: MemberBody, results: Results, unit: float) -> MemberBody:
+    """What an instance shows of its collection, where it shows it."""
+    member = whole.member
+    assert member.matrix is not None
+    matrix = to_si(member.matrix[None], unit)[0]
+    matrix[:3, :3] /= unit  # the members are in SI units already
+    scale = abs(np.linalg.det(matrix[:3, :3]))
+    if not scale > 0.0:
+        return replace(whole, masses={}, volume=0.0, area=0.0, refusal=finding("instance_without_scale"))
+    sheared = _is_sheared(member)
+    if sheared and not {0, 3}.issuperset(whole.masses):
+        return replace(whole, masses={}, volume=0.0, area=0.0, refusal=finding("instance_stretches_sheets"))
+    masses = {
+        power: moments.transform(matrix) * (scale ** (power / 3.0) if power else 1.0)
+        for power, moments in whole.masses.items()
+    }
+    of_areas = scale ** (2.0 / 3.0)
+    area, area_error, area_input = whole.area * of_areas, whole.area_error * of_areas, whole.area_input * of_areas
+    if sheared:
+        shown = results[member.data]
+        if isinstance(shown, Finding):
+            return replace(whole, masses={}, volume=0.0, area=0.0, refusal=shown)
+        bound = shown.measurement.error_bound
+        area, area_error, area_input = shown.measurement.area, bound["area"], bound["input"]["area"]
+    return replace(
+        whole,
+        masses=masses,
+        volume=whole.volume * scale,
+        area=area,
+        volume_error=whole.volume_error * scale,
+        area_error=area_error,
+        volume_input=whole.volume_input * scale,
+        area_input=area_input,
+    )

@@ -1,0 +1,210 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Parts whose mass is known: their center and inertia as given, and point masses, which have no geometry.
+
+What is given replaces the mass moments of a body: a mass, no first moments about the center, and the second moments
+that make the tensor. Volume and area stay those of the geometry.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ....core.inertia.mass_properties import MassProperties
+from ....core.inertia.principal_frames import PrincipalFrame
+from ....core.measurement.measurement import DENSITY_FROM_MASS, Measurement
+from ....core.moments.moments import SECOND_MOMENT_INDEX, Measure, Moments, U, monomial_count
+from ....core.numerics.float32 import shortest_decimal
+from ....core.verdict.finding import Finding, ReadError, finding
+from ....core.verdict.health import MeshHealth
+from ....core.verdict.method import Method, Verdict
+from ...read import Reading
+from ...read.fingerprint import effective_hash, fingerprint, matrix_hash
+from ...read.objects import locate
+from ...read.reading import to_si
+from ...settings.given import GivenPart, is_point_mass
+from ..body import KNOWN_ORDER, Body
+from ..measurement import extent
+from ..request import Request
+
+COUNT = monomial_count(KNOWN_ORDER)
+GIVEN_RTOL = 1e-6  # by how much, relatively, a tensor typed with few digits may miss what is possible
+NO_AXES_FIXED = "isotropic"
+
+
+def given_moments(
+    mass: float, given: GivenPart, rotation: NDArray, location: NDArray, geometry: Moments | None
+) -> tuple[Moments, list[Finding]]:
+    """Return the mass moments of a part whose mass is known, SI, world axes.
+
+    Parameters
+    ----------
+    mass : float
+        kg.
+    given : GivenPart
+        In the part's own frame.
+    rotation, location : (3, 3) and (3,) array
+        That frame, its axes as columns, m.
+    geometry : Moments, optional
+        Whose center, and inertia scaled to the mass, count where none are given, to third order. Without any, the part
+        is a point at its origin.
+
+    Returns
+    -------
+    moments : Moments
+        About the center, in kg.
+    findings : list of Finding
+
+    Raises
+    ------
+    ReadError
+        Where no body can have the mass or the tensor.
+    """
+    if not mass > 0.0:
+        raise ReadError("zero_mass")
+    raw, rounding, inputs = np.zeros((3, COUNT))
+    raw[0], center = mass, location
+    if geometry is not None:
+        factor = mass / geometry.total
+        central = geometry.truncate(KNOWN_ORDER).about_center()
+        raw, rounding, inputs = central.raw * factor, central.rounding_error * factor, central.input_error * factor
+        center = central.about
+        raw[0], rounding[0], inputs[0] = mass, U * mass, 0.0
+    findings = []
+    if given.center is not None:
+        center = location + rotation @ given.center
+        raw[1:4], rounding[1:4], inputs[1:4] = 0.0, 0.0, 0.0
+        findings.append(finding("center_given"))
+    if given.inertia is not None:
+        raw[4:], rounding[4:], inputs[4:] = 0.0, 0.0, 0.0
+        second = rotation @ _second_moments(given.inertia) @ rotation.T
+        raw[SECOND_MOMENT_INDEX] = (second + second.T) / 2.0
+        rounding[4:10] = 16.0 * U * np.trace(given.inertia)
+        findings.append(finding("inertia_given"))
+    return Moments(raw, np.asarray(center, np.float64), Measure.MASS, rounding, inputs), findings
+
+
+def _second_moments(inertia: NDArray) -> NDArray[np.float64]:
+    """The central second moments of a tensor. ReadError where they are those of no body."""
+    second = np.trace(inertia) / 2.0 * np.eye(3) - inertia
+    values, axes = np.linalg.eigh(second)
+    if values[0] < -GIVEN_RTOL * np.trace(inertia) or not np.isfinite(values).all():
+        raise ReadError("given_inertia_impossible", moments=np.sort(np.linalg.eigvalsh(inertia)).tolist())
+    return (axes * np.maximum(values, 0.0)) @ axes.T
+
+
+def with_given(body: Body, reading: Reading, request: Request) -> Body:
+    """Return the body with the center and the inertia that its settings give. ReadError where they are impossible."""
+    if request.options.mass is None or request.obj.body_moments.mass_from != "MASS":
+        return body
+    given = GivenPart.of(request.obj.body_moments, request.unit)
+    if not given:
+        return body
+    geometry = body.mass or _carrier(body, request)
+    location = np.asarray(reading.location, np.float64) * request.unit
+    mass, findings = given_moments(request.options.mass, given, reading.rotation, location, geometry)
+    if given.center is not None and _is_outside(mass.about, reading, request.unit):
+        findings.append(finding("given_center_outside"))
+    key = body.density_key + GivenPart.of(request.obj.body_moments, 1.0).key
+    return replace(body, mass=mass, density_key=key, findings=(*body.findings, *findings))
+
+
+def _carrier(body: Body, request: Request) -> Moments:
+    """What the mass is spread over."""
+    thin = request.options.kind == "shell" and body.wall is None
+    measured = extent(body, request.options)  # refused where there is none
+    return body.area if thin else measured
+
+
+def _is_outside(point: NDArray, reading: Reading, unit: float) -> bool:
+    """Whether a point is outside the boxes around all that was read."""
+    for part in getattr(reading, "parts", ()):
+        low, high = part.surface.box
+        for matrix in to_si(part.matrices, unit):
+            center = matrix[:3, :3] @ ((low + high) / 2.0) + matrix[:3, 3]
+            half = np.abs(matrix[:3, :3]) @ ((high - low) / 2.0)
+            if (np.abs(point - center) <= half * (1.0 + GIVEN_RTOL)).all():
+                return False
+    return bool(getattr(reading, "parts", ()))
+
+
+def read_point(request: Request) -> Reading | None:
+    """Return where a point mass is; None for any other object. Raises MeasureError."""
+    if not is_point_mass(request.obj):
+        return None
+    return locate(request.obj.original, request.depsgraph)
+
+
+def point_measurement(reading: Reading, request: Request) -> tuple[Measurement, Body]:
+    """Return the results of a part that has no geometry, and its body. ReadError where it has no mass."""
+    settings, options = request.obj.body_moments, request.options
+    given = GivenPart.of(settings, request.unit)
+    location = np.asarray(reading.location, np.float64) * request.unit
+    rotation = np.asarray(reading.rotation, np.float64)
+    own = shortest_decimal(settings.mass) if options.mass is None else options.mass  # no density gives it one
+    mass, findings = given_moments(own, given, rotation, location, None)
+    volume, area = (Moments(np.zeros(COUNT), mass.about, measure) for measure in (Measure.VOLUME, Measure.AREA))
+    body = Body(volume, area, MeshHealth(closed=False, components=0), Method(Verdict.GIVEN), tuple(findings), mass=mass)
+    properties = properties_of(mass, rotation)
+    bounds = {"volume": 0.0, "area": 0.0}
+    rounding, moved = properties.rounding_error, properties.input_error
+    settings_digest = effective_hash(
+        settings.kind,
+        None,
+        own,
+        options.thickness,
+        options.overlap.upper(),
+        request.unit,
+        options.wall.upper(),
+        GivenPart.of(settings, 1.0).key,
+    )
+    measurement = Measurement(
+        name=reading.name,
+        type=reading.type,
+        kind="point",
+        method=body.method,
+        density=0.0,
+        thickness=0.0,
+        volume=0.0,
+        area=0.0,
+        mass_properties=properties,
+        volume_moments=volume,
+        area_moments=area,
+        mass_moments=(mass, 1.0),
+        health=body.health,
+        findings=(*reading.findings, *findings),
+        rotation=rotation,
+        location=location,
+        error_bound={
+            **bounds,
+            "center_of_mass": rounding["center"],
+            "inertia": rounding["inertia"],
+            "input": {**bounds, "center_of_mass": moved["center"], "inertia": moved["inertia"]},
+        },
+        fingerprint=fingerprint(mass.raw.tobytes(), matrix_hash(request.obj), settings_digest),
+        density_from=DENSITY_FROM_MASS,
+    )
+    return measurement, body
+
+
+def properties_of(mass: Moments, preferred_axes: NDArray) -> MassProperties:
+    """Return mass properties of moments in kg, whose body may be a point: then no axes are fixed."""
+    if not mass.total > 0.0:  # a bone of flat faces alone: refused there
+        return MassProperties.from_moments(mass, preferred_axes=preferred_axes)
+    central = mass.truncate(2).about_center()
+    if np.abs(central.raw[4:]).max() > 4.0 * central.rounding_error[4:].max():
+        return MassProperties.from_moments(mass, preferred_axes=preferred_axes)
+    bounds = {"mass": float(mass.rounding_error[0]), "center": 4.0 * U * float(np.abs(central.about).sum())}
+    return MassProperties(
+        mass=mass.total,
+        center=central.about,
+        inertia=np.zeros((3, 3)),
+        principal=PrincipalFrame(
+            np.zeros(3), np.asarray(preferred_axes, np.float64), NO_AXES_FIXED, False, finding("axes_all_free")
+        ),
+        rounding_error={**bounds, "inertia": float(central.rounding_error[4:].sum())},
+        input_error={"mass": 0.0, "center": 0.0, "inertia": float(central.input_error[4:].sum())},
+    )

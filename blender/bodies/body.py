@@ -1,0 +1,272 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What reading and measuring any kind of object comes to: its moments, and how they came about.
+
+Each kind has a module that makes one; `kinds` has them in order.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field, replace
+from typing import ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core.inertia.principal_frames import OwnMoments
+from ...core.mesh.surface import Surface
+from ...core.moments.affine_maps import are_similarities
+from ...core.moments.images import sum_of_images
+from ...core.moments.moments import Moments, monomials, stack_moments, sum_moments
+from ...core.moments.symmetric_tensors import invert_through_point
+from ...core.numerics.rotations import polar_rotation
+from ...core.polyhedron import polyhedron_moments
+from ...core.solid.measure import SolidIntegrals
+from ...core.verdict.finding import Finding, ReadError
+from ...core.verdict.health import MeshHealth
+from ...core.verdict.method import Method, Verdict
+from .mesh.instances import area_of_instances
+
+MAX_MASS_MOMENT = 1e100  # kg m^n whose squares are still numbers
+KNOWN_ORDER = 3  # the order to which every body has its moments
+
+
+@dataclass(frozen=True, eq=False)
+class Body:
+    """All parts of an object together, in SI units and world axes. As it is: one whose moments are known to third order
+    only.
+
+    Attributes
+    ----------
+    volume, area : Moments
+        The volume's to order 3 at least.
+    method, findings
+        As in `Measurement`.
+    mass : Moments, optional
+        Of a body whose density is not one number, its moments in kg.
+    higher_mass : Moments, optional
+        The same to the order that was asked for, above third.
+    density_from : Finding, optional
+        Where such a density came from, with a code ``density_from_…``.
+    density_key : str
+        What of the settings decides such a density, for the fingerprint.
+    materials : tuple of str
+        Full names of the materials that were looked at for it.
+    wall : Moments, optional
+        Of a shell of real thickness, the volume moments of its material.
+    length : Moments, optional
+        Of a wire.
+    estimated : bool
+        Whether the bounds of its errors are estimates.
+    display_volume : float, optional
+        Of a body that is measured without its display mesh, what that would have given, m³.
+    face_count : int
+        How many triangles and quads were measured.
+    """
+
+    any_order: ClassVar[bool] = False  # whether `moments` are known
+    has_surface: ClassVar[bool] = False  # whether `surfaces` are
+
+    volume: Moments
+    area: Moments
+    health: MeshHealth
+    method: Method
+    findings: tuple[Finding, ...]
+    mass: Moments | None = None
+    higher_mass: Moments | None = None
+    density_from: Finding | None = None
+    density_key: str = ""
+    materials: tuple[str, ...] = ()
+    wall: Moments | None = None
+    length: Moments | None = None
+    estimated: bool = False
+    display_volume: float | None = None
+    face_count: int = 0
+
+    def moments(self, order: int, area: bool) -> tuple[Moments, Moments | None]:
+        """Return the volume's and the area's moments to another order.
+
+        Parameters
+        ----------
+        order : int
+        area : bool
+            Whether the area's are wanted; else they may be None.
+
+        Raises
+        ------
+        ReadError
+            Where they are not known.
+        """
+        raise ReadError("wall_order", order=KNOWN_ORDER)
+
+    def third_order(self) -> Moments:
+        """Return what the principal frame of a solid or a wire is made from, with exact third order."""
+        return self.volume
+
+    def moments_for_axes(self, order: int, area: bool) -> Moments | OwnMoments:
+        """Return the moments of the volume, or the area, that axes are found by; of one surface in one place, mapped
+        evenly, in its own coordinates: wherever it stands, its axes are the same."""
+        volume, areas = self.moments(order, area)
+        return volume if areas is None else areas
+
+    def surfaces(self, sheets: bool) -> Iterator[Surface]:
+        """Yield the surfaces where they stand, in float64: around what is solid, or the sheets as they are."""
+        return iter(())
+
+
+@dataclass(frozen=True, eq=False)
+class MeshBody(Body):
+    """What polygons bound, or the sheets that they are.
+
+    Attributes
+    ----------
+    solids : tuple of (SolidIntegrals, (k, 4, 4) array)
+        The surfaces that were measured, and the maps to where each stands.
+    sheets : tuple of Surface
+        What each of the solids was before it was repaired.
+    """
+
+    any_order: ClassVar[bool] = True
+    has_surface: ClassVar[bool] = True
+
+    solids: tuple[tuple[SolidIntegrals, NDArray[np.float64]], ...] = ()
+    sheets: tuple[Surface, ...] = ()
+    threads: int = field(kw_only=True)
+    _known: dict[tuple[int, bool], tuple[Moments, Moments | None]] = field(default_factory=dict)
+
+    def moments(self, order: int, area: bool) -> tuple[Moments, Moments | None]:
+        """Return the moments to an order, each part measured once and mapped to its places: the volume of the repaired
+        surface, in one pass with the area where the repair has neither added nor left out a face."""
+        if (order, area) not in self._known:  # the frame and the shape need them to one order
+            self._known[order, area] = self._to_order(order, area)
+        return self._known[order, area]
+
+    def _to_order(self, order: int, area: bool) -> tuple[Moments, Moments | None]:
+        volumes, areas = [], []
+        alone = 0 if order <= 3 else None  # up to third order the area is found on the way, and makes bounds smaller
+
+        def measured(surface: Surface) -> Moments:
+            return polyhedron_moments(
+                surface, order, area_order=order, exact=True, threads=self.threads, allow_open=True
+            )[1]
+
+        for (solid, matrices), surface in zip(self.solids, self.sheets):
+            same = (
+                solid.method in (Verdict.EXACT, Verdict.REORIENTED)
+                and not solid.health.duplicate_faces
+                and triangle_count(solid.repaired_surface) == triangle_count(surface)
+            )  # else flat parts are left out
+            volume, faces = polyhedron_moments(
+                solid.repaired_surface,
+                order,
+                area_order=order if area and same else alone,
+                about=solid.volume.about,  # of an open surface they depend on it
+                exact=True,
+                threads=self.threads,
+                allow_open=True,
+            )
+            volumes.append(sum_of_images(volume, matrices))
+            if area:
+                of_faces = faces if same and faces is not None else measured(surface)
+                areas.extend(area_of_instances(surface, of_faces, matrices, measured))
+        return sum_moments(volumes), sum_moments(areas) if area else None
+
+    def moments_for_axes(self, order: int, area: bool) -> Moments | OwnMoments:
+        """Return the moments that axes are found by."""
+        if len(self.solids) == 1 and len(self.solids[0][1]) == 1:
+            solid, matrices = self.solids[0]
+            if are_similarities(matrices[:, :3, :3])[0]:
+                in_place = replace(self, solids=((solid, np.eye(4)[None]),), _known={})
+                volume, areas = in_place.moments(order, area)
+                own = with_known(volume, solid.volume) if areas is None else with_known(areas, solid.area)
+                return own_moments([own], np.zeros(1, np.intp), matrices[:, :3, :3])
+        return super().moments_for_axes(order, area)
+
+    def third_order(self) -> Moments:
+        """Return the volume with its third order exact to rounding."""
+        return sum_moments(
+            [sum_of_images(solid.exact_third_order(self.threads), matrices) for solid, matrices in self.solids]
+        )
+
+    def surfaces(self, sheets: bool) -> Iterator[Surface]:
+        """Yield the surfaces where they stand."""
+        for (solid, matrices), surface in zip(self.solids, self.sheets):
+            piece = surface if sheets else solid.repaired_surface
+            yield from (piece.transform(matrix[:3, :3], matrix[:3, 3]) for matrix in matrices)
+
+
+def with_known(moments: Moments, known: Moments) -> Moments:
+    """Return moments with those that are known to a lower order, about the same point, in place of their own: whoever
+    finds axes sees the same bounds."""
+    if not np.array_equal(moments.about, known.about):
+        return moments
+    names = "raw", "rounding_error", "input_error"
+    lower = len(known.raw)
+    return replace(
+        moments,
+        **{name: np.concatenate([getattr(known, name), getattr(moments, name)[lower:]]) for name in names},
+    )
+
+
+def with_input_error(moments: Moments, known: Moments) -> Moments:
+    """Return moments with the bounds of what storing may have moved of those that are known to a lower order, about the
+    same point, where the areas of the faces made them smaller."""
+    if not np.array_equal(moments.about, known.about):
+        return moments
+    error = moments.input_error.copy()
+    error[: len(known.raw)] = np.minimum(error[: len(known.raw)], known.input_error)
+    return replace(moments, input_error=error)
+
+
+def extend_input_error(moments: Moments, known: Moments) -> Moments:
+    """Return moments of another order with the bounds of those that are known about the same point.
+
+    Of degree 0 that bound is the volume, or area, that is swept; from a degree to the next it grows by the reach.
+    """
+    swept, further = known.input_error[:2].tolist()
+    reach = further / swept if swept > 0.0 else 0.0
+    return replace(moments, input_error=swept * reach ** monomials(moments.order).sum(axis=1))
+
+
+def own_moments(shapes: Sequence[Moments], which: NDArray[np.intp], linear: NDArray) -> OwnMoments:
+    """Return the moments of bodies that are images of shapes in their own coordinates.
+
+    Parameters
+    ----------
+    shapes : sequence of Moments
+        Volumes or areas.
+    which : (m,) int
+        The shape of each body.
+    linear : (m, 3, 3) array
+        The map from there: a similarity that may mirror, or anything else.
+
+    Returns
+    -------
+    OwnMoments
+        A mirrored shape is a shape of its own; so is one that is mapped unevenly, in the coordinates of its body.
+    """
+    is_mirrored, is_even = np.linalg.det(linear) < 0.0, are_similarities(linear)
+    rotation = np.tile(np.eye(3), (len(which), 1, 1))
+    rotation[is_even] = polar_rotation(linear[is_even])[0]
+    rotation[is_mirrored & is_even] *= -1.0
+    moments: list[Moments] = []
+    number: dict[tuple[int, ...], int] = {}
+    of_bodies = []
+    for body, shape in enumerate(which.tolist()):
+        key = (shape, int(is_mirrored[body])) if is_even[body] else (shape, 0, body)
+        if key not in number:
+            number[key] = len(moments)
+            own = shapes[shape]
+            if not is_even[body]:
+                matrix = np.eye(4)
+                matrix[:3, :3] = linear[body]
+                own = own.transform(matrix)
+            moments.append(invert_through_point(own) if is_even[body] and is_mirrored[body] else own)
+        of_bodies.append(number[key])
+    return OwnMoments(stack_moments(moments), np.array(of_bodies), rotation)
+
+
+def triangle_count(surface: Surface) -> int:
+    """Return the number of triangles, quads counting as two."""
+    return len(surface.triangles) + 2 * len(surface.quads)

@@ -1,0 +1,151 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The mass moments of a body whose density is a polynomial, and whether that is negative somewhere in it.
+
+The density's coordinates are meters along the world's axes, or along each surface's own: then it is carried along by
+the object, and by each instance, turned and mirrored as it is.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import product
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ....core.density.polynomial import Polynomial
+from ....core.density.polynomial_mass import local_coordinates, polynomial_mass_of_images
+from ....core.density.positivity import find_negative_point
+from ....core.mesh.surface import Surface
+from ....core.moments.affine_maps import translation_matrices
+from ....core.moments.moments import Moments
+from ....core.numerics.rotations import polar_rotation
+from ....core.polyhedron import polyhedron_moments
+from ....core.verdict.finding import Finding, ReadError, finding
+from ....core.verdict.method import Verdict
+from ...read import Reading
+from ...read.reading import to_si
+from ...settings.density import DensityField
+from ..body import MeshBody
+from ..mesh.instances import group_by_similarity
+
+MAX_CHECKED_INSTANCES = 50  # different places whose points are looked at one by one
+
+
+@dataclass(frozen=True, eq=False)
+class _Piece:
+    """A surface in its places: maps to the world and to the density's coordinates, (k, 4, 4) each, in meters. about:
+    the point that an open one is closed to."""
+
+    surface: Surface
+    matrices: NDArray[np.float64]
+    fields: NDArray[np.float64]
+    about: NDArray[np.float64] | None = None
+
+
+def polynomial_mass_result(
+    reading: Reading, body: MeshBody, density: DensityField, *, unit: float, shell: bool, threads: int, order: int
+) -> tuple[list[Moments], list[Finding]]:
+    """The mass moments of all parts to an order (of a shell for a thickness of one meter), and the findings.
+
+    ReadError where the density is negative.
+    """
+    polynomial, findings = _polynomial(density), []
+    pieces = list(
+        _sheet_pieces(reading, density.in_world, unit)
+        if shell
+        else _solid_pieces(reading, body, density.in_world, unit)
+    )
+    if not density.in_world and any(polar_rotation(part.matrices)[1].any() for part in reading.parts):
+        findings.append(finding("sheared_density_axes"))
+    findings += _negative_density_note(density, pieces, shell)
+    parts = []
+    order += polynomial.degree
+    for piece in pieces:
+        volume, area = polyhedron_moments(
+            piece.surface,
+            order,
+            area_order=order if shell else None,
+            about=piece.about,
+            exact=True,
+            threads=threads,
+            allow_open=True,
+        )
+        moments = volume if area is None else area
+        parts.append(polynomial_mass_of_images(moments, polynomial, piece.matrices, piece.fields))
+    return parts, findings
+
+
+def _solid_pieces(reading: Reading, body: MeshBody, in_world: bool, unit: float) -> Iterator[_Piece]:
+    """What encloses the body, as it was repaired."""
+    if body.method.verdict == Verdict.UNION:
+        if reading.instance_count > 1 and not in_world:
+            raise ReadError("density_of_united_instances")
+        solid, matrices = body.solids[0]
+        place = to_si(reading.parts[0].matrices, unit)
+        yield _Piece(
+            solid.repaired_surface, matrices, matrices if in_world else _to_local(place) @ matrices, solid.volume.about
+        )
+        return
+    for solid, matrices in body.solids:
+        yield _Piece(
+            solid.repaired_surface, matrices, matrices if in_world else local_coordinates(matrices), solid.volume.about
+        )
+
+
+def _to_local(matrices: NDArray) -> NDArray[np.float64]:
+    """(k, 4, 4) from world coordinates, in meters, to those along the axes of what stands there."""
+    axes = polar_rotation(matrices)[0].transpose(0, 2, 1)
+    to_own = translation_matrices(-(axes @ matrices[:, :3, 3, None])[..., 0])
+    to_own[:, :3, :3] = axes
+    return to_own
+
+
+def _sheet_pieces(reading: Reading, in_world: bool, unit: float) -> Iterator[_Piece]:
+    """The surfaces themselves, each under similarities only."""
+    for part in reading.parts:
+        matrices = to_si(part.matrices, unit)
+        fields, axes = local_coordinates(matrices), polar_rotation(matrices)[0]
+        for surface, image_matrices, which in group_by_similarity(part.surface, matrices):
+            to_local = fields[which]
+            if surface is not part.surface:  # mapped already: only the turn is left
+                to_local = translation_matrices(np.zeros((len(which), 3)))
+                to_local[:, :3, :3] = axes[which].transpose(0, 2, 1)
+            yield _Piece(surface, image_matrices, image_matrices if in_world else to_local)
+
+
+def _polynomial(density: DensityField) -> Polynomial:
+    assert density.polynomial is not None
+    return density.polynomial
+
+
+def _negative_density_note(density: DensityField, pieces: list[_Piece], shell: bool) -> list[Finding]:
+    """A finding where the density may be negative in the body; ReadError where it is."""
+    polynomial = _polynomial(density)
+    corners = np.array(list(product((0.0, 1.0), repeat=3)))
+    boxes = []
+    for piece in pieces:
+        low, high = piece.surface.box
+        box = low + corners * (high - low)
+        boxes.append(np.einsum("kij,nj->kni", piece.fields[:, :3, :3], box) + piece.fields[:, None, :3, 3])
+    boxes = np.concatenate(boxes)
+    if polynomial.lower_bound(boxes.min(axis=(0, 1)), boxes.max(axis=(0, 1))) >= 0.0:
+        return []
+    is_doubtful = False
+    for piece in pieces:
+        triangles = piece.surface.all_triangles()[0]
+        points = piece.surface.points.astype(np.float64)
+        fields = piece.fields[np.unique(np.float32(piece.fields), axis=0, return_index=True)[1]]
+        is_doubtful |= len(fields) > MAX_CHECKED_INSTANCES
+        for field in fields[:MAX_CHECKED_INSTANCES]:
+            worst, is_undecided = find_negative_point(
+                polynomial, points @ field[:3, :3].T + field[:3, 3], triangles, not shell
+            )
+            if worst is not None:
+                value, place = worst
+                point = [float(x) for x in place]
+                raise ReadError("density_negative", density=float(value), point=point, frame=density.frame)
+            is_doubtful |= is_undecided
+    return [finding("density_possibly_negative")] if is_doubtful else []

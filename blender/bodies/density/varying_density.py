@@ -1,0 +1,310 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The mass moments of a body of varying density: by material, polynomial, vertex or volume.
+
+Each surface is weighed once in its own coordinates and mapped to its places, as `mesh_body` does with volumes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ....core.density.part_densities import PartDensities, part_densities
+from ....core.density.piecewise_mass import sheet_mass_moments, solid_mass_moments, to_mass_moments
+from ....core.mesh.surface import Surface
+from ....core.moments.affine_maps import are_similarities, distinct_linear_parts
+from ....core.moments.images import sum_of_images
+from ....core.moments.moments import Moments, sum_moments
+from ....core.polyhedron import polyhedron_moments
+from ....core.solid.closed_parts import ClosedParts
+from ....core.solid.measure import SolidIntegrals
+from ....core.verdict.finding import Finding, ReadError, finding, truncate_findings
+from ....core.verdict.method import Verdict
+from ....core.verdict.tolerances import NEGLIGIBLE
+from ...read import Reading
+from ...read.reading import attribute_to_source, to_si
+from ...settings.density import DensityField, material_density
+from ...settings.digest import density_key
+from ..body import KNOWN_ORDER, MAX_MASS_MOMENT, MeshBody
+from ..measurement import extent
+from ..mesh.instances import area_of_instances, findings_by_part
+from ..request import Request
+from .polynomial_mass import polynomial_mass_result
+from .voxel_filled import filled_by_volume
+
+MAX_NAMED = 8  # materials
+
+
+@dataclass(frozen=True, eq=False)
+class _Weighed:
+    """mass: moments in kg, SI units and world axes. source: where the density came from. findings: what was decided.
+    materials: full names of those that were met, with a density or without."""
+
+    mass: Moments
+    source: Finding
+    findings: Sequence[Finding] = ()
+    materials: tuple[str, ...] = ()
+
+
+def weigh(reading: Reading, body: MeshBody, request: Request) -> MeshBody:
+    """Return the body with the mass that its density gives it, and its moments to the order that is asked for.
+
+    Raises
+    ------
+    MeasureError
+        Where the density is missing or negative somewhere.
+    """
+    extent(body, request.options)  # refused before it is weighed
+    order = request.options.order
+    if _field(request).kind == "volume":
+        if request.options.kind == "shell":
+            raise ReadError("density_volume_of_shell")
+        filled = filled_by_volume(body, request, KNOWN_ORDER)
+        higher = filled_by_volume(body, request, order).mass if order is not None and order > KNOWN_ORDER else None
+        return replace(filled, higher_mass=higher, density_key=density_key(request.obj, (), request.scene))
+    weighed = _weigh(reading, body, request, KNOWN_ORDER)
+    if order is not None and order > KNOWN_ORDER:
+        body = replace(body, higher_mass=_weigh(reading, body, request, order).mass)
+    return replace(
+        body,
+        mass=weighed.mass,
+        density_from=weighed.source,
+        density_key=density_key(request.obj, weighed.materials, request.scene),
+        materials=weighed.materials,
+        findings=(*body.findings, *weighed.findings),
+    )
+
+
+def _weigh(reading: Reading, body: MeshBody, request: Request, order: int) -> _Weighed:
+    kind = _field(request).kind
+    if kind == "polynomial":
+        return _by_polynomial(reading, body, request, order)
+    if kind == "attribute":
+        return _by_attribute(reading, request, order)
+    return _by_material(reading, body, request, order)
+
+
+def _field(request: Request) -> DensityField:
+    """The density of a body that is weighed: one that is not one number."""
+    assert request.density is not None
+    return request.density
+
+
+def _thickness(request: Request) -> float:
+    """What area moments are multiplied by; 1 of solids."""
+    return request.options.thickness if request.options.kind == "shell" else 1.0
+
+
+def _by_polynomial(reading: Reading, body: MeshBody, request: Request, order: int) -> _Weighed:
+    density, shell = _field(request), request.options.kind == "shell"
+    parts, findings = polynomial_mass_result(
+        reading, body, density, unit=request.unit, shell=shell, threads=request.options.threads, order=order
+    )
+    mass = sum_moments(parts) * _thickness(request)
+    if not np.abs(mass.raw).max() < MAX_MASS_MOMENT:
+        raise ReadError("mass_overflow")
+    return _Weighed(mass, density.polynomial_source(), findings)
+
+
+def _by_attribute(reading: Reading, request: Request, order: int) -> _Weighed:
+    attribute = _field(request).attribute or ""
+    if request.options.kind != "shell":
+        raise ReadError("density_attribute_of_solid")
+    parts = [
+        _sheet_moments(reading, i, _vertex_density(reading, i, attribute), request, order, by_vertex=True)
+        for i in range(len(reading.parts))
+    ]
+    source = finding("density_from_attribute", attribute=attribute)
+    total = sum_moments([moments for part in parts for moments in part])
+    return _Weighed(to_mass_moments(total, _thickness(request)), source)
+
+
+def _by_material(reading: Reading, body: MeshBody, request: Request, order: int) -> _Weighed:
+    shell = request.options.kind == "shell"
+    if body.method.verdict == Verdict.UNION:
+        raise ReadError("materials_of_union")
+    face_densities = _FaceDensities(reading, request.options.density or 0.0)
+    parts: list[Moments] = []
+    by_part: list[tuple[str, list[Finding]]] = []
+    mixed = False
+    if shell:
+        for i, values in enumerate(face_densities.values):
+            parts.extend(_sheet_moments(reading, i, values, request, order))
+    else:
+        for i, ((solid, matrices), (values, names)) in enumerate(zip(body.solids, face_densities.with_names())):
+            volume = solid.volume
+            if order > volume.order:
+                volume = polyhedron_moments(
+                    solid.repaired_surface,
+                    order,
+                    about=volume.about,
+                    threads=request.options.threads,
+                    allow_open=True,
+                )[0]
+            weighed, findings, by_area = _solid_moments(solid, volume, matrices, values, names)
+            parts += weighed
+            by_part.append((reading.parts[i].source_object_name, findings))
+            mixed = mixed or by_area
+    findings = [*face_densities.missing_note(), *findings_by_part(by_part, reading.name)]
+    health = body.health
+    if not shell and health.nested_components + health.overlapping_components and face_densities.has_several:
+        findings.append(finding("overlapping_densities"))
+    return _Weighed(
+        to_mass_moments(sum_moments(parts), _thickness(request)),
+        face_densities.source(mixed),
+        findings,
+        face_densities.names,
+    )
+
+
+class _FaceDensities:
+    """The densities of all faces of a reading. values: for each part (f,) of its mesh faces."""
+
+    def __init__(self, reading: Reading, default_density: float):
+        self.default_density = default_density
+        self.values: list[NDArray] = []
+        self.slots: list[tuple[NDArray, tuple]] = []
+        met: dict[Any, None] = {}
+        self.faces_without_density = self.faces = 0
+        for part in reading.parts:
+            slots, faces = part.attributes.materials, part.attributes.face_slots
+            known = [material_density(material) for material in slots]
+            # -1 is the last
+            table = np.array(
+                [*(default_density if density is None else density for density in known), default_density], float
+            )
+            lacks = np.array([*(density is None for density in known), True])
+            self.values.append(table[faces])
+            self.slots.append((faces, slots))
+            self.faces_without_density += int(lacks[faces].sum()) * len(part.matrices)
+            self.faces += len(faces) * len(part.matrices)
+            met |= dict.fromkeys(slots[i] for i in np.unique(faces).tolist() if i >= 0 and slots[i] is not None)
+        self.materials = sorted(met, key=lambda material: material.name_full)
+        if self.faces_without_density and not default_density > 0.0:
+            raise ReadError("material_without_density", count=self.faces_without_density, total=self.faces)
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        return tuple(material.name_full for material in self.materials)
+
+    @property
+    def has_several(self) -> bool:
+        return len({value for values in self.values for value in np.unique(values).tolist()}) > 1
+
+    def missing_note(self) -> Iterator[Finding]:
+        """A finding about faces that take the object's density."""
+        if not self.faces_without_density:
+            return
+        names = [material.name for material in self.materials if material_density(material) is None]
+        values = {"count": self.faces_without_density, "total": self.faces, "density": self.default_density}
+        if names:
+            yield finding("object_density_used_for_materials", **values, materials=names)
+        else:
+            yield finding("object_density_used", **values)
+
+    def source(self, by_area: bool) -> Finding:
+        """Where the densities come from. by_area: whether components of several materials took their mean."""
+        known = [(material.name, material_density(material)) for material in self.materials]
+        known = [(name, value) for name, value in known if value is not None]
+        parts = [finding("density_of_material", material=name, density=value) for name, value in known]
+        parts = truncate_findings(parts, MAX_NAMED)
+        if self.faces_without_density:
+            parts.append(finding("density_of_others", density=self.default_density))
+        if by_area:
+            parts.append(finding("density_mixed_by_area"))
+        return finding("density_from_materials", materials=[part.as_record() for part in parts])
+
+    def with_names(self) -> Iterator[tuple[NDArray, NDArray]]:
+        """The densities and the materials' names of the faces of each part."""
+        for values, (faces, slots) in zip(self.values, self.slots):
+            names = np.array([*(material.name if material else "" for material in slots), ""], object)
+            yield values, names[faces]
+
+
+def _solid_moments(
+    solid: SolidIntegrals, volume: Moments, matrices: NDArray, values: NDArray, names: NDArray
+) -> tuple[list[Moments], list[Finding], bool]:
+    """∫ρ dV of a surface's places, findings about its components, and whether any takes a mean by area. volume: its
+    volume moments, to the order that is wanted. values, names: of its mesh faces."""
+    components = solid.parts()
+    moments, findings = [], []
+    has_foreign_material = is_slight = False
+    mixed = bool(part_densities(components, values).has_several_materials.any())
+    # a mean by area is that of the areas as they are seen
+    for matrix_group in _similarity_groups(matrices) if mixed else [matrices]:
+        part_density = part_densities(components, values, matrix_group[0, :3, :3])
+        density = part_density.density[components.part]
+        mass = solid_mass_moments(components.points, components.triangles, density, volume)
+        moments.append(sum_of_images(mass, matrix_group))
+        negligible = NEGLIGIBLE * float(mass.total) / float(np.linalg.norm(np.ptp(components.points, axis=0)))
+        findings += _mixed_parts_notes(components, part_density, names, negligible)
+        foreign = part_density.has_foreign_cavity_material
+        has_foreign_material = bool(foreign.any())
+        is_slight = bool(part_density.most_by_area[foreign].sum() < negligible)
+    if has_foreign_material:
+        findings.append(finding("cavity_material_ignored_slightly" if is_slight else "cavity_material_ignored"))
+    return moments, findings, mixed
+
+
+def _similarity_groups(matrices: NDArray) -> Iterator[NDArray]:
+    """The (k, 4, 4) maps in groups that stretch areas alike: similarities together, then each uneven map's places."""
+    even = are_similarities(matrices[:, :3, :3])
+    if even.any():
+        yield matrices[even]
+    rest = matrices[~even]
+    for _, members in distinct_linear_parts(rest):
+        yield rest[members]
+
+
+def _mixed_parts_notes(
+    parts: ClosedParts, part_density: PartDensities, names: NDArray, negligible: float
+) -> list[Finding]:
+    """A finding about components whose faces have several materials, about the first face of each. negligible: density
+    times area that does not matter, wherever in the body it is."""
+    which = np.flatnonzero(part_density.has_several_materials)
+    if not len(which):
+        return []
+    first = np.sort(part_density.first_face[which])
+    if part_density.range_by_area[which].sum() < negligible:
+        return [finding("mixed_materials_slightly", first, count=len(which), total=parts.number)]
+    if len(which) > 1:
+        return [finding("mixed_material_components", first, count=len(which), total=parts.number)]
+    component = int(which[0])
+    faces = np.unique(parts.face[(parts.part == component) & (parts.face >= 0)])
+    materials, density = sorted(set(names[faces].tolist())), float(part_density.density[component])
+    return [finding("mixed_material_component", first, materials=materials, density=density)]
+
+
+def _vertex_density(reading: Reading, i: int, name: str) -> NDArray[np.float64]:
+    """(n,) checked values of a part's vertices; those that no face uses do not count."""
+    part = reading.parts[i]
+    values = part.attributes.vertex_values
+    used = np.unique(part.surface.all_triangles()[0])
+    for wrong, code in (
+        (~np.isfinite(values[used]), "attribute_non_finite"),
+        (values[used] < 0.0, "attribute_negative"),
+    ):
+        if wrong.any():
+            found = finding(code, used[wrong], attribute=name, count=int(wrong.sum()))
+            raise ReadError(attribute_to_source(found, part.source_object_name, reading.name))
+    return values
+
+
+def _sheet_moments(
+    reading: Reading, i: int, values: NDArray, request: Request, order: int, by_vertex: bool = False
+) -> Iterator[Moments]:
+    """∫ρ dA of a part's images. values: of its mesh faces, or of its vertices and linear between them."""
+    part = reading.parts[i]
+
+    def measured(surface: Surface) -> Moments:
+        triangles, faces = surface.all_triangles()
+        density = values[triangles] if by_vertex else values[faces]
+        area = polyhedron_moments(surface, area_order=order, threads=request.options.threads, allow_open=True)[1]
+        return sheet_mass_moments(surface.points, triangles, density, area, stored=by_vertex)
+
+    return area_of_instances(part.surface, measured(part.surface), to_si(part.matrices, request.unit), measured)

@@ -1,0 +1,135 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A solid whose density is that of a Volume object's grid, wherever the two stand."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ....core.density.voxel_fill import MAX_VOXELS, inside_moments
+from ....core.moments.moments import Measure, Moments
+from ....core.solid.measure import SolidIntegrals
+from ....core.verdict.finding import MeasureError, ReadError, finding
+from ....core.verdict.method import Method, Source, Verdict
+from ....core.verdict.tolerances import NEGLIGIBLE
+from ...read.grids.volume import VolumeReading, volume_reading
+from ...read.reading import attribute_to_source, to_si
+from ...read.tracking import tracking_paused
+from ...settings.grid import GridOptions
+from ..body import MAX_MASS_MOMENT, MeshBody
+from ..request import Request
+
+MAX_OUTSIDE_SHARE = 1e-9  # of the volume: below this, rounding
+
+
+def filled_by_volume(body: MeshBody, request: Request, order: int) -> MeshBody:
+    """Return the solid with the density of the Volume object that its settings name.
+
+    Raises
+    ------
+    MeasureError
+        Where that has no grid that can be read, or does not reach the solid.
+    """
+    name, source = request.obj.name, request.obj.body_moments.density_volume
+    grid = GridOptions.of(source.body_moments)
+    try:
+        with tracking_paused(), volume_reading(source, request.depsgraph, grid.grid) as volume:
+            if volume is None:
+                raise ReadError("object_without_grid")
+            filled = voxel_filled_body(body, volume, grid, request.unit, name, order)
+            origin = finding("density_from_grid_of", grid=volume.grid, object=source.name)
+            return replace(filled, density_from=origin)
+    except MeasureError as error:
+        if error.subject == name:  # about both together
+            raise
+        raise ReadError(
+            "density_volume_unreadable", subject=name, object=source.name, cause=error.finding.as_record()
+        ) from error
+
+
+def voxel_filled_body(
+    body: MeshBody, reading: VolumeReading, options: GridOptions, unit: float, name: str, order: int
+) -> MeshBody:
+    """The body with the mass that the grid gives its inside, to an order. unit: meters per Blender unit.
+
+    name: of the object, which MeasureErrors are about that are not about the grid alone.
+    """
+    names = {"grid": reading.grid, "object": reading.name}
+    options.needs_even_samples(reading.grid)
+    if body.method.verdict == Verdict.OPEN:
+        raise ReadError("open_surface_of_grid", subject=name)
+    if reading.level_set:
+        raise ReadError("density_grid_is_level_set", subject=name, **names)
+    shift = np.eye(4)
+    shift[:3, 3] = reading.low - 0.5  # from corners of voxels, not from their centers
+    matrix = to_si(reading.matrix[None], unit)[0] @ reading.to_object @ shift
+    if min(reading.shape) < 1 or not abs(np.linalg.det(matrix[:3, :3])) > 0.0:
+        raise ReadError("density_grid_empty", subject=name, **names)
+    inverse = np.linalg.inv(matrix)
+    triangles = np.concatenate(
+        [_corners(solid, inverse @ place) for solid, matrices in body.solids for place in matrices]
+    )
+    low = np.clip(np.floor(triangles.min(axis=(0, 1))), 0, np.array(reading.shape) - 1).astype(np.int64)
+    high = np.clip(np.ceil(triangles.max(axis=(0, 1))), low + 1, reading.shape).astype(np.int64)
+    if np.prod((high - low).astype(float)) > MAX_VOXELS:
+        raise ReadError("density_grid_too_fine", subject=name, **names, samples=(high - low).tolist())
+    moments, volume = inside_moments(triangles - low, _box_densities(reading, options, low, high), order)
+    volume *= abs(np.linalg.det(matrix[:3, :3]))
+    shift[:3, 3] = low
+    mass = replace(replace(moments, measure=Measure.VOLUME).transform(matrix @ shift), measure=Measure.MASS)
+    mass = replace(mass, input_error=_input_error(body, mass))
+    if not np.abs(mass.raw).max() < MAX_MASS_MOMENT:
+        raise ReadError("mass_overflow")
+    if not mass.total > mass.rounding_error[0]:
+        raise ReadError("density_grid_elsewhere", subject=name, **names)
+    meaning = replace(options, spline_order=1).meaning()
+    findings = [
+        finding("grid_density_of", **names, cause=meaning.as_record()),
+        *options.empty_background_note(reading.background),
+    ]
+    outside = float(1.0 - volume / body.volume.total)
+    if outside > MAX_OUTSIDE_SHARE:
+        findings.append(finding("outside_grid_slightly" if outside < NEGLIGIBLE else "outside_grid", share=outside))
+    return replace(
+        body,
+        mass=mass,
+        method=Method(body.method.verdict, Source.GRID),
+        estimated=True,
+        findings=(
+            *body.findings,
+            *findings,
+            *(attribute_to_source(result, reading.name, name) for result in reading.findings),
+        ),
+    )
+
+
+def _corners(solid: SolidIntegrals, matrix: NDArray) -> NDArray[np.float64]:
+    """(n, 3, 3) the triangles of what was measured, in the grid's coordinates, outward."""
+    surface = solid.repaired_surface.transform(matrix[:3, :3], matrix[:3, 3])
+    return surface.points[surface.all_triangles()[0]].astype(np.float64, copy=False)
+
+
+def _box_densities(reading: VolumeReading, options: GridOptions, low: NDArray, high: NDArray) -> NDArray[np.float64]:
+    """The densities of the voxels from `low` to `high`."""
+    to_densities = options.to_densities(reading.background)
+    densities = np.zeros(high - low)
+    for start, block in reading.blocks():
+        start = np.array(start)
+        begin, end = np.maximum(start, low), np.minimum(start + block.shape, high)
+        if (begin < end).all():
+            in_block = tuple(slice(a, b) for a, b in zip(begin - start, end - start))
+            densities[tuple(slice(a, b) for a, b in zip(begin - low, end - low))] = to_densities(
+                block[in_block].astype(np.float64)
+            )
+    return densities
+
+
+def _input_error(body: MeshBody, mass: Moments) -> NDArray[np.float64]:
+    """What float32 coordinates may have moved, as a share of each moment like that of the solid's own."""
+    solid = body.volume if mass.order <= body.volume.order else body.moments(mass.order, False)[0]
+    solid = solid.about_point(mass.about).truncate(mass.order)
+    scale = np.abs(mass.raw).max() / max(np.abs(solid.raw).max(), np.finfo(float).tiny)
+    return solid.input_error * max(scale, mass.total / solid.total)

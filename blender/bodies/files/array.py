@@ -1,0 +1,132 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A scan or array of densities in a file as a body, without any object."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ....core.measurement.measurement import Measurement
+from ....core.scans import Scan, read_scan, sample_matrix
+from ....core.scans.limits import DEFAULT_LIMITS, Limits
+from ....core.scans.positions import Positions, place_samples, read_all_positions
+from ....core.verdict.finding import Finding, ReadError, finding
+from ...settings.grid import GridOptions
+from ...settings.options import MeasureOptions, ResolvedOptions
+from ..body import KNOWN_ORDER, Body
+from ..grids.grid import density_body
+from ..grids.threshold import MAX_SAMPLES, TRILINEAR, ThresholdGrid, threshold_grid_body
+from ..measurement import measurement_of
+from ..request import Request
+from .bare_file import about_file, bare_reading
+
+
+@dataclass(frozen=True)
+class ArrayOptions:
+    """spacing, origin: (x, y, z) in place of the file's own; unit_scale: meters per unit where the file has none;
+    density_scale: kg/m³ where a sample is 1; threshold: the body where values are at least that, None for all;
+    limits: of what the file may ask for; positions: files of the samples' positions by axis, in units of unit_scale."""
+
+    spacing: Sequence[float] | None = None
+    origin: Sequence[float] | None = None
+    spline_order: int = 1
+    density_scale: float = 1.0
+    threshold: float | None = None
+    unit_scale: float | None = None
+    limits: Limits = DEFAULT_LIMITS
+    positions: Mapping[str, str] = field(default_factory=dict)
+
+
+def measure_array(
+    path: str,
+    name: str,
+    array: ArrayOptions,
+    options: MeasureOptions,
+    progress: Callable[[int], None] = lambda samples: None,
+) -> Measurement:
+    """The mass properties of the samples in a file. progress: called with how many samples have been read since the
+    last time. Raises MeasureError."""
+    if options.kind == "shell":
+        raise ReadError("grid_as_shell", subject=name)
+    with about_file(name):
+        scan = read_scan(path, array.limits)
+        matrix, findings = sample_matrix(scan, array.spacing, array.origin, array.unit_scale)
+        positions = read_all_positions(array.positions, scan.samples.shape)
+        matrix, positions = place_samples(matrix, positions, array.unit_scale or 1.0)
+        if array.positions:
+            findings = _with_positions(findings, array.positions)
+        measure = _threshold_body if array.threshold is not None else _density_body
+        made = measure(name, scan, matrix, positions, array, options, (*scan.findings, *findings), progress)
+        reading = bare_reading(name, "ARRAY")
+        density = None if made.mass is not None else options.density
+        used = ResolvedOptions.of(options, kind="solid", density=density, thickness=0.0, overlap="signed", wall="thin")
+        return measurement_of(reading, made, Request(used, 1.0))
+
+
+def _with_positions(findings: Iterable[Finding], files: Mapping[str, str]) -> tuple[Finding, ...]:
+    """What was decided of the places of samples, where files say them: of all three, no spacing is missing."""
+    kept = [one for one in findings if len(files) < 3 or one.code != "scan_without_spacing"]
+    return (*kept, finding("samples_positioned", axes=sorted(files)))
+
+
+def _density_body(
+    name: str,
+    scan: Scan,
+    matrix: NDArray[np.float64],
+    positions: Positions,
+    array: ArrayOptions,
+    options: MeasureOptions,
+    findings: tuple[Finding, ...],
+    progress: Callable[[int], None],
+) -> Body:
+    """All of the samples, as densities."""
+    grid = GridOptions(value_density=array.density_scale, spline_order=array.spline_order, negative="array_negative")
+    shape = scan.samples.shape
+    findings += (finding("array_density", samples=list(shape), cause=grid.meaning().as_record()),)
+    if options.density is not None:
+        findings += (finding("given_density_ignored"),)
+    scale = scan.slope, scan.intercept
+    body = density_body(
+        scan.samples, shape, matrix, grid, None, findings, *scale, progress, options.order or KNOWN_ORDER, positions
+    )
+    return replace(body, density_from=finding("density_from_samples"))
+
+
+def _threshold_body(
+    name: str,
+    scan: Scan,
+    matrix: NDArray[np.float64],
+    positions: Positions,
+    array: ArrayOptions,
+    options: MeasureOptions,
+    findings: tuple[Finding, ...],
+    progress: Callable[[int], None],
+) -> Body:
+    """Where the samples are at least a threshold, of one density where one is given, else of their own."""
+    if array.positions:
+        raise ReadError("threshold_positions")
+    filled = options.density is None
+    spline_order = max(array.spline_order, TRILINEAR)
+    grid = GridOptions(
+        threshold=array.threshold, filled=filled, value_density=array.density_scale, spline_order=spline_order
+    )
+    if spline_order > TRILINEAR and scan.samples.size > MAX_SAMPLES:
+        raise ReadError("threshold_too_large", grid=name, samples=scan.samples.size)
+    slowest = np.argsort([-abs(stride) for stride in scan.samples.strides], kind="stable")  # read in the file's order
+    turned = np.eye(4)
+    turned[:3, :3] = np.eye(3)[:, slowest]
+
+    def values(block: NDArray) -> NDArray[np.float64]:
+        progress(block.size)
+        return block * scan.slope + scan.intercept
+
+    samples = scan.samples.transpose(slowest)
+    body = threshold_grid_body(
+        ThresholdGrid(name, samples, matrix @ turned, None, values), grid, order=options.order or KNOWN_ORDER
+    )
+    source = finding("density_from_samples") if filled else None
+    return replace(body, findings=(*findings, *body.findings), density_from=source)

@@ -1,0 +1,30 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Files whose content is measured without an object in Blender: scans, and meshes that are streamed."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import numpy as np
+
+from ....core.verdict.finding import MeasureError, ReadError, system_reason
+from ...read import Reading
+
+
+def bare_reading(name: str, kind: str) -> Reading:
+    """What stands for the object: at the world's origin, along its axes. kind: its type in the records."""
+    return Reading(name, kind, np.eye(4), np.eye(3), np.zeros(3))
+
+
+@contextmanager
+def about_file(name: str) -> Iterator[None]:
+    """Give what is refused the file's name; what the system refuses is a ReadError."""
+    try:
+        yield
+    except MeasureError as error:
+        error.about(name)
+        raise
+    except OSError as error:
+        raise ReadError("file_unreadable", subject=name, error=system_reason(error)) from error

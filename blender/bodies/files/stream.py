@@ -1,0 +1,130 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A mesh in a file that is larger than memory as a body, without any object: read in blocks, not repaired."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import ClassVar
+
+import numpy as np
+
+from ....core.measurement.measurement import Measurement
+from ....core.moments.moments import Moments
+from ....core.streams import StreamIntegrals, measure_stream, open_mesh_file
+from ....core.streams.mesh_file import MeshFile
+from ....core.verdict.finding import Finding, ReadError, finding
+from ....core.verdict.health import MeshHealth
+from ....core.verdict.method import Method, Verdict
+from ...settings.options import MeasureOptions, ResolvedOptions
+from ..body import KNOWN_ORDER, Body
+from ..measurement import measurement_of
+from ..request import Request
+from .bare_file import about_file, bare_reading
+
+DEFAULT_DENSITY = 1000.0  # kg/m³
+COUNTED = "boundary_edges", "non_manifold_edges", "inconsistent_edges", "components"
+
+
+class StreamHealth(MeshHealth):
+    """Whether a mesh is closed, and nothing else: no edge was kept."""
+
+    def as_record(self) -> dict:
+        """Plain values for JSON, None for what was not counted."""
+        return {"closed": self.closed, "welded": False, **dict.fromkeys(COUNTED), "self_intersection": "not_checked"}
+
+
+@dataclass(frozen=True, eq=False)
+class StreamBody(Body):
+    """What the faces of a file bound, or the sheet that they are.
+
+    Attributes
+    ----------
+    mesh : MeshFile
+    unit : float
+        Meters per unit.
+    threads : int
+    """
+
+    any_order: ClassVar[bool] = True
+
+    mesh: MeshFile = field(kw_only=True)
+    unit: float = field(kw_only=True)
+    threads: int = field(kw_only=True)
+
+    def moments(self, order: int, area: bool) -> tuple[Moments, Moments | None]:
+        """Return the moments to an order; the file is read again where that is more than is known."""
+        if order <= self.volume.order and (not area or order <= self.area.order):
+            return self.volume.truncate(order), self.area.truncate(order) if area else None
+        found = measure_stream(self.mesh, order, order if area else 0, self.threads)
+        volume, areas = _in_meters(found, self.unit)
+        return volume, areas if area else None
+
+
+def measure_mesh_file(
+    path: str,
+    name: str,
+    options: MeasureOptions,
+    findings: tuple[Finding, ...] = (),
+    progress: Callable[[int], None] | None = None,
+) -> Measurement:
+    """Return the mass properties of the faces in an .stl or .ply file, one body of that name.
+
+    findings: about the file. progress: called with how many faces have been read since the last time. Raises
+    MeasureError.
+    """
+    kind = options.kind or "solid"
+    used = ResolvedOptions.of(
+        options,
+        kind=kind,
+        density=DEFAULT_DENSITY if options.density is None and options.mass is None else options.density,
+        thickness=options.thickness or 0.0,
+        overlap="signed",
+        wall="thin",
+    )
+    order = max(options.order or KNOWN_ORDER, KNOWN_ORDER)
+    area_order = order if kind == "shell" or options.surface else 0
+    unit = options.unit_scale or 1.0
+    with about_file(name):
+        mesh = open_mesh_file(path)
+        found = measure_stream(mesh, order, area_order, options.threads, progress)
+        volume, area = _in_meters(found, unit)
+        body = StreamBody(
+            volume,
+            area,
+            StreamHealth(closed=found.closed),
+            Method(_verdict(found)),
+            (*findings, *_findings(found, kind)),
+            face_count=found.face_count,  # of many faces the axes come from third order, without reading them again
+            mesh=mesh,
+            unit=unit,
+            threads=options.threads,
+        )
+        if kind == "solid" and not volume.total > volume.rounding_error[0]:
+            raise ReadError("no_volume")
+        reading = bare_reading(name, "MESH")
+        return measurement_of(reading, body, Request(used, 1.0))
+
+
+def _verdict(found: StreamIntegrals) -> Verdict:
+    if not found.closed:
+        return Verdict.OPEN
+    return Verdict.EXACT if found.volume.total >= 0.0 else Verdict.REORIENTED
+
+
+def _in_meters(found: StreamIntegrals, unit: float) -> tuple[Moments, Moments]:
+    """Volume and area; the volume as that of outward faces where it is negative."""
+    matrix = np.diag([unit, unit, unit, 1.0])
+    volume = found.volume * -1.0 if found.volume.total < 0.0 else found.volume
+    return volume.transform(matrix), found.area.transform(matrix)
+
+
+def _findings(found: StreamIntegrals, kind: str) -> list[Finding]:
+    """What was noticed, and what was not looked for."""
+    findings = [finding("mesh_streamed", count=found.face_count)]
+    if kind == "solid" and not found.closed:
+        findings.append(finding("streamed_open"))
+    elif kind == "solid" and found.volume.total < 0.0:
+        findings.append(finding("streamed_inside_out"))
+    return findings

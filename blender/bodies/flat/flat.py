@@ -1,0 +1,256 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Flat shapes: selected faces, flat meshes, 2-D curves and text as regions of their own plane, seen from the front.
+
+The front of faces is where their normals point, of curves and text their own +z. Moments of closed curves and of text
+are those of the curves themselves where Blender says what they are; all else is of the polygons that it draws.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import bpy
+import numpy as np
+from numpy.typing import NDArray
+
+from ....core.flat.polygon import find_defects, orient_loops
+from ....core.flat.regions import plane_positions, region_moments
+from ....core.flat.section import Plane, fit_plane, projection_rounding, region
+from ....core.moments.exponents import monomials
+from ....core.moments.moments import Measure, Moments
+from ....core.numerics.float32 import shortest_decimal
+from ....core.nurbs.curve import Curve
+from ....core.nurbs.curve_moments import plane_moments
+from ....core.nurbs.planar_regions import planar_region
+from ....core.verdict.finding import Finding, MeasureError, ReadError, finding
+from ....core.verdict.tolerances import NEGLIGIBLE
+from ...read.section import SectionReading, read_outline_curves, read_section
+from ..wire import curves_in_world
+
+FILL_AREA_RTOL = 1e-4  # Blender's fill and the outlines differ by more than this share: the fill is wrong
+# why an object is no body, and why it is no flat shape either: the first of them is what its user has to hear
+NO_BODY = {"no_volume", "no_certain_volume", "no_geometry", "shape_of_open_surface"}
+NOT_FLAT = {"section_not_flat", "section_extruded", "section_3d_curve", "section_offset", "flat_of_type"}
+NORMAL = np.array([0.0, 0.0, 1.0])  # of the plane, in its own axes
+
+
+@dataclass(frozen=True, eq=False)
+class FlatRegion:
+    """A region of a plane, in SI units.
+
+    Attributes
+    ----------
+    name, type : str
+        Of the object.
+    description : str
+        What of it was read.
+    plane : Plane
+        In the world.
+    spatial : (n, 3) array
+        Its points in the world, and `points`, (n, 2), in the plane.
+    edges : (m, 2) integer array
+        The inside lies to the left of each, seen from the front.
+    stored : float
+        How far storing the points as float32 may have moved each.
+    shared : float
+        The length that edges share.
+    drawn_area : float or None
+        The area that Blender fills, of outlines.
+    rotation, location : arrays
+        The object frame.
+    curves : tuple of Curve
+        What the outlines are, in the plane's axes, where that is known; else none.
+    findings : tuple of Finding
+    """
+
+    name: str
+    type: str
+    description: str
+    plane: Plane
+    spatial: NDArray[np.float64]
+    points: NDArray[np.float64]
+    edges: NDArray[np.intp]
+    stored: float
+    shared: float
+    drawn_area: float | None
+    rotation: NDArray[np.float64]
+    location: NDArray[np.float64]
+    curves: tuple[Curve, ...]
+    findings: tuple[Finding, ...]
+
+    @property
+    def rounded(self) -> float:
+        """How far rounding may have moved a coordinate of a point in the plane."""
+        return projection_rounding(self.plane, self.spatial, self.used)
+
+    @cached_property
+    def used(self) -> NDArray[np.float64]:
+        """(k, 2) the ends of all edges."""
+        return self.points[np.unique(self.edges)]
+
+    def moments(self, order: int) -> Moments:
+        """Return ∫ x^p y^q dA about the centroid, along the plane's axes from its origin.
+
+        Raises
+        ------
+        MeasureError
+            Where nothing is enclosed, or a moment leaves the range of numbers.
+        """
+        with np.errstate(over="ignore", invalid="ignore"):
+            if self.curves:
+                moments = _curve_moments(self.curves, order, self.rounded, self.stored)
+            else:
+                moments = region_moments(self.points, self.edges, order, rounded=self.rounded, stored=self.stored)
+        if not np.isfinite([moments.raw, moments.rounding_error, moments.input_error]).all():
+            raise ReadError("moments_overflow", order=order)
+        return moments
+
+    def foot(self, point: NDArray) -> NDArray[np.float64]:
+        """(3,) the foot of a point of the world on the plane, in the plane's axes."""
+        return np.append(self.plane.project(np.asarray(point, np.float64)[None])[0], 0.0)
+
+
+def flat_region(
+    obj: bpy.types.Object,
+    depsgraph: bpy.types.Depsgraph,
+    *,
+    selected: bool = True,
+    resolution: int | None = None,
+    exact: bool = True,
+    unit: float | None = None,
+) -> FlatRegion:
+    """Return an object as a region of a plane.
+
+    Parameters
+    ----------
+    obj : bpy.types.Object
+    depsgraph : bpy.types.Depsgraph
+    selected : bool
+        Whether only its selected faces, where it is in Edit Mode.
+    resolution : int, optional
+        Of curves and text, in the place of their own.
+    exact : bool
+        Whether with their curves.
+    unit : float, optional
+        Meters per Blender unit, by default the scene's.
+
+    Raises
+    ------
+    MeasureError
+        Where it is not flat, is extruded, or has outlines that cross.
+    """
+    reading = read_section(obj, depsgraph, selected=selected, resolution=resolution)
+    unit = unit or shortest_decimal(depsgraph.scene.unit_settings.scale_length)
+    try:
+        found = _region_of(reading, obj.type, unit)
+        outlines = _curves(obj, depsgraph, reading, found.plane, unit) if exact else None
+    except MeasureError as error:
+        error.about(obj.name)
+        raise
+    if outlines is None:
+        return found
+    curves, stored = outlines
+    drawn = {"section_drawn_as_polygons", "section_render_resolution"}
+    kept = [one for one in found.findings if one.code not in drawn]
+    return replace(found, curves=curves, stored=max(stored, found.stored), findings=tuple(kept))
+
+
+def clearer_refusal(no_body: MeasureError, not_flat: MeasureError) -> MeasureError:
+    """Of the reasons why an object is neither a body nor a flat shape the one that says what to do."""
+    is_nearly_flat = no_body.finding.code in NO_BODY and not_flat.finding.code not in NOT_FLAT
+    return not_flat if is_nearly_flat else no_body
+
+
+def _region_of(reading: SectionReading, kind: str, unit: float) -> FlatRegion:
+    points, error, findings = reading.points * unit, reading.error * unit, list(reading.findings)
+    plane = fit_plane(points, reading.triangles, reading.rotation, reading.location * unit, error, reading.facing)
+    flat = plane.project(points)
+    if reading.loops is not None:
+        edges = orient_loops(flat, reading.loops)
+    else:
+        edges, flipped = region(plane, points, reading.triangles, reading.faces, error)
+        if flipped:
+            findings.append(finding("section_faces_reversed", count=flipped))
+    defects = find_defects(flat, edges, error)
+    if reading.loops is not None and defects.crossings:
+        raise ReadError("outlines_cross_at", count=defects.crossings)
+    if reading.loops is not None and defects.overlapping:
+        raise ReadError("outlines_cross")
+    if defects.negative:
+        raise ReadError("section_face_crosses_itself")
+    if defects.crossings or defects.overlapping:
+        findings.append(finding("section_faces_overlap"))
+    if defects.too_many_pairs:
+        findings.append(finding("section_overlap_unchecked"))
+    return FlatRegion(
+        reading.name,
+        kind,
+        reading.description,
+        plane,
+        points.astype(np.float64, copy=False),
+        flat,
+        edges,
+        error,
+        defects.shared_length,
+        None if reading.drawn_area is None else reading.drawn_area * unit**2,
+        reading.rotation,
+        reading.location * unit,
+        (),
+        tuple(findings),
+    )
+
+
+def area_findings(found: FlatRegion, area: float) -> list[Finding]:
+    """What can be said only once a region's area is known: how far it is from flat, and whether Blender fills it."""
+    findings = []
+    off = found.plane.out_of_plane
+    if off > 4.0 * found.stored:
+        share = float(off / np.sqrt(area))
+        findings.append(
+            finding("section_projected_slightly" if share < NEGLIGIBLE else "section_projected", share=share)
+        )
+    if found.drawn_area is not None and abs(found.drawn_area - area) > FILL_AREA_RTOL * area:
+        findings.append(finding("section_fill_wrong", share=float(found.drawn_area / area)))
+    return findings
+
+
+def _curves(
+    obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, reading: SectionReading, plane: Plane, unit: float
+) -> tuple[tuple[Curve, ...], float] | None:
+    """The outlines as curves, along the plane's axes, and how far float32 may have moved their control points; None
+    where Blender does not say what they are, or they touch."""
+    if reading.loops is None:
+        return None
+    try:
+        curves, matrix = read_outline_curves(obj, depsgraph)
+        to_plane = np.eye(4)
+        to_plane[:3, :3] = plane.axes.T
+        to_plane[:3, 3] = -plane.axes.T @ plane.origin
+        placed, stored = curves_in_world(curves, matrix, unit)
+        boundary, _ = planar_region([curve.transform(to_plane) for curve in placed], stored)
+    except MeasureError:
+        return None
+    if len(boundary) != len(reading.loops):  # some are left out of the polygons
+        return None
+    is_left = plane_moments(boundary, NORMAL, 1).total > 0.0
+    return tuple(boundary if is_left else [curve.reverse() for curve in boundary]), stored
+
+
+def _curve_moments(curves: tuple[Curve, ...], order: int, rounded: float, stored: float) -> Moments:
+    first = plane_moments(curves, NORMAL, 1)
+    about = first.center * [1.0, 1.0, 0.0]
+    moments = plane_moments(curves, NORMAL, order, about)
+    lengths = [np.hypot(*np.diff(curve.points[:, :2], axis=0).T).sum() for curve in curves]
+    corners = np.concatenate([curve.points[:, :2] for curve in curves])
+    reach = np.append(np.abs(corners - about[:2]).max(axis=0) + 2.0 * (rounded + stored), 1.0)
+    positions = plane_positions(order)
+    size = (reach ** monomials(order))[positions].prod(axis=1)
+    raw, rounding, moved = np.zeros((3, len(moments.raw)))
+    raw[positions] = moments.raw[positions]
+    for bounds, step, known in ((rounding, rounded, moments.rounding_error), (moved, stored, np.zeros_like(raw))):
+        way = step * np.sqrt(2.0)
+        # the curves sweep over no more than their control polygons are long
+        bounds[positions] = known[positions] + way * (sum(lengths) + 2.0 * way * len(corners)) * size
+    return Moments(raw, about, Measure.AREA, rounding, moved)

@@ -1,0 +1,76 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The Fourier transform of a flat object in its own plane, of the polygons that Blender draws."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+import bpy
+import numpy as np
+from numpy.typing import NDArray
+
+from ....core.fourier.polygon import RegionTransform
+from ....core.fourier.spectrum import Spectrum
+from ....core.fourier.wave_vectors import FrequencyGrid
+from ....core.verdict.finding import Finding
+from .flat import area_findings, flat_region
+
+
+@dataclass(frozen=True)
+class FlatTransform:
+    """A flat object's transform, in SI units: `steps` does the work, `result` gives the outcome.
+
+    arrays: what beside the spectrum says where the plane is, `axes`, x and y as rows, and `origin`, in the world.
+    """
+
+    name: str
+    transform: RegionTransform
+    arrays: dict[str, NDArray[np.float64]]
+    findings: tuple[Finding, ...]
+
+    def steps(self) -> Iterator[float]:
+        """Do the work. Yields the fraction done."""
+        return self.transform.steps()
+
+    def result(self) -> tuple[Spectrum, tuple[Finding, ...]]:
+        """The spectrum, and a finding for each decision that was taken."""
+        return self.transform.result(), self.findings
+
+
+def flat_transform(
+    obj: bpy.types.Object,
+    depsgraph: bpy.types.Depsgraph,
+    q: NDArray | FrequencyGrid | Callable[[float], FrequencyGrid],
+    *,
+    frame: str = "world",
+    unit: float | None = None,
+) -> FlatTransform:
+    """Return the transform ∫ exp(-i q·x) dA of a flat object, in m².
+
+    Parameters
+    ----------
+    obj : bpy.types.Object
+    depsgraph : bpy.types.Depsgraph
+    q : (M, 2) array, FrequencyGrid or callable
+        Rad/m along the plane's x and y; or what makes a grid from the region's largest extent in m.
+    frame : str
+        "world" or "object": the foot of its origin is where x and y are counted from.
+    unit : float, optional
+        Meters per Blender unit, by default the scene's.
+
+    Raises
+    ------
+    MeasureError
+        Where it is not flat, has outlines that cross, or encloses nothing.
+    """
+    region = flat_region(obj, depsgraph, selected=False, exact=False, unit=unit)
+    findings = (*region.findings, *area_findings(region, region.moments(1).total))
+    foot = region.foot(np.zeros(3) if frame == "world" else region.location)
+    plane = region.plane
+    origin = plane.origin + plane.axes @ foot
+    if callable(q):
+        q = q(float(np.ptp(region.used, axis=0).max()))
+    transform = RegionTransform(region.points - foot[:2], region.edges, q, region.rounded, region.stored)
+    return FlatTransform(obj.name, transform, {"axes": plane.axes[:, :2].T, "origin": origin}, findings)

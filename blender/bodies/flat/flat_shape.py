@@ -1,0 +1,198 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The shape of a flat object, seen from its front: its signature, its symmetry, how it lies on another one.
+
+It has no volume and no thickness; a shell is a sheet, a body that may be turned over, and no flat shape.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import suppress
+from dataclasses import dataclass
+from functools import cached_property, partial
+from typing import TypeVar
+
+import bpy
+import numpy as np
+from numpy.typing import NDArray
+
+from ....core.inertia.canonical_frame import NOISE_LEVEL
+from ....core.mesh.surface import Surface
+from ....core.moments.exponents import monomials
+from ....core.moments.moments import Moments
+from ....core.shape.disc_zernike import MAX_DISC_ORDER, disc_zernike
+from ....core.shape.flat_pose import flat_symmetry, holds_by_moments, holds_by_outline, match_flat
+from ....core.shape.flat_signatures import flat_signature
+from ....core.shape.registration import Residual, RigidMatch
+from ....core.shape.signatures import Signature
+from ....core.shape.symmetries import Symmetry
+from ....core.verdict.finding import MeasureError, ReadError
+from ...read.fingerprint import fingerprint, matrix_hash, settings_hash
+from ..shape.shape import EXACT_DISTANCE, SURFACE_SAMPLES, Shape, SurfaceDistance, surface_shape_of
+from .flat import NO_BODY, FlatRegion, clearer_refusal, flat_region
+
+OUTLINE_RESOLUTION = 64  # of curves and text, whatever they are drawn with: shapes do not depend on that
+POSE_ORDER = 12  # of what is compared where shapes are laid onto each other
+
+
+@dataclass(frozen=True, eq=False)
+class FlatShape:
+    """A flat object, in SI units. moments: about the centroid, in the plane's axes. fingerprint: of what was read."""
+
+    region: FlatRegion
+    moments: Moments
+    fingerprint: str
+
+    is_display_mesh = False
+    has_surface = True
+
+    @property
+    def rotation(self) -> NDArray[np.float64]:
+        """(3, 3) the object frame's axes."""
+        return self.region.rotation
+
+    @property
+    def axes(self) -> NDArray[np.float64]:
+        """(3, 3) of the plane: x, y and the normal as columns."""
+        return self.region.plane.axes
+
+    @property
+    def center(self) -> NDArray[np.float64]:
+        """(3,) the centroid, in the world."""
+        return self.region.plane.origin + self.axes @ self.moments.about
+
+    @property
+    def size(self) -> float:
+        """The radius of gyration."""
+        return float(np.sqrt((self.moments[2, 0, 0] + self.moments[0, 2, 0]) / self.moments.total))
+
+    @cached_property
+    def corners(self) -> NDArray[np.float64]:
+        """(k, 2) about the centroid, in the plane."""
+        return self.region.used - self.moments.about[:2]
+
+    @property
+    def radius(self) -> float:
+        """Of the disc about the centroid that just holds the shape."""
+        return float(np.hypot(*self.corners.T).max())
+
+    def zernike(self, radius: float) -> NDArray[np.complex128]:
+        """`disc_zernike` in a disc about the centroid, to POSE_ORDER."""
+        return disc_zernike(self.moments.truncate(POSE_ORDER), radius)
+
+    def signature(self, order: int = MAX_DISC_ORDER) -> Signature:
+        """Its numbers, with descriptors to an order."""
+        # At about unit size, for high powers of a length are soon beyond the range of numbers.
+        scale = 2.0 ** np.frexp(self.radius)[1]
+        moments = self.moments.truncate(min(order, MAX_DISC_ORDER))
+        degree = monomials(moments.order).sum(axis=1)
+        scaled = Moments(moments.raw / scale ** (degree + 2.0), np.zeros(3), moments.measure)
+        found = flat_signature(scaled, self.radius / scale)
+        return Signature(
+            found.size * scale,
+            found.invariants,
+            found.zernike,
+            found.fourier,
+            found.chirality,
+            found.error,
+            found.dimension,
+        )
+
+    def pieces(self) -> Iterator[Surface]:
+        """A wall along the outline, across the plane, as high as the shape is large: in the plane it is as far away
+        as the outline."""
+        ends = self.region.points[self.region.edges] - self.moments.about[:2]  # (m, 2 ends, 2)
+        count, height = len(ends), self.size
+        low, high = (np.insert(ends.reshape(-1, 2), 2, side * height, axis=1) for side in (-1.0, 1.0))
+        points = np.concatenate([low, high]) @ self.axes.T + self.center
+        a, b = 2 * np.arange(count), 2 * np.arange(count) + 1
+        above = 2 * count
+        triangles = np.concatenate([np.stack([a, b, b + above], axis=1), np.stack([a, b + above, a + above], axis=1)])
+        yield Surface.from_triangles(points, triangles)
+
+    def match(self, target: FlatShape, residual: Residual) -> RigidMatch:
+        """How this shape lies on another one, front on front. residual: as for `match_flat`."""
+        ratio = target.size / self.size  # of other sizes turns are found too
+        radius = max(target.radius, ratio * self.radius)
+        turned = self.zernike(radius / ratio), target.zernike(radius)
+        return match_flat(*turned, (self.axes, target.axes), residual, target.size)
+
+    def find_symmetries(self, skin: SurfaceDistance, tolerance: float) -> tuple[Symmetry, Symmetry]:
+        """What the outline confirms, and what the moments allow. tolerance: by the size."""
+        zernike, near = self.zernike(self.radius), tolerance * self.size
+
+        def distance(points: NDArray) -> NDArray[np.float64]:
+            return skin.distance(points @ self.axes.T + self.center, within=near)
+
+        outline = holds_by_outline((skin.points - self.center) @ self.axes, distance, near)
+        moments = holds_by_moments(zernike, POSE_ORDER, max(NOISE_LEVEL, tolerance))
+        find = partial(flat_symmetry, zernike, POSE_ORDER, self.corners, self.axes)
+        return find(outline), find(moments)
+
+
+class OutlineDistance(SurfaceDistance):
+    """A flat shape's outline, to hold points of its plane against."""
+
+    def __init__(self, shape: FlatShape):
+        super().__init__(shape)
+        ends = shape.region.points[shape.region.edges] - shape.moments.about[:2]
+        middles = ends.mean(axis=1)
+        far = np.argsort((shape.corners**2).sum(axis=1), kind="stable")[-SURFACE_SAMPLES // 10 :]
+        flat = np.concatenate([shape.corners[far], _thinned(shape.corners), _thinned(middles)])
+        self.points = np.insert(flat, 2, 0.0, axis=1) @ shape.axes.T + shape.center
+
+
+def _thinned(points: NDArray) -> NDArray[np.float64]:
+    return points[np.linspace(0, len(points) - 1, min(len(points), SURFACE_SAMPLES // 2)).astype(int)]
+
+
+def distance_from(shape: Shape | FlatShape) -> SurfaceDistance:
+    """What points are held against."""
+    return OutlineDistance(shape) if isinstance(shape, FlatShape) else SurfaceDistance(shape)
+
+
+def flat_shape_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, unit: float | None = None) -> FlatShape:
+    """Return a flat object's shape. Raises MeasureError where it is not flat, or its outlines cross."""
+    region = flat_region(obj, depsgraph, selected=False, resolution=OUTLINE_RESOLUTION, exact=False, unit=unit)
+    mark = fingerprint(region.points.tobytes(), matrix_hash(obj), settings_hash(obj, depsgraph.scene))
+    try:
+        shape = FlatShape(region, region.moments(MAX_DISC_ORDER), mark)
+    except MeasureError as error:
+        error.about(obj.name)
+        raise
+    if np.finfo(np.float64).eps * np.abs(shape.center).max() > EXACT_DISTANCE * shape.size:
+        raise ReadError("shape_far_from_origin", subject=obj.name)
+    return shape
+
+
+BodyShape = TypeVar("BodyShape")
+
+
+def comparable_shape_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, flat: bool = False) -> Shape | FlatShape:
+    """Return an object's shape: of its body, or where it has none of what is flat.
+
+    flat: whether it is to be compared with a flat shape, and a sheet is looked at as one too. Raises MeasureError.
+    """
+    return body_or_flat(obj, depsgraph, partial(surface_shape_of, depsgraph=depsgraph), flat)
+
+
+def body_or_flat(
+    obj: bpy.types.Object,
+    depsgraph: bpy.types.Depsgraph,
+    of_body: Callable[[bpy.types.Object], BodyShape],
+    flat: bool,
+) -> BodyShape | FlatShape:
+    """As `comparable_shape_of`, by a function that finds the shape of an object's body, or raises MeasureError."""
+    if flat:
+        with suppress(MeasureError):
+            return flat_shape_of(obj, depsgraph)
+    try:
+        return of_body(obj)
+    except MeasureError as refusal:
+        if refusal.finding.code not in NO_BODY:
+            raise
+        try:
+            return flat_shape_of(obj, depsgraph)
+        except MeasureError as error:
+            raise clearer_refusal(refusal, error) from None

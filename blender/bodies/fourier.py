@@ -1,0 +1,137 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The Fourier transform of an object: read and repaired as it is measured, then handed to the core."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Generator
+from dataclasses import dataclass
+from typing import ClassVar
+
+import bpy
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core.fourier.instances import FOURIER_RTOL, BodyTransform
+from ...core.fourier.spectrum import APPROXIMATE, Spectrum
+from ...core.fourier.wave_vectors import FrequencyGrid
+from ...core.mesh.surface import Surface
+from ...core.moments.moments import Measure
+from ...core.verdict.finding import Finding, MeasureError, ReadError, finding
+from ...core.verdict.method import Verdict
+from ..read import Reading, read_object, shows_flat_region
+from ..read.reading import to_si
+from ..settings.density import density_field
+from ..settings.options import MeasureOptions, ResolvedOptions
+from .mesh.mesh import mesh_body
+from .request import with_object_settings
+
+
+@dataclass(frozen=True)
+class ObjectTransform:
+    """An object's transform, in SI units: `steps` does the work, `result` gives the outcome. factor: the thickness of
+    a shell, else 1. findings: as in `Measurement`."""
+
+    name: str
+    transform: BodyTransform
+    factor: float
+    findings: tuple[Finding, ...]
+    arrays: ClassVar[None] = None  # a `FlatTransform` has those of its plane
+
+    def steps(self) -> Generator[float, None, None]:
+        """Do the work. Yields the fraction done. Raises MeasureError."""
+        try:
+            yield from self.transform.steps()
+        except MeasureError as error:
+            error.about(self.name)
+            raise
+
+    def result(self) -> tuple[Spectrum, tuple[Finding, ...]]:
+        """The spectrum, and a finding for each decision that was taken."""
+        spectrum = self.transform.result().scale(self.factor)
+        findings = self.findings
+        if spectrum.method == APPROXIMATE:
+            findings += (finding("fourier_approximate", share=FOURIER_RTOL),)
+        return spectrum, findings
+
+
+def object_transform(
+    obj: bpy.types.Object,
+    depsgraph: bpy.types.Depsgraph,
+    options: MeasureOptions,
+    q: NDArray | FrequencyGrid | Callable[[float], FrequencyGrid],
+    *,
+    frame: str = "world",
+    area: bool = False,
+) -> ObjectTransform:
+    """The transform of one object as it is evaluated.
+
+    q: rad/m, (M, 3) or a grid, along the axes of the frame, "world" or "object"; or what makes a grid from the body's
+    largest extent in m. area: ∫ exp(-i q·x) dA over its faces, in m²; else of what it is measured as, in m³:
+    ∫ exp(-i q·x) dV of a solid, and thickness times ∫ exp(-i q·x) dA of a shell.
+    Raises MeasureError where there is no transform.
+    """
+    unit = options.meters_per_unit(depsgraph.scene)
+    resolved = with_object_settings(options, obj, unit, depsgraph.scene)
+    reading = read_object(obj, depsgraph)
+    shell = resolved.kind == "shell"
+    try:
+        body = mesh_body(reading, unit, shell=shell, union=resolved.overlap == "union", threads=resolved.threads)
+        if area or shell:
+            if shell and not area:
+                _require_thin(resolved)
+            parts = [(part.surface, to_si(part.matrices, unit)) for part in reading.parts]
+            of, total = Measure.AREA, body.area.total
+        else:
+            if resolved.kind == "wire":
+                raise ReadError("fourier_of_wire")
+            if body.method.verdict == Verdict.OPEN:
+                raise ReadError("fourier_of_open_surface")
+            parts = [(solid.repaired_surface, matrices) for solid, matrices in body.solids]
+            of, total = Measure.VOLUME, body.volume.total
+        if frame == "object":
+            turn = _to_object(reading, unit)
+            parts = [(surface, turn @ matrices) for surface, matrices in parts]
+        if callable(q):
+            q = q(_extent(parts))
+        transform = BodyTransform(parts, q, of, total, resolved.threads)
+        varies = not area and density_field(obj.body_moments) is not None
+    except MeasureError as error:
+        error.about(obj.name)
+        raise
+    factor = resolved.thickness if shell and not area else 1.0
+    findings = [*reading.findings, *body.findings]
+    if reading.has_patches or (obj.type == "CURVE" and shell and shows_flat_region(obj)):
+        findings.append(finding("fourier_of_display_mesh"))
+    if varies:
+        findings.append(finding("fourier_of_uniform_density"))
+    return ObjectTransform(obj.name, transform, factor, tuple(findings))
+
+
+def _require_thin(options: ResolvedOptions) -> None:
+    if options.wall != "thin":
+        raise ReadError("fourier_of_wall")
+    if not options.thickness > 0.0:
+        raise ReadError("no_thickness")
+
+
+def _extent(parts: list[tuple[Surface, NDArray]]) -> float:
+    """The longest side of the box around all boxes around the parts."""
+    low, high = np.full(3, np.inf), np.full(3, -np.inf)
+    for surface, matrices in parts:
+        box, linear = np.array(surface.box, np.float64), matrices[:, :3, :3]
+        center = linear @ box.mean(axis=0) + matrices[:, :3, 3]
+        extent = np.abs(linear) @ (np.ptp(box, axis=0) / 2.0)
+        low, high = np.minimum(low, (center - extent).min(axis=0)), np.maximum(high, (center + extent).max(axis=0))
+    size = float((high - low).max())
+    if not 0.0 < size < np.inf:
+        raise ReadError("fourier_no_extent")
+    return size
+
+
+def _to_object(reading: Reading, unit: float) -> NDArray[np.float64]:
+    """(4, 4) from the world to the object frame."""
+    turn = np.eye(4)
+    turn[:3, :3] = np.asarray(reading.rotation, np.float64).T
+    turn[:3, 3] = -turn[:3, :3] @ np.asarray(reading.location, np.float64) * unit
+    return turn

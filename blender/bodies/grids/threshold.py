@@ -1,0 +1,166 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The body where the values of a grid are at least a threshold."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from typing import ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ....core.density.smooth_threshold import smooth_threshold_body
+from ....core.density.threshold import ThresholdBody, threshold_body
+from ....core.moments.moments import Moments
+from ....core.verdict.finding import Finding, ReadError, finding
+from ....core.verdict.health import MeshHealth
+from ....core.verdict.method import Method, Source, Verdict
+from ...read.grids.volume import VolumeReading
+from ...read.reading import to_si
+from ...settings.grid import GridOptions
+from ..body import KNOWN_ORDER, MAX_MASS_MOMENT, Body
+
+MAX_SAMPLES = 1 << 29  # of the box that holds the grid
+PREVIEW_CELLS = 1 << 18  # of a grid that follows a slider
+TRILINEAR = 2
+
+
+@dataclass(frozen=True, eq=False)
+class ThresholdGrid:
+    """The values of a grid, dense, and where they stand.
+
+    Attributes
+    ----------
+    name : str
+    values : (nx, ny, nz) array
+    matrix : (4, 4) array
+        The value (i, j, k) stands at matrix @ (i, j, k, 1), in meters.
+    background : float, optional
+        What is beyond the grid; None where nothing is known of it.
+    value : callable, optional
+        Converts a block of them, where they stand for others.
+    """
+
+    name: str
+    values: NDArray
+    matrix: NDArray[np.float64]
+    background: float | None
+    value: Callable[[NDArray], NDArray[np.float64]] | None = None
+
+    def coarse(self) -> ThresholdGrid:
+        """Every second, third, … value of each axis, so that few enough are left to follow a slider."""
+        step = int(np.ceil((self.values.size / PREVIEW_CELLS) ** (1.0 / 3.0)))
+        if step <= 1:
+            return self
+        return replace(
+            self, values=self.values[::step, ::step, ::step], matrix=self.matrix @ np.diag([step, step, step, 1.0])
+        )
+
+    def set_above(self, options: GridOptions, order: int, preview: bool = False) -> ThresholdBody:
+        """Return the moments of the body where the values are at least the threshold."""
+        assert options.threshold is not None
+        threshold = options.threshold
+        if options.spline_order > TRILINEAR and not preview:
+            values = self.values if self.value is None else self.value(self.values)
+            return smooth_threshold_body(
+                values, threshold, options.spline_order, order, self.matrix, self.background, options.filled
+            )
+        return threshold_body(
+            self.values, threshold, order, self.matrix, self.background, options.filled, preview, self.value
+        )
+
+    def largest(self) -> float:
+        """Return the largest value, NaN where there is none."""
+        slabs = self.values if self.value is None else map(self.value, self.values)
+        return max((float(np.nanmax(slab)) for slab in slabs if slab.size), default=float("nan"))
+
+
+@dataclass(frozen=True, eq=False)
+class ThresholdGridBody(Body):
+    """Where the values of a grid are at least a threshold.
+
+    Attributes
+    ----------
+    grid : ThresholdGrid
+    options : GridOptions
+    """
+
+    any_order: ClassVar[bool] = True
+
+    grid: ThresholdGrid = field(kw_only=True)
+    options: GridOptions = GridOptions()
+
+    def moments(self, order: int, area: bool) -> tuple[Moments, Moments | None]:
+        """Return the moments of the body, and of the surface on which the values are the threshold."""
+        above = self.grid.set_above(replace(self.options, filled=False), order)
+        return above.volume, above.area if area else None
+
+
+def threshold_grid(reading: VolumeReading, unit: float) -> ThresholdGrid:
+    """Return the values of a grid as one array. unit: meters per Blender unit.
+
+    Raises
+    ------
+    ReadError
+        Where there are too many.
+    """
+    if reading.level_set:
+        raise ReadError("grid_is_level_set", grid=reading.grid)
+    samples = int(np.prod(reading.shape, dtype=np.float64))
+    if samples > MAX_SAMPLES:
+        raise ReadError("threshold_too_large", grid=reading.grid, samples=samples)
+    values = np.full(reading.shape, reading.background, np.float32)
+    for (i, j, k), block in reading.blocks():
+        if block.dtype.itemsize > 4:
+            values = values.astype(np.float64, copy=False)
+        values[i : i + block.shape[0], j : j + block.shape[1], k : k + block.shape[2]] = block
+    first = np.eye(4)
+    first[:3, 3] = reading.low
+    matrix = to_si(reading.matrix[None], unit)[0] @ reading.to_object @ first
+    return ThresholdGrid(reading.grid, values, matrix, float(reading.background))
+
+
+def threshold_grid_body(
+    grid: ThresholdGrid, options: GridOptions, preview: bool = False, order: int = KNOWN_ORDER
+) -> ThresholdGridBody:
+    """Return the body where the values of a grid are at least a threshold. order: to which the mass is wanted.
+
+    Raises
+    ------
+    MeasureError
+        Where there is none, or its density is not known.
+    """
+    if options.filled and options.table:
+        raise ReadError("threshold_needs_factor")
+    above = grid.set_above(options, KNOWN_ORDER, preview)
+    if not above.volume.total > 0.0:
+        raise ReadError("threshold_not_reached", grid=grid.name, threshold=options.threshold, largest=grid.largest())
+    mass = None if above.mass is None else above.mass * options.value_density
+    if mass is not None and not np.abs(mass.raw).max() < MAX_MASS_MOMENT:
+        raise ReadError("mass_overflow")
+    if mass is not None and not mass.total > 0.0:
+        raise ReadError("grid_empty")
+    higher = None
+    if mass is not None and order > KNOWN_ORDER:
+        weighed = grid.set_above(options, order).mass
+        higher = None if weighed is None else weighed * options.value_density
+    return ThresholdGridBody(
+        above.volume,
+        above.area,
+        MeshHealth(closed=not above.clipped),
+        Method(Verdict.EXACT, Source.GRID),
+        _findings(grid, options, above),
+        mass=mass,
+        higher_mass=higher,
+        density_from=None if mass is None else finding("density_from_grid", grid=grid.name),
+        estimated=True,
+        grid=grid,
+        options=options,
+    )
+
+
+def _findings(grid: ThresholdGrid, options: GridOptions, above: ThresholdBody) -> tuple[Finding, ...]:
+    measured = finding("threshold_measured", grid=grid.name, threshold=options.threshold, cells=above.cut_cells)
+    return (measured, finding("threshold_clipped", grid=grid.name)) if above.clipped else (measured,)

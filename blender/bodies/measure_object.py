@@ -1,0 +1,86 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Measuring objects: the first kind of body that reads one, its body, and the measurement of that.
+
+`measure_object` is the way of one object by itself. Of many, `many` measures together what can be, with the same
+numbers, and sends the others here.
+"""
+
+from __future__ import annotations
+
+import os
+from contextlib import ExitStack
+from dataclasses import dataclass
+
+import bpy
+
+from ...core.inertia.mass_properties import MassProperties
+from ...core.measurement.measurement import Measurement
+from ...core.verdict.finding import Finding, MeasureError
+from ...core.verdict.method import Method
+from ..read import Reading
+from ..read.grids.volume import VolumeReading
+from ..settings.options import AS_SET, MeasureOptions
+from .assembly.given import point_measurement, read_point, with_given
+from .body import Body
+from .kinds import KINDS
+from .measurement import measurement_of
+from .request import Request
+
+THREADS = os.cpu_count() or 1  # for what takes long
+
+
+@dataclass(frozen=True, eq=False)
+class Measured:
+    """One object's measurement, and what it was made from."""
+
+    measurement: Measurement
+    reading: Reading | VolumeReading
+    body: Body
+
+    @property
+    def findings(self) -> tuple[Finding, ...]:
+        """The measurement's findings."""
+        return self.measurement.findings
+
+    @property
+    def mass_properties(self) -> MassProperties:
+        """The measurement's mass properties."""
+        return self.measurement.mass_properties
+
+    @property
+    def method(self) -> Method:
+        """The measurement's method."""
+        return self.measurement.method
+
+
+def measure_object(
+    obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, options: MeasureOptions = AS_SET
+) -> Measurement:
+    """Return the mass properties of one object as it is evaluated, in SI units and world axes.
+
+    Raises
+    ------
+    MeasureError
+        Where there is nothing to measure.
+    """
+    return measure_body(obj, depsgraph, options).measurement
+
+
+def measure_body(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, options: MeasureOptions = AS_SET) -> Measured:
+    """Return the same as `measure_object`, with what was read and the body that was measured."""
+    try:
+        with ExitStack() as opened:
+            request = Request.of(obj, depsgraph, options, opened=opened)
+            point = read_point(request)
+            if point is not None:
+                measurement, body = point_measurement(point, request)
+                return Measured(measurement, point, body)
+            kinds = (kind for kind in KINDS if request.options.kind in kind.MEASURED_AS)
+            found = ((kind, kind.read(request)) for kind in kinds)
+            kind, reading = next((kind, reading) for kind, reading in found if reading is not None)  # the last refuses
+            body = with_given(kind.body(reading, request), reading, request)
+            return Measured(measurement_of(reading, body, request), reading, body)
+    except MeasureError as error:
+        error.about(obj.name)
+        raise

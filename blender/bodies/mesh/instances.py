@@ -1,0 +1,163 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Instances of one surface: mapped areas, overlaps, the health and findings of all together."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import fields, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ....core.mesh.boxes import boxes_overlap
+from ....core.mesh.surface import Surface
+from ....core.moments.affine_maps import are_similarities, distinct_linear_parts, translation_matrices
+from ....core.moments.images import sum_of_images
+from ....core.moments.moments import Moments
+from ....core.polyhedron.sheared_areas import area_of_images
+from ....core.solid.instance_overlaps import PlaceComparison
+from ....core.solid.solid_verdict import SolidIntegrals
+from ....core.verdict.finding import Finding, finding
+from ....core.verdict.health import DefectiveElements, Intersection, MeshHealth
+from ...read import Reading
+
+
+def singular_reason(reading: Reading) -> Finding:
+    """Why nothing of a singular reading encloses anything."""
+    return finding("zero_scale" if reading.is_singular else "all_instances_zero_scale")
+
+
+def singular_instances_message(count: int) -> Finding:
+    """That so many instances enclose nothing."""
+    return finding("instances_zero_scale", count=count)
+
+
+def not_compared(reading: Reading) -> Finding:
+    """That nobody looked for overlap between the instances."""
+    return finding("instance_overlap_unchecked", count=reading.instance_count)
+
+
+def findings_by_part(parts: Iterable[tuple[str, Iterable[Finding]]], whole: str) -> list[Finding]:
+    """The findings of several parts, as (name of the surface's object, findings). Equal ones, about the same elements,
+    are one that names all their sources. Of a part that is all of the object `whole` they stay as they are."""
+    parts = list(parts)
+    if len(parts) == 1 and parts[0][0] in ("", whole):
+        return each_once(parts[0][1])
+    merged: dict[tuple, tuple[Finding, dict[str, None]]] = {}
+    for name, findings in parts:
+        for result in findings:
+            merged.setdefault(_identity(result), (result, {}))[1][name or whole] = None
+    return [result.of_sources(list(names)) for result, names in merged.values()]
+
+
+def each_once(findings: Iterable[Finding]) -> list[Finding]:
+    """The findings in their order, without those that say the same of the same elements."""
+    return list({_identity(result): result for result in findings}.values())
+
+
+def _identity(result: Finding) -> tuple[Finding, object]:
+    elements = result.elements
+    return result, elements.tobytes() if isinstance(elements, np.ndarray) else repr(elements)
+
+
+def overlap_findings(reading: Reading, solids: Sequence[SolidIntegrals], comparison: PlaceComparison) -> list[Finding]:
+    """What is reported of places that have something in common: faces as [face, source], each once."""
+    findings = []
+    nested = "components_nested_slightly" if comparison.nested_slightly else "components_nested"
+    overlap = "components_overlap_slightly" if comparison.overlapping_slightly else "components_overlap"
+    for code, components in ((nested, comparison.nested), (overlap, comparison.overlapping)):
+        if len(components):
+            elements = []
+            for which in np.unique(components[:, 0]):
+                parts, name = solids[which].parts(), reading.parts[which].source_object_name or reading.name
+                of_these = np.isin(parts.part, components[components[:, 0] == which, 1]) & (parts.face >= 0)
+                elements += [[face, name] for face in np.unique(parts.face[of_these]).tolist()]
+            findings.append(finding(code, elements, count=len(components)))
+    if comparison.undecided_pairs:
+        findings.append(finding("overlap_unchecked", count=comparison.undecided_pairs))
+    return findings
+
+
+def with_overlaps(health: MeshHealth, comparison: PlaceComparison) -> MeshHealth:
+    """The health with the components that are in others, or overlap others, in another place."""
+    return replace(
+        health,
+        nested_components=health.nested_components + len(comparison.nested),
+        overlapping_components=health.overlapping_components + len(comparison.overlapping),
+    )
+
+
+def instances_overlap(reading: Reading) -> bool:
+    """Whether the boxes around any two of the places where parts stand share more than a boundary."""
+    return boxes_overlap(*_boxes(reading))
+
+
+def instances_size(reading: Reading) -> float:
+    """The diagonal of the box around all places, in Blender units."""
+    centers, extents = _boxes(reading)
+    return float(np.linalg.norm((centers + extents).max(axis=0) - (centers - extents).min(axis=0)))
+
+
+def _boxes(reading: Reading) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """(k, 3) and (k, 3) the middles of the boxes around the places where parts stand, and half their sides."""
+    centers, extents = [], []
+    for part in reading.parts:
+        low, high = part.surface.box
+        linear = part.matrices[:, :3, :3]
+        centers.append(linear @ ((low + high) / 2.0) + part.matrices[:, :3, 3])
+        extents.append(np.abs(linear) @ ((high - low) / 2.0))
+    return np.concatenate(centers), np.concatenate(extents)
+
+
+def area_of_instances(
+    surface: Surface, area: Moments, matrices: NDArray, measured: Callable[[Surface], Moments] | None
+) -> Iterator[Moments]:
+    """The area moments of a surface's images. They do not follow a map that stretches unevenly, so there the mapped
+    surface is `measured`, once for each different map; with None, only the area itself is wanted."""
+    if measured is None:
+        even = are_similarities(matrices[:, :3, :3])
+        if even.any():
+            yield sum_of_images(area, matrices[even])
+        if not even.all():
+            yield area_of_images(surface, matrices[~even, :3, :3])
+        return
+    for image, matrices_of_image, _ in group_by_similarity(surface, matrices):
+        yield sum_of_images(area if image is surface else measured(image), matrices_of_image)
+
+
+def group_by_similarity(surface: Surface, matrices: NDArray) -> Iterator[tuple[Surface, NDArray, NDArray]]:
+    """A surface's images as images under similarities: the surface itself or mapped ones, one for each different uneven
+    map, with the (j, 4, 4) maps that are left and which of `matrices` they stand for, (j,)."""
+    even = are_similarities(matrices[:, :3, :3])
+    if even.any():
+        yield surface, matrices[even], np.flatnonzero(even)
+    if even.all():
+        return
+    rest = np.flatnonzero(~even)
+    for linear, members in distinct_linear_parts(matrices[rest]):
+        yield surface.transform(linear), translation_matrices(matrices[rest[members], :3, 3]), rest[members]
+
+
+def merge_health(healths: Iterable[tuple[MeshHealth, int, float]]) -> MeshHealth:
+    """One verdict for all parts, each with the number of its instances and the area of all of them: counts add; faults
+    are named where there is one part only."""
+    healths = list(healths)
+    first, copies, _ = healths[0]
+    if len(healths) == 1 and copies == 1:
+        return first
+    area = sum(part_area for *_, part_area in healths)
+    total = {
+        "defective_elements": DefectiveElements(),
+        "closed": all(h.closed for h, *_ in healths),
+        "welded": any(h.welded for h, *_ in healths),
+        "self_intersection": min((h.self_intersection for h, *_ in healths), key=list(Intersection).index),
+        "volume_spread": sum(h.volume_spread for h, *_ in healths),
+        "cap_area_share": sum(h.cap_area_share * part_area for h, _, part_area in healths) / area
+        if area > 0.0
+        else 0.0,
+    }
+    for field in fields(MeshHealth):
+        if field.name not in total:
+            total[field.name] = sum(getattr(h, field.name) * k for h, k, _ in healths)
+    return MeshHealth(**total)

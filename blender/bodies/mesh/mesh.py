@@ -1,0 +1,243 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The body that polygons bound, with all its instances: each surface is measured once and mapped to its places."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ....core.mesh.surface import Surface, join_surfaces, normals
+from ....core.moments.images import sum_of_images
+from ....core.moments.moments import Moments, sum_moments
+from ....core.polyhedron import polyhedron_moments
+from ....core.solid.instance_overlaps import compare_places
+from ....core.solid.measure import SolidIntegrals, measure_solid
+from ....core.verdict.finding import Finding, ReadError, finding
+from ....core.verdict.health import MeshHealth
+from ....core.verdict.method import Method, Verdict, least_trusted
+from ....core.verdict.tolerances import NEGLIGIBLE
+from ...read import Part, Reading, shows_flat_region
+from ...read.reading import to_si
+from ...read.union import union_surface
+from ..body import Body, MeshBody, triangle_count
+from ..density.varying_density import weigh
+from ..request import Request
+from ..wall import find_walls
+from .instances import (
+    area_of_instances,
+    findings_by_part,
+    instances_overlap,
+    instances_size,
+    merge_health,
+    not_compared,
+    overlap_findings,
+    singular_instances_message,
+    singular_reason,
+    with_overlaps,
+)
+
+MEASURED_AS = frozenset({"solid", "shell"})
+
+MAX_COMPARED_TRIANGLES = 200_000  # triangles up to which instances are compared with each other
+DRAWN_CODES = ("surface_drawn_as_polygons", "curves_drawn_as_polygons")
+
+
+def read(request: Request) -> Reading | None:
+    """Return the polygons that an object shows; None where patches are better, which have one density. Raises
+    MeasureError where it shows none."""
+    reading, density, obj = request.surfaces, request.density, request.obj
+    if reading.has_patches:
+        if density is None:
+            return None
+        reading.findings.append(finding("display_mesh_for_density"))
+    elif density is not None and request.options.kind == "shell" and obj.type == "CURVE" and shows_flat_region(obj):
+        reading.findings.append(finding("curve_fill_for_density"))
+    return reading
+
+
+def body(reading: Reading, request: Request) -> Body:
+    """Return what polygons bound, weighed and with walls as the settings want it. Raises MeasureError where there is
+    nothing to measure."""
+    options = request.options
+    shell = options.kind == "shell"
+    made = mesh_body(reading, request.unit, shell=shell, union=options.overlap == "union", threads=options.threads)
+    if request.density is not None:
+        made = weigh(reading, made, request)
+    if shell and options.wall != "thin":
+        return find_walls(reading, made, options.wall).body(options.thickness)
+    return made
+
+
+def mesh_body(reading: Reading, unit: float, *, shell: bool, union: bool, threads: int) -> MeshBody:
+    """What an object's surfaces bound, or with `shell` the sheets that they are.
+
+    unit: meters per Blender unit. union: shells that overlap are united first. MeasureError where there is nothing to
+    measure.
+    """
+    if shell:
+        return _sum_of_instances(reading, unit, True, threads)
+    flat = reading.singular_instance_count
+    if flat == reading.instance_count:
+        raise ReadError(singular_reason(reading))
+    made = _boolean_union(reading, unit, threads) if union else _sum_of_instances(reading, unit, False, threads)
+    return replace(made, findings=(singular_instances_message(flat), *made.findings)) if flat else made
+
+
+def _sum_of_instances(reading: Reading, unit: float, shell: bool, threads: int) -> MeshBody:
+    """Each part measured once in its own coordinates, and mapped to wherever it stands."""
+    volumes, areas, healths, verdicts, by_part, parts = [], [], [], [], [], []
+    drawn = _drawn(reading)
+    for part in reading.parts:
+        solid = measure_solid(part.surface, shell=shell, threads=threads)
+        matrices = to_si(part.matrices, unit)
+        volumes.append(sum_of_images(solid.volume, matrices))
+        image_areas = list(area_of_instances(part.surface, solid.area, matrices, _area(threads) if shell else None))
+        areas.extend(image_areas)
+        total = float(solid.volume.raw[0])
+        stretch = float(volumes[-1].raw[0]) / total if total else 0.0  # Σ |det|
+        healths.append(
+            (
+                replace(solid.health, volume_spread=solid.health.volume_spread * stretch),
+                len(matrices),
+                sum([float(moments.raw[0]) for moments in image_areas]),
+            )
+        )
+        flat = not shell and not solid.volume.raw.any()
+        verdicts.append(None if flat else Verdict(solid.method))
+        by_part.append((part.source_object_name, _part_findings(part, solid, shell, flat, drawn)))
+        parts.append((solid, matrices))
+    findings = findings_by_part(by_part, reading.name)
+    health = merge_health(healths)
+    if not shell and instances_overlap(reading):
+        if sum(triangle_count(part.surface) * len(part.matrices) for part in reading.parts) <= MAX_COMPARED_TRIANGLES:
+            comparison = compare_places(parts)
+            findings += overlap_findings(reading, [solid for solid, _ in parts], comparison)
+            health = with_overlaps(health, comparison)
+        else:
+            findings.append(not_compared(reading))
+    of_solids = [verdict for verdict in verdicts if verdict]
+    if of_solids and len(of_solids) < len(verdicts):
+        flat_area = sum([area for (_, _, area), verdict in zip(healths, verdicts) if verdict is None])
+        slight = flat_area * unit * instances_size(reading) < NEGLIGIBLE * float(sum_moments(volumes).total)
+        code = "flat_instance_sources_slightly" if slight else "flat_instance_sources"
+        findings.append(finding(code, count=verdicts.count(None), total=len(verdicts)))
+    return MeshBody(
+        sum_moments(volumes),
+        sum_moments(areas),
+        health,
+        Method(of_solids[0] if len(of_solids) == 1 else least_trusted(of_solids)),
+        tuple(findings),
+        face_count=sum(
+            [len(solid.repaired_surface.triangles) + len(solid.repaired_surface.quads) for solid, _ in parts]
+        ),
+        solids=tuple(parts),
+        sheets=tuple([part.surface for part in reading.parts]),
+        threads=threads,
+    )
+
+
+def _part_findings(part: Part, solid: SolidIntegrals, shell: bool, flat: bool, drawn: set[str]) -> list[Finding]:
+    """What is reported of one surface. A sheet is measured as it is."""
+    if shell:
+        copies = solid.health.defective_elements.duplicate_faces
+        return [_copies_of_shell(part.surface, copies)] if len(copies) else []
+    return [] if flat else _of_drawn(solid.findings, [part], drawn)
+
+
+def _copies_of_shell(surface: Surface, copies: NDArray[np.integer]) -> Finding:
+    triangles, faces = surface.all_triangles()
+    area = np.linalg.norm(normals(surface.points.astype(np.float64), triangles), axis=1)
+    slight = area[np.isin(faces, copies)].sum() < NEGLIGIBLE * area.sum()
+    code = "duplicate_faces_of_shell_slightly" if slight else "duplicate_faces_of_shell"
+    return finding(code, copies, count=len(copies))
+
+
+def _area(threads: int) -> Callable[[Surface], Moments]:
+    """What measures the area of a mapped surface."""
+
+    def measured(surface: Surface) -> Moments:
+        return polyhedron_moments(surface, area_order=3, threads=threads, allow_open=True)[1]
+
+    return measured
+
+
+def _single_surface_body(
+    volume: Moments,
+    area: Moments,
+    health: MeshHealth,
+    verdict: Verdict,
+    findings: Iterable[Finding],
+    solid: SolidIntegrals,
+    matrix: NDArray[np.float64],
+    surface: Surface,
+    threads: int,
+) -> MeshBody:
+    """The body of one surface in one place."""
+    solids = [(solid, matrix[None])]
+    return MeshBody(
+        volume,
+        area,
+        health,
+        Method(verdict),
+        tuple(findings),
+        face_count=len(solid.repaired_surface.triangles) + len(solid.repaired_surface.quads),
+        solids=tuple(solids),
+        sheets=(surface,),
+        threads=threads,
+    )
+
+
+def _drawn(reading: Reading) -> set[str]:
+    """The sources of which Blender draws polygons in place of something round."""
+    results = [result for result in reading.findings if result.code in DRAWN_CODES]
+    return {name for result in results for name in result.values.get("sources", ["", reading.name])}
+
+
+def _of_drawn(findings: Iterable[Finding], parts: Iterable[Part], drawn: set[str]) -> list[Finding]:
+    """How polygons are cut that stand for something round matters less than that they do."""
+    if not drawn.issuperset([part.source_object_name for part in parts]):
+        return list(findings)
+    of_display_mesh = "non_planar_faces_of_display_mesh"
+    return [
+        replace(result, code=of_display_mesh) if result.code == "non_planar_faces" else result for result in findings
+    ]
+
+
+def _boolean_union(reading: Reading, unit: float, threads: int) -> MeshBody:
+    """All parts where they stand as one surface, overlaps removed by Blender's exact boolean."""
+    before = _sum_of_instances(reading, unit, False, threads)
+    if not before.volume.total > 0.0:
+        return before
+    repaired = [
+        solid.repaired_surface.transform(matrix[:3, :3], matrix[:3, 3])
+        for solid, matrices in before.solids
+        for matrix in matrices
+    ]
+    surface = union_surface(join_surfaces(repaired))
+    solid = measure_solid(surface, threads=threads) if triangle_count(surface) else None
+    if solid is None or solid.method == Verdict.OPEN:
+        raise ReadError("union_failed")
+    findings = [finding("union_by_boolean")]
+    verdict = before.method.verdict
+    if verdict == Verdict.CAPPED:
+        slight = all(result.code != "holes_capped" for result in before.findings)
+        code = "holes_capped_before_union_slightly" if slight else "holes_capped_before_union"
+        findings.append(finding(code, share=before.health.cap_area_share))
+    elif verdict != Verdict.EXACT:
+        reoriented = verdict == Verdict.REORIENTED
+        findings.append(finding("faces_reversed_before_union" if reoriented else "open_components_united"))
+    return _single_surface_body(
+        solid.volume,
+        solid.area,
+        before.health,
+        Verdict.UNION,
+        (*findings, *_of_drawn(solid.findings, reading.parts, _drawn(reading))),
+        solid,
+        np.eye(4),
+        surface,
+        threads,
+    )

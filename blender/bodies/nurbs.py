@@ -1,0 +1,303 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The body that B-spline patches bound, measured from their control points instead of their display mesh.
+
+Volumes are measured once for each surface and mapped to its places. Areas, and sheets of real thickness, do not follow
+a map that stretches unevenly: there the control points are mapped, for each different map.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from contextlib import suppress
+from dataclasses import dataclass, field, replace
+from typing import ClassVar, cast
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core.mesh.surface import Surface
+from ...core.moments.affine_maps import are_similarities, distinct_linear_parts, translation_matrices
+from ...core.moments.images import sum_of_images
+from ...core.moments.moments import Measure, Moments, monomial_count, sum_moments
+from ...core.nurbs.creases import sharpest_crease
+from ...core.nurbs.input_error import stored_area_moments
+from ...core.nurbs.patch import Patch
+from ...core.nurbs.patch_moments import area_moments, volume_moments
+from ...core.nurbs.solid import PatchIntegrals, measure_patches, measure_sheet
+from ...core.verdict.finding import Finding, MeasureError, ReadError, finding
+from ...core.verdict.method import Method, Source, Verdict, least_trusted
+from ..read import Part, Reading
+from ..read.reading import SplineReading, to_si
+from .body import Body, MeshBody, extend_input_error
+from .mesh.instances import (
+    each_once,
+    findings_by_part,
+    instances_overlap,
+    merge_health,
+    not_compared,
+    singular_instances_message,
+    singular_reason,
+)
+from .mesh.mesh import mesh_body
+from .request import Request
+
+MEASURED_AS = frozenset({"solid", "shell"})
+
+MIN_CREASE_ANGLE = 0.02  # radians: less is what float32 leaves of a surface without
+HEIGHTS = {"inward": (-1.0, 0.0), "outward": (0.0, 1.0), "centered": (-0.5, 0.5)}  # of a wall, in thicknesses
+
+
+@dataclass(frozen=True, eq=False)
+class PatchBody(Body):
+    """What patches bound, and polygons beside them.
+
+    Attributes
+    ----------
+    reading : Reading
+        All of it. Asked for surfaces, it gives those of its display mesh.
+    pieces : tuple of (Part, PatchIntegrals, (k, 4, 4) array)
+        The parts that are patches, and the maps to where each stands.
+    polygons : MeshBody, optional
+        The other parts.
+    """
+
+    any_order: ClassVar[bool] = True
+    has_surface: ClassVar[bool] = True
+
+    reading: Reading = field(kw_only=True)
+    unit: float = field(kw_only=True)
+    pieces: tuple[tuple[Part, PatchIntegrals, NDArray[np.float64]], ...] = ()
+    polygons: MeshBody | None = None
+    threads: int = field(kw_only=True)
+
+    def moments(self, order: int, area: bool) -> tuple[Moments, Moments | None]:
+        """Return the moments to another order."""
+        volumes = [sum_of_images(_moments_to_order(measure, order), matrices) for _, measure, matrices in self.pieces]
+        areas = []
+        for part, measure, matrices in self.pieces if area else ():
+            of_part = area_moments(_patches(part), order, measure.area.about)[0]
+            areas.extend(_image_areas(part, extend_input_error(of_part, measure.area), matrices))
+        if self.polygons is not None:
+            volume, faces = self.polygons.moments(order, area)
+            volumes.append(volume)
+            areas += [faces] if faces is not None else []
+        return sum_moments(volumes), sum_moments(areas) if area else None
+
+    def surfaces(self, sheets: bool) -> Iterator[Surface]:
+        """Yield the display mesh where it stands: what asks for surfaces asks for polygons."""
+        return mesh_body(self.reading, self.unit, shell=sheets, union=False, threads=self.threads).surfaces(sheets)
+
+
+@dataclass(frozen=True, eq=False)
+class PatchSheetBody(Body):
+    """Thin sheets that are patches, and polygons beside them: `parts` and `polygons`, as in `PatchBody`."""
+
+    any_order: ClassVar[bool] = True
+
+    unit: float = field(kw_only=True)
+    parts: tuple[Part, ...] = ()
+    polygons: MeshBody | None = None
+
+    def moments(self, order: int, area: bool) -> tuple[Moments, Moments]:
+        """Return that there is no volume, and the area's moments."""
+        areas = []
+        for part in self.parts:
+            of_part = stored_area_moments(_patches(part), order, stored=_stored(part))
+            areas.extend(_image_areas(part, of_part, to_si(part.matrices, self.unit)))
+        if self.polygons is not None:
+            faces = self.polygons.moments(order, True)[1]
+            areas += [faces] if faces is not None else []
+        return Moments(np.zeros(monomial_count(order)), self.area.about, Measure.VOLUME), sum_moments(areas)
+
+
+def _patches(part: Part) -> tuple[Patch, ...]:
+    """The patches of a part that has some."""
+    return cast(SplineReading, part.splines).patches
+
+
+def _stored(part: Part) -> float:
+    return cast(SplineReading, part.splines).stored
+
+
+def read(request: Request) -> Reading:
+    """Return the surfaces of an object of one density some of whose surfaces are patches. Raises MeasureError."""
+    return request.surfaces
+
+
+def body(reading: Reading, request: Request) -> Body:
+    """Return what patches bound, or the sheets or walls that they are. Raises MeasureError where there is nothing to
+    measure."""
+    options = request.options
+    return nurbs_body(
+        reading,
+        request.unit,
+        wall=options.wall if options.kind == "shell" else None,
+        thickness=options.thickness,
+        union=options.overlap == "union",
+        threads=options.threads,
+        compare=options.compare,
+    )
+
+
+def nurbs_body(
+    reading: Reading,
+    unit: float,
+    *,
+    wall: str | None,
+    thickness: float,
+    union: bool,
+    threads: int,
+    compare: bool,
+) -> Body:
+    """What an object's surfaces bound where some of them are B-spline patches, or the sheets that they are.
+
+    unit: meters per Blender unit. wall: of a shell, as in `MeasureOptions`; None for solids. thickness: m. union:
+    shells that overlap are united, for which polygons are needed. compare: also measure what the display mesh would
+    have given. MeasureError where there is nothing to measure.
+    """
+    if wall is not None:
+        return _sheet_body(reading, unit, wall, thickness, threads)
+    if reading.all_singular:
+        raise ReadError(singular_reason(reading))
+    patch_parts, meshes = _split_parts(reading)
+    measures = [measure_patches(_patches(part), area_order=3, stored=_stored(part)) for part in patch_parts]
+    if union and (reading.instance_count > 1 or measures[0].health.components > 1):
+        united = mesh_body(reading, unit, shell=False, union=True, threads=threads)
+        return replace(united, findings=(finding("union_of_display_mesh"), *united.findings))
+    rest = mesh_body(meshes, unit, shell=False, union=False, threads=threads) if meshes.parts else None
+    pieces = [(part, measure, to_si(part.matrices, unit)) for part, measure in zip(patch_parts, measures)]
+    volume = sum_moments(
+        [
+            *(sum_of_images(measure.volume, matrices) for _, measure, matrices in pieces),
+            *([rest.volume] if rest else []),
+        ]
+    )
+    areas = [sum_moments(list(_image_areas(part, measure.area, matrices))) for part, measure, matrices in pieces]
+    healths = [(measure.health, len(part.matrices), faces.total) for (part, measure, _), faces in zip(pieces, areas)]
+    verdicts = [Verdict(measure.method) for measure in measures]
+    if rest:
+        areas.append(rest.area)
+        healths.append((rest.health, 1, rest.area.total))
+        verdicts.append(rest.method.verdict)
+    display = None
+    if compare:
+        with suppress(MeasureError):  # a display mesh that cannot be measured compares with nothing
+            display = mesh_body(reading, unit, shell=False, union=False, threads=threads).volume.total
+    return PatchBody(
+        volume,
+        sum_moments(areas),
+        merge_health(healths),
+        Method(least_trusted(verdicts), _source(reading)),
+        tuple(each_once(_solid_findings(reading, pieces, rest))),
+        display_volume=display,
+        estimated=True,
+        reading=reading,
+        unit=unit,
+        pieces=tuple(pieces),
+        polygons=rest,
+        threads=threads,
+    )
+
+
+def _solid_findings(
+    reading: Reading, pieces: list[tuple[Part, PatchIntegrals, NDArray]], rest: MeshBody | None
+) -> list[Finding]:
+    by_part = [(part.source_object_name, measure.findings) for part, measure, _ in pieces]
+    findings = findings_by_part(by_part, reading.name)
+    if rest:
+        findings += rest.findings
+    if reading.singular_instance_count:
+        findings.append(singular_instances_message(reading.singular_instance_count))
+    if instances_overlap(reading):
+        findings.append(not_compared(reading))
+    return findings
+
+
+def _split_parts(reading: Reading) -> tuple[list[Part], Reading]:
+    """The parts that are patches, and a reading of the others."""
+    return (
+        [part for part in reading.parts if part.splines is not None],
+        replace(reading, parts=[part for part in reading.parts if part.splines is None]),
+    )
+
+
+def _source(reading: Reading) -> Source:
+    """What was measured: NURBS where all of it are patches."""
+    return Source.NURBS if all(part.splines for part in reading.parts) else Source.POLYGONS
+
+
+def _moments_to_order(measure: PatchIntegrals, order: int) -> Moments:
+    """The volume's moments to another order."""
+    return extend_input_error(volume_moments(measure.patches, order, measure.volume.about)[0], measure.volume)
+
+
+def _image_areas(part: Part, area: Moments, matrices: NDArray) -> Iterator[Moments]:
+    """The area moments of a part's images."""
+    even = are_similarities(matrices[:, :3, :3])
+    if even.any():
+        yield sum_of_images(area, matrices[even])
+    stored = _stored(part) * float(np.linalg.norm(matrices[:, :3, :3], 2, axis=(1, 2)).max())
+    for patches, translations_of_image in _distinct_images(_patches(part), matrices[~even]):
+        yield sum_of_images(stored_area_moments(patches, area.order, stored=stored), translations_of_image)
+
+
+def _sheet_body(reading: Reading, unit: float, wall: str, thickness: float, threads: int) -> Body:
+    """Thin sheets, or walls with the surfaces at their inner or outer side or in their middle."""
+    patch_parts, meshes = _split_parts(reading)
+    if meshes.parts and wall != "thin":
+        raise ReadError("wall_of_mixed_surfaces")
+    sheets, areas, healths, by_part = [], [], [], []
+    for part in patch_parts:
+        matrices = to_si(part.matrices, unit)
+        measure = measure_patches(_patches(part), area_order=3, stored=_stored(part))
+        grown_by = np.cbrt(np.linalg.det(matrices[:, :3, :3])) ** 2
+        healths.append((measure.health, len(matrices), measure.area.total * float(grown_by.sum())))
+        if wall == "thin":
+            areas += _image_areas(part, measure.area, matrices)
+            continue
+        outward = [
+            patch.reverse_orientation() if sign < 0.0 else patch for patch, sign in zip(_patches(part), measure.signs)
+        ]
+        sharpest = sharpest_crease(_patches(part), measure.topology)
+        if sharpest > MIN_CREASE_ANGLE:
+            by_part.append((part.source_object_name, [finding("wall_creases", angle=float(np.degrees(sharpest)))]))
+        inner, outer = (thickness * height for height in HEIGHTS[wall])
+        for patches, translations_of_image in _distinct_images(outward, matrices):
+            grown = unit * float(np.linalg.norm(part.matrices[:, :3, :3], 2, axis=(1, 2)).max())
+            sheet, area, fine = measure_sheet(patches, inner, outer, stored=_stored(part) * grown)
+            sheets.append(sum_of_images(sheet, translations_of_image))
+            areas.append(sum_of_images(area, translations_of_image))
+            if not fine:
+                by_part.append((part.source_object_name, [finding("wall_error_estimate_large")]))
+    findings = findings_by_part(by_part, reading.name)
+    polygons = None
+    if meshes.parts:
+        polygons = mesh_body(meshes, unit, shell=True, union=False, threads=threads)
+        areas.append(polygons.area)
+        healths.append((polygons.health, 1, polygons.area.total))
+        findings += polygons.findings
+    area = sum_moments(areas)
+    nothing = replace(
+        area,
+        raw=np.zeros_like(area.raw),
+        rounding_error=np.zeros_like(area.raw),
+        input_error=np.zeros_like(area.raw),
+        measure=Measure.VOLUME,
+    )
+    common = (nothing, area, merge_health(healths), Method(Verdict.SHELL, _source(reading)), tuple(each_once(findings)))
+    if wall != "thin":
+        return Body(*common, wall=sum_moments(sheets), estimated=True)
+    return PatchSheetBody(*common, estimated=True, unit=unit, parts=tuple(patch_parts), polygons=polygons)
+
+
+def _distinct_images(patches: Sequence[Patch], matrices: NDArray) -> Iterator[tuple[list[Patch], NDArray]]:
+    """The patches under each different linear map, facing as before, and the (k, 4, 4) translations to where they
+    stand."""
+    for linear, members in distinct_linear_parts(matrices):
+        turn = np.eye(4)
+        turn[:3, :3] = linear
+        mapped = [patch.transform(turn) for patch in patches]
+        if np.linalg.det(turn) < 0.0:
+            mapped = [patch.reverse_orientation() for patch in mapped]
+        yield mapped, translation_matrices(matrices[members, :3, 3])

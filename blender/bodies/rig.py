@@ -1,0 +1,367 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The parts of a skinned character's bones, in rest pose: what is skinned to each, and what hangs on it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from bpy.types import Context, Depsgraph, Object
+from numpy.typing import NDArray
+
+from ...core.measurement.measurement import DENSITY_FROM_MASS, DENSITY_FROM_VALUE, Measurement
+from ...core.mesh.surface import Surface
+from ...core.moments.affine_maps import are_similarities
+from ...core.moments.moments import Measure, Moments, U, sum_moments
+from ...core.numerics.float32 import shortest_decimal
+from ...core.polyhedron import polyhedron_moments
+from ...core.rig import bone_pieces, bones_of_caps, dominant_bones
+from ...core.solid.measure import measure_solid
+from ...core.verdict import internal_error
+from ...core.verdict.finding import Finding, MeasureError, ReadError, finding
+from ...core.verdict.method import Method, Verdict, least_trusted
+from ..read import read_object
+from ..read.fingerprint import digest, fingerprint, matrix_hash, settings_hash
+from ..read.objects import locate
+from ..read.reading import Part, to_si
+from ..read.rig import RestBones, hanging_objects, pose_bone_of, rest_pose, skinned_objects, vertex_weights
+from ..settings.density import is_density_unset, unset_density
+from .assembly.combined import combined_measurement
+from .body import KNOWN_ORDER
+from .measure_object import measure_body
+from .request import Request
+
+DENSITIES_FROM = {"MESH": finding("density_from_members"), "DENSITY": DENSITY_FROM_VALUE, "MASS": DENSITY_FROM_MASS}
+
+
+@dataclass(eq=False)
+class _Sum:
+    """What has been found to go with one bone.
+
+    carriers: mass moments at 1 kg/m³ of what is skinned to it, each with its density. hanging: mass moments of objects
+    parented to it. extents, areas: (value, rounding, what float32 moved), m³ and m².
+    """
+
+    carriers: list[tuple[Moments, float]] = field(default_factory=list)
+    hanging: list[Moments] = field(default_factory=list)
+    extents: list[tuple[float, float, float]] = field(default_factory=list)
+    areas: list[tuple[float, float, float]] = field(default_factory=list)
+    verdicts: list[Verdict] = field(default_factory=list)
+    surfaces: list[tuple[Surface, NDArray[np.float64]]] = field(default_factory=list)
+    sources: dict[str, None] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, eq=False)
+class BonePart:
+    """The part of one bone.
+
+    Attributes
+    ----------
+    name : str
+        Of the bone.
+    mass : Moments
+        In kg to third order, SI, world axes, at rest.
+    measurement : Measurement, optional
+        In the world at rest; its object frame is the bone's rest frame.
+    refusal : Finding, optional
+        Why there is none: no body has such moments.
+    surfaces : tuple of (Surface, (4, 4) array)
+        Closed pieces of solids and sheets of shells, and the maps to the world, m.
+    sources : tuple of str
+        The objects that it is made of.
+    """
+
+    name: str
+    mass: Moments
+    measurement: Measurement | None
+    refusal: Finding | None
+    surfaces: tuple[tuple[Surface, NDArray[np.float64]], ...]
+    sources: tuple[str, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class Rig:
+    """A character's bones with their parts, in the order of the armature, and all of it as one body at rest."""
+
+    armature: Object
+    parts: tuple[BonePart, ...]
+    measurement: Measurement
+    objects: tuple[Object, ...]
+
+
+def measure_rig(context: Context, armature: Object) -> Rig:
+    """Measure the parts of all bones of a character.
+
+    Parameters
+    ----------
+    context : Context
+        Its view layer has the armature object and what it moves.
+    armature : Object
+        An armature object.
+
+    Raises
+    ------
+    MeasureError
+        Where it has no part with a mass.
+    """
+    with rest_pose(context, armature) as depsgraph:
+        return _Measuring(armature, depsgraph).rig()
+
+
+def rig_hash(armature: Object, objects: Iterable[Object], scene) -> str:
+    """Return a digest of what the parts are made from, but for the shapes of meshes."""
+    keys = []
+    for bone in armature.data.bones:
+        settings = armature.pose.bones[bone.name].body_moments
+        given = {"MESH": None, "DENSITY": settings.density, "MASS": settings.mass}[settings.mass_from]
+        rest = np.array(bone.matrix_local, np.float32).tobytes().hex()
+        keys.append(repr((bone.name, bone.use_deform, round(bone.length, 7), rest, settings.mass_from, given)))
+    for obj in objects:
+        keys.append(repr((obj.name, obj.hide_render, settings_hash(obj, scene), len(obj.vertex_groups))))
+    keys.append(repr(np.array(armature.matrix_world.to_scale(), np.float32).tolist()))
+    return digest("\n".join(keys).encode())
+
+
+def rig_objects(armature: Object, objects: Iterable[Object]) -> list[Object]:
+    """Return the objects that a character is made of."""
+    skinned = skinned_objects(armature, objects)
+    return skinned + [obj for obj, _ in hanging_objects(armature, skinned)]
+
+
+class _Measuring:
+    """One measurement of a rig, with its armature at rest."""
+
+    def __init__(self, armature: Object, depsgraph: Depsgraph):
+        self.armature, self.depsgraph = armature, depsgraph
+        self.unit = shortest_decimal(depsgraph.scene.unit_settings.scale_length)
+        self.bones = RestBones.of(armature)
+        self.sums: dict[str, _Sum] = {}
+        self.findings: list[Finding] = []
+        self.refused: list[str] = []
+        self.unset: list[str] = []
+        self.objects: list[Object] = []
+
+    def rig(self) -> Rig:
+        objects = list(self.depsgraph.view_layer.objects)
+        skinned = skinned_objects(self.armature, objects)
+        if skinned and not self.bones.deforming:
+            raise ReadError("no_deforming_bones", subject=self.armature.name)
+        hanging = hanging_objects(self.armature, skinned)
+        unrendered = [obj.name for obj in (*skinned, *[obj for obj, _ in hanging]) if obj.hide_render]
+        if unrendered:
+            self.findings.append(finding("members_left_out", count=len(unrendered), names=unrendered))
+        for obj in skinned:
+            self._try(obj, self._skin)
+        for obj, bone in hanging:
+            self._try(obj, lambda obj, bone=bone: self._hang(obj, bone))
+        if self.refused:
+            self.findings.append(finding("members_not_measured", count=len(self.refused), names=self.refused))
+        if self.unset:
+            self.findings.append(finding("members_density_unset", count=len(self.unset), names=self.unset))
+        parts = tuple(self._part(name, self.sums[name]) for name in self.bones.names if name in self.sums)
+        impossible = [part.name for part in parts if part.refusal is not None]
+        if impossible:
+            self.findings.append(finding("bone_parts_impossible", count=len(impossible), names=impossible))
+        return Rig(self.armature, parts, self._total(parts), tuple(self.objects))
+
+    def _try(self, obj: Object, measure) -> None:
+        if obj.hide_render:
+            return
+        self.objects.append(obj)
+        try:
+            measure(obj)
+        except Exception as error:
+            internal_error.finding_of(error)
+            self.refused.append(obj.name)
+
+    def _of(self, bone: str, source: Object) -> _Sum:
+        found = self.sums.setdefault(bone, _Sum())
+        found.sources[source.name] = None
+        return found
+
+    # ------------------------------------------------------------ What hangs on bones
+
+    def _hang(self, obj: Object, bone: str) -> None:
+        if bone not in self.bones.frames:
+            self.findings.append(finding("bone_missing", bone=bone).of_sources([obj.name]))
+            return
+        measured = measure_body(obj, self.depsgraph)
+        measurement = measured.measurement
+        moments, factor = measurement.mass_moments
+        found, bound = self._of(bone, obj), measurement.error_bound
+        found.hanging.append(replace(moments.truncate(KNOWN_ORDER), measure=Measure.MASS) * factor)
+        found.extents.append((measurement.volume, bound["volume"], bound["input"]["volume"]))
+        found.areas.append((measurement.area, bound["area"], bound["input"]["area"]))
+        found.verdicts.append(measurement.method.verdict)
+        for surface in measured.body.surfaces(measurement.kind == "shell"):
+            found.surfaces.append((surface, np.eye(4)))
+        if unset_density(obj, measurement, self.depsgraph.scene) is not None:
+            self.unset.append(obj.name)
+
+    # ------------------------------------------------------------ What is skinned
+
+    def _skin(self, obj: Object) -> None:
+        request = Request.of(obj, self.depsgraph)
+        options, reading = request.options, read_object(obj, self.depsgraph)
+        shell = options.kind == "shell"
+        if shell and options.wall != "thin":
+            self.findings.append(finding("rig_wall_thin").of_sources([obj.name]))
+        pieces = [piece for part in reading.parts for piece in self._pieces(obj, part, shell)]
+        volume = sum(moments.total for _, moments, *_ in pieces) * (options.thickness if shell else 1.0)
+        if not volume > 0.0:
+            raise ReadError("no_volume")  # `rig` says the names of these, not why
+        density = options.density or 0.0 if options.mass is None else options.mass / volume
+        if options.mass is None and request.density is not None:
+            measurement = measure_body(obj, self.depsgraph).measurement
+            density = measurement.mass_properties.mass / measurement.volume
+            self.findings.append(finding("rig_mean_density").of_sources([obj.name]))
+        if not density > 0.0:
+            raise ReadError("zero_density")
+        for name, moments, area, surface, matrix, verdict in pieces:
+            found = self._of(name, obj)
+            carrier = replace(moments.truncate(KNOWN_ORDER), measure=Measure.MASS)
+            carrier = carrier * options.thickness if shell else carrier
+            found.carriers.append((carrier, density))
+            found.extents.append((carrier.total, float(carrier.rounding_error[0]), float(carrier.input_error[0])))
+            found.areas.append((area.total, float(area.rounding_error[0]), float(area.input_error[0])))
+            found.verdicts.append(verdict)
+            found.surfaces.append((surface, matrix))
+        own = obj.body_moments
+        by_value = own.mass_from == "DENSITY" and own.density_from == "VALUE"
+        if by_value and is_density_unset(own, self.depsgraph.scene):
+            self.unset.append(obj.name)
+
+    def _pieces(self, obj: Object, part: Part, shell: bool) -> Iterator[tuple]:
+        """Of one surface (bone, volume or area moments in SI and world, area, surface, map, verdict) of each piece."""
+        surface = part.surface
+        if not len(surface.triangles) and not len(surface.quads):
+            return
+        weights = vertex_weights(obj, part, self.bones, self.depsgraph)
+        triangles, face = surface.all_triangles()
+        number = len(surface.points)
+        corners = np.unique(np.repeat(face, 3).astype(np.int64) * number + triangles.ravel())  # of an n-gon each once
+        pairs = np.stack([corners // number, corners % number], axis=1)
+        used = np.zeros(number, bool)
+        used[pairs[:, 1]] = True
+        bare = weights.unweighted(number)
+        bare = bare[used[bare]]
+        if len(bare):
+            count = int(np.count_nonzero(used))
+            self.findings.append(
+                finding("unweighted_vertices", bare, count=len(bare), total=count).of_sources([obj.name])
+            )
+        solid = None if shell else measure_solid(surface)
+        if solid is not None and solid.method == Verdict.OPEN:
+            self.findings.append(finding("rig_open_mesh").of_sources([obj.name]))
+        if solid is not None:
+            self.findings += [found.of_sources([obj.name]) for found in solid.findings]
+        for matrix in part.matrices:
+            points = surface.points.astype(np.float64) @ matrix[:3, :3].T + matrix[:3, 3]
+            bone, _ = dominant_bones(pairs[:, 0], pairs[:, 1], points, weights, self.bones.segments)
+            metric = to_si(matrix[None], self.unit)[0]
+            if shell:
+                yield from self._sheets(surface, triangles, bone[face], metric)
+                continue
+            assert solid is not None
+            parts = solid.parts()
+            is_cap = parts.face < 0
+            bones = bones_of_caps(parts.triangles, is_cap, np.where(is_cap, 0, bone[parts.face]))
+            for piece in bone_pieces(parts.points, parts.triangles, bones, surface.coordinate_error):
+                sheet = replace(piece.surface, triangles=piece.surface.triangles[: piece.face_count])
+                yield (
+                    self.bones.deforming[piece.bone],
+                    piece.moments().transform(metric),
+                    _area(sheet, metric, 0),
+                    piece.surface,
+                    metric,
+                    solid.method,
+                )
+
+    def _sheets(
+        self, surface: Surface, triangles: NDArray, bones: NDArray[np.integer], metric: NDArray[np.float64]
+    ) -> Iterator[tuple]:
+        for bone in np.unique(bones).tolist():
+            sheet = Surface(
+                surface.points, triangles[bones == bone].astype(np.int64), displacement=surface.coordinate_error
+            )
+            area = _area(sheet, metric, KNOWN_ORDER)
+            yield self.bones.deforming[bone], area, area, sheet, metric, Verdict.SHELL
+
+    # ------------------------------------------------------------ What it comes to
+
+    def _part(self, name: str, found: _Sum) -> BonePart:
+        settings = pose_bone_of(self.armature, name).body_moments
+        own = shortest_decimal(settings.density) if settings.mass_from == "DENSITY" else None
+        masses = [moments * (density if own is None else own) for moments, density in found.carriers]
+        mass = sum_moments([*masses, *found.hanging])
+        if settings.mass_from == "MASS" and mass.total > 0.0:
+            mass = mass * (shortest_decimal(settings.mass) / mass.total)
+        rotation, head = self.bones.frames[name]
+        measurement = refusal = None
+        volume, area = _total(found.extents), _total(found.areas)
+        try:
+            measurement = combined_measurement(
+                name=name,
+                type="BONE",
+                kind="bone",
+                mass=mass,
+                volume=volume[:2],
+                area=area[:2],
+                inputs=(volume[2], area[2]),
+                rotation=rotation,
+                location=head * self.unit,
+                fingerprint=fingerprint(mass.raw.tobytes(), "", digest(name.encode())),
+                findings=(),
+                method=Method(least_trusted(found.verdicts)),
+                density_from=DENSITIES_FROM[settings.mass_from],
+            )
+        except MeasureError as error:
+            refusal = finding("bone_part_impossible", cause=error.finding.as_record())
+        return BonePart(name, mass, measurement, refusal, tuple(found.surfaces), tuple(found.sources))
+
+    def _total(self, parts: tuple[BonePart, ...]) -> Measurement:
+        if not parts:
+            raise ReadError("rig_without_parts", subject=self.armature.name)
+        at = locate(self.armature, self.depsgraph)
+        sums = [self.sums[part.name] for part in parts]
+        volume, area = (_total([_total(getattr(found, name)) for found in sums]) for name in ("extents", "areas"))
+        mass = sum_moments([part.mass for part in parts])
+        return combined_measurement(
+            name=self.armature.name,
+            type="ARMATURE",
+            kind="rig",
+            mass=mass,
+            volume=volume[:2],
+            area=area[:2],
+            inputs=(volume[2], area[2]),
+            rotation=at.rotation,
+            location=at.location * self.unit,
+            fingerprint=fingerprint(
+                mass.raw.tobytes(),
+                matrix_hash(self.armature),
+                rig_hash(
+                    self.armature, rig_objects(self.armature, self.depsgraph.view_layer.objects), self.depsgraph.scene
+                ),
+            ),
+            findings=tuple(self.findings),
+        )
+
+
+def _area(sheet: Surface, metric: NDArray[np.float64], order: int) -> Moments:
+    """The area's moments of a sheet where it stands."""
+    if are_similarities(metric[None, :3, :3])[0]:
+        area = polyhedron_moments(sheet, 0, area_order=order, allow_open=True)[1]
+        return area.transform(metric)
+    return polyhedron_moments(sheet.transform(metric[:3, :3], metric[:3, 3]), 0, area_order=order, allow_open=True)[1]
+
+
+def _total(entries: list[tuple[float, float, float]]) -> tuple[float, float, float]:
+    """Values with their bounds, added."""
+    values, rounding, inputs = np.array(entries, np.float64).reshape(-1, 3).T
+    return (
+        float(values.sum()),
+        float(rounding.sum() + len(values) * U * np.abs(values).sum()),
+        float(inputs.sum()),
+    )

@@ -1,0 +1,324 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""An object's shape, apart from where it lies: its pose, its symmetry, its signature.
+
+They need moments of higher order than a measurement carries, of the same body: what is solid, or the sheet of a shell.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, replace
+from functools import cached_property, partial
+from itertools import chain
+from math import frexp
+from typing import Any, Protocol
+
+import bpy
+import numpy as np
+from mathutils.bvhtree import BVHTree
+from numpy.typing import NDArray
+
+from ....core.inertia.axial_harmonics import axial_harmonics, axis_last, turn_by_harmonics
+from ....core.inertia.canonical_frame import MAX_ORDER, NOISE_LEVEL
+from ....core.inertia.principal_frames import equivalent_frames, nearest_frame, pose_matrix
+from ....core.measurement.measurement import Measurement
+from ....core.mesh.point_triangle import triangle_distances
+from ....core.mesh.surface import Surface, join_surfaces
+from ....core.moments.moments import Moments
+from ....core.polyhedron import polyhedron_moments
+from ....core.shape.registration import Residual, RigidMatch, match
+from ....core.shape.signatures import Signature, signature
+from ....core.shape.symmetries import Symmetry, confirm, symmetry
+from ....core.shape.zernike import MAX_DESCRIPTOR_ERROR, MAX_ORDER_BY_MOMENTS, zernike_quadrature
+from ....core.verdict.finding import ReadError
+from ....core.verdict.method import Source, Verdict
+from ...settings.options import MeasureOptions
+from ..body import Body, with_input_error
+from ..measure_object import THREADS, Measured, measure_body
+
+# of the size: between them single precision mistakes the distances of thin triangles
+EXACT_DISTANCE, NEAR_DISTANCE = 1e-5, 1e-2
+SURFACE_SAMPLES = 1500  # points of a surface that are held against another one
+POINTS_PER_BATCH = 64  # points whose distances are found at once
+SURFACE_OPTIONS = MeasureOptions(threads=THREADS, axes=False)  # of what is measured for its surface's shape
+
+
+@dataclass(frozen=True)
+class Shape:
+    """An object as measured, in SI units and world axes, and what its moments of higher order say."""
+
+    measurement: Measurement
+    body: Body
+    threads: int
+
+    @property
+    def rotation(self) -> NDArray[np.float64]:
+        """(3, 3) the object frame's axes."""
+        return self.measurement.rotation
+
+    @property
+    def fingerprint(self) -> str:
+        """Of what was measured."""
+        return self.measurement.fingerprint
+
+    @property
+    def is_display_mesh(self) -> bool:
+        """Whether the pieces are the display mesh of something smooth."""
+        return is_display_mesh(self.measurement)
+
+    @property
+    def center(self) -> NDArray[np.float64]:
+        """(3,) of the shape; where the density varies, not that of mass."""
+        return self.moments.about
+
+    @property
+    def size(self) -> float:
+        """The largest radius of gyration."""
+        return float(self.measurement.mass_properties.radii_of_gyration.max())
+
+    @cached_property
+    def moments(self) -> Moments:
+        """About the center, to the order that a pose needs. ReadError where they exceed the range of numbers."""
+        with np.errstate(over="ignore", invalid="ignore"):
+            volume, area = self.body.moments(MAX_ORDER, self._sheets)
+        found = volume if area is None else area
+        if not np.isfinite([found.raw, found.rounding_error]).all():
+            raise ReadError("object_too_large")
+        known = self.body.area if self._sheets else self.body.volume
+        return with_input_error(found, known).about_center()
+
+    def piece_moments(self) -> Moments:
+        """As `moments`, of the polygons alone: what has to be compared with them."""
+        if not is_display_mesh(self.measurement):
+            return self.moments
+        volume, area = polyhedron_moments(
+            self.pieces(),
+            MAX_ORDER,
+            area_order=MAX_ORDER if self._sheets else None,
+            about=self.center,
+            threads=self.threads,
+            allow_open=True,
+        )
+        return (volume if area is None else area).about_center()
+
+    @property
+    def _sheets(self) -> bool:
+        return self.measurement.kind == "shell"
+
+    def pieces(self) -> Iterator[Surface]:
+        """The surfaces of the body, where they stand."""
+        return self.body.surfaces(self._sheets)
+
+    def pose(self) -> dict[str, Any]:
+        """The pose for a record: see DESIGN.md. Where the density varies, third moments of the mass alone are known,
+        which cannot tell a symmetry. An axis of revolution is looked at to order 30: where it is none, the body decides
+        how it is turned about it."""
+        body = self.measurement.mass_properties
+        axes, unique = body.principal.axes, body.principal.is_unique
+        pose: dict[str, Any] = {"symmetry": None, "symmetry_order": None}
+        if self.body.mass is None:
+            alike, axial = equivalent_frames(self.moments), None
+            if len(alike.revolution_axes) == 1 and self.has_surface and not is_display_mesh(self.measurement):
+                harmonics = axial_harmonics(self.pieces(), self.center, axis_last(alike), area=self._sheets)
+                alike, axial = turn_by_harmonics(alike, harmonics), harmonics.in_frame
+                if not alike.revolution_axes:
+                    axes, unique = nearest_frame(alike, axes), len(alike.frames) == 1
+            found = symmetry(self.moments, axial=axial)
+            pose = {"symmetry": found.group, "symmetry_order": found.order}
+        return {"matrix": pose_matrix(body.center, axes), "unique": unique, **pose}
+
+    @property
+    def has_surface(self) -> bool:
+        """Whether there are polygons, which a signature and a comparison of surfaces need."""
+        return self.body.has_surface
+
+    def signature(self, order: int = MAX_ORDER_BY_MOMENTS) -> Signature:
+        """Zernike descriptors to `order`; above 20, and where raw moments lose too many digits, by quadrature.
+        Needs a surface."""
+        points = self.points_about_center()
+        radius = float(np.sqrt((points * points).sum(axis=1).max()))
+        # About the center at about unit size, for high powers of a length are soon beyond the range of numbers.
+        scale = 2.0 ** frexp(radius)[1]  # a power of two rounds nothing
+        radius /= scale
+        sheets = self._sheets
+
+        def pieces() -> Iterator[Surface]:
+            return (piece.transform(np.eye(3) / scale, -self.center / scale) for piece in self.pieces())
+
+        known = min(order, MAX_ORDER_BY_MOMENTS)
+        volume, area = polyhedron_moments(
+            pieces(),
+            known,
+            area_order=known if sheets else None,
+            about=np.zeros(3),
+            reach=radius,
+            threads=self.threads,
+            allow_open=True,
+        )
+        result = signature(volume if area is None else area, radius)
+        if (order > MAX_ORDER_BY_MOMENTS or result.error > MAX_DESCRIPTOR_ERROR) and not sheets:
+            whole = join_surfaces(list(pieces()))
+            triangles = whole.all_triangles()[0]
+            result = signature(volume, radius, zernike_quadrature(whole.points / radius, triangles, order))
+        return replace(result, size=scale * result.size)
+
+    def match(self, target: Shape, residual: Residual) -> RigidMatch:
+        """How this shape lies on another one. residual: as for `match`."""
+        return match(self.moments, target.moments, residual, target.size)
+
+    def find_symmetries(self, skin: SurfaceDistance, tolerance: float) -> tuple[Symmetry, Symmetry]:
+        """What the surface confirms, and what the moments allow. tolerance: by the size."""
+        moments = self.piece_moments()
+        # Moments are looked at as loosely as the surface.
+        allowed = symmetry(moments, max(NOISE_LEVEL, tolerance))
+        near = tolerance * self.size
+        return confirm(allowed, moments.about, skin.points, partial(skin.distance, within=near), near), allowed
+
+    def points_about_center(self) -> NDArray[np.float64]:
+        """(n, 3) the corners of all faces."""
+        points = []
+        for piece in self.pieces():
+            triangles = piece.all_triangles()[0]
+            used = np.zeros(len(piece.points), bool)
+            used[triangles] = True
+            points.append(piece.points[used] - self.center)
+        return np.concatenate(points)
+
+
+def is_display_mesh(measurement: Measurement) -> bool:
+    """Whether a body's pieces are the display mesh of something smooth, whose moments differ a little."""
+    return measurement.method.source == Source.NURBS
+
+
+class NoShapeError(ReadError):
+    """An object that was measured, but whose shape is not its own."""
+
+    def __init__(self, code: str, measurement: Measurement):
+        super().__init__(code, subject=measurement.name)
+        self.measurement = measurement
+
+
+def surface_shape_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> Shape:
+    """As `shape_of`, of bodies with polygons only, in threads."""
+    return surface_shape(measure_body(obj, depsgraph, SURFACE_OPTIONS))
+
+
+def surface_shape(measured: Measured) -> Shape:
+    """The shape of what was measured with SURFACE_OPTIONS, which has to have polygons."""
+    shape = _shape_of_measured(measured, SURFACE_OPTIONS.threads)
+    if not shape.has_surface:
+        raise NoShapeError("signature_needs_polygons", shape.measurement)
+    return shape
+
+
+def shape_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, options: MeasureOptions | None = None) -> Shape:
+    """Measure an object for its shape. Raises MeasureError, and of these NoShapeError where it has none."""
+    options = replace(options or MeasureOptions(), pose=True)
+    return _shape_of_measured(measure_body(obj, depsgraph, options), options.threads)
+
+
+def _shape_of_measured(measured: Measured, threads: int) -> Shape:
+    """The shape of what was measured for it. Raises NoShapeError where it has none."""
+    measurement, body = measured.measurement, measured.body
+    if body.mass is not None and not body.has_surface:
+        raise NoShapeError("shape_of_grid", measurement)
+    if body.wall is not None or body.length is not None:
+        raise NoShapeError("shape_of_wire_or_wall", measurement)
+    if measurement.method.verdict == Verdict.OPEN:
+        raise NoShapeError("shape_of_open_surface", measurement)
+    shape = Shape(measurement, body, threads)
+    if np.finfo(np.float64).eps * np.abs(shape.center).max() > EXACT_DISTANCE * shape.size:
+        raise NoShapeError("shape_far_from_origin", measurement)
+    return shape
+
+
+class Registered(Protocol):
+    """What is laid onto others of its kind: a `Shape`, or a flat one."""
+
+    @property
+    def center(self) -> NDArray[np.float64]: ...
+    @property
+    def size(self) -> float: ...
+    def pieces(self) -> Iterable[Surface]: ...
+    def match(self, target: Any, residual: Callable[[NDArray, int | None], NDArray[np.float64]], /) -> RigidMatch: ...
+
+
+class SurfaceDistance:
+    """A shape's surface, to hold points against, once it is grown. Lengths in meters, world axes; Blender's tree of
+    triangles keeps them as float32, so about the center and by its size."""
+
+    def __init__(self, shape: Registered):
+        whole = join_surfaces(list(shape.pieces()))
+        self._center, self._scale = shape.center, shape.size
+        self._triangles = triangles = whole.all_triangles()[0]
+        self._corners = (whole.points - self._center) / self._scale
+        is_used = np.zeros(len(whole.points), bool)
+        is_used[triangles] = True
+        used = np.flatnonzero(is_used)
+        pick = np.linspace(0, len(used) - 1, min(len(used), SURFACE_SAMPLES // 2)).astype(int)
+        middles = whole.points[
+            triangles[np.linspace(0, len(triangles) - 1, min(len(triangles), SURFACE_SAMPLES // 2)).astype(int)]
+        ].mean(axis=1)
+        far = np.argsort(((whole.points[used] - self._center) ** 2).sum(axis=1), kind="stable")[
+            -SURFACE_SAMPLES // 10 :
+        ]
+        self.points = np.concatenate([whole.points[used[far]], whole.points[used[pick]], middles])
+
+    def build(self) -> Iterator[float]:
+        """Build the tree, in steps of some tenths of a second for a million triangles. Yields the share that is
+        done."""
+        points = _as_tuples(self._corners)
+        yield 0.2
+        triangles = _as_tuples(self._triangles)
+        yield 0.4
+        self._tree = BVHTree.FromPolygons(points, triangles, all_triangles=True)
+        yield 1.0
+
+    def distance(self, points: NDArray, within: float | None = None) -> NDArray[np.float64]:
+        """(n,) of (n, 3) points from the surface. within: where only this matters, whether they are within so much:
+        what is, and what clearly is not, is told in single precision, or as infinite."""
+        scaled = (points - self._center) / self._scale
+        nearest, queries = self._tree.find_nearest, scaled.tolist()
+        reach = np.inf if within is None else 1.01 * max(NEAR_DISTANCE, within / self._scale)
+        distances = np.array([nearest(row, reach)[3] for row in queries], np.float64)  # None becomes NaN
+        distances[np.isnan(distances)] = np.inf
+        doubtful = np.flatnonzero(
+            (distances > EXACT_DISTANCE) & (distances < NEAR_DISTANCE) & (distances * self._scale > (within or 0.0))
+        )
+        for start in range(0, len(doubtful), POINTS_PER_BATCH):
+            some = doubtful[start : start + POINTS_PER_BATCH]
+            around = [
+                [hit[2] for hit in self._tree.find_nearest_range(queries[i], NEAR_DISTANCE)] for i in some.tolist()
+            ]
+            which = np.repeat(some, [len(hits) for hits in around])
+            near_triangles = self._triangles[np.fromiter(chain.from_iterable(around), np.intp)]
+            np.minimum.at(distances, which, triangle_distances(scaled[which], self._corners[near_triangles]))
+        return distances * self._scale
+
+
+def _as_tuples(array: NDArray) -> list[tuple]:
+    """As `tolist`, but of tuples, which the garbage collector does not look at again and again."""
+    return list(zip(*array.T.tolist()))
+
+
+def register_surfaces(
+    source: Registered,
+    target: Registered,
+    source_skin: SurfaceDistance,
+    target_skin: SurfaceDistance,
+    scale: float = 1.0,
+) -> RigidMatch:
+    """How a shape comes to lie on another one, about their centers, and what is left between their surfaces.
+    source_skin, target_skin: theirs. scale: what the source is multiplied by first."""
+
+    def residual(way: NDArray, max_points: int | None) -> NDArray[np.float64]:
+        source_points, target_points = (
+            each_skin.points[:: max(1, len(each_skin.points) // max_points) if max_points else 1]
+            for each_skin in (source_skin, target_skin)
+        )
+        there = target_skin.distance(scale * (source_points - source.center) @ way.T + target.center)
+        back = source_skin.distance((target_points - target.center) @ way / scale + source.center)
+        return np.concatenate([there, scale * back])
+
+    return source.match(target, residual)

@@ -1,0 +1,202 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Many objects at once: solids that show one mesh each are measured as stacks, all others one by one, with the same
+numbers.
+
+What joins no stack, because it shows more than one mesh in one place, is no solid, is large, or has a density that
+varies, is measured by `measure_body`; so is what is refused, for the reason.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+
+import bpy
+import numpy as np
+
+from ....core.numerics.float32 import shortest_decimal
+from ....core.verdict import internal_error
+from ...read.fingerprint import effective_hash
+from ...read.mesh import mesh_surface, plain_mesh
+from ...settings.density import object_density
+from ...settings.options import AS_SET, MeasureOptions
+from ..measure_object import Measured, measure_body
+from ..measurement import MAX_FACES_HIGH_ORDER
+from .stack import MeshShape, Stacked, StackMember, measure_members
+
+MAX_OBJECTS_PER_STACK = 512
+MAX_FACES_PER_STACK = 40_000
+
+Outcome = Measured | Stacked | Exception
+
+
+def measure_many(
+    objects: Sequence[bpy.types.Object], depsgraph: bpy.types.Depsgraph, options: MeasureOptions = AS_SET
+) -> Iterator[list[tuple[bpy.types.Object, Outcome]]]:
+    """Measure objects, some at a time.
+
+    Parameters
+    ----------
+    objects : sequence of bpy.types.Object
+        Original ones.
+    depsgraph : bpy.types.Depsgraph
+    options : MeasureOptions
+        For all of them.
+
+    Yields
+    ------
+    list of (bpy.types.Object, Measured or Stacked or Exception)
+        The next ones, in their order: what was measured, or why it was not.
+    """
+    pending: list[tuple[bpy.types.Object, StackMember | None]] = []
+    collector = _Collector(depsgraph, options)
+    for obj in objects:
+        pending.append((obj, collector.add(obj)))
+        if len(pending) >= MAX_OBJECTS_PER_STACK or collector.faces >= MAX_FACES_PER_STACK:
+            yield from _outcomes(pending, collector)
+            pending, collector = [], _Collector(depsgraph, options)
+    if pending:
+        yield from _outcomes(pending, collector)
+
+
+def measured_in_turn(
+    objects: Sequence[bpy.types.Object], depsgraph: bpy.types.Depsgraph, options: MeasureOptions = AS_SET
+) -> Callable[[bpy.types.Object], Measured | Stacked]:
+    """Measure objects together that are asked for one after the other, while nothing changes.
+
+    Returns
+    -------
+    callable
+        Gives the measurement of one of the objects, or raises why there is none. Each is asked for once, in their
+        order; some may be left out.
+    """
+    waiting: dict[bpy.types.Object, Outcome] = {}
+    slices = measure_many(objects, depsgraph, options)
+
+    def measured(obj: bpy.types.Object) -> Measured | Stacked:
+        while obj not in waiting:
+            waiting.update(next(slices))
+        outcome = waiting.pop(obj)
+        if isinstance(outcome, Exception):
+            raise outcome
+        return outcome
+
+    return measured
+
+
+def _outcomes(
+    pending: list[tuple[bpy.types.Object, StackMember | None]], collector: _Collector
+) -> Iterator[list[tuple[bpy.types.Object, Outcome]]]:
+    """What came of those that were collected: of stacked ones together, of others one by one."""
+    stacked = collector.measure()
+    together: list[tuple[bpy.types.Object, Outcome]] = []
+    for obj, member in pending:
+        outcome: Outcome | None = None if member is None else stacked.get(member.number)
+        if outcome is None:
+            if together:
+                yield together
+                together = []
+            try:
+                outcome = measure_body(obj, collector.depsgraph, collector.options)
+            except Exception as error:
+                outcome = error
+            yield [(obj, outcome)]
+        else:
+            together.append((obj, outcome))
+    if together:
+        yield together
+
+
+class _Collector:
+    """Objects that are measured together."""
+
+    def __init__(self, depsgraph: bpy.types.Depsgraph, options: MeasureOptions):
+        self.depsgraph, self.options, self.scene = depsgraph, options, depsgraph.scene
+        self.unit = options.meters_per_unit(self.scene)
+        self.members: list[StackMember] = []
+        self.shapes: list[MeshShape] = []
+        self.faces = 0
+        self._by_mesh: dict[bpy.types.Mesh, MeshShape | None] = {}
+        self._by_content: dict[tuple[bytes, ...], MeshShape] = {}
+        self._settings: dict[tuple[float | None, float | None], str] = {}
+
+    def add(self, obj: bpy.types.Object) -> StackMember | None:
+        """The object as one of the stack; None where it cannot be, or reading it fails: by itself it fails again."""
+        try:
+            return self._member(obj)
+        except Exception:
+            return None
+
+    def _member(self, obj: bpy.types.Object) -> StackMember | None:
+        weight = self._weight(obj)
+        mesh = None if weight is None else plain_mesh(obj, self.depsgraph)
+        if weight is None or mesh is None:
+            return None
+        try:
+            shape = self._by_mesh[mesh]
+        except KeyError:
+            shape = self._by_mesh[mesh] = self._read(mesh)
+        if shape is None:
+            return None
+        density, mass, settings = weight
+        matrix = obj.evaluated_get(self.depsgraph).matrix_world
+        location, turn, _scale = matrix.decompose()
+        member = StackMember(
+            len(self.members),
+            obj,
+            shape,
+            density,
+            mass,
+            settings,
+            np.array(matrix),
+            location.to_tuple(),
+            (turn.w, turn.x, turn.y, turn.z),
+        )
+        self.members.append(member)
+        return member
+
+    def _weight(self, obj: bpy.types.Object) -> tuple[float, float, str] | None:
+        """The density or the mass of a solid that has one, and the digest of the settings; None of others."""
+        options, settings = self.options, obj.body_moments
+        kind, overlap = options.kind or settings.kind.lower(), options.overlap or settings.overlap.lower()
+        density, mass = options.density, options.mass
+        if kind != "solid" or overlap != "signed" or options.order is not None:
+            return None
+        if density is None and settings.mass_from == "MASS":
+            if settings.use_center or settings.use_inertia:
+                return None
+            mass = shortest_decimal(settings.mass) if mass is None else mass
+        elif density is None and mass is None:
+            if settings.density_from != "VALUE":
+                return None
+            density = object_density(settings, self.scene)
+        if (density, mass) not in self._settings:
+            self._settings[density, mass] = effective_hash("SOLID", density, mass, 0.0, "SIGNED", self.unit)
+        nothing = float("nan")
+        digest = self._settings[density, mass]
+        return nothing if density is None else density, nothing if mass is None else mass, digest
+
+    def _read(self, mesh: bpy.types.Mesh) -> MeshShape | None:
+        """The shape of a mesh; None where it has to be measured by itself."""
+        if not len(mesh.polygons) or len(mesh.polygons) > MAX_FACES_HIGH_ORDER:
+            return None
+        surface = mesh_surface(mesh)
+        arrays = surface.points, surface.corner_vertices, surface.triangles, surface.quads
+        content = tuple([np.asarray(array).tobytes() for array in arrays])
+        if content in self._by_content:
+            return self._by_content[content]
+        if not np.isfinite(surface.points).all():
+            return None
+        shape = self._by_content[content] = MeshShape(surface, len(mesh.polygons))
+        self.shapes.append(shape)
+        self.faces += len(surface.triangles) + len(surface.quads)
+        return shape
+
+    def measure(self) -> dict[int, Stacked]:
+        """What could be measured together, by number: where that fails, nothing, so that each is measured by itself."""
+        try:
+            stack = measure_members(self.members, self.shapes, self.unit, self.options.axes) if self.members else None
+        except Exception as error:
+            internal_error.finding_of(error)
+            stack = None
+        return {} if stack is None else {member.number: Stacked(stack, i) for i, member in enumerate(stack.members)}

@@ -1,0 +1,384 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The measurements of many objects, each a solid of one shape in one place, computed together.
+
+A shape is a mesh in its own coordinates, however many objects show it: closed ones are measured together, what has to
+be repaired by itself, and its axes are looked for once. Objects are a shape, a place and a density or mass.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import bpy
+import numpy as np
+from numpy.typing import NDArray
+
+from ....core.inertia.canonical_frame import MAX_ORDER
+from ....core.inertia.mass_properties import MassProperties
+from ....core.inertia.principal_frames import OwnMoments
+from ....core.inertia.third_moment_frames import third_moment_frames
+from ....core.measurement.measurement import DENSITY_FROM_MASS, DENSITY_FROM_VALUE, Measurement
+from ....core.mesh.surface import Surface
+from ....core.moments.affine_maps import are_similarities, are_singular
+from ....core.moments.moments import Moments, image, stack_moments
+from ....core.numerics.rotations import rotation_matrix
+from ....core.polyhedron import area_of_images, polyhedron_moments
+from ....core.solid.measure import SolidIntegrals, measure_solid
+from ....core.solid.solid_stack import SolidStack, can_be_stacked, is_small, measure_stack, small_moments_to_order
+from ....core.verdict.finding import Finding
+from ....core.verdict.health import DefectiveElements, MeshHealth
+from ....core.verdict.method import Method, Verdict
+from ...read.fingerprint import fingerprint, surface_digest, transform_keys
+from ...settings.accepted import accepted_codes, with_acceptance
+from ..body import own_moments, with_known
+
+METHODS = {verdict: Method(verdict) for verdict in Verdict}
+
+
+@dataclass(eq=False)
+class MeshShape:
+    """A mesh in its own coordinates, and how it was measured.
+
+    Attributes
+    ----------
+    surface : Surface
+    face_count : int
+        The mesh's.
+    row : int
+        Where it stands in the stacks of moments.
+    solids : SolidStack, optional
+        Which it was measured with; its row is the same.
+    alone : SolidIntegrals, optional
+        What it came to by itself.
+    """
+
+    surface: Surface
+    face_count: int
+    row: int = -1
+    solids: SolidStack | None = None
+    alone: SolidIntegrals | None = None
+    method: Method = METHODS[Verdict.EXACT]
+    findings: tuple[Finding, ...] = ()
+
+    @property
+    def health(self) -> MeshHealth:
+        """What the mesh is like."""
+        if self.solids is not None:
+            return self.solids.health(self.row)
+        assert self.alone is not None
+        return self.alone.health
+
+    @property
+    def defects(self) -> DefectiveElements | None:
+        """Where its faults are; None where there are none."""
+        spotless = self.alone is None and self.method is METHODS[Verdict.EXACT]
+        return None if spotless else self.health.defective_elements
+
+    @cached_property
+    def digest(self) -> bytes | None:
+        """Of what it shows, for staleness; None of a large one."""
+        return surface_digest(self.surface, self.face_count)
+
+    def sixth_order(self) -> Moments:
+        """The volume's moments that axes are found by, of one that was measured by itself."""
+        solid = self.alone
+        assert solid is not None
+        found = polyhedron_moments(
+            solid.repaired_surface, MAX_ORDER, about=solid.volume.about, exact=True, allow_open=True
+        )
+        return with_known(found[0], solid.volume)
+
+
+def measure_shapes(shapes: list[MeshShape]) -> tuple[Moments, Moments]:
+    """Measure shapes, whose points are finite, in their own coordinates: volumes to third order and areas, stacked by
+    row."""
+    small = [shape for shape in shapes if can_be_stacked(shape.surface)]
+    volumes: list[Moments] = []
+    areas: list[Moments] = []
+    if small:
+        solids = measure_stack([shape.surface for shape in small])
+        volumes, areas = [solids.volume], [solids.area]
+        for i in np.flatnonzero(solids.is_measured).tolist():
+            small[i].row, small[i].solids, small[i].findings = i, solids, solids.findings(i)
+            small[i].method = METHODS[Verdict.CAPPED if solids.caps.is_capped[i] else Verdict.EXACT]
+    others = []
+    for shape in shapes:
+        if shape.solids is None:
+            solid = shape.alone = measure_solid(shape.surface)
+            shape.row, shape.method, shape.findings = len(small) + len(others), METHODS[solid.method], solid.findings
+            others.append(solid)
+    if others:
+        volumes.append(stack_moments([solid.volume for solid in others]))
+        areas.append(stack_moments([solid.area for solid in others]))
+    return _joined(volumes), _joined(areas)
+
+
+def _joined(stacks: list[Moments]) -> Moments:
+    if len(stacks) == 1:
+        return stacks[0]
+    names = "raw", "about", "rounding_error", "input_error"
+    return replace(stacks[0], **{name: np.concatenate([getattr(stack, name) for stack in stacks]) for name in names})
+
+
+@dataclass(frozen=True, eq=False)
+class StackMember:
+    """An object that may join a stack.
+
+    Attributes
+    ----------
+    number : int
+        Which of those it is that were collected.
+    density, mass : float or None
+        One of them; the other is NaN. kg/m³, kg.
+    settings : str
+        The digest of the settings.
+    matrix : (4, 4) array
+        World from the mesh's coordinates, Blender units.
+    location, quaternion : tuple of float
+        Of the object frame.
+    """
+
+    number: int
+    obj: bpy.types.Object
+    shape: MeshShape
+    density: float
+    mass: float
+    settings: str
+    matrix: NDArray[np.float64]
+    location: tuple[float, ...]
+    quaternion: tuple[float, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class MeasuredStack:
+    """The measurements of many objects, in SI units and world axes.
+
+    Attributes
+    ----------
+    members : list of StackMember
+    from_mass : (n,) bool
+        Whether the density follows from a given mass.
+    density : (n,) array
+        kg/m³.
+    volume, area : Moments
+    mass_properties : MassProperties
+        With a leading axis.
+    stretch : (n,) array
+        By what the volume of the shape was multiplied.
+    rotation, location : (n, 3, 3) and (n, 3) array
+        The object frames.
+    fingerprints : list of str
+    findings : list of tuple of Finding
+    """
+
+    members: list[StackMember]
+    from_mass: NDArray[np.bool_]
+    density: NDArray[np.float64]
+    volume: Moments
+    area: Moments
+    mass_properties: MassProperties
+    stretch: NDArray[np.float64]
+    rotation: NDArray[np.float64]
+    location: NDArray[np.float64]
+    fingerprints: list[str]
+    findings: list[tuple[Finding, ...]]
+
+    def some(self, which: list[int]) -> MeasuredStack:
+        """Some of them as a stack."""
+        if len(which) == len(self.members):
+            return self
+        lists = "members", "fingerprints", "findings"
+        arrays = "density", "from_mass", "stretch", "rotation", "location"
+        return replace(
+            self,
+            **{name: [getattr(self, name)[i] for i in which] for name in lists},
+            **{name: getattr(self, name)[which] for name in arrays},
+            volume=self.volume.at(which),
+            area=self.area.at(which),
+            mass_properties=self.mass_properties.at(which),
+        )
+
+    @cached_property
+    def error_bounds(self) -> NDArray[np.float64]:
+        """(n, 2, 4) of rounding and of float32 coordinates: volume, area, center, inertia."""
+        volume, area, properties = self.volume, self.area, self.mass_properties
+        rounding, moved = properties.rounding_error, properties.input_error
+        bounds = (
+            (volume.rounding_error[:, 0], area.rounding_error[:, 0], rounding["center"], rounding["inertia"]),
+            (volume.input_error[:, 0], area.input_error[:, 0], moved["center"], moved["inertia"]),
+        )
+        return np.array(bounds).transpose(2, 0, 1)
+
+    def in_object_frames(self) -> MassProperties:
+        """The mass properties, each in its object's own frame."""
+        return self.mass_properties.in_frame(self.rotation, self.location)
+
+    def measurement(self, i: int) -> Measurement:
+        """One of them."""
+        obj, shape, volume, density = self.members[i].obj, self.members[i].shape, self.volume.at(i), self.density[i]
+        names = "volume", "area", "center_of_mass", "inertia"
+        rounding, inputs = (dict(zip(names, row)) for row in self.error_bounds[i].tolist())
+        return Measurement(
+            name=obj.name,
+            type=obj.type,
+            kind="solid",
+            method=shape.method,
+            density=float(density),
+            thickness=0.0,
+            volume=volume.total,
+            area=float(self.area.raw[i, 0]),
+            mass_properties=self.mass_properties.at(i),
+            volume_moments=volume,
+            area_moments=self.area.at(i),
+            mass_moments=(volume, float(density)),
+            health=replace(shape.health, volume_spread=shape.health.volume_spread * float(self.stretch[i])),
+            findings=self.findings[i],
+            rotation=self.rotation[i],
+            location=self.location[i],
+            error_bound={**rounding, "input": inputs},
+            fingerprint=self.fingerprints[i],
+            density_from=DENSITY_FROM_MASS if self.from_mass[i] else DENSITY_FROM_VALUE,
+        )
+
+
+class Stacked:
+    """One object's measurement that is part of a stack: what `Measured` is of one that was measured by itself."""
+
+    __slots__ = ("index", "stack")
+
+    def __init__(self, stack: MeasuredStack, index: int):
+        self.stack, self.index = stack, index
+
+    @property
+    def measurement(self) -> Measurement:
+        """The measurement."""
+        return self.stack.measurement(self.index)
+
+    @property
+    def findings(self) -> tuple[Finding, ...]:
+        """The measurement's findings."""
+        return self.stack.findings[self.index]
+
+    @property
+    def mass_properties(self) -> MassProperties:
+        """The measurement's mass properties."""
+        return self.stack.mass_properties.at(self.index)
+
+    @property
+    def method(self) -> Method:
+        """The measurement's method."""
+        return self.stack.members[self.index].shape.method
+
+    @property
+    def shape_digest(self) -> bytes | None:
+        """A digest of what the object shows; None of a large one."""
+        return self.stack.members[self.index].shape.digest
+
+
+def measure_members(
+    members: list[StackMember], shapes: list[MeshShape], unit: float, axes: bool = True
+) -> MeasuredStack | None:
+    """Measure objects together: those whose shapes can be measured and whose numbers are certain; None where there are
+    none. unit: meters per Blender unit. axes: as in `MeasureOptions`."""
+    own, own_area = measure_shapes(shapes)
+    which = np.array([member.shape.row for member in members])
+    matrices = np.array([member.matrix for member in members], np.float64)
+    usable = np.isfinite(matrices).all(axis=(1, 2))
+    usable &= own.raw[which, 0] > own.rounding_error[which, 0]
+    usable[usable] = ~are_singular(matrices[usable, :3, :3])
+    members, matrices, which = _chosen(members, usable), matrices[usable], which[usable]
+    if not members:
+        return None
+    keys = transform_keys(matrices)
+    matrices[:, :3] *= unit
+    volume = _placed(own.at(which), matrices)
+    area = _areas(own_area.at(which), matrices, members)
+    density = np.array([member.density for member in members])
+    mass = np.array([member.mass for member in members])
+    from_mass = ~np.isnan(mass)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        density = np.where(from_mass, mass / volume.raw[:, 0], density)
+    certain = (volume.raw[:, 0] > volume.rounding_error[:, 0]) & (density > 0.0) & (density < np.inf)
+    rows = np.flatnonzero(certain)
+    fixed = third_moment_frames(volume.at(rows))
+    if not fixed.is_body.all():  # the others are refused by themselves
+        rows = rows[fixed.is_body]
+        fixed = third_moment_frames(volume.at(rows))
+    if not len(rows):
+        return None
+    if len(rows) < len(members):  # the others are refused by themselves
+        members, keys = _chosen(members, rows), [keys[i] for i in rows.tolist()]
+        which, matrices, density, from_mass = which[rows], matrices[rows], density[rows], from_mass[rows]
+        volume, area = volume.at(rows), area.at(rows)
+    rotation = rotation_matrix([member.quaternion for member in members])
+
+    def higher(left: NDArray[np.intp]) -> OwnMoments:
+        needed, first, shape = np.unique(which[left], return_index=True, return_inverse=True)
+        shapes = [members[left[i]].shape for i in first.tolist()]
+        sixth = [own.at(0)] * len(shapes)
+        together = [i for i, each in enumerate(shapes) if each.alone is None]
+        if together:
+            solids = shapes[together[0]].solids
+            assert solids is not None
+            found = solids.to_order(needed[together], MAX_ORDER)
+            for row, i in enumerate(together):
+                sixth[i] = found.at(row)
+        alone = {i: each.alone for i, each in enumerate(shapes) if each.alone is not None}
+        small = [i for i, solid in alone.items() if is_small(solid.repaired_surface)]
+        if small:
+            found = small_moments_to_order([alone[i] for i in small], MAX_ORDER)
+            for row, i in enumerate(small):
+                sixth[i] = found.at(row)
+        for i in alone.keys() - small:
+            sixth[i] = shapes[i].sixth_order()
+        return own_moments(sixth, shape.ravel(), matrices[left, :3, :3])
+
+    properties = MassProperties.of_stack(volume, density, rotation, fixed, higher if axes else None)
+    geometry = np.ascontiguousarray(np.concatenate([volume.raw, area.raw], axis=1))
+    return MeasuredStack(
+        members,
+        from_mass,
+        density,
+        volume,
+        area,
+        properties,
+        volume.raw[:, 0] / own.raw[which, 0],
+        rotation,
+        np.array([member.location for member in members]) * unit,
+        [fingerprint(numbers, key, member.settings) for numbers, key, member in zip(geometry, keys, members)],
+        [_findings(member) for member in members],
+    )
+
+
+def _findings(member: StackMember) -> tuple[Finding, ...]:
+    """Of the member's shape, those marked that were accepted for the object."""
+    found = member.shape.findings
+    return with_acceptance(found, accepted_codes(member.obj)) if found else ()
+
+
+def _chosen(members: list[StackMember], which: NDArray) -> list[StackMember]:
+    return [members[i] for i in (np.flatnonzero(which) if which.dtype == bool else which).tolist()]
+
+
+def _placed(moments: Moments, matrices: NDArray) -> Moments:
+    """The images about the images of their reference points, as `sum_of_images` gives them."""
+    linear, about = matrices[:, :3, :3], moments.about
+    center = linear[..., 0] * about[:, :1] + linear[..., 1] * about[:, 1:2] + linear[..., 2] * about[:, 2:]
+    return image(moments, matrices, center + matrices[:, :3, 3])
+
+
+def _areas(area: Moments, matrices: NDArray, members: list[StackMember]) -> Moments:
+    """The areas of the images, of uneven ones from the mapped surfaces."""
+    even = are_similarities(matrices[:, :3, :3])
+    if even.all():
+        return _placed(area, matrices)
+    regular = matrices.copy()
+    regular[~even, :3, :3] = np.eye(3)
+    placed = _placed(area, regular)
+    for i in np.flatnonzero(~even).tolist():
+        found = area_of_images(members[i].shape.surface, matrices[i : i + 1, :3, :3])
+        for name in ("raw", "rounding_error", "input_error", "about"):
+            getattr(placed, name)[i] = getattr(found, name)
+    return placed

@@ -1,0 +1,217 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Shells of real thickness: the material between a surface and its offset, of any thickness at once.
+
+Thickness is a length in the world. Under a similarity an offset stays one, so that a surface and its instances share
+their polynomials; for other maps the surface is mapped to the world first.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from math import floor, inf, isfinite, log10
+from typing import ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core.mesh.boxes import boxes_overlap
+from ...core.mesh.surface import Surface
+from ...core.moments.images import sum_of_images
+from ...core.moments.moments import Measure, Moments, monomials, sum_moments
+from ...core.polyhedron import polyhedron_moments
+from ...core.solid.measure import SolidIntegrals
+from ...core.verdict.finding import Finding, ReadError, finding, unique
+from ...core.verdict.method import Verdict
+from ...core.verdict.tolerances import NEGLIGIBLE
+from ...core.wall import OffsetSolid, offset_solid, split_thickness, wall_moments
+from ..read import Reading
+from .body import KNOWN_ORDER, Body, MeshBody
+from .mesh.instances import group_by_similarity
+
+REPORTED = 0.01  # of the thickness: less unevenness is not reported
+SAME_AREA_RTOL = 1e-9
+SAME_SCALE_RTOL = 1e-6  # what float32 matrices leave of one scale
+
+
+@dataclass(frozen=True)
+class WallPiece:
+    """One surface. offset: its polynomials. scale: m for each of its units. matrices: (k, 4, 4) to where it stands."""
+
+    offset: OffsetSolid
+    scale: float
+    matrices: NDArray[np.float64]
+
+    def max_thickness(self, side: str) -> float:
+        """The thickness in m from which the wall folds over."""
+        return self.offset.max_thickness(side) * self.scale
+
+    def folds(self, side: str, thickness: float) -> bool:
+        """Whether the wall folds over, rounded as `moments` rounds."""
+        return not thickness / self.scale < self.offset.max_thickness(side)
+
+    def moments(self, side: str, thickness: float, order: int = KNOWN_ORDER) -> Moments:
+        """Of the wall, in SI units."""
+        reach = split_thickness(side, thickness / self.scale)
+        own = self.offset.moments(*reach) if order <= KNOWN_ORDER else wall_moments(self.offset, *reach, order)
+        return sum_of_images(own, self.matrices)
+
+    def per_thickness(self) -> Moments:
+        """Of the wall by its thickness, where that goes to zero."""
+        first = Moments(self.offset.coefficients[:, 0], self.offset.about, Measure.VOLUME)
+        return sum_of_images(first, self.matrices) * (1.0 / self.scale)
+
+    def self_intersects(self, side: str, thickness: float) -> bool:
+        """Whether the wall runs into itself."""
+        return self.offset.self_intersects(*split_thickness(side, thickness / self.scale))
+
+    def boxes(self, side: str, thickness: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """(k, 3) the middles and (k, 3) half the sides of boxes around the wall where it stands, in m."""
+        low, high = self.offset.box(*split_thickness(side, thickness / self.scale))
+        linear = self.matrices[:, :3, :3]
+        return linear @ ((low + high) / 2.0) + self.matrices[:, :3, 3], np.abs(linear) @ ((high - low) / 2.0)
+
+
+@dataclass(frozen=True)
+class Walls:
+    """The walls of one object, SI units, world axes.
+
+    thin: the body as a thin shell. side: "inward", "outward" or "centered". findings: what was decided about the sides.
+    """
+
+    thin: Body
+    side: str
+    pieces: tuple[WallPiece, ...]
+    findings: tuple[Finding, ...]
+
+    @property
+    def max_thickness(self) -> float:
+        """The thickness in m from which a wall folds over."""
+        return min(piece.max_thickness(self.side) for piece in self.pieces)
+
+    def body(self, thickness: float, check_overlap: bool = True) -> WallBody:
+        """The body with walls that thick, m. check_overlap: whether walls that meet are looked for, which takes time.
+        ReadError where a wall folds over."""
+        if not thickness > 0.0:
+            raise ReadError("no_thickness")
+        if any(piece.folds(self.side, thickness) for piece in self.pieces):
+            raise ReadError(self._folded_reason(thickness))
+        wall = sum_moments([piece.moments(self.side, thickness) for piece in self.pieces])
+        thin = self.thin
+        return WallBody(
+            thin.volume,
+            thin.area,
+            thin.health,
+            thin.method,
+            (*thin.findings, *self._decisions(thickness, check_overlap)),
+            wall=wall,
+            face_count=thin.face_count,
+            walls=self,
+            thickness=thickness,
+        )
+
+    def drop_arrays(self) -> Walls:
+        """The same without the arrays that are as large as the mesh."""
+        return replace(
+            self,
+            thin=Body(self.thin.volume, self.thin.area, self.thin.health, self.thin.method, self.thin.findings),
+            pieces=tuple(replace(piece, offset=piece.offset.drop_arrays()) for piece in self.pieces),
+        )
+
+    def _folded_reason(self, thickness: float) -> Finding:
+        piece = min(self.pieces, key=lambda piece: piece.max_thickness(self.side))
+        largest = self.max_thickness
+        near = {}
+        if len(piece.offset.points):
+            point = piece.matrices[0, :3, :3] @ piece.offset.first_fold_location(self.side) + piece.matrices[0, :3, 3]
+            near = {"point": point.tolist()}
+        if not largest > 0.0:
+            return finding("wall_faces_fold_back" if near else "wall_faces_fold_back_somewhere", **near)
+        sizes = {"thickness": thickness, "side": self.side, "largest": _round_down(largest)}
+        return finding("wall_folds" if near else "wall_folds_somewhere", **sizes, **near)
+
+    def _decisions(self, thickness: float, looked: bool) -> list[Finding]:
+        findings = [finding("wall_measured", thickness=thickness, side=self.side), *self.findings]
+        minimum = float(min(piece.offset.min_ratio for piece in self.pieces))
+        maximum = float(max(piece.offset.max_ratio for piece in self.pieces))
+        if minimum < 1.0 - REPORTED or maximum > 1.0 + REPORTED:
+            slight = self._unevenness() < NEGLIGIBLE
+            code = "wall_thickness_varies_slightly" if slight else "wall_thickness_varies"
+            findings.append(finding(code, minimum=minimum, maximum=maximum))
+        ignored = sum(piece.offset.degenerate_triangles for piece in self.pieces)
+        if ignored:
+            findings.append(finding("wall_faces_without_area", count=ignored))
+        if not looked:
+            findings.append(finding("wall_overlap_unchecked"))
+        elif any(piece.self_intersects(self.side, thickness) for piece in self.pieces):
+            findings.append(finding("walls_overlap"))
+        elif self._instances_overlap(thickness):
+            findings.append(finding("instance_walls_unchecked"))
+        return findings
+
+    def _unevenness(self) -> float:
+        """How far the moments to second order of a very thin wall are from those of its surface, by its size."""
+        surface = self.thin.area
+        center, degree = surface.center, monomials(2).sum(axis=1)
+        wall = sum_moments([piece.per_thickness() for piece in self.pieces]).about_point(center).truncate(2).raw
+        sheet = surface.about_point(center).truncate(2).raw
+        reach = np.sqrt(sheet[(degree == 2) & (monomials(2).max(axis=1) == 2)].sum() / sheet[0])
+        return float((np.abs(wall - sheet) / (sheet[0] * reach**degree)).max())
+
+    def _instances_overlap(self, thickness: float) -> bool:
+        centers, extents = zip(*(piece.boxes(self.side, thickness) for piece in self.pieces))
+        return boxes_overlap(np.concatenate(centers), np.concatenate(extents))
+
+
+@dataclass(frozen=True, eq=False)
+class WallBody(Body):
+    """A shell of real thickness, m, and the `walls` of any thickness that it is one of."""
+
+    any_order: ClassVar[bool] = True
+
+    walls: Walls = field(kw_only=True)
+    thickness: float = field(kw_only=True)
+
+    def moments(self, order: int, area: bool) -> tuple[Moments, Moments | None]:
+        """Return the moments of the wall, and of the surface itself."""
+        walls = self.walls
+        wall = sum_moments([piece.moments(walls.side, self.thickness, order) for piece in walls.pieces])
+        return wall, walls.thin.moments(order, True)[1] if area else None
+
+
+def find_walls(reading: Reading, body: MeshBody, side: str) -> Walls:
+    """The walls of an object that was measured as a thin shell. MeasureError where a surface has no sides."""
+    if body.mass is not None:
+        raise ReadError("wall_needs_one_density")
+    pieces, findings = [], []
+    for part, (solid, matrices) in zip(reading.parts, body.solids):
+        surface = _orient_outward(part.surface, solid, findings)
+        for image, image_matrices, _ in group_by_similarity(surface, matrices):
+            offset = offset_solid(image)
+            scale = np.cbrt(np.abs(np.linalg.det(image_matrices[:, :3, :3])))
+            _, which = np.unique(np.round(np.log(scale) / SAME_SCALE_RTOL), return_inverse=True)
+            for i in range(int(which.max()) + 1):
+                members = which.ravel() == i
+                pieces.append(WallPiece(offset, float(scale[members].mean()), image_matrices[members]))
+    return Walls(body, side, tuple(pieces), unique(findings))
+
+
+def _orient_outward(surface: Surface, solid: SolidIntegrals, findings: list[Finding]) -> Surface:
+    """The surface with its faces outward where it is closed, else as it is."""
+    if solid.method in (Verdict.EXACT, Verdict.REORIENTED):
+        area = polyhedron_moments(solid.repaired_surface, area_order=0, allow_open=True)[1].total
+        if abs(area - solid.area.total) <= SAME_AREA_RTOL * solid.area.total:  # else the repair has left something out
+            if solid.method == Verdict.REORIENTED:
+                findings.append(finding("wall_faces_reversed"))
+            return solid.repaired_surface
+    findings.append(finding("wall_unoriented"))
+    return surface
+
+
+def _round_down(length: float) -> float:
+    """The length rounded down to four digits, so that the length that is named works."""
+    if not isfinite(length):
+        return inf
+    unit = 10.0 ** (floor(log10(length)) - 3)
+    down = float("{:.4g}".format(floor(length / unit) * unit))
+    return down if down < length else float("{:.4g}".format(down - unit))

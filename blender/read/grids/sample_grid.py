@@ -1,0 +1,163 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""One grid of a volume by the node Sample Grid, where Blender has come without the openvdb module.
+
+A mesh with a vertex at the center of each voxel stores there, by a node tree, what the nearest voxel of the volume
+holds: the same values to the bit. Mesh, tree and a scene to evaluate them in live for this reading only, so that
+nothing of the user's scene is changed or evaluated anew. The extent is that of Blender's bounding box; empty space
+is not known before it is sampled.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+
+import bpy
+import numpy as np
+from numpy.typing import NDArray
+
+from ....core.mesh.surface import Surface
+from ....core.verdict.finding import ReadError
+from ..reading import float64_matrix
+
+VOXELS_PER_BLOCK = 1 << 21  # voxels that are sampled at a time
+MAX_VOXELS = 1 << 29  # voxels that are sampled at all
+KINDS = {
+    "FLOAT": ("FLOAT", np.float32),
+    "INT": ("INT", np.int32),
+    "BOOLEAN": ("BOOLEAN", np.bool_),
+    "MASK": ("BOOLEAN", np.bool_),
+}
+
+
+class SampledGrid:
+    """As `vdb.VdbGrid`; whether it is a level set is not known here."""
+
+    level_set = None
+
+    def __init__(self, obj, depsgraph, grid, bound_box) -> None:
+        if grid.data_type not in KINDS or (bpy.app.version < (5, 0) and grid.data_type != "FLOAT"):
+            raise ReadError("grid_needs_openvdb", grid=grid.name)
+        self._obj, self._depsgraph, self._name = obj, depsgraph, grid.name
+        self._kind, self._dtype = KINDS[grid.data_type]
+        self.to_object = float64_matrix(grid.matrix_object)
+        if not abs(np.linalg.det(self.to_object[:3, :3])) > 0.0:
+            raise ReadError("grid_transform_singular")
+        corners = np.array([[*corner] for corner in bound_box], np.float64)
+        index = (corners - self.to_object[:3, 3]) @ np.linalg.inv(self.to_object[:3, :3]).T
+        low, high = np.floor(index.min(axis=0)).astype(np.int64) - 1, np.ceil(index.max(axis=0)).astype(np.int64) + 1
+        self.low, self.shape = low, high - low + 1
+        if np.prod(self.shape.astype(float)) > MAX_VOXELS:
+            raise ReadError("grid_too_large_without_openvdb", grid=grid.name, samples=self.shape.tolist())
+        with self._sampler() as sample:
+            self.background = float(sample(low - 2, (1, 1, 1))[0, 0, 0])
+
+    def blocks(self) -> Iterator[tuple[tuple[int, int, int], NDArray]]:
+        """The voxels of the box, as blocks, each with where it begins in the box."""
+        planes = max(1, VOXELS_PER_BLOCK // int(np.prod(self.shape[1:])))
+        with self._sampler() as sample:
+            for start in range(0, int(self.shape[0]), planes):
+                shape = (min(planes, int(self.shape[0]) - start), *self.shape[1:].tolist())
+                yield (start, 0, 0), sample(self.low + (start, 0, 0), shape)
+
+    def polygons(self) -> Surface:
+        raise ReadError("level_set_needs_openvdb")
+
+    @contextmanager
+    def _sampler(self) -> Iterator[Callable[[NDArray, tuple[int, int, int]], NDArray]]:
+        """Gives a function from the first voxel of a block and its shape to the values."""
+        made = []
+
+        def keep(collection, block):
+            made.append((collection, block))
+            return block
+
+        try:
+            mesh = keep(bpy.data.meshes, bpy.data.meshes.new("Body Moments Reading"))
+            tree = keep(bpy.data.node_groups, bpy.data.node_groups.new("Body Moments Reading", "GeometryNodeTree"))
+            probe = keep(bpy.data.objects, bpy.data.objects.new("Body Moments Reading", mesh))
+            scene = keep(bpy.data.scenes, bpy.data.scenes.new("Body Moments Reading"))
+            layer = _layer_at_frame_of(self._depsgraph.scene, scene)
+            _fill(tree, self._obj, self._name, self._kind)
+            probe.modifiers.new("Body Moments Reading", "NODES").node_group = tree
+            scene.collection.objects.link(probe)
+
+            def sample(first: NDArray, shape: tuple[int, int, int]) -> NDArray:
+                count = int(np.prod(shape))
+                positions = np.empty((*shape, 3), np.float32)
+                steps = np.ogrid[tuple(slice(a, a + n) for a, n in zip(first.tolist(), shape))]
+                for axis, (*row, offset) in enumerate(self.to_object[:3]):
+                    positions[..., axis] = sum(factor * step for factor, step in zip(row, steps)) + offset
+                if len(mesh.vertices) != count:
+                    mesh.clear_geometry()
+                    mesh.vertices.add(count)
+                mesh.attributes["position"].data.foreach_set("vector", positions.reshape(-1))
+                mesh.update_tag()
+                layer.update()
+                values = np.zeros(count, self._dtype)
+                evaluated = probe.evaluated_get(layer.depsgraph).data
+                if "value" not in evaluated.attributes:
+                    raise ReadError("grid_not_sampled", grid=self._name)
+                evaluated.attributes["value"].data.foreach_get("value", values)
+                return values.reshape(shape)
+
+            yield sample
+        finally:
+            for collection, block in reversed(made):
+                collection.remove(block)
+
+
+def _layer_at_frame_of(shown, scene):
+    """A view layer of an empty scene that is now at the frame of the one that is shown.
+
+    To set `frame_current` makes Blender evaluate the animation of every scene, and so put back what was changed and not
+    keyed yet; `frame_set` evaluates this scene alone, but calls handlers, which need not know. The new layer has not
+    been evaluated: else what it shows next would be reported as changed.
+    """
+    handlers = [getattr(bpy.app.handlers, name) for name in ("frame_change_pre", "frame_change_post")]
+    kept = [functions[:] for functions in handlers]
+    try:
+        for functions in handlers:
+            functions.clear()
+        scene.frame_set(shown.frame_current, subframe=shown.frame_subframe)
+    finally:
+        for functions, before in zip(handlers, kept):
+            functions[:] = before
+    return scene.view_layers.new("Body Moments Reading")
+
+
+def _fill(tree, obj, name: str, kind: str) -> None:
+    """The nodes: the values of the object's named grid at the vertices, as the attribute "value"."""
+    for direction in ("INPUT", "OUTPUT"):
+        tree.interface.new_socket("Geometry", in_out=direction, socket_type="NodeSocketGeometry")
+    start, end, info, named, sample, place, store = (
+        tree.nodes.new(node)
+        for node in (
+            "NodeGroupInput",
+            "NodeGroupOutput",
+            "GeometryNodeObjectInfo",
+            "GeometryNodeGetNamedGrid",
+            "GeometryNodeSampleGrid",
+            "GeometryNodeInputPosition",
+            "GeometryNodeStoreNamedAttribute",
+        )
+    )
+    info.inputs["Object"].default_value = obj
+    named.data_type = sample.data_type = store.data_type = kind
+    store.domain = "POINT"
+    named.inputs["Name"].default_value = name
+    store.inputs["Name"].default_value = "value"
+    if hasattr(sample, "interpolation_mode"):
+        sample.interpolation_mode = "NEAREST"
+    else:
+        sample.inputs["Interpolation"].default_value = "Nearest Neighbor"
+    for source, target in (
+        (start.outputs[0], store.inputs["Geometry"]),
+        (info.outputs["Geometry"], named.inputs["Volume"]),
+        (named.outputs["Grid"], sample.inputs["Grid"]),
+        (place.outputs[0], sample.inputs["Position"]),
+        (sample.outputs[0], store.inputs["Value"]),
+        (store.outputs[0], end.inputs[0]),
+    ):
+        tree.links.new(source, target)

@@ -1,0 +1,194 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A grid of voxels as an object shows it: of a Volume object, or of any that its nodes turn into a volume.
+
+Blender gives voxels only as a file or through nodes. What Blender has read from a .vdb file
+and not changed is read from that file; what it has made is written, where its openvdb module can read it again, to
+Blender's temporary folder for as long as the reading lasts; else it is sampled by nodes.
+"""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+
+import bpy
+import numpy as np
+from numpy.typing import NDArray
+
+from ....core.mesh.surface import Surface
+from ....core.numerics.float32 import shortest_decimal
+from ....core.numerics.rotations import rotation_matrix
+from ....core.verdict.finding import Finding, MeasureError, ReadError, finding
+from ..decisions import modifier_findings
+from ..reading import float64_matrix
+from ..visibility import hidden_reason, why_not_evaluated
+from .sample_grid import SampledGrid
+from .vdb import VdbGrid, openvdb
+
+SCALARS = {"BOOLEAN", "MASK", "FLOAT", "DOUBLE", "INT", "INT64"}
+PREFERRED = "density"
+
+
+@dataclass
+class VolumeReading:
+    """One grid, and where it stands.
+
+    name, type, matrix, rotation, location, findings: as in `Reading`.
+    grid: its name. level_set: whether it is marked as one, None where nobody knows.
+    to_object: (4, 4) float64 from voxels to the object.
+    shape: (3,) of the box that holds its voxels; low: (3,) where that begins. background: what is in no voxel.
+    blocks: yields what is there, (offset in the box, array). polygons: gives the surface of a level set.
+    """
+
+    name: str
+    type: str
+    matrix: NDArray[np.float64]
+    rotation: NDArray[np.float64]
+    location: NDArray[np.float64]
+    grid: str
+    level_set: bool | None
+    to_object: NDArray[np.float64]
+    low: NDArray[np.int64]
+    shape: tuple[int, int, int]
+    background: float
+    blocks: Callable[[], Iterable[tuple[tuple[int, int, int], NDArray]]]
+    polygons: Callable[[], Surface]
+    findings: list[Finding] = field(default_factory=list)
+
+
+@contextmanager
+def volume_reading(obj, depsgraph, grid: str = "") -> Iterator[VolumeReading | None]:
+    """One grid of the object, by default "density" or else the first that can be one, as long as the context lasts;
+    None where the object shows polygons, or no volume.
+
+    Raises ReadError, and attaches the object's name to what is raised inside the context.
+    """
+    obj = obj.original
+    volume = _volume(obj, depsgraph)
+    if volume is None:
+        yield None
+        return
+    evaluated = obj.evaluated_get(depsgraph)
+    matrix = float64_matrix(evaluated.matrix_world)
+    if not np.isfinite(matrix).all():
+        raise ReadError("non_finite_transform", subject=obj.name)
+    findings: list[Finding] = []
+    chosen = _choose_grid(obj, volume, grid, findings)
+    hidden = hidden_reason(obj, depsgraph)
+    if hidden:
+        findings.append(finding("hidden_object_measured", cause=hidden.as_record()))
+    findings.extend(modifier_findings(obj, depsgraph.scene))
+    if volume.geometry.instances_pointcloud() is not None:
+        findings.append(finding("instances_beside_volume"))
+    try:
+        with _open_grid(obj, volume, chosen, depsgraph, findings) as source:
+            location, rotation, _ = evaluated.matrix_world.decompose()
+            yield VolumeReading(
+                obj.name,
+                obj.type,
+                matrix,
+                rotation_matrix(rotation),
+                np.array(location[:], np.float64),
+                chosen.name,
+                source.level_set,
+                source.to_object,
+                source.low,
+                tuple(source.shape.tolist()),
+                source.background,
+                source.blocks,
+                source.polygons,
+                findings,
+            )
+    except MeasureError as error:
+        error.about(obj.name)
+        raise
+
+
+def _volume(obj, depsgraph):
+    """The evaluated volume with its grids loaded, or None."""
+    if obj.type not in {"VOLUME", "MESH", "CURVE", "FONT", "SURFACE", "POINTCLOUD", "CURVES"}:
+        return None
+    evaluated = obj.evaluated_get(depsgraph)
+    try:
+        geometry = evaluated.evaluated_geometry()
+    except (TypeError, RuntimeError):
+        raise ReadError(why_not_evaluated(obj, depsgraph), subject=obj.name) from None
+    if geometry.mesh is not None and len(geometry.mesh.polygons):
+        return None
+    # An object's own volume lives as long as the object, that of a geometry set as long as the set.
+    volume = evaluated.data if isinstance(evaluated.data, bpy.types.Volume) else geometry.volume
+    if volume is None:
+        return None
+    # A saved file turns an empty path into that of a folder.
+    folder = os.path.isdir(bpy.path.abspath(volume.filepath, library=obj.data.library))
+    if not volume.grids.load() and not folder:
+        error = volume.grids.error_message.rstrip(".")
+        reason = finding("volume_file_unreadable", error=error) if error else finding("volume_file_missing")
+        raise ReadError(reason, subject=obj.name)
+    if not len(volume.grids):
+        if obj.type != "VOLUME" or geometry.instances_pointcloud() is not None:
+            return None
+        raise ReadError("volume_without_grids", subject=obj.name)
+    return _OwnedVolume(geometry, volume)
+
+
+@dataclass
+class _OwnedVolume:
+    """A volume with the geometry set that may own it."""
+
+    geometry: bpy.types.GeometrySet
+    data: bpy.types.Volume
+
+
+def _choose_grid(obj, volume: _OwnedVolume, name: str, findings: list[Finding]):
+    """The grid of that name, or the one that is meant most likely."""
+    grids = {grid.name: grid for grid in volume.data.grids}
+    if len(grids) < len(volume.data.grids):
+        findings.append(finding("grid_names_repeated"))
+    if name:
+        if name not in grids:
+            raise ReadError("grid_missing", subject=obj.name, grid=name, grids=list(grids))
+        if grids[name].data_type not in SCALARS:
+            raise ReadError("grid_type", subject=obj.name, grid=name)
+        return grids[name]
+    scalars = {grid_name: grid for grid_name, grid in grids.items() if grid.data_type in SCALARS}
+    if not scalars:
+        raise ReadError("no_scalar_grid", subject=obj.name, grids=list(grids))
+    chosen = scalars.get(PREFERRED) or next(iter(scalars.values()))
+    if len(grids) > 1:
+        left_out = [other for other in grids if other != chosen.name]
+        findings.append(finding("grids_left_out", grid=chosen.name, grids=left_out))
+    return chosen
+
+
+@contextmanager
+def _open_grid(obj, volume: _OwnedVolume, grid, depsgraph, findings: list[Finding]) -> Iterator[VdbGrid | SampledGrid]:
+    path = None if openvdb() is None else _unchanged_file(obj, volume)
+    render = depsgraph.scene.render
+    if not path and render.use_simplify and render.simplify_volumes < 1.0:
+        findings.append(finding("grid_simplified", share=shortest_decimal(render.simplify_volumes)))
+    if openvdb() is None:
+        yield SampledGrid(obj, depsgraph, grid, obj.evaluated_get(depsgraph).bound_box)
+        return
+    if path:
+        yield VdbGrid(path, grid.name)
+        return
+    with tempfile.TemporaryDirectory(prefix="body_moments_", dir=bpy.app.tempdir) as folder:
+        path = os.path.join(folder, "volume.vdb")
+        try:
+            volume.data.grids.save(filepath=path)
+        except RuntimeError:
+            raise ReadError("temporary_folder_full") from None
+        yield VdbGrid(path, grid.name)
+
+
+def _unchanged_file(obj, volume: _OwnedVolume) -> str | None:
+    """The file that the grids are read from, where nothing has changed them since."""
+    if any(modifier.show_viewport for modifier in obj.modifiers) or obj.data.packed_file is not None:
+        return None
+    path = volume.data.grids.frame_filepath
+    return path if os.path.isfile(path) else None

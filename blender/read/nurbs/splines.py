@@ -1,0 +1,156 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The splines of a surface object as patches, proved against the mesh that Blender displays.
+
+Where shape keys and hooks move control points, or a spline has knots that Blender keeps to itself (its OBJ importer
+makes such ones), what was read may not be what is shown. So the patches are evaluated at the parameters of the display
+mesh's vertices and compared with them. Where they differ, the control points are recovered from those vertices, a
+linear problem in each direction; where that leaves a difference too, the display mesh has to do.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ....core.moments.moments import FLOAT32_HALF_ULP
+from ....core.numerics.bspline import SplineSpace
+from ....core.nurbs.blender_knots import blender_space, display_parameters, display_table
+from ....core.nurbs.patch import Patch
+from ....core.verdict.finding import ReadError, finding
+from ..reading import SplineReading
+from .deformation import deform, is_deformed, spline_modifiers
+
+AGREEMENT_RTOL = 4e-6  # of the largest coordinate: float32 evaluation, of order 6 by order 6
+RECOVERY_RTOL = 1e-6  # of the size: what control points that were solved for may be off by
+MAX_CONDITION = 1e4  # condition of a direction's samples
+
+
+def spline_reading(evaluated, depsgraph, mesh) -> SplineReading | None:
+    """The patches of an evaluated surface object, None where its display mesh has to be measured.
+
+    mesh: what Blender displays for it, or None to believe the control points.
+    """
+    original = evaluated.original
+    if spline_modifiers(original)[1]:
+        return None
+    splines = [spline for spline in evaluated.data.splines if spline.type == "NURBS"]
+    if not splines or len(splines) < len(evaluated.data.splines):
+        return None
+    control_points = [weighted_points(spline) for spline in splines]
+    coordinates = np.concatenate(control_points)
+    points = coordinates[:, :3].astype(np.float64)
+    if is_deformed(evaluated):
+        try:
+            points = deform(evaluated, points, depsgraph)
+        except ReadError:
+            return None
+    if nonpositive_weights(splines) or not np.isfinite(coordinates).all() or not np.isfinite(points).all():
+        return None
+    starts = np.cumsum([0] + [len(row) for row in control_points])
+    patches, samples, left_out = [], [], 0
+    for spline, start, end in zip(splines, starts[:-1], starts[1:]):
+        spaces = _spaces(spline)
+        if spaces is None:
+            left_out += 1
+            continue
+        shape = (spline.point_count_v, spline.point_count_u)
+        patches.append(
+            Patch(
+                spaces,
+                points[start:end].reshape(*shape, 3),
+                coordinates[start:end, 3].astype(np.float64).reshape(shape),
+            )
+        )
+        samples.append(
+            tuple(
+                display_table(space, display_parameters(space, resolution))
+                for space, resolution in zip(spaces, (spline.resolution_v, spline.resolution_u))
+            )
+        )
+    if not patches:
+        return None
+    largest = float(np.abs(points).max())
+    size = float(np.ptp(points, axis=0).max())
+    stored = FLOAT32_HALF_ULP * (
+        1.8 * largest + (2.0 * size if any(patch.weights is not None for patch in patches) else 0.0)
+    )
+    findings = []
+    if left_out:
+        findings.append(finding("splines_left_out", count=left_out, total=len(splines)))
+    if mesh is not None:
+        shown = np.empty(3 * len(mesh.vertices), np.float32)
+        mesh.attributes["position"].data.foreach_get("vector", shown)
+        proved = _verified(patches, samples, shown.reshape(-1, 3), AGREEMENT_RTOL * largest)
+        if proved is None:
+            return None
+        if proved is not patches:
+            patches, stored = proved, stored + RECOVERY_RTOL * size
+            findings.append(finding("control_points_recovered"))
+    return SplineReading(tuple(patches), stored, tuple(findings))
+
+
+def nonpositive_weights(splines) -> int:
+    """How many control points have a weight that is not positive, for which the display mesh has to be measured."""
+    return sum(int((~(weighted_points(spline)[:, 3] > 0.0)).sum()) for spline in splines if spline.type == "NURBS")
+
+
+def weighted_points(spline) -> NDArray[np.float32]:
+    """(n, 4) the control points and weights of a spline that is not a Bézier one."""
+    row = np.empty(4 * len(spline.points), np.float32)
+    spline.points.foreach_get("co", row)
+    return row.reshape(-1, 4)
+
+
+def _spaces(spline) -> tuple[SplineSpace, SplineSpace] | None:
+    """The spaces of v and u: with v first, a patch's normal points as Blender's faces do."""
+    v, u = (
+        blender_space(
+            spline.point_count_v, spline.order_v, spline.use_cyclic_v, spline.use_bezier_v, spline.use_endpoint_v
+        ),
+        blender_space(
+            spline.point_count_u, spline.order_u, spline.use_cyclic_u, spline.use_bezier_u, spline.use_endpoint_u
+        ),
+    )
+    return None if v is None or u is None else (v, u)
+
+
+def _verified(
+    patches: list[Patch], samples: list[tuple[NDArray, NDArray]], shown: NDArray, tolerance: float
+) -> list[Patch] | None:
+    """The patches where they agree with the display mesh, else those that do, else None."""
+    counts = [len(v) * len(u) for v, u in samples]
+    if sum(counts) != len(shown):
+        return None
+    # Vertices run along v within each step of u.
+    pieces = [
+        piece.reshape(len(u), len(v), 3).swapaxes(0, 1).astype(np.float64)
+        for piece, (v, u) in zip(np.split(shown, np.cumsum(counts)[:-1]), samples)
+    ]
+    if all(_agrees(patch, sample, piece, tolerance) for patch, sample, piece in zip(patches, samples, pieces)):
+        return patches
+    attempts = [_interpolating_patch(patch, sample, piece) for patch, sample, piece in zip(patches, samples, pieces)]
+    solved = [patch for patch in attempts if patch is not None]
+    if len(solved) < len(attempts) or not all(_agrees(*row, tolerance) for row in zip(solved, samples, pieces)):
+        return None
+    return solved
+
+
+def _agrees(patch: Patch, sample: tuple[NDArray, NDArray], piece: NDArray, tolerance: float) -> bool:
+    return bool(np.abs(patch.apply_weights(*sample) - piece).max() <= tolerance)
+
+
+def _interpolating_patch(patch: Patch, sample: tuple[NDArray, NDArray], piece: NDArray) -> Patch | None:
+    """The patch of the same spaces and weights that goes through the samples; None where they do not determine it."""
+    inverses = []
+    for table in sample:
+        acting = table.any(axis=0)
+        if np.linalg.cond(table[:, acting]) > MAX_CONDITION:
+            return None
+        inverses.append(np.linalg.pinv(table))
+    if patch.weights is not None:
+        piece = piece * np.einsum("ai,ij,bj->ab", sample[0], patch.weights, sample[1])[..., None]
+    points = np.einsum("ia,abd,jb->ijd", inverses[0], piece, inverses[1])
+    return replace(patch, points=points if patch.weights is None else points / patch.weights[..., None])

@@ -1,0 +1,112 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""An object as a Reading: what the viewport shows of it, and a finding for each decision.
+
+Reading changes nothing: no mode, no selection, no mesh. An object that Blender has not evaluated is
+refused with the reason, never read without its modifiers (visibility.py). The object frame is
+`matrix_world.decompose()`.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ...core.mesh.surface import Surface
+from ...core.numerics.rotations import rotation_matrix
+from ...core.verdict.finding import ReadError, finding
+from .decisions import reading_findings, why_empty
+from .instances import InstanceCollector
+from .nurbs.curves import read_curves
+from .nurbs.deformation import is_deformed
+from .nurbs.splines import nonpositive_weights, spline_reading
+from .reading import Part, Reading, attribute_to_source, float64_matrix
+from .visibility import evaluated_geometry, require_kind, why_not_evaluated
+
+
+def read_object(
+    obj, depsgraph, *, materials: bool = False, attribute: str | None = None, edges: bool = True
+) -> Reading:
+    """Read one object, original or evaluated, as the up-to-date viewport `depsgraph` has it.
+
+    materials: with the materials of its faces. attribute: with the values of a float attribute on its
+    vertices. edges: with what proves surfaces closed.
+
+    Raises ReadError: of a kind without surface, not evaluated, nothing with a face, coordinates or
+    transforms that are not finite.
+    """
+    obj = obj.original
+    require_kind(obj)
+    reading = locate(obj, depsgraph)
+    gathered = InstanceCollector(obj.evaluated_get(depsgraph), depsgraph, materials, attribute, edges)
+    gathered.collect()
+    parts = gathered.parts()
+    if not parts:
+        raise ReadError(why_empty(obj, gathered, depsgraph), subject=obj.name)
+    for part in parts:
+        _require_finite(obj, part)
+    reading.parts, reading.findings = parts, list(reading_findings(obj, gathered, depsgraph))
+    return reading
+
+
+def read_lines(obj, depsgraph) -> Reading:
+    """As `read_object` for a curve object, but its curves instead of the surface that it may show.
+
+    Raises ReadError for objects of other kinds too.
+    """
+    obj = obj.original
+    if obj.type != "CURVE":
+        raise ReadError("only_curves_are_wires", subject=obj.name)
+    reading = locate(obj, depsgraph)
+    reading.curves, reading.findings = read_curves(obj, depsgraph)
+    return reading
+
+
+def read_patches(obj, depsgraph) -> Reading | None:
+    """As `read_object` for a surface object, but its patches alone: no display mesh, unless control points have to be
+    compared with it, and no finding about the render. None where it shows more, or has to be measured by its mesh.
+    """
+    obj = obj.original
+    reading = locate(obj, depsgraph)
+    if obj.instance_type != "NONE":
+        return None
+    geometry = evaluated_geometry(obj, depsgraph, obj)  # it owns its mesh
+    evaluated = obj.evaluated_get(depsgraph)
+    splines = spline_reading(evaluated, depsgraph, geometry.mesh if is_deformed(evaluated) else None)
+    if splines is None:
+        return None
+    nothing = Surface(np.zeros((0, 3), np.float32))
+    reading.parts = [Part(nothing, reading.matrix[None], splines=splines)]
+    return reading
+
+
+def locate(obj, depsgraph) -> Reading:
+    """An evaluated object's name and place, with nothing read of it yet.
+
+    Raises ReadError where Blender has not evaluated it, or its transform is not finite.
+    """
+    evaluated = obj.evaluated_get(depsgraph)
+    if not evaluated.is_evaluated:
+        raise ReadError(why_not_evaluated(obj, depsgraph), subject=obj.name)
+    matrix = float64_matrix(evaluated.matrix_world)
+    if not np.isfinite(matrix).all():
+        raise ReadError("non_finite_transform", subject=obj.name)
+    location, rotation, _scale = evaluated.matrix_world.decompose()
+    return Reading(
+        name=obj.name,
+        type=obj.type,
+        matrix=matrix,
+        rotation=rotation_matrix(rotation),
+        location=np.array(location[:], np.float64),
+    )
+
+
+def _require_finite(obj, part: Part) -> None:
+    surface = part.surface
+    if np.isfinite(surface.box).all():
+        return
+    if obj.type == "SURFACE" and nonpositive_weights(obj.data.splines):
+        raise ReadError("non_positive_weights", subject=obj.name)
+    points = surface.points
+    misplaced = np.flatnonzero(~np.isfinite(points).all(axis=1))
+    found = finding("non_finite_vertices", misplaced, count=len(misplaced), total=len(points))
+    raise ReadError(attribute_to_source(found, part.source_object_name, obj.name), subject=obj.name)

@@ -1,0 +1,165 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What makes a measured object a link of a robot: where it stands, and what it hangs on."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import Any
+
+import bpy
+import numpy as np
+
+from ...core.measurement.measurement import Measurement
+from ...core.mesh.surface import Surface, join_surfaces
+from ...core.numerics.rotations import polar_rotation, quaternion
+from ...core.robots.model import Pose
+from ...core.verdict.finding import MeasureError
+from .objects import read_object
+from .reading import float64_matrix
+
+
+def link_entry(
+    measurement: Measurement,
+    parents: Sequence[str] = (),
+    scale: Sequence[float] = (1.0, 1.0, 1.0),
+    free: Sequence[Mapping[str, Any]] = (),
+) -> dict[str, Any]:
+    """Return the entry `link` of a record.
+
+    Parameters
+    ----------
+    measurement : Measurement
+        Its own; the link's frame is the object's.
+    parents : sequence of str
+        The records of what it hangs on, the nearest first.
+    scale : (3,) sequence
+        Of the object's own geometry.
+    free : sequence of mapping
+        How it may move in its parent: "kind", "axis" (its own), "lower" and "upper" of each degree of freedom, None for
+        no limit.
+
+    Returns
+    -------
+    dict
+        "position" (m) and "rotation" (w, x, y, z) in the world, "scale", "parents"; "free" where it may move.
+    """
+    return {
+        "position": measurement.location.tolist(),
+        "rotation": quaternion(measurement.rotation).tolist(),
+        "scale": list(scale),
+        "parents": list(parents),
+        **({"free": [dict(axis) for axis in free]} if free else {}),
+    }
+
+
+def object_entry(
+    obj: bpy.types.Object, measurement: Measurement, labels: Mapping[bpy.types.Object, str]
+) -> dict[str, Any]:
+    """Return the entry `link` of an object's record. labels: of all that may be links."""
+    parents, above = [], obj.parent
+    while above is not None:
+        parents += [labels[above]] if above in labels else []
+        above = above.parent
+    return link_entry(measurement, parents, list(obj.matrix_world.to_scale()))
+
+
+def link_surface(
+    objects: Iterable[bpy.types.Object], depsgraph: bpy.types.Depsgraph, pose: Pose, unit: float
+) -> Surface | None:
+    """Return what the objects of a link show as triangles in meters, in the link's frame; None where they show no
+    faces.
+
+    Parameters
+    ----------
+    objects : iterable of Object
+    depsgraph : Depsgraph
+    pose : Pose
+        Of the link in the world, m.
+    unit : float
+        Meters per Blender unit.
+
+    Returns
+    -------
+    Surface or None
+    """
+    pieces, to_link = [], pose.inverse()
+    for obj in objects:
+        try:
+            surface = read_object(obj, depsgraph, edges=False).join()
+        except MeasureError:  # such as a grid of densities
+            continue
+        pieces.append(surface.transform(unit * to_link.rotation, to_link.position))
+    return join_surfaces(pieces) if len(pieces) > 1 else pieces[0] if pieces else None
+
+
+def sheared_objects(objects: Iterable[bpy.types.Object]) -> list[str]:
+    """Return the names of objects whose matrix does more than move, turn, scale and mirror."""
+    located = list(objects)
+    if not located:
+        return []
+    _, sheared = polar_rotation(np.array([float64_matrix(obj.matrix_world) for obj in located]))
+    return [obj.name_full for obj, skew in zip(located, sheared) if skew]
+
+
+def bone_freedom(bone: bpy.types.PoseBone) -> list[dict[str, Any]]:
+    """Return how a bone may turn in its parent, about its own axes: the one that Blender's XYZ angles turn about last
+    comes first.
+
+    Parameters
+    ----------
+    bone : PoseBone
+        Its Limit Rotation constraint in local space counts, else its limits for inverse kinematics; and its locks.
+
+    Returns
+    -------
+    list of dict
+        As `link_entry` takes them. An axis that is locked, or has no room, is left out.
+    """
+    limits: dict[str, tuple[float | None, float | None]] = {}
+    for axis in "xyz":
+        if getattr(bone, "use_ik_limit_" + axis):
+            limits[axis] = getattr(bone, "ik_min_" + axis), getattr(bone, "ik_max_" + axis)
+    for constraint in bone.constraints:
+        if constraint.type == "LIMIT_ROTATION" and constraint.owner_space == "LOCAL" and constraint.enabled:
+            for axis in "xyz":
+                if getattr(constraint, "use_limit_" + axis):
+                    limits[axis] = getattr(constraint, "min_" + axis), getattr(constraint, "max_" + axis)
+    free = []
+    for index in (2, 1, 0):
+        axis = "xyz"[index]
+        lower, upper = limits.get(axis, (None, None))
+        no_room = lower is not None and upper is not None and not lower < upper
+        if no_room or bone.lock_rotation[index] or getattr(bone, "lock_ik_" + axis):
+            continue
+        direction = [float(other == index) for other in range(3)]
+        free.append({"kind": "rotate", "axis": direction, "lower": lower, "upper": upper})
+    return free
+
+
+def bone_parents(bone: bpy.types.PoseBone, labels: Mapping[str, str]) -> list[str]:
+    """Return the labels of the bones that one hangs on, the nearest first. labels: by name, of those that are links."""
+    return [labels[above.name] for above in bone.parent_recursive if above.name in labels]
+
+
+USD_ROOT = "root"  # what Blender's exporter puts everything under
+
+
+def usd_path(obj: bpy.types.Object, identifier: Callable[[str], str]) -> list[str]:
+    """Return the names of the prims from the top to an object's, in what Blender's exporter writes.
+
+    Parameters
+    ----------
+    obj : Object
+    identifier : callable
+        Makes the name of a prim of an object's.
+
+    Returns
+    -------
+    list of str
+    """
+    names, above = [], obj
+    while above is not None:
+        names.append(identifier(above.name))
+        above = above.parent
+    return [USD_ROOT, *reversed(names)]

@@ -1,0 +1,262 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a plane section is measured from: selected faces, an object's faces, or the outlines of 2-D curves and text.
+
+Curves and text are read by their outlines, not by their fill: Blender fills outlines that touch, coincide or cross
+wrongly and without a word (4.5 and 5.2 alike: two squares side by side, one of them lower, lose the larger one). The
+outlines are those of a copy of the curve whose fill is off, which Blender turns into edges. Only a text on a curve is
+read by its fill.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+
+import bpy
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core.mesh.surface import Surface
+from ...core.numerics.rotations import polar_rotation
+from ...core.nurbs.curve import Curve
+from ...core.verdict.finding import Finding, ReadError, finding
+from .mesh import from_edit_mesh, mesh_surface
+from .nurbs.curves import read_curves, text_curves
+from .objects import locate, read_object
+from .reading import Reading
+
+SECTION_TYPES = {"MESH", "CURVE", "FONT"}
+ZERO_SCALE = 1e-17  # a scale that `decompose()` takes for zero
+
+
+@dataclass
+class SectionReading:
+    """Faces or outlines as arrays, in the world, Blender units.
+
+    description: of what object or part, in words. points: (n, 3). triangles: (m, 3), facing as drawn, and faces: (m,)
+    the face of each; for outlines fans that give the plane, with loops: the points of each closed outline, in order.
+    facing: (3,) where the plane has to look, None where the triangles decide. error: how far float32 storage may have
+    moved a point. drawn_area: the area that Blender fills, of outlines in a plane. rotation, location: the object
+    frame, or where a zero scale leaves `decompose()` without a rotation, the right-angled axes that are left.
+    """
+
+    name: str
+    description: str
+    points: NDArray[np.floating]
+    triangles: NDArray[np.integer]
+    faces: NDArray[np.integer]
+    error: float
+    rotation: NDArray[np.float64]
+    location: NDArray[np.float64]
+    loops: Sequence[NDArray[np.integer]] | None = None
+    facing: NDArray[np.float64] | None = None
+    drawn_area: float | None = None
+    findings: list[Finding] = field(default_factory=list)
+
+
+def read_section(obj, depsgraph, *, selected: bool = True, resolution: int | None = None) -> SectionReading:
+    """Read one object: in Edit Mode of a mesh its selected faces as they are now, else what the viewport shows of it.
+
+    selected: whether only the selected faces in Edit Mode. resolution: of curves and text, in the place of their own.
+    Raises ReadError.
+    """
+    obj = obj.original
+    if obj.type not in SECTION_TYPES:
+        raise ReadError("flat_of_type", subject=obj.name)
+    if selected and obj.type == "MESH" and obj.data.is_editmode:
+        return _selected_faces(obj, depsgraph)
+    if obj.type in {"CURVE", "FONT"} and not _has_modifiers(obj):
+        return _outlines(obj, depsgraph, resolution)
+    reading = read_object(obj, depsgraph, edges=False)
+    findings = list(reading.findings)
+    if obj.type in {"CURVE", "FONT"}:
+        findings.append(finding("section_modified_fill"))
+    surface = reading.join()
+    triangles, faces = surface.all_triangles()
+    return SectionReading(
+        obj.name,
+        "All Faces",
+        surface.points,
+        triangles,
+        faces,
+        float(np.linalg.norm(surface.coordinate_error)),
+        _axes(reading),
+        reading.location,
+        findings=findings,
+    )
+
+
+def read_outline_curves(obj, depsgraph) -> tuple[list[Curve], NDArray[np.float64]]:
+    """The outlines of a flat curve or text as curves in its own coordinates, and its `matrix_world`. It has no
+    modifiers, and follows no curve.
+
+    Raises ReadError where there are none.
+    """
+    obj = obj.original
+    place = locate(obj, depsgraph)
+    curves = text_curves(obj, depsgraph) if obj.type == "FONT" else read_curves(obj, depsgraph)[0]
+    return curves, place.matrix
+
+
+def _has_modifiers(obj) -> bool:
+    return any(modifier.show_viewport for modifier in obj.modifiers)
+
+
+def _axes(reading: Reading) -> NDArray[np.float64]:
+    shortest = np.sqrt((reading.matrix[:, :3] ** 2).sum(axis=0)).min()
+    return polar_rotation(reading.matrix[None])[0][0] if shortest < ZERO_SCALE else reading.rotation
+
+
+def _selected_faces(obj, depsgraph) -> SectionReading:
+    def selected(copy: bpy.types.Mesh) -> tuple[NDArray[np.bool_], Surface]:
+        chosen = np.empty(len(copy.polygons), bool)
+        copy.polygons.foreach_get("select", chosen)
+        return chosen, mesh_surface(copy, edges=False)
+
+    chosen, surface = from_edit_mesh(obj.data, selected)
+    if not chosen.any():
+        raise ReadError("section_no_selected_face", subject=obj.name)
+    place = locate(obj, depsgraph)
+    surface = surface.transform(place.matrix[:3, :3], place.matrix[:3, 3])
+    triangles, faces = surface.all_triangles()
+    inside = chosen[faces]
+    triangles = triangles[inside]
+    _require_finite(obj, surface.points)  # of all, which say how far float32 may have moved any
+    acting = [modifier.name for modifier in obj.modifiers if modifier.show_viewport]
+    findings = [finding("section_without_modifiers", modifiers=acting)] if acting else []
+    count = int(np.count_nonzero(chosen))
+    return SectionReading(
+        obj.name,
+        "1 Selected Face" if count == 1 else "{:d} Selected Faces".format(count),
+        surface.points,
+        triangles,
+        faces[inside],
+        float(np.linalg.norm(surface.coordinate_error)),
+        _axes(place),
+        place.location,
+        findings=findings,
+    )
+
+
+def _outlines(obj, depsgraph, resolution: int | None) -> SectionReading:
+    _require_flat_outlines(obj)
+    if obj.mode == "EDIT":
+        obj.update_from_editmode()
+    local, loops, open_splines = _spline_outlines(obj, resolution)
+    if not loops:
+        code = "section_no_outline_text" if obj.type == "FONT" else "section_no_outline_curve"
+        raise ReadError(code, subject=obj.name)
+    place = locate(obj, depsgraph)
+    linear = place.matrix[:3, :3]
+    facing = np.cross(linear[:, 0], linear[:, 1]) * np.sign(np.linalg.det(linear) or 1.0)
+    filled = _fill_area(obj, depsgraph)
+    findings = list(_outline_findings(obj, sum(map(len, loops)), open_splines))
+    drawn = None
+    if obj.type == "FONT" and obj.data.follow_curve is not None:
+        # Only the evaluated text follows its curve, and only its fill is there to be read.
+        if filled is None:
+            raise ReadError("section_text_on_curve", subject=obj.name)
+        surface, loops = filled.transform(linear, place.matrix[:3, 3]), None
+        triangles, faces = surface.all_triangles()
+    else:
+        surface = Surface(local).transform(linear, place.matrix[:3, 3])
+        fans = [np.stack([np.full(len(loop) - 2, loop[0]), loop[1:-1], loop[2:]], axis=1) for loop in loops]
+        triangles = np.concatenate(fans)
+        faces = np.arange(len(triangles))
+        if filled is not None:
+            a, b, c = (filled.points.astype(np.float64)[filled.all_triangles()[0][:, i]] for i in range(3))
+            ab, ac = b - a, c - a
+            drawn = float(np.abs(ab[:, 0] * ac[:, 1] - ab[:, 1] * ac[:, 0]).sum() / 2.0 * np.sqrt(facing @ facing))
+    _require_finite(obj, surface.points)
+    return SectionReading(
+        obj.name,
+        "Text" if obj.type == "FONT" else "Curve",
+        surface.points,
+        triangles,
+        faces,
+        float(np.linalg.norm(surface.coordinate_error)),
+        _axes(place),
+        place.location,
+        loops,
+        facing,
+        drawn,
+        findings,
+    )
+
+
+def _outline_findings(obj, corners: int, open_splines: int) -> Iterator[Finding]:
+    if open_splines:
+        yield finding("section_splines_open", count=open_splines)
+    if obj.data.fill_mode == "NONE":
+        yield finding("section_not_filled")
+    resolution = _resolution(obj)
+    if resolution:
+        yield finding("section_drawn_as_polygons", corners=corners, resolution=resolution)
+    rendered = obj.data.render_resolution_u
+    if resolution and rendered not in (0, obj.data.resolution_u):
+        yield finding("section_render_resolution", render=rendered)
+
+
+def _require_flat_outlines(obj) -> None:
+    curve = obj.data
+    if obj.type == "CURVE" and curve.dimensions != "2D":
+        raise ReadError("section_3d_curve", subject=obj.name)
+    if curve.extrude or curve.bevel_depth or (curve.bevel_mode == "OBJECT" and curve.bevel_object):
+        raise ReadError("section_extruded", subject=obj.name)
+    if curve.offset:
+        raise ReadError("section_offset", subject=obj.name)
+
+
+def _spline_outlines(obj, resolution: int | None) -> tuple[NDArray[np.float32], list[NDArray[np.intp]], int]:
+    """(n, 3) the points of the object's splines, those of each closed one, and how many are open."""
+    data = obj.data.copy()
+    data.dimensions, data.fill_mode = "2D", "NONE"
+    if resolution is not None:
+        for curved in (data, *data.splines):
+            curved.resolution_u = resolution
+    copy = bpy.data.objects.new("Body Moments Reading", data)
+    try:
+        mesh = copy.to_mesh()
+        if mesh is None:
+            return np.empty((0, 3), np.float32), [], 0
+        points = np.empty((len(mesh.vertices), 3), np.float32)
+        mesh.vertices.foreach_get("co", points.reshape(-1))
+        edges = np.empty((len(mesh.edges), 2), np.int32)
+        mesh.edges.foreach_get("vertices", edges.reshape(-1))
+        copy.to_mesh_clear()
+    finally:
+        bpy.data.curves.remove(data)  # and the object with it
+    # Each spline is a row of points; the edge that closes it leads back from its last one to its first.
+    closing = edges[edges[:, 1] < edges[:, 0]].tolist()
+    loops = [np.arange(first, last + 1) for last, first in closing if last - first >= 2]
+    inside = np.zeros(len(points), bool)
+    for last, first in closing:
+        inside[first : last + 1] = True
+    steps = edges[edges[:, 1] == edges[:, 0] + 1]
+    loose = int(np.count_nonzero(~inside)) - int(np.count_nonzero(~inside[steps[:, 0]]))
+    return points, loops, loose
+
+
+def _fill_area(obj, depsgraph) -> Surface | None:
+    evaluated = obj.evaluated_get(depsgraph)
+    mesh = evaluated.to_mesh()
+    try:
+        return mesh_surface(mesh, edges=False) if mesh is not None and len(mesh.polygons) else None
+    finally:
+        evaluated.to_mesh_clear()
+
+
+def _resolution(obj) -> str:
+    """The resolution of what is curved, or the range of them; "" where all is straight."""
+    if obj.type == "FONT":
+        return str(obj.data.resolution_u)
+    used = sorted({spline.resolution_u for spline in obj.data.splines if spline.type != "POLY"})
+    if not used:
+        return ""
+    return str(used[0]) if len(used) == 1 else "{:d}–{:d}".format(used[0], used[-1])
+
+
+def _require_finite(obj, points: NDArray) -> None:
+    if not np.isfinite(points).all():
+        raise ReadError("section_non_finite", subject=obj.name)

@@ -1,0 +1,384 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Numbers of objects that follow their edits while Live is on: shown, never stored.
+
+Nothing is written to any data. An object that moves is not measured again: its numbers are mapped to where it is. One
+that deforms while it is played or posed gets volume and center at once, in a light pass over its faces
+(moving_surface.py), as far as the budget of a redraw lasts. Full numbers come from a timer, never from a handler: at
+once where they take no longer than the budget, else when neither updates nor frames come any more. Until then the
+numbers lag, and say so. B-spline patches are tracked (core/nurbs/tracked_solid.py). Seconds are those of this thread:
+what others do on a busy machine makes no number lag.
+
+Which objects have Live on is kept in memory too: a property of the object would make Blender report an edit of its
+geometry when it is switched.
+"""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass, field, replace
+from enum import StrEnum
+from operator import itemgetter
+
+import bpy
+import numpy as np
+from bpy.types import Depsgraph, Object, Scene
+from numpy.typing import NDArray
+
+from ....core.inertia.affine_image import affine_image
+from ....core.measurement.measurement import DENSITY_FROM_MASS, Measurement
+from ....core.moments.affine_maps import are_singular
+from ....core.numerics.float32 import shortest_decimal
+from ....core.numerics.rotations import rotation_matrix
+from ....core.nurbs.tracked_solid import TrackedSolid
+from ....core.verdict import internal_error
+from ....core.verdict.finding import Finding, MeasureError
+from ....core.verdict.method import Method, Source, Verdict
+from ...bodies.body import Body
+from ...bodies.measure_object import measure_body
+from ...bodies.measurement import measurement_of
+from ...bodies.request import Request
+from ...read import read_patches
+from ...read.fingerprint import has_transform, settings_hash, transform_key
+from ...read.reading import float64_matrix
+from ...settings.options import MeasureOptions
+from ...settings.preferences import preferences
+from ...write.properties import StoredProperties
+from ..tracking import handlers, updates
+from ..tracking.cache import SessionCache
+from .moving_surface import MovingSurface
+
+BUDGET = 0.01  # s a redraw, where there are no preferences
+MAX_PASS = 5.0  # budgets that the only pass of a redraw may take
+RETRY = 0.7  # of what a pass has taken, after it was left out
+IDLE = 0.25  # s without an update, after which what takes longer than the budget is measured
+POLL = 0.1  # s between two looks whether that is so
+
+
+class Lag(StrEnum):
+    """How far live numbers are behind what is shown."""
+
+    NONE = ""
+    FIRST_ORDER = "first order"  # volume, mass and center are current, inertia is that of the last measurement
+    BEHIND = "behind"
+
+
+@dataclass(frozen=True, eq=False)
+class LiveResult:
+    """What an object's numbers are now. measurement: None where there are none; refusal: then why. seconds: what it
+    took. settings: the digest of those that it was measured with."""
+
+    measurement: Measurement | None
+    refusal: Finding | None
+    seconds: float
+    settings: str
+
+
+@dataclass(eq=False)
+class _Followed:
+    """An object with Live on.
+
+    matrix, transform: where it was when it was measured, and the key of what its numbers depend on of that. number: the
+    last update then. tracked: its body, where that is followed rather than measured each time. surface: its faces,
+    where a light pass can follow them; first_order: volume and center in its own coordinates after the last such pass.
+    is_pending: whether it was evaluated anew since it was measured.
+    """
+
+    result: LiveResult | None = None
+    matrix: NDArray[np.float64] = field(default_factory=lambda: np.eye(4))
+    transform: str = ""
+    number: int = 0
+    tracked: TrackedSolid | None = None
+    surface: MovingSurface | None = None
+    first_order: tuple[float, NDArray[np.float64]] | None = None
+    pass_seconds: float = 0.0
+    shows_others: bool = False
+    is_pending: bool = False
+
+
+_followed: SessionCache[_Followed] = SessionCache()
+_last_event = 0.0  # time of the last update
+
+
+def is_live(obj: Object) -> bool:
+    """Whether the object's numbers are to follow its edits."""
+    return obj in _followed
+
+
+def is_pending(obj: Object) -> bool:
+    """Whether an object with Live on is going to be measured: Blender has evaluated it anew."""
+    followed = _followed.get(obj)
+    return followed is not None and followed.is_pending
+
+
+def current_numbers(obj: Object) -> LiveResult | None:
+    """The numbers of an object with Live on when it was last measured, None before that."""
+    followed = _followed.get(obj)
+    return None if followed is None else followed.result
+
+
+def lag(obj: Object) -> Lag:
+    """Return how far the live numbers of an object are behind what is shown."""
+    followed = _followed.get(obj)
+    if followed is None or not (followed.is_pending or _is_of_another_scale(obj, followed)):
+        return Lag.NONE
+    return Lag.BEHIND if followed.first_order is None else Lag.FIRST_ORDER
+
+
+def is_stale(obj: Object, scene: Scene) -> bool:
+    """Whether settings were changed since the live numbers were measured: Blender does not report every such change."""
+    now = current_numbers(obj)
+    return now is not None and now.settings != settings_hash(obj, scene)
+
+
+def current_properties(obj: Object, scene: Scene) -> StoredProperties | None:
+    """Return what an object with Live on has now, in its own frame, mapped to where it is and what it has become.
+
+    Parameters
+    ----------
+    obj : bpy.types.Object
+        An original object.
+    scene : bpy.types.Scene
+        Whose unit scale counts.
+
+    Returns
+    -------
+    StoredProperties or None
+        None where Live is off, or it could not be measured.
+    """
+    followed = _followed.get(obj)
+    if followed is None or followed.result is None or followed.result.measurement is None:
+        return None
+    measured = followed.result.measurement
+    shown = StoredProperties(
+        measured.density, measured.volume, measured.area, measured.in_object_frame(), measured.error_bound
+    )
+    if followed.first_order is None and has_transform(obj, followed.transform):
+        return shown
+    return _mapped(obj, followed, measured, shown, shortest_decimal(scene.unit_settings.scale_length))
+
+
+def _is_of_another_scale(obj: Object, followed: _Followed) -> bool:
+    """Whether the numbers are those of another scale and do not follow it, until it is measured the next moment."""
+    measured = None if followed.result is None else followed.result.measurement
+    if measured is None or has_transform(obj, followed.transform):
+        return False
+    return _linear_map(obj, followed, measured) is None
+
+
+def _linear_map(obj: Object, followed: _Followed, measured: Measurement) -> NDArray | None:
+    """The linear part of the map from how an object was measured to how it stands. None where its numbers do not follow
+    it: of what is no solid, or where either is flat."""
+    before, now = followed.matrix[:3, :3], float64_matrix(obj.matrix_world)[:3, :3]
+    if measured.kind != "solid" or not np.isfinite(now).all() or are_singular(np.stack([before, now])).any():
+        return None
+    return now @ np.linalg.inv(before)
+
+
+def _mapped(
+    obj: Object, followed: _Followed, measured: Measurement, shown: StoredProperties, unit: float
+) -> StoredProperties:
+    """The same where the object is stretched, and with the volume and center that a light pass has found."""
+    linear = _linear_map(obj, followed, measured)
+    if linear is None:
+        return shown
+    now = float64_matrix(obj.matrix_world)
+    to_own = rotation_matrix(obj.matrix_world.to_quaternion()).T
+    stretch = abs(np.linalg.det(linear))
+    center = measured.mass_properties.center / unit
+    if followed.first_order is None:
+        volume = measured.volume * stretch
+        center = now[:3, :3] @ np.linalg.solve(followed.matrix[:3, :3], center - followed.matrix[:3, 3]) + now[:3, 3]
+    else:
+        volume, center = followed.first_order
+        volume = volume * abs(np.linalg.det(now[:3, :3])) * unit**3
+        center = now[:3, :3] @ center + now[:3, 3]
+    if not volume > 0.0:
+        return shown
+    is_mass_given = measured.density_from == DENSITY_FROM_MASS
+    mass = measured.mass_properties.mass if is_mass_given else measured.mass_properties.mass / measured.volume * volume
+    axes = rotation_matrix(obj.matrix_world.to_quaternion()) @ shown.body.principal.axes
+    image = affine_image(measured.mass_properties, linear, center * unit, mass, axes)
+    location = now[:3, 3] * unit
+    return replace(
+        shown,
+        density=mass / volume,
+        volume=volume,
+        area=shown.area * stretch ** (2.0 / 3.0),
+        body=image.in_frame(to_own.T, location),
+    )
+
+
+def update(obj: Object, depsgraph: Depsgraph) -> LiveResult:
+    """Measure an object with Live on as it is now, and keep the outcome to be shown."""
+    followed, start = _followed[obj], time.thread_time()
+    measurement, refusal = None, None
+    try:
+        measurement, followed.surface = _measure(obj, followed, depsgraph)
+    except MeasureError as error:
+        refusal = error.finding
+    except Exception as error:
+        refusal = internal_error.finding_of(error)
+        followed.tracked = None  # what is half followed is no start for the next edit
+    result = LiveResult(measurement, refusal, time.thread_time() - start, settings_hash(obj, depsgraph.scene))
+    followed.result = result
+    followed.matrix, followed.transform = float64_matrix(obj.matrix_world), transform_key(obj)
+    followed.first_order, followed.is_pending, followed.number = None, False, updates.count()
+    handlers.count_change()
+    return result
+
+
+def start(obj: Object, depsgraph: Depsgraph) -> LiveResult:
+    """Let the object's numbers follow its edits; the first of them."""
+    handlers.subscribe(handlers.on_update, _note_updates)
+    _followed[obj] = _Followed(shows_others=next(updates.shown_by(obj), None) is not None)
+    return update(obj, depsgraph)
+
+
+def stop(obj: Object) -> None:
+    """Let the object's numbers follow its edits no more."""
+    _followed.forget(obj)
+    handlers.count_change()
+
+
+def _measure(obj: Object, followed: _Followed, depsgraph: Depsgraph) -> tuple[Measurement, MovingSurface | None]:
+    plain = MeasureOptions(compare=False)
+    request = Request.of(obj, depsgraph, plain)
+    options, unit = request.options, request.unit
+    can_track = options.kind == "solid" and options.overlap == "signed" and request.density is None
+    reading = read_patches(obj, depsgraph) if can_track and obj.type == "SURFACE" else None
+    if reading is None or reading.all_singular:
+        measured = measure_body(obj, depsgraph, plain)
+        return measured.measurement, MovingSurface.of(measured)
+    (part,) = reading.parts
+    splines = part.splines
+    assert splines is not None
+    matrix = part.matrices[0] * unit  # but for its last row, which says nothing
+    patches = [patch.transform(matrix) for patch in splines.patches]
+    if np.linalg.det(matrix) < 0.0:
+        patches = [patch.reverse_orientation() for patch in patches]
+    stored = splines.stored * float(np.linalg.norm(matrix[:3, :3], 2))
+    if followed.tracked is None:
+        followed.tracked = TrackedSolid(patches, stored)
+    else:
+        followed.tracked.update(patches, stored)
+    measure = followed.tracked.measure
+    measured_body = Body(
+        measure.volume,
+        measure.area,
+        measure.health,
+        Method(Verdict(measure.method), Source.NURBS),
+        (*splines.findings, *measure.findings),
+        estimated=True,
+    )
+    return measurement_of(reading, measured_body, request), None
+
+
+# ---------------------------------------------------------------- When
+
+
+def _budget() -> float:
+    """Seconds a redraw."""
+    settings = preferences()
+    return BUDGET if settings is None else settings.live_budget / 1e3
+
+
+def _note_updates(events: handlers.Updates) -> None:
+    global _last_event
+    if not len(_followed):
+        handlers.unsubscribe(handlers.on_update, _note_updates)
+        return
+    _last_event = time.monotonic()
+    changed = {uid: followed for uid in events.reshaped if (followed := _followed.by_uid(uid)) is not None}
+    active = events.depsgraph.view_layer.objects.active
+    if active is not None and active.mode == "SCULPT" and active in _followed and active.session_uid in events.others:
+        changed[active.session_uid] = _followed[active]  # strokes are drawn without evaluating
+    for followed in changed.values():
+        followed.is_pending = True
+    moved = any(_followed.by_uid(uid) is not None for uid in events.moved)
+    if changed and not bpy.app.is_job_running("RENDER"):
+        _follow_at_once(events, set(changed))
+    others = events.collections or events.moved or events.reshaped
+    if changed or moved or others and any(followed.shows_others for followed in _followed):
+        _schedule(0.0)
+
+
+def _follow_at_once(events: handlers.Updates, changed: set[int]) -> None:
+    """One object, and as many others as the budget of a redraw allows: those first whose passes take least."""
+    budget, is_first = _budget(), True
+    objects = [obj for obj in events.depsgraph.view_layer.objects if obj.session_uid in changed]
+    for obj in sorted(objects, key=lambda obj: _followed[obj].pass_seconds):
+        followed, start = _followed[obj], time.thread_time()
+        allowed = MAX_PASS * _budget() if is_first else budget
+        if followed.surface is None or followed.pass_seconds > allowed:
+            followed.first_order = None
+            followed.pass_seconds *= RETRY  # a busy moment is not for ever
+            continue
+        followed.first_order = followed.surface.follow(obj, events.depsgraph)
+        followed.pass_seconds = time.thread_time() - start
+        budget, is_first = budget - followed.pass_seconds, False
+
+
+def _schedule(seconds: float) -> None:
+    if not bpy.app.background and not bpy.app.timers.is_registered(_tick):
+        bpy.app.timers.register(_tick, first_interval=seconds)
+
+
+def _is_playing() -> bool:
+    return any(window.screen.is_animation_playing for window in bpy.context.window_manager.windows)
+
+
+def _tick() -> float | None:
+    if bpy.app.is_job_running("RENDER"):
+        return 0.5
+    layer = bpy.context.view_layer
+    depsgraph = bpy.context.evaluated_depsgraph_get()  # may evaluate, and so note more
+    due = [obj for obj in layer.objects if obj in _followed and _is_due(obj, depsgraph.scene)]
+    budget, idle = _budget(), time.monotonic() - _last_event >= IDLE and not _is_playing()
+    waiting = False
+    for seconds, obj in sorted(((_seconds(obj), obj) for obj in due), key=itemgetter(0)):
+        if (seconds <= budget or idle) and not _is_stroking(obj):
+            if obj.mode == "SCULPT":
+                obj.update_tag(refresh={"DATA"})
+                layer.update()
+            update(obj, depsgraph)
+            budget -= seconds
+        else:
+            waiting = True
+    for window in bpy.context.window_manager.windows if due else ():
+        for area in window.screen.areas:
+            if area.type in {"VIEW_3D", "PROPERTIES"}:
+                area.tag_redraw()
+    return POLL if waiting else None
+
+
+def _is_stroking(obj: Object) -> bool:
+    """Whether a brush is drawn over an object that is sculpted."""
+    windows = bpy.context.window_manager.windows if obj.mode == "SCULPT" else ()
+    return any(running.bl_idname.startswith("SCULPT_OT_") for window in windows for running in window.modal_operators)
+
+
+def _seconds(obj: Object) -> float:
+    """What measuring an object has taken."""
+    result = _followed[obj].result
+    return 0.0 if result is None else result.seconds
+
+
+def _is_due(obj: Object, scene: Scene) -> bool:
+    """Whether an object has to be measured again: more than its place has changed."""
+    followed = _followed[obj]
+    if not followed.is_pending:
+        followed.is_pending = updates.last_edit(obj).number > followed.number or not has_transform(
+            obj, followed.transform
+        )
+    return followed.is_pending
+
+
+CLASSES = ()  # it listens while an object is followed
+
+
+def unregister() -> None:
+    """Follow no object any more."""
+    handlers.unsubscribe(handlers.on_update, _note_updates)
+    if bpy.app.timers.is_registered(_tick):
+        bpy.app.timers.unregister(_tick)

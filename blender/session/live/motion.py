@@ -1,0 +1,190 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Masses and centers of objects from frame to frame: measured again only where the geometry has changed.
+
+An object that only moves is measured once, and its moments are mapped by its matrices. One whose mesh is mixed from
+shape keys is sampled once, and its volume and center are polynomials of the key values while Blender cuts its faces
+into the same triangles; what it cuts otherwise is measured.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from bpy.types import Depsgraph, Object
+from numpy.typing import NDArray
+
+from ....core.mesh.hulls import ConvexHull
+from ....core.moments.affine_maps import are_similarities, are_singular
+from ....core.moments.moments import Measure, Moments
+from ....core.numerics.float32 import shortest_decimal
+from ....core.statics.mixes import Mixes, fit_mixes, sample_count
+from ....core.verdict.finding import EditRefusedError
+from ....core.verdict.method import Method, Verdict
+from ...bodies.measure_object import measure_body
+from ...bodies.mesh.hull import object_hull
+from ...read import read_object
+from ...read.reading import float64_matrix
+from ..tracking import updates
+
+MAX_SAMPLES = 200  # of a shape-key mix: with more keys each frame is measured
+
+
+@dataclass(eq=False)
+class _Followed:
+    """An object: what was measured, and after which update of its geometry.
+
+    moments: of its mass, in the object's coordinates in SI units; given_mass: in kg, where the mass is given. mixes,
+    density: of shape keys; keys: their names; triangles: into which the faces are cut in the mixes.
+    """
+
+    change: int = -1
+    moments: Moments | None = None
+    given_mass: float | None = None
+    mixes: Mixes | None = None
+    density: float = 0.0
+    keys: tuple[str, ...] = ()
+    triangles: NDArray[np.integer] | None = None
+    hull: tuple[int, ConvexHull] | None = None  # and after which update of its geometry it was found
+
+
+@dataclass(eq=False)
+class Motion:
+    """Objects as they are at the frame that the dependency graph shows.
+
+    Parameters
+    ----------
+    frames : int
+        How many frames are going to be asked for: shape keys are sampled where that is less work.
+    """
+
+    frames: int
+    _followed: dict[Object, _Followed] = field(default_factory=dict)
+
+    def mass_and_center(self, obj: Object, depsgraph: Depsgraph) -> tuple[float, NDArray[np.float64]]:
+        """Return the mass in kg and the center, (3,) in Blender's units and the world, of an object.
+
+        Raises
+        ------
+        MeasureError
+            Where it has none, or they are not certain.
+        """
+        unit = shortest_decimal(depsgraph.scene.unit_settings.scale_length)
+        matrix = float64_matrix(obj.evaluated_get(depsgraph).matrix_world)
+        followed = self._followed.setdefault(obj, _Followed())
+        if followed.mixes is not None:
+            mixed = _mixed(obj, followed, depsgraph, matrix, unit)
+            return _measured(obj, followed, depsgraph, matrix, unit) if mixed is None else mixed
+        change = updates.last_change_of_geometry(obj)
+        if followed.moments is None or followed.change != change or not _can_map(followed.moments, matrix):
+            if followed.change == -1 and self._shape_keys(obj, depsgraph, followed):
+                return self.mass_and_center(obj, depsgraph)
+            followed.change = change
+            return _measured(obj, followed, depsgraph, matrix, unit)
+        moments = followed.moments.transform(_in_si(matrix, unit))
+        return _weight(moments, followed.given_mass), moments.center / unit
+
+    def hull_points(self, obj: Object, depsgraph: Depsgraph) -> NDArray[np.float64]:
+        """Return the corners of an object's convex hull, (k, 3) in Blender's units and the world."""
+        followed = self._followed.setdefault(obj, _Followed())
+        change = updates.last_change_of_geometry(obj)
+        if followed.hull is None or followed.hull[0] != change:
+            followed.hull = change, object_hull(obj, depsgraph)
+        matrix = float64_matrix(obj.evaluated_get(depsgraph).matrix_world)
+        return followed.hull[1].points @ matrix[:3, :3].T + matrix[:3, 3]
+
+    def _shape_keys(self, obj: Object, depsgraph: Depsgraph, followed: _Followed) -> bool:
+        """Sample an object whose mesh is nothing but a mix of shape keys; whether it is one."""
+        keys = _mixed_keys(obj)
+        if not keys or sample_count(len(keys)) > min(self.frames, MAX_SAMPLES):
+            return False
+        measurement = measure_body(obj, depsgraph).measurement
+        if measurement.method != Method(Verdict.EXACT) or measurement.health.welded:
+            return False
+        blocks = obj.data.shape_keys.key_blocks
+        shapes = {
+            name: _coordinates(blocks[name].data) for name in {*keys, *(blocks[k].relative_key.name for k in keys)}
+        }
+        surface = read_object(obj, depsgraph, edges=False).parts[0].surface
+        surface = replace(surface, points=_coordinates(obj.data.shape_keys.reference_key.data))
+        offsets = [shapes[name] - shapes[blocks[name].relative_key.name] for name in keys]
+        followed.mixes, followed.keys = fit_mixes(surface, offsets), keys
+        followed.triangles, _ = surface.all_triangles()
+        followed.density, followed.given_mass = measurement.density, _given_mass(obj)
+        return True
+
+
+def _mixed_keys(obj: Object) -> tuple[str, ...]:
+    """The names of the shape keys that may change the mesh, where nothing but they does; else none."""
+    settings = obj.body_moments
+    if obj.type != "MESH" or obj.data.shape_keys is None or not obj.data.shape_keys.use_relative:
+        return ()
+    if obj.mode != "OBJECT" or obj.show_only_shape_key or any(modifier.show_viewport for modifier in obj.modifiers):
+        return ()
+    if (settings.kind, settings.density_from, settings.overlap) != ("SOLID", "VALUE", "SIGNED"):
+        return ()
+    blocks = [block for block in obj.data.shape_keys.key_blocks if block != obj.data.shape_keys.reference_key]
+    if any(block.vertex_group for block in blocks) or obj.instance_type != "NONE" or len(obj.particle_systems):
+        return ()
+    return tuple(block.name for block in blocks if not block.mute)
+
+
+def _coordinates(data) -> NDArray[np.float64]:
+    points = np.empty(3 * len(data), np.float32)
+    data.foreach_get("co", points)
+    return points.reshape(-1, 3).astype(np.float64)
+
+
+def _mixed(
+    obj: Object, followed: _Followed, depsgraph: Depsgraph, matrix: NDArray, unit: float
+) -> tuple[float, NDArray[np.float64]] | None:
+    """Mass and center; None for what has to be measured: where faces are cut otherwise than in the mixes, and where
+    keys or matrix make the mesh flat or turn it inside out."""
+    assert followed.mixes is not None and followed.triangles is not None
+    triangles, _ = read_object(obj, depsgraph, edges=False).parts[0].surface.all_triangles()
+    if not np.array_equal(triangles, followed.triangles):
+        return None
+    blocks = obj.data.shape_keys.key_blocks
+    volumes, centers = followed.mixes.at([[blocks[name].value for name in followed.keys]])
+    if np.isnan(volumes[0]) or are_singular(matrix[None, :3, :3])[0]:
+        return None
+    volume = float(volumes[0]) * abs(np.linalg.det(matrix[:3, :3])) * unit**3
+    mass = followed.density * volume if followed.given_mass is None else followed.given_mass
+    return mass, matrix[:3, :3] @ centers[0] + matrix[:3, 3]
+
+
+def _measured(
+    obj: Object, followed: _Followed, depsgraph: Depsgraph, matrix: NDArray, unit: float
+) -> tuple[float, NDArray[np.float64]]:
+    measurement = measure_body(obj, depsgraph).measurement
+    if measurement.method.verdict == Verdict.OPEN:
+        raise EditRefusedError("open_object", subject=obj.name)
+    moments, factor = measurement.mass_moments
+    followed.given_mass = _given_mass(obj)
+    followed.moments = None
+    if _can_map(moments, matrix):
+        followed.moments = (moments.truncate(1) * factor).transform(np.linalg.inv(_in_si(matrix, unit)))
+    return measurement.mass_properties.mass, measurement.mass_properties.center / unit
+
+
+def _can_map(moments: Moments, matrix: NDArray) -> bool:
+    """Whether the moments follow the matrix: not a flat one, areas and lengths only where nothing is stretched."""
+    if are_singular(matrix[None, :3, :3])[0]:
+        return False
+    return moments.measure in (Measure.VOLUME, Measure.MASS) or bool(are_similarities(matrix[None, :3, :3])[0])
+
+
+def _given_mass(obj: Object) -> float | None:
+    settings = obj.body_moments
+    return shortest_decimal(settings.mass) if settings.mass_from == "MASS" else None
+
+
+def _weight(moments: Moments, given_mass: float | None) -> float:
+    return moments.total if given_mass is None else given_mass
+
+
+def _in_si(matrix: NDArray, unit: float) -> NDArray[np.float64]:
+    scaled = matrix.copy()
+    scaled[:3] *= unit
+    return scaled

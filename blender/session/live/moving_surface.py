@@ -1,0 +1,106 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The faces of a measured body whose points may move: volume and center of what it is now, in one light pass.
+
+For what deforms while it is played or posed: the faces as they were measured, flipped and capped, with the points as
+Blender shows them. Where the mesh has other faces than then, or had to be welded, there is no such pass.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from bpy.types import Depsgraph, Object
+from numpy.typing import NDArray
+
+from ....core.mesh.surface import Surface
+from ....core.polyhedron.first_order import volume_and_center
+from ....core.verdict.finding import ReadError
+from ....core.verdict.method import Source, Verdict
+from ...bodies.body import MeshBody
+from ...bodies.measure_object import Measured
+from ...read import Reading
+from ...read.mesh import mesh_points
+from ...read.visibility import evaluated_geometry
+
+FOLLOWED = {Verdict.EXACT, Verdict.CAPPED, Verdict.REORIENTED}
+
+
+@dataclass(frozen=True, eq=False)
+class MovingSurface:
+    """A body whose points may move.
+
+    Attributes
+    ----------
+    surface : Surface
+        Its faces, in the object's own coordinates.
+    corners : (c,) array
+        The vertices of all corners of the mesh that was read.
+    """
+
+    surface: Surface
+    corners: NDArray[np.integer]
+
+    @classmethod
+    def of(cls, measured: Measured) -> MovingSurface | None:
+        """Return the faces of what was measured; None where it is not one mesh in the object's own place.
+
+        Parameters
+        ----------
+        measured : Measured
+
+        Returns
+        -------
+        MovingSurface or None
+        """
+        reading, body, method = measured.reading, measured.body, measured.measurement.method
+        if (
+            not isinstance(reading, Reading)
+            or not isinstance(body, MeshBody)
+            or measured.measurement.kind != "solid"
+            or body.mass is not None
+            or method.source != Source.POLYGONS
+            or method.verdict not in FOLLOWED
+            or len(reading.parts) != 1
+            or len(body.solids) != 1
+        ):
+            return None
+        (part,), ((solid, _matrices),) = reading.parts, body.solids
+        read, surface = part.surface, solid.repaired_surface
+        if (
+            part.source_object_name not in ("", reading.name)
+            or len(part.matrices) != 1
+            or not np.array_equal(part.matrices[0], reading.matrix)
+            or read.corner_vertices is None
+            or not np.array_equal(surface.points, read.points)
+        ):
+            return None
+        return cls(surface, read.corner_vertices)
+
+    def follow(self, obj: Object, depsgraph: Depsgraph) -> tuple[float, NDArray[np.float64]] | None:
+        """Return volume and center of what the object shows now, in its own coordinates.
+
+        Parameters
+        ----------
+        obj : bpy.types.Object
+            The original object that was measured.
+        depsgraph : bpy.types.Depsgraph
+            Evaluated.
+
+        Returns
+        -------
+        (float, (3,) array) or None
+            None where it does not show these faces, or they enclose nothing.
+        """
+        if obj.type != "MESH" or obj.mode not in {"OBJECT", "POSE", "WEIGHT_PAINT"} or obj.data.is_editmode:
+            return None
+        try:
+            geometry = evaluated_geometry(obj, depsgraph, obj)  # it owns its mesh
+        except ReadError:
+            return None
+        points = None if geometry.mesh is None else mesh_points(geometry.mesh, self.corners)
+        if points is None or len(points) != len(self.surface.points):
+            return None
+        volume, center = volume_and_center(Surface(points, self.surface.triangles, quads=self.surface.quads))
+        return (volume, center) if volume > 0.0 and np.isfinite(center).all() else None

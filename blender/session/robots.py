@@ -1,0 +1,155 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The scene as a robot: which objects are measured, and what of them becomes a link."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import bpy
+import numpy as np
+from bpy.types import Collection, Context, Object
+from numpy.typing import NDArray
+
+from ...core.measurement.measurement import Measurement
+from ...core.mesh.surface import Surface, join_surfaces
+from ...core.robots.from_records import brief_record, robot_of_records
+from ...core.robots.model import Robot
+from ...core.verdict.finding import EditRefusedError, Finding, MeasureError, finding
+from ..bodies.assembly.assembly import measure_assembly
+from ..bodies.rig import measure_rig
+from ..bodies.stacks.many import measured_in_turn
+from ..read import measurable
+from ..read.rig import pose_bone_of
+from ..read.robots import bone_freedom, bone_parents, link_entry, link_surface, object_entry
+from ..settings.options import AS_SET, MeasureOptions
+from ..write import reports
+
+
+@dataclass(frozen=True)
+class SceneLinks:
+    """A robot made from the scene.
+
+    robot, findings: and what was left out. unit: meters per Blender unit, for the inertials and for `surface`.
+    members: the objects of each link. pieces: of each bone, the surfaces and the maps that put them into the world, m.
+    """
+
+    robot: Robot
+    findings: list[Finding]
+    unit: float
+    members: dict[str, list[Object]] = field(default_factory=dict)
+    pieces: dict[str, tuple[tuple[Surface, NDArray[np.float64]], ...]] = field(default_factory=dict)
+
+    def surface(self, context: Context, label: str) -> Surface | None:
+        """Return what a link shows, in meters along its own axes; None where it shows no faces."""
+        pose = self.robot.link(label).pose
+        if label not in self.pieces:
+            depsgraph = context.evaluated_depsgraph_get()
+            return link_surface(self.members.get(label, ()), depsgraph, pose, self.unit)
+        to_link = pose.inverse()
+        return join_surfaces(
+            [
+                surface.transform(
+                    to_link.rotation @ matrix[:3, :3], to_link.rotation @ matrix[:3, 3] + to_link.position
+                )
+                for surface, matrix in self.pieces[label]
+            ]
+        )
+
+
+def candidates(context: Context, collection: str, selected: bool) -> list[Object]:
+    """Return the objects of the collection of that name, where there is one; else the selected ones, or all that are
+    rendered."""
+    if collection:
+        return list(bpy.data.collections[collection].all_objects)
+    if selected:
+        return list(context.view_layer.objects.selected)
+    return [obj for obj in context.view_layer.objects if not obj.hide_render]
+
+
+def object_links(
+    context: Context, name: str, objects: list[Object], step: Callable[[float], None] = lambda done: None
+) -> SceneLinks:
+    """Return a robot with a link for each object that can be measured. MeasureError where there is none. step: is
+    called with how many are done."""
+    depsgraph = context.evaluated_depsgraph_get()
+    chosen = [obj for obj in objects if measurable(obj)]
+    measured: dict[Object, Measurement] = {}
+    in_turn, failures = measured_in_turn(chosen, depsgraph), []
+    for done, obj in enumerate(chosen, 1):
+        try:
+            measured[obj] = in_turn(obj).measurement
+        except Exception as error:
+            failures.append(reports.failure(obj.name_full, error))
+        step(done)
+    if not measured:
+        raise EditRefusedError(failures[0] if failures else finding("robot_without_links"))
+    labels = {obj: obj.name_full for obj in measured}
+    records = []
+    for obj, measurement in measured.items():
+        records.append(brief_record(labels[obj], measurement, object_entry(obj, measurement, labels)))
+    robot, findings = robot_of_records(name, records)
+    members = {label: [obj] for obj, label in labels.items()}
+    unit = AS_SET.meters_per_unit(context.scene)
+    return SceneLinks(robot, [*findings, *left_out(failures, len(chosen))], unit, members)
+
+
+def collection_links(
+    context: Context, name: str, root: Collection, objects: list[Object], options: MeasureOptions = AS_SET
+) -> SceneLinks:
+    """Return a robot with a link for each collection in one, or for the collection itself where there is none in it.
+    They are assemblies, along the world's axes, with all that they hold. objects: what their meshes show."""
+    depsgraph = context.evaluated_depsgraph_get()
+    records, failures, members = [], [], {}
+    collections = list(root.children) or [root]
+    for collection in collections:
+        label = collection.name_full
+        try:
+            measurement = measure_assembly(collection, depsgraph, options).measurement
+        except MeasureError as error:
+            failures.append(reports.failure(label, error.finding))
+            continue
+        held = {*collection.all_objects}
+        members[label] = [obj for obj in objects if obj in held and measurable(obj)]
+        records.append(brief_record(label, measurement, link_entry(measurement)))
+    if not records:
+        raise EditRefusedError(failures[0])
+    robot, findings = robot_of_records(name, records)
+    unit = options.meters_per_unit(context.scene)
+    return SceneLinks(robot, [*findings, *left_out(failures, len(collections))], unit, members)
+
+
+def bone_links(context: Context, name: str, objects: list[Object]) -> SceneLinks:
+    """Return a robot with a link for each bone that has a part, in its rest frame, and joints with the bones' limits.
+    MeasureError where there is no character."""
+    records, findings, pieces = [], [], {}
+    armatures = [obj for obj in objects if obj.type == "ARMATURE"]
+    for armature in armatures:
+        rig = measure_rig(context, armature)
+        findings += rig.measurement.findings
+        several = len(armatures) > 1
+        labels = {
+            part.name: "{}:{}".format(armature.name, part.name) if several else part.name
+            for part in rig.parts
+            if part.measurement is not None
+        }
+        for part in rig.parts:
+            if part.measurement is None:
+                continue
+            bone, label = pose_bone_of(armature, part.name), labels[part.name]
+            entry = link_entry(part.measurement, bone_parents(bone, labels), free=bone_freedom(bone))
+            records.append(brief_record(label, part.measurement, entry))
+            pieces[label] = part.surfaces
+    if not records:
+        raise EditRefusedError("robot_without_bones")
+    robot, left = robot_of_records(name, records)
+    return SceneLinks(robot, [*findings, *left], AS_SET.meters_per_unit(context.scene), pieces=pieces)
+
+
+def left_out(failures: list[Finding], total: int) -> list[Finding]:
+    """What a report says of objects that could not be measured."""
+    if not failures:
+        return []
+    causes = [failure.as_record() for failure in reports.first(failures)]
+    return [finding("left_out_of_robot", count=len(failures), total=total, causes=causes)]

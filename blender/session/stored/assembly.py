@@ -1,0 +1,223 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What is stored of an assembly, and whether it still holds.
+
+Results are stored on the assembly, on those that are its members, and on the objects that were measured; the rows of
+its tree are kept with its settings.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import bpy
+import numpy as np
+from bpy.types import Context, Object
+from mathutils import Vector
+from numpy.typing import NDArray
+
+from ....core.numerics.float32 import shortest_decimal
+from ....core.verdict import internal_error
+from ....core.verdict.finding import Finding, Severity
+from ....core.verdict.messages import of_severity
+from ...bodies.assembly.assembly import Assembly, MemberBody, assembly_measurement, members_key, structure_hash
+from ...bodies.measure_object import Measured
+from ...bodies.stacks.stack import Stacked
+from ...read.assembly import Member, MemberKind, Root, is_assembly, members_of, settings_of
+from ...read.fingerprint import VERSION, digest, matrix_hash
+from ...write import properties
+from ..tracking import handlers, marks, staleness
+from ..tracking.cache import SessionCache
+from . import reference, results
+
+SAME_RTOL = 1e-5  # of mass, and of the radius of gyration: what other coordinates of the same body may change
+_reasons: SessionCache[tuple[int, str | None]] = SessionCache()  # of assemblies, and the generation that is true of
+
+
+def store(context: Context, assembly: Assembly) -> list[tuple[str, Finding]]:
+    """Store an assembly's results, and those of all its members.
+
+    Returns
+    -------
+    list of (str, Finding)
+        Names of members that cannot hold theirs, and why.
+
+    Raises
+    ------
+    EditRefusedError
+        Where the assembly itself cannot.
+    """
+    scene, depsgraph = context.scene, context.evaluated_depsgraph_get()
+    unit = shortest_decimal(scene.unit_settings.scale_length)
+    root = assembly.root.member.data
+    about = reference.stored_choice(root)
+    properties.store(root, assembly.measurement)
+    reference.follow(root, scene, about)
+    done: dict[Root, None] = {root: None}
+    failures: list[tuple[str, Finding]] = []
+    measured: list[tuple[Object, Measured | Stacked]] = []
+    for part in assembly.root.walk():  # an assembly comes before the point mass that it may be itself
+        data = part.member.data
+        if data in done:
+            continue
+        done[data] = None
+        if part.measured is not None:
+            measured.append((data, part.measured))
+        elif part.refusal is not None and part.member.kind in (MemberKind.OBJECT, MemberKind.POINT):
+            results.remember_failure(data, part.refusal)
+        elif part.member.kind in (MemberKind.COLLECTION, MemberKind.EMPTY) and part.masses:
+            try:
+                properties.store(data, assembly_measurement(part, depsgraph, unit))
+            except Exception as error:
+                failures.append((data.name_full, internal_error.finding_of(error)))
+    stored = []
+    for obj, refusal in results.store_many(measured, scene):
+        results.remember_failure(obj, None)
+        if refusal is None:
+            stored.append(obj)
+        else:
+            failures.append((obj.name_full, internal_error.finding_of(refusal)))
+    _write_rows(assembly)
+    shapes = {obj: found.shape_digest for obj, found in measured if isinstance(found, Stacked)}
+    staleness.mark_up_to_date(context, stored, shapes)
+    return failures
+
+
+def clear(root: Root) -> bool:
+    """Remove the results of an assembly; whether there were any. EditRefusedError where it cannot be changed."""
+    properties.require_storable(root)
+    settings_of(root).rows.clear()
+    return properties.clear(root)
+
+
+def stale_reason(root: Root) -> str | None:
+    """Compare the stored results of an assembly with what it is in the window's scene now.
+
+    Returns
+    -------
+    str or None
+        The code of why they are out of date; None where they are not, or there are none.
+    """
+    known = _reasons.get(root)
+    if known is None or known[0] != handlers.generation():
+        known = _reasons[root] = (handlers.generation(), _stale_reason(root))
+    return known[1]
+
+
+def _stale_reason(root: Root) -> str | None:
+    mark = marks.parse(properties.fingerprint(root))
+    depsgraph = bpy.context.view_layer.depsgraph
+    if mark is None or mark.version != VERSION or depsgraph is None:
+        return "stale_fingerprint" if "body_mass" in root and mark is None else None
+    member = members_of(root, depsgraph)
+    if structure_hash(member) != mark.settings:
+        return "stale_members"
+    objects = [one.data for one in member.walk() if one.kind == MemberKind.OBJECT and one.is_measured]
+    stored = {obj: properties.fingerprint(obj) for obj in objects}
+    if any(staleness.stale_reason(obj, depsgraph.scene) for obj in objects):
+        return "stale_member"
+    if digest(members_key(member, stored).encode()) != mark.geometry:
+        return "stale_member"
+    moved = isinstance(root, bpy.types.Object) and matrix_hash(root) != mark.transform
+    return "stale_transform" if moved else None
+
+
+@contextmanager
+def kept_up_to_date(context: Context) -> Iterator[None]:
+    """Keep assemblies up to date while members get other frames, and their results are stored anew.
+
+    What has another mass or center afterwards, or is out of date itself, is left as it is: so is its assembly.
+    """
+    scene = context.scene
+    roots = [scene.collection, *scene.collection.children_recursive, *scene.objects]
+    stored = [root for root in roots if "body_fingerprint" in root and is_assembly(root)]
+    depsgraph = context.evaluated_depsgraph_get()
+    before = {root: _member_bodies(members_of(root, depsgraph)) for root in stored if not stale_reason(root)}
+    yield
+    depsgraph = context.evaluated_depsgraph_get()
+    for root, bodies in before.items():
+        member, mark = members_of(root, depsgraph), marks.parse(properties.fingerprint(root))
+        now = _member_bodies(member)
+        if mark is None or bodies.keys() != now.keys():
+            continue
+        if any(staleness.stale_reason(obj, scene) for obj in now):
+            continue
+        if all(_is_same(bodies[obj], now[obj]) for obj in now):
+            key = members_key(member, {obj: properties.fingerprint(obj) for obj in now})
+            root["body_fingerprint"] = ":".join(mark._replace(geometry=digest(key.encode())))
+    handlers.count_change()
+
+
+def _member_bodies(root: Member) -> dict[Object, tuple[float, NDArray[np.float64], float]]:
+    """Of each member the stored mass, where its center is in the world, and its radius of gyration."""
+    bodies = {}
+    for member in root.walk():
+        if member.kind == MemberKind.OBJECT and member.is_measured:
+            obj = member.data
+            numbers = properties.numbers(obj)
+            if numbers is None:
+                continue
+            stored = properties.from_numbers(numbers).body
+            location, rotation, _scale = obj.matrix_world.decompose()
+            unit = bpy.context.scene.unit_settings.scale_length
+            center = np.array(rotation @ Vector(stored.center) + location * unit, np.float64)
+            bodies[obj] = stored.mass, center, float(np.sqrt(np.trace(stored.inertia) / 2.0 / stored.mass))
+    return bodies
+
+
+def _is_same(before: tuple[float, NDArray, float], now: tuple[float, NDArray, float]) -> bool:
+    return (
+        abs(now[0] - before[0]) <= SAME_RTOL * before[0]
+        and float(np.linalg.norm(now[1] - before[1])) <= SAME_RTOL * max(before[2], float(np.abs(now[1]).max()))
+        and abs(now[2] - before[2]) <= SAME_RTOL * before[2]
+    )
+
+
+def _write_rows(assembly: Assembly) -> None:
+    """Keep the tree with the assembly's settings."""
+    rows = settings_of(assembly.root.member.data).rows
+    rows.clear()
+    mass = assembly.measurement.mass_properties.mass
+    for depth, part, factor, counted in _tree(assembly.root, 0, 1.0, True):
+        row = rows.add()
+        row.name, row.depth, row.member = part.member.name, depth, part.member.kind.value
+        own = _own_mass(part) * factor
+        row.is_counted = counted and own > 0.0
+        row.mass, row.share = own, own / mass if counted else 0.0
+        row.findings = properties.findings_text(_row_findings(part))
+
+
+def _tree(part: MemberBody, depth: int, factor: float, counted: bool) -> Iterator[tuple[int, MemberBody, float, bool]]:
+    """Each member with how deep it is, the factor by which an instance changes its mass, and whether that counts."""
+    yield depth, part, factor, counted
+    below = sum([_own_mass(member) for member in part.parts], 0.0)
+    if part.member.kind == MemberKind.INSTANCE and below > 0.0:
+        factor *= _own_mass(part) / below
+    given = any(found.code == "assembly_mass_given" for found in part.findings)
+    for member in part.parts:
+        yield from _tree(member, depth + 1, factor, counted and not given)
+
+
+def _own_mass(part: MemberBody) -> float:
+    mass = part.mass
+    return 0.0 if mass is None else mass.total
+
+
+def _row_findings(part: MemberBody) -> list[Finding]:
+    """Why a member is not counted, or what is to be said of it."""
+    if part.member.left_out is not None:
+        return [part.member.left_out]
+    if part.refusal is not None:
+        return [part.refusal]
+    if part.measurement is not None:
+        return of_severity(part.measurement.findings, Severity.WARNING, Severity.ERROR)
+    return list(part.findings)
+
+
+def register() -> None:
+    staleness.reasons_by_type["EMPTY"] = stale_reason
+
+
+def unregister() -> None:
+    del staleness.reasons_by_type["EMPTY"]

@@ -1,0 +1,143 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Density as a multiplication: where it is one number, stored results follow it at once, without being measured again.
+
+Whether nothing but density or mass is different is read off the mark of the stored results: it is the digest of the
+settings as they are, with the stored density, or the stored mass, in place of the given one. So nothing is
+remembered, undo brings all of it back together, and a setting that is animated or driven, of which Blender calls no
+update function, leaves the results out of date.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from bpy.types import Context, Object, PropertyGroup, Scene
+
+from ....core.measurement.measurement import Measurement
+from ....core.numerics.float32 import shortest_decimal
+from ....core.verdict.finding import EditRefusedError, Finding, finding
+from ...read.fingerprint import VERSION, given_density, settings_hash, settings_hash_with
+from ...read.tracking import tracking_paused
+from ...settings import hooks
+from ...settings.density import default_density, unset_density
+from ...write import properties
+from ..tracking import marks, staleness
+from . import reference
+
+DEFAULTS = {  # what is noted where nobody has set a density, by the setting
+    "density": finding("density_default_kept"),
+    "linear_density": finding("linear_density_default_kept"),
+}
+OF_DEFAULT_DENSITY = frozenset(
+    {"density_defaulted", "linear_density_defaulted", *(note.code for note in DEFAULTS.values())}
+)
+
+
+def noted(obj: Object, measurement: Measurement, scene: Scene) -> Measurement:
+    """Return an object's measurement, with a note where nobody has set its density and nothing says so yet."""
+    unset = unset_density(obj, measurement, scene)
+    if unset is None:
+        return measurement
+    return replace(measurement, findings=with_default_note(measurement.findings, unset))
+
+
+def with_default_note(findings: tuple[Finding, ...], unset: str) -> tuple[Finding, ...]:
+    """Return findings with the note on a density that nobody has set, where none of them is about that. unset: the
+    setting."""
+    if OF_DEFAULT_DENSITY.intersection([found.code for found in findings]):
+        return findings
+    return (*findings, DEFAULTS[unset])
+
+
+def follow_density(obj: Object, scene: Scene) -> None:
+    """Store what the object's settings now make of its results, where these differ by a factor alone. Else they stay,
+    and are out of date.
+
+    Parameters
+    ----------
+    obj : bpy.types.Object
+        An original object.
+    scene : bpy.types.Scene
+        Whose unit scale and default density count.
+    """
+    mark = marks.parse(properties.fingerprint(obj))
+    if mark is None or mark.version != VERSION or "body_density_from" in obj or not _can_store(obj):
+        return
+    numbers = properties.numbers(obj)
+    if numbers is None:
+        return
+    extent = properties.optional(obj, "body_length") or numbers[2][0]
+    if not extent:
+        return
+    if any(found.code == "inertia_given" for found in properties.findings(obj)):
+        return  # which no mass multiplies
+    mass = numbers[0][0]
+    if mark.settings not in (
+        settings_hash_with(obj, scene, mass / extent, None),
+        settings_hash_with(obj, scene, None, mass),
+    ):
+        return
+    now, findings = settings_hash(obj, scene), _findings(obj, scene)
+    if now == mark.settings:  # a measured density may have more digits than the setting holds
+        if findings != list(properties.findings(obj)):
+            properties.store_findings(obj, findings)
+        return
+    settings = obj.body_moments
+    is_mass_given = settings.mass_from == "MASS"
+    density = shortest_decimal(settings.mass) / extent if is_mass_given else given_density(obj, scene)
+    mass_now = density * extent
+    if not 0.0 < mass_now < float("inf"):
+        return
+    properties.store_scaled(
+        obj,
+        0.0 if settings.kind == "WIRE" else density,
+        mass_now,
+        findings,
+        ":".join(mark._replace(settings=now)),
+    )
+    staleness.replace_mark(obj, ":".join(mark))
+    reference.follow(obj, scene, reference.stored_choice(obj))
+
+
+def _can_store(obj: Object) -> bool:
+    try:
+        properties.require_storable(obj)
+    except EditRefusedError:
+        return False
+    return True
+
+
+def _findings(obj: Object, scene: Scene) -> list[Finding]:
+    """The stored findings, with a note where nobody has set the density."""
+    settings = obj.body_moments
+    kept = [found for found in properties.findings(obj) if found.code not in OF_DEFAULT_DENSITY]
+    if settings.mass_from == "MASS":
+        return kept
+    name = "linear_density" if settings.kind == "WIRE" else "density"
+    if settings.is_property_set(name) or name == "density" and default_density(scene) is not None:
+        return kept
+    return [*kept, DEFAULTS[name]]
+
+
+def _on_density(settings: PropertyGroup, context: Context) -> None:
+    if context.scene is not None and not tracking_paused.depth:
+        follow_density(settings.id_data, context.scene)
+
+
+def _on_default_density(settings: PropertyGroup, _context: Context) -> None:
+    for obj in settings.id_data.objects:
+        if not obj.body_moments.is_property_set("density"):
+            follow_density(obj, settings.id_data)
+
+
+def register() -> None:
+    """Follow densities."""
+    hooks.on_density_change.append(_on_density)
+    hooks.on_default_density_change.append(_on_default_density)
+
+
+def unregister() -> None:
+    """Follow them no more."""
+    hooks.on_density_change.remove(_on_density)
+    hooks.on_default_density_change.remove(_on_default_density)

@@ -1,0 +1,88 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Where the faults of measured meshes are, to be drawn: kept until the geometry changes or the file is closed."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from bpy.types import Object
+from numpy.typing import NDArray
+
+from ....core.mesh.surface import Surface
+from ....core.verdict.health import DefectiveElements
+from ...bodies.measure_object import Measured
+from ...read import Reading
+from ..tracking import updates
+from ..tracking.cache import SessionCache
+
+PAIRS = "boundary_edges", "non_manifold_edges", "inconsistent_edges"
+FACES = "flipped_faces", "duplicate_faces", "degenerate_faces"
+MAX_DRAWN = 20000  # edges, and triangles, of an object
+
+
+@dataclass(frozen=True, eq=False)
+class Faults:
+    """In an object's own coordinates.
+
+    Attributes
+    ----------
+    edges : (k, 2, 3) array
+        Boundary, non-manifold and inconsistent edges.
+    triangles : (l, 3, 3) array
+        Of flipped, duplicate and zero-area faces.
+    change : int
+        The last update of the geometry.
+    """
+
+    edges: NDArray[np.float64]
+    triangles: NDArray[np.float64]
+    change: int
+
+
+_faults: SessionCache[Faults] = SessionCache()
+forget = _faults.forget
+
+
+def remember(obj: Object, measured: Measured) -> None:
+    """Keep where the faults of an object are that was just measured, or that it has none."""
+    _faults.forget(obj)
+    reading, elements = measured.reading, measured.measurement.health.defective_elements
+    if not isinstance(reading, Reading) or not _any_faults(elements):
+        return
+    if len(reading.parts) != 1 or reading.is_singular:  # of several surfaces it is not known which has the elements
+        return
+    (part,) = reading.parts
+    _remember(obj, part.surface, np.linalg.inv(reading.matrix) @ part.matrices[0], elements)
+
+
+def remember_own(obj: Object, surface: Surface, elements: DefectiveElements) -> None:
+    """Do as `remember` for an object that shows its own mesh alone, this surface."""
+    _faults.forget(obj)
+    if _any_faults(elements):
+        _remember(obj, surface, np.eye(4), elements)
+
+
+def _any_faults(elements: DefectiveElements) -> bool:
+    return any([len(getattr(elements, name)) for name in (*PAIRS, *FACES)])
+
+
+def _remember(obj: Object, surface: Surface, place: NDArray, elements: DefectiveElements) -> None:
+    pairs, faces = ([getattr(elements, name) for name in names] for names in (PAIRS, FACES))
+    points = surface.points.astype(np.float64) @ place[:3, :3].T + place[:3, 3]
+    triangles, faulty = surface.triangles[:0], np.concatenate(faces)
+    if len(faulty):
+        triangles, face = surface.all_triangles()
+        triangles = triangles[np.isin(face, faulty)][:MAX_DRAWN]
+    _faults[obj] = Faults(
+        points[np.concatenate(pairs)[:MAX_DRAWN]], points[triangles], updates.last_change_of_geometry(obj)
+    )
+
+
+def of_object(obj: Object) -> Faults | None:
+    """Return the faults of an object, None where there are none or its geometry has changed since."""
+    faults = _faults.get(obj)
+    if faults is None or faults.change != updates.last_change_of_geometry(obj):
+        return None
+    return faults

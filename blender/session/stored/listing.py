@@ -1,0 +1,98 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Which objects a list shows, and in which order: kept until Blender reports a change."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from enum import StrEnum
+
+from bpy.types import Object, Scene, ViewLayer
+
+from ...write.units import Units
+from ..tracking import handlers
+from ..tracking.cache import SessionCache
+from .shown import ShownBody, shown_body
+from .trust import Trust
+
+Listing = tuple[list[bool], list[int]]  # of each object whether it is listed, and its line
+RANKS = {verdict: rank for rank, verdict in enumerate(Trust)}
+
+
+class SortBy(StrEnum):
+    """What lines are sorted by."""
+
+    NAME = "NAME"
+    MASS = "MASS"  # the heaviest first
+    VERDICT = "VERDICT"  # the least trustworthy first
+
+
+_masses: SessionCache[tuple[tuple, dict[int, str]]] = SessionCache()  # of scenes, and what each was asked for
+_listings: SessionCache[tuple[tuple, Listing]] = SessionCache()  # of scenes, and what each was asked for
+
+
+def listing(scene: Scene, view_layer: ViewLayer, name: str, sort_by: SortBy, warnings_first: bool) -> Listing:
+    """Choose and sort the measured objects of a view layer.
+
+    Parameters
+    ----------
+    scene : bpy.types.Scene
+    view_layer : bpy.types.ViewLayer
+    name : str
+        What the names are to contain, in whatever case.
+    sort_by : SortBy
+    warnings_first : bool
+        Whether what is out of date or doubtful comes before all others.
+
+    Returns
+    -------
+    (list of bool, list of int)
+        For each of the view layer's objects whether it is listed, and the line where it stands.
+    """
+    key = (handlers.generation(), view_layer.name, name, sort_by, warnings_first)
+    cached = _listings.get(scene)
+    if cached is None or cached[0] != key:
+        cached = _listings[scene] = (key, _listing(scene, view_layer, name.lower(), sort_by, warnings_first))
+    return cached[1]
+
+
+def listed_masses(scene: Scene, view_layer: ViewLayer) -> dict[int, str]:
+    """Format the masses of a view layer's measured objects as one column.
+
+    Parameters
+    ----------
+    scene : bpy.types.Scene
+    view_layer : bpy.types.ViewLayer
+
+    Returns
+    -------
+    dict of int to str
+        By session uids; all in one unit, with as many decimals.
+    """
+    units = Units.of(scene.unit_settings)
+    key = handlers.generation(), view_layer.name, units
+    cached = _masses.get(scene)
+    if cached is None or cached[0] != key:
+        bodies = {obj.session_uid: body for obj in view_layer.objects if (body := shown_body(obj, scene)) is not None}
+        texts = units.texts("mass", [body.mass for body in bodies.values()])
+        cached = _masses[scene] = (key, dict(zip(bodies, texts)))
+    return cached[1]
+
+
+def _listing(scene: Scene, view_layer: ViewLayer, name: str, sort_by: SortBy, warnings_first: bool) -> Listing:
+    objects = list(view_layer.objects)
+    bodies = [shown_body(obj, scene) if name in obj.name.lower() else None for obj in objects]
+    order = sorted(range(len(objects)), key=lambda i: _rank(objects[i], bodies[i], sort_by, warnings_first))
+    lines = [0] * len(objects)
+    for line, i in enumerate(order):
+        lines[i] = line
+    return [body is not None for body in bodies], lines
+
+
+def _rank(obj: Object, body: ShownBody | None, sort_by: SortBy, warnings_first: bool) -> tuple:
+    if body is None:
+        return (True,)
+    doubt = -RANKS[body.verdict]
+    by: dict[SortBy, Callable[[], float]] = {SortBy.MASS: lambda: -body.mass, SortBy.VERDICT: lambda: doubt}
+    is_first = warnings_first and body.verdict in (Trust.OUT_OF_DATE, Trust.DOUBTFUL)
+    return (False, not is_first, by[sort_by]() if sort_by in by else 0.0, obj.name.lower(), obj.name)

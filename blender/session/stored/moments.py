@@ -1,0 +1,369 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Moments to a chosen order, kept in memory, and what a panel and the clipboard show of them.
+
+Nothing is written to the object: a thousand numbers would burden the file, and no undo step is needed. The last few
+objects' moments are kept while the file is open; they know what they were computed from, and so when they are out of
+date.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from bpy.types import Object, Scene
+from numpy.typing import NDArray
+
+from ....core.flat.regions import plane_positions
+from ....core.flat.section import Plane
+from ....core.inertia.reference import Reference
+from ....core.measurement.plain_text import visible
+from ....core.moments.complex_form import Invariant, flusser_invariants, hu_invariants
+from ....core.moments.moments import Moments, monomial_count, monomials
+from ....core.moments.normalized import normalize
+from ....core.polyhedron.n_dimensions import multi_indices
+from ....core.verdict.finding import Finding, MeasureError, ReadError
+from ...read.fingerprint import matrix_hash, settings_hash
+from ...read.reference import ReferenceChoice
+from ...write.units import number
+from ..tracking import updates
+from ..tracking.cache import SessionCache
+
+MAX_SHOWN_ORDER = 4  # the highest order whose moments a panel shows one by one
+
+
+HU_ORDER = 3  # of Hu's invariants
+
+
+MAX_CACHED_OBJECTS = 16  # objects
+
+
+ZERO_DISPLAY_RTOL = 1e-12  # of the largest moment of a degree: shown as 0
+
+
+SUPERSCRIPTS = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
+
+
+@dataclass(frozen=True, eq=False)
+class FlatMoments:
+    """A flat shape's moments, SI, along the axes of its plane from its origin."""
+
+    moments: Moments
+    plane: Plane
+
+    def foot(self, point: NDArray) -> NDArray[np.float64]:
+        """(3,) the foot of a point of the world on the plane, in the plane's axes."""
+        return np.append(self.plane.project(np.asarray(point, np.float64)[None])[0], 0.0)
+
+
+@dataclass(frozen=True, eq=False)
+class ComputedMoments:
+    """One object's moments, SI, world axes. volume: of a shell those of its thin volume; None of what is flat, as is
+    area. mass: None where it is not known to that order. rotation, location: the object frame. key: what they were
+    computed from. flat: those of a flat shape; not_flat: why there are none."""
+
+    name: str
+    volume: Moments | None
+    area: Moments | None
+    mass: Moments | None
+    rotation: NDArray[np.float64]
+    location: NDArray[np.float64]
+    key: tuple[str, str, int]
+    flat: FlatMoments | None = None
+    not_flat: Finding | None = None
+
+    @property
+    def order(self) -> int:
+        return self.known.order
+
+    @property
+    def known(self) -> Moments:
+        """Those that there are."""
+        if self.volume is not None:
+            return self.volume
+        assert self.flat is not None
+        return self.flat.moments
+
+    @property
+    def center(self) -> NDArray[np.float64]:
+        """(3,) of the volume, or the flat shape."""
+        if self.volume is not None:
+            return self.volume.center
+        assert self.flat is not None
+        return self.flat.plane.origin + self.flat.plane.axes @ self.flat.moments.center
+
+
+@dataclass(frozen=True)
+class Degree:
+    """The moments of one degree as a panel shows them: (label, text, exact) each, and their unit."""
+
+    degree: int
+    unit: str
+    rows: tuple[tuple[str, str, str], ...]
+
+
+Display = tuple[tuple[Degree, ...], Finding | None]  # what a panel shows, and where that is nothing, why
+NOTHING: Display = ((), None)
+
+_computed: SessionCache[ComputedMoments] = SessionCache(MAX_CACHED_OBJECTS)
+_displays: SessionCache[tuple[tuple, Display]] = SessionCache(MAX_CACHED_OBJECTS)  # and what they show
+
+
+def cache_moments(obj: Object, computed: ComputedMoments) -> None:
+    """Remember what was computed for an object."""
+    _computed[obj] = computed
+
+
+def computed_moments(obj: Object) -> ComputedMoments | None:
+    """What was computed for an object; None where nothing was."""
+    return _computed.get(obj)
+
+
+def stale_reason(obj: Object, scene: Scene) -> str | None:
+    """The code of why what was computed does not hold any more; None where it does, or there is nothing."""
+    computed = computed_moments(obj)
+    if computed is None:
+        return None
+    matrix, settings, geometry = computed.key
+    if settings != settings_hash(obj, scene):
+        return "stale_settings"
+    if geometry != updates.last_change_of_geometry(obj):
+        return "stale_geometry"
+    return "stale_transform" if matrix != matrix_hash(obj) else None
+
+
+def current_numbers(obj: Object, scene: Scene) -> Display:
+    """The moments to MAX_SHOWN_ORDER as the scene's settings want them, and where there are none, why."""
+    settings = scene.body_moments
+    # A panel is drawn at every movement of the mouse.
+    computed = computed_moments(obj)
+    reference: Reference | None = None
+    if computed is None:
+        return NOTHING
+    if settings.moments_about == "REFERENCE":
+        try:
+            reference = reference_of(obj, computed, scene)
+        except MeasureError as error:
+            return (), error.finding
+    place = None if reference is None else (reference.origin.tobytes(), reference.axes.tobytes())
+    request = (computed, settings.moments_of, settings.moments_about, settings.frame, place)
+    cached = _displays.get(obj)
+    if cached is None or cached[0] != request:
+        cached = _displays[obj] = (request, _displayed_degrees(*request[:4], reference))
+    return cached[1]
+
+
+def reference_of(obj: Object, computed: ComputedMoments, scene: Scene) -> Reference:
+    """The reference that the scene has chosen. MeasureError where there is none."""
+    return ReferenceChoice.of(scene.body_moments_reference).resolve(obj, scene, computed.center)
+
+
+def _displayed_degrees(
+    computed: ComputedMoments, of: str, about: str, frame: str, reference: Reference | None
+) -> Display:
+    try:
+        order = min(computed.order, MAX_SHOWN_ORDER)
+        if about == "INVARIANT":
+            return tuple(_displayed_invariants(invariants(computed, of, order), order)), None
+        moments = in_frame(computed, of, about, frame, order, reference)
+    except MeasureError as error:
+        return (), error.finding
+    degrees = []
+    for degree in range(moments.order + 1):
+        part = np.arange(monomial_count(degree - 1), monomial_count(degree))
+        if of == "FLAT":
+            part = part[monomials(degree)[part, 2] == 0]
+        values = moments.raw[part]
+        noise = np.maximum(moments.rounding_error[part], ZERO_DISPLAY_RTOL * np.abs(values).max())
+        texts = [number(0.0 if abs(value) <= least else float(value)) for value, least in zip(values, noise)]
+        cells = zip(map(label, monomials(degree)[part].tolist()), texts, (repr(float(value)) for value in values))
+        degrees.append(Degree(degree, unit(of, about, degree), tuple(cells)))
+    return tuple(degrees), None
+
+
+def _displayed_invariants(found: list[Invariant], order: int) -> Iterator[Degree]:
+    """Hu's as the numbers that they are, those above by the real and the imaginary part."""
+    for degree in range(2, order + 1):
+        rows = []
+        for one in found:
+            if one.degree == degree:
+                parts = (one.value.real, one.value.imag) if one.is_complex else (one.value.real,)
+                noise = one.rounding_error
+                texts = [number(0.0 if abs(part) <= noise else part) for part in parts]
+                rows.append(
+                    (
+                        one.name,
+                        " + ".join(texts).replace("+ −", "− ") + " i" * one.is_complex,
+                        " ".join(map(repr, parts)),
+                    )
+                )
+        yield Degree(degree, "", tuple(rows))
+
+
+def invariants(computed: ComputedMoments, of: str, order: int) -> list[Invariant]:
+    """Hu's seven and, from fourth order on, Flusser's. MeasureError where the object is not flat, or the order is below
+    3."""
+    if of != "FLAT":
+        raise ReadError("invariants_of_flat")
+    if order < HU_ORDER:
+        raise ReadError("invariants_order", order=HU_ORDER)
+    moments = normalize(_of(computed, of).truncate(order))
+    with np.errstate(over="ignore", invalid="ignore"):
+        found = [*hu_invariants(moments), *(one for one in flusser_invariants(moments) if one.degree > HU_ORDER)]
+    if not np.isfinite([(abs(one.value), one.rounding_error, one.input_error) for one in found]).all():
+        raise ReadError("moments_overflow", order=order)
+    return found
+
+
+def in_frame(
+    computed: ComputedMoments, of: str, about: str, frame: str, order: int, reference: Reference | None = None
+) -> Moments:
+    """The moments along the axes of the frame, "WORLD" or "OBJECT", about its "ORIGIN" or the body's "CENTER"; or
+    "NORMALIZED", as `normalize` by size, of a mass by gyration; or about a "REFERENCE", along its axes. MeasureError
+    where that cannot be, or leaves the range of numbers."""
+    with np.errstate(over="ignore", invalid="ignore"):
+        if of == "FLAT":
+            moments = _in_plane(computed, about, frame, order, reference)
+        elif reference is None:
+            moments = _in_frame(computed, of, about, frame, order)
+        else:
+            moments = _of(computed, of).truncate(order)
+            moments = moments.in_frame(reference.axes, reference.origin)
+    if not np.isfinite([moments.raw, moments.rounding_error, moments.input_error]).all():
+        raise ReadError("moments_overflow_at_origin", order=order)
+    return moments
+
+
+def _of(computed: ComputedMoments, of: str) -> Moments:
+    flat = None if computed.flat is None else computed.flat.moments
+    moments = {"VOLUME": computed.volume, "SURFACE": computed.area, "MASS": computed.mass, "FLAT": flat}[of]
+    if moments is None:
+        if of == "FLAT":
+            assert computed.not_flat is not None
+            raise ReadError(computed.not_flat)
+        raise ReadError("mass_moments_unknown" if computed.volume else "moments_of_flat", order=computed.order)
+    return moments
+
+
+def _in_plane(computed: ComputedMoments, about: str, frame: str, order: int, reference: Reference | None) -> Moments:
+    """Along the axes of the plane, about the foot of the frame's origin or of the reference."""
+    moments, flat = _of(computed, "FLAT").truncate(order), computed.flat
+    if about == "NORMALIZED":
+        return normalize(moments)
+    if about == "CENTER":
+        return moments.about_center()
+    origin = np.zeros(3) if frame == "WORLD" else computed.location
+    assert flat is not None
+    return moments.about_point(flat.foot(origin if reference is None else reference.origin))
+
+
+def _in_frame(computed: ComputedMoments, of: str, about: str, frame: str, order: int) -> Moments:
+    moments = _of(computed, of).truncate(order)
+    origin = moments.center if about != "ORIGIN" else np.zeros(3) if frame == "WORLD" else computed.location
+    if frame == "OBJECT":
+        moments = moments.in_frame(computed.rotation, origin)
+    if about == "NORMALIZED":
+        return normalize(moments, "gyration" if of == "MASS" else "size")
+    return moments if frame == "OBJECT" else moments.about_point(origin)
+
+
+def label(powers: list[int]) -> str:
+    """x²z, or 1."""
+    factors = [axis + str(power).translate(SUPERSCRIPTS) * (power > 1) for axis, power in zip("xyz", powers) if power]
+    return "".join(factors) or "1"
+
+
+def unit(of: str, about: str, degree: int) -> str:
+    """m⁵, or nothing for normalized ones."""
+    if about in ("NORMALIZED", "INVARIANT"):
+        return ""
+    if of == "MASS":
+        return "kg" + ("·m" + str(degree).translate(SUPERSCRIPTS) * (degree > 1) if degree else "")
+    return "m" + str(degree + (3 if of == "VOLUME" else 2)).translate(SUPERSCRIPTS)
+
+
+def as_csv(computed: ComputedMoments, of: str, about: str, frame: str, reference: Reference | None = None) -> str:
+    """All of them: a comment that says what they are, and a row for each with its bounds."""
+    if of == "FLAT":
+        return _flat_csv(computed, about, frame, reference)
+    moments = in_frame(computed, of, about, frame, computed.order, reference)
+    text = io.StringIO()
+    text.write(
+        "# {:s}: {:s} moments, {:s} frame, {:s}\n".format(
+            _title(computed),
+            of.lower(),
+            "reference" if about == "REFERENCE" else frame.lower(),
+            {
+                "ORIGIN": "about the frame's origin, in SI units",
+                "CENTER": "about the center, in SI units",
+                "REFERENCE": "about its origin, in SI units",
+                "NORMALIZED": "central, of the body scaled to a {:s} of 1".format(
+                    "mass and a radius of gyration" if of == "MASS" else of.lower()
+                ),
+            }[about],
+        )
+    )
+    table = csv.writer(text, lineterminator="\n")
+    table.writerow(["p", "q", "r", "moment", "rounding", "float32"])
+    values = zip(
+        monomials(computed.order).tolist(),
+        moments.raw.tolist(),
+        moments.rounding_error.tolist(),
+        moments.input_error.tolist(),
+    )
+    table.writerows([*powers, *values] for powers, *values in values)
+    return text.getvalue()
+
+
+def _title(computed: ComputedMoments) -> str:
+    return re.sub("[,;]", " ", visible(computed.name))  # or what follows would be a cell of its own
+
+
+def _flat_csv(computed: ComputedMoments, about: str, frame: str, reference: Reference | None) -> str:
+    text = io.StringIO()
+    table = csv.writer(text, lineterminator="\n")
+    if about == "INVARIANT":
+        text.write(
+            "# {:s}: invariants of the flat shape, from central moments, scaled to an area of 1\n".format(
+                _title(computed)
+            )
+        )
+        table.writerow(["invariant", "real", "imaginary", "rounding", "float32"])
+        for one in invariants(computed, "FLAT", computed.order):
+            table.writerow([one.name, one.value.real, one.value.imag, one.rounding_error, one.input_error])
+        return text.getvalue()
+    moments = in_frame(computed, "FLAT", about, frame, computed.order, reference)
+    assert computed.flat is not None
+    x, y, normal = (" ".join(map(repr, axis)) for axis in computed.flat.plane.axes.T.tolist())
+    text.write(
+        "# {:s}: area moments of the flat shape, along x = ({:s}) and y = ({:s}), front ({:s}), {:s}\n".format(
+            _title(computed),
+            x,
+            y,
+            normal,
+            {
+                "ORIGIN": "about the foot of the {:s} frame's origin, in SI units".format(frame.lower()),
+                "CENTER": "about the centroid, in SI units",
+                "REFERENCE": "about the foot of the reference's origin, in SI units",
+                "NORMALIZED": "central, of the shape scaled to an area of 1",
+            }[about],
+        )
+    )
+    table.writerow(["p", "q", "moment", "rounding", "float32"])
+    for (p, q), i in zip(multi_indices(2, moments.order).tolist(), plane_positions(moments.order).tolist()):
+        table.writerow(
+            [
+                p,
+                q,
+                *(
+                    values[i]
+                    for values in (moments.raw.tolist(), moments.rounding_error.tolist(), moments.input_error.tolist())
+                ),
+            ]
+        )
+    return text.getvalue()

@@ -1,0 +1,109 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Inertia about the reference that the scene has chosen, from what is stored: shown, and stored on request.
+
+What is stored remembers which reference was meant, and follows when its owner is measured again.
+"""
+
+from __future__ import annotations
+
+from contextlib import suppress
+
+import bpy
+from bpy.types import Collection, Object, Scene
+
+from ....core.inertia.mass_properties import MassProperties
+from ....core.inertia.reference import ReferredInertia
+from ....core.numerics.float32 import shortest_decimal
+from ....core.numerics.rotations import quaternion
+from ....core.verdict.finding import Finding, MeasureError, QueryError
+from ...read.reference import ReferenceChoice
+from ...write import properties
+from ..tracking import handlers, staleness
+from ..tracking.cache import SessionCache
+
+_shown: SessionCache[tuple[tuple, ReferredInertia | Finding]] = SessionCache()  # the last one, after what it is of
+
+
+def referred(owner: Object | Collection, scene: Scene) -> ReferredInertia | Finding | None:
+    """Return an owner's inertia about the scene's reference, from its stored results.
+
+    Returns
+    -------
+    ReferredInertia, Finding or None
+        Why there is none; None where nothing is stored.
+    """
+    choice = ReferenceChoice.of(scene.body_moments_reference)
+    key = (handlers.generation(), choice, scene.cursor.matrix.freeze() if choice.about == "CURSOR" else None)
+    cached = _shown.get(owner)
+    if cached is not None and cached[0] == key:
+        return cached[1]
+    body = _stored_body(owner, scene)
+    if body is None:
+        return None
+    try:
+        result: ReferredInertia | Finding = choice.resolve(owner, scene, body.center).refer(body)
+    except MeasureError as error:
+        result = error.finding
+    _shown[owner] = key, result
+    return result
+
+
+def store(owner: Object | Collection, scene: Scene, choice: ReferenceChoice | None = None) -> None:
+    """Write the inertia about a reference beside the stored results.
+
+    Parameters
+    ----------
+    owner : Object or Collection
+    scene : Scene
+    choice : ReferenceChoice, optional
+        By default the scene's.
+
+    Raises
+    ------
+    MeasureError
+        Where there are no results, no such reference, or the owner cannot hold it.
+    """
+    choice = choice or ReferenceChoice.of(scene.body_moments_reference)
+    body = _stored_body(owner, scene)
+    if body is None:
+        raise QueryError("no_stored_results", subject=owner.name)
+    properties.require_storable(owner)
+    result = choice.resolve(owner, scene, body.center).refer(body)
+    bounds = result.rounding_error, result.input_error
+    values = {
+        "body_reference": choice.text,
+        "body_reference_origin": result.reference.origin.tolist(),
+        "body_reference_axes": quaternion(result.reference.axes).tolist(),
+        "body_reference_center": result.center.tolist(),
+        "body_reference_inertia": properties.tensor_entries(result.inertia).tolist(),
+        "body_reference_error_bound": [float(bound[name]) for bound in bounds for name in ("center", "inertia")],
+    }
+    if choice.about == "AXIS":
+        values["body_axis_inertia"] = result.about_z
+    properties.store_reference(owner, values)
+    if isinstance(owner, bpy.types.Object):
+        staleness.pin(owner)
+
+
+def stored_choice(owner: Object | Collection) -> ReferenceChoice | None:
+    """Return which reference the stored inertia is about; None where none is stored."""
+    return ReferenceChoice.parse(owner["body_reference"]) if "body_reference" in owner else None
+
+
+def follow(owner: Object | Collection, scene: Scene, choice: ReferenceChoice | None) -> None:
+    """Store again, after new results were, what was stored about a reference; not where that is gone."""
+    if choice is not None:
+        with suppress(MeasureError):
+            store(owner, scene, choice)
+
+
+def _stored_body(owner: Object | Collection, scene: Scene) -> MassProperties | None:
+    """What is stored, in the world."""
+    numbers = properties.numbers(owner)
+    if numbers is None:
+        return None
+    stored = properties.from_numbers(numbers)
+    if isinstance(owner, bpy.types.Object):
+        stored = stored.in_world(owner.matrix_world, shortest_decimal(scene.unit_settings.scale_length))
+    return stored.body

@@ -1,0 +1,171 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Whether objects stand: their convex hulls are remembered, so that the support polygon follows every move.
+
+A hull is computed when stability is asked for, and holds until the geometry changes. What follows from it and the
+center of mass is computed again when either of them, or the place of the object, has changed.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import bpy
+import numpy as np
+from bpy.types import Depsgraph, Object, Scene
+from numpy.typing import NDArray
+
+from ....core.mesh.hulls import ConvexHull
+from ....core.numerics.rotations import rotation_matrix
+from ....core.statics.resting import RestingPoses, resting_poses
+from ....core.statics.support import CONTACT_RTOL, Support, find_support
+from ....core.verdict.finding import Finding, MeasureError
+from ...bodies.mesh.hull import object_hull
+from ...read.fingerprint import shape_digest
+from ..tracking import handlers, updates
+from ..tracking.cache import SessionCache
+from .shown import shown_body
+
+SAME_SHAPE_RTOL = 1e-5  # of scales and of centers: what float32 matrices change when an object turns
+
+
+@dataclass(eq=False)
+class _Remembered:
+    """hull: in the object's coordinates. change: the last update of its geometry; edit: one that changed it.
+    digest: of what it showed, None of large meshes. shape: (4, 3) the scale and the center that `poses` are for.
+    support: after which change of which scene."""
+
+    hull: ConvexHull
+    change: int
+    digest: bytes | None
+    edit: int = 0
+    shape: NDArray | None = None
+    poses: RestingPoses | Finding | None = None
+    support_key: tuple = ()
+    support: Support | None = None
+
+
+_remembered: SessionCache[_Remembered] = SessionCache()
+
+
+def down(scene: Scene) -> NDArray[np.float64]:
+    """Return the direction of gravity, (3,); -Z where the scene has none."""
+    gravity = np.array(scene.gravity, np.float64) if scene.use_gravity else np.zeros(3)
+    length = np.linalg.norm(gravity)
+    return gravity / length if length > 0.0 else np.array((0.0, 0.0, -1.0))
+
+
+def compute(obj: Object, depsgraph: Depsgraph) -> ConvexHull:
+    """Compute and remember the hull of an object as it is evaluated. MeasureError where it has none."""
+    hull = object_hull(obj, depsgraph)
+    _remembered[obj] = _Remembered(hull, updates.last_change_of_geometry(obj), shape_digest(obj, depsgraph))
+    handlers.count_change()
+    return hull
+
+
+def is_known(obj: Object) -> bool:
+    """Return whether the stability of an object was asked for."""
+    return obj in _remembered
+
+
+def is_stale(obj: Object) -> bool:
+    """Return whether the geometry has changed since."""
+    remembered = _remembered.get(obj)
+    if remembered is None or (change := updates.last_change_of_geometry(obj)) == remembered.change:
+        return False
+    if change == remembered.edit:
+        return True
+    # Blender also reports what is no edit, such as a setting, and undo may have brought the shape back.
+    depsgraph = bpy.context.view_layer.depsgraph
+    if remembered.digest is None or depsgraph is None or shape_digest(obj, depsgraph) != remembered.digest:
+        remembered.edit = change
+        return True
+    remembered.change = change
+    return False
+
+
+def forget(obj: Object) -> None:
+    """Forget the hull of an object."""
+    _remembered.forget(obj)
+    handlers.count_change()
+
+
+def support(obj: Object, scene: Scene = None) -> Support | None:
+    """Return how an object stands as it is now, in Blender's units and the world.
+
+    Parameters
+    ----------
+    obj : bpy.types.Object
+        An original object.
+    scene : bpy.types.Scene, optional
+        Whose gravity counts, by default the context's.
+
+    Returns
+    -------
+    Support or None
+        None where its stability was not asked for or no longer holds, or it has no numbers.
+    """
+    scene = scene or bpy.context.scene
+    remembered = _remembered.get(obj)
+    if remembered is None or is_stale(obj):
+        return None
+    key = (handlers.generation(), scene.session_uid)
+    if remembered.support_key != key:
+        body = shown_body(obj, scene)
+        matrix = np.array(obj.matrix_world, np.float64)
+        points = remembered.hull.points @ matrix[:3, :3].T + matrix[:3, 3]
+        remembered.support = (
+            None
+            if body is None
+            else find_support(points, body.center, down(scene), _tolerance(points, remembered.hull, matrix))
+        )
+        remembered.support_key = key
+    return remembered.support
+
+
+def _tolerance(points: NDArray, hull: ConvexHull, matrix: NDArray) -> float:
+    """Of the extent: what is a contact, where points may be outside the hull."""
+    gap = hull.gap * float(np.linalg.norm(matrix[:3, :3], 2))
+    return max(CONTACT_RTOL, 2.0 * gap / float(np.ptp(points, axis=0).max()))
+
+
+def poses(obj: Object, scene: Scene | None = None) -> RestingPoses | Finding | None:
+    """Return the stable resting poses of an object, lengths in Blender's units, normals in the object's frame
+    (location and rotation).
+
+    Parameters
+    ----------
+    obj : bpy.types.Object
+        An original object.
+    scene : bpy.types.Scene, optional
+        Whose unit scale counts, by default the context's.
+
+    Returns
+    -------
+    RestingPoses, Finding or None
+        A finding where there are none and why; None as for `support`.
+    """
+    remembered = _remembered.get(obj)
+    if remembered is None or is_stale(obj):
+        return None
+    body = shown_body(obj, scene)
+    if body is None:
+        return None
+    location, rotation = frame(obj)
+    scale = rotation.T @ np.array(obj.matrix_world.to_3x3(), np.float64)
+    shape = np.concatenate([scale, [rotation.T @ (body.center - location)]])
+    size = np.abs(np.ptp(remembered.hull.points, axis=0)) @ np.abs(scale).T
+    tolerance = SAME_SHAPE_RTOL * np.r_[np.full(3, np.abs(scale).max()), size.max()]
+    if remembered.shape is None or (np.abs(shape - remembered.shape).max(axis=1) > tolerance).any():
+        remembered.shape = shape
+        try:
+            remembered.poses = resting_poses(remembered.hull.transform(scale), shape[3])
+        except MeasureError as error:
+            remembered.poses = error.finding
+    return remembered.poses
+
+
+def frame(obj: Object) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return location, (3,), and rotation, (3, 3), of an object: the frame of `poses`."""
+    location, rotation, _scale = obj.matrix_world.decompose()
+    return np.array(location, np.float64), rotation_matrix(rotation)

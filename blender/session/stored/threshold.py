@@ -1,0 +1,129 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The threshold of a measured grid as a slider: the values of the grid are kept in memory, and a change of the setting
+stores the numbers of the new body at once.
+
+While the slider moves they come from every second or third value of a large grid, by a rule that nothing checks, and
+are out of date; a moment after the last change the exact ones take their place. Only where nothing else has changed
+since: geometry and transform must be those of the stored numbers.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import bpy
+from bpy.types import Context, Object, PropertyGroup, Scene
+
+from ....core.numerics.float32 import shortest_decimal
+from ....core.verdict.finding import MeasureError
+from ...bodies.grids.threshold import ThresholdGrid, ThresholdGridBody, threshold_grid_body
+from ...bodies.measure_object import Measured
+from ...bodies.measurement import measurement_of
+from ...bodies.request import Request
+from ...read.grids.volume import VolumeReading
+from ...settings import hooks
+from ...settings.digest import grid_key
+from ...settings.grid import GridOptions
+from ...write import properties
+from ..tracking import marks, staleness
+from ..tracking.cache import SessionCache
+from . import density
+
+MAX_CACHED_OBJECTS = 2  # a grid may have gigabytes
+DELAY = 0.3  # s after the last change of the slider
+COARSE = "coarse"  # no key of settings: what is measured with it is out of date
+
+
+@dataclass(frozen=True, eq=False)
+class _CachedGrid:
+    """What was measured of one object, and what the marks say that it was given since: of the geometry at every
+    threshold, as undo goes back to any, and of the transform."""
+
+    reading: VolumeReading
+    grid: ThresholdGrid
+    geometries: set[str]
+    transform: str
+    unit: float
+
+
+_cache: SessionCache[_CachedGrid] = SessionCache(MAX_CACHED_OBJECTS)
+_pending: list[tuple[Object, Scene]] = []  # whose exact numbers are due
+
+
+def cache_grid(obj: Object, measured: Measured, unit: float) -> None:
+    """Remember the grid that an object was measured with. unit: meters per Blender unit."""
+    mark, reading, body = marks.Mark(*measured.measurement.fingerprint.split(":")), measured.reading, measured.body
+    assert isinstance(reading, VolumeReading) and isinstance(body, ThresholdGridBody)
+    _cache[obj] = _CachedGrid(reading, body.grid, {mark.geometry}, mark.transform, unit)
+
+
+def on_threshold(settings: PropertyGroup, context: Context) -> None:
+    """What a change of the threshold does to the stored numbers."""
+    obj, scene = settings.id_data, context.scene
+    cached = _current(obj, scene)
+    if cached is None:
+        return
+    coarse = cached.grid.coarse()
+    if _store(obj, scene, cached, coarse, preview=True) and coarse is cached.grid:
+        staleness.mark_object(obj)
+    if (obj, scene) not in _pending:
+        _pending.append((obj, scene))
+    if bpy.app.background:
+        _finish()
+        return
+    if bpy.app.timers.is_registered(_finish):
+        bpy.app.timers.unregister(_finish)
+    bpy.app.timers.register(_finish, first_interval=DELAY)
+
+
+def _current(obj: Object, scene: Scene | None) -> _CachedGrid | None:
+    """What is kept of an object, where its stored numbers are of the same geometry and transform."""
+    cached, mark = _cache.get(obj), marks.parse(properties.fingerprint(obj))
+    if cached is None or mark is None or scene is None:
+        return None
+    same = mark.geometry in cached.geometries and mark.transform == cached.transform
+    unit = shortest_decimal(scene.unit_settings.scale_length)
+    if not same or unit != cached.unit or staleness.is_edited(obj):
+        return None
+    return cached if obj.body_moments.grid_as == "THRESHOLD" else None
+
+
+def _store(obj: Object, scene: Scene, cached: _CachedGrid, grid: ThresholdGrid, preview: bool) -> bool:
+    """Write the numbers of the threshold that is set; False where there are none."""
+    options = GridOptions.of(obj.body_moments)
+    request = Request.of(obj, unit=cached.unit)
+    try:
+        body = threshold_grid_body(grid, options, preview)
+        key = grid_key(obj) if grid is cached.grid else COARSE
+        measurement = measurement_of(cached.reading, replace(body, density_key=key), request)
+    except MeasureError:  # the panel says that the numbers are out of date, and Measure why there are none
+        return False
+    properties.store(obj, density.noted(obj, measurement, scene))
+    cached.geometries.add(marks.Mark(*measurement.fingerprint.split(":")).geometry)
+    return True
+
+
+def _finish() -> None:
+    """Store the exact numbers. A timer's function: it returns None, so that it is not called again."""
+    while _pending:
+        obj, scene = _pending.pop()
+        try:
+            cached = _current(obj, scene)
+        except ReferenceError:  # removed meanwhile
+            continue
+        if cached is not None and _store(obj, scene, cached, cached.grid, preview=False):
+            staleness.mark_object(obj)
+
+
+def register() -> None:
+    """Follow the threshold of grids."""
+    hooks.on_threshold_change.append(on_threshold)
+
+
+def unregister() -> None:
+    """Follow it no more."""
+    hooks.on_threshold_change.remove(on_threshold)
+    _pending.clear()
+    if bpy.app.timers.is_registered(_finish):
+        bpy.app.timers.unregister(_finish)

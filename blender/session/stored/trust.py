@@ -1,0 +1,105 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""How far the numbers of an object hold, in one word."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from enum import StrEnum
+
+from bpy.types import Object, Scene
+
+from ....core.verdict.finding import Finding, Severity
+from ....core.verdict.messages import severity
+from ....core.verdict.method import Method, Verdict
+from ...settings.preferences import default_density
+from ...write import properties
+from ..live import live
+from ..tracking import posed, staleness, updates
+from ..tracking.cache import SessionCache
+
+REPAIRED = (Verdict.CAPPED, Verdict.REORIENTED)
+# Warnings that say how the surface was closed: those of a repaired body.
+REPAIRS = frozenset(
+    {"vertices_welded", "duplicate_faces_ignored", "flipped_faces", "inverted_components", "holes_capped"}
+)
+BY_OTHERS = ("MATERIALS", "VOLUME")  # densities that change without an update of the object
+
+
+class Trust(StrEnum):
+    """How far shown numbers are to be trusted, the best first."""
+
+    EXACT = "exact"
+    REPAIRED = "repaired"
+    DOUBTFUL = "doubtful"
+    OUT_OF_DATE = "out of date"
+
+
+_known: SessionCache[tuple[tuple, Trust]] = SessionCache()  # and what it was found for
+
+
+def trust(obj: Object, scene: Scene) -> Trust:
+    """Return how far the object's numbers, live or stored, are to be trusted.
+
+    Parameters
+    ----------
+    obj : bpy.types.Object
+        An original object with numbers, or an armature that stands for others with numbers.
+    scene : bpy.types.Scene
+        Whose unit scale counts.
+
+    Returns
+    -------
+    Trust
+    """
+    if posed.stands_for_meshes(obj):
+        found = [trust(mesh, scene) for mesh in posed.deformed_meshes(obj)]
+        return max(found, key=tuple(Trust).index, default=Trust.DOUBTFUL)
+    if live.is_live(obj) or obj.body_moments.density_from in BY_OTHERS:
+        return _trust(obj, scene)
+    key = stored_key(obj, scene)
+    known = _known.get(obj)
+    if known is None or known[0] != key:
+        known = _known[obj] = (key, _trust(obj, scene))
+    return known[1]
+
+
+def stored_key(obj: Object, scene: Scene) -> tuple:
+    """Return what changes with all that decides whether the stored numbers of an object hold, and where they are.
+
+    Parameters
+    ----------
+    obj : bpy.types.Object
+        An original object whose density comes from none of `BY_OTHERS`.
+    scene : bpy.types.Scene
+
+    Returns
+    -------
+    tuple
+    """
+    return (
+        updates.last_change(obj),
+        obj.get("body_fingerprint"),
+        obj.get("body_findings"),
+        scene.session_uid,
+        scene.unit_settings.scale_length,
+        default_density(scene),
+    )
+
+
+def _trust(obj: Object, scene: Scene) -> Trust:
+    now = live.current_numbers(obj)
+    if now is not None and now.measurement is not None:
+        if live.lag(obj) == live.Lag.BEHIND or live.is_stale(obj, scene):
+            return Trust.OUT_OF_DATE
+        return trust_of(now.measurement.method, now.measurement.findings)
+    if staleness.stale_reason(obj, scene):
+        return Trust.OUT_OF_DATE
+    return trust_of(properties.method(obj), properties.findings(obj))
+
+
+def trust_of(method: Method | None, findings: Iterable[Finding]) -> Trust:
+    warnings = [found.code for found in findings if severity(found) != Severity.NOTE]
+    if method is None or method.verdict == Verdict.OPEN or not REPAIRS.issuperset(warnings):
+        return Trust.DOUBTFUL
+    return Trust.REPAIRED if warnings or method.verdict in REPAIRED else Trust.EXACT

@@ -1,0 +1,118 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The thickness of a measured wall as a slider: what was measured last is kept in memory as polynomials in the
+thickness, and a change of the setting stores their values at once.
+
+Only where nothing else has changed since: geometry and transform must be those of the stored numbers. Otherwise the
+numbers stay, and are reported as out of date.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from bpy.types import Context, Object, PropertyGroup
+
+from ....core.numerics.float32 import shortest_decimal
+from ....core.verdict.finding import MeasureError
+from ...bodies.measure_object import Measured
+from ...bodies.measurement import measurement_of
+from ...bodies.request import Request
+from ...bodies.wall import WallBody, Walls
+from ...read import Reading
+from ...settings import hooks
+from ...write import properties
+from ..tracking import marks, staleness
+from ..tracking.cache import SessionCache
+from . import density
+
+MAX_CACHED_OBJECTS = 64  # objects
+
+
+@dataclass(frozen=True)
+class _CachedWalls:
+    """What was measured of one object, and what the mark that it was given says of geometry and transform."""
+
+    reading: Reading
+    walls: Walls
+    geometry: str
+    transform: str
+    unit: float
+
+
+_cache: SessionCache[_CachedWalls] = SessionCache(MAX_CACHED_OBJECTS)
+
+
+def cache_walls(obj: Object, measured: Measured, unit: float) -> None:
+    """Remember the walls that an object was measured with. unit: meters per Blender unit."""
+    mark = marks.Mark(*measured.measurement.fingerprint.split(":"))
+    reading, body = measured.reading, measured.body
+    assert isinstance(reading, Reading) and isinstance(body, WallBody) and body.walls is not None
+    reading = replace(reading, parts=[])
+    _cache[obj] = _CachedWalls(reading, body.walls.drop_arrays(), mark.geometry, mark.transform, unit)
+
+
+def max_thickness(obj: Object) -> float | None:
+    """From which thickness in m the object's wall folds over, where that is known and there is such a thickness."""
+    cached = _current_walls(obj)
+    if cached is None or obj.body_moments.wall == "THIN":
+        return None
+    limit = _walls_on_side(cached, obj).max_thickness
+    return limit if limit < float("inf") else None
+
+
+def is_too_thick(obj: Object) -> bool:
+    """Whether the thickness that is set is known to be too large."""
+    limit, cached = max_thickness(obj), _cache.get(obj)
+    return (
+        cached is not None
+        and limit is not None
+        and not shortest_decimal(obj.body_moments.thickness) * cached.unit < limit
+    )
+
+
+def on_wall_setting(settings: PropertyGroup, context: Context) -> None:
+    """What a change of the wall or its thickness does to the stored numbers."""
+    obj = settings.id_data
+    cached = _current_walls(obj)
+    scene = context.scene
+    if (
+        cached is None
+        or settings.kind != "SHELL"
+        or settings.wall == "THIN"
+        or shortest_decimal(scene.unit_settings.scale_length) != cached.unit
+        or staleness.is_edited(obj)
+        or settings.mass_from == "DENSITY"
+        and settings.density_from != "VALUE"
+    ):
+        return
+    request = Request.of(obj, unit=cached.unit)
+    try:
+        body = _walls_on_side(cached, obj).body(request.options.thickness, check_overlap=False)
+        measurement = measurement_of(cached.reading, body, request)
+    except MeasureError:  # the panel shows how thick it may be
+        return
+    properties.store(obj, density.noted(obj, measurement, scene))
+    staleness.mark_object(obj)
+
+
+def _walls_on_side(cached: _CachedWalls, obj: Object) -> Walls:
+    return replace(cached.walls, side=obj.body_moments.wall.lower())
+
+
+def _current_walls(obj: Object) -> _CachedWalls | None:
+    """What is kept of an object, where its stored numbers are of the same geometry and transform."""
+    cached, mark = _cache.get(obj), marks.parse(properties.fingerprint(obj))
+    if cached is None or mark is None or (mark.geometry, mark.transform) != (cached.geometry, cached.transform):
+        return None
+    return cached
+
+
+def register() -> None:
+    """Follow the settings of walls."""
+    hooks.on_wall_change.append(on_wall_setting)
+
+
+def unregister() -> None:
+    """Follow them no more."""
+    hooks.on_wall_change.remove(on_wall_setting)

@@ -1,0 +1,70 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""In Pose Mode an armature stands for the meshes that it deforms: they are what is posed, and not what is selected."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import bpy
+from bpy.types import Object
+
+from ...read.rig import is_skin_of
+from . import handlers
+from .cache import SessionCache
+
+_meshes: SessionCache[tuple[int, tuple[Object, ...]]] = SessionCache()  # of armatures, and after which change
+
+
+def stands_for_meshes(obj: Object) -> bool:
+    """Return whether an object is an armature that is being posed.
+
+    Parameters
+    ----------
+    obj : bpy.types.Object
+        An original object.
+
+    Returns
+    -------
+    bool
+    """
+    return obj.type == "ARMATURE" and obj.mode == "POSE"
+
+
+def deformed_meshes(armature: Object) -> tuple[Object, ...]:
+    """Return the meshes of the window's view layer that an armature deforms.
+
+    Parameters
+    ----------
+    armature : bpy.types.Object
+        An original object.
+
+    Returns
+    -------
+    tuple of bpy.types.Object
+        In the order of the view layer.
+    """
+    cached = _meshes.get(armature)
+    if cached is None or cached[0] != handlers.generation():
+        objects = bpy.context.view_layer.objects
+        meshes = tuple(obj for obj in objects if obj.type == "MESH" and is_skin_of(obj, armature))
+        cached = _meshes[armature] = (handlers.generation(), meshes)
+    return cached[1]
+
+
+def subjects(objects: Iterable[Object]) -> list[Object]:
+    """Return objects with the meshes that they stand for in their place, each once.
+
+    Parameters
+    ----------
+    objects : iterable of bpy.types.Object
+        Original objects.
+
+    Returns
+    -------
+    list of bpy.types.Object
+    """
+    found: dict[Object, None] = {}
+    for obj in objects:
+        found.update(dict.fromkeys(deformed_meshes(obj) if stands_for_meshes(obj) else (obj,)))
+    return list(found)

@@ -1,0 +1,335 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Whether stored numbers are out of date.
+
+What is compared: transform and settings, by the digests in the marks that results, section and symmetry carry.
+
+What is noted: a digest of the geometry would need measuring, so an edit is noted instead, in memory only: the marks
+that the object carried when Blender evaluated its geometry anew. When a file is saved, the notes become part of the
+marks (`marks.write_edited`), so that the file knows when it is opened; reading a file reports no updates.
+
+When: Blender evaluates more than what was changed, as an object that is copied, shown again or gets a material slot.
+So what small meshes showed when their numbers were stored is kept, as a digest, and a note is made, or taken back, by
+comparing what they show now. Of what cannot be compared, every update is an edit, but for
+
+- the update of a setting, which Blender reports as one of the geometry;
+- the update that follows undo, which brings back numbers and shape together. An edit that undo brings back again was
+  noted when it was made, and notes are kept: undo may bring back the numbers of before, too. In Edit Mode and Sculpt
+  Mode it brings back the shape alone, and is an edit.
+
+How: a handler only writes down which objects were updated, for a frame of an animation may have thousands. What that
+means is found when somebody asks (`note_edits`), or before it could not be found any more: before results are replaced,
+before undo, and before the file is saved.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from types import MappingProxyType
+
+import bpy
+from bpy.types import Context, Depsgraph, Object, Scene
+
+from ....core.verdict.method import Verdict
+from ...read.fingerprint import VERSION, has_transform, matrix_hash, scale_hash, settings_hash, shape_digest
+from ...read.tracking import tracking_paused
+from ...write import properties
+from . import handlers, marks, updates
+from .cache import SessionCache
+
+NO_SHAPES: Mapping[Object, bytes | None] = MappingProxyType({})
+_edited: SessionCache[frozenset[str]] = SessionCache()  # the marks that an object carried when its geometry changed
+_shapes: dict[str, bytes] = {}  # mark → digest of what was shown when it was stored: copies of an object share both
+_resolved: dict[int, int] = {}  # session uid → up to which update is noted what it means
+# of what is no object's own body, by the type of its object: what compares its results with what it is now
+reasons_by_type: dict[str, Callable[[Object], str | None]] = {}
+
+
+# ---------------------------------------------------------------- What was stored just now
+
+
+def mark_up_to_date(
+    context: Context, objects: Iterable[Object], shapes: Mapping[Object, bytes | None] = NO_SHAPES
+) -> None:
+    """Take objects as up to date, after results were stored; evaluates what storing itself has tagged.
+
+    Parameters
+    ----------
+    context : bpy.types.Context
+        Its view layer has the objects.
+    objects : list of bpy.types.Object
+        Those whose results were stored or removed.
+    shapes : mapping of bpy.types.Object to bytes or None
+        Of objects that have just been read, the `surface_digest` of what they show.
+    """
+    depsgraph = context.evaluated_depsgraph_get()
+    for obj in objects:
+        note_edits(obj)  # of its other marks
+        mark_object(obj)
+        mark = properties.fingerprint(obj)
+        shape = shapes.get(obj)
+        if shape is not None and obj.mode == "OBJECT" and not _varies(obj):
+            _shapes[mark] = shape
+        else:
+            _remember_shape(obj, mark, depsgraph)
+
+
+def mark_fingerprints(context: Context, stored: Iterable[tuple[Object, str]]) -> None:
+    """Take other things than results as up to date, after they were stored and nothing else was changed.
+
+    Parameters
+    ----------
+    context : bpy.types.Context
+        Its view layer has the objects.
+    stored : iterable of (bpy.types.Object, str)
+        The objects, and the marks of what was stored with them.
+    """
+    with tracking_paused():
+        depsgraph = context.evaluated_depsgraph_get()
+    for obj, mark in stored:
+        note_edits(obj)
+        _set_edited(obj, mark, False)
+        _remember_shape(obj, mark, depsgraph)
+
+
+def mark_object(obj: Object) -> None:
+    """Take the stored results as those of the object's geometry as it is now.
+
+    Parameters
+    ----------
+    obj : bpy.types.Object
+        An original object.
+    """
+    _resolved[obj.session_uid] = updates.count()
+    _set_edited(obj, properties.fingerprint(obj), False)
+    handlers.count_change()
+
+
+def replace_mark(obj: Object, before: str) -> None:
+    """Take over what is noted of the results, after numbers and settings were changed together and the shape was not.
+
+    Parameters
+    ----------
+    obj : bpy.types.Object
+        An original object.
+    before : str
+        The mark of the results that were replaced.
+    """
+    mark = properties.fingerprint(obj)
+    _set_edited(obj, mark, before in _edited_marks(obj))
+    if before in _shapes:
+        _shapes[mark] = _shapes[before]
+
+
+def pin(obj: Object) -> None:
+    """Take the results of an object as those of the place where it is, after some were stored that depend on it.
+
+    Parameters
+    ----------
+    obj : bpy.types.Object
+        An original object that can hold results.
+    """
+    mark = marks.parse(before := properties.fingerprint(obj))
+    if mark is not None and has_transform(obj, mark.transform):
+        obj["body_fingerprint"] = ":".join(mark._replace(transform=matrix_hash(obj)))
+        replace_mark(obj, before)
+
+
+def mark_axes_changed(objects: Iterable[Object]) -> None:
+    """Note that objects have other axes than before: directions that are stored in these no longer hold.
+
+    Parameters
+    ----------
+    objects : iterable of bpy.types.Object
+        Original objects.
+    """
+    for obj in objects:
+        if mark := marks.of_symmetry(obj):
+            _set_edited(obj, mark, True)
+
+
+# ---------------------------------------------------------------- What is out of date
+
+
+def is_edited(obj: Object) -> bool:
+    """Return whether geometry or transform have changed since the results were stored, whatever the settings are."""
+    mark = marks.parse(properties.fingerprint(obj))
+    return mark is None or _has_new_geometry(obj, mark) or not has_transform(obj, mark.transform)
+
+
+def stale_reason(obj: Object, scene: Scene) -> str | None:
+    """Compare the stored results with the object.
+
+    Parameters
+    ----------
+    obj : bpy.types.Object
+        An original object.
+    scene : bpy.types.Scene
+        The scene whose unit scale counts.
+
+    Returns
+    -------
+    str or None
+        The code of why they are out of date; None where they are not, or there are none.
+    """
+    mark = marks.parse(properties.fingerprint(obj))
+    if mark is None or mark.version != VERSION:
+        return "stale_fingerprint" if "body_mass" in obj else None
+    if obj.get("body_method") == Verdict.ASSEMBLY and obj.type in reasons_by_type:
+        return reasons_by_type[obj.type](obj)
+    if mark.settings != settings_hash(obj, scene):
+        return "stale_settings"
+    if _has_new_geometry(obj, mark):
+        return "stale_geometry"
+    return None if has_transform(obj, mark.transform) else "stale_transform"
+
+
+def has_transform_of_results(obj: Object) -> bool:
+    """Return whether an object is scaled as it was when its results were stored, and stands where they hold."""
+    mark = marks.parse(properties.fingerprint(obj))
+    return mark is not None and has_transform(obj, mark.transform)
+
+
+def section_stale_reason(obj: Object) -> str | None:
+    """Compare the stored section with the object.
+
+    Parameters
+    ----------
+    obj : bpy.types.Object
+        An original object.
+
+    Returns
+    -------
+    str or None
+        The code of why it is out of date; None where it is not, or there is none.
+    """
+    mark = marks.parse(marks.of_section(obj))
+    if mark is None:
+        return None
+    if _has_new_geometry(obj, mark):
+        return "stale_geometry"
+    return "stale_transform" if mark.transform != matrix_hash(obj) else None
+
+
+def symmetry_stale_reason(obj: Object) -> str | None:
+    """Compare the symmetry that was found with the object.
+
+    Parameters
+    ----------
+    obj : bpy.types.Object
+        An original object.
+
+    Returns
+    -------
+    str or None
+        The code of why it is out of date; None where it is not, or there is none.
+    """
+    mark = marks.parse(marks.of_symmetry(obj))
+    if mark is None:
+        return None
+    if _has_new_geometry(obj, mark):
+        return "stale_geometry"
+    return "stale_scale" if mark.transform != scale_hash(obj) else None
+
+
+def _edited_marks(obj: Object) -> frozenset[str]:
+    return _edited.get(obj) or frozenset()
+
+
+def _has_new_geometry(obj: Object, mark: marks.Mark) -> bool:
+    note_edits(obj)
+    return mark.geometry == marks.EDITED or ":".join(mark) in _edited_marks(obj)
+
+
+# ---------------------------------------------------------------- What is noted
+
+
+def _set_edited(obj: Object, mark: str, is_edited: bool) -> None:
+    """Note that the geometry of what carries this mark has changed, or that it has not."""
+    noted = _edited_marks(obj)
+    if is_edited != (mark in noted):
+        handlers.count_change()
+        _edited[obj] = noted | {mark} if is_edited else noted - {mark}
+
+
+def note_edits(obj: Object) -> None:
+    """Note what the updates since the last call mean for the marks of an object.
+
+    To be called before its marks are replaced: nobody could say later whether the geometry has changed since those.
+
+    Parameters
+    ----------
+    obj : bpy.types.Object
+        An original object.
+    """
+    uid, newest = obj.session_uid, updates.count()
+    seen = _resolved.get(uid, 0)
+    if seen >= newest:
+        return
+    _resolved[uid] = newest
+    edit, returned = updates.last_edit(obj, seen), updates.last_return(obj)
+    last = max(edit, returned)
+    if last.number <= seen:
+        return
+    carried = marks.of_object(obj)
+    shape = _shape(obj, updates.depsgraph_of(last)) if any([mark in _shapes for mark in carried]) else None
+    for mark in carried:
+        if shape is not None and mark in _shapes:
+            _set_edited(obj, mark, shape != _shapes[mark])
+        elif edit.number or mark in _shapes:  # redo brings back an edit whose note may have been taken back
+            _set_edited(obj, mark, True)
+
+
+def _remember_shape(obj: Object, mark: str, depsgraph: Depsgraph) -> None:
+    shape = _shape(obj, depsgraph)
+    if shape is not None:  # else what another object with these very numbers showed still holds
+        _shapes[mark] = shape
+
+
+def _shape(obj: Object, depsgraph: Depsgraph | None) -> bytes | None:
+    """A digest of all that the numbers come from beside settings and transform; None where there is none."""
+    return None if depsgraph is None or _varies(obj) else shape_digest(obj, depsgraph)
+
+
+def _varies(obj: Object) -> bool:
+    """Whether the numbers may come from more than that."""
+    return obj.body_moments.density_from in {"MATERIALS", "ATTRIBUTE", "VOLUME"}
+
+
+def _note_all_edits() -> None:
+    for obj in bpy.data.objects if updates.count() else ():  # while the add-on is enabled Blender gives no data
+        note_edits(obj)
+
+
+def _forget_file() -> None:
+    _resolved.clear()
+    _shapes.clear()
+
+
+def _write_notes() -> None:
+    _note_all_edits()
+    for obj in bpy.data.objects if len(_edited) else ():
+        edited = _edited.get(obj)
+        if edited and obj.is_editable:
+            marks.write_edited(obj, edited)
+
+
+SUBSCRIPTIONS = (
+    (handlers.before_undo, _note_all_edits),
+    (handlers.on_load, _forget_file),
+    (handlers.on_save, _write_notes),
+)
+
+
+def register() -> None:
+    """Note edits from now on."""
+    for subscribers, function in SUBSCRIPTIONS:
+        subscribers.append(function)
+
+
+def unregister() -> None:
+    """Note no more edits; what was noted is written first, for whoever enables the add-on again has the same file."""
+    _write_notes()
+    for subscribers, function in reversed(SUBSCRIPTIONS):
+        subscribers.remove(function)
+    _forget_file()

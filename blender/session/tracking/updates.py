@@ -1,0 +1,271 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Which data-blocks Blender has evaluated anew, and when: written down by number, and looked at when somebody asks.
+
+A frame of an animation may have thousands of updates, of which a panel shows one, so the handler does nothing but
+write down session uids. The updates of an object's geometry are of two kinds: what may be an edit, and what is none,
+the update of a setting and that of undo.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator
+from typing import Any, NamedTuple
+
+import bpy
+from bpy.types import ID, Context, Depsgraph, Object, PropertyGroup
+
+from ...read.tracking import tracking_paused
+from ...settings import hooks
+from . import handlers
+
+
+class Stamp(NamedTuple):
+    """An update.
+
+    Attributes
+    ----------
+    number : int
+        Grows from update to update; 0 where there was none.
+    scene : int
+        Session uid of the scene that was evaluated.
+    view_layer : str
+        Name of its view layer.
+    """
+
+    number: int
+    scene: int
+    view_layer: str
+
+
+NEVER = Stamp(0, 0, "")
+# session uid → the last update of a data-block
+_edits: dict[int, Stamp] = {}  # of its geometry, which may be an edit
+_returns: dict[int, Stamp] = {}  # of its geometry, which is none
+_moves: dict[int, Stamp] = {}  # of its transform alone
+_touches: dict[int, Stamp] = {}  # of anything else
+_count = 0  # updates
+_set_since: set[int] = set()  # session uids of objects of which a setting was changed since the last update
+_undo_pending = False  # whether the next update is that of undo or redo
+
+
+def count() -> int:
+    """Return how many updates there were."""
+    return _count
+
+
+def shown_by(obj: Object) -> Iterator[ID]:
+    """Find what an object shows as instances, whose shape and place matter.
+
+    Parameters
+    ----------
+    obj : bpy.types.Object
+        An original object.
+
+    Yields
+    ------
+    bpy.types.ID
+        Objects and collections. Of collections Blender reports what happens to their members.
+    """
+    kind = obj.instance_type
+    if kind == "COLLECTION":
+        if obj.instance_collection is not None:
+            yield obj.instance_collection
+    elif kind != "NONE":
+        yield from obj.children_recursive
+    for system in obj.particle_systems:
+        settings = system.settings
+        if settings.instance_object is not None:
+            yield settings.instance_object
+        if settings.instance_collection is not None:
+            yield settings.instance_collection
+
+
+def density_source(obj: Object) -> Object | None:
+    """Return the Volume object that the density comes from, of which the shape matters; its place is a setting.
+
+    Parameters
+    ----------
+    obj : bpy.types.Object
+        An original object.
+
+    Returns
+    -------
+    bpy.types.Object or None
+    """
+    settings = obj.body_moments
+    return settings.density_volume if settings.density_from == "VOLUME" else None
+
+
+def last_edit(obj: Object, since: int = 0) -> Stamp:
+    """Return the last update of an object, or of what it shows, that may be an edit.
+
+    Parameters
+    ----------
+    obj : bpy.types.Object
+        An original object.
+    since : int
+        Number of an update.
+
+    Returns
+    -------
+    Stamp
+        `NEVER` where none came after `since`.
+    """
+    last = _edits.get(obj.session_uid, NEVER)
+    for shown in shown_by(obj):
+        last = max(last, *[stamps.get(shown.session_uid, NEVER) for stamps in (_edits, _moves)])
+    if (source := density_source(obj)) is not None:
+        last = max(last, _edits.get(source.session_uid, NEVER))
+    return last if last.number > since else NEVER
+
+
+def last_return(obj: Object) -> Stamp:
+    """Return the last update of an object's geometry that was of a setting, or after undo; `NEVER` where none was.
+
+    Parameters
+    ----------
+    obj : bpy.types.Object
+        An original object.
+
+    Returns
+    -------
+    Stamp
+    """
+    return _returns.get(obj.session_uid, NEVER)
+
+
+def last_change_of_geometry(obj: Object) -> int:
+    """Return the number of the last update of an object's geometry, of whatever kind, or of what it shows.
+
+    Parameters
+    ----------
+    obj : bpy.types.Object
+        An original object.
+
+    Returns
+    -------
+    int
+    """
+    return max(last_edit(obj).number, last_return(obj).number)
+
+
+def last_change_but_moves(obj: Object) -> int:
+    """Return the number of the last update of anything of an object, or of what it shows, but its own transform.
+
+    Parameters
+    ----------
+    obj : bpy.types.Object
+        An original object.
+
+    Returns
+    -------
+    int
+    """
+    return max(last_change_of_geometry(obj), _touches.get(obj.session_uid, NEVER).number)
+
+
+def last_change(obj: Object) -> int:
+    """Return the number of the last update of anything of an object, or of what it shows.
+
+    Parameters
+    ----------
+    obj : bpy.types.Object
+        An original object.
+
+    Returns
+    -------
+    int
+    """
+    return max(last_change_but_moves(obj), _moves.get(obj.session_uid, NEVER).number)
+
+
+def depsgraph_of(stamp: Stamp) -> Depsgraph | None:
+    """Return the dependency graph that an update was of, as it was evaluated last; None where it is gone.
+
+    Parameters
+    ----------
+    stamp : Stamp
+
+    Returns
+    -------
+    bpy.types.Depsgraph or None
+    """
+    for scene in bpy.data.scenes:
+        if scene.session_uid == stamp.scene:
+            layer = scene.view_layers.get(stamp.view_layer)
+            return None if layer is None else layer.depsgraph
+    return None
+
+
+def _note_updates(updates: handlers.Updates) -> None:
+    global _count, _undo_pending, _set_since
+    if tracking_paused.depth:
+        return
+    undone, _undo_pending = _undo_pending, False
+    changed_settings, _set_since = _set_since, set()
+    _count += 1
+    stamp = Stamp(_count, updates.scene.session_uid, updates.depsgraph.view_layer.name)
+    if undone:
+        edits = _edited_by_undo(updates)
+        _edits.update(dict.fromkeys(edits, stamp))
+        _returns.update(dict.fromkeys([uid for uid in updates.reshaped if uid not in edits], stamp))
+        _touches.update(dict.fromkeys((*updates.moved, *updates.others), stamp))
+        return
+    reshaped: Iterable[int] = updates.reshaped
+    if changed_settings and not updates.frame_changed:
+        of_settings = changed_settings.intersection(reshaped)
+        _returns.update(dict.fromkeys(of_settings, stamp))
+        reshaped = [uid for uid in reshaped if uid not in of_settings]
+    for stamps, uids in (
+        (_edits, reshaped),
+        (_edits, updates.collections),
+        (_moves, updates.moved),
+        (_touches, updates.others),
+    ):
+        stamps.update(dict.fromkeys(uids, stamp))
+
+
+def _edited_by_undo(updates: handlers.Updates) -> set[int]:
+    """Of the updated objects, those of which undo brings back the shape alone."""
+    evaluated = [update.id for update in updates.depsgraph.updates]
+    objects = [data.original for data in evaluated if isinstance(data, Object)]
+    edited = {obj.session_uid for obj in objects if obj.mode == "SCULPT" or getattr(obj.data, "is_editmode", False)}
+    return edited.intersection(updates.reshaped)
+
+
+def _note_setting(settings: PropertyGroup, _context: Context) -> None:
+    _set_since.add(settings.id_data.session_uid)
+
+
+def _note_undo() -> None:
+    global _undo_pending
+    _undo_pending = True
+
+
+def _forget_file() -> None:
+    global _undo_pending, _count
+    _undo_pending, _count = False, 0
+    for remembered in (_edits, _returns, _moves, _touches, _set_since):
+        remembered.clear()
+
+
+SUBSCRIPTIONS: tuple[tuple[list[Any], Callable[..., None]], ...] = (
+    (handlers.on_update, _note_updates),
+    (handlers.on_undo, _note_undo),
+    (handlers.on_load, _forget_file),
+    (hooks.on_change, _note_setting),
+)
+
+
+def register() -> None:
+    """Write down updates from now on."""
+    for subscribers, function in SUBSCRIPTIONS:
+        subscribers.append(function)
+
+
+def unregister() -> None:
+    """Write down no more."""
+    for subscribers, function in reversed(SUBSCRIPTIONS):
+        subscribers.remove(function)
+    _forget_file()

@@ -1,0 +1,168 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The add-on's preferences: what a scene starts with.
+
+They are copied into a scene when it is first used (`copy_defaults`), and the scene is what counts from then on: a file
+gives the same numbers on every machine, and in batch, which never reads preferences.
+"""
+
+from __future__ import annotations
+
+import bpy
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
+from bpy.types import AddonPreferences, Context, PropertyGroup, Scene
+
+from ...core.density.materials import BY_NAME, MATERIALS
+from ...core.numerics.float32 import shortest_decimal
+from .hooks import default_density_changed
+
+ADDON_ID = __name__.removesuffix(".blender.settings.preferences")
+MATERIAL_ITEMS = [
+    (material.name, material.name, "{:.7g} kg/m³. Source: {:s}".format(material.density, material.source))
+    for material in MATERIALS
+]
+COPIED = ("frame", "density_unit", "digits", "digit_grouping", "default_material", "default_density")
+
+
+class SceneDefaults:
+    """What the preferences and the settings of a scene have in common."""
+
+    frame: EnumProperty(
+        name="Frame",
+        description="Axes and origin in which the center of mass, the axes and the tensor are shown",
+        items=(
+            ("WORLD", "World", "World axes and origin"),
+            ("OBJECT", "Object", "Location and rotation of the object, with unit scale"),
+        ),
+        default="WORLD",
+    )
+    density_unit: EnumProperty(
+        name="Density Unit",
+        description="Unit in which densities are shown and entered",
+        items=(
+            ("AUTO", "By Unit System", "kg/m³, in scenes with imperial units lb/ft³"),
+            ("KG_M3", "kg/m³", "Kilograms per cubic meter"),
+            ("G_CM3", "g/cm³", "Grams per cubic centimeter"),
+            ("LB_IN3", "lb/in³", "Pounds per cubic inch"),
+        ),
+        default="AUTO",
+    )
+    digits: IntProperty(
+        name="Precision",
+        description="Significant digits of the largest number of a column. Copied values always have all digits",
+        default=6,
+        min=2,
+        max=15,
+    )
+    digit_grouping: EnumProperty(
+        name="Digit Grouping",
+        description="What separates groups of three digits in numbers of five digits and more",
+        items=(
+            ("SPACE", "Space", "20 000"),
+            ("COMMA", "Comma", "20,000"),
+            ("NONE", "None", "20000"),
+        ),
+        default="SPACE",
+    )
+    default_material: EnumProperty(
+        name="Default Material",
+        description="Material of objects whose density has not been set",
+        items=[
+            ("NONE", "None", "1000 kg/m³, with a note"),
+            ("CUSTOM", "Custom", "The density below"),
+            *MATERIAL_ITEMS,
+        ],
+        default="NONE",
+        update=default_density_changed,
+    )
+    default_density: FloatProperty(
+        name="Default Density",
+        description="Density in kg/m³ of objects whose density has not been set",
+        default=1000.0,
+        min=0.01,
+        soft_max=25000.0,
+        step=1000,
+        precision=3,
+        update=default_density_changed,
+    )
+
+
+class BodyMomentsPreferences(SceneDefaults, AddonPreferences):
+    """What new scenes start with."""
+
+    bl_idname = ADDON_ID
+
+    show_overlay: BoolProperty(
+        name="Overlay",
+        description="Draw the center of mass and the principal axes of measured objects in the 3D Viewport",
+        default=True,
+    )
+    live_budget: FloatProperty(
+        name="Live Budget",
+        description="Milliseconds per redraw that live numbers may take before they lag behind",
+        default=10.0,
+        min=1.0,
+        soft_max=100.0,
+        precision=1,
+    )
+
+    def draw(self, _context: Context) -> None:
+        layout = self.layout
+        layout.use_property_split = True
+        layout.label(text="Defaults, copied into a scene when it is first used")
+        column = layout.column()
+        column.prop(self, "default_material")
+        if self.default_material == "CUSTOM":
+            column.prop(self, "default_density", text="Density (kg/m³)")
+        column.prop(self, "frame")
+        column = layout.column()
+        column.prop(self, "density_unit")
+        column.prop(self, "digits")
+        column.prop(self, "digit_grouping")
+        column = layout.column()
+        column.prop(self, "show_overlay")
+        layout.separator()
+        layout.label(text="For all scenes")
+        layout.column().prop(self, "live_budget")
+
+
+def preferences() -> BodyMomentsPreferences | None:
+    """Return the preferences, None where the package is used without being an enabled add-on."""
+    addon = bpy.context.preferences.addons.get(ADDON_ID)
+    return None if addon is None else addon.preferences
+
+
+def copy_defaults(scene: Scene) -> None:
+    """Copy the preferences into a scene that has none of its own yet. For operators that a user presses."""
+    settings, source = scene.body_moments, preferences()
+    if source is None or settings.has_defaults or not scene.is_editable:
+        return
+    settings.has_defaults = True
+    for name in COPIED:
+        if not settings.is_property_set(name):
+            setattr(settings, name, getattr(source, name))
+    if not settings.overlay.is_property_set("show"):
+        settings.overlay.show = source.show_overlay
+
+
+def default_density(scene: Scene) -> float | None:
+    """Return the density in kg/m³ of the scene's objects that have none of their own, None where the scene has none."""
+    return _density(scene.body_moments)
+
+
+def default_material(scene: Scene) -> str:
+    """Return the name of the material of the scene's objects that have no density of their own, "" where there is
+    none."""
+    name = scene.body_moments.default_material
+    return name if name in BY_NAME else ""
+
+
+def _density(settings: PropertyGroup) -> float | None:
+    if settings.default_material == "NONE":
+        return None
+    if settings.default_material == "CUSTOM":
+        return shortest_decimal(settings.default_density)
+    return BY_NAME[settings.default_material].density
+
+
+CLASSES = (BodyMomentsPreferences,)

@@ -1,0 +1,425 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The stored results: ID properties on the object, the public contract for drivers, rigs and exporters.
+
+SI units, object frame (the object's location and rotation, unit scale). Inertia is six tensor entries about the center
+of mass, xx, yy, zz, xy, xz, yz, with xy = -∫xy dm.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from math import isfinite
+
+import bpy
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core.inertia.mass_properties import MassProperties
+from ...core.inertia.principal_frames import PrincipalFrame
+from ...core.measurement.documents import TENSOR
+from ...core.measurement.measurement import UNIFORM_DENSITIES, Measurement
+from ...core.measurement.record import plain
+from ...core.numerics.rotations import quaternion, rotation_matrix
+from ...core.verdict.finding import EditRefusedError, Finding, Severity
+from ...core.verdict.messages import of_severity, sentence
+from ...core.verdict.method import Method, Source, Verdict
+
+DESCRIPTIONS = {
+    "body_mass": "Mass in kg",
+    "body_density": "Mean density in kg/m³",
+    "body_volume": "Volume in m³",
+    "body_area": "Surface area in m²",
+    "body_center_of_mass": "Center of mass in {frame}, in m",
+    "body_inertia": "Inertia tensor xx, yy, zz, xy, xz, yz about the center of mass, along the axes of {frame}, "
+    "in kg·m² (xy = −∫xy dm)",
+    "body_inertia_diagonal": "Inertia tensor xx, yy, zz, as in body_inertia, in kg·m²",
+    "body_inertia_products": "Inertia tensor xy, xz, yz, as in body_inertia, in kg·m²",
+    "body_principal_moments": "Principal moments of inertia, ascending, in kg·m²",
+    "body_principal_axes": "Quaternion w, x, y, z that turns the axes of {frame} into the principal axes",
+    "body_error_bound": "What rounding may have changed: volume, area, center of mass, inertia; "
+    "then the same four for what storing coordinates as float32 may have",
+    "body_density_from": "Where the density came from",
+    "body_materials": "The materials that the density came from, one a line",
+    "body_method": "How the numbers came about",
+    "body_warnings": "Warnings in English, one a line",
+    "body_findings": "What was found and decided, as JSON: codes, values and the first elements",
+    "body_length": "Length of a wire in m",
+    "body_display_volume": "What the display mesh of a NURBS surface would have given as its volume, in m³",
+    "body_fingerprint": "What the numbers were computed from",
+    "body_reference": "What body_reference_inertia is about, as JSON",
+    "body_reference_origin": "Origin of the reference in the world, in m",
+    "body_reference_axes": "Quaternion w, x, y, z that turns the world axes into those of the reference",
+    "body_reference_center": "Center of mass from the origin of the reference, along its axes, in m",
+    "body_reference_inertia": "Inertia tensor xx, yy, zz, xy, xz, yz about the origin of the reference, along its "
+    "axes, in kg·m² (xy = −∫xy dm)",
+    "body_reference_error_bound": "What rounding may have changed: center of mass, inertia; then the same two for what "
+    "storing coordinates as float32 may have",
+    "body_axis_inertia": "Moment of inertia about the axis of the reference, in kg·m²",
+}
+REFERENCE_KEYS = ("body_reference", "body_axis")  # how the keys of results about a reference begin
+FRAMES = {  # of what results are stored on
+    bpy.types.Object: "the object's frame (location and rotation, unit scale)",
+    bpy.types.Collection: "the world",
+    bpy.types.PoseBone: "the bone's rest frame (head and axes, unit scale)",
+}
+Owner = bpy.types.Object | bpy.types.Collection | bpy.types.PoseBone
+LENGTHS = {
+    "body_mass": 0,
+    "body_density": 0,
+    "body_volume": 0,
+    "body_area": 0,
+    "body_center_of_mass": 3,
+    "body_inertia": 6,
+    "body_principal_moments": 3,
+    "body_principal_axes": 4,
+    "body_error_bound": 8,
+}
+OPTIONAL = ("body_length", "body_display_volume")  # of wires, and of what was measured without its display mesh
+ROUNDING = 2.0**-52  # of a product of two rounded numbers, relative
+BOUND_KEYS = ("volume", "area", "center_of_mass", "inertia")
+ENTRIES, ROWS, COLUMNS = zip(*TENSOR)
+
+
+@dataclass(frozen=True, eq=False)
+class StoredProperties:
+    """What an object carries, SI. body: in the object frame, or where `in_world` has put it.
+    error_bound: as in `Measurement`."""
+
+    density: float
+    volume: float
+    area: float
+    body: MassProperties
+    error_bound: dict
+
+    def in_world(self, matrix_world, unit: float) -> StoredProperties:
+        """The same in the world frame. matrix_world: of the object; unit: meters per Blender unit."""
+        location, turn, _ = matrix_world.decompose()
+        to_object = rotation_matrix(turn).T
+        origin = -to_object @ np.array(location, np.float64) * unit
+        return replace(self, body=self.body.in_frame(to_object, origin))
+
+
+def store(obj: Owner, measurement: Measurement) -> None:
+    """Write all results on an object, a collection or a pose bone, or none. EditRefusedError where it cannot hold
+    them."""
+    require_storable(obj)
+    body = measurement.mass_properties.in_frame(measurement.rotation, measurement.location)
+    bound = measurement.error_bound
+    numbers = {
+        "body_mass": body.mass,
+        "body_density": measurement.density,
+        "body_volume": measurement.volume,
+        "body_area": measurement.area,
+        "body_center_of_mass": body.center.tolist(),
+        "body_inertia": tensor_entries(body.inertia).tolist(),
+        "body_principal_moments": body.principal.moments.tolist(),
+        "body_principal_axes": quaternion(body.principal.axes).tolist(),
+        "body_error_bound": [float(source[name]) for source in (bound, bound["input"]) for name in BOUND_KEYS],
+    }
+    optional = {key: getattr(measurement, key.removeprefix("body_")) for key in OPTIONAL}
+    numbers |= {key: value for key, value in optional.items() if value is not None}
+    varying = (
+        {}
+        if measurement.density_from in UNIFORM_DENSITIES
+        else {"body_density_from": str(measurement.density_from), "body_materials": "\n".join(measurement.materials)}
+    )
+    texts = {key: value for key, value in varying.items() if value}
+    _replace(obj, numbers | _texts(measurement.method, measurement.findings, measurement.fingerprint) | texts)
+    retrigger_drivers(obj)
+
+
+def store_stack(
+    objects: Sequence[bpy.types.Object],
+    body: MassProperties,
+    density: NDArray,
+    volume: NDArray,
+    area: NDArray,
+    error_bounds: NDArray,
+    texts: Iterable[tuple[Method, tuple[Finding, ...], str]],
+) -> Iterator[Exception | None]:
+    """Write the results of many objects, each a solid of one density.
+
+    Parameters
+    ----------
+    objects : sequence of bpy.types.Object
+        n of them.
+    body : MassProperties
+        With a leading axis, in the object frames.
+    density, volume, area : (n,) array
+    error_bounds : (n, 2, 4) array
+        Of rounding and of float32 coordinates, in the order of BOUND_KEYS.
+    texts : iterable of (Method, tuple of Finding, str)
+        Of each its method, findings and fingerprint.
+
+    Yields
+    ------
+    Exception or None
+        Of each object in turn, why it cannot hold them.
+    """
+    columns = (
+        body.mass,
+        density,
+        volume,
+        area,
+        body.center,
+        body.inertia[:, ROWS, COLUMNS],
+        body.principal.moments,
+        quaternion(body.principal.axes),
+        error_bounds.reshape(-1, 8),
+    )
+    rows = zip(*[column.tolist() for column in columns])
+    known: dict[tuple[str, tuple[int, ...]], dict[str, str]] = {}
+    for obj, row, (method, found, mark) in zip(objects, rows, texts):
+        key = str(method), tuple(map(id, found))
+        if key not in known:  # most are alike
+            known[key] = _texts(method, found, "")
+        try:
+            require_storable(obj)
+            _replace(obj, dict(zip(LENGTHS, row)) | known[key] | {"body_fingerprint": mark})
+            retrigger_drivers(obj)
+        except Exception as error:
+            yield error
+        else:
+            yield None
+
+
+def _texts(method: Method, found: Iterable[Finding], mark: str) -> dict[str, str]:
+    """What is stored beside the numbers."""
+    return {
+        "body_method": str(method),
+        "body_warnings": warning_lines(found),
+        "body_findings": findings_text(found),
+        "body_fingerprint": mark,
+    }
+
+
+def _replace(obj: Owner, values: dict) -> None:
+    """Make these the only results, or leave those that were there. The tensor is stored in two ways."""
+    entries = values["body_inertia"]
+    values |= {"body_inertia_diagonal": entries[:3], "body_inertia_products": entries[3:]}
+    values = {key: values[key] for key in DESCRIPTIONS if key in values}
+    before = {key: obj[key] for key in DESCRIPTIONS if key in obj}
+    before = {key: value.to_list() if hasattr(value, "to_list") else value for key, value in before.items()}
+    try:
+        _write(obj, values, before)
+    except BaseException:
+        _write(obj, before, {})
+        raise
+
+
+def store_scaled(obj: Owner, density: float, mass: float, findings: Sequence[Finding], fingerprint: str) -> None:
+    """Write what another density makes of stored results, all of which are finite: the mass by a factor, and all that
+    it is a factor of.
+
+    Parameters
+    ----------
+    obj : Owner
+        One that can hold results.
+    density : float
+        The mean, kg/m³; 0 of a wire.
+    mass : float
+        kg.
+    findings : sequence of Finding
+    fingerprint : str
+    """
+    factor = mass / obj["body_mass"]
+    for key in ("body_inertia", "body_inertia_diagonal", "body_inertia_products", "body_principal_moments"):
+        obj[key] = [factor * value for value in obj[key]]
+    bounds = list(obj["body_error_bound"])
+    bounds[3], bounds[7] = factor * bounds[3] + ROUNDING * sum(obj["body_principal_moments"]), factor * bounds[7]
+    obj["body_error_bound"] = bounds
+    obj["body_mass"], obj["body_density"], obj["body_fingerprint"] = mass, density, fingerprint
+    obj["body_findings"], obj["body_warnings"] = findings_text(findings), warning_lines(findings)
+    retrigger_drivers(obj)
+
+
+def _write(obj: Owner, values: dict, before: dict) -> None:
+    """Makes these, by their keys, the only results of the object. before: those that are there, whose descriptions stay
+    where the kind of value does."""
+    for key in DESCRIPTIONS:
+        if key not in values and key in obj:
+            del obj[key]
+    for key, value in values.items():
+        if type(before.get(key)) is type(value):
+            obj[key] = value
+        else:
+            _set(obj, key, value)
+
+
+def _set(obj: Owner, key: str, value: object) -> None:
+    obj[key] = value
+    if not isinstance(value, str):
+        obj.id_properties_ui(key).update(description=_description(key, type(obj)), precision=6)
+
+
+@lru_cache
+def _description(key: str, owner: type) -> str:
+    return DESCRIPTIONS[key].format(frame=FRAMES[owner])
+
+
+def store_reference(obj: Owner, values: dict) -> None:
+    """Write results about a reference, by their keys, beside the others. EditRefusedError where the owner cannot hold
+    them."""
+    require_storable(obj)
+    for key in DESCRIPTIONS:
+        if key.startswith(REFERENCE_KEYS) and key not in values and key in obj:
+            del obj[key]
+    for key, value in values.items():
+        _set(obj, key, value)
+
+
+def require_storable(obj: Owner) -> None:
+    """Raise EditRefusedError for what cannot hold results."""
+    data = obj.id_data
+    if not data.is_editable:
+        raise EditRefusedError("linked_results", subject=data.name_full)
+    if data.override_library is not None:  # Blender drops an override's new ID properties when the file is saved
+        raise EditRefusedError("override_results", subject=data.name_full)
+
+
+def clear(obj: Owner) -> bool:
+    """Remove all results; whether there were any."""
+    present = [key for key in DESCRIPTIONS if key in obj]
+    for key in present:
+        del obj[key]
+    if present:
+        retrigger_drivers(obj)
+    return bool(present)
+
+
+def retrigger_drivers(obj: Owner) -> None:
+    """Makes Blender evaluate the drivers that read what was stored, and nothing else.
+
+    Tags do more: TIME evaluates the object's animation, which puts back whatever was changed and not keyed yet; OBJECT,
+    what depends on its place, such as the Booleans that it is an operand of. To set a property that is only drawn makes
+    Blender copy the object for evaluation, and look at its custom properties then.
+    """
+    if isinstance(obj, bpy.types.Collection):
+        obj.color_tag = obj.color_tag
+    else:
+        obj.id_data.show_name = obj.id_data.show_name
+
+
+def is_stored(obj: Owner) -> bool:
+    """Whether the object carries results."""
+    return numbers(obj) is not None
+
+
+def method(obj: Owner) -> Method | None:
+    """How the stored numbers came about; None where there are none, or this version does not know their method."""
+    return Method.parse(method_text(obj))
+
+
+def method_text(obj: Owner) -> str:
+    """The method as it is stored, "" where there are no numbers."""
+    return str(obj.get("body_method", ""))
+
+
+def fingerprint(obj: Owner) -> str:
+    """The mark of what the numbers were computed from (session/marks.py), "" where there is none."""
+    return str(obj.get("body_fingerprint", ""))
+
+
+def findings(obj: Owner) -> tuple[Finding, ...]:
+    """What was found and decided when the stored numbers were computed; see `findings_in`."""
+    return findings_in(obj.get("body_findings"))
+
+
+def store_findings(obj: bpy.types.Object, findings: Sequence[Finding]) -> None:
+    """Store these in the place of the findings that are stored, such as accepted ones."""
+    obj["body_findings"], obj["body_warnings"] = findings_text(findings), warning_lines(findings)
+
+
+def warning_lines(findings: Iterable[Finding]) -> str:
+    """The English sentences of the warnings, one a line."""
+    return "\n".join([sentence(finding) for finding in of_severity(findings, Severity.WARNING)])
+
+
+def findings_text(findings: Iterable[Finding]) -> str:
+    """Findings as JSON text, to be read by `findings_in`."""
+    return json.dumps([plain(finding.as_record()) for finding in findings], ensure_ascii=False)
+
+
+def findings_in(text: object) -> tuple[Finding, ...]:
+    """The findings in a stored text. Text that `findings_text` has not written gives none; a finding that this version
+    of the add-on cannot put into words is left out."""
+    return _findings_in(text) if isinstance(text, str) else ()
+
+
+@lru_cache(maxsize=256)  # panels ask for them at every redraw
+def _findings_in(text: str) -> tuple[Finding, ...]:
+    try:
+        findings = tuple(Finding.from_record(record) for record in json.loads(text))
+    except (ValueError, TypeError, KeyError, AttributeError, RecursionError):
+        return ()
+    return tuple(finding for finding in findings if _has_sentence(finding))
+
+
+def _has_sentence(finding: Finding) -> bool:
+    try:
+        return bool(sentence(finding))
+    except (ValueError, TypeError, KeyError, IndexError, AttributeError, RecursionError):
+        return False
+
+
+def is_estimated(obj: bpy.types.Object) -> bool:
+    """Whether the stored bounds are estimates: those of splines are, and those of solids filled with a grid."""
+    how = method(obj)
+    if how is None:
+        return False
+    return (
+        how.source == Source.NURBS
+        or how.verdict == Verdict.WIRE
+        or (how.source == Source.GRID and obj.type != "VOLUME")
+    )
+
+
+def optional(obj: Owner, key: str) -> float | None:
+    """One of OPTIONAL, None where the object does not carry it."""
+    value = obj.get(key)
+    return value if isinstance(value, float) else None
+
+
+def density_from(obj: Owner) -> str:
+    """Where the density of the stored numbers came from, "" where it is the same everywhere."""
+    return str(obj.get("body_density_from", ""))
+
+
+def numbers(obj: Owner) -> tuple[tuple[float, ...], ...] | None:
+    """The stored numbers as they are, in the order of LENGTHS; None where one is missing or not finite."""
+    values = []
+    for key, length in LENGTHS.items():
+        value = obj.get(key)
+        try:
+            row = tuple(float(number) for number in value) if length else (float(value),)
+        except (TypeError, ValueError):  # absent, or overwritten by something else
+            return None
+        if len(row) != max(length, 1) or not (key == "body_error_bound" or all(map(isfinite, row))):
+            return None
+        values.append(row)
+    return tuple(values)
+
+
+def from_numbers(numbers_read: tuple[tuple[float, ...], ...]) -> StoredProperties:
+    """The results that `numbers` has read, in the object frame."""
+    (mass,), (density,), (volume,), (area,), center, entries, moments, turn, bounds = numbers_read
+    tensor = np.zeros((3, 3))
+    tensor[ROWS, COLUMNS] = tensor[COLUMNS, ROWS] = entries
+    axes = rotation_matrix(turn) if any(turn) else np.eye(3)
+    rounding, inputs = (dict(zip(BOUND_KEYS, bounds[i : i + 4])) for i in (0, 4))
+    frame = PrincipalFrame(np.array(moments), axes, symmetry="", is_unique=False, finding=None)
+    error, moved = (
+        {"mass": bound["volume"] * density, "center": bound["center_of_mass"], "inertia": bound["inertia"]}
+        for bound in (rounding, inputs)
+    )
+    body = MassProperties(mass, np.array(center), tensor, frame, error, moved)
+    return StoredProperties(density, volume, area, body, {**rounding, "input": inputs})
+
+
+def tensor_entries(tensor: NDArray) -> NDArray[np.float64]:
+    """(6,) a (3, 3) tensor in the order of ENTRIES."""
+    return tensor[ROWS, COLUMNS]

@@ -1,0 +1,206 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A stored section: one group of ID properties, `body_section`, on the object it was measured of, and its text report.
+
+SI units, world axes. Beside what a `core.flat.section.Section` holds: what was measured, findings, a fingerprint.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import lru_cache
+from math import degrees
+
+import bpy
+import numpy as np
+
+from ...core.flat.section import Plane, Section
+from ...core.verdict.finding import Finding, Severity
+from ...core.verdict.messages import sentence, severity
+from .properties import findings_in, findings_text, warning_lines
+from .units import rounded_up
+
+KEY = "body_section"
+BOUND_KEYS = ("area", "perimeter", "centroid", "second")
+LENGTHS = {
+    "area": 1,
+    "perimeter": 1,
+    "origin": 3,
+    "axes": 9,
+    "off": 1,
+    "centroid": 2,
+    "second": 3,
+    "reach": 4,
+    "counts": 2,
+    "error": 4,
+    "input": 4,
+    "unit": 1,
+}
+SIDE_DESCRIPTIONS = ("what", "named", "findings", "fingerprint")
+ABOUT = ("x", "y", "1", "2")
+DIGITS = 7
+ZERO_DISPLAY_RTOL = 2.5e-7  # beside the largest of several values: what float32 leaves of a zero
+
+
+@dataclass(frozen=True, eq=False)
+class StoredSection:
+    """unit: meters per Blender unit when it was measured."""
+
+    section: Section
+    description: str
+    findings: tuple[Finding, ...]
+    fingerprint: str
+    unit: float
+
+
+def store(
+    obj: bpy.types.Object, section: Section, what: str, findings: tuple[Finding, ...], fingerprint: str, unit: float
+) -> None:
+    """Write the section on the object, in place of an older one."""
+    plane = section.plane
+    obj[KEY] = {
+        "area": [section.area],
+        "perimeter": [section.perimeter],
+        "origin": plane.origin.tolist(),
+        "axes": plane.axes.T.ravel().tolist(),
+        "off": [plane.out_of_plane],
+        "centroid": section.centroid.tolist(),
+        "second": section.second.tolist(),
+        "reach": section.reach.tolist(),
+        "counts": [float(section.outlines), float(section.holes)],
+        "error": [section.rounding_error[name] for name in BOUND_KEYS],
+        "input": [section.input_error[name] for name in BOUND_KEYS],
+        "unit": [unit],
+        "what": what,
+        "named": plane.x_axis_name,
+        "warnings": warning_lines(findings),
+        "findings": findings_text(findings),
+        "fingerprint": fingerprint,
+    }
+
+
+def fingerprint(obj: bpy.types.Object) -> str:
+    """What the stored section was computed from, "" where there is none."""
+    group = obj.get(KEY)
+    return str(group.get("fingerprint", "")) if hasattr(group, "get") else ""
+
+
+def stored(obj: bpy.types.Object) -> StoredSection | None:
+    """The stored section; None where there is none, or something else under its name."""
+    group = obj.get(KEY)
+    if not hasattr(group, "get"):
+        return None
+    try:
+        numbers = tuple(tuple(float(value) for value in group[key]) for key in LENGTHS)
+        words = tuple(str(group.get(key, "") if key == "findings" else group[key]) for key in SIDE_DESCRIPTIONS)
+    except (KeyError, TypeError, ValueError):
+        return None
+    if tuple(map(len, numbers)) != tuple(LENGTHS.values()):
+        return None
+    return _from_keys(numbers, words)
+
+
+def clear(obj: bpy.types.Object) -> bool:
+    """Remove the section; whether there was one."""
+    if KEY not in obj:
+        return False
+    del obj[KEY]
+    return True
+
+
+@lru_cache(maxsize=64)
+def _from_keys(numbers: tuple[tuple[float, ...], ...], words: tuple[str, ...]) -> StoredSection:
+    values, (what, named, findings, fingerprint) = dict(zip(LENGTHS, numbers)), words
+    plane = Plane(np.array(values["origin"]), np.array(values["axes"]).reshape(3, 3).T, values["off"][0], named)
+    section = Section(
+        plane,
+        values["area"][0],
+        values["perimeter"][0],
+        np.array(values["centroid"]),
+        np.array(values["second"]),
+        np.array(values["reach"]),
+        int(values["counts"][0]),
+        int(values["counts"][1]),
+        dict(zip(BOUND_KEYS, values["error"])),
+        dict(zip(BOUND_KEYS, values["input"])),
+    )
+    return StoredSection(section, what, findings_in(findings), fingerprint, values["unit"][0])
+
+
+def text(name: str, section: StoredSection, outdated: Finding | None = None) -> str:
+    """A report that a person reads, in SI units. outdated: why the section no longer holds."""
+    return "\n".join(_lines(name, section, outdated)) + "\n"
+
+
+def _lines(name: str, stored_section: StoredSection, outdated: Finding | None) -> Iterator[str]:
+    section, plane = stored_section.section, stored_section.section.plane
+    x, y, normal = plane.axes.T
+    yield "Section properties, SI units, world frame"
+    yield ""
+    yield name
+    if outdated:
+        yield _line("Out of date", str(outdated))
+    yield _line(
+        "Measured",
+        "{}; outer outlines {}, holes {}".format(stored_section.description, section.outlines, section.holes),
+    )
+    yield _line("Area", "{} m²".format(_number(section.area)))
+    yield _line("Perimeter", "{} m".format(_number(section.perimeter)))
+    yield _line("Centroid", "{} m".format(_vector(section.center, section.area**0.5)))
+    yield _line(
+        "Plane",
+        "normal {}, x {}, y {}; x nearest to the object's {} axis".format(
+            _vector(normal, 1.0), _vector(x, 1.0), _vector(y, 1.0), plane.x_axis_name
+        ),
+    )
+    yield _line(
+        "Centroid in plane",
+        "{} m, from the foot of the object's origin".format(_vector(section.centroid, section.area**0.5)),
+    )
+    yield _line("Second moments", "about the centroid, along x and y of the plane, m⁴ (Ixy = +∫xy dA)")
+    for label, value in zip(("Ix", "Iy", "Ixy"), _clean(section.second, section.polar)):
+        yield _line("  " + label, _number(value))
+    yield _line("  Polar Jp", "{} = Ix + Iy; not the torsion constant".format(_number(section.polar)))
+    first, second = section.principal
+    yield _line(
+        "Principal",
+        "I1 {}, I2 {} m⁴; {}".format(
+            _number(first),
+            _number(second),
+            "every axis through the centroid is principal"
+            if section.axes_undetermined
+            else "axis 1 at {}° from x towards y".format(_number(degrees(section.angle))),
+        ),
+    )
+    yield _line("Radii of gyration", _labeled_values("i", section.radii) + " m")
+    yield _line("Section moduli", _labeled_values("W", section.moduli) + " m³ (elastic, outermost corner)")
+    for label, bound in (("Rounding, at most", section.rounding_error), ("float32 coordinates", section.input_error)):
+        yield _line(
+            label,
+            "area {:.1e} m², perimeter {:.1e} m, centroid {:.1e} m, second moments {:.1e} m⁴".format(
+                *(rounded_up(bound[name]) for name in BOUND_KEYS)
+            ),
+        )
+    for finding in stored_section.findings:
+        yield _line("Note" if severity(finding) == Severity.NOTE else "Warning", sentence(finding))
+
+
+def _line(label: str, value: str) -> str:
+    return "  {:<22}{}".format(label, value).rstrip()
+
+
+def _number(value: float) -> str:
+    return "{:.{}g}".format(value, DIGITS)
+
+
+def _clean(values, size: float) -> list[float]:
+    return [0.0 if abs(value) <= ZERO_DISPLAY_RTOL * size else float(value) for value in values]
+
+
+def _vector(values, size: float) -> str:
+    return "({})".format(", ".join(_number(value) for value in _clean(values, size)))
+
+
+def _labeled_values(letter: str, values) -> str:
+    return ", ".join("{}{} {}".format(letter, about, _number(value)) for about, value in zip(ABOUT, values))

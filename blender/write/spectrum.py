@@ -1,0 +1,65 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A Fourier transform as a file of arrays, and as a picture."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
+
+import bpy
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core.files.whole_file import whole_file
+from ...core.fourier.spectrum import Spectrum
+from ...core.measurement.documents import SPECTRUM_ARRAYS
+
+IMAGE_MARK = "body_fourier"  # on the images that are ours to overwrite: their name
+DECADES = 6.0  # from white to black
+SLICE_GAP = 2  # pixels between slices
+
+
+def save(
+    path: Path,
+    spectrum: Spectrum,
+    frame: str,
+    check: Callable[[Path], None] | None = None,
+    plane: Mapping[str, Any] | None = None,
+) -> None:
+    """Write an .npz file, whole or not at all: q (M, 3) in rad/m, F (M,) complex in m³ or m², error (M,) and input,
+    what rounding and storing coordinates as float32 may have changed, method and frame. check: as in `whole_file`.
+    plane: of a flat shape, whose q is (M, 2), `FLAT_SPECTRUM_ARRAYS`. Raises OSError."""
+    with whole_file(path, check) as file:
+        arrays = spectrum.q, spectrum.values, spectrum.error, spectrum.input_error, spectrum.method, frame
+        np.savez(file, **dict(zip(SPECTRUM_ARRAYS, arrays)), **(plane or {}))
+
+
+def picture(name: str, values: NDArray[np.complex128], count: int, dimension: int = 3) -> bpy.types.Image:
+    """An image of the slices z = 0, y = 0 and x = 0, from left to right, of a transform on a grid of count³; of one on
+    a grid of count² all of it.
+
+    Gray is log |F|: white where it is largest, black from six decades below on. The first of the axes left runs to the
+    right, the other one upward.
+    """
+    half = count // 2
+    size = np.abs(values).reshape((count,) * dimension)
+    largest = size.max() or 1.0
+    slices = (size,) if dimension == 2 else (size[:, :, half], size[:, half, :], size[half, :, :])
+    gray = np.zeros((count, len(slices) * (count + SLICE_GAP) - SLICE_GAP))
+    for i, slice_ in enumerate(slices):
+        decades = np.log10(np.maximum(slice_.T / largest, 10.0**-DECADES))
+        gray[:, i * (count + SLICE_GAP) :][:, :count] = 1.0 + decades / DECADES
+    pixels = np.ones((*gray.shape, 4), np.float32)
+    pixels[..., :3] = gray[..., None]
+    image = next((image for image in bpy.data.images if image.get(IMAGE_MARK) == name and image.is_editable), None)
+    if image is None:
+        image = bpy.data.images.new(name, gray.shape[1], count)
+        image[IMAGE_MARK] = name
+    elif tuple(image.size) != (gray.shape[1], count):
+        image.scale(gray.shape[1], count)
+    image.pixels.foreach_set(pixels.ravel())
+    image.update()
+    image.pack()  # or it would be lost with the session
+    return image

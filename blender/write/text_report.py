@@ -1,0 +1,240 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A report that a person reads, in the order of CAD dialogs: verdict, mass, volume, center, principal axes, tensor.
+
+It is made from a document (`documents.document`) alone, and for results that are stored on objects a document is made
+first: so it can say all that JSON says. What a document lacks is left out.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Sequence
+from contextlib import suppress
+from typing import Any
+
+import numpy as np
+
+from ...core.inertia.mass_properties import MassProperties, combine
+from ...core.measurement.documents import TENSOR, document
+from ...core.measurement.plain_text import visible
+from ...core.measurement.record import described, plain
+from ...core.numerics.float32 import shortest_decimal
+from ...core.verdict.finding import Finding, MeasureError, ReadError, finding
+from ...core.verdict.messages import HEALTH, METHODS, method_key
+from ...core.verdict.method import Method, Verdict
+from . import properties
+from .units import rounded_up
+
+BOUNDS = {"volume": "m³", "area": "m²", "center_of_mass": "m", "inertia": "kg·m²"}
+DIGITS = 7  # as many as float32 coordinates carry
+ZERO_DISPLAY_RTOL = 2.5e-7  # beside the largest component: what float32 matrices leave of a right angle; shown as 0
+INDENT = "  "
+WIDTH = 22
+
+
+def report_text(
+    context: Any, objects: Sequence[Any], outdated: Collection[str] = (), caveats: Sequence[Finding] = ()
+) -> str:
+    """The results stored on `objects`, in the frame that the context's scene is set to.
+
+    outdated: names of those whose results no longer hold. Objects without results are named too.
+    caveats: about their total.
+    """
+    return text(stored_document(context, objects, outdated, caveats))
+
+
+def stored_document(
+    context: Any,
+    objects: Sequence[Any],
+    outdated: Collection[str] = (),
+    caveats: Sequence[Finding] = (),
+    file: str | None = None,
+    blender: str | None = None,
+) -> dict[str, Any]:
+    """The document of the results stored on `objects`; see `report_text`. The health of their meshes is not stored."""
+    scene = context.scene
+    unit, frame = shortest_decimal(scene.unit_settings.scale_length), scene.body_moments.frame.lower()
+    entries, bodies, errors = [], [], []
+    for obj in objects:
+        numbers = properties.numbers(obj)
+        if numbers is None:
+            errors.append({"name": obj.name, "reason": ReadError("no_stored_results").reason})
+            continue
+        stored = properties.from_numbers(numbers)
+        world = stored.in_world(obj.matrix_world, unit)
+        bodies.append(world.body)
+        entries.append(_stored_record(obj, world if frame == "world" else stored, obj.name in outdated))
+    total = _stored_total(entries, bodies) | described(caveats)
+    return document(entries, total, errors, file=file, blender=blender, frame=frame)
+
+
+def text(file_document: dict[str, Any]) -> str:
+    """A document as plain text, with its units and conventions stated."""
+    lines = ["Mass properties, SI units, {} frame".format(file_document["frame"])]
+    if file_document["file"]:
+        lines.append("File: {}".format(file_document["file"]))
+    for entry in file_document["objects"]:
+        lines += ["", entry["name"], *_body(entry, file_document["frame"])]
+    if len(file_document["objects"]) > 1:
+        heading = "Total of {} objects, world frame".format(len(file_document["objects"]))
+        lines += ["", heading, *_body(file_document["total"], "world")]
+    if file_document["left_out"]:
+        lines += ["", "Left out"]
+        lines += ["{}{}: {}".format(INDENT, entry["name"], entry["reason"]) for entry in file_document["left_out"]]
+    if file_document["errors"]:
+        lines += ["", "Not measured"]
+        lines += [
+            "{}{}: {}".format(INDENT, failure["name"] or "File", failure["reason"])
+            for failure in file_document["errors"]
+        ]
+    return "".join(visible(line) + "\n" for line in lines)
+
+
+def _body(entry: dict[str, Any], frame: str) -> Iterable[str]:
+    """The lines of one object, or of a total."""
+    if "method" in entry:
+        walled = any(found["code"] == "wall_measured" for found in entry.get("findings", ()))
+        _, explanation = METHODS.get(method_key(Method.parse(entry["method"]), walled), ("", ""))
+        yield _line("Verdict", ": ".join(filter(None, (entry["method"], explanation))))
+        counts = list(_counts(entry.get("health", {})))
+        if counts:
+            yield _line("Found", ", ".join(counts))
+        yield _line("Kind", "{}, {}".format(entry["kind"], entry["type"].lower()))
+    yield _line("Mass", _number(entry["mass"]), "kg")
+    if "length" in entry:
+        yield _line("Length", _number(entry["length"]), "m")
+        yield _line("Linear density", _number(entry["linear_density"]), "kg/m")
+    elif "density" in entry:
+        yield _line("Density", _number(entry["density"]), "kg/m³")
+    if "density_from" in entry:
+        yield _line("Density from", entry["density_from"])
+    yield _line("Volume", _number(entry["volume"]), "m³")
+    yield _line("Surface area", _number(entry["area"]), "m²")
+    if "display_mesh" in entry:
+        yield _line(
+            "Its display mesh",
+            "{} m³, {:+.3g} %".format(
+                _number(entry["display_mesh"]["volume"]),
+                100.0 * entry["display_mesh"]["difference"] / entry["volume"] if entry["volume"] else 0.0,
+            ),
+        )
+    if entry["center_of_mass"] is None or entry["inertia"] is None:
+        return
+    size = entry.get("length") or abs(entry["volume"] or 0.0) ** (1.0 / 3.0)
+    yield _line("Center of mass", _vector(entry["center_of_mass"], size), "m, {} frame".format(frame))
+    yield from _principal(entry)
+    yield from _tensor(entry["inertia"], frame)
+    yield from _bounds(entry.get("error_bound", {}))
+    for label, name in (("Warning", "warnings"), ("Note", "notes")):
+        for message in entry.get(name, []):
+            yield _line(label, message)
+
+
+def _counts(health: dict[str, Any]) -> Iterable[str]:
+    for name, (one, several) in HEALTH.items():
+        count = health.get(name, 0)
+        count = len(count) if isinstance(count, list) else count
+        if count:
+            yield "{} {}".format(count, one if count == 1 else several)
+
+
+def _principal(entry: dict[str, Any]) -> Iterable[str]:
+    moments, axes = entry["principal_moments"], entry.get("principal_axes")
+    symmetry = ", {}".format(entry["symmetry"]) if entry.get("symmetry") else ""
+    yield _line("Principal moments", "about the center of mass, kg·m²{}".format(symmetry))
+    for i, moment in enumerate(moments):
+        along = "  along {}".format(_vector([row[i] for row in axes])) if axes else ""
+        yield _line("  I{}".format(i + 1), _number(moment) + along)
+    if entry["mass"]:
+        radii = np.sqrt(np.array(moments, float) / entry["mass"])
+        yield _line("Radii of gyration", _vector(radii.tolist()), "m")
+
+
+def _tensor(inertia: list[list[float]], frame: str) -> Iterable[str]:
+    yield _line(
+        "Inertia tensor",
+        "about the center of mass, {} axes, kg·m² (entries: Ixy = −∫ρxy dV)".format(frame),
+    )
+    values = _clean([inertia[i][j] for _, i, j in TENSOR])
+    for row in (slice(0, 3), slice(3, 6)):
+        cells = ["I{} {:<16}".format(name, _number(value)) for (name, *_), value in zip(TENSOR[row], values[row])]
+        yield _line("", "".join(cells).rstrip())
+
+
+def _bounds(bounds: dict[str, Any]) -> Iterable[str]:
+    for label, values in (
+        ("Errors, estimated" if bounds.get("estimated") else "Rounding, at most", bounds),
+        ("float32 coordinates", bounds.get("input", {})),
+    ):
+        parts = [
+            "{} {:.1e} {}".format(name.replace("_", " "), rounded_up(values[name]), unit)
+            for name, unit in BOUNDS.items()
+            if values.get(name) is not None
+        ]
+        if any(values.get(name) for name in BOUNDS):
+            yield _line(label, ", ".join(parts))
+
+
+def _line(label: str, value: str, unit: str = "") -> str:
+    return "{}{:<{}}{} {}".format(INDENT, label, WIDTH, value, unit).rstrip()
+
+
+def _number(value: float | None) -> str:
+    return "unknown" if value is None else "{:.{}g}".format(value, DIGITS)
+
+
+def _vector(values: Sequence[float | None], size: float = 0.0) -> str:
+    return "({})".format(", ".join(_number(value) for value in _clean(values, size)))
+
+
+def _clean(values: Sequence[float | None], size: float = 0.0) -> list[float | None]:
+    """The values with 0.0 for what is rounding beside the largest of them, or beside the body's size."""
+    largest = max([size, *(abs(value) for value in values if value is not None)])
+    return [0.0 if value is not None and abs(value) <= ZERO_DISPLAY_RTOL * largest else value for value in values]
+
+
+def _stored_record(obj: Any, stored: properties.StoredProperties, outdated: bool) -> dict[str, Any]:
+    """A record without health, which is not stored."""
+    method, findings = properties.method(obj), properties.findings(obj)
+    kinds = {Verdict.SHELL: "shell", Verdict.WIRE: "wire"}
+    source = properties.density_from(obj)
+    if outdated:
+        findings = (finding("stale_results"), *findings)
+    entry = {
+        "name": obj.name,
+        "type": obj.type,
+        "kind": "solid" if method is None else kinds.get(method.verdict, "solid"),
+        "method": properties.method_text(obj),
+        "density": stored.density,
+        **({"density_from": source} if source else {}),
+        "mass": stored.body.mass,
+        "volume": stored.volume,
+        "area": stored.area,
+        "center_of_mass": stored.body.center,
+        "inertia": stored.body.inertia,
+        "principal_moments": stored.body.principal.moments,
+        "principal_axes": stored.body.principal.axes,
+        "symmetry": None,
+        "health": {},
+        "error_bound": {**stored.error_bound, **({"estimated": True} if properties.is_estimated(obj) else {})},
+        **described(findings),
+    }
+    length, display = (properties.optional(obj, key) for key in properties.OPTIONAL)
+    if length is not None:
+        entry |= {"length": length, "linear_density": stored.body.mass / length}
+    if display is not None:
+        entry["display_mesh"] = {"volume": display, "difference": display - stored.volume}
+    return plain(entry)
+
+
+def _stored_total(entries: Sequence[dict[str, Any]], bodies: Sequence[MassProperties]) -> dict[str, Any]:
+    """Everything stored as one body, world frame. Axes are left out: signs need third moments."""
+    total = {name: sum(entry[name] for entry in entries) for name in ("mass", "volume", "area")}
+    total |= dict.fromkeys(("center_of_mass", "inertia", "principal_moments"))
+    if bodies:
+        with suppress(MeasureError):  # together they have no mass
+            whole = combine([(body.as_moments(), 1.0) for body in bodies])
+            total |= {"center_of_mass": whole.center, "inertia": whole.inertia}
+            total |= {"principal_moments": whole.principal.moments}
+            total |= {"symmetry": whole.principal.symmetry}
+    return plain(total)

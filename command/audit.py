@@ -1,0 +1,120 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""`audit`: what robot descriptions state of their links, judged by the links' own geometry."""
+
+from __future__ import annotations
+
+import argparse
+import os
+from pathlib import Path
+from typing import Any
+
+from ..core.files.whole_file import whole_file
+from ..core.measurement.plain_text import print_message, visible
+from ..core.robots.audit import Audit, Auditor
+from ..core.robots.read.descriptions import read_description
+from ..core.robots.read.paths import Roots
+from ..core.robots.repair import repaired_copy
+from ..core.robots.write import audit_report
+from ..core.verdict import internal_error
+from ..core.verdict.finding import FileError, MeasureError, Severity, finding, system_reason
+from .options import targets
+from .parser import Parser
+
+_EPILOG = """\
+FILE is URDF, SDF, MJCF, or USD as text (.usda). A link that is off is listed with the one change that makes it agree
+with its geometry. Meshes (.stl .obj .glb .dae) are read from the folder of FILE, from that of the package that it is
+in, and from each --root; nothing is loaded from a network.
+exit code: 0 nothing but notes, 1 warnings or errors, or a file that cannot be read, 2 wrong usage, 3 interrupted,
+70 a fault of the program"""
+
+
+def parse(argv: list[str]) -> argparse.Namespace:
+    """The options of `audit`. Raises SystemExit(2), or HelpRequested."""
+    parser = Parser(
+        prog="body_moments",
+        usage="body_moments audit [options] FILE ...",
+        description="Checks mass, center and inertia in robot descriptions.",
+        epilog=_EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        allow_abbrev=False,
+    )
+    add = parser.add_argument
+    add("command", metavar="audit")
+    add("files", nargs="+", type=Path, metavar="FILE")
+    add("--root", action="append", type=Path, default=[], metavar="FOLDER", help="meshes may be in it; repeatable")
+    add("--allow-outside", action="store_true", help="meshes may be anywhere (refused)")
+    add("--repair", type=Path, metavar="FOLDER", help="write repaired copies there, of what has a repair")
+    formats = "{" + ",".join(audit_report.FORMATS) + "}"
+    add("--format", choices=tuple(audit_report.FORMATS), default="json", metavar=formats, help="(json)")
+    add("--output", type=Path, metavar="PATH", help="(standard output)")
+    add("--force", action="store_true", help="replace any file at --output and in --repair (only results)")
+    options = parser.parse_intermixed_args(argv)
+    if options.repair is not None:
+        if not options.repair.is_dir():
+            parser.error(finding("usage_repair_folder", path=str(options.repair)))
+        here = os.path.realpath(options.repair)
+        if any(os.path.realpath(path.parent) == here for path in options.files):
+            parser.error(finding("usage_repair_same", path=str(options.repair)))
+    targets.check_places(options, parser.error)
+    targets.files_to_replace(options, options.files, parser.error)
+    return options
+
+
+def answer(options: argparse.Namespace) -> tuple[str, int, int]:
+    """The report; how many files have warnings, errors or could not be read; how many faults are ours."""
+    documents, faults, internal = [], 0, 0
+    copies: set[str] = set()
+    for path in options.files:
+        try:
+            documents.append(_document(path, options, copies))
+        except MeasureError as error:
+            documents.append(audit_report.failed_document(str(path), error.finding))
+        except Exception as error:
+            reason = internal_error.finding_of(error)
+            internal += reason.code == internal_error.CODE
+            documents.append(audit_report.failed_document(str(path), reason))
+        for reason in documents[-1]["errors"]:
+            print_message(path, reason["message"])
+        faults += documents[-1]["status"] != "ok"
+    return audit_report.FORMATS[options.format](documents), faults, internal
+
+
+def _document(path: Path, options: argparse.Namespace, copies: set[str]) -> dict[str, Any]:
+    roots = Roots.of(path, options.root, options.allow_outside)
+    description = read_description(path, roots)
+    audit = Auditor(roots).audit(description)
+    repaired = _write_copy(path, audit, options, copies)
+    links = [
+        audit_report.link_entry(found.link, found.findings, found.repaired, found.density) for found in audit.links
+    ]
+    document = audit_report.document(str(path), description, links, repaired)
+    print_message(path, visible(str(summary(document))))
+    return document
+
+
+def summary(document: dict[str, Any]) -> Any:
+    """How many findings a document has, as a finding."""
+    levels = [found["severity"] for link in document["links"] for found in link["findings"]]
+    counts = {str(level) + "s": levels.count(level) for level in Severity}
+    return finding("audit_done", links=len(document["links"]), **counts)
+
+
+def _write_copy(path: Path, audit: Audit, options: argparse.Namespace, copies: set[str]) -> str | None:
+    repairs = [(found.link, found.repaired) for found in audit.links if found.repaired is not None]
+    folder = options.repair
+    if folder is None or not repairs:
+        return None
+    if path.name in copies:
+        raise FileError("audit_copies_alike", name=path.name)
+    copies.add(path.name)
+    target = folder / path.name
+    try:
+        copy = repaired_copy(audit.description, repairs)
+        if target.is_file() and not options.force and target.read_bytes() not in (b"", copy):
+            raise FileError("audit_copy_exists", path=str(target))
+        with whole_file(target) as file:
+            file.write(copy)
+    except OSError as error:
+        raise FileError("audit_not_written", error=system_reason(error)) from error
+    return str(target)

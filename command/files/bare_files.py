@@ -1,0 +1,107 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Files that Blender does not open: arrays and scans, and meshes that are larger than memory. Each is one body, called
+like its file.
+"""
+
+from __future__ import annotations
+
+import os
+from argparse import Namespace
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+from ...blender.bodies.files.array import ArrayOptions, measure_array
+from ...blender.bodies.files.stream import measure_mesh_file
+from ...blender.settings.options import MeasureOptions
+from ...core.measurement import record
+from ...core.measurement.measurement import Measurement
+from ...core.scans import formats as scans
+from ...core.verdict.finding import MeasureError, QueryError, finding
+from ..measure.objects import failure
+from ..options.file import OF_ARRAYS, unit_findings, unused_array_options, unused_options
+from .files import STREAMED, check_file, file_suffix
+
+BYTES_PER_FACE = 500  # of memory that importing and measuring a mesh takes, about
+BYTES_OF_FILE = {".stl": 50, ".ply": 19}  # for each face, at least: a file that is smaller has fewer faces
+_NOT_OF_STREAMS = ("wall", "polynomial", "density_from", "fourier")
+
+
+@dataclass
+class BareFile:
+    """One such file. options: of the command line. measured: name and measurement, where there is one. refusal: why
+    there is none."""
+
+    path: str
+    options: Namespace
+    objects: list[dict[str, Any]] = field(default_factory=list)
+    measured: list[tuple[str, None, Measurement]] = field(default_factory=list)
+    errors: list[dict[str, Any]] = field(default_factory=list)
+    refusal: MeasureError | None = None
+
+    def measure(self, measure_options: MeasureOptions, progress: Callable[[str, str], Callable[[int], None]]) -> None:
+        """Measure it. progress: makes what counts the samples or faces that are read from a file."""
+        is_scan = bool(scans.scan_suffix(self.path))
+        name = os.path.basename(self.path)[: -len(file_suffix(self.path))]
+        names = [name] if self.options.object is None else self.options.object
+        self.errors = [failure(other, finding("object_not_in_file")) for other in names if other != name]
+        if is_scan and self.options.fourier:
+            self.errors.append(failure(None, finding("fourier_of_array")))
+        if name not in names:
+            return
+        measure = self._measure_array if is_scan else self._measure_mesh
+        count = progress(self.path, "progress_samples" if is_scan else "progress_faces")
+        try:
+            measurement = measure(name, measure_options, count)
+        except MeasureError as refusal:
+            self.refusal = refusal
+            self.errors.append(failure(None, refusal.finding))
+            return
+        requested = [more for more in ("pose", "signature") if getattr(self.options, more)]
+        shapeless = [finding("shape_of_grid" if is_scan else "shape_of_stream")] if requested else []
+        findings = (*measurement.findings, *unused_options(self.options, measurement), *shapeless)
+        measurement = replace(measurement, findings=findings)
+        surface = measurement.area_moments if self.options.surface_moments else None
+        more = dict.fromkeys([*requested, *["thumbnail"] * bool(self.options.thumbnails)])
+        order, frame, about = self.options.order, self.options.frame, self.options.about
+        self.objects = [record.record(measurement, frame, order, surface, more, about)]
+        self.measured = [(name, None, measurement)]
+
+    def _measure_array(
+        self, name: str, measure_options: MeasureOptions, progress: Callable[[int], None]
+    ) -> Measurement:
+        taken = {one: getattr(self.options, one) for one in (*OF_ARRAYS, "unit_scale", "limits", "threshold")}
+        taken["positions"] = dict(self.options.positions or ())
+        array = ArrayOptions(**{one: value for one, value in taken.items() if value is not None})
+        return measure_array(self.path, name, array, measure_options, progress)
+
+    def _measure_mesh(self, name: str, measure_options: MeasureOptions, progress: Callable[[int], None]) -> Measurement:
+        check_file(self.path)
+        options = self.options
+        given = [one for one in _NOT_OF_STREAMS if getattr(options, one) not in (None, "thin", "value")]
+        given += ["overlap"] * (options.overlap == "union") + ["kind"] * (options.kind == "wire")
+        if given:
+            raise QueryError("stream_options", options=["--" + one.replace("_", "-") for one in given])
+        findings = [*unit_findings(self.path, options.unit_scale)]
+        if options.density is None and options.mass is None and options.material is None:
+            findings.append(finding("density_defaulted"))
+        findings += unused_array_options(options)
+        wanted = replace(measure_options, unit_scale=options.unit_scale)
+        return measure_mesh_file(self.path, name, wanted, tuple(findings), progress)
+
+
+def is_bare(path: str, options: Namespace, memory: int | None) -> bool:
+    """Whether a file is measured without Blender. memory: bytes that measuring it may take, None for any."""
+    if scans.scan_suffix(path):
+        return True
+    suffix = file_suffix(path)
+    if suffix not in STREAMED or options.stream == "never":
+        return False
+    if options.stream == "always":
+        return True
+    try:
+        size = os.path.getsize(path)
+    except (OSError, ValueError):
+        return False  # which is said as of any other file
+    return memory is not None and size / BYTES_OF_FILE[suffix] * BYTES_PER_FACE > memory

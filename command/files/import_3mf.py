@@ -1,0 +1,46 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A .3mf file as objects of the open scene, in its own unit: Blender has no importer for it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import bpy
+import numpy as np
+from mathutils import Matrix
+
+from ...blender.settings.limits import scan_limits
+from ...core.streams.threemf import Placed, read_3mf
+
+_SHEAR = 1e-6  # of the largest entry of a matrix: more than float32 does
+
+
+def import_3mf(path: str) -> None:
+    """Add what the file builds to the scene, whose unit becomes the file's. Raises FileError."""
+    placed, unit = read_3mf(path, scan_limits())
+    bpy.context.scene.unit_settings.scale_length = unit
+    meshes: dict[tuple[str, str], bpy.types.Mesh] = {}
+    for one in placed:
+        if one.key not in meshes:
+            meshes[one.key] = _mesh(one)
+        obj = bpy.data.objects.new(one.name, meshes[one.key])
+        bpy.context.scene.collection.objects.link(obj)
+        obj.matrix_basis = Matrix(one.matrix)
+        if np.abs(np.array(obj.matrix_basis) - one.matrix).max() > _SHEAR * np.abs(one.matrix).max():
+            obj.matrix_basis = Matrix()  # an object's own channels hold no shear
+            obj.data = _mesh(replace(one, points=one.points @ one.matrix[:3, :3].T + one.matrix[:3, 3]))
+    bpy.context.view_layer.update()
+
+
+def _mesh(one: Placed) -> bpy.types.Mesh:
+    """As it is in the file; nothing is repaired."""
+    mesh = bpy.data.meshes.new(one.name)
+    mesh.vertices.add(len(one.points))
+    mesh.attributes["position"].data.foreach_set("vector", one.points.astype(np.float32).ravel())
+    mesh.loops.add(one.triangles.size)
+    mesh.loops.foreach_set("vertex_index", one.triangles.astype(np.int32).ravel())
+    mesh.polygons.add(len(one.triangles))
+    mesh.polygons.foreach_set("loop_start", np.arange(0, one.triangles.size, 3, dtype=np.int32))
+    mesh.update(calc_edges=True)
+    return mesh

@@ -1,0 +1,54 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Files of B-spline surfaces as objects of the open scene: IGES, for which Blender has no importer, and .obj files with
+``surf``, which its own importer leaves out without a word."""
+
+from __future__ import annotations
+
+import re
+
+import bpy
+
+from ...blender.scene.surface_objects import import_bodies
+from ...blender.settings.limits import scan_limits
+from ...core.cad.obj import has_surfaces
+from ...core.cad.surface_file import read_surfaces
+from ...core.cad.surfaces import SurfaceFile
+from ...core.verdict.finding import FileError, Finding, finding
+from .opened import Opened
+
+_MESH = re.compile(rb"[ \t]*(?:f|l|curv)[ \t]")  # what Blender's importer reads
+
+
+def import_iges(path: str) -> Opened:
+    """Add the surfaces of a file to the scene, in meters. Raises FileError and OSError."""
+    return _added(read_surfaces(path, scan_limits()))
+
+
+def import_obj(path: str) -> Opened:
+    """Add the objects of a file to the scene: faces by Blender's importer, surfaces by ours. Raises FileError and
+    OSError."""
+    if not has_surfaces(path):
+        bpy.ops.wm.obj_import(filepath=path)
+        return Opened()
+    with open(path, "rb") as file:
+        has_faces = any(_MESH.match(line) for line in file)
+    try:
+        opened = _added(read_surfaces(path, scan_limits()))
+    except FileError as error:
+        if not has_faces:
+            raise
+        opened = Opened((error.finding,))
+    if has_faces:
+        bpy.ops.wm.obj_import(filepath=path)
+    return opened
+
+
+def _added(file: SurfaceFile) -> Opened:
+    unit = 1.0 if file.unit is None else file.unit
+    made = import_bodies(file.bodies, bpy.context.scene.collection, unit)
+    bpy.context.view_layer.update()
+    by_object: dict[str, tuple[Finding, ...]] = {
+        obj.name: (finding("surfaces_rounded", share=moved),) if moved else () for obj, moved in made
+    }
+    return Opened(file.refused, file.notes, by_object)

@@ -1,0 +1,69 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A child of the supervisor: it measures the files that it is sent, one at a time, and answers with documents."""
+
+from __future__ import annotations
+
+import io
+import json
+import os
+from contextlib import redirect_stderr, suppress
+from typing import Any
+
+import bpy
+
+from ...core.verdict.finding import Finding
+from ..files.inputs import files_read, references
+from ..interruption import Progress
+from ..options.arguments import from_record
+from ..options.checks import prepare
+from ..supervisor.journal import state
+from ..supervisor.lifeline import Lifeline
+from .run import Run
+
+
+def serve(line: Lifeline) -> None:
+    """Work until the supervisor closes the pipe."""
+    messages = line.messages()
+    setup = next(messages, None)
+    if setup is None:
+        return
+    options = from_record(setup["options"])
+    said = io.StringIO()
+    try:
+        with redirect_stderr(said):
+            prepare(options)
+    except SystemExit:
+        line.answer({"usage": said.getvalue()})
+        return
+    run = Run(options, setup["threads"], setup["memory"], lambda file, code: _Told(file, code, line))
+    line.answer({"ready": {"blender": ".".join(map(str, bpy.app.version))}})
+    for message in messages:
+        with suppress(OSError):
+            os.ftruncate(2, 0)  # what was said of the file before
+            os.lseek(2, 0, os.SEEK_SET)  # where it is not opened for appending, as on Windows
+        with line.limited(setup["seconds"]):
+            if "reads" in message:
+                line.answer({"reads": [os.fspath(path) for path in files_read([message["reads"]])]})
+            else:
+                _measure(run, message["measure"], line)
+
+
+def _measure(run: Run, path: str, line: Lifeline) -> None:
+    faults, before = run.internal_errors, state(path)
+    document = run.document(path)
+    head: dict[str, Any] = {"faults": run.internal_errors - faults, "state": state(path) if run.has_saved else before}
+    names = map(os.fspath, references(path, run.has_opened))
+    head["reads"] = {name: state(name) for name in names}
+    line.answer(head, json.dumps(document, allow_nan=False).encode() + b"\n")
+
+
+class _Told(Progress):
+    """Progress that the supervisor is sent."""
+
+    def __init__(self, file: str, code: str, line: Lifeline) -> None:
+        super().__init__(file, code)
+        self._line = line
+
+    def report(self, note: Finding) -> None:
+        self._line.answer({"note": str(note)})

@@ -1,0 +1,132 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Several bodies as one in a document: the assemblies and the bones that a file has results or given masses of, and
+collections that are assets where metadata are asked for.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import suppress
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import bpy
+from bpy.types import Object, Scene
+
+from ...blender.bodies.assembly.assembly import Assembly, measure_assembly
+from ...blender.bodies.rig import Rig, measure_rig
+from ...blender.read.assembly import Root, is_assembly, settings_of
+from ...blender.session.stored import assembly as stored_assembly
+from ...blender.session.stored import rig as stored_rig
+from ...blender.settings.options import MeasureOptions
+from ...core.measurement import record
+from ...core.measurement.measurement import Measurement
+from ...core.verdict.finding import MeasureError
+from ...core.verdict.method import Verdict
+from .objects import failure
+
+Internal = Callable[[str | None, Exception], dict[str, Any]]
+
+
+@dataclass(frozen=True, eq=False)
+class Combined:
+    """What was measured, and the entries about what could not be."""
+
+    assemblies: list[Assembly] = field(default_factory=list)
+    rigs: list[Rig] = field(default_factory=list)
+    errors: list[dict[str, Any]] = field(default_factory=list)
+
+    def measurements(self) -> dict[Root, Measurement]:
+        """Those of the assemblies, by what they are of."""
+        return {assembly.root.member.data: assembly.measurement for assembly in self.assemblies}
+
+    def records(self, frame: str) -> dict[str, Any]:
+        """Return the entries of a document, none where there is nothing."""
+        assemblies = [record.record(assembly.measurement, frame) for assembly in self.assemblies]
+        bones = [
+            record.record(part.measurement, frame, more={"armature": rig.armature.name})
+            for rig in self.rigs
+            for part in rig.parts
+            if part.measurement is not None
+        ]
+        found = {"assemblies": sorted(assemblies, key=lambda entry: entry["name"]), "bones": bones}
+        return {name: entries for name, entries in found.items() if entries}
+
+    def store(self, internal: Internal) -> Iterator[dict[str, Any]]:
+        """Store the results on what they are of; yield the entries about those that cannot hold them."""
+        for assembly in self.assemblies:
+            yield from _tried(
+                assembly.measurement.name,
+                lambda assembly=assembly: stored_assembly.store(bpy.context, assembly),
+                internal,
+            )
+        for rig in self.rigs:
+            yield from _tried(rig.armature.name, lambda rig=rig: stored_rig.store(rig), internal)
+
+
+def measure_combined(options: MeasureOptions, internal: Internal, assets: bool = False) -> Combined:
+    """Measure the assemblies and the characters of the open scene.
+
+    Parameters
+    ----------
+    options : MeasureOptions
+        What overrides the members' settings.
+    internal : callable
+        Makes the entry about an error that nobody foresaw.
+    assets : bool
+        Also those that are assets, as far as they have a mass.
+    """
+    scene, found = bpy.context.scene, Combined()
+    wanted = replace(options, order=None)
+
+    def add_assembly(root: Root) -> None:
+        found.assemblies.append(measure_assembly(root, bpy.context.evaluated_depsgraph_get(), wanted))
+
+    def add_rig(armature: Object) -> None:
+        found.rigs.append(measure_rig(bpy.context, armature))
+
+    roots = dict.fromkeys(_assemblies(scene))
+    for root in roots:
+        found.errors.extend(_tried(root.name, lambda root=root: add_assembly(root), internal))
+    for root in _assets(scene) if assets else ():
+        if root not in roots:
+            with suppress(MeasureError):  # of lamps, or of what is left out
+                add_assembly(root)
+    for armature in _armatures(scene):
+        found.errors.extend(_tried(armature.name, lambda armature=armature: add_rig(armature), internal))
+    return found
+
+
+def _tried(name: str, work: Callable[[], object], internal: Internal) -> Iterator[dict[str, Any]]:
+    try:
+        work()
+    except MeasureError as refusal:
+        yield failure(name, refusal.finding)
+    except Exception as error:
+        yield internal(name, error)
+
+
+def _assemblies(scene: Scene) -> Iterator[Root]:
+    """The assemblies of a scene that have been measured, or have a given mass."""
+    for root in _roots(scene):
+        if root.get("body_method") == Verdict.ASSEMBLY or settings_of(root).mass_from == "MASS":
+            yield root
+
+
+def _assets(scene: Scene) -> Iterator[Root]:
+    """The assemblies of a scene that are assets of its file."""
+    return (root for root in _roots(scene) if root.asset_data is not None and root.library is None)
+
+
+def _roots(scene: Scene) -> Iterator[Root]:
+    """All collections of a scene, and the empties that stand for their children."""
+    empties = (obj for obj in scene.objects if obj.type == "EMPTY" and is_assembly(obj))
+    yield from (scene.collection, *scene.collection.children_recursive, *sorted(empties, key=lambda obj: obj.name))
+
+
+def _armatures(scene: Scene) -> Iterator[Object]:
+    """The armature objects of a scene whose bones have been measured."""
+    for obj in sorted(scene.objects, key=lambda obj: obj.name):
+        if obj.type == "ARMATURE" and obj.get("body_method") == Verdict.ASSEMBLY:
+            yield obj

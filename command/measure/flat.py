@@ -1,0 +1,69 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""--flat: what is no body, but flat, is measured as a shape in its plane."""
+
+from __future__ import annotations
+
+from argparse import Namespace
+from typing import Any
+
+import bpy
+
+from ...blender.bodies.flat.flat import NO_BODY, area_findings, clearer_refusal, flat_region
+from ...blender.bodies.flat.flat_shape import flat_shape_of
+from ...core.measurement.flat_record import flat_record
+from ...core.moments.complex_form import flusser_invariants, hu_invariants
+from ...core.moments.normalized import normalize
+from ...core.verdict.finding import Finding, MeasureError, finding
+
+LEAST_ORDER = 2  # of moments that are always found
+HU_ORDER = 3  # of Hu's invariants
+
+
+def is_meant(options: Namespace, refusal: MeasureError) -> bool:
+    """Whether what was refused as a body is to be measured as a flat shape."""
+    return options.flat and refusal.finding.code in NO_BODY
+
+
+def record_of(
+    label: str,
+    obj: bpy.types.Object,
+    options: Namespace,
+    unit: float | None,
+    refusal: MeasureError,
+    findings: tuple[Finding, ...],
+) -> dict[str, Any]:
+    """The record of an object as a flat shape. refusal: why it is no body. findings: about its file. Raises
+    MeasureError."""
+    try:
+        return _record(label, obj, options, unit, findings)
+    except MeasureError as error:
+        raise clearer_refusal(refusal, error) from None
+
+
+def _record(
+    label: str, obj: bpy.types.Object, options: Namespace, unit: float | None, findings: tuple[Finding, ...]
+) -> dict[str, Any]:
+    depsgraph = bpy.context.evaluated_depsgraph_get()
+    order = options.order
+    region = flat_region(obj, depsgraph, selected=False, unit=unit)
+    moments = region.moments(max(order or 0, LEAST_ORDER))
+    posed = (finding("pose_of_flat"),) if options.pose else ()
+    more: dict[str, Any] = {"pose": None} if options.pose else {}
+    more |= {"signature": flat_shape_of(obj, depsgraph, unit).signature().as_record()} if options.signature else {}
+    invariants = []
+    if order is not None and order >= HU_ORDER:
+        normalized = normalize(moments)
+        invariants = [*hu_invariants(normalized), *flusser_invariants(normalized)]
+    return flat_record(
+        label,
+        obj.type,
+        region.plane,
+        moments,
+        (*region.findings, *area_findings(region, moments.total), *posed, *findings),
+        order=order,
+        invariants=invariants,
+        more=more,
+        about=options.about,
+        frame=(options.frame, region.rotation, region.location),
+    )

@@ -1,0 +1,57 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Measuring the objects of a file: together where that is all that is asked for, else each with its shape."""
+
+from __future__ import annotations
+
+from argparse import Namespace
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import bpy
+
+from ...blender.bodies.measure_object import Measured, measure_object
+from ...blender.bodies.shape.shape import NoShapeError, shape_of
+from ...blender.bodies.stacks.many import measured_in_turn
+from ...blender.bodies.stacks.stack import Stacked
+from ...blender.settings.options import MeasureOptions
+from ...core.measurement.measurement import Measurement
+from ...core.verdict.finding import Finding, finding
+from ...core.verdict.method import Source
+
+
+def measured_together(
+    objects: Sequence[bpy.types.Object], options: Namespace, measure_options: MeasureOptions
+) -> Callable[[bpy.types.Object], Measured | Stacked] | None:
+    """Return what measures objects together that are asked for one after the other; None where something is done
+    between one and the next, or more than mass properties is asked for."""
+    if options.order is not None or options.pose or options.signature or options.thumbnails:
+        return None
+    if options.threshold is not None or options.polynomial is not None or options.density_from is not None:
+        return None
+    return measured_in_turn(objects, bpy.context.evaluated_depsgraph_get(), measure_options)
+
+
+def measure_shape(
+    obj: bpy.types.Object, options: Namespace, measure_options: MeasureOptions
+) -> tuple[Measurement, dict[str, Any], tuple[Finding, ...]]:
+    """Return an object's measurement, its pose and signature where they are asked for, and findings about these. Pose
+    and signature are None for what has no shape of its own, which is measured all the same."""
+    depsgraph = bpy.context.evaluated_depsgraph_get()
+    requested = [name for name in ("pose", "signature") if getattr(options, name)]
+    if not requested:
+        return measure_object(obj, depsgraph, measure_options), {}, ()
+    try:
+        shape = shape_of(obj, depsgraph, measure_options)
+    except NoShapeError as refusal:
+        return refusal.measurement, dict.fromkeys(requested), (refusal.finding,)
+    more: dict[str, Any] = {"pose": shape.pose()} if options.pose else {}
+    findings: tuple[Finding, ...] = ()
+    if options.signature and shape.has_surface:
+        more["signature"] = shape.signature().as_record()
+        if shape.measurement.method.source == Source.NURBS:
+            findings = (finding("signature_of_display_mesh"),)
+    elif options.signature:
+        more["signature"] = None
+        findings = (finding("signature_needs_polygons"),)
+    return shape.measurement, more, findings

@@ -1,0 +1,71 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Which objects of the open scene are measured, which are left out, and what is wrong with names that were given."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator
+from typing import Any
+
+import bpy
+
+from ...blender.read import measurable, measurable_objects
+from ...blender.read.total_caveats import left_out_reasons
+from ...blender.settings.given import shows_collection
+from ...core.verdict.finding import Finding, finding
+
+
+def failure(name: str | None, reason: Finding) -> dict[str, Any]:
+    """An entry of `errors`, or of `left_out`."""
+    return {"name": name, "reason": str(reason)}
+
+
+def why_nothing(left_out: int) -> Finding:
+    """Why a file without errors has no records."""
+    return finding("nothing_rendered", count=left_out) if left_out else finding("no_measurable_object")
+
+
+def objects_to_measure(
+    names: list[str] | None, everything: bool
+) -> tuple[list[tuple[str, bpy.types.Object]], list[dict[str, Any]], list[dict[str, Any]]]:
+    """The objects to measure, each under a name of its own; those that are left out, with the reason; and an error for
+    each name of none. everything: nothing is left out.
+
+    What the view layer excludes is among them where another one renders it: reading it reports the reason.
+    """
+    scene, layer = bpy.context.scene, bpy.context.view_layer
+    same = Counter(obj.name for obj in scene.objects)
+    # A linked object may have a local one's name; the full name has the library too.
+    labels = {obj: obj.name if same[obj.name] == 1 else obj.name_full for obj in scene.objects}
+    if names is None:
+        candidates = {*measurable_objects(layer), *_excluded(scene, layer)}
+        reasons = {} if everything else left_out_reasons(scene, layer)
+        chosen = [(label, obj) for obj, label in labels.items() if obj in candidates and obj not in reasons]
+        left_out = [failure(labels[obj], reason) for obj, reason in reasons.items() if obj in candidates]
+        return chosen, left_out, []
+    chosen, errors = [], []
+    for name in names:
+        matches = [(label, obj) for obj, label in labels.items() if label == name]
+        matches = matches or [(label, obj) for obj, label in labels.items() if obj.name == name]
+        chosen += [pair for pair in matches if pair not in chosen]
+        if not matches:
+            errors.append(failure(name, finding("object_not_in_scene")))
+    return chosen, [], errors
+
+
+def _excluded(scene: bpy.types.Scene, layer: bpy.types.ViewLayer) -> set[bpy.types.Object]:
+    """The scene's measurable objects outside of its view layer, but for the members of instanced
+    collections, which the instancers' records hold.
+    """
+    instanced = {obj.instance_collection for obj in scene.objects if shows_collection(obj)}
+    members = {member for collection in instanced for member in collection.all_objects}
+    return {obj for obj in {*scene.objects} - {*layer.objects} - members if measurable(obj)}
+
+
+def other_scenes(scene: bpy.types.Scene) -> Iterator[Finding]:
+    """That a file holds more than its open scene, where it does."""
+    here = {*scene.objects}
+    other_scenes = [other.name for other in bpy.data.scenes if any(measurable(obj) for obj in {*other.objects} - here)]
+    if other_scenes:
+        yield finding("other_scenes", scene=scene.name, scenes=other_scenes)

@@ -1,0 +1,96 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""--format urdf, sdf, mjcf, usd and gltf: the records of a file as links, and their text as a part of its document.
+
+The process that measures makes the text, for that needs numpy; the one that gathers documents only passes it on.
+"""
+
+from __future__ import annotations
+
+from argparse import Namespace
+from collections.abc import Sequence
+from dataclasses import replace
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import bpy
+
+from ...blender.read.robots import link_entry, object_entry
+from ...blender.session.robots import SceneLinks, bone_links, collection_links
+from ...blender.settings.options import MeasureOptions
+from ...core.measurement.documents import ROBOT_FORMATS
+from ...core.measurement.measurement import Measurement
+from ...core.measurement.plain_text import print_message
+from ...core.robots.from_records import robot_name, robot_of_document
+from ...core.robots.model import Robot
+from ...core.robots.write.formats import robot_text, with_geometry
+from ...core.robots.write.shapes import with_primitives
+from ...core.verdict.finding import MeasureError, Severity, finding, system_reason
+from ...core.verdict.messages import sentence, severity
+from ..files.output import is_stream
+from .objects import failure
+
+MeasuredObject = tuple[str, bpy.types.Object | None, Measurement]
+
+
+def complete(
+    document: dict[str, Any],
+    measured: Sequence[MeasuredObject],
+    options: Namespace,
+    measure_options: MeasureOptions,
+    *,
+    is_opened: bool,
+) -> dict[str, Any]:
+    """Return a document with its records as links and the entry `robot`, if such a format is asked for; print the
+    findings of the format to the standard error.
+
+    measure_options: of the measurements. is_opened: whether the file is the open scene, with its collections and bones.
+    """
+    if options.format not in ROBOT_FORMATS:
+        return document
+    if options.links == "object" or not is_opened:
+        made = _by_object(document, measured, measure_options)
+    else:
+        made = _of_scene(document, measured, options.links, measure_options)
+    robot, told, failed = with_primitives(made.robot, "none"), [], []
+    if not (options.no_meshes or options.inertial_only or is_stream(options.output)):
+        surface_of, read = partial(made.surface, bpy.context), Path(document["file"]) if document["file"] else None
+        try:
+            robot, told = with_geometry(made.robot, options.format, surface_of, options.output, read, options.force)
+        except OSError as error:
+            failed = [finding("robot_meshes_not_written", error=system_reason(error))]
+    text, findings = robot_text(robot, options.format, [*made.findings, *told], inertial_only=options.inertial_only)
+    findings += failed
+    for one in findings:
+        print_message(sentence(one))
+    refused = [failure(None, one) for one in findings if severity(one) == Severity.ERROR]
+    return {**document, "robot": text, "errors": [*document["errors"], *refused]}
+
+
+def _by_object(
+    document: dict[str, Any], measured: Sequence[MeasuredObject], measure_options: MeasureOptions
+) -> SceneLinks:
+    """From the records of objects, which get the entry `link`."""
+    labels = {obj: label for label, obj, _ in measured if obj is not None}
+    links = {label: link_entry(one) if obj is None else object_entry(obj, one, labels) for label, obj, one in measured}
+    for entry in document["objects"]:
+        if entry["name"] in links:
+            entry["link"] = links[entry["name"]]
+    robot, findings = robot_of_document(document)
+    unit = measure_options.meters_per_unit(bpy.context.scene)
+    return SceneLinks(robot, findings, unit, {label: [obj] for obj, label in labels.items()})
+
+
+def _of_scene(
+    document: dict[str, Any], measured: Sequence[MeasuredObject], links: str, measure_options: MeasureOptions
+) -> SceneLinks:
+    """From the scene's collections or bones."""
+    name, context = robot_name(document["file"]), bpy.context
+    try:
+        if links == "bone":
+            return bone_links(context, name, [obj for obj in context.view_layer.objects if not obj.hide_render])
+        objects = [obj for _, obj, _ in measured if obj is not None]
+        return collection_links(context, name, context.scene.collection, objects, replace(measure_options, order=None))
+    except MeasureError as error:
+        return SceneLinks(Robot(name, ()), [error.finding], measure_options.meters_per_unit(context.scene))

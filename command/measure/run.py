@@ -1,0 +1,339 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""From a file to its document: open it, measure its objects, store the results on them where that
+is asked for.
+
+Whatever fails is an entry in `errors` and stops nothing else: a file that cannot be opened, an
+object that cannot be measured, a file that cannot be saved. A failure that nobody foresaw is one
+too, with its traceback on the standard error.
+"""
+
+from __future__ import annotations
+
+import os
+from argparse import Namespace
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, nullcontext
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import bpy
+
+from ...blender.bodies.measure_object import THREADS, Measured
+from ...blender.bodies.stacks.stack import Stacked
+from ...blender.read.total_caveats import boolean_operands, open_body_caveats, total_caveats
+from ...blender.read.tracking import tracking_paused
+from ...blender.session.tracking.staleness import mark_up_to_date
+from ...blender.settings import properties as settings
+from ...blender.settings.density import unset_density
+from ...blender.settings.options import MeasureOptions
+from ...blender.write.properties import store
+from ...core.measurement import record
+from ...core.measurement.documents import document
+from ...core.measurement.measurement import Measurement
+from ...core.measurement.plain_text import print_message
+from ...core.verdict import internal_error
+from ...core.verdict.finding import FileError, Finding, MeasureError, finding, system_reason
+from ..files.bare_files import BareFile, is_bare
+from ..files.files import BLEND, file_suffix, newer_version, open_file, requested_file
+from ..files.opened import Opened
+from ..files.references import blocked_scripts, missing_links
+from ..files.saving import Place, reserved
+from ..files.scripts import scripts_of_open_file
+from ..interruption import Progress, check_interruption
+from ..options import density as density_options
+from ..options.file import is_unitless, unit_findings, unused_array_options, unused_options
+from . import assets, flat, fourier, robots
+from .combined import Combined, measure_combined
+from .measuring import measure_shape, measured_together
+from .objects import failure, objects_to_measure, other_scenes, why_nothing
+from .thumbnails import thumbnail_of
+
+_STATUSES = {"file_missing": "missing", "file_version_unsupported": "unsupported_version"}
+
+
+@dataclass
+class Run:
+    """One command line at work.
+
+    threads: that a measurement may use. memory: bytes that one file may take, None for any. progress: what counts the
+    samples or faces read from a file. documents: one for each file, in order. internal_errors: how many of their errors
+    are our own. has_opened, has_saved: whether the last file has become the open scene, and whether that was saved in
+    its place.
+    """
+
+    options: Namespace
+    threads: int = THREADS
+    memory: int | None = None
+    progress: Callable[[str, str], Callable[[int], None]] = Progress
+    documents: list[dict[str, Any]] = field(default_factory=list)
+    internal_errors: int = 0
+    has_opened: bool = field(init=False)
+    has_saved: bool = field(init=False)
+
+    def __post_init__(self) -> None:
+        self._status: str | None = None  # of the document under way, where it is not just that of its errors
+        measure_options = {
+            name: getattr(self.options, name) for name in ("kind", "mass", "thickness", "overlap", "wall")
+        }
+        self._measure_options = MeasureOptions(
+            **measure_options,
+            density=density_options.density_of(self.options),
+            order=self.options.order,
+            surface=self.options.surface_moments,
+            threads=self.threads,
+        )
+
+    def measure(self) -> None:
+        """Measure every file that was named, or else the one that is open."""
+        options = self.options
+        is_open_file_meant = not options.files and options.manifest is None and options.range is None
+        for path in [None] if is_open_file_meant else options.files:
+            self.documents.append(self.document(path))
+
+    @property
+    def errors(self) -> int:
+        """How many entries the documents have under `errors`."""
+        return sum(len(document["errors"]) for document in self.documents)
+
+    def document(self, path: str | None) -> dict[str, Any]:
+        """Measure one file, or what is open, and return its document."""
+        file = path or bpy.data.filepath or requested_file()
+        self.has_opened = self.has_saved = False
+        with self._place(path) as place:
+            found = self._measured(path, file, place)
+        check_interruption()
+        return found
+
+    def _place(self, path: str | None) -> AbstractContextManager[Place | None]:
+        """Where --write is going to store the results."""
+        target = path or bpy.data.filepath
+        is_saved = self.options.write or self.options.asset_metadata == "file"
+        if not is_saved or path is not None and file_suffix(path) != BLEND or not os.path.isfile(target):
+            return nullcontext()
+        asked = requested_file() if path is None else None
+        at_start = asked is not None and os.path.realpath(asked) == os.path.realpath(target)
+        return reserved(target, path is None, at_start)
+
+    def _measured(self, path: str | None, file: str | None, place: Place | None) -> dict[str, Any]:
+        measured: list[tuple[str, bpy.types.Object, Measurement]] = []
+        objects, flats, errors, caveats, left_out, combined = [], [], [], [], [], Combined()
+        self._status, wanted, is_opened = None, self._measure_options, False
+        try:
+            if path is not None and is_bare(path, self.options, self.memory):
+                bare = BareFile(path, self.options)
+                bare.measure(wanted, self.progress)
+                objects, measured, errors = bare.objects, bare.measured, bare.errors
+                self._status = _STATUSES.get(bare.refusal.finding.code) if bare.refusal else None
+                caveats += open_body_caveats((label, one.method) for label, _, one in measured)
+            else:
+                opened = self._open(path, file)
+                is_opened = True
+                # Not by way of the scene, whose unit scale is a float32 with limits.
+                unit = (self.options.unit_scale or 1.0) if is_unitless(path) else None
+                wanted = replace(wanted, unit_scale=unit)
+                chosen, left_out, errors = objects_to_measure(self.options.object, self.options.all)
+                errors += [failure(None, reason) for reason in (*opened.errors, *missing_links())]
+                of_file = (
+                    *opened.notes,
+                    *unit_findings(path, self.options.unit_scale),
+                    *unused_array_options(self.options),
+                    *blocked_scripts(),
+                    *newer_version(),
+                )
+                objects, measured, flats = self._measure_each(chosen, wanted, of_file, opened, errors)
+                caveats += scripts_of_open_file() if path is None else ()
+                caveats += open_body_caveats((label, one.method) for label, _, one in measured)
+                if self.options.object is None:  # else whoever named them knows what they count
+                    caveats += total_caveats([obj for _, obj, _ in measured], bpy.context.view_layer)
+                    caveats += other_scenes(bpy.context.scene)
+                    combined = measure_combined(wanted, self._internal_error, self.options.asset_metadata is not None)
+                    errors += combined.errors
+                if self.options.fourier:
+                    errors.extend(self._fourier(chosen, wanted, [*objects, *flats]))
+                if not objects and not flats and not errors:
+                    errors.append(failure(None, why_nothing(len(left_out))))
+            if self.options.write:
+                errors.extend(self._store(path, measured, wanted))
+                errors.extend(combined.store(self._internal_error))
+            is_changed = self.options.write
+            if self.options.asset_metadata and path is not None and file_suffix(path) == BLEND:
+                of_objects = {obj: one for _, obj, one in measured}
+                in_file, told = assets.write(of_objects | combined.measurements(), path, self.options.asset_metadata)
+                is_changed, caveats = is_changed or in_file, [*caveats, *told]
+            if is_changed:
+                caveats += _save(place, file)
+                self.has_saved = True
+        except MeasureError as refusal:
+            errors.append(failure(None, refusal.finding))
+            self._status = _STATUSES.get(refusal.finding.code)
+        except Exception as error:
+            errors.append(self._internal_error(None, error))
+        for one in errors:
+            where = [text for text in (file, one["name"]) if text]
+            print_message(*where, one["reason"])
+        made = document(
+            objects,
+            record.total([one for _, _, one in measured], caveats),
+            errors,
+            left_out,
+            file=file,
+            blender=".".join(map(str, bpy.app.version)),
+            frame=self.options.frame,
+            status=self._status,
+        )
+        made |= combined.records(self.options.frame) | ({"flat": flats} if self.options.flat else {})
+        return robots.complete(made, measured, self.options, wanted, is_opened=is_opened)
+
+    def _measure_each(
+        self,
+        chosen: list[tuple[str, bpy.types.Object]],
+        wanted: MeasureOptions,
+        of_file: tuple[Finding, ...],
+        opened: Opened,
+        errors: list[dict[str, Any]],
+    ) -> tuple[list[dict[str, Any]], list[tuple[str, bpy.types.Object, Measurement]], list[dict[str, Any]]]:
+        """The records and measurements of bodies, and the records of flat shapes. of_file: findings about the file.
+        What cannot be measured is added to the errors.
+        """
+        objects, measured, flats = [], [], []
+        operands = boolean_operands(bpy.context.scene) if self.options.object is None else {}
+        in_turn = measured_together([obj for _, obj in chosen], self.options, wanted)
+        for label, obj in chosen:
+            user = operands.get(obj)
+            cut = [] if user is None else [finding("solid_operand_measured", object=user.name)]
+            try:
+                about = (*opened.by_object.get(obj.name, ()), *of_file, *cut)
+                one, entry = self._measure_record(label, obj, wanted, in_turn, about, errors)
+            except MeasureError as refusal:
+                errors.append(failure(label, refusal.finding))
+            except Exception as error:
+                errors.append(self._internal_error(label, error))
+            else:
+                if one is None:
+                    flats.append(entry)
+                else:
+                    objects.append(entry)
+                    measured.append((label, obj, one))
+        return objects, measured, sorted(flats, key=lambda entry: entry["name"])
+
+    def _measure_record(
+        self,
+        label: str,
+        obj: bpy.types.Object,
+        measure_options: MeasureOptions,
+        in_turn: Callable[[bpy.types.Object], Measured | Stacked] | None,
+        findings: tuple[Finding, ...],
+        errors: list[dict[str, Any]],
+    ) -> tuple[Measurement | None, dict[str, Any]]:
+        """An object's measurement and its record, of a flat shape the record alone. What has no moments of the order
+        that was asked for may have a mass: then the record goes without them, and an error is added that says so.
+        in_turn: measures the objects together; None where each has to be measured by itself. findings: about its file.
+        """
+        order = self.options.order
+        density_options.apply(obj, self.options)
+        try:
+            measurement, more, of_shape = (
+                (in_turn(obj).measurement, {}, ()) if in_turn else measure_shape(obj, self.options, measure_options)
+            )
+        except MeasureError as refusal:
+            if flat.is_meant(self.options, refusal):
+                return None, flat.record_of(label, obj, self.options, measure_options.unit_scale, refusal, findings)
+            if order is None:
+                raise
+            lower = replace(measure_options, order=None)
+            measurement, more, of_shape = measure_shape(obj, self.options, lower)
+            errors.append(failure(label, finding("moments_unavailable", cause=refusal.finding.as_record())))
+            order = None
+        surface = measurement.area_moments if self.options.surface_moments and order is not None else None
+        findings = (
+            *(*measurement.findings, *of_shape, *findings),
+            *(*self._default_density(obj, measurement), *unused_options(self.options, measurement)),
+        )
+        named = replace(measurement, name=label, findings=findings)
+        if self.options.thumbnails:
+            more["thumbnail"] = thumbnail_of(obj, measurement, measure_options.unit_scale)
+        return measurement, record.record(named, self.options.frame, order, surface, more, self.options.about)
+
+    def _default_density(self, obj: bpy.types.Object, measurement: Measurement) -> Iterator[Finding]:
+        """That nobody has set the density, where that is so."""
+        if self.options.density is not None or self.options.mass is not None or self.options.material is not None:
+            return
+        unset = unset_density(obj, measurement, bpy.context.scene)
+        if unset == "density":
+            yield finding("density_defaulted")
+        elif unset is not None:
+            yield finding("linear_density_defaulted")
+
+    def _open(self, path: str | None, file: str | None) -> Opened:
+        """Open what is to be measured, and return what was found on the way."""
+        if path is not None:
+            unresolved = open_file(path)
+            self.has_opened = True
+            return unresolved
+        if file and not bpy.data.filepath:
+            raise FileError("file_not_opened")
+        return Opened()
+
+    def _fourier(
+        self,
+        chosen: list[tuple[str, bpy.types.Object]],
+        measure_options: MeasureOptions,
+        objects: list[dict[str, Any]],
+    ) -> Iterator[dict[str, Any]]:
+        """Write the Fourier transform of the one object that was measured, and add what was decided on the way to
+        its record.
+        """
+        if len(chosen) != 1:
+            yield failure(None, finding("fourier_object_count", count=len(chosen)))
+            return
+        if not objects:
+            return  # the reason is among the errors already
+        (label, obj), (entry,) = chosen[0], objects
+        try:
+            record.add_findings(entry, fourier.write(obj, self.options, measure_options))
+        except MeasureError as refusal:
+            yield failure(label, finding("fourier_failed", cause=refusal.finding.as_record()))
+        except OSError as error:
+            yield failure(label, finding("fourier_not_written", error=system_reason(error)))
+        except Exception as error:
+            yield self._internal_error(label, error)
+
+    def _internal_error(self, name: str | None, error: Exception) -> dict[str, Any]:
+        reason = internal_error.finding_of(error)
+        self.internal_errors += reason.code == internal_error.CODE
+        return failure(name, reason)
+
+    def _store(
+        self,
+        path: str | None,
+        measured: list[tuple[str, bpy.types.Object, Measurement]],
+        wanted: MeasureOptions,
+    ) -> Iterator[dict[str, Any]]:
+        """Store the results, once all of them are there: drivers may read them and change what is
+        measured next. The settings that were given go with them, or the results would be out of date.
+        """
+        if path is not None and file_suffix(path) != BLEND:
+            raise FileError("results_need_blend")
+        if not bpy.data.filepath:
+            raise FileError("scene_never_saved")
+        for label, obj, one in measured:
+            try:
+                store(obj, one)
+                with tracking_paused():  # what is stored is already that of these settings
+                    settings.apply_options(obj.body_moments, wanted, bpy.context.scene)
+            except MeasureError as refusal:
+                yield failure(label, refusal.finding)
+            except Exception as error:
+                yield self._internal_error(label, error)
+        mark_up_to_date(bpy.context, [obj for _, obj, _ in measured])
+
+
+def _save(place: Place | None, file: str | None) -> tuple[Finding, ...]:
+    """Save the file that was opened. Returns warnings, which are on the standard error too."""
+    if place is None:
+        raise FileError("file_vanished")
+    findings = place.save()
+    for one in findings:
+        print_message(file, one)
+    return findings

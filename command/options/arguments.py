@@ -1,0 +1,127 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The options of `measure` as they were given, and which of them go together: those that do not end with exit code 2.
+
+Standard library only: the process that supervises others may have neither numpy nor Blender. What needs these is looked
+at in `checks.py`, by the process that measures.
+"""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import Any, NoReturn
+
+from ...core.measurement.documents import ROBOT_FORMATS
+from ...core.verdict.finding import finding
+from .measure_parser import DEFAULT_ORDER, measure_parser
+
+TARGETS = ("output", "fourier")  # options whose files are written
+
+# What changes no number: two runs that differ in these alone have the same records.
+_OF_RUNS = {
+    *("command", "files", "format", "output", "force", "forced", "jobs", "timeout", "memory_mb", "range", "manifest"),
+    *("resume", "no_supervisor", "blender", "errors_exit_0"),
+}
+_BINARY_SUFFIXES = {"gltf": (".glb",), "usd": (".usdc", ".usdz")}  # readers take no text in files of these names
+_PATHS = ("output", "fourier", "q", "manifest")
+_TRIPLES = ("spacing", "origin", "about")
+
+
+def parse(argv: list[str], file_needed: bool = False) -> argparse.Namespace:
+    """The options of `measure`; file_needed: where no file can be open.
+
+    Raises SystemExit(2) with a message on the standard error, or SystemExit(0) after --help.
+    """
+    parser = measure_parser()
+    options = parser.parse_intermixed_args(join_negative_values(argv))
+    has_files = bool(options.files or options.manifest)
+    if file_needed and not has_files:
+        fail(finding("usage_file_needed"))
+    if options.format in ROBOT_FORMATS:
+        if len(options.files) > 1:
+            fail(finding("robot_one_file", count=len(options.files)))
+        options.frame = "object"  # of the links
+        of_bodies = ("density", "mass", "material", "kind", "thickness", "wall", "overlap")
+        given = [name for name in of_bodies if getattr(options, name) is not None]
+        if options.links == "bone" and given:
+            fail(finding("usage_links_of_bones", option=given[0]))
+        if options.output is not None and options.output.suffix.lower() in _BINARY_SUFFIXES.get(options.format, ()):
+            fail(finding("usage_text_format", format=options.format))
+    if options.surface_moments and options.order is None:
+        options.order = DEFAULT_ORDER
+    if options.no_supervisor or not has_files:
+        for name in ("jobs", "memory_mb", "timeout", "blender"):
+            if getattr(options, name) is not None:
+                fail(finding("usage_needs_supervisor", option=name.replace("_", "-")))
+        if options.resume:
+            fail(finding("usage_needs_supervisor", option="resume"))
+    if options.resume and options.output is None:
+        fail(finding("usage_resume_output"))
+    _check_fourier(options)
+    axes = [axis for axis, _ in options.positions or ()]
+    if len(set(axes)) < len(axes):
+        fail(finding("usage_positions_twice", axes=axes))
+    options.forced = []
+    return options
+
+
+def fail(reason: object) -> NoReturn:
+    """End as for any wrong usage: SystemExit(2), with a message on the standard error."""
+    measure_parser().error(str(reason))
+
+
+def as_record(options: argparse.Namespace) -> dict[str, Any]:
+    """The options as plain values for JSON, without the files, to be read by `from_record`."""
+    kept = {name: value for name, value in vars(options).items() if name not in ("files", "manifest")}
+    kept["forced"] = [str(path) for path in options.forced]
+    return {name: str(value) if isinstance(value, Path) else value for name, value in kept.items()}
+
+
+def from_record(record: dict[str, Any]) -> argparse.Namespace:
+    """The options that `as_record` has made plain."""
+    options = argparse.Namespace(**{**record, "files": [], "manifest": None})
+    for name in _PATHS:
+        if getattr(options, name) is not None:
+            setattr(options, name, Path(getattr(options, name)))
+    options.forced = [Path(path) for path in options.forced]
+    for name in _TRIPLES:
+        if isinstance(getattr(options, name), list):
+            setattr(options, name, tuple(getattr(options, name)))
+    return options
+
+
+def of_numbers(options: argparse.Namespace) -> dict[str, Any]:
+    """Those options that change what is measured."""
+    more = {"format": options.format} if options.format in ROBOT_FORMATS else {}
+    return {name: value for name, value in as_record(options).items() if name not in _OF_RUNS} | more
+
+
+def _check_fourier(options: argparse.Namespace) -> None:
+    """Ends with a message where the options of the transform do not go together."""
+    target = options.fourier
+    if target is None:
+        for name in ("q", "grid", "qmax"):
+            if getattr(options, name) is not None:
+                fail(finding("usage_needs_fourier", option=name))
+        return
+    if (options.q is None) == (options.grid is None):
+        fail(finding("usage_fourier_points"))
+    if (options.grid is None) != (options.qmax is None):
+        fail(finding("usage_grid_and_qmax"))
+    if len(options.files) > 1 or len(options.object or ()) > 1:
+        fail(finding("usage_fourier_one_object"))
+    for first, second in ((target, options.q), (target, options.output), (options.output, options.q)):
+        if first is not None and second is not None and first.resolve() == second.resolve():
+            fail(finding("usage_path_twice", path=str(first)))
+
+
+def join_negative_values(argv: list[str]) -> list[str]:
+    """With `--origin -1,2,3` as `--origin=-1,2,3`: the parser would take what begins with a minus for an option."""
+    joined: list[str] = []
+    for word in argv:
+        if joined and joined[-1] in {"--origin", "--spacing", "--about"} and word[:2].strip("0123456789.") == "-":
+            joined[-1] += "=" + word
+        else:
+            joined.append(word)
+    return joined

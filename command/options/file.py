@@ -1,0 +1,42 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Options that say what files do not say about themselves: which of them a file needs, and which it does not."""
+
+from __future__ import annotations
+
+from argparse import Namespace
+from collections.abc import Iterator
+
+from ...core.measurement.measurement import Measurement
+from ...core.verdict.finding import Finding, finding
+from ..files.files import UNITLESS, file_suffix
+
+OF_ARRAYS = ("spacing", "origin", "spline_order", "density_scale", "positions")
+
+
+def is_unitless(path: str | None) -> bool:
+    return path is not None and file_suffix(path) in UNITLESS
+
+
+def unit_findings(path: str | None, scale: float | None) -> Iterator[Finding]:
+    """The decision about the file's unit, where there was one."""
+    unitless = is_unitless(path)
+    if unitless and scale is None:
+        yield finding("unit_assumed")
+    elif not unitless and scale is not None:
+        yield finding("unit_scale_option_unused")
+
+
+def unused_array_options(options: Namespace) -> Iterator[Finding]:
+    """What was asked of arrays only, of a file that is none."""
+    given = [name for name in OF_ARRAYS if getattr(options, name) is not None]
+    if given:
+        yield finding("array_options_unused", options=["--" + name.replace("_", "-") for name in given])
+
+
+def unused_options(options: Namespace, measurement: Measurement) -> Iterator[Finding]:
+    """What was asked of other kinds of bodies only."""
+    if options.thickness is not None and measurement.kind != "shell":
+        yield finding("thickness_option_unused")
+    if options.threshold is not None and measurement.type not in ("ARRAY", "VOLUME"):
+        yield finding("threshold_option_unused")

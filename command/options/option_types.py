@@ -1,0 +1,158 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The values that options of the command line take, and what is said of others. Standard library only."""
+
+from __future__ import annotations
+
+import argparse
+import math
+
+from ...core.measurement.documents import FORMATS
+from ...core.verdict.finding import finding
+from ...core.verdict.number_text import parse_number, parse_whole
+
+# As in the core, which needs numpy: the process that supervises others may have none.
+MAX_ORDER = 30
+MAX_SPLINE_ORDER = 16
+MAX_GRID = 256  # frequencies along an axis: its arrays take a few gigabytes
+
+
+def _refuse(code: str, **values: object) -> argparse.ArgumentTypeError:
+    return argparse.ArgumentTypeError(str(finding(code, **values)))
+
+
+def command(text: str) -> str:
+    """The one command that these options belong to."""
+    if text != "measure":
+        raise _refuse("usage_command", name=text)
+    return text
+
+
+def _float(text: str) -> float:
+    """NaN for what is no number."""
+    try:
+        return parse_number(text.strip())
+    except ValueError:
+        return math.nan
+
+
+def _int(text: str) -> int:
+    """-1 for what is no whole number."""
+    try:
+        return parse_whole(text.strip())
+    except ValueError:
+        return -1
+
+
+def positive(text: str) -> float:
+    """A positive number."""
+    value = _float(text)
+    if not (0.0 < value < math.inf):
+        raise _refuse("usage_not_positive", text=text)
+    return value
+
+
+def number(text: str) -> float:
+    """A finite number."""
+    value = _float(text)
+    if not math.isfinite(value):
+        raise _refuse("usage_not_number", text=text)
+    return value
+
+
+def count(text: str) -> int:
+    """A positive whole number."""
+    if not (text.isdecimal() and text.isascii() and int(text[:9]) > 0 and len(text) <= 9):
+        raise _refuse("usage_not_positive", text=text)
+    return int(text)
+
+
+def triple(text: str) -> tuple[float, ...]:
+    """Three finite numbers."""
+    values = tuple(map(_float, text.split(",")))
+    if len(values) != 3 or not all(map(math.isfinite, values)):
+        raise _refuse("usage_not_triple", text=text)
+    return values
+
+
+def spacing(text: str) -> tuple[float, ...]:
+    """Three positive numbers."""
+    values = triple(text)
+    if min(values) <= 0.0:
+        raise _refuse("usage_not_positive_triple", text=text)
+    return values
+
+
+def positions(text: str) -> tuple[str, str]:
+    """AXIS=FILE, the positions of samples along x, y or z."""
+    axis, equals, path = text.partition("=")
+    if axis not in ("x", "y", "z") or not equals or not path:
+        raise _refuse("usage_positions", text=text)
+    return axis, path
+
+
+def spline_order(text: str) -> int:
+    """The order of a spline of samples."""
+    if text not in {str(order) for order in range(1, MAX_SPLINE_ORDER + 1)}:
+        raise _refuse("usage_spline_order", text=text, limit=MAX_SPLINE_ORDER)
+    return int(text)
+
+
+def order(text: str) -> int:
+    """The order of moments."""
+    value = _int(text)
+    if value < 0:
+        raise _refuse("usage_order", text=text, limit=MAX_ORDER)
+    if value > MAX_ORDER:
+        raise _refuse("usage_order_too_high", text=text, limit=MAX_ORDER)
+    return value
+
+
+def frequencies(text: str) -> int:
+    """How many frequencies a grid has along an axis."""
+    value = _int(text)
+    if not 2 <= value <= MAX_GRID:
+        raise _refuse("usage_frequency_count", text=text, limit=MAX_GRID)
+    return value
+
+
+def format_name(text: str) -> str:
+    """The name of a format of results."""
+    if text not in FORMATS:
+        raise _refuse("usage_format_unknown", text=text, formats=", ".join(FORMATS))
+    return text
+
+
+ABOUT = ("center", "origin", "world")
+SOURCES = ("value", "materials", "attribute", "volume")  # of density, as in the panel
+_NAMED_SOURCES = ("attribute", "volume")
+
+
+def about(text: str) -> str | tuple[float, ...]:
+    """A point by its name or its coordinates."""
+    return text if text in ABOUT else triple(text)
+
+
+def split_source(text: str) -> tuple[str, str]:
+    """A source of density, and the name behind it."""
+    source, _, name = text.partition(":")
+    return source, name
+
+
+def source(text: str) -> str:
+    """Where a density comes from: a word, with a name behind it where that is needed."""
+    word, name = split_source(text)
+    if word not in SOURCES or bool(name) != (word in _NAMED_SOURCES):
+        raise _refuse("usage_density_source", text=text)
+    return text
+
+
+def file_range(text: str) -> tuple[int, int | None]:
+    """A:B, the files from number A on and before number B, counted from 0; either may be left out."""
+    begin, colon, end = text.partition(":")
+    if not colon or not all(part.isascii() and (part.isdecimal() or not part) for part in (begin, end)):
+        raise _refuse("usage_range", text=text)
+    first, last = int(begin or 0), int(end) if end else None
+    if last is not None and last < first:
+        raise _refuse("usage_range", text=text)
+    return first, last

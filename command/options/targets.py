@@ -1,0 +1,82 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Where results go, looked at before anything is measured: a place that can be written to, which is no file that is
+read and none of somebody else's. Standard library only.
+"""
+
+from __future__ import annotations
+
+import os
+from argparse import Namespace
+from collections.abc import Callable, Iterable
+from contextlib import suppress
+from pathlib import Path
+from typing import NoReturn
+
+from ...core.verdict.finding import finding, system_reason
+from ..files import output, own_results
+from .arguments import TARGETS
+from .arguments import fail as fail_measure
+
+Fail = Callable[[object], NoReturn]  # of a command: ends with the reason and its usage
+
+
+def check_places(options: Namespace, fail: Fail = fail_measure) -> None:
+    """End with a message where no file can be written."""
+    for option in TARGETS:
+        target = getattr(options, option, None)
+        if target is None or output.is_stdout(target):
+            continue
+        try:
+            _check_place(option, target, fail)
+        except OSError as error:  # a name that is too long, a folder that may not be entered
+            fail(finding("usage_path", path=str(error.filename), error=system_reason(error)))
+
+
+def _check_place(option: str, target: Path, fail: Fail) -> None:
+    if not target.parent.is_dir():
+        fail(finding("usage_folder_missing", option=option, folder=str(target.parent)))
+    if target.is_dir():
+        fail(finding("usage_is_folder", option=option, path=str(target)))
+    with suppress(FileNotFoundError):
+        os.stat(target)
+    folder = Path(os.path.realpath(target)).parent
+    if not (target.exists() and not target.is_file() or os.access(folder, os.W_OK)):
+        fail(finding("usage_folder_read_only", option=option, folder=str(folder)))
+
+
+def files_to_replace(
+    options: Namespace, read: Iterable[str | Path], fail: Fail = fail_measure
+) -> list[tuple[Path, str]]:
+    """The targets that are there and are no results of ours, each with its option. Ends with a message where one is
+    among the files that are `read`, or somebody else's and not empty, without --force. `options.forced`: those that
+    --force is about.
+    """
+    options.forced = []
+    read, replaced = list(read), []
+    for option in TARGETS:
+        target = getattr(options, option, None)
+        if target is None or not target.exists() or output.is_stdout(target):
+            continue
+        if any(os.path.exists(path) and os.path.samefile(path, target) for path in read):
+            fail(finding("usage_overwrites_input", option=option, path=str(target)))
+        try:
+            if own_results.replaceable(target, option):
+                continue
+            empty = own_results.is_empty(target)
+        except OSError as error:
+            fail(finding("usage_not_replaceable", option=option, path=str(target), error=system_reason(error)))
+        if not (empty or options.force):
+            fail(finding("usage_foreign_file", option=option, path=str(target)))
+        replaced.append((target, option))
+        if not empty:
+            options.forced.append(target)
+    return replaced
+
+
+def check_dependencies(replaced: list[tuple[Path, str]], read: Iterable[str | Path]) -> None:
+    """End with a message where a file that is going to be replaced is read with what is measured."""
+    for path in read:
+        for target, option in replaced:
+            if os.path.exists(path) and target.samefile(path):
+                fail_measure(finding("usage_overwrites_dependency", option=option, path=str(target)))

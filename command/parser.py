@@ -1,0 +1,24 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the parsers of all commands share; the options of `measure` are in `measure_parser`."""
+
+from __future__ import annotations
+
+import argparse
+from typing import NoReturn
+
+from ..core.measurement.plain_text import visible
+
+
+class HelpRequested(Exception):
+    """Raised for --help, with its text."""
+
+
+class Parser(argparse.ArgumentParser):
+    """One that escapes control characters, as names of files may have, and leaves it to its caller where help goes."""
+
+    def print_help(self, file: object = None) -> NoReturn:
+        raise HelpRequested(self.format_help())
+
+    def error(self, message: object) -> NoReturn:
+        super().error(visible(str(message)))

@@ -1,0 +1,73 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""`similar`: which of the bodies measured with --signature are most like one of them."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from ...core.measurement.plain_text import print_message, visible
+from ...core.shape.library import Entry, classify, rank, read_library
+from ...core.verdict.finding import QueryError, system_reason
+from ...core.verdict.messages import SIMILARITY
+from ..options.option_types import count
+from ..parser import Parser
+
+_COLUMNS = "{:>12} {:>10}  {:<27} {}\n"
+
+
+def parse(argv: list[str]) -> argparse.Namespace:
+    """The options of `similar`. Raises SystemExit(2), or SystemExit(0) after --help."""
+    parser = Parser(
+        prog="body_moments",
+        usage="body_moments similar LIBRARY [LIBRARY ...] --to NAME [options]",
+        description="The bodies of a library that are most like one of them. A library is what `measure --signature "
+        "--format jsonl` writes.",
+        epilog="exit code: 0 compared, 1 some records have no signature, 2 wrong usage, 3 interrupted",
+        allow_abbrev=False,
+    )
+    parser.add_argument("command", metavar="similar")
+    parser.add_argument("libraries", nargs="+", type=Path, metavar="LIBRARY")
+    parser.add_argument(
+        "--to",
+        required=True,
+        metavar="NAME",
+        help="the body's name, or FILE:NAME where several files have one of that name",
+    )
+    parser.add_argument("--any-size", action="store_true", help="copies of another size are as near")
+    parser.add_argument("--any-hand", action="store_true", help="mirror images are as near")
+    parser.add_argument("--count", type=count, default=10, metavar="N", help="how many are printed (10)")
+    return parser.parse_args(argv)
+
+
+def answer(options: argparse.Namespace) -> tuple[str, int]:
+    """The table, and how many records could not be compared. Raises MeasureError."""
+    entries, failures = [], []
+    for path in options.libraries:
+        try:
+            readable, missing = read_library(path)
+        except OSError as error:
+            raise QueryError("library_unreadable", file=str(path), error=system_reason(error)) from error
+        entries += readable
+        failures += missing
+    for failure in failures:
+        print_message(failure)
+    query = _entry_by_name(entries, options.to)
+    lines = [_COLUMNS.format("distance", "size", "", "name")]
+    others = [entry for entry in entries if entry is not query]
+    ranked = rank(query.signature, others, options.any_size, options.any_hand)
+    for entry, likeness in ranked[: options.count]:
+        distance = "{:.3e}".format(likeness.distance(options.any_size, options.any_hand))
+        similarity = SIMILARITY[classify(likeness)]
+        lines.append(_COLUMNS.format(distance, "{:.4g}".format(likeness.scale), similarity, visible(entry.label)))
+    return "".join(lines), len(failures)
+
+
+def _entry_by_name(entries: list[Entry], name: str) -> Entry:
+    named = [entry for entry in entries if entry.name == name] or [entry for entry in entries if entry.label == name]
+    if not named:
+        raise QueryError("name_not_in_library", name=name)
+    if len(named) > 1:
+        raise QueryError("name_ambiguous", name=name, names=[entry.label for entry in named])
+    return named[0]

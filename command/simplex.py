@@ -1,0 +1,123 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""`simplex`: moments in n dimensions of what simplices fill, or of what they enclose as its boundary."""
+
+from __future__ import annotations
+
+import argparse
+import json
+from math import comb
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..blender.settings.limits import scan_limits
+from ..core.measurement.plain_text import print_message
+from ..core.measurement.record import described
+from ..core.polyhedron import SimplexMoments, enclosed_moments, facet_moments, facets_of
+from ..core.polyhedron.n_dimensions import multi_indices
+from ..core.polyhedron.simplices import closes, outer_facets
+from ..core.scans.numpy_files import read_arrays
+from ..core.verdict.finding import FileError, QueryError, finding, system_reason
+from .options import option_types as types
+from .options.arguments import join_negative_values
+from .parser import Parser
+
+MAX_DIMENSION = 12
+MAX_MOMENTS = 1 << 20
+
+_EPILOG = """\
+FILE.npz has `points`, m rows of n coordinates, and `simplices`, rows of numbers of points from 0 on: n + 1 of them are
+a full simplex (a triangle in the plane, a tetrahedron in space), n a facet of the boundary, outward where the
+determinant of its corners is positive for a body around the origin: edges counter-clockwise in the plane, triangles
+counter-clockwise from outside in space. Optional are `signs`, 1 or -1 for each row: with -1 it is turned, or its full
+simplex taken away.
+exit code: 0 measured, 1 the file cannot be measured, 2 wrong usage, 3 interrupted, 70 a fault of the program"""
+
+
+def parse(argv: list[str]) -> argparse.Namespace:
+    """The options of `simplex`. Raises SystemExit(2), or HelpRequested."""
+    parser = Parser(
+        prog="body_moments",
+        usage="body_moments simplex FILE.npz [--order N] [--about X,Y,...] [--boundary]",
+        description="Raw moments ∫ x^α in n dimensions, with bounds of their rounding, as JSON.",
+        epilog=_EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        allow_abbrev=False,
+    )
+    add = parser.add_argument
+    add("command", metavar="simplex")
+    add("file", type=Path, metavar="FILE.npz")
+    add("--order", type=types.order, default=2, metavar="N", help="all |α| up to this (2)")
+    add("--about", type=_point, metavar="X,Y,...", help="the point that they are about (the origin)")
+    add("--boundary", action="store_true", help="add the moments of the boundary itself: length, area, …")
+    return parser.parse_intermixed_args(join_negative_values(argv))
+
+
+def answer(options: argparse.Namespace) -> str:
+    """The record. Raises MeasureError and OSError."""
+    points, simplices, signs = _read(options.file)
+    dimension = points.shape[1]
+    if comb(dimension + options.order, dimension) > MAX_MOMENTS:
+        raise QueryError("simplex_too_many", dimension=dimension, order=options.order, limit=MAX_MOMENTS)
+    about = np.zeros(dimension) if options.about is None else np.array(options.about)
+    if len(about) != dimension:
+        raise QueryError("simplex_point", count=len(about), dimension=dimension)
+    facets = simplices
+    if simplices.shape[1] == dimension + 1:
+        facets, turned = facets_of(points, simplices)
+        signs = turned if signs is None else turned * np.tile(signs, dimension + 1)
+    is_closed = closes(points, facets, signs)
+    findings = [] if is_closed else [finding("simplex_open")]
+    for one in findings:
+        print_message(options.file, one)
+    record: dict[str, Any] = {
+        "schema": "body-moments-simplex/1",
+        "file": str(options.file),
+        "dimension": dimension,
+        "simplices": len(simplices),
+        "closed": is_closed,
+        "order": options.order,
+        "about": about.tolist(),
+        **_as_record(enclosed_moments(points, facets, options.order, about, signs, allow_open=True)),
+        **described(findings),
+    }
+    if options.boundary:
+        outer = facets if facets is simplices else outer_facets(points, facets, signs)
+        record["boundary"] = _as_record(facet_moments(points, outer, options.order, about))
+    return json.dumps(record, indent=1, allow_nan=False) + "\n"
+
+
+def _point(text: str) -> list[float]:
+    return [types.number(word) for word in text.split(",")]
+
+
+def _as_record(moments: SimplexMoments) -> dict[str, dict[str, float]]:
+    keys = [",".join(map(str, row)) for row in multi_indices(len(moments.about), moments.order).tolist()]
+    return {
+        "moments": dict(zip(keys, moments.raw.tolist())),
+        "error": dict(zip(keys, moments.rounding_error.tolist())),
+    }
+
+
+def _read(path: Path) -> tuple[NDArray[np.float64], NDArray[np.integer], NDArray | None]:
+    arrays = read_arrays(path, ("points", "simplices", "signs"), scan_limits())
+    if not {"points", "simplices"} <= arrays.keys():
+        raise FileError("simplex_arrays")
+    points, simplices, signs = arrays["points"], arrays["simplices"], arrays.get("signs")
+    dimension = points.shape[1] if points.ndim == 2 else 0
+    if points.dtype.kind not in "iuf" or not 1 <= dimension <= MAX_DIMENSION or not np.isfinite(points).all():
+        raise FileError("simplex_points", limit=MAX_DIMENSION)
+    is_table = simplices.ndim == 2 and simplices.dtype.kind in "iu" and simplices.shape[1] in (dimension, dimension + 1)
+    if not is_table or not len(simplices) or simplices.min() < 0 or simplices.max() >= len(points):
+        raise FileError("simplex_rows", dimension=dimension)
+    if signs is not None and (signs.shape != (len(simplices),) or not np.isin(signs, (-1, 1)).all()):
+        raise FileError("simplex_signs")
+    return points.astype(np.float64), simplices.astype(np.int64), signs
+
+
+def reason_of(error: OSError) -> object:
+    """Why the file cannot be read."""
+    return finding("file_unreadable", error=system_reason(error))

@@ -1,0 +1,357 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Polygons with holes in the plane, as directed edges: the inside lies to the left of each.
+
+Area moments of any order are those of a boundary of 1-simplices (Sheynin and Tuzikov in two dimensions; see
+`n_dimensions`): over an edge a, b the triangle with the origin gives (a x b)·S_pq·p! q! / (p+q+2)!. Outer outlines run
+counter- clockwise, holes clockwise, separate regions simply add. What makes a region ambiguous, outlines that cross or
+lie on one another, is found by `find_defects`: no sum over edges would show it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..numerics.arguments import float_array, index_array
+from ..numerics.arrays import segment_ranges, sums_by_index
+from ..numerics.graph import connected_components
+from ..polyhedron.n_dimensions import SimplexMoments, enclosed_moments, facet_moments
+from ..verdict.finding import MeasureError
+
+SAMPLES_PER_OUTLINE = 16  # midpoints of an outline's edges that are asked what it lies in
+# of edges that are compared, and of rays and the edges they may meet; more rays are thinned out
+MAX_EDGE_PAIRS = 10_000_000
+PAIRS_PER_BLOCK = 1 << 18  # of those at a time
+RAYS_PER_BLOCK = 64  # neighboring rays at a time, which meet much the same edges
+GRID_CELLS = 1024  # along a side of the grid that edges are compared in
+TOUCH_RTOL = 1e-9  # of the polygon's size: edges that pass each other by less than this touch
+
+
+@dataclass(frozen=True)
+class OutlineDefects:
+    """What makes it unclear which side of the edges is inside.
+
+    Attributes
+    ----------
+    crossings : int
+        Pairs of edges that cross.
+    too_many_pairs : bool
+        Whether there were too many pairs to look at all of them.
+    overlapping : bool
+        Whether an edge has more than one region beside it somewhere, or less than none.
+    negative : bool
+        Whether less than none.
+    shared_length : float
+        The length along which edges run against each other, which does not belong to the region's boundary.
+    """
+
+    crossings: int
+    too_many_pairs: bool
+    overlapping: bool
+    negative: bool = False
+    shared_length: float = 0.0
+
+
+def area_moments(points: ArrayLike, edges: ArrayLike, order: int, about: ArrayLike | None = None) -> SimplexMoments:
+    """Return ∫ x^p y^q dA of a region for all p + q ≤ order, with error bounds.
+
+    They are about the middle of the bounding box of the used points, unless `about` says otherwise.
+
+    Parameters
+    ----------
+    points : (n, 2) array_like
+    edges : (m, 2) array_like of int
+        Directed; the inside lies to the left of each.
+    order : int
+    about : (2,) array_like, optional
+        The reference point.
+
+    Returns
+    -------
+    SimplexMoments
+
+    Raises
+    ------
+    MeasureError
+        If the edges do not close.
+
+    Examples
+    --------
+    >>> from body_moments.core.flat import area_moments
+    >>> square = [[0, 0], [1, 0], [1, 1], [0, 1]]
+    >>> moments = area_moments(square, [[0, 1], [1, 2], [2, 3], [3, 0]], 2, about=(0, 0))
+    >>> round(moments[0, 0], 9), round(moments[2, 0] * 3, 9)
+    (1.0, 1.0)
+    """
+    points, edges = edge_arrays(points, edges)
+    ends = [np.bincount(edges[:, i], minlength=len(points)) for i in (0, 1)]
+    loose = int(np.count_nonzero(ends[0] != ends[1]))
+    if loose:
+        raise MeasureError("outline_open", count=loose)
+    return enclosed_moments(points, edges, order, about, allow_open=True)
+
+
+def edge_arrays(
+    points: ArrayLike, edges: ArrayLike, dimension: int = 2
+) -> tuple[NDArray[np.float64], NDArray[np.integer]]:
+    """Return (n, 2) points, or in space (n, 3), and (m, 2) edges between them as arrays."""
+    points = float_array("points", points, "n", dimension)
+    return points, index_array("edges", edges, "m", 2, count=len(points))
+
+
+def outline_moments(
+    points: ArrayLike, edges: ArrayLike, order: int = 0, about: ArrayLike | None = None
+) -> SimplexMoments:
+    """Return ∫ x^p y^q ds along the edges; of order 0 the perimeter."""
+    return facet_moments(points, edges, order, about)
+
+
+def directed_edges(loops: Sequence[ArrayLike]) -> NDArray[np.intp]:
+    """Return the edges of loops, in the direction of each.
+
+    Parameters
+    ----------
+    loops : sequence of (k,) array_like of int
+        Indices of points.
+
+    Returns
+    -------
+    (m, 2) integer array
+
+    Examples
+    --------
+    >>> from body_moments.core.flat import directed_edges
+    >>> directed_edges([[0, 1, 2]]).tolist()
+    [[0, 1], [1, 2], [2, 0]]
+    """
+    loops = [index_array("loops", loop, "k") for loop in loops]
+    loop_edges = [np.stack([loop, np.roll(loop, -1)], axis=1) for loop in loops]
+    return np.concatenate(loop_edges).astype(np.intp) if loop_edges else np.empty((0, 2), np.intp)
+
+
+def orient_loops(points: NDArray, loops: Sequence[NDArray]) -> NDArray[np.intp]:
+    """Return the edges of loops of any direction, oriented so that what lies in an odd number of loops is inside.
+
+    Parameters
+    ----------
+    points : (n, 2) array
+    loops : sequence of (k,) integer arrays
+        Outlines, holes in those, islands in holes.
+
+    Returns
+    -------
+    (m, 2) integer array
+        The inside lies to the left of each edge.
+
+    Raises
+    ------
+    MeasureError
+        If one loop runs along another all the way, so that neither is in the other.
+
+    Examples
+    --------
+    >>> from body_moments.core.flat import orient_loops
+    >>> square = np.array([[0.0, 0.0], [0.0, 1.0], [1.0, 1.0], [1.0, 0.0]])
+    >>> orient_loops(square, [np.arange(4)])[0].tolist()
+    [3, 2]
+    """
+    points = float_array("points", points, "n", 2)
+    loops = [index_array("loops", loop, "k", count=len(points)) for loop in loops]
+    lows, highs = (
+        np.array([extreme(points[loop], axis=0) for loop in loops]).reshape(-1, 2) for extreme in (np.min, np.max)
+    )
+    order = []
+    for i, loop in enumerate(loops):
+        around = np.flatnonzero((lows <= lows[i]).all(axis=1) & (highs >= highs[i]).all(axis=1))
+        edges = directed_edges([loop])
+        middle = points[edges[:: max(1, len(edges) // SAMPLES_PER_OUTLINE)]].mean(axis=1)
+        depth = 0
+        for j in around[around != i].tolist():
+            winding = np.abs(winding_numbers(points, directed_edges([loops[j]]), middle))
+            clear = np.abs(winding - 0.5)  # a midpoint on the other loop has half a turn
+            if clear.max() < 0.25:
+                raise MeasureError("outlines_coincide")
+            depth += int(winding[np.argmax(clear)] > 0.5)
+        ahead = _twice_the_area(points, edges) > 0.0
+        order.append(loop if ahead == (depth % 2 == 0) else loop[::-1])
+    return directed_edges(order)
+
+
+def boundary_edges(faces: NDArray, count: int) -> NDArray[np.intp]:
+    """(m, 2) the directed edges of (k, 3) triangles over `count` points that no other triangle runs through the other
+    way: as often as one direction is more frequent."""
+    ahead = faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2).astype(np.int64)
+    low, high = ahead.min(axis=1), ahead.max(axis=1)
+    ahead, low, high = (values[low != high] for values in (ahead, low, high))
+    keys, which = np.unique(low * count + high, return_inverse=True)
+    net = np.bincount(which.ravel(), np.where(ahead[:, 0] == low, 1.0, -1.0)).astype(np.int64)
+    edges = np.stack([keys // count, keys % count], axis=1)
+    edges = np.where(net[:, None] < 0, edges[:, ::-1], edges)
+    return np.repeat(edges, np.abs(net), axis=0).astype(np.intp)
+
+
+def outline_areas(points: NDArray, edges: NDArray) -> NDArray[np.float64]:
+    """(k,) the signed area of each outline, of one or more: negative ones are holes. Outlines that share a point count
+    as one."""
+    origin = points[edges[0, 0]]
+    a, b = (points[edges[:, i]] - origin for i in (0, 1))
+    outline = connected_components(len(points), edges[:, 0], edges[:, 1])[0][edges[:, 0]]
+    sums = sums_by_index(outline, (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]) / 2.0)
+    return sums[np.unique(outline)]
+
+
+def find_defects(points: NDArray, edges: NDArray, error: float = 0.0) -> OutlineDefects:
+    """Find what makes it unclear which side of the edges is inside.
+
+    Outlines may touch, at corners and along edges; edges so short that their ends touch have no sides.
+
+    Parameters
+    ----------
+    points : (n, 2) array
+    edges : (m, 2) integer array
+    error : float
+        How far the points may be from where they were meant; what overlaps by no more touches.
+
+    Returns
+    -------
+    OutlineDefects
+
+    Examples
+    --------
+    >>> from body_moments.core.flat import directed_edges, find_defects
+    >>> bow_tie = np.array([[0.0, 0.0], [1.0, 1.0], [1.0, 0.0], [0.0, 1.0]])
+    >>> find_defects(bow_tie, directed_edges([range(4)])).crossings
+    1
+    """
+    points, edges = edge_arrays(points, edges)
+    if not len(edges):
+        return OutlineDefects(0, False, False)
+    points = points - points[edges.ravel()].min(axis=0)
+    touch = TOUCH_RTOL * float(points[edges.ravel()].max()) + 4.0 * error
+    crossings, shared, lost = _crossing_pairs(points, edges, touch)
+    left, right = _side_windings(points, edges, touch)
+    negative = bool((right < 0).any())
+    return OutlineDefects(crossings, lost, negative or bool((left < right).any() or (left > 1).any()), negative, shared)
+
+
+def winding_numbers(points: NDArray, edges: NDArray, query_points: NDArray) -> NDArray[np.float64]:
+    """(k,) how often the edges go round each place; at a place on an edge the mean of both sides."""
+    turns = [np.zeros(0)]
+    block = max(1, PAIRS_PER_BLOCK // max(1, len(edges)))
+    for start in range(0, len(query_points), block):
+        spans = points[edges] - query_points[start : start + block, None, None]  # (k, m, 2 ends, 2)
+        a, b = spans[:, :, 0], spans[:, :, 1]
+        cross, along = a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0], (a * b).sum(axis=2)
+        # A place on an edge sees its ends in opposite directions, with a sign that is rounding.
+        on = (np.abs(cross) <= 1e-12 * np.abs(along)) & (along <= 0.0)
+        turns.append(np.where(on, 0.0, np.arctan2(cross, along)).sum(axis=1) / (2.0 * np.pi))
+    return np.concatenate(turns)
+
+
+def _side_windings(points: NDArray, edges: NDArray, touch: float) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """(k,) and (k,) the winding numbers to the left and to the right of edges, of some of them where there are many.
+
+    Rays are sent across the edges, so that none runs along its own; edges that lie on one another are passed together.
+    """
+    span = np.abs(points[edges[:, 1]] - points[edges[:, 0]])
+    steep, long = span[:, 1] >= span[:, 0], np.hypot(*span.T) > 4.0 * touch
+    parts = [
+        _steep_side_windings(points, edges, np.flatnonzero(steep & long), touch),
+        # Mirrored, and each edge turned round: left stays left.
+        _steep_side_windings(points[:, ::-1], edges[:, ::-1], np.flatnonzero(~steep & long), touch),
+    ]
+    left, right = zip(*parts)
+    return np.concatenate(left), np.concatenate(right)
+
+
+def _steep_side_windings(points: NDArray, edges: NDArray, chosen: NDArray, touch: float) -> tuple[NDArray, NDArray]:
+    """As `_side_windings`, of the chosen edges, which are steep: by rays to the right from their middles."""
+    start, end = points[edges[:, 0]], points[edges[:, 1]]
+    low, high = np.minimum(start, end)[:, 1] - touch, np.maximum(start, end)[:, 1] + touch
+    along = end - start
+    length = np.hypot(*along.T)
+    height = float(high.max() - low.min()) or 1.0
+    # of the edges that a ray may meet
+    share = min(1.0, float((high - low).mean()) / height + RAYS_PER_BLOCK / len(edges))
+    chosen = chosen[:: max(1, int(len(chosen) * len(edges) * max(share, 1.0 / RAYS_PER_BLOCK) / MAX_EDGE_PAIRS))]
+    chosen = chosen[np.argsort((start[chosen] + end[chosen])[:, 1], kind="stable")]
+    middle = (start[chosen] + end[chosen]) / 2.0
+    rays_per_block = max(1, min(RAYS_PER_BLOCK, PAIRS_PER_BLOCK // len(edges)))
+    left, right = np.zeros((2, len(chosen)), np.int64)
+    for first in range(0, len(chosen), rays_per_block):
+        part = slice(first, first + rays_per_block)
+        x, y = middle[part, 0, None], middle[part, 1, None]
+        near = np.flatnonzero((high >= y.min()) & (low <= y.max()))
+        a, b, d = start[near], end[near], along[near]
+        up = (b[:, 1] > y).astype(np.int64) - (a[:, 1] > y)  # 1 where the ray's line is crossed upward, -1 downward
+        ahead = d[:, 0] * (y - a[:, 1]) - d[:, 1] * (x - a[:, 0])  # positive to the edge's left
+        within = (x - a[:, 0]) * (x - b[:, 0]) + (y - a[:, 1]) * (y - b[:, 1]) <= 0.0
+        on = within & (np.abs(ahead) <= np.maximum(touch, 1e-12 * length[near]) * length[near])
+        met = np.where((ahead > 0.0) == (up > 0), up, 0)
+        beyond = np.where(on, 0, met).sum(axis=1)
+        step = np.where(on, up, 0).sum(axis=1)
+        # From right of the middle one ray; from left of it the same and all edges that lie here.
+        upward = along[chosen[part], 1] > 0.0
+        left[part] = np.where(upward, beyond + step, beyond)
+        right[part] = np.where(upward, beyond, beyond + step)
+    return left, right
+
+
+def _twice_the_area(points: NDArray, edges: NDArray) -> float:
+    a, b = (points[edges[:, i]] - points[edges[0, 0]] for i in (0, 1))
+    return float((a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]).sum())
+
+
+def _crossing_pairs(points: NDArray, edges: NDArray, touch: float) -> tuple[int, float, bool]:
+    """Pairs of edges that cross by more than `touch`, and the length along which others run against each other: each
+    edge is entered into the cells of a grid that its box meets, and compared with those that share a cell. The last
+    value is whether that was given up."""
+    start, end = points[edges[:, 0]], points[edges[:, 1]]
+    low, high = np.minimum(start, end), np.maximum(start, end)
+    span = np.abs(end - start)
+    length = np.hypot(*span.T)
+    length[length == 0.0] = 1.0
+    size = float((high.max(axis=0) - low.min(axis=0)).max()) or 1.0
+    cell = max(2.0 * float(span.mean()), size / GRID_CELLS)
+    low, high = (np.floor(corner / cell).astype(np.int64) for corner in (low - touch, high + touch))
+    wide, tall = (high - low + 1).T
+    entered = wide * tall
+    if entered.sum() > MAX_EDGE_PAIRS:
+        return 0, 0.0, True
+    edge = np.repeat(np.arange(len(edges)), entered)
+    within = segment_ranges(entered)
+    key = (low[edge, 0] + within // tall[edge]) * (2 * GRID_CELLS) + low[edge, 1] + within % tall[edge]
+    order = np.argsort(key)
+    edge, key = edge[order], key[order]
+    active, crossings, opposed, compared_count = np.arange(len(edge)), [np.zeros(0, np.int64)], {}, 0
+    for step in range(1, len(edge)):
+        active = active[active < len(edge) - step]
+        active = active[key[active + step] == key[active]]
+        compared_count += len(active)
+        if not len(active) or compared_count > MAX_EDGE_PAIRS:
+            break
+        i, j = edge[active], edge[active + step]
+        sides = []
+        for p, q, target in ((i, j, start), (i, j, end), (j, i, start), (j, i, end)):
+            span, to = end[p] - start[p], target[q] - start[p]
+            sides.append((span[:, 0] * to[:, 1] - span[:, 1] * to[:, 0]) / length[p])
+        sides = np.array(sides)
+        pair = np.minimum(i, j) * len(edges) + np.maximum(i, j)
+        crossings.append(
+            pair[(sides[0] * sides[1] < 0.0) & (sides[2] * sides[3] < 0.0) & (np.abs(sides) > touch).all(axis=0)]
+        )
+        along = (np.abs(sides) <= touch).all(axis=0)
+        i, j, pair = i[along], j[along], pair[along]
+        unit = (end[i] - start[i]) / length[i, None]
+        first, last = (((point[j] - start[i]) * unit).sum(axis=1) for point in (start, end))
+        common = np.minimum(first, length[i]) - np.maximum(last, 0.0)  # of opposite edges first is beyond last
+        opposed.update(zip(pair[common > 4.0 * touch].tolist(), common[common > 4.0 * touch].tolist()))
+    return (
+        len(np.unique(np.concatenate(crossings))),
+        float(sum(opposed.values())),
+        compared_count > MAX_EDGE_PAIRS,
+    )

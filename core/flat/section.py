@@ -1,0 +1,338 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Section properties of a plane region, as structural engineers know them.
+
+I_x = ∫ y² dA, I_y = ∫ x² dA and I_xy = +∫ xy dA (no minus: a tensor's entry would have one), about the centroid and
+along the plane's own axes x, y. Principal second moments I_1 ≥ I_2; axis 1 is at the angle θ in (-90°, 90°] from x
+towards y, tan 2θ = -2 I_xy / (I_x - I_y). J_p = I_x + I_y is the polar second moment of area; it is the torsion
+constant of round sections only. Radii of gyration are √(I/A), elastic section moduli I / (distance of the outermost
+corner), exact as corners are what is outermost.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from math import atan2, pi
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..mesh.surface import normals
+from ..mesh.welding import first_at_equal_position
+from ..moments.moments import U
+from ..numerics.arguments import check_type, float_array, index_array
+from ..verdict.finding import MeasureError
+from .polygon import boundary_edges, edge_arrays, outline_areas, outline_moments
+from .regions import plane_positions, region_moments
+
+# of a region's size: points farther off their plane are not planar; an area is off by the square of this
+PLANAR_RTOL = 1e-5
+EQUAL_MOMENTS_RTOL = 1e-6  # principal moments closer than this, relatively, are equal
+MAX_NOISE_SHARE = 1e-3  # of the larger one: what is more is not taken for noise
+EDGE_GROWTH = 2.0 * np.sqrt(2.0)  # an edge grows by this where both ends move by 1 along each axis
+MIN_AXIS_SHARE = 0.05  # the least share of an axis that must lie in the plane to name the plane's x axis
+
+
+@dataclass(frozen=True, eq=False)
+class Plane:
+    """The plane of a section.
+
+    Attributes
+    ----------
+    origin : (3,) array
+    axes : (3, 3) array
+        Columns x, y and the normal, right-handed.
+    out_of_plane : float
+        How far the points are off it.
+    x_axis_name : str
+        The preferred axis that x is nearest to: "X" or "Y".
+
+    Examples
+    --------
+    >>> from body_moments.core.flat import Plane
+    >>> Plane(np.zeros(3), np.eye(3), 0.0, "X").project(np.array([[1.0, 2.0, 3.0]])).tolist()
+    [[1.0, 2.0]]
+    """
+
+    origin: NDArray[np.float64]
+    axes: NDArray[np.float64]
+    out_of_plane: float
+    x_axis_name: str
+
+    def project(self, points: NDArray) -> NDArray[np.float64]:
+        """Return the (n, 2) coordinates of points along the plane's x and y axes."""
+        x, y, z = (float_array("points", points, "n", 3) - self.origin).T
+        return np.stack([x * a[0] + y * a[1] + z * a[2] for a in self.axes.T[:2]], axis=1)
+
+
+@dataclass(frozen=True, eq=False)
+class Section:
+    """Section properties of one region, in one unit of length.
+
+    Attributes
+    ----------
+    plane : Plane
+    area, perimeter : float
+    centroid : (2,) array
+        In the plane's axes from its origin.
+    second : (3,) array
+        I_x, I_y, I_xy about the centroid.
+    reach : (4,) array
+        The distance of the outermost corner from the axes x, y, 1, 2 through the centroid.
+    outlines, holes : int
+    rounding_error, input_error : dict of str to float
+        Bounds of "area", "perimeter", "centroid" and "second": of rounding, and of what storing coordinates as float32
+        may have moved; of the centroid its length, of the second moments each of them.
+
+    Examples
+    --------
+    >>> from body_moments.core.flat import Plane, directed_edges, measure_section
+    >>> points = np.array([[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [2.0, 1.0, 0.0], [0.0, 1.0, 0.0]])
+    >>> section = measure_section(Plane(np.zeros(3), np.eye(3), 0.0, "X"), points, directed_edges([range(4)]))
+    >>> np.round(section.moduli * 6, 9).tolist(), round(section.polar * 6, 9)
+    ([2.0, 4.0, 4.0, 2.0], 5.0)
+    """
+
+    plane: Plane
+    area: float
+    perimeter: float
+    centroid: NDArray[np.float64]
+    second: NDArray[np.float64]
+    reach: NDArray[np.float64]
+    outlines: int
+    holes: int
+    rounding_error: dict[str, float]
+    input_error: dict[str, float]
+
+    @property
+    def center(self) -> NDArray[np.float64]:
+        """(3,) the centroid in the coordinates of the plane's origin."""
+        return self.plane.origin + self.plane.axes[:, :2] @ self.centroid
+
+    @property
+    def principal(self) -> tuple[float, float]:
+        """I_1 ≥ I_2."""
+        first, second, mixed = self.second.tolist()
+        larger = (first + second) / 2.0 + np.hypot((first - second) / 2.0, mixed)
+        return float(larger), max(0.0, (first * second - mixed * mixed) / larger)  # no difference of near equals
+
+    @property
+    def axes_undetermined(self) -> bool:
+        """Whether every axis through the centroid is a principal one."""
+        first, second = self.principal
+        return first - second <= EQUAL_MOMENTS_RTOL * first + 2.0 * self._noise
+
+    @property
+    def angle(self) -> float:
+        """Radians from x towards y to axis 1; 0 where every axis is one."""
+        return 0.0 if self.axes_undetermined else principal_angle(self.second, self._noise)
+
+    @property
+    def _noise(self) -> float:
+        """What rounding can make of the axes. Where bounds are wide the moments are still those of axes."""
+        return min(self.rounding_error["second"] + self.input_error["second"], MAX_NOISE_SHARE * self.principal[0])
+
+    @property
+    def polar(self) -> float:
+        """J_p = I_x + I_y."""
+        return float(self.second[0] + self.second[1])
+
+    @property
+    def radii(self) -> NDArray[np.float64]:
+        """(4,) the radii of gyration about x, y, 1, 2."""
+        return np.sqrt(np.array([*self.second[:2], *self.principal]) / self.area)
+
+    @property
+    def moduli(self) -> NDArray[np.float64]:
+        """(4,) the elastic section moduli about x, y, 1, 2, each for the outermost corner: the smaller of two sides."""
+        return np.array([*self.second[:2], *self.principal]) / self.reach
+
+
+def principal_angle(second: NDArray, noise: float) -> float:
+    """Where axis 1 lies, in (-π/2, π/2]; a product of inertia below `noise` is none, so that it cannot turn the axis
+    over."""
+    first, last, mixed = second.tolist()
+    if abs(mixed) <= noise:
+        return 0.0 if first >= last else pi / 2.0
+    return 0.5 * atan2(-2.0 * mixed, first - last)
+
+
+def fit_plane(
+    points: NDArray,
+    triangles: NDArray,
+    prefer: NDArray,
+    origin: NDArray,
+    error: float = 0.0,
+    facing: NDArray | None = None,
+) -> Plane:
+    """Fit the plane of triangles that are flat.
+
+    Parameters
+    ----------
+    points : (n, 3) array
+    triangles : (m, 3) integer array
+    prefer : (3, 3) array
+        Columns: axes that the plane's x is to be near to: the first, or where that is normal to the plane the second.
+    origin : (3,) array
+        A point whose foot on the plane becomes its origin.
+    error : float
+        How far the points may be from where they were meant.
+    facing : (3,) array, optional
+        A direction that the normal is to agree with; by default most of the triangles' area.
+
+    Returns
+    -------
+    Plane
+
+    Raises
+    ------
+    MeasureError
+        If the points are not planar, or have no area.
+
+    Examples
+    --------
+    >>> from body_moments.core.flat import fit_plane
+    >>> plane = fit_plane(np.eye(4, 3, -1) + 1.0, np.array([[0, 1, 2]]), np.eye(3), np.zeros(3))
+    >>> plane.origin.tolist(), plane.axes[:, 2].tolist()
+    ([0.0, 0.0, 1.0], [0.0, 0.0, 1.0])
+    """
+    points = float_array("points", points, "n", 3)
+    triangles = index_array("triangles", triangles, "m", 3, count=len(points))
+    prefer, origin = float_array("prefer", prefer, 3, 3), float_array("origin", origin, 3)
+    facing = None if facing is None else float_array("facing", facing, 3)
+    vectors = normals(points, triangles)
+    sizes = np.sqrt((vectors * vectors).sum(axis=1))
+    used = points[np.unique(triangles)]
+    size = float(np.sqrt(((used.max(axis=0) - used.min(axis=0)) ** 2).sum()))
+    largest = int(np.argmax(sizes))
+    if not sizes[largest] > 0.0:
+        raise MeasureError("section_no_area")
+    # Faces that look the other way are of the same plane.
+    side = np.sign(vectors @ vectors[largest])
+    total = (vectors * side[:, None]).sum(axis=0)
+    normal = total / np.sqrt(total @ total)
+    if (vectors @ normal).sum() < 0.0 if facing is None else facing @ normal < 0.0:
+        normal = -normal
+    heights = (used - used[0]) @ normal
+    level = float(heights.min() + heights.max()) / 2.0
+    off = float(np.ptp(heights)) / 2.0
+    if off > PLANAR_RTOL * size + 4.0 * error:
+        raise MeasureError("section_not_flat", share=off / size)
+    axes, named = _axes(normal, prefer)
+    distance = float((used[0] - origin) @ normal) + level
+    return Plane(origin + distance * normal, axes, off, named)
+
+
+def _axes(normal: NDArray, prefer: NDArray) -> tuple[NDArray[np.float64], str]:
+    inside = [axis - normal * (normal @ axis) for axis in prefer.T]
+    first = int(np.sqrt(inside[0] @ inside[0]) <= MIN_AXIS_SHARE)
+    x = inside[first] / np.sqrt(inside[first] @ inside[first])
+    x = x - normal * (normal @ x)
+    return np.stack([x, np.cross(normal, x), normal], axis=1) + 0.0, "XY"[first]
+
+
+def region(
+    plane: Plane, points: NDArray, triangles: NDArray, faces: NDArray, error: float
+) -> tuple[NDArray[np.intp], int]:
+    """(m, 2) the directed edges of the region that triangles near the plane cover, points at one place taken as one,
+    and how many faces look against the plane and were turned.
+
+    faces: (k,) the face of each triangle; a face is turned as a whole.
+    """
+    triangles = first_at_equal_position(points)[triangles]
+    a, b, c = (plane.project(points)[triangles[:, i]] for i in range(3))
+    areas = np.bincount(faces, ((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]) / 2.0)
+    longest = np.abs(np.stack([b - a, c - a])).max(axis=(0, 2))
+    noise = np.zeros(len(areas))
+    np.maximum.at(noise, faces, longest)  # slivers have no side to look to
+    flipped = areas < -(4.0 * error + 1e-12 * noise) * noise
+    triangles = np.where(flipped[faces][:, None], triangles[:, ::-1], triangles)
+    return boundary_edges(triangles, len(points)), int(np.count_nonzero(flipped))
+
+
+def projection_rounding(plane: Plane, points: NDArray, flat: NDArray) -> float:
+    """How far rounding may have moved a coordinate of (n, 3) points that were projected to (n, 2) flat ones."""
+    return 16.0 * U * float(np.abs(points).max() + np.abs(plane.origin).max() + np.abs(flat).max(initial=0.0))
+
+
+def measure_section(plane: Plane, points: NDArray, edges: NDArray, error: float = 0.0, shared: float = 0.0) -> Section:
+    """Measure the region to the left of directed edges.
+
+    `find_defects` reports whether that is one region, and the length that edges share.
+
+    Parameters
+    ----------
+    plane : Plane
+    points : (n, 3) array
+        Near the plane.
+    edges : (m, 2) integer array
+    error : float
+        How far storing the points as float32 may have moved each of them.
+    shared : float
+        The length that edges share, which the perimeter leaves out twice.
+
+    Returns
+    -------
+    Section
+
+    Raises
+    ------
+    MeasureError
+        If the edges enclose no area, or do not close.
+
+    Examples
+    --------
+    >>> from body_moments.core.flat import Plane, directed_edges, measure_section
+    >>> points = np.array([[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [2.0, 1.0, 0.0], [0.0, 1.0, 0.0]])
+    >>> section = measure_section(Plane(np.zeros(3), np.eye(3), 0.0, "X"), points, directed_edges([range(4)]))
+    >>> round(section.area, 9), section.center.tolist(), np.round(section.second * 12, 9).tolist()
+    (2.0, [1.0, 0.5, 0.0], [2.0, 8.0, 0.0])
+    """
+    check_type("plane", plane, Plane)
+    points, edges = edge_arrays(points, edges, 3)
+    flat = plane.project(points)
+    used = flat[edges.ravel()]
+    rounded = projection_rounding(plane, points, used)
+    moments = region_moments(flat, edges, 2, rounded=rounded, stored=error)
+    if not moments.total > 0.0:
+        raise MeasureError("section_encloses_nothing")
+    about, positions = moments.about[:2], plane_positions(2)
+    raw = moments.raw[positions]
+    length = outline_moments(flat, edges)
+    bounds = [_bounds(raw, about, delta[positions]) for delta in (moments.rounding_error, moments.input_error)]
+    # of 2 len(edges) shared pieces at most, each taken twice
+    ends = EDGE_GROWTH * len(edges) * (5.0 if shared else 1.0)
+    bounds[0]["perimeter"] = float(length.rounding_error[0]) * (3.0 if shared else 1.0) + ends * rounded
+    bounds[1]["perimeter"] = ends * error
+    area, shift = moments.total, raw[1:3] / raw[0]
+    second = raw[[5, 3, 4]] - area * np.array([shift[1] ** 2, shift[0] ** 2, shift[0] * shift[1]])
+    second[:2] = np.maximum(second[:2], 0.0)
+    sizes = outline_areas(flat, edges)
+    centroid = about + shift
+    section = Section(
+        plane,
+        area,
+        float(length.raw[0]) - 2.0 * shared,
+        centroid,
+        second,
+        np.ones(4),
+        int((sizes > 0.0).sum()),
+        int((sizes < 0.0).sum()),
+        *bounds,
+    )
+    x, y = (used - centroid).T
+    sine, cosine = np.sin(section.angle), np.cos(section.angle)
+    reach = np.array([np.abs(row).max() for row in (y, x, y * cosine - x * sine, x * cosine + y * sine)])
+    return replace(section, reach=reach)
+
+
+def _bounds(raw: NDArray, about: NDArray, delta: NDArray) -> dict[str, float]:
+    """What (6,) moments about the centroid, off by `delta`, make of area, centroid and second moments."""
+    area, shift = raw[0], np.abs(raw[1:3]) / raw[0]
+    if not area > 2.0 * delta[0]:  # then nothing bounds a quotient
+        return {"area": float(delta[0]), "centroid": float("inf"), "second": float("inf")}
+    drift = (delta[1:3] + shift * delta[0]) / (area - delta[0])
+    tolerance = 4.0 * U * (np.abs(about) + shift)
+    second = delta[3:].max() + (area + delta[0]) * (drift + shift).max() ** 2
+    second += 4.0 * U * np.abs(raw[3:]).max()
+    return {"area": float(delta[0]), "centroid": float(np.hypot(*(drift + tolerance))), "second": float(second)}

@@ -1,0 +1,231 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The JSON document of a file, and its formats: JSON, JSON lines and CSV. A public contract, `body-moments/1`.
+
+A document is what one file gave: one record for each object, their total, and what could not be measured. Nothing here
+needs numpy or Blender: a process that only gathers what others have measured writes the same.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import re
+from collections.abc import Iterable, Iterator, Sequence
+from typing import Any
+
+SCHEMA = "body-moments/1"
+FRAMES = ("world", "object")
+ROBOT_FORMATS = ("urdf", "sdf", "mjcf", "usd", "gltf")  # `core/robots/write/formats.py` has what writes them
+STATUSES = ("ok", "error", "crashed", "timeout", "memory", "unsupported_version", "missing")
+
+# The inertia tensor's six entries, in the order in which they are stored on an object.
+TENSOR = (("xx", 0, 0), ("yy", 1, 1), ("zz", 2, 2), ("xy", 0, 1), ("xz", 0, 2), ("yz", 1, 2))
+
+# What the file of a Fourier transform holds.
+SPECTRUM_ARRAYS = ("q", "F", "error", "input", "method", "frame")
+FLAT_SPECTRUM_ARRAYS = ("axes", "origin")  # and of a flat shape, of its plane in the world
+
+# An innermost list of numbers that json.dumps has spread over lines. No text can hold a line break, so none matches.
+_NUMBER_ROWS = re.compile(r"\[\n\s+((?:[-+.\deE]+|null)(?:,\n\s+(?:[-+.\deE]+|null))*)\n\s*\]")
+
+# What begins a formula, as OWASP lists it, or an apostrophe that does not stand for one.
+_FORMULA = re.compile(r"['\t\r\n]|\s*[=+\-@\uff1d\uff0b\uff0d\uff20]")
+
+
+def document(
+    objects: Iterable[dict[str, Any]],
+    total: dict[str, Any],
+    errors: Iterable[dict[str, Any]],
+    left_out: Iterable[dict[str, Any]] = (),
+    *,
+    file: str | None,
+    blender: str | None,
+    frame: str = "world",
+    status: str | None = None,
+) -> dict[str, Any]:
+    """What one file gave. The objects are sorted by name; `file` is None for a scene that was never saved. errors,
+    left_out: names and reasons, of what could not be measured and of what was not to be. status: one of `STATUSES`, by
+    default what the errors say.
+    """
+    errors = list(errors)
+    if frame != "world":
+        total = {"frame": "world", **total}
+    return {
+        "schema": SCHEMA,
+        "blender": blender,
+        "file": file,
+        "status": status or ("error" if errors else "ok"),
+        "frame": frame,
+        "objects": sorted(objects, key=lambda entry: entry["name"]),
+        "total": total,
+        "left_out": sorted(left_out, key=lambda entry: entry["name"]),
+        "errors": errors,
+    }
+
+
+def failed_document(file: str, reason: str, status: str, *, blender: str | None, frame: str) -> dict[str, Any]:
+    """That of a file of which nothing was measured, for one reason."""
+    total: dict[str, Any] = {"mass": 0.0, "volume": 0.0, "area": 0.0}
+    total |= dict.fromkeys(("center_of_mass", "inertia", "principal_moments", "principal_axes", "symmetry"))
+    total |= {"findings": [], "warnings": [], "notes": []}
+    errors = [{"name": None, "reason": reason}]
+    return document([], total, errors, file=file, blender=blender, frame=frame, status=status)
+
+
+def to_json(documents: Iterable[dict[str, Any]]) -> Iterator[str]:
+    """One document as itself, several as an array, indented for a reader with each row of numbers on one line."""
+    waiting, several = "", False
+    for number, entry in enumerate(documents):
+        text = json.dumps(entry, indent=2, ensure_ascii=False, allow_nan=False)
+        text = _NUMBER_ROWS.sub(lambda match: "[" + re.sub(r"\s+", " ", match[1]) + "]", text)
+        if number:
+            yield ("[\n" if number == 1 else "") + _indented(waiting) + ",\n"
+        waiting = text
+        several = number > 0
+    if not waiting:
+        yield "[]\n"
+    else:
+        yield _indented(waiting) + "\n]\n" if several else waiting + "\n"
+
+
+def _indented(text: str) -> str:
+    return "  " + text.replace("\n", "\n  ")
+
+
+def to_json_lines(documents: Iterable[dict[str, Any]]) -> Iterator[str]:
+    """One document a line."""
+    for entry in documents:
+        yield json.dumps(entry, ensure_ascii=False, allow_nan=False) + "\n"
+
+
+def to_csv(documents: Iterable[dict[str, Any]]) -> Iterator[str]:
+    """One row an object under one header. What could not be measured is a row too, with its reason
+    under `error`, and so is what was left out, with its reason under `left_out`. documents: gone through twice.
+
+    Spreadsheets take text that begins with =, +, -, @ and the like for a formula. It gets an apostrophe before it, and
+    so does text that has one there already: whoever reads a text removes one apostrophe from its start.
+    """
+    names = dict.fromkeys(_COLUMNS)
+    for row in _rows(documents):
+        names.update(dict.fromkeys(name for name in row if name not in _LAST_COLUMNS))
+    header = [*names, *_LAST_COLUMNS]
+    yield from table(header, _rows(documents))
+
+
+def table(header: Sequence[str], rows: Iterable[dict[str, Any]]) -> Iterator[str]:
+    """CSV with these columns: a row for each mapping, whose missing entries stay empty. Text is written as `to_csv`
+    says."""
+    yield _line(header)
+    for row in rows:
+        yield _line(_cell(row.get(name, "")) for name in header)
+
+
+def _rows(documents: Iterable[dict[str, Any]]) -> Iterator[dict[str, Any]]:
+    for file_document in documents:
+        place = {"file": file_document["file"], "frame": file_document["frame"]}
+        for name in ("objects", "assemblies", "bones"):
+            for entry in file_document.get(name, ()):
+                yield {**place, **_columns(entry)}
+        for entry in file_document.get("flat", ()):
+            yield {**place, **_flat_columns(entry)}
+        for column, entries in (("left_out", file_document["left_out"]), ("error", file_document["errors"])):
+            for entry in entries:
+                yield {**place, "name": entry["name"], column: entry["reason"]}
+
+
+_COLUMNS = (
+    "file", "frame", "name", "type", "kind", "method", "density", "mass", "volume", "area",
+    *(f"center_of_mass_{axis}" for axis in "xyz"),
+    *(f"inertia_{name}" for name, *_ in TENSOR),
+    *(f"principal_moment_{number}" for number in (1, 2, 3)),
+    *(f"principal_axis_{number}_{axis}" for number in (1, 2, 3) for axis in "xyz"),
+    "symmetry",
+)  # fmt: skip
+_OPTIONAL_COLUMNS = ("armature", "density_from", "thickness", "length", "linear_density", "principal_axes_unique")
+_LAST_COLUMNS = ("warnings", "error")  # notes and findings stand before them
+
+
+def _flat_columns(entry: dict[str, Any]) -> dict[str, Any]:
+    """The record of a flat shape as one flat row."""
+    row = {name: entry[name] for name in ("name", "type", "area")} | {"kind": "flat"}
+    row |= _nested("error_bound", entry["error_bound"])
+    row |= {f"center_of_mass_{axis}": value for axis, value in zip("xyz", entry["centroid"])}
+    powers = entry.get("moments", {}).get("area", {})
+    row |= {f"area_moment_{key.replace(',', '_')}": value for key, value in powers.items()}
+    return row | _signature_columns(entry) | _finding_columns(entry)
+
+
+def _columns(entry: dict[str, Any]) -> dict[str, Any]:
+    """A record as one flat row; what a list or a table holds gets a column each."""
+    row = {name: entry[name] for name in (*_COLUMNS, *_OPTIONAL_COLUMNS) if name in entry}
+    row |= {f"center_of_mass_{axis}": value for axis, value in zip("xyz", entry["center_of_mass"])}
+    row |= {f"inertia_{name}": entry["inertia"][i][j] for name, i, j in TENSOR}
+    for number in range(3):
+        row[f"principal_moment_{number + 1}"] = entry["principal_moments"][number]
+        row |= {
+            f"principal_axis_{number + 1}_{axis}": entry["principal_axes"][i][number] for i, axis in enumerate("xyz")
+        }
+    row |= _nested("display_mesh", entry.get("display_mesh", {}))
+    row |= _nested("health", entry["health"]) | _nested("error_bound", entry["error_bound"])
+    for name in ("volume", "length", "surface", "mass"):
+        powers = entry.get("moments", {}).get(name, {})
+        row |= {f"{name}_moment_{key.replace(',', '_')}": value for key, value in powers.items()}
+    if entry.get("pose"):
+        row |= {f"pose_{name}": entry["pose"][name] for name in ("unique", "symmetry", "symmetry_order")}
+        row |= {
+            f"pose_matrix_{i + 1}{j + 1}": value
+            for i, line in enumerate(entry["pose"]["matrix"])
+            for j, value in enumerate(line)
+        }
+    return row | _signature_columns(entry) | _finding_columns(entry)
+
+
+def _signature_columns(entry: dict[str, Any]) -> dict[str, Any]:
+    row: dict[str, Any] = {}
+    for name, values in (entry.get("signature") or {}).items():
+        if isinstance(values, list):
+            row |= {f"signature_{name}_{number + 1}": value for number, value in enumerate(values)}
+        else:
+            row[f"signature_{name}"] = values
+    return row
+
+
+def _finding_columns(entry: dict[str, Any]) -> dict[str, Any]:
+    return {"findings": [one["code"] for one in entry["findings"]]} | {
+        name: entry[name] for name in ("notes", "warnings")
+    }
+
+
+def _nested(prefix: str, values: dict[str, Any]) -> dict[str, Any]:
+    row = {}
+    for name, value in values.items():
+        row |= _nested(f"{prefix}_{name}", value) if isinstance(value, dict) else {f"{prefix}_{name}": value}
+    return row
+
+
+def _line(cells: Iterable[Any]) -> str:
+    """A row of a table. Before Python 3.13 the csv module quotes only those line breaks that it ends a row with."""
+    text = io.StringIO()
+    csv.writer(text, lineterminator="\r\n").writerow(cells)
+    return text.getvalue().removesuffix("\r\n") + "\n"
+
+
+def _cell(value: Any) -> Any:
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, list):
+        value = " | ".join(map(str, value))
+    if isinstance(value, str) and _FORMULA.match(value):
+        return "'" + value
+    return value
+
+
+def to_robot(documents: Iterable[dict[str, Any]]) -> Iterator[str]:
+    """What the process that measured has written of one file in a format of robots."""
+    return (file_document.get("robot", "") for file_document in documents)
+
+
+# From documents, which may be gone through twice, to pieces of text.
+FORMATS = {"json": to_json, "jsonl": to_json_lines, "csv": to_csv, **dict.fromkeys(ROBOT_FORMATS, to_robot)}

@@ -1,0 +1,116 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The record of a flat shape, one of a document's `flat`. SI units; x and y are the axes of its plane."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..flat.regions import plane_positions
+from ..flat.section import Plane
+from ..moments.complex_form import Invariant
+from ..moments.exponents import monomial_index
+from ..moments.moments import Moments, U
+from ..polyhedron.n_dimensions import multi_indices
+from ..verdict.finding import Finding
+from .record import described, plain
+
+_FIRST, _SECOND = ((1, 0, 0), (0, 1, 0)), ((2, 0, 0), (0, 2, 0), (1, 1, 0))
+SHIFT_ROUNDINGS = 16.0  # u of the distance, from the plane to the frame
+
+
+def flat_record(
+    name: str,
+    kind: str,
+    plane: Plane,
+    moments: Moments,
+    findings: Iterable[Finding],
+    *,
+    order: int | None = None,
+    invariants: Sequence[Invariant] = (),
+    more: dict[str, Any] | None = None,
+    about: str | Sequence[float] | None = None,
+    frame: tuple[str, NDArray[np.float64], NDArray[np.float64]] = ("world", np.eye(3), np.zeros(3)),
+) -> dict[str, Any]:
+    """One shape's record.
+
+    kind: of the object. moments: about the centroid, along the plane's axes from its origin, to second order at least.
+    order: adds `moments`, about the foot of the frame's origin or of the point `about`, as in `record`. frame: its
+    name, and the object frame's axes and origin. more: further entries.
+    """
+    axes, location = (np.eye(3), np.zeros(3)) if frame[0] == "world" else frame[1:]
+
+    def to_frame(point: NDArray) -> NDArray[np.float64]:
+        return axes.T @ (point - location)
+
+    centroid = plane.origin + plane.axes @ moments.center
+    central = moments.about_center()
+    entry = {
+        "name": name,
+        "type": kind,
+        "area": moments.total,
+        "centroid": to_frame(centroid),
+        "plane": {
+            "origin": to_frame(plane.origin),
+            **{key: axes.T @ axis for key, axis in zip(("x", "y", "normal"), plane.axes.T)},
+        },
+        "second_moments": {"xx": central[2, 0, 0], "yy": central[0, 2, 0], "xy": central[1, 1, 0]},
+    }
+    if order is not None:
+        point = _point(about, centroid, axes, location, frame[2])
+        placed = moments.truncate(order).about_point(np.append(plane.project(point[None])[0], 0.0))
+        entry["moments"] = {
+            "order": order,
+            "about": placed.about[:2],
+            "area": _by_powers(placed.raw, order),
+            "error": {"area": _by_powers(placed.rounding_error, order)},
+            "input": {"area": _by_powers(placed.input_error, order)},
+        }
+    if invariants:
+        entry["invariants"] = [
+            {
+                "name": one.name,
+                "real": one.value.real,
+                "imaginary": one.value.imag,
+                "error": one.rounding_error,
+                "input": one.input_error,
+            }
+            for one in invariants
+        ]
+    entry |= more or {}
+    rounding = _bounds(central, central.rounding_error, U * float(np.linalg.norm(centroid)))
+    entry["error_bound"] = {**rounding, "input": _bounds(central, central.input_error, 0.0)}
+    return plain(entry) | described(findings)
+
+
+def _bounds(central: Moments, bounds: NDArray[np.float64], shift: float) -> dict[str, float]:
+    """Of the area, of each coordinate of the centroid and of each second moment. bounds: of the central moments."""
+    first, second = (
+        float(np.linalg.norm([bounds[monomial_index(*row)] for row in rows])) for rows in (_FIRST, _SECOND)
+    )
+    return {
+        "area": float(bounds[0]),
+        "centroid": first / abs(central.total) + SHIFT_ROUNDINGS * shift,
+        "second_moments": second,
+    }
+
+
+def _point(
+    about: str | Sequence[float] | None, centroid: NDArray, axes: NDArray, location: NDArray, own: NDArray
+) -> NDArray[np.float64]:
+    """(3,) in the world the point that moments are about, before it is projected. own: the object's origin."""
+    if about == "center":
+        return centroid
+    if about in ("origin", "world"):
+        return own if about == "origin" else np.zeros(3)
+    return location + axes @ (np.zeros(3) if about is None else np.asarray(about, np.float64))
+
+
+def _by_powers(values: NDArray[np.float64], order: int) -> dict[str, float]:
+    """Numbers by the exponents of x and y, as "p,q"."""
+    powers, positions = multi_indices(2, order).tolist(), plane_positions(order)
+    return {"{},{}".format(p, q): value for (p, q), value in zip(powers, values[positions].tolist())}

@@ -1,0 +1,83 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The results of measuring one object: the numbers, how they came about and how far they hold."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..inertia.mass_properties import MassProperties
+from ..moments.moments import Measure, Moments
+from ..verdict.finding import Finding, finding
+from ..verdict.health import MeshHealth
+from ..verdict.method import Method
+
+# where a density came from that is the same everywhere
+UNIFORM_DENSITIES = DENSITY_FROM_VALUE, DENSITY_FROM_MASS = finding("density_from_value"), finding("density_from_mass")
+
+
+@dataclass(frozen=True, eq=False)
+class Measurement:
+    """One object in SI units and world axes.
+
+    kind: "solid", "shell" or "wire". method: the verdict, and what it is about: polygons, B-spline patches measured
+        instead of their display mesh, or a grid.
+    density in kg/m³, thickness of a shell in m (0 for solids), volume in m³ (of a shell: area times thickness), area
+    in m².
+    volume_moments: to order 3, None for a thin shell; area_moments: to order 3 for a shell, else order 0; both to a
+        higher order where that was asked for.
+    mass_moments: the moments that carry the mass, and the mass in kg per unit of them.
+    higher_mass: where the density is not one number, its moments in kg to the order that was asked for, above third.
+    rotation, location: (3, 3) and (3,) the object frame, its unit scale.
+    error_bound: absolute bounds "volume", "area", "center_of_mass", "inertia" of rounding, and the same under "input"
+        for what storing coordinates as float32 may have moved; "estimated": True where the former are estimates.
+    findings: the decisions taken on the way.
+    fingerprint: of what the numbers were computed from.
+    length: of a wire, m, whose density in kg/m is its mass by that and whose `density` is 0; else None.
+    display_volume: what the display mesh of B-spline patches would have given, m³; None where none was asked.
+    density_from: where the density came from, with a code `density_from_…`. materials: names of those that were looked
+        at for it.
+    """
+
+    name: str
+    type: str
+    kind: str
+    method: Method
+    density: float
+    thickness: float
+    volume: float
+    area: float
+    mass_properties: MassProperties
+    volume_moments: Moments | None
+    area_moments: Moments
+    mass_moments: tuple[Moments, float]
+    health: MeshHealth
+    findings: tuple[Finding, ...]
+    rotation: NDArray[np.float64]
+    location: NDArray[np.float64]
+    error_bound: dict
+    fingerprint: str
+    density_from: Finding = DENSITY_FROM_VALUE
+    materials: tuple[str, ...] = ()
+    length: float | None = None
+    display_volume: float | None = None
+    higher_mass: Moments | None = None
+
+    def moments_of_mass(self, order: int) -> Moments | None:
+        """The moments of the mass, kg, to an order; None where they are not known to that."""
+        moments, factor = self.mass_moments
+        if order <= moments.order:
+            return replace(moments.truncate(order), measure=Measure.MASS) * factor
+        if self.higher_mass is not None:
+            return self.higher_mass.truncate(order)
+        extent = self.area_moments if self.volume_moments is None else self.volume_moments
+        if self.density_from not in UNIFORM_DENSITIES or self.length is not None or extent.order < order:
+            return None
+        return replace(extent.truncate(order), measure=Measure.MASS) * factor
+
+    def in_object_frame(self) -> MassProperties:
+        """The mass properties in the object's own frame."""
+        return self.mass_properties.in_frame(self.rotation, self.location)

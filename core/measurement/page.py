@@ -1,0 +1,185 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Documents as one HTML file that needs no network: a table of all bodies to sort and to filter, with pictures.
+
+Standard library only. Everything that comes from files is escaped, and the page's own policy lets no script run but
+its own.
+"""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+import html
+import math
+import re
+from collections import Counter
+from collections.abc import Iterable, Iterator, Sequence
+from typing import Any
+
+from .plain_text import counted, visible
+
+_PICTURE = re.compile(r"data:image/png;base64,[A-Za-z0-9+/=]+")
+_COLUMNS = (
+    *(("picture", ""), ("file", "File"), ("name", "Name"), ("status", "Status"), ("method", "Method")),
+    *(("mass", "Mass, kg"), ("volume", "Volume, m³"), ("area", "Area, m²"), ("size", "Gyration, m")),
+    *(("bound", "Bound, of volume"), ("remarks", "Remarks")),
+)
+_NUMERIC = {"mass", "volume", "area", "size", "bound"}
+_STYLE = """
+:root{color-scheme:light dark}
+body{font:14px/1.4 system-ui,sans-serif;margin:1.5rem}
+h1{font-size:1.3rem;margin:0 0 .3rem}
+p{margin:.3rem 0}
+input,select{font:inherit;padding:.2rem .4rem;margin-right:.5rem}
+table{border-collapse:collapse;margin-top:1rem;width:100%}
+th,td{text-align:left;vertical-align:top;padding:.3rem .6rem;border-bottom:1px solid #8884;overflow-wrap:anywhere}
+th{white-space:nowrap;position:sticky;top:0;background:Canvas}
+th button{font:inherit;font-weight:600;border:0;background:none;color:inherit;padding:0;cursor:pointer}
+th[aria-sort=ascending] button::after{content:" \\25b2"}
+th[aria-sort=descending] button::after{content:" \\25bc"}
+td.number{text-align:right;font-variant-numeric:tabular-nums;white-space:nowrap}
+td{min-width:4rem}td:nth-child(2){min-width:9rem}
+td img,td svg{width:96px;height:96px;display:block}
+.crashed,.timeout,.memory,.error,.missing,.unsupported_version{color:#c33;font-weight:600}
+.warning{color:#a60}
+"""
+_SCRIPT = """
+"use strict";
+const body=document.querySelector("tbody"),rows=[...body.rows],count=document.getElementById("count");
+const text=document.getElementById("text"),status=document.getElementById("status");
+function filter(){
+  const words=text.value.toLowerCase().split(/\\s+/).filter(Boolean);let shown=0;
+  for(const row of rows){
+    const has=words.every(word=>row.dataset.text.includes(word));
+    const hidden=!has||status.value&&row.dataset.status!==status.value;
+    row.hidden=hidden;if(!hidden)shown++;
+  }
+  count.textContent=shown+" of "+rows.length;
+}
+function sort(head,index){
+  const down=head.getAttribute("aria-sort")==="ascending";
+  for(const other of head.parentNode.cells)other.removeAttribute("aria-sort");
+  head.setAttribute("aria-sort",down?"descending":"ascending");
+  const number=head.dataset.kind==="number",sign=down?-1:1;
+  const key=row=>row.cells[index].dataset.key;
+  rows.sort((a,b)=>{
+    const x=key(a),y=key(b);
+    if(number){
+      if(x===""||y==="")return (x==="")-(y==="");
+      return sign*(Number(x)-Number(y));
+    }
+    return sign*x.localeCompare(y,undefined,{numeric:true});
+  });
+  body.append(...rows);
+}
+document.querySelectorAll("th").forEach((head,index)=>{
+  const button=head.querySelector("button");
+  if(button)button.addEventListener("click",()=>sort(head,index));
+});
+text.addEventListener("input",filter);status.addEventListener("change",filter);filter();
+"""
+
+
+def to_html(documents: Iterable[dict[str, Any]]) -> Iterator[str]:
+    """The page in pieces. documents: gone through twice."""
+    statuses = Counter(document["status"] for document in documents)
+    digest = base64.b64encode(hashlib.sha256(_SCRIPT.encode()).digest()).decode()
+    policy = "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'sha256-{}'".format(digest)
+    yield '<!doctype html><!-- Body Moments: report -->\n<html lang="en"><head><meta charset="utf-8">\n'
+    yield '<meta http-equiv="Content-Security-Policy" content="{}">\n'.format(policy)
+    yield "<title>Body Moments</title><style>{}</style></head><body>\n".format(_STYLE)
+    counts = ", ".join("{} {}".format(number, status) for status, number in statuses.most_common())
+    yield "<h1>Body Moments</h1><p>{}: {}. All numbers are SI.</p>\n".format(
+        counted(statuses.total(), "file"), counts or "-"
+    )
+    yield '<p><input id="text" type="search" placeholder="Filter" aria-label="Filter">'
+    yield '<select id="status" aria-label="Status"><option value="">All statuses</option>'
+    yield from ("<option>{}</option>".format(html.escape(status)) for status in sorted(statuses))
+    yield '</select><span id="count"></span></p>\n<table><thead><tr>'
+    for name, title in _COLUMNS:
+        kind = ' data-kind="number"' if name in _NUMERIC else ""
+        yield "<th{}>{}</th>".format(kind, "<button>{}</button>".format(title) if title else "")
+    yield "</tr></thead><tbody>\n"
+    for document in documents:
+        yield from _rows(document)
+    yield "</tbody></table><script>{}</script></body></html>\n".format(_SCRIPT)
+
+
+def _rows(document: dict[str, Any]) -> Iterator[str]:
+    file, status = document["file"] or "", document["status"]
+    for entry in document["objects"]:
+        mass, moments = entry["mass"], entry["principal_moments"]
+        size = math.sqrt(sum(moments) / (2.0 * mass)) if mass and moments and None not in moments else None
+        bounds, volume = entry["error_bound"] or {}, entry["volume"]
+        known = [one for one in (bounds.get("volume"), (bounds.get("input") or {}).get("volume")) if one is not None]
+        values = {"mass": mass, "volume": volume, "area": entry["area"], "size": size}
+        values["bound"] = sum(known) / abs(volume) if known and volume else None
+        yield _row(_picture(entry), file, entry["name"], status, entry["method"], values, _remarks(entry))
+    for entry in document.get("flat", ()):
+        yield _row("", file, entry["name"], status, "flat", {"area": entry["area"]}, _remarks(entry))
+    for error in document["errors"]:
+        yield _row("", file, error["name"] or "", status, "", {}, [("error", error["reason"])])
+
+
+def _remarks(entry: dict[str, Any]) -> list[tuple[str, str]]:
+    return [("warning", text) for text in entry["warnings"]] + [("", text) for text in entry["notes"]]
+
+
+def _row(
+    picture: str,
+    file: str,
+    name: str,
+    status: str,
+    method: str,
+    values: dict[str, float | None],
+    remarks: Sequence[tuple[str, str]],
+) -> str:
+    words = " ".join([file, name, method, status, *(text for _, text in remarks)]).lower()
+    cells = ["<td>{}</td>".format(picture)]
+    for text, kind in ((file, ""), (name, ""), (status, status), (method, "")):
+        shown = html.escape(visible(text))
+        cells.append('<td class="{}" data-key="{}">{}</td>'.format(html.escape(kind), shown, shown))
+    for column in ("mass", "volume", "area", "size", "bound"):
+        value = values.get(column)
+        key, shown = ("", "") if value is None else (repr(value), "{:.6g}".format(value))
+        cells.append('<td class="number" data-key="{}">{}</td>'.format(key, shown))
+    said = "".join('<p class="{}">{}</p>'.format(kind, html.escape(visible(text))) for kind, text in remarks)
+    cells.append('<td data-key="{}">{}</td>'.format(len(remarks), said))
+    head = '<tr data-status="{}" data-text="{}">'.format(html.escape(status), html.escape(visible(words)))
+    return head + "".join(cells) + "</tr>\n"
+
+
+def _picture(entry: dict[str, Any]) -> str:
+    """The record's own picture, else the box of equal inertia with the principal axes."""
+    thumbnail = entry.get("thumbnail")
+    if isinstance(thumbnail, str) and _PICTURE.fullmatch(thumbnail):
+        return '<img alt="" src="{}">'.format(thumbnail)
+    mass, moments, axes = entry["mass"], entry["principal_moments"], entry["principal_axes"]
+    if not mass or not moments or None in moments or not axes:
+        return ""
+    half = sum(moments) / 2.0
+    sides = [math.sqrt(max(6.0 * (half - one) / mass, 0.0)) / 2.0 for one in moments]  # of a box, halved
+    scale = 40.0 / (max(sides) * 1.8 or 1.0)
+    columns = [[row[number] for row in axes] for number in range(3)]
+
+    def flat(point: Sequence[float]) -> str:
+        x, y, z = point
+        return "{:.2f},{:.2f}".format(0.8 * x - 0.6 * y, -(0.36 * x + 0.48 * y + 0.8 * z))
+
+    def along(*factors: float) -> list[float]:
+        return [sum(f * s * column[i] for f, s, column in zip(factors, sides, columns)) * scale for i in range(3)]
+
+    corners = {(a, b, c): flat(along(a, b, c)) for a in (-1, 1) for b in (-1, 1) for c in (-1, 1)}
+    edges = [
+        (one, other)
+        for one in corners
+        for other in corners
+        if one < other and sum(a != b for a, b in zip(one, other)) == 1
+    ]
+    lines = ["M{}L{}".format(corners[one], corners[other]) for one, other in edges]
+    shown = '<path d="{}" fill="none" stroke="#888"/>'.format("".join(lines))
+    for column, color in zip(columns, ("#d64040", "#48a048", "#4860d6")):
+        end = [42.0 * value for value in column]
+        shown += '<path d="M{}L{}" stroke="{}" stroke-width="2"/>'.format(flat([-v for v in end]), flat(end), color)
+    return '<svg viewBox="-50 -50 100 100">{}</svg>'.format(shown)

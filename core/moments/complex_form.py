@@ -1,0 +1,196 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Complex moments of plane shapes, and what of them does not change when a shape is turned.
+
+    c_pq = ∫ (x + iy)^p (x - iy)^q dA,    c_qp = conj(c_pq).
+
+Turned by θ a shape has c_pq exp(i(p-q)θ), and its mirror image has conj(c_pq). So products in which the p - q add up
+to zero are invariants, and a mirror image has their conjugates: imaginary parts distinguish hands. Flusser's basis
+(Pattern Recognition 33, 2000) is c_pq c_12^(p-q), from which all others follow where c_12 is not zero; Hu's seven
+(IRE Transactions on Information Theory 8, 1962) are |c_20|², |c_30|² and such, to third order.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..numerics.arguments import check_type, float_array
+from .exponents import monomial_index
+from .moments import Moments, U
+from .solid_harmonics import circular_coefficients
+
+SUPERSCRIPTS = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
+SUM_ROUNDINGS = 8  # u, beside one for each term, that a sum of a few products may be off by
+
+
+@dataclass(frozen=True)
+class ComplexBound:
+    """A complex number and a bound of its error. They multiply as numbers do."""
+
+    value: complex
+    bound: float
+
+    def __mul__(self, other: ComplexBound) -> ComplexBound:
+        value, a, b = self.value * other.value, abs(self.value), abs(other.value)
+        return ComplexBound(value, a * other.bound + b * self.bound + self.bound * other.bound + 4.0 * U * a * b)
+
+    def conjugate(self) -> ComplexBound:
+        """That of the mirror image."""
+        return ComplexBound(self.value.conjugate(), self.bound)
+
+    def power(self, exponent: int) -> ComplexBound:
+        """A natural power."""
+        product = ComplexBound(1.0 + 0.0j, 0.0)
+        for _ in range(exponent):
+            product = product * self
+        return product
+
+
+@dataclass(frozen=True)
+class Invariant:
+    """A number that does not change when a shape is turned: `name`, the largest `degree` of the moments in it, `value`,
+    whether it `is_complex`, and bounds of what rounding, and storing coordinates as float32, may have changed."""
+
+    name: str
+    degree: int
+    value: complex
+    rounding_error: float
+    input_error: float
+    is_complex: bool = False
+
+
+def complex_moments(moments: Moments, bounds: NDArray | None = None) -> dict[tuple[int, int], ComplexBound]:
+    """Return c_pq for p ≥ q of a plane shape.
+
+    Parameters
+    ----------
+    moments : Moments
+        Of a shape in the plane z = 0, about a point of it.
+    bounds : (K,) array, optional
+        Of their errors, by default those of rounding.
+
+    Returns
+    -------
+    dict of (p, q) to ComplexBound
+
+    Examples
+    --------
+    >>> from body_moments.core.moments import Moments, complex_moments
+    >>> square = Moments(np.array([4.0, 0, 0, 0, 4 / 3, 0, 0, 4 / 3, 0, 0]), np.zeros(3), "area")
+    >>> found = complex_moments(square)
+    >>> found[2, 0].value, round(found[1, 1].value.real, 9)
+    (0j, 2.666666667)
+    """
+    check_type("moments", moments, Moments)
+    bounds = moments.rounding_error if bounds is None else float_array("bounds", bounds, len(moments))
+    found = {}
+    for (p, q), positions, factors in _expansions(moments.order):
+        terms = factors * moments.raw[positions]
+        off = float((np.abs(factors) * bounds[positions]).sum())
+        off += (SUM_ROUNDINGS + len(factors)) * U * float(np.abs(terms).sum())
+        found[p, q] = ComplexBound(complex(terms.sum()), off)
+    return found
+
+
+@lru_cache
+def _expansions(order: int) -> list[tuple[tuple[int, int], NDArray[np.int64], NDArray[np.complex128]]]:
+    """For each (p, q), p ≥ q, by degree: where the real moments stand that it consists of, and their factors."""
+    expansions = []
+    for n in range(order + 1):
+        for q in range(n // 2 + 1):
+            factors = np.array(circular_coefficients(n - q, q))
+            (kept,) = np.nonzero(factors)
+            expansions.append(((n - q, q), monomial_index(n - kept, kept, 0 * kept), factors[kept]))
+    return expansions
+
+
+def hu_invariants(moments: Moments) -> list[Invariant]:
+    """Return Hu's seven invariants; the last has the opposite sign for a mirror image.
+
+    Parameters
+    ----------
+    moments : Moments
+        Of a plane shape, normalized (`normalize`), to third order at least.
+
+    Returns
+    -------
+    list of Invariant
+        φ1 to φ7.
+
+    Examples
+    --------
+    >>> from body_moments.core.moments import normalize
+    >>> from body_moments.core.moments.complex_form import hu_invariants
+    >>> from body_moments.core.flat import directed_edges, region_moments
+    >>> square = region_moments([[0, 0], [3, 0], [3, 3], [0, 3]], directed_edges([range(4)]), 3)
+    >>> [round(one.value.real, 9) for one in hu_invariants(normalize(square))][:2]
+    [0.166666667, 0.0]
+    """
+
+    def products(bounds: NDArray) -> list[ComplexBound]:
+        c = complex_moments(moments.truncate(3), bounds[: len(moments.truncate(3).raw)])
+        c20, c30, c21 = c[2, 0], c[3, 0], c[2, 1]
+        c12 = c21.conjugate()
+        cubed = c30 * c12.power(3)
+        pairs = [c[1, 1], c20 * c20.conjugate(), c30 * c30.conjugate(), c21 * c12]
+        return [*pairs, cubed, c20 * c12.power(2), ComplexBound(-1j * cubed.value, cubed.bound)]
+
+    return [
+        Invariant(
+            "φ{:d}".format(i + 1), 2 if i < 2 else 3, complex(own.value.real), own.bound, with_input.bound - own.bound
+        )
+        for i, (own, with_input) in enumerate(_both(moments, products))
+    ]
+
+
+def flusser_invariants(moments: Moments) -> list[Invariant]:
+    """Return Flusser's basis c_pq c_12^(p-q), p ≥ q, from second order on: a mirror image has its conjugates.
+
+    Parameters
+    ----------
+    moments : Moments
+        Of a plane shape, normalized (`normalize`), to third order at least.
+
+    Returns
+    -------
+    list of Invariant
+        By degree. For a shape with a rotational symmetry c_12 is zero, and with it all but those with p = q.
+
+    Examples
+    --------
+    >>> from body_moments.core.moments import normalize
+    >>> from body_moments.core.moments.complex_form import flusser_invariants
+    >>> from body_moments.core.flat import directed_edges, region_moments
+    >>> square = region_moments([[0, 0], [3, 0], [3, 3], [0, 3]], directed_edges([range(4)]), 3)
+    >>> flusser_invariants(normalize(square))[0].name
+    'c20 c12²'
+    """
+    names = [(p, q) for (p, q), *_ in _expansions(moments.order) if p + q > 1]
+
+    def products(bounds: NDArray) -> list[ComplexBound]:
+        c = complex_moments(moments, bounds)
+        c12 = c[2, 1].conjugate()
+        return [c[p, q] * c12.power(p - q) for p, q in names]
+
+    return [
+        Invariant(
+            _name(p, q), max(p + q, 2 if p == q else 3), own.value, own.bound, with_input.bound - own.bound, p > q
+        )
+        for (p, q), (own, with_input) in zip(names, _both(moments, products))
+    ]
+
+
+def _both(moments: Moments, products) -> list[tuple[ComplexBound, ComplexBound]]:
+    """The same with the bounds of rounding alone, and with those of the input beside them."""
+    return list(zip(products(moments.rounding_error), products(moments.rounding_error + moments.input_error)))
+
+
+def _name(p: int, q: int) -> str:
+    """c11, c20 c12², or c10,3 c12⁷: with a comma where the digits would run together."""
+    first = "c{:d}{:s}{:d}".format(p, "," if p > 9 else "", q)
+    power = "" if p - q == 1 else str(p - q).translate(SUPERSCRIPTS)
+    return first if p == q else "{:s} c12{:s}".format(first, power)

@@ -1,0 +1,185 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A closed surface cut into closed pieces, one for each bone.
+
+The faces of a bone are bounded by the edges that they share with other bones' faces. Where such cut edges meet,
+however many bones do, they belong to one cut; each is closed to one apex, the cut's own centroid. Each bone gets the
+cone on its side of every edge, so that every piece is closed, the cones of neighbors cancel, and the pieces add up to
+the whole: exactly, as chains of oriented triangles, and triple junctions are no exception.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..mesh.surface import Surface
+from ..moments.moments import Moments
+from ..numerics.arguments import float_array, index_array, number_array
+from ..numerics.graph import connected_components
+from ..polyhedron.integration import polyhedron_moments
+
+NO_BONE = -1
+
+
+@dataclass(frozen=True, eq=False)
+class BonePiece:
+    """What goes with one bone: a closed surface.
+
+    Attributes
+    ----------
+    bone : int
+    surface : Surface
+        Its faces, and the cones that close it, in float64.
+    face_count : int
+        How many of its triangles, the first ones, are faces.
+
+    Examples
+    --------
+    >>> from body_moments.core import Surface
+    >>> from body_moments.core.rig import bone_pieces
+    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    >>> pieces = bone_pieces(surface.points, surface.triangles, np.array([0, 1, 1, 1]))
+    >>> [(piece.bone, piece.face_count, len(piece.surface.triangles)) for piece in pieces]
+    [(0, 1, 4), (1, 3, 6)]
+    >>> round(sum(piece.moments().total for piece in pieces) * 6, 12)
+    1.0
+    """
+
+    bone: int
+    surface: Surface
+    face_count: int
+
+    def moments(self, order: int = 3) -> Moments:
+        """Return the moments of its volume, about the middle of its bounding box in the surface's coordinates."""
+        return polyhedron_moments(self.surface, order, exact=True)[0]
+
+
+def bone_pieces(
+    points: NDArray[np.floating],
+    triangles: NDArray[np.integer],
+    bone: NDArray[np.integer],
+    displacement: NDArray | None = None,
+) -> list[BonePiece]:
+    """Cut a closed surface into closed pieces.
+
+    Parameters
+    ----------
+    points : (n, 3) array
+    triangles : (t, 3) integer array
+        Outward faces counter-clockwise.
+    bone : (t,) integer array
+        The bone of each, not negative.
+    displacement : (3,) array, optional
+        By how much storing the coordinates may have moved them.
+
+    Returns
+    -------
+    list of BonePiece
+        By bone, those that have triangles.
+
+    Examples
+    --------
+    >>> from body_moments.core.rig import bone_pieces
+    >>> points, triangles = np.eye(4, 3, -1), np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    >>> len(bone_pieces(points, triangles, np.zeros(4, int)))
+    1
+    """
+    points = float_array("points", points, "n", 3)
+    triangles = index_array("triangles", triangles, "t", 3, count=len(points))
+    bone = index_array("bone", bone, len(triangles))
+    owner, start, stop = _cut_edges(len(points), triangles, bone)
+    cut, apexes = _apexes(points, start, stop)
+    corners = np.concatenate([triangles, np.stack([stop, start, len(points) + cut], axis=1)])
+    labels = np.concatenate([bone, owner])
+    points = np.concatenate([points, apexes])
+    order = np.argsort(labels, kind="stable")
+    bones, starts = np.unique(labels[order], return_index=True)
+    faces = np.bincount(bone)
+    pieces = []
+    for one, rows in zip(bones.tolist(), np.split(order, starts[1:])):
+        used, local = np.unique(corners[rows], return_inverse=True)
+        surface = Surface(points[used], local.reshape(-1, 3), displacement=displacement)
+        pieces.append(BonePiece(one, surface, int(faces[one])))
+    return pieces
+
+
+def bones_of_caps(
+    triangles: NDArray[np.integer], is_cap: NDArray[np.bool_], bone: NDArray[np.integer]
+) -> NDArray[np.intp]:
+    """Give the triangles that close holes the bones of the faces beside them.
+
+    Parameters
+    ----------
+    triangles : (t, 3) integer array
+    is_cap : (t,) bool array
+    bone : (t,) integer array
+        That of each face; what stands at caps is not used.
+
+    Returns
+    -------
+    (t,) integer array
+        The bone of each triangle.
+
+    Examples
+    --------
+    >>> from body_moments.core.rig import bones_of_caps
+    >>> triangles = np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    >>> bones_of_caps(triangles, np.array([False, False, False, True]), np.array([5, 5, 5, 0])).tolist()
+    [5, 5, 5, 5]
+    """
+    triangles = index_array("triangles", triangles, "t", 3)
+    is_cap = number_array("is_cap", is_cap, len(triangles)).astype(bool)
+    bone = index_array("bone", bone, len(triangles))
+    result = np.where(is_cap, NO_BONE, bone)
+    side_start, side_stop = triangles.ravel(), np.roll(triangles, -1, axis=1).ravel()
+    sides = np.minimum(side_start, side_stop), np.maximum(side_start, side_stop)
+    key = np.ravel_multi_index(sides, (int(triangles.max(initial=0)) + 1,) * 2)
+    edge = np.unique(key, return_inverse=True)[1].reshape(-1, 3)
+    while (result == NO_BONE).any():
+        known = result != NO_BONE
+        of_edge = np.full(int(edge.max()) + 1, NO_BONE)
+        of_edge[edge[known].ravel()] = np.repeat(result[known], 3)
+        found = of_edge[edge[~known]].max(axis=1)
+        if (found == NO_BONE).all():  # what touches nothing goes with the bone of most faces
+            found[:] = np.bincount(bone[~is_cap], minlength=1).argmax()
+        result[~known] = found
+    return result
+
+
+def _cut_edges(
+    count: int, triangles: NDArray[np.integer], bone: NDArray[np.integer]
+) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.intp]]:
+    """What bounds each bone's triangles: (k,) bones, and the vertices from which and to which the edges run, each as
+    often as it is left over."""
+    start = triangles.ravel().astype(np.int64)
+    stop = np.roll(triangles, -1, axis=1).ravel().astype(np.int64)
+    shape = int(bone.max(initial=0)) + 1, count, count
+    key = np.ravel_multi_index((np.repeat(bone, 3), np.minimum(start, stop), np.maximum(start, stop)), shape)
+    edges, place = np.unique(key, return_inverse=True)
+    left = np.bincount(place, np.where(start < stop, 1.0, -1.0)).astype(np.intp)
+    owner, low, high = np.unravel_index(np.repeat(edges, np.abs(left)), shape)
+    forward = np.repeat(left, np.abs(left)) > 0
+    return owner, np.where(forward, low, high), np.where(forward, high, low)
+
+
+def _apexes(
+    points: NDArray[np.float64], start: NDArray[np.intp], stop: NDArray[np.intp]
+) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
+    """The cut that each edge belongs to, and (c, 3) the centroids of the cuts' edges."""
+    if not len(start):
+        return np.zeros(0, np.intp), np.zeros((0, 3))
+    vertices, ends = np.unique(np.concatenate([start, stop]), return_inverse=True)
+    first, last = ends.reshape(2, -1)
+    cut = connected_components(len(vertices), first, last)[0][first]
+    # each edge once, however many bones it is between
+    edges = np.unique(np.stack([np.minimum(start, stop), np.maximum(start, stop), cut], axis=1), axis=0)
+    begin, end = points[edges[:, 0]], points[edges[:, 1]]
+    origin = points[vertices].mean(axis=0)  # far from the world's origin, digits would be lost
+    length = np.maximum(np.linalg.norm(end - begin, axis=1), np.finfo(float).tiny)
+    weight = np.bincount(edges[:, 2], length)
+    middle = (begin - origin + (end - origin)) / 2.0
+    sums = np.stack([np.bincount(edges[:, 2], length * middle[:, k]) for k in range(3)], axis=1)
+    return cut, origin + sums / weight[:, None]

@@ -1,0 +1,268 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Robot descriptions judged by their own geometry: what their links state, beside what their meshes measure."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field, replace
+from math import inf, pi, radians
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...blender.bodies.body import KNOWN_ORDER
+from ..inertia.mass_properties import combine
+from ..mesh.surface import Surface
+from ..moments.moments import SECOND_MOMENT_INDEX, Measure, Moments, monomial_count
+from ..solid.measure import measure_solid
+from ..verdict.finding import FileError, Finding, MeasureError, finding
+from ..verdict.method import Verdict
+from .diagnosis import OF_GEOMETRY, Reference, diagnose
+from .model import Pose, Shape
+from .plausibility import Hull, impossible
+from .read.meshes import read_mesh
+from .read.paths import Roots
+from .stated import Description, StatedInertial, StatedLink, StatedShape, rotation_of_angles
+
+ROUND = 1.01  # what holds all of a round shape, whose points are only some of it
+RELIABLE = (Verdict.EXACT, Verdict.REORIENTED, Verdict.CAPPED)
+
+
+@dataclass(frozen=True, eq=False)
+class LinkAudit:
+    """What was found of one link. repaired: what its inertial should be, None where it stays."""
+
+    link: StatedLink
+    findings: tuple[Finding, ...]
+    repaired: StatedInertial | None = None
+    density: float | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Audit:
+    """What was found of a description."""
+
+    description: Description
+    links: tuple[LinkAudit, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class _Piece:
+    """A shape that was measured, in its own coordinates: points of its hull, and moments of its volume where they are
+    certain. upright: the rotation that its file asks for, where another axis than z is up."""
+
+    points: NDArray[np.float64]
+    moments: Moments | None
+    upright: NDArray[np.float64] | None = None
+
+    def turned(self) -> _Piece:
+        """It with the axis up that its file says."""
+        if self.upright is None:
+            return self
+        moments = None if self.moments is None else self.moments.transform(_matrix(Pose(np.zeros(3), self.upright)))
+        return _Piece(self.points @ self.upright.T, moments)
+
+
+Pieces = dict[str, list[tuple[StatedShape, _Piece]]]
+
+
+@dataclass(frozen=True, eq=False)
+class _Judgment:
+    """What an inertial is beside some geometry. apart: how far from it filled evenly."""
+
+    findings: list[Finding]
+    impossible: bool
+    repaired: StatedInertial | None = None
+    density: float | None = None
+    apart: float = inf
+
+
+@dataclass
+class Auditor:
+    """Judges descriptions; a mesh is measured once, however many links name it."""
+
+    roots: Roots
+    _meshes: dict[tuple, _Piece | Finding] = field(default_factory=dict)
+
+    def audit(self, description: Description) -> Audit:
+        """Return what is wrong with each link of a description.
+
+        Parameters
+        ----------
+        description : Description
+
+        Returns
+        -------
+        Audit
+        """
+        return Audit(description, tuple(self._link(link) for link in description.links))
+
+    def _link(self, link: StatedLink) -> LinkAudit:
+        findings = list(link.findings)
+        if link.inertial is None:
+            if link.moves and not findings:
+                findings.append(finding("inertial_missing"))
+            return LinkAudit(link, tuple(findings))
+        if not link.shapes and not link.inertial.mass and not link.inertial.tensor.any():
+            return LinkAudit(link, (*findings, finding("inertial_of_frame")))
+        pieces, unread = self._pieces(link.shapes)
+        findings += unread
+        found = _judge(link.inertial, pieces, bool(unread))
+        if any(piece.upright is not None for several in pieces.values() for _, piece in several):
+            turned = {role: [(one, piece.turned()) for one, piece in several] for role, several in pieces.items()}
+            other = _judge(link.inertial, turned, bool(unread))
+            if (other.impossible, 2.0 * other.apart) < (found.impossible, found.apart):
+                found = other
+                findings.append(finding("audit_up_axis"))
+        return LinkAudit(link, (*findings, *found.findings), found.repaired, found.density)
+
+    def _pieces(self, shapes: Iterable[StatedShape]) -> tuple[Pieces, list[Finding]]:
+        """The shapes by their roles, and why others could not be measured."""
+        pieces: Pieces = {}
+        unread: list[Finding] = []
+        for stated in shapes:
+            try:
+                piece = self._piece(stated)
+            except MeasureError as error:
+                if error.finding not in unread:
+                    unread.append(error.finding)
+                continue
+            pieces.setdefault(stated.role, []).append((stated, piece))
+        return pieces, unread
+
+    def _piece(self, stated: StatedShape) -> _Piece:
+        """In the coordinates of the shape itself."""
+        shape = stated.shape
+        if shape.kind != "mesh":
+            return _primitive(shape)
+        if stated.points is not None and stated.triangles is not None:
+            return _measured(Surface.from_triangles(stated.points, stated.triangles))
+        key = shape.file, shape.size
+        if key not in self._meshes:
+            try:
+                surface, upright = read_mesh(self.roots.find(shape.file))
+            except FileError as error:
+                self._meshes[key] = error.finding
+            else:
+                self._meshes[key] = _measured(surface.transform(np.diag(shape.size)), upright)
+        known = self._meshes[key]
+        if isinstance(known, Finding):
+            raise FileError(known)
+        return known
+
+
+def _judge(stated: StatedInertial, pieces: Pieces, incomplete: bool) -> _Judgment:
+    """An inertial beside its geometry. incomplete: whether some of that could not be read, and shows nothing."""
+    points = [
+        piece.points @ one.shape.pose.rotation.T + one.shape.pose.position
+        for several in pieces.values()
+        for one, piece in several
+    ]
+    findings = impossible(stated, Hull(np.concatenate(points)) if points and not incomplete else None)
+    if any(one.code in ("inertial_not_finite", "inertial_mass_not_positive") for one in findings):
+        return _Judgment(findings, True)
+    references = [] if incomplete else [made for several in pieces.values() if (made := _reference(several))]
+    diagnosis = diagnose(stated, references, [] if incomplete else _turned(pieces))
+    wrong = any(one.code != "inertial_triangle_slightly" for one in findings)
+    repaired, by_geometry = None, False
+    if diagnosis is not None:
+        findings.append(diagnosis.finding)
+        repaired, by_geometry = diagnosis.repaired, diagnosis.finding.code in OF_GEOMETRY
+    if not references:
+        return _Judgment(findings, wrong, repaired)
+    if wrong and repaired is None and not by_geometry:
+        repaired = references[0].uniform(stated.mass)
+        findings.append(finding("audit_uniform_instead"))
+    apart = min(reference.of(stated) for reference in references)
+    return _Judgment(findings, wrong, repaired, stated.mass / references[0].volume, apart)
+
+
+def _measured(surface: Surface, upright: NDArray | None = None) -> _Piece:
+    """A surface with the moments of what it bounds, where that is certain."""
+    points = np.asarray(surface.points, np.float64)
+    try:
+        solid = measure_solid(surface)
+    except MeasureError:
+        return _Piece(points, None, upright)
+    certain = Verdict(solid.method) in RELIABLE and solid.volume.raw[0] > 0.0
+    return _Piece(points, solid.volume if certain else None, upright)
+
+
+def _reference(pieces: Sequence[tuple[StatedShape, _Piece]]) -> Reference | None:
+    """All shapes of a role, filled evenly; None where one of them bounds nothing certain."""
+    placed = []
+    for stated, piece in pieces:
+        if piece.moments is None:
+            return None
+        placed.append((piece.moments.transform(_matrix(stated.shape.pose)), 1.0))
+    try:
+        whole = combine(placed)
+    except MeasureError:
+        return None
+    origins = tuple(stated.shape.pose.position for stated, _ in pieces)
+    return Reference(whole.mass, whole.center, whole.inertia / whole.mass, origins)
+
+
+def _turned(pieces: Pieces) -> list[tuple[Finding, Reference]]:
+    """What the geometry would be, were the angles of its shapes stated in degrees."""
+    result = []
+    for found in pieces.values():
+        if any(stated.angles is not None and any(stated.angles) for stated, _ in found):
+            turned = []
+            for stated, piece in found:
+                pose = stated.shape.pose
+                if stated.angles is not None:
+                    pose = Pose(pose.position, rotation_of_angles(*map(radians, stated.angles)))
+                turned.append((replace(stated, shape=replace(stated.shape, pose=pose)), piece))
+            reference = _reference(turned)
+            if reference is not None:
+                result.append((finding("audit_shape_angles_in_degrees"), reference))
+    return result
+
+
+def _matrix(pose: Pose) -> NDArray[np.float64]:
+    matrix = np.eye(4)
+    matrix[:3, :3], matrix[:3, 3] = pose.rotation, pose.position
+    return matrix
+
+
+def _primitive(shape: Shape) -> _Piece:
+    """A primitive in its own frame: volume, ∫x² dV along its axes, and points around it."""
+    if shape.kind == "box":
+        sides = np.array(shape.size)
+        corners = np.array([[x, y, z] for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)]) * sides
+        volume = float(sides.prod())
+        return _Piece(corners, _moments(volume, volume * sides * sides / 12.0))
+    if shape.kind in ("sphere", "ellipsoid"):
+        axes = np.array(shape.size * 3 if shape.kind == "sphere" else shape.size)
+        volume = 4.0 / 3.0 * pi * float(axes.prod())
+        return _Piece(_ball() * axes * ROUND, _moments(volume, volume * axes * axes / 5.0))
+    radius, length = shape.size
+    turn = np.linspace(0.0, 2.0 * pi, 48, endpoint=False)
+    ring = np.stack([np.cos(turn), np.sin(turn), np.zeros_like(turn)], axis=1) * radius * ROUND
+    end = np.array([0.0, 0.0, length / 2.0])
+    volume, across = pi * radius**2 * length, pi * radius**4 * length / 4.0
+    along = pi * radius**2 * length**3 / 12.0
+    points = np.concatenate([ring + end, ring - end])
+    if shape.kind == "capsule":
+        volume += 4.0 / 3.0 * pi * radius**3
+        across += 4.0 / 15.0 * pi * radius**5
+        along += pi * radius**3 * (4.0 / 15.0 * radius**2 + length * radius / 2.0 + length**2 / 3.0)
+        ball = _ball() * radius * ROUND
+        points = np.concatenate([ball + end, ball - end])
+    return _Piece(points, _moments(volume, np.array([across, across, along])))
+
+
+def _ball() -> NDArray[np.float64]:
+    index = np.arange(2000) + 0.5
+    height, turn = 1.0 - index / 1000.0, index * pi * (1.0 + 5.0**0.5)
+    across = np.sqrt(1.0 - height * height)
+    return np.stack([across * np.cos(turn), across * np.sin(turn), height], axis=1).astype(np.float64, copy=False)
+
+
+def _moments(volume: float, second: NDArray) -> Moments:
+    raw = np.zeros(monomial_count(KNOWN_ORDER))
+    raw[0] = volume
+    raw[np.diag(SECOND_MOMENT_INDEX)] = second
+    return Moments(raw, np.zeros(3), Measure.VOLUME)

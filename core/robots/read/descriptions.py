@@ -1,0 +1,122 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A file of a robot as a description, by what is in it."""
+
+from __future__ import annotations
+
+import codecs
+import re
+import stat
+from pathlib import Path
+
+from ...verdict.finding import FileError, system_reason
+from ..stated import Description
+from . import mjcf, sdf, urdf, usda
+from .limits import MAX_DESCRIPTION, MAX_LINKS
+from .paths import Roots
+from .xml import NOWHERE, Node, parse
+
+ROOTS = {"robot": urdf.read, "sdf": sdf.read, "mujoco": mjcf.read}
+_WIDE = {codecs.BOM_UTF16_LE: "utf-16", codecs.BOM_UTF16_BE: "utf-16", b"<\0": "utf-16-le", b"\0<": "utf-16-be"}
+_ENCODING = re.compile(r"""^(<\?xml\b[^>]*?)\s+encoding\s*=\s*["'][\w.-]*["']""")
+SUFFIXES = (".urdf", ".sdf", ".xml", ".usda", ".usd", ".world")
+
+
+def read_description(path: Path, roots: Roots | None = None) -> Description:
+    """Return what a file states of a robot.
+
+    Parameters
+    ----------
+    path : Path
+    roots : Roots, optional
+        Where files that it includes may be, by default where its meshes may.
+
+    Returns
+    -------
+    Description
+
+    Raises
+    ------
+    FileError
+        Where it is none, or is refused.
+    """
+    data = _bytes(path)
+    description = usda.read(data) if data.startswith(b"#usda") else _xml(data, roots or Roots.of(path))
+    if len(description.links) > MAX_LINKS:
+        raise FileError("description_too_large", limit=MAX_DESCRIPTION >> 20)
+    if not description.links:
+        raise FileError("description_without_links")
+    return description
+
+
+def _bytes(path: Path) -> bytes:
+    try:
+        if not stat.S_ISREG(path.stat().st_mode):
+            raise FileError("file_not_regular")
+        with open(path, "rb") as file:
+            data = file.read(MAX_DESCRIPTION + 1)
+    except FileNotFoundError as error:
+        raise FileError("file_missing") from error
+    except OSError as error:
+        raise FileError("file_unreadable", error=system_reason(error)) from error
+    if len(data) > MAX_DESCRIPTION:
+        raise FileError("description_too_large", limit=MAX_DESCRIPTION >> 20)
+    return data
+
+
+def _xml(data: bytes, roots: Roots) -> Description:
+    if data.startswith((b"PXR-USDC", b"PK")):
+        raise FileError("usd_not_text")
+    data = _narrow(data)
+    root = parse(data)
+    if root.tag not in ROOTS:
+        raise FileError("description_unknown", tag=root.tag)
+    if root.tag == "mujoco":
+        _include(root, roots)
+    return ROOTS[root.tag](root, data)
+
+
+def _narrow(data: bytes) -> bytes:
+    """XML of two bytes a character as UTF-8, so that what is repaired can be put among its bytes."""
+    wide = next((name for start, name in _WIDE.items() if data.startswith(start)), None)
+    if wide is None:
+        return data
+    try:
+        return _ENCODING.sub(r"\1", data.decode(wide)).encode()
+    except UnicodeError as error:
+        raise FileError("xml_invalid", error=str(error)) from error
+
+
+def _include(root: Node, roots: Roots) -> None:
+    """Put the elements of the files that an MJCF model includes in the place of each `include`. They have no place in
+    the model's own file, so what they state is judged and not repaired."""
+    included, left = set(), MAX_DESCRIPTION
+    waiting = [root]
+    while waiting:
+        node = waiting.pop()
+        children = []
+        for child in node.children:
+            if child.tag != "include":
+                children.append(child)
+                waiting.append(child)
+                continue
+            name = child.get("file")
+            try:
+                path = roots.find(name)
+                data = _bytes(path)
+            except FileError as error:
+                raise FileError("include_unreadable", name=name) from error
+            left -= len(data)
+            if left < 0:
+                raise FileError("description_too_large", limit=MAX_DESCRIPTION >> 20)
+            if path in included:  # as MuJoCo does; so it cannot go round in a circle
+                raise FileError("include_twice", name=name)
+            included.add(path)
+            found = parse(data)
+            for below in found.walk():
+                below.start = below.end = NOWHERE
+            children += found.children
+            waiting += found.children
+        node.children = children
+        if any(child.tag == "include" for child in children):  # what was included includes more
+            waiting.append(node)

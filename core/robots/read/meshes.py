@@ -1,0 +1,185 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The meshes of robots as triangles: .stl, .obj, .glb and .dae, without Blender, which has no reader of the last."""
+
+from __future__ import annotations
+
+import json
+import re
+import struct
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...cad.obj_text import check_obj_text
+from ...mesh.surface import Surface
+from ...numerics.rotations import rotation_matrix
+from ...streams.stl_text import check_stl_text
+from ...verdict.finding import FileError, system_reason
+from .dae import read_dae
+from .limits import MAX_MESH, MAX_TRIANGLES
+from .usda import fan
+
+_TRIANGLE = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
+_VERTEX = re.compile(rb"vertex\s+(\S+)\s+(\S+)\s+(\S+)", re.IGNORECASE)
+_COMPONENTS = {5120: "i1", 5121: "u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
+_DAMAGE = (
+    *(ValueError, IndexError, KeyError, TypeError, OverflowError, RecursionError, struct.error),
+    AttributeError,  # of JSON that has a text or a number where others have an object
+)
+Arrays = tuple[NDArray[np.floating], NDArray[np.integer]]
+
+
+def read_mesh(path: Path) -> tuple[Surface, NDArray[np.float64] | None]:
+    """Return a file's triangles in its own coordinates and unit, of .dae in meters; and the rotation to z up, where it
+    says that another axis is up, which readers obey or not.
+
+    Raises
+    ------
+    FileError
+        Where it cannot be read.
+    """
+    reader = READERS.get(path.suffix.lower())
+    if reader is None:
+        raise FileError("mesh_unreadable", name=path.name, suffixes=" ".join(READERS))
+    try:
+        with open(path, "rb") as file:
+            data = file.read(MAX_MESH + 1)
+    except OSError as error:
+        raise FileError("mesh_damaged", name=path.name, error=system_reason(error)) from error
+    if len(data) > MAX_MESH:
+        raise FileError("mesh_too_large", name=path.name)
+    try:
+        points, triangles, *upright = reader(data)
+    except FileError as error:
+        if error.finding.code != "line_misread":
+            raise
+        raise FileError("mesh_damaged", name=path.name, error=error.finding.as_record()) from error
+    except _DAMAGE as error:
+        raise FileError("mesh_damaged", name=path.name, error=type(error).__name__) from error
+    if not len(triangles) or len(triangles) > MAX_TRIANGLES:
+        raise FileError("mesh_too_large" if len(triangles) else "mesh_empty", name=path.name)
+    if triangles.min() < 0 or triangles.max() >= len(points) or not np.isfinite(points).all():
+        raise FileError("mesh_damaged", name=path.name, error="ValueError")
+    return Surface.from_triangles(points, triangles), upright[0] if upright else None
+
+
+def read_stl(data: bytes) -> Arrays:
+    """Triangles of binary or text STL."""
+    if len(data) >= 84:
+        count = struct.unpack_from("<I", data, 80)[0]
+        if len(data) == 84 + 50 * count:
+            rows = np.frombuffer(data, _TRIANGLE, count, 84)
+            return _joined(rows["corners"].reshape(-1, 3))
+    if not data.lstrip()[:5].lower() == b"solid":
+        raise ValueError("stl")
+    check_stl_text(data)
+    return _joined(np.array(_VERTEX.findall(data), np.float64).reshape(-1, 3))
+
+
+def _joined(corners: NDArray) -> Arrays:
+    """Equal corners as one point."""
+    if len(corners) % 3:
+        raise ValueError("corners")
+    points, index = np.unique(corners, axis=0, return_inverse=True)
+    return points, index.reshape(-1, 3)
+
+
+def read_obj(data: bytes) -> Arrays:
+    """Triangles of all objects of an OBJ; faces of more corners are cut into fans."""
+    check_obj_text(data)
+    points: list[bytes] = []
+    sizes: list[int] = []
+    corners: list[int] = []
+    for line in data.replace(b"\\\n", b" ").splitlines():
+        words = line.split()
+        if not words:
+            continue
+        if words[0] == b"v":
+            points += words[1:4]
+        elif words[0] == b"f":
+            indices = [int(word.partition(b"/")[0]) for word in words[1:]]
+            sizes.append(len(indices))
+            corners += [index - 1 if index > 0 else len(points) // 3 + index for index in indices]
+    return np.array(points, np.float64).reshape(-1, 3), fan(np.array(sizes, np.int64), np.array(corners, np.int64))
+
+
+def read_glb(data: bytes) -> Arrays:
+    """Triangles of a binary glTF as its scene places them, in its own axes (y up), as robots' readers take them."""
+    if data[:4] != b"glTF":
+        raise ValueError("glb")
+    start, document, binary = 12, None, b""
+    while start + 8 <= len(data):
+        length, kind = struct.unpack_from("<II", data, start)
+        chunk = data[start + 8 : start + 8 + length]
+        if kind == 0x4E4F534A:
+            document = json.loads(chunk)
+        elif kind == 0x004E4942:
+            binary = chunk
+        start += 8 + length
+    if not isinstance(document, dict):
+        raise ValueError("glb")
+    scene = document["scenes"][document.get("scene", 0)]
+    points: list[NDArray] = []
+    triangles: list[NDArray] = []
+    waiting = [(index, np.eye(4)) for index in scene.get("nodes", [])]
+    visited = 0
+    while waiting:
+        index, above = waiting.pop()
+        visited += 1
+        if visited > len(document["nodes"]):  # nodes are a tree
+            raise ValueError("nodes")
+        node = document["nodes"][index]
+        matrix = above @ _node_matrix(node)
+        waiting += [(child, matrix) for child in node.get("children", [])]
+        for primitive in document["meshes"][node["mesh"]]["primitives"] if "mesh" in node else ():
+            if primitive.get("mode", 4) != 4:
+                continue
+            corners = _accessor(document, binary, primitive["attributes"]["POSITION"]).astype(np.float64)
+            order = np.arange(len(corners))
+            if "indices" in primitive:
+                order = _accessor(document, binary, primitive["indices"]).ravel().astype(np.int64)
+            faces = order[: len(order) // 3 * 3].reshape(-1, 3) + sum(map(len, points))
+            triangles.append(faces[:, ::-1] if np.linalg.det(matrix[:3, :3]) < 0.0 else faces)
+            points.append(corners @ matrix[:3, :3].T + matrix[:3, 3])
+    return np.concatenate(points), np.concatenate(triangles)
+
+
+def _node_matrix(node: dict) -> NDArray[np.float64]:
+    if "matrix" in node:
+        return np.array(node["matrix"], np.float64).reshape(4, 4).T
+    matrix = np.eye(4)
+    if "rotation" in node:
+        x, y, z, w = node["rotation"]
+        matrix[:3, :3] = rotation_matrix([w, x, y, z])
+    matrix[:3, :3] = matrix[:3, :3] * np.array(node.get("scale", (1.0, 1.0, 1.0)), np.float64)
+    matrix[:3, 3] = node.get("translation", (0.0, 0.0, 0.0))
+    return matrix
+
+
+def _accessor(document: dict, binary: bytes, index: int) -> NDArray:
+    accessor = document["accessors"][index]
+    view = document["bufferViews"][accessor["bufferView"]]
+    if document["buffers"][view.get("buffer", 0)].get("uri") or "sparse" in accessor:
+        raise ValueError("buffers")
+    width = {"SCALAR": 1, "VEC3": 3}[accessor["type"]]
+    item = np.dtype((_COMPONENTS[accessor["componentType"]], (width,)))
+    stride = view.get("byteStride", item.itemsize)
+    offset = view.get("byteOffset", 0) + accessor.get("byteOffset", 0)
+    count = accessor["count"]
+    if count < 0 or stride < item.itemsize or offset + stride * (count - 1) + item.itemsize > len(binary):
+        raise ValueError("accessor")
+    rows = np.ndarray(
+        (count, width), _COMPONENTS[accessor["componentType"]], binary, offset, (stride, item.base.itemsize)
+    )
+    return rows.copy()
+
+
+READERS: dict[str, Callable[[bytes], tuple]] = {
+    ".stl": read_stl,
+    ".obj": read_obj,
+    ".glb": read_glb,
+    ".dae": read_dae,
+}

@@ -1,0 +1,187 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""MJCF: what its bodies state. Defaults by class, the compiler's angles and Euler order, and mesh folders count."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from math import radians
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...numerics.rotations import rotation_matrix
+from ...verdict.finding import Finding
+from ...verdict.number_text import parse_numbers
+from ..model import Pose, Shape
+from ..stated import Description, StatedInertial, StatedLink, StatedShape
+from .xml import NOWHERE, Node, number, numbers, unreadable
+
+ABOUT = {"x": (1, 2), "y": (2, 0), "z": (0, 1)}
+SIZES = {"sphere": 1, "ellipsoid": 3, "box": 3, "capsule": 2, "cylinder": 2}
+
+
+@dataclass(eq=False)
+class _Model:
+    """The settings of a whole file."""
+
+    degrees: bool = True
+    euler: str = "xyz"
+    mesh_folder: str = ""
+    meshes: dict[str, tuple[str, str]] = field(default_factory=dict)  # path and scale
+    classes: dict[str, dict[str, dict[str, str]]] = field(default_factory=dict)
+
+
+def read(root: Node, data: bytes) -> Description:
+    """Return a description from the element `mujoco`."""
+    model = _settings(root)
+    links: list[StatedLink] = []
+    for world in root.all("worldbody"):
+        waiting = [(body, "main", body.get("childclass")) for body in reversed(world.all("body"))]
+        while waiting:
+            body, inherited, own = waiting.pop()
+            current = own or inherited
+            links.append(_link(body, model, current, len(links)))
+            waiting += [(child, current, child.get("childclass")) for child in reversed(body.all("body"))]
+    return Description(root.get("model"), "mjcf", tuple(links), data)
+
+
+def _settings(root: Node) -> _Model:
+    model = _Model()
+    for compiler in root.all("compiler"):
+        model.degrees = compiler.get("angle", "degree" if model.degrees else "radian") != "radian"
+        model.euler = compiler.get("eulerseq", model.euler)
+        model.mesh_folder = compiler.get("meshdir", compiler.get("assetdir", model.mesh_folder))
+    for defaults in root.all("default"):
+        _defaults(defaults, "main", {}, model)
+    of_mesh = model.classes.get("main", {}).get("mesh", {})
+    for assets in root.all("asset"):
+        for mesh in assets.all("mesh"):
+            file = mesh.get("file")
+            name = mesh.get("name") or file.replace("\\", "/").rpartition("/")[2].rpartition(".")[0]
+            path = file if file.startswith("/") or not model.mesh_folder else model.mesh_folder + "/" + file
+            model.meshes[name] = path, mesh.get("scale", of_mesh.get("scale", ""))
+    return model
+
+
+def _defaults(node: Node, name: str, above: dict[str, dict[str, str]], model: _Model) -> None:
+    own = {tag: dict(values) for tag, values in above.items()}
+    for child in node.children:
+        if child.tag != "default":
+            own.setdefault(child.tag, {}).update(child.attributes)
+    model.classes[name] = own
+    for child in node.all("default"):
+        _defaults(child, child.get("class"), own, model)
+
+
+def _link(body: Node, model: _Model, current: str, count: int) -> StatedLink:
+    findings: list[Finding] = []
+    node, inertial, shapes = body.find("inertial"), None, []
+    try:
+        inertial = None if node is None else _inertial(node, model)
+    except ValueError as error:
+        findings.append(unreadable(node or body, error))
+    for geom in body.all("geom"):
+        of_class = model.classes.get(geom.get("class") or current, {}).get("geom", {})
+        try:
+            shapes += _shape({**of_class, **geom.attributes}, model)
+        except ValueError as error:
+            findings.append(unreadable(geom, error))
+    span = None if node is None or node.start == NOWHERE else (node.start, node.end)
+    name = body.get("name") or "body {}".format(count + 1)
+    return StatedLink(name, inertial, tuple(shapes), span, False, tuple(findings))  # else MuJoCo takes it from geoms
+
+
+def _inertial(node: Node, model: _Model) -> StatedInertial:
+    rotation, angles, quaternion = _rotation(node.attributes, model)
+    if node.get("fullinertia"):
+        xx, yy, zz, xy, xz, yz = numbers(node.get("fullinertia"), 6, ())
+        tensor = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+    else:
+        tensor = np.diag(numbers(node.get("diaginertia"), 3, (0.0, 0.0, 0.0)))
+    center = numbers(node.get("pos"), 3, (0.0, 0.0, 0.0))
+    return StatedInertial(number(node.get("mass"), 0.0), center, tensor, rotation, angles, quaternion)
+
+
+Rotation = tuple[NDArray[np.float64], tuple[float, float, float] | None, tuple[float, ...] | None]
+
+
+def _rotation(attributes: dict[str, str], model: _Model) -> Rotation:
+    """From a quaternion, Euler angles, an axis and an angle, two axes or the z axis."""
+    unit = radians(1.0) if model.degrees else 1.0
+    if "quat" in attributes:
+        values = numbers(attributes["quat"], 4, (1.0, 0.0, 0.0, 0.0))
+        if not values.any():
+            raise ValueError(attributes["quat"])
+        return rotation_matrix(values), None, tuple(values.tolist())
+    if "euler" in attributes:
+        first, second, third = (numbers(attributes["euler"], 3, (0.0, 0.0, 0.0)) * unit).tolist()
+        turn = np.eye(3)
+        for axis, angle in zip(model.euler, (first, second, third)):
+            step = _about(axis.lower(), angle)
+            turn = turn @ step if axis.islower() else step @ turn
+        fixed_axes = model.euler == "XYZ"
+        return turn, (first, second, third) if fixed_axes else None, None
+    if "axisangle" in attributes:
+        values = numbers(attributes["axisangle"], 4, (0.0, 0.0, 1.0, 0.0))
+        half = values[3] * unit / 2.0
+        axis = _direction(values[:3], attributes["axisangle"])
+        return rotation_matrix([np.cos(half), *(np.sin(half) * axis)]), None, None
+    if "xyaxes" in attributes:
+        values = numbers(attributes["xyaxes"], 6, ())
+        x = _direction(values[:3], attributes["xyaxes"])
+        y = _direction(values[3:] - (values[3:] @ x) * x, attributes["xyaxes"])
+        return np.column_stack([x, y, np.cross(x, y)]), None, None
+    if "zaxis" in attributes:
+        z = _direction(numbers(attributes["zaxis"], 3, (0.0, 0.0, 1.0)), attributes["zaxis"])
+        half = np.array([1.0 + z[2], -z[1], z[0], 0.0])
+        return rotation_matrix(half if half.any() else [0.0, 1.0, 0.0, 0.0]), None, None
+    return np.eye(3), None, None
+
+
+def _direction(vector: NDArray, text: str) -> NDArray[np.float64]:
+    length = np.linalg.norm(vector)
+    if length == 0.0:
+        raise ValueError(text)
+    return vector / length
+
+
+def _about(axis: str, angle: float) -> NDArray[np.float64]:
+    turn = np.eye(3)
+    i, j = ABOUT[axis]
+    turn[i, i] = turn[j, j] = np.cos(angle)
+    turn[i, j], turn[j, i] = -np.sin(angle), np.sin(angle)
+    return turn
+
+
+def _shape(attributes: dict[str, str], model: _Model) -> list[StatedShape]:
+    kind = attributes.get("type", "mesh" if "mesh" in attributes else "sphere")
+    rotation, angles, _ = _rotation(attributes, model)
+    position = numbers(attributes.get("pos", ""), 3, (0.0, 0.0, 0.0))
+    collides = attributes.get("contype", "1") != "0" or attributes.get("conaffinity", "1") != "0"
+    role = "collision" if collides else "visual"
+    size = parse_numbers(attributes.get("size", ""))
+    if kind == "mesh":
+        file, text = model.meshes.get(attributes.get("mesh", ""), ("", ""))
+        scale = tuple(numbers(text, 3, (1.0, 1.0, 1.0)).tolist())
+        return [StatedShape(Shape("mesh", scale, Pose(position, rotation), file), role, angles)]
+    if kind not in SIZES:
+        return []
+    has_ends = "fromto" in attributes and kind in ("capsule", "cylinder")
+    if len(size) < (1 if has_ends else SIZES[kind]):
+        raise ValueError(attributes.get("size", ""))
+    if has_ends:
+        ends = numbers(attributes["fromto"], 6, ())
+        along = ends[:3] - ends[3:]
+        length = float(np.linalg.norm(along))
+        rotation, _, _ = _rotation({"zaxis": " ".join(map(repr, (along / length).tolist()))}, model)
+        pose = Pose((ends[:3] + ends[3:]) / 2.0, rotation)
+        return [StatedShape(Shape(kind, (size[0], length), pose), role)]
+    values = {
+        "sphere": size[:1],
+        "ellipsoid": size[:3],
+        "box": [2.0 * half for half in size[:3]],
+        "capsule": [*size[:1], *(2.0 * half for half in size[1:2])],
+        "cylinder": [*size[:1], *(2.0 * half for half in size[1:2])],
+    }[kind]
+    return [StatedShape(Shape(kind, tuple(values), Pose(position, rotation)), role, angles)]

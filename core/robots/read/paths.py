@@ -1,0 +1,73 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Where the meshes of a description are: never outside of the folders that were allowed."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from ...verdict.finding import FileError
+
+_SCHEME = re.compile(r"([A-Za-z][A-Za-z0-9+.-]+):(?://)?(.*)", re.DOTALL)  # of one letter are drives
+MAX_LEVELS = 4  # folders up to where a package may begin
+
+
+@dataclass(frozen=True)
+class Roots:
+    """The folders that may be read from. anywhere: whether any may."""
+
+    folders: tuple[Path, ...]
+    anywhere: bool = False
+
+    @classmethod
+    def of(cls, file: Path, more: Sequence[Path] = (), anywhere: bool = False) -> Roots:
+        """Return those of a description: its own folder, that of the package it is in, and what was given besides."""
+        folder = Path(os.path.realpath(file)).parent
+        folders = [folder]
+        for above in [folder, *folder.parents][:MAX_LEVELS]:
+            if (above / "package.xml").is_file():
+                folders.append(above)
+                break
+        return cls((*folders, *(Path(os.path.realpath(path)) for path in more)), anywhere)
+
+    def find(self, name: str) -> Path:
+        """Return the file that a description names.
+
+        Raises
+        ------
+        FileError
+            Where it is not there, not allowed, or on a network.
+        """
+        name = name.replace("\\", "/")
+        match = _SCHEME.fullmatch(name)
+        scheme, rest = (match[1].lower(), match[2]) if match else ("", name)
+        if scheme not in ("", "package", "model", "file"):
+            raise FileError("mesh_on_network", name=name)
+        outside = False
+        for path in self._candidates(scheme, rest):
+            real = Path(os.path.realpath(path))
+            if not self.anywhere and not any(real.is_relative_to(folder) for folder in self.folders):
+                outside = True
+                continue
+            if real.is_file():
+                return real
+        raise FileError("mesh_outside" if outside else "mesh_missing", name=name)
+
+    def _candidates(self, scheme: str, rest: str) -> Iterator[Path]:
+        """A package's name may be that of a root, of a folder in it, or of none."""
+        if scheme in ("package", "model"):
+            package, _, inside = rest.partition("/")
+            for folder in self.folders:
+                if folder.name == package:
+                    yield folder / inside
+                yield folder / rest
+                yield folder / inside
+        elif os.path.isabs(rest):
+            yield Path(rest)
+        else:
+            for folder in self.folders:
+                yield folder / rest

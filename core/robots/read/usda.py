@@ -1,0 +1,327 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""USD as text: rigid bodies with PhysicsMassAPI, and the meshes and primitives below them.
+
+What this reads is one layer: prims, their metadata and attributes. Layers that it refers to are not opened.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...numerics.rotations import polar_rotation, rotation_matrix
+from ...verdict.finding import FileError, Finding, finding
+from ...verdict.number_text import parse_number
+from ..model import Pose, Shape
+from ..stated import Description, StatedInertial, StatedLink, StatedShape
+from .limits import MAX_DEPTH, MAX_ELEMENTS
+
+_TOKEN = re.compile(
+    r'\s+|#[^\n]*|"""(?:.|\n)*?"""|\'\'\'(?:.|\n)*?\'\'\'|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])*\''
+    r"|@@@(?:.|\n)*?@@@|@[^@\n]*@|<[^>\n]*>|[(){}\[\]=,;]|[^\s(){}\[\]=,;\"'@<#]+"
+)
+_FIELD = re.compile(r"[^\s()\[\],]+")
+_SPECIFIERS = {"def", "over", "class"}
+
+
+@dataclass(eq=False)
+class Prim:
+    """One prim. values: attributes as text. start, end: of the inside of its braces, in characters."""
+
+    kind: str
+    name: str
+    metadata: str
+    start: int
+    end: int = 0
+    values: dict[str, str] = field(default_factory=dict)
+    children: list[Prim] = field(default_factory=list)
+
+    def numbers(self, name: str) -> NDArray[np.float64] | None:
+        """Return the numbers of an attribute, None where it has none. Raises ValueError with a text that is none."""
+        if self.values.get(name, "None") == "None":
+            return None
+        return np.array([parse_number(word) for word in _FIELD.findall(self.values[name])], np.float64)
+
+    def vector(self, name: str, default: tuple[float, ...]) -> NDArray[np.float64]:
+        """Return the numbers of an attribute, as many as its default has. Raises ValueError where there are others."""
+        values, count = self.numbers(name), len(default)
+        if values is None:
+            return np.array(default, np.float64)
+        if len(values) != count:
+            raise ValueError(self.values[name][:80])
+        return values
+
+
+def _tokens(text: str) -> Iterator[tuple[str, int]]:
+    position = 0
+    while position < len(text):
+        match = _TOKEN.match(text, position)
+        if match is None:
+            raise FileError("usda_invalid", line=text[:position].count("\n") + 1)
+        token = match.group()
+        if not token[0].isspace() and token[0] != "#":
+            yield token, position
+        position = match.end()
+
+
+class _Parser:
+    def __init__(self, text: str) -> None:
+        self.text = text
+        self.tokens = list(_tokens(text))
+        self.index = 0
+        self.count = 0
+
+    def peek(self) -> str:
+        return self.tokens[self.index][0] if self.index < len(self.tokens) else ""
+
+    def take(self) -> tuple[str, int]:
+        """The next token and where it stands. Raises IndexError where the text ends."""
+        self.index += 1
+        return self.tokens[self.index - 1]
+
+    def balanced(self) -> tuple[int, int]:
+        """Skip what one bracket opens; where it stands."""
+        depth, start = 0, self.tokens[self.index][1]
+        while True:
+            token, position = self.take()
+            if token in "([{":
+                depth += 1
+            elif token in ")]}":
+                depth -= 1
+            if depth == 0:
+                return start, position + len(token)
+
+    def prim(self, depth: int) -> Prim:
+        self.count += 1
+        if depth > MAX_DEPTH or self.count > MAX_ELEMENTS:
+            raise FileError("xml_too_large", limit=MAX_ELEMENTS, depth=MAX_DEPTH)
+        self.take()  # the specifier
+        words = []
+        while self.peek() not in ("(", "{", ""):
+            words.append(self.take()[0])
+        metadata = ""
+        if self.peek() == "(":
+            start, end = self.balanced()
+            metadata = self.text[start:end]
+        kind, name = (words[0], words[-1].strip("\"'")) if words else ("", "")
+        _, opening = self.take()
+        prim = Prim(kind, name, metadata, opening + 1)
+        while self.peek() != "}":
+            if self.peek() in _SPECIFIERS:
+                prim.children.append(self.prim(depth + 1))
+            elif self.peek() == "variantSet":
+                while self.peek() != "{":
+                    self.take()
+                self.balanced()
+            elif self.peek() in "([{":
+                self.balanced()
+            else:
+                self.attribute(prim)
+        prim.end = self.take()[1]
+        return prim
+
+    def attribute(self, prim: Prim) -> None:
+        """A statement: words, and after an equals sign a value."""
+        words: list[str] = []
+        while self.peek() not in ("=", "}", ";", "(") and self.peek() not in _SPECIFIERS:
+            words.append(self.take()[0])
+        if self.peek() != "=":  # metadata in brackets may follow, as it may behind a value
+            if self.peek() == ";":
+                self.take()
+            return
+        self.take()
+        value_start = self.tokens[self.index][1]
+        if self.peek() in ("(", "[", "{"):
+            _, end = self.balanced()
+        else:
+            token, position = self.take()
+            end = position + len(token)
+        name = words[-1] if words else ""
+        prim.values[name] = self.text[value_start:end]
+
+
+def read(data: bytes) -> Description:
+    """Return a description of a layer's bodies. Raises FileError where it is no text of USD."""
+    try:
+        text = data.decode("utf-8")
+    except UnicodeDecodeError as error:
+        raise FileError("usda_invalid", line=1) from error
+    try:
+        return _description(text, data)
+    except (IndexError, KeyError, ValueError, RecursionError) as error:
+        place = text.find(str(error)) if isinstance(error, ValueError) else -1
+        raise FileError("usda_invalid", line=text.count("\n", 0, place if place >= 0 else None) + 1) from error
+
+
+def _description(text: str, data: bytes) -> Description:
+    parser = _Parser(text)
+    metadata = ""
+    if parser.peek() == "(":
+        start, end = parser.balanced()
+        metadata = text[start:end]
+    roots = []
+    while parser.index < len(parser.tokens):
+        if parser.peek() not in _SPECIFIERS:
+            raise FileError("usda_invalid", line=text[: parser.tokens[parser.index][1]].count("\n") + 1)
+        roots.append(parser.prim(0))
+    scales = {"length": _scale(metadata, "metersPerUnit", 0.01), "mass": _scale(metadata, "kilogramsPerUnit", 1.0)}
+    links: list[StatedLink] = []
+    for root in roots:
+        _visit(root, np.eye(4), root.name, scales, links, text)
+    return Description(roots[0].name if roots else "", "usd", tuple(links), data, scales)
+
+
+def _scale(metadata: str, name: str, default: float) -> float:
+    match = re.search(r"\b{}\s*=\s*([^\s()]+)".format(name), metadata)
+    return parse_number(match[1]) if match else default
+
+
+def _visit(
+    prim: Prim, above: NDArray, path: str, scales: Mapping[str, float], links: list[StatedLink], text: str
+) -> None:
+    matrix = _placed(prim, above)
+    if "PhysicsRigidBodyAPI" in prim.metadata or "PhysicsMassAPI" in prim.metadata:
+        links.append(_link(prim, matrix, path, scales, text))
+    for child in prim.children:
+        _visit(child, matrix, path + "/" + child.name, scales, links, text)
+
+
+def _placed(prim: Prim, above: NDArray) -> NDArray[np.float64]:
+    """(4, 4) of what its operations and those above it do, column vectors."""
+    matrix = above
+    for inverse, name in re.findall(r'"(!\w+!)?([\w:]*)"', prim.values.get("xformOpOrder", "")):
+        if inverse == "!resetXformStack!":
+            matrix = np.eye(4)
+        values = prim.numbers(name)
+        if values is None:
+            continue
+        step, kind = np.eye(4), name.split(":")[1]
+        if kind == "translate" and len(values) == 3:
+            step[:3, 3] = values
+        elif kind == "scale" and len(values) == 3:
+            step[:3, :3] = np.diag(values)
+        elif kind == "orient" and len(values) == 4 and values.any():
+            step[:3, :3] = rotation_matrix(values)
+        elif kind == "transform" and len(values) == 16:
+            step = values.reshape(4, 4).T
+        elif kind.startswith("rotate") and len(values) == len(kind) - 6:
+            for axis, angle in zip(kind[6:], np.radians(values)):  # rotateXYZ turns about x first
+                turn, (i, j) = np.eye(4), {"X": (1, 2), "Y": (2, 0), "Z": (0, 1)}[axis]
+                turn[i, i] = turn[j, j] = np.cos(angle)
+                turn[i, j], turn[j, i] = -np.sin(angle), np.sin(angle)
+                step = turn @ step
+        matrix = matrix @ (np.linalg.inv(step) if inverse else step)
+    return np.asarray(matrix, np.float64)
+
+
+def _link(prim: Prim, matrix: NDArray, path: str, scales: Mapping[str, float], text: str) -> StatedLink:
+    """A body in the axes of its prim, in meters; its own scale is a part of its shapes and its center."""
+    findings: list[Finding] = []
+    turn = polar_rotation(matrix[None])[0][0]
+    if np.linalg.det(turn) < 0.0:
+        turn = -turn
+    frame = Pose(matrix[:3, 3], turn)
+    to_link = np.eye(4)
+    to_link[:3, :3], to_link[:3, 3] = turn.T, -turn.T @ frame.position
+    inertial = None
+    try:
+        inertial = _inertial(prim, to_link @ matrix, scales)
+    except ValueError as error:
+        findings.append(_unreadable(prim, error, text))
+    shapes: list[StatedShape] = []
+    try:
+        _collect(prim, matrix, to_link, scales["length"], shapes)
+    except ValueError as error:
+        findings.append(_unreadable(prim, error, text))
+    span = len(text[: prim.start].encode()), len(text[: prim.end].encode())
+    return StatedLink(path, inertial, tuple(shapes), span, False, tuple(findings), to_link @ matrix)
+
+
+def _unreadable(prim: Prim, error: Exception, text: str) -> Finding:
+    line = text.count("\n", 0, max(text.find(str(error), prim.start, prim.end), prim.start)) + 1
+    return finding("description_number", text=str(error), element=prim.name, line=line)
+
+
+def _inertial(prim: Prim, local: NDArray, scales: Mapping[str, float]) -> StatedInertial | None:
+    mass = prim.vector("physics:mass", (0.0,))
+    diagonal = prim.vector("physics:diagonalInertia", (0.0, 0.0, 0.0))
+    if not mass[0] or not diagonal.any():
+        return None  # computed from the colliders
+    center = prim.vector("physics:centerOfMass", (0.0, 0.0, 0.0))
+    axes = prim.vector("physics:principalAxes", (1.0, 0.0, 0.0, 0.0))
+    axes = axes if axes.any() else np.array([1.0, 0.0, 0.0, 0.0])
+    unit, kilograms = scales["length"], scales["mass"]
+    placed = local[:3, :3] @ center * unit
+    tensor = np.diag(diagonal) * unit**2 * kilograms
+    return StatedInertial(float(mass[0]) * kilograms, placed, tensor, rotation_matrix(axes), None, tuple(axes.tolist()))
+
+
+def _collect(prim: Prim, matrix: NDArray, to_link: NDArray, unit: float, shapes: list[StatedShape]) -> None:
+    """The geometry of a body: what is below it, up to the next body. matrix: the prim's in the world."""
+    shape = _shape(prim, to_link @ matrix, unit)
+    if shape is not None:
+        shapes.append(shape)
+    for child in prim.children:
+        if "PhysicsRigidBodyAPI" not in child.metadata:
+            _collect(child, _placed(child, matrix), to_link, unit, shapes)
+
+
+def _shape(prim: Prim, matrix: NDArray, unit: float) -> StatedShape | None:
+    role = "collision" if "PhysicsCollisionAPI" in prim.metadata else "visual"
+    if prim.kind == "Mesh":
+        return _mesh(prim, matrix, unit, role)
+    kinds = {"Cube": "box", "Sphere": "sphere", "Capsule": "capsule", "Cylinder": "cylinder"}
+    if prim.kind not in kinds:
+        return None
+    scales = np.linalg.norm(matrix[:3, :3], axis=0) * unit
+    turn = polar_rotation(matrix[None])[0][0]
+    turn = turn if np.linalg.det(turn) > 0.0 else -turn
+    pose = Pose(matrix[:3, 3] * unit, turn)
+    if prim.kind == "Cube":
+        size = _number(prim, "size", 2.0) * scales
+        return StatedShape(Shape("box", tuple(size.tolist()), pose), role)
+    if prim.kind == "Sphere":
+        return StatedShape(Shape("ellipsoid", tuple((_number(prim, "radius", 1.0) * scales).tolist()), pose), role)
+    axis = prim.values.get("axis", '"Z"').strip("\"'")
+    order = {"X": [1, 2, 0], "Y": [2, 0, 1], "Z": [0, 1, 2]}[axis if axis in "XYZ" else "Z"]
+    across, _, along = scales[order]
+    capsule = prim.kind == "Capsule"
+    radius = _number(prim, "radius", 0.5 if capsule else 1.0)
+    size = radius * across, _number(prim, "height", 1.0 if capsule else 2.0) * along
+    return StatedShape(Shape(kinds[prim.kind], size, Pose(pose.position, pose.rotation[:, order])), role)
+
+
+def _number(prim: Prim, name: str, default: float) -> float:
+    values = prim.numbers(name)
+    return default if values is None or len(values) != 1 else float(values[0])
+
+
+def _mesh(prim: Prim, matrix: NDArray, unit: float, role: str) -> StatedShape | None:
+    points, counts, corners = (prim.numbers(name) for name in ("points", "faceVertexCounts", "faceVertexIndices"))
+    if points is None or counts is None or corners is None or len(points) % 3:
+        return None
+    points = points.reshape(-1, 3)
+    sizes, corners = counts.astype(np.int64), corners.astype(np.int64)
+    if sizes.sum() != len(corners) or not len(corners) or corners.min() < 0 or corners.max() >= len(points):
+        return None
+    placed = (points @ matrix[:3, :3].T + matrix[:3, 3]) * unit
+    triangles = fan(sizes, corners)
+    is_left_handed = prim.values.get("orientation", "").strip("\"'") == "leftHanded"
+    if is_left_handed != (np.linalg.det(matrix[:3, :3]) < 0.0):
+        triangles = triangles[:, ::-1]
+    return StatedShape(Shape("mesh"), role, None, placed, triangles)
+
+
+def fan(sizes: NDArray[np.int64], corners: NDArray[np.int64]) -> NDArray[np.int64]:
+    """(m, 3) faces of given sizes, cut into fans about their first corners."""
+    starts = np.cumsum(sizes) - sizes
+    cut = np.maximum(sizes - 2, 0)
+    face = np.repeat(np.arange(len(sizes)), cut)
+    step = np.arange(cut.sum()) - np.repeat(np.cumsum(cut) - cut, cut)
+    first = starts[face]
+    return np.stack([corners[first], corners[first + step + 1], corners[first + step + 2]], axis=1)

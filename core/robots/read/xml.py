@@ -1,0 +1,133 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""XML from strangers: elements with their places in the file. Document types, and with them entities, are refused."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from typing import cast
+from xml.parsers import expat
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...verdict.finding import FileError, Finding, finding
+from ...verdict.number_text import parse_numbers
+from .limits import MAX_DEPTH, MAX_ELEMENTS
+
+NOWHERE = -1  # in place of a position, of what another file states
+_TAG = re.compile(rb"""(?:[^>"']|"[^"]*"|'[^']*')*>""")  # attributes may hold the mark of its end
+
+
+@dataclass(eq=False)
+class Node:
+    """One element. start, end: of its bytes in the file, or NOWHERE. line: in its file."""
+
+    tag: str
+    attributes: dict[str, str]
+    start: int
+    line: int = 1
+    end: int = NOWHERE
+    text: str = ""
+    children: list[Node] = field(default_factory=list)
+
+    def find(self, *path: str) -> Node | None:
+        """Return the first element along a path of tags."""
+        node: Node | None = self
+        for tag in path:
+            node = next((child for child in node.children if child.tag == tag), None) if node else None
+        return node
+
+    def all(self, tag: str) -> list[Node]:
+        """Return the children with a tag."""
+        return [child for child in self.children if child.tag == tag]
+
+    def walk(self) -> Iterator[Node]:
+        """Yield it and everything below."""
+        waiting: list[Node] = [self]
+        while waiting:
+            node = waiting.pop()
+            yield node
+            waiting.extend(reversed(node.children))
+
+    def texts(self) -> Iterator[str]:
+        """Yield its text and those of its attributes."""
+        yield self.text
+        yield from self.attributes.values()
+
+    def get(self, name: str, default: str = "") -> str:
+        """Return an attribute."""
+        return self.attributes.get(name, default)
+
+
+class _Builder:
+    def __init__(self, data: bytes) -> None:
+        self.data = data
+        self.document = Node("", {}, 0)
+        self.open = [self.document]
+        self.count = 0
+        self.parser = expat.ParserCreate()
+        self.parser.buffer_text = True
+        self.parser.StartElementHandler = self._start
+        self.parser.EndElementHandler = self._end
+        self.parser.CharacterDataHandler = self._text
+        self.parser.StartDoctypeDeclHandler = self._refuse
+        self.parser.EntityDeclHandler = self._refuse
+
+    def _refuse(self, *_: object) -> None:
+        raise FileError("xml_entities")
+
+    def _start(self, tag: str, attributes: dict[str, str]) -> None:
+        self.count += 1
+        if self.count > MAX_ELEMENTS or len(self.open) > MAX_DEPTH:
+            raise FileError("xml_too_large", limit=MAX_ELEMENTS, depth=MAX_DEPTH)
+        node = Node(tag, attributes, self.parser.CurrentByteIndex, self.parser.CurrentLineNumber)
+        self.open[-1].children.append(node)
+        self.open.append(node)
+
+    def _end(self, _tag: str) -> None:
+        node, end = self.open.pop(), self.parser.CurrentByteIndex
+        # of <a/> that is behind it, of others at </a>
+        is_empty = self.data[end - 2 : end] == b"/>" and end == _end_of_tag(self.data, node.start)
+        node.end = end if is_empty else _end_of_tag(self.data, end)
+
+    def _text(self, text: str) -> None:
+        self.open[-1].text += text
+
+
+def _end_of_tag(data: bytes, start: int) -> int:
+    """Behind the tag that begins there, which expat has seen to end."""
+    return cast("re.Match[bytes]", _TAG.match(data, start)).end()
+
+
+def parse(data: bytes) -> Node:
+    """Return the root of a document. Raises FileError where it is none, or is refused."""
+    builder = _Builder(data)
+    try:
+        builder.parser.Parse(data, True)
+    except (expat.ExpatError, ValueError, LookupError) as error:
+        raise FileError("xml_invalid", error=" ".join(str(error).split())) from error
+    return builder.document.children[0]  # expat has seen that there is one
+
+
+def numbers(text: str, count: int, default: Sequence[float] = ()) -> NDArray[np.float64]:
+    """Return so many numbers of a text, the defaults if it is empty. Raise ValueError with a wrong text."""
+    values = parse_numbers(text) or default
+    if len(values) != count:
+        raise ValueError(text)
+    return np.array(values, np.float64)
+
+
+def number(text: str, default: float | None = None) -> float:
+    """Return the number of a text, the default if it is empty. Raise ValueError with a wrong text."""
+    return float(numbers(text, 1, () if default is None else (default,))[0])
+
+
+def unreadable(node: Node, error: Exception) -> Finding:
+    """Return the finding about a text that is no number, and the element that holds it, else the node above."""
+    text = str(error)
+    holders = [one for one in node.walk() if any(text in (words, *words.split()) for words in one.texts())]
+    holder = holders[0] if len(holders) == 1 else node
+    return finding("description_number", text=text, element=holder.tag, line=holder.line)

@@ -1,0 +1,138 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Rigid bodies in a glTF file that Blender's exporter has written: KHR_physics_rigid_bodies and OMI_physics_body.
+
+The nodes stay as they are; those of bodies get the two extensions. Blender's z up is glTF's y up: (x, y, z) becomes
+(x, z, -y). Blender writes its own units as meters, whatever the scene's unit scale, so a node above all others scales
+them. A body that others are fixed to has the mass of all of them; nodes without a motion of their own move with the one
+above.
+"""
+
+from __future__ import annotations
+
+import json
+import struct
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ...numerics.rotations import quaternion
+from ...verdict.finding import FileError, Finding, finding
+from ..model import Inertial, Robot
+
+KHR, OMI = "KHR_physics_rigid_bodies", "OMI_physics_body"
+Y_UP = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])
+UNIFORM_RTOL = 1e-6  # of scales that float32 rounding alone sets apart
+_GLB, _JSON = 0x46546C67, 0x4E4F534A
+
+
+def motion(inertial: Inertial, scale: ArrayLike = 1.0) -> dict[str, Any]:
+    """Return what both extensions call a motion, in the axes of the file.
+
+    Parameters
+    ----------
+    inertial : Inertial
+        Along the axes of Blender's object.
+    scale : float or (3,) array_like
+        Meters per unit of the node's own space along Blender's axes, for the center.
+
+    Returns
+    -------
+    dict
+    """
+    values: dict[str, Any] = {
+        "mass": inertial.mass,
+        "centerOfMass": (Y_UP @ (inertial.center / np.asarray(scale)) + 0.0).tolist(),
+    }
+    if inertial.moments[0] > 0.0:  # zero would be automatic, or infinite
+        w, x, y, z = quaternion(Y_UP @ inertial.axes).tolist()
+        values["inertiaDiagonal"] = inertial.moments.tolist()
+        values["inertiaOrientation"] = [x, y, z, w]
+    return values
+
+
+def add_rigid_bodies(document: dict[str, Any], robot: Robot, meters_per_unit: float) -> list[Finding]:
+    """Give the nodes of a glTF document their motions, and the document its unit, in place.
+
+    Parameters
+    ----------
+    document : dict
+        The JSON of a file.
+    robot : Robot
+        Its links are named like nodes.
+    meters_per_unit : float
+        Of the Blender scene.
+
+    Returns
+    -------
+    list of Finding
+        Which links have no node of their own, and which scales readers may take in different ways.
+    """
+    nodes, bones = document.get("nodes", []), {joint for skin in document.get("skins", []) for joint in skin["joints"]}
+    by_name: dict[str, list[dict]] = {}
+    for index, node in enumerate(nodes):
+        if index not in bones and "name" in node:
+            by_name.setdefault(node["name"], []).append(node)
+    missing, scaled, written = [], [], 0
+    for link in robot.roots:
+        inertial, found = robot.rigid_inertial(link), by_name.get(link.name, [])
+        if inertial is None:
+            continue
+        if len(found) != 1:
+            missing.append(link.name)
+            continue
+        if np.abs(link.scale - 1.0).max() > UNIFORM_RTOL:
+            scaled.append(link.name)
+        values = motion(inertial, meters_per_unit * link.scale)
+        extensions = found[0].setdefault("extensions", {})
+        extensions[KHR] = {"motion": values}
+        extensions[OMI] = {"motion": {"type": "dynamic", **values}}
+        written += 1
+    if written:
+        document["extensionsUsed"] = sorted({*document.get("extensionsUsed", []), KHR, OMI})
+    findings = [finding("gltf_node_missing", count=len(missing), links=missing)] if missing else []
+    if scaled:
+        findings.append(finding("robot_scaled", count=len(scaled), links=scaled))
+    if meters_per_unit != 1.0:
+        findings.append(finding("gltf_unit_scale", scale=meters_per_unit))
+        for scene in [scene for scene in document.get("scenes", []) if scene.get("nodes")]:
+            nodes.append({"name": "Meters", "scale": [meters_per_unit] * 3, "children": scene["nodes"]})
+            scene["nodes"] = [len(nodes) - 1]
+    return findings
+
+
+def read_json(data: bytes) -> dict[str, Any]:
+    """Return the document of a .gltf or .glb file that Blender has written. Raises FileError where it is none."""
+    try:
+        if data[:4] != b"glTF":
+            return json.loads(data)
+        return json.loads(next(chunk for kind, chunk in _chunks(data) if kind == _JSON))
+    except (ValueError, struct.error, StopIteration) as error:
+        raise FileError("gltf_unreadable") from error
+
+
+def replace_json(data: bytes, document: dict[str, Any]) -> bytes:
+    """Return the file with another document; what else a .glb holds stays to the bit."""
+    text = json.dumps(document, ensure_ascii=False, separators=(",", ":"), allow_nan=False).encode()
+    if data[:4] != b"glTF":
+        return json.dumps(document, ensure_ascii=False, indent="\t", allow_nan=False).encode() + b"\n"
+    chunks = [(kind, text + b" " * (-len(text) % 4) if kind == _JSON else chunk) for kind, chunk in _chunks(data)]
+    body = b"".join(struct.pack("<II", len(chunk), kind) + chunk for kind, chunk in chunks)
+    return struct.pack("<III", _GLB, 2, 12 + len(body)) + body
+
+
+def to_glb(text: str) -> bytes:
+    """Return a document as a binary file."""
+    body = text.encode()
+    body += b" " * (-len(body) % 4)
+    return struct.pack("<III", _GLB, 2, 20 + len(body)) + struct.pack("<II", len(body), _JSON) + body
+
+
+def _chunks(data: bytes) -> Iterator[tuple[int, bytes]]:
+    start = 12
+    while start < len(data):
+        length, kind = struct.unpack_from("<II", data, start)
+        yield kind, data[start + 8 : start + 8 + length]
+        start += 8 + length

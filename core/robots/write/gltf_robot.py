@@ -1,0 +1,179 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A robot as a glTF file of its own, as text: a node for each link, with joints of KHR_physics_rigid_bodies.
+
+Every link is a body, in meters and with y up. A joint's node stands in the parent's and its connected node in the
+child's, both where the child's frame is, turned so that axes of freedom are axes of theirs; what is not free is limited
+to nothing. Meshes are embedded: glTF knows no files of other formats.
+"""
+
+from __future__ import annotations
+
+import base64
+import json
+from collections.abc import Sequence
+from math import inf
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...mesh.surface import Surface
+from ...numerics.rotations import along_x, quaternion
+from ...verdict.finding import Finding
+from ..model import Joint, Link, Pose, Robot, Shape
+from .gltf import KHR, OMI, Y_UP, motion
+from .marker import MARKER
+from .shapes import box_of_ellipsoid, ellipsoids_as_boxes
+from .text import unique_names
+
+SHAPES = "KHR_implicit_shapes"
+
+
+def check(robot: Robot) -> list[Finding]:
+    """Return what the format cannot say."""
+    return ellipsoids_as_boxes(robot)
+
+
+def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = False) -> str:
+    """Return a robot as text of a .gltf file; parameters as of `urdf.write`."""
+    document = _Document(robot)
+    for link in robot.ordered():
+        document.add_link(link, inertial_only)
+    for joint in () if inertial_only else robot.joints:
+        document.add_joint(joint)
+    return document.text(remarks)
+
+
+class _Document:
+    def __init__(self, robot: Robot) -> None:
+        self.robot = robot
+        self.names = unique_names([link.name for link in robot.links], str)
+        self.nodes: list[dict[str, Any]] = []
+        self.of_link: dict[str, int] = {}
+        self.of_file: dict[str, list[dict]] = {"meshes": [], "accessors": [], "bufferViews": []}
+        self.shapes: list[dict] = []
+        self.joints: list[dict] = []
+        self.buffer = b""
+
+    def add_link(self, link: Link, inertial_only: bool) -> None:
+        index = self._node(self.names[link.name], Pose() if inertial_only else link.pose)
+        self.of_link[link.name] = index
+        if link.inertial is not None:
+            values = motion(link.inertial)
+            self.nodes[index]["extensions"] = {
+                KHR: {"motion": values},
+                OMI: {"motion": {"type": "dynamic", **values}},
+            }
+        for shape in () if inertial_only else link.shapes:
+            self._add_shape(index, link, shape)
+
+    def _node(self, name: str, pose: Pose, parent: int | None = None, turn: NDArray | None = None) -> int:
+        """A node. turn: of its own axes, beside those of the pose."""
+        rotation = Y_UP @ pose.rotation @ Y_UP.T
+        node: dict[str, Any] = {"name": name}
+        if pose.position.any():
+            node["translation"] = (Y_UP @ pose.position + 0.0).tolist()
+        w, x, y, z = quaternion(rotation if turn is None else rotation @ turn).tolist()
+        if (x, y, z) != (0.0, 0.0, 0.0):
+            node["rotation"] = [x, y, z, w]
+        self.nodes.append(node)
+        if parent is not None:
+            self.nodes[parent].setdefault("children", []).append(len(self.nodes) - 1)
+        return len(self.nodes) - 1
+
+    def _add_shape(self, parent: int, link: Link, shape: Shape) -> None:
+        geometry: dict[str, Any]
+        if shape.kind == "mesh":
+            if shape.surface is None:
+                return
+            index = self._node(link.name + " mesh", shape.pose, parent)
+            self.nodes[index]["mesh"] = self._mesh(shape.surface)
+            geometry = {"node": index, "convexHull": True}
+        else:
+            index = self._node("{} {}".format(link.name, shape.kind), shape.pose, parent)
+            geometry = {"shape": len(self.shapes)}
+            self.shapes.append(_implicit(box_of_ellipsoid(shape)))
+        self.nodes[index]["extensions"] = {KHR: {"collider": {"geometry": geometry}}}
+
+    def _mesh(self, surface: Surface) -> int:
+        triangles = surface.all_triangles()[0]
+        used, corners = np.unique(triangles, return_inverse=True)
+        points = (surface.points[used] @ Y_UP.T + 0.0).astype("<f4")
+        ends = {"min": points.min(axis=0).tolist(), "max": points.max(axis=0).tolist()}
+        position = self._accessor(points.tobytes(), 5126, "VEC3", len(points), 34962, ends)
+        indices = self._accessor(corners.astype("<u4").tobytes(), 5125, "SCALAR", corners.size, 34963, {})
+        self.of_file["meshes"].append({"primitives": [{"attributes": {"POSITION": position}, "indices": indices}]})
+        return len(self.of_file["meshes"]) - 1
+
+    def _accessor(self, data: bytes, component: int, kind: str, count: int, target: int, more: dict) -> int:
+        views, accessors = self.of_file["bufferViews"], self.of_file["accessors"]
+        views.append({"buffer": 0, "byteOffset": len(self.buffer), "byteLength": len(data), "target": target})
+        self.buffer += data
+        accessors.append(
+            {"bufferView": len(views) - 1, "componentType": component, "type": kind, "count": count, **more}
+        )
+        return len(accessors) - 1
+
+    def add_joint(self, joint: Joint) -> None:
+        child, parent = self.robot.link(joint.child), self.robot.link(joint.parent)
+        turn = along_x(Y_UP @ joint.free[0].axis) if len(joint.free) == 1 else np.eye(3)
+        place = parent.pose.inverse() @ child.pose
+        own = self._node(joint.name, place, self.of_link[parent.name], turn)
+        other = self._node(joint.name + " end", Pose(), self.of_link[child.name], turn)
+        reference = {"connectedNode": other, "joint": len(self.joints)}
+        self.nodes[own]["extensions"] = {KHR: {"joint": reference}}
+        self.joints.append({"name": joint.name, "limits": _limits(joint, turn)})
+
+    def text(self, remarks: Sequence[str]) -> str:
+        children = {child for node in self.nodes for child in node.get("children", ())}
+        roots = [index for index in range(len(self.nodes)) if index not in children]
+        asset: dict[str, Any] = {"generator": MARKER.format("gltf"), "version": "2.0"}
+        if remarks:
+            asset["extras"] = {"remarks": list(remarks)}
+        used, of_root = {KHR, OMI}, {}
+        if self.joints:
+            of_root[KHR] = {"physicsJoints": self.joints}
+        if self.shapes:
+            used.add(SHAPES)
+            of_root[SHAPES] = {"shapes": self.shapes}
+        document: dict[str, Any] = {
+            "asset": asset,
+            "extensionsUsed": sorted(used),
+            **({"extensions": of_root} if of_root else {}),
+            "scene": 0,
+            "scenes": [{"name": self.robot.name, "nodes": roots}],
+            "nodes": self.nodes,
+            **{name: values for name, values in self.of_file.items() if values},
+        }
+        if self.buffer:
+            uri = "data:application/octet-stream;base64," + base64.b64encode(self.buffer).decode()
+            document["buffers"] = [{"byteLength": len(self.buffer), "uri": uri}]
+        return json.dumps(document, ensure_ascii=False, indent=1, allow_nan=False) + "\n"
+
+
+def _implicit(shape: Shape) -> dict[str, Any]:
+    """A shape of KHR_implicit_shapes, whose long axis is y, which is our z."""
+    if shape.kind == "box":
+        x, y, z = shape.size
+        return {"type": "box", "box": {"size": [x, z, y]}}
+    if shape.kind == "sphere":
+        return {"type": "sphere", "sphere": {"radius": shape.size[0]}}
+    radius, height = shape.size
+    return {"type": shape.kind, shape.kind: {"height": height, "radiusTop": radius, "radiusBottom": radius}}
+
+
+def _limits(joint: Joint, turn: NDArray) -> list[dict[str, Any]]:
+    """What is not free is held, what is limited has its limits."""
+    held = {"linearAxes": {0, 1, 2}, "angularAxes": {0, 1, 2}}
+    limits: list[dict[str, Any]] = []
+    for free in joint.free:
+        direction = turn.T @ Y_UP @ free.axis
+        axis = int(np.argmax(np.abs(direction)))
+        kind = "linearAxes" if free.kind == "translate" else "angularAxes"
+        held[kind].discard(axis)
+        low, high = (free.lower, free.upper) if direction[axis] > 0.0 else (-free.upper, -free.lower)
+        ends = {name: value for name, value in (("min", low), ("max", high)) if abs(value) < inf}
+        if ends:
+            limits.append({kind: [axis], **ends})
+    return [*({kind: sorted(axes), "min": 0.0, "max": 0.0} for kind, axes in held.items() if axes), *limits]

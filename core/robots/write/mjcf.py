@@ -1,0 +1,134 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""MJCF, for MuJoCo. The inertia is written as principal pair, `diaginertia` and `quat`: its test that no principal
+moment exceeds the sum of the others has no tolerance, and what it finds from a `fullinertia` is off by rounding, which
+refuses thin plates."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from xml.etree.ElementTree import Element, SubElement
+
+from ...numerics.rotations import quaternion
+from ...verdict.finding import Finding, finding
+from ..model import FreeAxis, Inertial, Joint, Link, Pose, Robot, Shape
+from .text import document, is_identity, number, numbers, unique_names, xml_text
+
+LEAST = 1e-15  # mjMINVAL: MuJoCo refuses what moves and has less mass or inertia, kg and kg·m²
+MOST_TRIANGLES = 200_000  # MuJoCo refuses larger STL files
+
+
+def check(robot: Robot) -> list[Finding]:
+    """Return what MuJoCo refuses, and what the format cannot say."""
+    least = {
+        link.name: float(min(link.inertial.mass, link.inertial.moments[0]))
+        for link in robot.links
+        if link.inertial is not None
+    }
+    findings, small = [], [name for name, value in least.items() if value < LEAST]
+    if small:
+        smallest = min(least.values())
+        findings.append(finding("mjcf_inertia_too_small", count=len(small), links=small, least=smallest, limit=LEAST))
+    surfaces = [(link.name, shape.surface) for link in robot.links for shape in link.shapes]
+    large = [name for name, one in surfaces if one is not None and len(one.all_triangles()[0]) > MOST_TRIANGLES]
+    if large:
+        findings.append(finding("mjcf_mesh_too_large", count=len(large), links=large, limit=MOST_TRIANGLES))
+    return findings
+
+
+def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = False) -> str:
+    """Return a robot as MJCF; parameters as of `urdf.write`."""
+    names = unique_names([link.name for link in robot.links], _name)
+    joint_names = unique_names([joint.name for joint in robot.joints], _name)
+    root = Element("mujoco", model=xml_text(robot.name))
+    if not inertial_only:
+        SubElement(root, "compiler", angle="radian", autolimits="true")
+    meshes = {} if inertial_only else _add_meshes(root, robot)
+    world = SubElement(root, "worldbody")
+    elements: dict[str, Element] = {}
+    for link in robot.ordered():
+        joint = robot.joint_of(link.name)
+        above = world if joint is None else elements[joint.parent]
+        body = elements[link.name] = SubElement(above, "body", name=names[link.name])
+        if not inertial_only:
+            _add_place(body, robot.pose_in_parent(link))
+            _add_joints(body, robot, link, joint, joint_names)
+        if link.inertial is not None:
+            _add_inertial(body, link.inertial)
+        for shape in () if inertial_only else link.shapes:
+            _add_geom(body, shape, meshes)
+    return document(root, "mjcf", remarks)
+
+
+def _name(text: str) -> str:
+    text = xml_text(text)
+    return text + "_" if text in ("world", "") else text  # the name of what all bodies are in
+
+
+def _add_meshes(root: Element, robot: Robot) -> dict[tuple, str]:
+    """Name each mesh once, however many links show it."""
+    files = {_mesh_key(shape): shape for link in robot.links for shape in link.shapes if shape.kind == "mesh"}
+    if not files:
+        return {}
+    names = unique_names(list(map(str, range(len(files)))), lambda number_: "mesh_" + number_)
+    assets, result = SubElement(root, "asset"), {}
+    for index, (key, shape) in enumerate(files.items()):
+        result[key] = names[str(index)]
+        mesh = SubElement(assets, "mesh", name=result[key], file=shape.file)
+        if shape.size != (1.0, 1.0, 1.0):
+            mesh.set("scale", numbers(shape.size))
+        if shape.sheet:
+            mesh.set("inertia", "shell")
+    return result
+
+
+def _mesh_key(shape: Shape) -> tuple:
+    return shape.file, shape.size, shape.sheet
+
+
+def _add_place(element: Element, pose: Pose) -> None:
+    element.set("pos", numbers(pose.position))
+    element.set("quat", numbers(quaternion(pose.rotation)))
+
+
+def _add_joints(body: Element, robot: Robot, link: Link, joint: Joint | None, names: dict[str, str]) -> None:
+    """A root moves freely, where it has mass; several degrees of freedom are several joints of one body."""
+    if joint is None:
+        if any(part.inertial is not None for part in robot.rigid_parts(link)):
+            SubElement(body, "freejoint")
+        return
+    if joint.is_ball:
+        SubElement(body, "joint", name=names[joint.name], type="ball")
+        return
+    for count, free in enumerate(joint.free, start=1):
+        name = names[joint.name] if len(joint.free) == 1 else "{}_{}".format(names[joint.name], count)
+        element = SubElement(body, "joint", name=name, type=_joint_type(free), axis=numbers(free.axis))
+        if free.is_limited:
+            element.set("range", "{} {}".format(number(max(free.lower, -1e10)), number(min(free.upper, 1e10))))
+
+
+def _joint_type(free: FreeAxis) -> str:
+    return "hinge" if free.kind == "rotate" else "slide"
+
+
+def _add_inertial(body: Element, inertial: Inertial) -> None:
+    place = {"pos": numbers(inertial.center), "quat": numbers(quaternion(inertial.axes))}
+    values = {"mass": number(inertial.mass), "diaginertia": numbers(inertial.moments)}
+    SubElement(body, "inertial", {**place, **values})
+
+
+def _add_geom(body: Element, shape: Shape, meshes: dict[tuple, str]) -> None:
+    geom = SubElement(body, "geom", type=shape.kind)
+    if not is_identity(shape.pose):
+        _add_place(geom, shape.pose)
+    if shape.kind == "mesh":
+        geom.set("mesh", meshes[_mesh_key(shape)])
+        if shape.sheet:  # a flat one has no convex hull to collide as
+            geom.set("contype", "0")
+            geom.set("conaffinity", "0")
+    elif shape.kind in ("capsule", "cylinder"):
+        geom.set("size", numbers((shape.size[0], shape.size[1] / 2.0)))
+    elif shape.kind == "box":
+        geom.set("size", numbers(side / 2.0 for side in shape.size))
+    else:
+        geom.set("size", numbers(shape.size))

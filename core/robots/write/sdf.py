@@ -1,0 +1,113 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""SDF 1.9. The inertial frame has the principal axes, as a quaternion, and the tensor is diagonal in it: so the test
+of Gazebo for possible inertias meets numbers that rounding has not set apart."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from xml.etree.ElementTree import Element, SubElement
+
+from ...numerics.rotations import quaternion
+from ...verdict.finding import Finding, finding
+from ..model import Inertial, Joint, Link, Pose, Robot, Shape
+from .text import add_text, document, is_identity, number, numbers, unique_names, xml_text
+
+VERSION = "1.9"  # the first with quaternions; later parsers convert it, earlier ones refuse later files
+_RESERVED = re.compile(r"__.*__|world", re.DOTALL)
+
+
+def check(robot: Robot) -> list[Finding]:
+    """Return what the format cannot say."""
+    lost = [joint.name for joint in robot.joints if _joint_type(joint) == "ball" and not joint.is_ball]
+    return [finding("sdf_limits_lost", count=len(lost), joints=lost)] if lost else []
+
+
+def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = False) -> str:
+    """Return a robot as an SDF model; parameters as of `urdf.write`."""
+    names = unique_names([link.name for link in robot.links], _name)
+    joint_names = unique_names([joint.name for joint in robot.joints], _name, names.values())
+    root = Element("sdf", version=VERSION)
+    model = SubElement(root, "model", name=_name(robot.name))
+    for link in robot.ordered():
+        element = SubElement(model, "link", name=names[link.name])
+        if not inertial_only:
+            _add_pose(element, link.pose)
+        if link.inertial is not None:
+            _add_inertial(element, link.inertial)
+        if not inertial_only:
+            _add_shapes(element, link)
+    for joint in () if inertial_only else robot.joints:
+        element = SubElement(model, "joint", name=joint_names[joint.name], type=_joint_type(joint))
+        add_text(element, "parent", names[joint.parent])
+        add_text(element, "child", names[joint.child])
+        _add_axes(element, joint)
+    return document(root, "sdf", remarks)
+
+
+def _name(text: str) -> str:
+    """Colons in pairs separate names of models and links, and two kinds of names are the format's own."""
+    text = xml_text(text).replace("::", "_")
+    return text + "_" if _RESERVED.fullmatch(text) or not text else text
+
+
+def _add_pose(parent: Element, pose: Pose) -> None:
+    if not is_identity(pose):
+        w, x, y, z = quaternion(pose.rotation)
+        add_text(parent, "pose", numbers((*pose.position, x, y, z, w)), rotation_format="quat_xyzw")
+
+
+def _add_inertial(parent: Element, inertial: Inertial) -> None:
+    element = SubElement(parent, "inertial")
+    _add_pose(element, Pose(inertial.center, inertial.axes))
+    add_text(element, "mass", number(inertial.mass))
+    tensor = SubElement(element, "inertia")
+    for name, value in zip(
+        ("ixx", "ixy", "ixz", "iyy", "iyz", "izz"),
+        (inertial.moments[0], 0.0, 0.0, inertial.moments[1], 0.0, inertial.moments[2]),
+    ):
+        add_text(tensor, name, number(value))
+
+
+def _add_shapes(parent: Element, link: Link) -> None:
+    for tag in ("visual", "collision"):
+        for count, shape in enumerate(link.shapes, start=1):
+            element = SubElement(parent, tag, name=tag if len(link.shapes) == 1 else "{}_{}".format(tag, count))
+            _add_pose(element, shape.pose)
+            _add_geometry(SubElement(element, "geometry"), shape)
+
+
+def _add_geometry(geometry: Element, shape: Shape) -> None:
+    element = SubElement(geometry, shape.kind)
+    if shape.kind == "mesh":
+        add_text(element, "uri", shape.file)
+        if shape.size != (1.0, 1.0, 1.0):
+            add_text(element, "scale", numbers(shape.size))
+    elif shape.kind == "box":
+        add_text(element, "size", numbers(shape.size))
+    elif shape.kind == "ellipsoid":
+        add_text(element, "radii", numbers(shape.size))
+    else:
+        for name, value in zip(("radius", "length"), shape.size):
+            add_text(element, name, number(value))
+
+
+def _joint_type(joint: Joint) -> str:
+    kinds = [free.kind for free in joint.free]
+    if not kinds:
+        return "fixed"
+    if len(kinds) == 1:
+        return "prismatic" if kinds == ["translate"] else "revolute"
+    return "universal" if kinds == ["rotate", "rotate"] else "ball"
+
+
+def _add_axes(element: Element, joint: Joint) -> None:
+    if _joint_type(joint) == "ball":
+        return
+    for tag, free in zip(("axis", "axis2"), joint.free):
+        axis = SubElement(element, tag)
+        add_text(axis, "xyz", numbers(free.axis))
+        limit = SubElement(axis, "limit")
+        for name, value in (("lower", free.lower), ("upper", free.upper)):
+            add_text(limit, name, number(value))

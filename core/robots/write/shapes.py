@@ -1,0 +1,76 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What links look like and collide as: their meshes, the primitives of their inertia, or nothing."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from math import sqrt
+
+from ...mesh.surface import Surface
+from ...verdict.finding import Finding, finding
+from ..model import Robot, Shape
+from ..primitives import equal_inertia_shape
+
+BOX_OF_ELLIPSOID = 2.0 * sqrt(3.0 / 5.0)  # sides over semi-axes at equal mass and inertia
+
+
+def box_of_ellipsoid(shape: Shape) -> Shape:
+    """Return the box with the inertia of an ellipsoid; other shapes as they are."""
+    if shape.kind != "ellipsoid":
+        return shape
+    return Shape("box", tuple(BOX_OF_ELLIPSOID * axis for axis in shape.size), shape.pose)
+
+
+def ellipsoids_as_boxes(robot: Robot) -> list[Finding]:
+    """Return what a format without ellipsoids says of a robot that has some."""
+    names = [link.name for link in robot.links if any(shape.kind == "ellipsoid" for shape in link.shapes)]
+    return [finding("robot_ellipsoid_as_box", count=len(names), links=names)] if names else []
+
+
+def with_meshes(robot: Robot, surface_of: Callable[[str], Surface | None]) -> tuple[Robot, list[Finding]]:
+    """Return a robot whose meshes hold their surfaces, and a finding about the links that have none.
+
+    Parameters
+    ----------
+    robot : Robot
+    surface_of : callable
+        Returns a link's surface by its name, in meters along the link's axes; None if it shows no faces.
+
+    Returns
+    -------
+    Robot
+    list of Finding
+    """
+    links, bare = [], []
+    for link in robot.links:
+        surface = surface_of(link.name) if link.shapes else None
+        shown = surface is not None and len(surface.all_triangles()[0])
+        links.append(replace(link, shapes=tuple(replace(shape, surface=surface) for shape in link.shapes if shown)))
+        bare += [] if shown else [link.name]
+    findings = [finding("robot_links_bare", count=len(bare), links=bare)] if bare else []
+    return replace(robot, links=tuple(links)), findings
+
+
+def with_primitives(robot: Robot, kind: str) -> Robot:
+    """Return a robot whose links have a primitive each in the place of their geometry.
+
+    Parameters
+    ----------
+    robot : Robot
+    kind : str
+        "box", "ellipsoid", "capsule", or "none" for no geometry.
+
+    Returns
+    -------
+    Robot
+    """
+    links = [
+        replace(
+            link,
+            shapes=() if kind == "none" or link.inertial is None else (equal_inertia_shape(link.inertial, kind),),
+        )
+        for link in robot.links
+    ]
+    return replace(robot, links=tuple(links))

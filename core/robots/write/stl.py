@@ -1,0 +1,110 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Meshes of links as binary STL, which all readers of robots know."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from ...files.whole_file import whole_file
+from ...mesh.surface import Surface
+from ...verdict.finding import finding
+from ..model import Robot
+from .text import unique_names
+
+MESH_FOLDER = "meshes"
+_MARKER = b"Body Moments".ljust(80, b"\0")  # the header, by which an older result is known
+_TRIANGLE = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
+_NOT_IN_FILES = re.compile(r"[^\w.-]", re.ASCII)
+
+
+def to_stl(surface: Surface) -> bytes:
+    """Return a surface as binary STL, with zero normals, which readers find from the corners.
+
+    Parameters
+    ----------
+    surface : Surface
+        In meters, along the link's axes.
+
+    Returns
+    -------
+    bytes
+    """
+    triangles = surface.all_triangles()[0]
+    rows = np.zeros(len(triangles), _TRIANGLE)
+    rows["corners"] = surface.points[triangles]
+    return _MARKER + np.uint32(len(rows)).astype("<u4").tobytes() + rows.tobytes()
+
+
+def write_meshes(robot: Robot, output: Path, read: Path | None = None, force: bool = False) -> Robot:
+    """Write the surfaces of a robot's meshes, and return the robot that names their files.
+
+    Parameters
+    ----------
+    robot : Robot
+    output : Path
+        The robot's own file. The meshes are in a folder of its name, in the folder `meshes` beside it.
+    read : Path, optional
+        A file that is read, and never replaced.
+    force : bool
+        Whether files that are no meshes of ours may be replaced.
+
+    Returns
+    -------
+    Robot
+
+    Raises
+    ------
+    OSError
+        If one of the files cannot be written or must not be replaced. In the latter case none is written.
+    """
+    files = mesh_files([link.name for link in robot.links], output.stem)
+    surfaces = {
+        files[link.name]: shape.surface for link in robot.links for shape in link.shapes if shape.surface is not None
+    }
+    for file in surfaces:
+        _check_replaceable(output.parent / file, read, force)
+    for file, surface in surfaces.items():
+        path = output.parent / file
+        for folder in (path.parent.parent, path.parent):
+            folder.mkdir(exist_ok=True)
+        with whole_file(path) as stream:
+            stream.write(to_stl(surface))
+    links = [
+        replace(
+            link,
+            shapes=tuple(
+                replace(shape, file=files[link.name]) if shape.surface is not None else shape for shape in link.shapes
+            ),
+        )
+        for link in robot.links
+    ]
+    return replace(robot, links=tuple(links))
+
+
+def mesh_files(names: Iterable[str], stem: str) -> dict[str, str]:
+    """Return the file of each link's mesh, relative to the robot's own file, whose name without suffix is `stem`; names
+    differ by more than upper case."""
+    files = unique_names(names, _file_name)
+    return {name: "{}/{}/{}.stl".format(MESH_FOLDER, _file_name(stem), file) for name, file in files.items()}
+
+
+def _file_name(name: str) -> str:
+    return _NOT_IN_FILES.sub("_", name).lower() or "_"
+
+
+def _check_replaceable(path: Path, read: Path | None, force: bool) -> None:
+    """Raise FileExistsError if a mesh must not take the place of `path`."""
+    if not path.is_file():
+        return
+    if read is not None and read.exists() and path.samefile(read):
+        raise FileExistsError(str(finding("usage_overwrites_input", option="output", path=str(path))))
+    with open(path, "rb") as file:
+        head = file.read(len(_MARKER))
+    if head and head != _MARKER and not force:
+        raise FileExistsError(str(finding("result_foreign_file", path=str(path))))

@@ -1,0 +1,81 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Numbers, names, angles and elements as the formats of robots write them."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable
+from math import atan2, cos, hypot, sin
+from xml.etree import ElementTree
+from xml.etree.ElementTree import Element, SubElement
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..model import Pose
+from .marker import MARKER
+
+_NOT_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+_SPACES = re.compile(r"[\t\n\r]")
+
+
+def number(value: float) -> str:
+    """The shortest text that is read as this float64; no negative zero."""
+    return repr(float(value) + 0.0)
+
+
+def numbers(values: Iterable[float]) -> str:
+    """Numbers with spaces between."""
+    return " ".join(map(number, values))
+
+
+def xml_text(text: str) -> str:
+    """The text with an underscore for each character that no XML can hold, or that a reader would change."""
+    return _SPACES.sub("_", _NOT_XML.sub("_", text))
+
+
+def unique_names(names: Iterable[str], rename: Callable[[str], str], taken: Iterable[str] = ()) -> dict[str, str]:
+    """What each name becomes: what `rename` makes of it, numbered where another one has that already."""
+    used, result = set(taken), {}
+    for name in names:
+        base = candidate = rename(name)
+        number_ = 1
+        while candidate in used:
+            number_ += 1
+            candidate = "{}_{}".format(base, number_)
+        used.add(candidate)
+        result[name] = candidate
+    return result
+
+
+def roll_pitch_yaw(rotation: NDArray) -> tuple[float, float, float]:
+    """Angles with rotation = Rz(yaw) Ry(pitch) Rx(roll), pitch within a quarter turn. The roll is what the yaw leaves,
+    so that they give the rotation back where both turn about all but one axis."""
+    yaw = atan2(rotation[1, 0], rotation[0, 0])
+    pitch = atan2(-rotation[2, 0], hypot(rotation[0, 0], rotation[1, 0]))
+    roll = atan2(
+        sin(yaw) * rotation[0, 2] - cos(yaw) * rotation[1, 2], cos(yaw) * rotation[1, 1] - sin(yaw) * rotation[0, 1]
+    )
+    return roll, pitch, yaw
+
+
+def is_identity(pose: Pose) -> bool:
+    """Whether two frames are the same."""
+    return not pose.position.any() and bool((pose.rotation == np.eye(3)).all())
+
+
+def add_text(parent: Element, tag: str, text: str, **attributes: str) -> Element:
+    """Add an element with text."""
+    element = SubElement(parent, tag, attributes)
+    element.text = text
+    return element
+
+
+def document(root: Element, kind: str, remarks: Iterable[str]) -> str:
+    """The text of an XML file: our marker and the remarks as comments, then the elements, indented."""
+    ElementTree.indent(root)
+    lines = [MARKER.format(kind), *(xml_text(remark) for remark in remarks)]
+    comments = ["<!-- {} -->\n".format(re.sub("-(?=-|$)", "- ", line)) for line in lines]
+    body = ElementTree.tostring(root, encoding="unicode")
+    return '<?xml version="1.0" encoding="utf-8"?>\n{}{}\n'.format("".join(comments), body)

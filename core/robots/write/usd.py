@@ -1,0 +1,313 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""USD as plain text: PhysicsMassAPI, in single precision, and NewtonMassAPI, in double.
+
+Blender's Python has no `pxr`, so layers are written as text. The largest principal moment is rounded down until no
+moment exceeds the sum of the others in float32 too (rule RB.008 of NVIDIA's SimReady). A body that others are fixed to
+carries the mass of all of them, because the mass of a parent overrides that of its children.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from math import degrees, inf
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ...mesh.surface import Surface
+from ...numerics.rotations import along_x, quaternion
+from ...verdict.finding import Finding, finding
+from ..model import Inertial, Joint, Pose, Robot, Shape
+from .marker import MARKER
+from .text import number, unique_names
+
+ROOT = "Robot"
+APIS = ("PhysicsRigidBodyAPI", "PhysicsMassAPI", "NewtonMassAPI")
+LEAST = float(np.finfo(np.float32).tiny)  # of what float32 holds with all its digits
+_NO_IDENTIFIER = re.compile(r"\W")
+_INDENT = "    "
+
+
+def check(robot: Robot) -> list[Finding]:
+    """Return what single precision cannot hold."""
+    small = [
+        link.name for link in robot.links if link.inertial is not None and not link.inertial.moments[0] * 0.5 > LEAST
+    ]
+    return [finding("usd_inertia_too_small", count=len(small), links=small)] if small else []
+
+
+def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = False) -> str:
+    """Return a robot as a layer of its own, in meters, with a prim for each link; parameters as of `urdf.write`."""
+    names = unique_names([link.name for link in robot.links], identifier)
+    joints = unique_names([joint.name for joint in robot.joints], identifier, names.values())
+    lines = header(robot.name, remarks, 1.0, ROOT)
+    lines += ['def Xform "{}"'.format(ROOT), "{"]
+    for link in robot.ordered():
+        inertial = link.inertial
+        lines += _indented(_prim("def Xform", names[link.name], () if inertial is None else APIS))
+        lines += _indented(["{"])
+        if inertial is not None:
+            lines += _indented(mass_attributes(inertial), 2)
+        if not inertial_only:
+            lines += _indented(_transform(link.pose), 2)
+            for count, shape in enumerate(link.shapes, start=1):
+                if shape.kind != "mesh":
+                    lines += _indented(_shape(shape, "shape_{}".format(count)), 2)
+                elif shape.surface is not None:
+                    lines += _indented(_mesh(shape.surface, shape.pose, "shape_{}".format(count)), 2)
+        lines += _indented(["}"])
+    for joint in () if inertial_only else robot.joints:
+        lines += _indented(_joint(robot, joint, joints[joint.name], names))
+    return "\n".join([*lines, "}", ""])
+
+
+def write_over(
+    robot: Robot,
+    paths: Mapping[str, Sequence[str]],
+    geometry: str,
+    meters_per_unit: float,
+    remarks: Sequence[str] = (),
+) -> str:
+    """Return a layer that gives the prims of another one their mass, and nothing else.
+
+    Parameters
+    ----------
+    robot : Robot
+    paths : mapping of str to sequence of str
+        The prims of each root, from the top.
+    geometry : str
+        The other layer's file, relative to this one.
+    meters_per_unit : float
+        Of the other layer's numbers: the unit scale of the Blender scene, which its exporter leaves out.
+    remarks : sequence of str
+        Comments at the beginning.
+
+    Returns
+    -------
+    str
+
+    Notes
+    -----
+    Prims stand in one another as objects do, and a body within a body is none: so each root carries all that is fixed
+    to it.
+    """
+    tree: dict[str, dict] = {}
+    bodies = {}
+    for link in robot.roots:
+        inertial = robot.rigid_inertial(link)
+        if inertial is not None:
+            path = tuple(paths[link.name])
+            bodies[path] = mass_attributes(inertial, meters_per_unit, link.scale)
+            branch = tree
+            for name in path:
+                branch = branch.setdefault(name, {})
+    top = next(iter(tree), ROOT)
+    lines = header(robot.name, remarks, meters_per_unit, top, [geometry])
+    return "\n".join([*lines, *_overs(tree, (), bodies), ""])
+
+
+def _overs(tree: Mapping[str, dict], above: tuple[str, ...], bodies: Mapping[tuple, list[str]]) -> list[str]:
+    lines = []
+    for name, branch in tree.items():
+        path = (*above, name)
+        body = bodies.get(path, [])
+        inner = [*body, *_overs(branch, path, bodies)]
+        lines += [*_prim("over", name, APIS if body else ()), "{", *_indented(inner), "}"]
+    return lines
+
+
+def header(
+    name: str, remarks: Sequence[str], meters_per_unit: float, prim: str, sublayers: Sequence[str] = ()
+) -> list[str]:
+    """Return the lines before the first prim."""
+    text = [MARKER.format("usd"), name, *remarks]
+    doc = "\n".join(text).replace("\\", "\\\\").replace('"', '\\"')
+    lines = ["#usda 1.0", "(", '    """{}"""'.format(doc), "    defaultPrim = {}".format(quoted(prim))]
+    lines += ["    kilogramsPerUnit = 1", "    metersPerUnit = {}".format(number(meters_per_unit))]
+    if sublayers:
+        lines += ["    subLayers = [", *("        @{}@".format(path) for path in sublayers), "    ]"]
+    return [*lines, '    upAxis = "Z"', ")", ""]
+
+
+def identifier(name: str) -> str:
+    """The name of a prim, as Blender's exporter makes it of an object's name: an underscore for what is no letter or
+    digit, and before a digit."""
+    name = _NO_IDENTIFIER.sub("_", name)
+    return name if name.isidentifier() else "_" + name
+
+
+def quoted(text: str) -> str:
+    """A string of a layer."""
+    return '"{}"'.format(text.replace("\\", "\\\\").replace('"', '\\"').replace("\n", "\\n"))
+
+
+def mass_attributes(inertial: Inertial, meters_per_unit: float = 1.0, scale: ArrayLike = (1.0, 1.0, 1.0)) -> list[str]:
+    """Return the lines that give a prim its mass, in the units of its stage.
+
+    Parameters
+    ----------
+    inertial : Inertial
+    meters_per_unit : float
+        Of the stage.
+    scale : (3,) array_like
+        Of the prim, whose local space the center is in.
+
+    Returns
+    -------
+    list of str
+    """
+    center = inertial.center / (meters_per_unit * np.asarray(scale, np.float64))
+    inertia = inertial.inertia / meters_per_unit**2
+    entries = [inertia[i, j] for i, j in ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))]
+    return [
+        "float physics:mass = {}".format(single(inertial.mass)),
+        "point3f physics:centerOfMass = {}".format(singles(center)),
+        "float3 physics:diagonalInertia = {}".format(singles(round_down(inertial.moments / meters_per_unit**2))),
+        "quatf physics:principalAxes = {}".format(singles(quaternion(inertial.axes))),
+        "double[] newton:inertia = [{}]".format(", ".join(map(number, entries))),
+    ]
+
+
+def round_down(moments: NDArray) -> NDArray[np.float32]:
+    """Return ascending principal moments in single precision, the largest one not above the sum of the others.
+
+    Parameters
+    ----------
+    moments : (3,) array
+        Ascending, in float64.
+
+    Returns
+    -------
+    (3,) float32 array
+    """
+    rounded = np.asarray(moments, np.float64).astype(np.float32)
+    while float(rounded[2]) > float(rounded[0]) + float(rounded[1]):
+        rounded[2] = np.nextafter(rounded[2], np.float32(0.0))
+    return rounded
+
+
+def single(value: float) -> str:
+    """The shortest text that is read as this float32; no negative zero."""
+    if abs(value) == inf:
+        return "inf" if value > 0.0 else "-inf"
+    return repr(float(str(np.float32(value) + np.float32(0.0))))
+
+
+def singles(values: Iterable[float]) -> str:
+    """A tuple of them."""
+    return "({})".format(", ".join(map(single, values)))
+
+
+def _doubles(values: Iterable[float]) -> str:
+    return "({})".format(", ".join(map(number, values)))
+
+
+def _indented(lines: Iterable[str], depth: int = 1) -> list[str]:
+    return [_INDENT * depth + line for line in lines]
+
+
+def _prim(kind: str, name: str, apis: Sequence[str] = ()) -> list[str]:
+    start = "{} {}".format(kind, quoted(name))
+    if not apis:
+        return [start]
+    return [start + " (", "    prepend apiSchemas = [{}]".format(", ".join(map(quoted, apis))), ")"]
+
+
+def _transform(pose: Pose, scale: Sequence[float] | None = None) -> list[str]:
+    operations = ["translate", "orient"] + ["scale"] * (scale is not None)
+    lines = [
+        "double3 xformOp:translate = {}".format(_doubles(pose.position)),
+        "quatd xformOp:orient = {}".format(_doubles(quaternion(pose.rotation))),
+    ]
+    if scale is not None:
+        lines.append("double3 xformOp:scale = {}".format(_doubles(scale)))
+    names = ", ".join(quoted("xformOp:" + operation) for operation in operations)
+    return [*lines, "uniform token[] xformOpOrder = [{}]".format(names)]
+
+
+def _shape(shape: Shape, name: str) -> list[str]:
+    """A primitive to collide as."""
+    kinds = {"box": "Cube", "ellipsoid": "Sphere", "sphere": "Sphere", "capsule": "Capsule", "cylinder": "Cylinder"}
+    lines = [*_prim("def " + kinds[shape.kind], name, ("PhysicsCollisionAPI",)), "{"]
+    scale = None
+    if shape.kind == "box":
+        attributes, scale = ["double size = 1"], shape.size
+    elif shape.kind == "ellipsoid":
+        attributes, scale = ["double radius = 1"], shape.size
+    elif shape.kind == "sphere":
+        attributes = ["double radius = {}".format(number(shape.size[0]))]
+    else:
+        attributes = ["double radius = {}".format(number(shape.size[0])), 'uniform token axis = "Z"']
+        attributes.append("double height = {}".format(number(shape.size[1])))
+    return [*lines, *_indented([*attributes, *_transform(shape.pose, scale)]), "}"]
+
+
+def _mesh(surface: Surface, pose: Pose, name: str) -> list[str]:
+    """A mesh that collides as its convex hull. USD knows no files of other formats, so it stands in the layer."""
+    triangles = surface.all_triangles()[0]
+    used, corners = np.unique(triangles, return_inverse=True)
+    points = surface.points[used].astype(np.float32)
+    attributes = [
+        "point3f[] points = [{}]".format(", ".join(map(singles, points))),
+        "int[] faceVertexCounts = [{}]".format(", ".join(["3"] * len(triangles))),
+        "int[] faceVertexIndices = [{}]".format(", ".join(map(str, corners.ravel().tolist()))),
+        'uniform token subdivisionScheme = "none"',
+        'uniform token physics:approximation = "convexHull"',
+        *_transform(pose),
+    ]
+    head = _prim("def Mesh", name, ("PhysicsCollisionAPI", "PhysicsMeshCollisionAPI"))
+    return [*head, "{", *_indented(attributes), "}"]
+
+
+def _joint(robot: Robot, joint: Joint, name: str, names: dict[str, str]) -> list[str]:
+    """A joint whose frame is the child's. One of several degrees of freedom is a general one with limits."""
+    child, parent = robot.link(joint.child), robot.link(joint.parent)
+    place = parent.pose.inverse() @ child.pose
+    turn = np.eye(3)
+    if not joint.free:
+        kind, apis, more = "PhysicsFixedJoint", (), []
+    elif len(joint.free) == 1:
+        free = joint.free[0]
+        kind = "PhysicsRevoluteJoint" if free.kind == "rotate" else "PhysicsPrismaticJoint"
+        apis, turn = (), along_x(free.axis)
+        limits = [_in_degrees(free.kind, limit) for limit in (free.lower, free.upper)]
+        more = ['uniform token physics:axis = "X"']
+        more += ["float physics:{}Limit = {}".format(end, single(v)) for end, v in zip(("lower", "upper"), limits)]
+    elif joint.is_ball:
+        kind, apis, more = "PhysicsSphericalJoint", (), []
+    else:
+        kind, (apis, more) = "PhysicsJoint", _limits(joint)
+    lines = [
+        "rel physics:body0 = </{}/{}>".format(ROOT, names[parent.name]),
+        "rel physics:body1 = </{}/{}>".format(ROOT, names[child.name]),
+        "point3f physics:localPos0 = {}".format(singles(place.position)),
+        "quatf physics:localRot0 = {}".format(singles(quaternion(place.rotation @ turn))),
+        "point3f physics:localPos1 = (0, 0, 0)",
+        "quatf physics:localRot1 = {}".format(singles(quaternion(turn))),
+    ]
+    return [*_prim("def " + kind, name, apis), "{", *_indented([*lines, *more]), "}"]
+
+
+def _in_degrees(kind: str, value: float) -> float:
+    return degrees(value) if kind == "rotate" else value
+
+
+def _limits(joint: Joint) -> tuple[tuple[str, ...], list[str]]:
+    """What limits each of the six directions; one that is locked has a lower limit above the upper one."""
+    limits = {"{}{}".format(kind, axis): (1.0, -1.0) for kind in ("trans", "rot") for axis in "XYZ"}
+    for free in joint.free:
+        kind = "rot" if free.kind == "rotate" else "trans"
+        axis = "XYZ"[int(np.argmax(np.abs(free.axis)))]
+        flipped = free.axis["XYZ".index(axis)] < 0.0
+        ends = (-free.upper, -free.lower) if flipped else (free.lower, free.upper)
+        limits[kind + axis] = (_in_degrees(free.kind, ends[0]), _in_degrees(free.kind, ends[1]))
+    apis, lines = [], []
+    for name, (low, high) in limits.items():
+        if low == -inf and high == inf:
+            continue
+        apis.append("PhysicsLimitAPI:" + name)
+        for end, value in (("low", low), ("high", high)):
+            lines.append("float limit:{}:physics:{} = {}".format(name, end, single(value)))
+    return tuple(apis), lines

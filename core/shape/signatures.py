@@ -1,0 +1,341 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Numbers by which a shape is found again, however it is moved, turned, scaled, mirrored or cut into faces.
+
+    invariants   of central moments to sixth order, over V s^n with the radius of gyration s: the products
+                 Σ a_m conj(b_m) of harmonic moments of one degree l, and their couplings to a scalar in threes (Lo and
+                 Don, 3-D moment forms, PAMI 1989).
+    zernike      the norms ‖Ω_nl‖ in the ball about the center that just holds the body (see `zernike`).
+    fourier      the mean of |F(q)|² over all directions by V², at q = 1, 2, … over the ball's radius.
+    chirality    couplings in threes whose degrees add up to an odd number: a mirror image has the same with the
+                 opposite sign, and a body that is its own mirror image has none.
+
+Size is kept apart, as the radius of gyration. What is compared is smooth in the shape: noise of the points changes it
+little, and nothing switches.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+from itertools import combinations, combinations_with_replacement
+from math import hypot, log, pi, sqrt, tanh
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..moments.moments import Measure, Moments, monomials
+from ..moments.solid_harmonics import along_first, couple, harmonic_moments
+from ..numerics.arguments import check_type
+from ..numerics.arrays import PerBody
+from ..verdict.finding import FileError
+from . import flat_couplings
+from .zernike import (
+    MAX_ORDER_BY_MOMENTS,
+    Multiplets,
+    degrees,
+    descriptor_error,
+    descriptors,
+    radial_power,
+    zernike_moments,
+)
+
+Key = tuple[int, int]  # (n, l) of a multiplet
+INVARIANT_ORDER = 6
+COUPLED_ORDER = 4  # of the moments that are coupled in threes
+CHIRAL_ORDER = 6
+FREQUENCIES = np.arange(1.0, 13.0)  # what orders to 20 resolve to a millionth
+MAX_SIMILAR_DIFFERENCE = 0.1  # beyond this nobody would call two shapes similar
+MAX_SIZE = 1e150  # meters; the ratio of two sizes is still a number
+MAX_DESCRIPTOR = 1e100  # whose square is still a number
+MIN_CHIRALITY = 1e-11  # a chirality below this is rounding
+CHIRALITY_NOISE_FACTOR = 10.0  # by the difference of two shapes: what noise that makes it may make of chiralities
+# chiralities whose difference is less than this share of their sum, or the reverse, decide the hand
+CLEAR_CHIRALITY_SHARE = 0.2
+
+
+@dataclass(frozen=True, eq=False)
+class Signature:
+    """Numbers by which a shape is recognized, however it is moved, rotated, scaled or cut into faces.
+
+    Attributes
+    ----------
+    size : float
+        The radius of gyration, in the body's unit.
+    invariants, zernike, fourier, chirality : arrays
+        See the module; `fourier` is empty where the moments are of a surface.
+    error : float
+        An estimate of the rounding of the descriptors.
+    dimension : int
+        3, or 2 of a flat shape (`flat_signature`): no body is like one.
+
+    Examples
+    --------
+    >>> from body_moments.core import Surface, polyhedron_moments, signature
+    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    >>> body = signature(polyhedron_moments(surface, 20)[0].about_center(), radius=0.9)
+    >>> round(body.size, 6), len(body.zernike) > 0
+    (0.33541, True)
+    """
+
+    size: float
+    invariants: NDArray[np.float64]
+    zernike: NDArray[np.float64]
+    fourier: NDArray[np.float64]
+    chirality: NDArray[np.float64]
+    error: float = 0.0
+    dimension: int = 3
+
+    def as_record(self) -> dict:
+        """Return the arrays and the size by name, for JSON."""
+        return {
+            **({} if self.dimension == 3 else {"dimension": self.dimension}),
+            "size": self.size,
+            "invariants": self.invariants,
+            "zernike": self.zernike,
+            "fourier": self.fourier,
+            "chirality": self.chirality,
+        }
+
+    @classmethod
+    def from_record(cls, record: dict) -> Signature:
+        """Read a signature from JSON; FileError if the record is none."""
+        try:
+            arrays = [
+                np.array(record[name], np.float64).reshape(-1)
+                for name in ("invariants", "zernike", "fourier", "chirality")
+            ]
+            invariants, zernike, fourier, chirality = arrays
+            dimension = record.get("dimension", 3)
+            result = cls(float(record["size"]), invariants, zernike, fourier, chirality, dimension=dimension)
+            lengths = _lengths(dimension)
+        except (KeyError, TypeError, ValueError, OverflowError) as error:
+            raise FileError("signature_unrecognized") from error
+        is_complete = (
+            (np.abs(np.concatenate(arrays)) < MAX_DESCRIPTOR).all()  # not where one is NaN
+            and 1.0 / MAX_SIZE < result.size < MAX_SIZE
+            and len(result.zernike)
+            and (len(result.invariants), len(result.chirality)) == lengths
+        )
+        if not is_complete:
+            raise FileError("signature_incomplete")
+        return result
+
+
+@dataclass(frozen=True)
+class Likeness:
+    """How alike two bodies are.
+
+    Attributes
+    ----------
+    shape : float
+        The difference of the shapes whatever their size and hand, 0 for the same.
+    scale : float
+        The second body's size divided by the first one's.
+    chirality_difference : float
+        The difference of their chiralities.
+    is_mirror_image : bool or None
+        Whether it is a mirror image; False where neither has a hand, None where noise as large as the shapes'
+        difference could make up their hands.
+    """
+
+    shape: float
+    scale: float
+    chirality_difference: float
+    is_mirror_image: bool | None
+
+    def distance(self, any_size: bool = False, any_hand: bool = False) -> float:
+        """0 for a copy; also for one of another size, and for a mirror image, where that does not matter. Where it
+        does, a difference of size or hand counts as much as one of shape, but never for more than
+        MAX_SIMILAR_DIFFERENCE."""
+        size, hand = (
+            MAX_SIMILAR_DIFFERENCE * tanh(abs(value) / MAX_SIMILAR_DIFFERENCE)
+            for value in (log(self.scale), self.chirality_difference)
+        )
+        return hypot(self.shape, 0.0 if any_size else size, 0.0 if any_hand else hand)
+
+
+def _lengths(dimension: int) -> tuple[int, int]:
+    """How many invariants and how many chiralities a signature has. KeyError for what is no dimension."""
+    bodies = 2 + len(_pairs()) + len(_even_triples()), len(_chiral_triples())
+    return {2: flat_couplings.counts(), 3: bodies}[dimension]
+
+
+def signature(moments: Moments, radius: float, zernike: Multiplets | None = None) -> Signature:
+    """Return the signature of a shape.
+
+    Parameters
+    ----------
+    moments : Moments
+        About the center, of volume or area, to order 6 at least and 20 at most.
+    radius : float
+        Of the ball about the center that just holds the body.
+    zernike : dict, optional
+        The Zernike moments Ω_nlm in that ball where they are known otherwise; by default from the moments.
+
+    Returns
+    -------
+    Signature
+
+    Notes
+    -----
+    Moment invariants (Lo and Don, PAMI 1989), 3-D Zernike descriptors (Novotni and Klein 2003), and the power of the
+    Fourier transform; see the module.
+
+    Examples
+    --------
+    >>> from body_moments.core import Surface, polyhedron_moments, signature
+    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    >>> volume = polyhedron_moments(surface, 20)[0].about_center()
+    >>> radius = float(np.linalg.norm(surface.points - volume.about, axis=1).max())
+    >>> round(signature(volume, radius).size, 6)
+    0.33541
+    """
+    check_type("moments", moments, Moments)
+    size = sqrt(moments.second().trace() / moments.total)
+    return Signature(size, *_numbers(moments.raw, moments, size, radius, zernike))
+
+
+def signatures(moments: Moments, radius: NDArray[np.float64]) -> list[Signature]:
+    """Return the signatures of a stack of shapes: as `signature` of each, to rounding.
+
+    Parameters
+    ----------
+    moments : Moments
+        With a leading axis.
+    radius : (n,) array
+        Of the balls.
+
+    Returns
+    -------
+    list of Signature
+
+    Examples
+    --------
+    >>> from body_moments.core import Surface, polyhedron_moments
+    >>> from body_moments.core.moments.moments import stack_moments
+    >>> from body_moments.core.shape.signatures import signatures
+    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    >>> volume = polyhedron_moments(surface, 12)[0].about_center()
+    >>> [round(found.size, 6) for found in signatures(stack_moments([volume, volume]), np.array([0.9, 0.9]))]
+    [0.33541, 0.33541]
+    """
+    raw = np.ascontiguousarray(moments.raw.T)
+    size = np.sqrt(np.trace(moments.second(), axis1=-2, axis2=-1) / raw[0])
+    *arrays, error = _numbers(raw, moments, size, radius)
+    of_each = [np.ascontiguousarray(array.T) for array in arrays]
+    return [Signature(*numbers) for numbers in zip(size.tolist(), *of_each, error.tolist())]
+
+
+def _numbers(
+    raw: NDArray, moments: Moments, size: PerBody, radius: PerBody, zernike: Multiplets | None = None
+) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], PerBody]:
+    """Invariants, descriptors, power, chirality and error of a signature, with a last axis where there are several
+    bodies. raw: the moments, (K, …)."""
+    total, order = raw[0], min(moments.order, MAX_ORDER_BY_MOMENTS)
+    degree = along_first(monomials(moments.order).sum(axis=1), raw)
+    low = len(monomials(INVARIANT_ORDER))
+    harmonic = harmonic_moments((raw / size**degree / total)[:low] * sqrt(4.0 * pi), INVARIANT_ORDER)
+    error = 0.0
+    if zernike is None:
+        dimension = 3 if moments.measure != Measure.AREA else 2
+        scaled = raw / radius ** (degree + dimension)
+        zernike, error = zernike_moments(scaled, order), descriptor_error(scaled, order)
+    power = np.empty((0, *raw.shape[1:]))
+    if moments.measure == Measure.VOLUME:
+        volume = zernike[0, 0].real[0] * 4.0 * pi / 3.0
+        power = radial_power(zernike, FREQUENCIES)[0] / volume**2
+    return _invariants(harmonic), descriptors(zernike), power, _chirality(harmonic), error
+
+
+def similarity(a: Signature, b: Signature) -> Likeness:
+    """Compare two signatures.
+
+    Parameters
+    ----------
+    a, b : Signature
+        Descriptors of orders that one of them lacks are left out.
+
+    Returns
+    -------
+    Likeness
+        The difference of the shapes, and what distinguishes sizes and hands.
+
+    Examples
+    --------
+    >>> from body_moments.core.mesh import Surface
+    >>> from body_moments.core.polyhedron import polyhedron_moments
+    >>> from body_moments.core.shape import signature, similarity
+    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    >>> small, large = (
+    ...     signature(polyhedron_moments(surface.transform(size * np.eye(3)), 20)[0].about_center(), size)
+    ...     for size in (1.0, 3.0)
+    ... )
+    >>> likeness = similarity(small, large)
+    >>> round(likeness.shape, 6), round(likeness.scale, 6)
+    (0.0, 3.0)
+    """
+    check_type("a", a, Signature)
+    check_type("b", b, Signature)
+    if a.dimension != b.dimension:
+        return Likeness(1.0, b.size / a.size, 0.0, None)
+    n = min(len(a.zernike), len(b.zernike))
+    shape = sqrt(
+        (
+            _relative_difference(a.zernike[:n], b.zernike[:n]) ** 2
+            + _relative_difference(a.invariants, b.invariants) ** 2
+        )
+        / 2.0
+    )
+    same, opposite = np.linalg.norm(a.chirality - b.chirality), np.linalg.norm(a.chirality + b.chirality)
+    hand = max(np.linalg.norm(a.chirality), np.linalg.norm(b.chirality))
+    mirrored = False if hand <= MIN_CHIRALITY else None
+    if hand > MIN_CHIRALITY + shape * CHIRALITY_NOISE_FACTOR and min(same, opposite) < CLEAR_CHIRALITY_SHARE * max(
+        same, opposite
+    ):
+        mirrored = bool(opposite < same)
+    return Likeness(float(shape), b.size / a.size, float(same), mirrored)
+
+
+def _relative_difference(a: NDArray, b: NDArray) -> float:
+    scale = max(np.linalg.norm(a), np.linalg.norm(b))
+    return float(np.linalg.norm(a - b) / scale) if scale else 0.0
+
+
+def _invariants(harmonic: Multiplets) -> NDArray[np.float64]:
+    scalars = [harmonic[n, 0].real[0] for n in (4, 6)]
+    products = [np.add.reduce((harmonic[a].conj() * harmonic[b]).real) for a, b in _pairs()]
+    triples = [couple(*(harmonic[key] for key in triple)) for triple in _even_triples()]
+    return np.array(scalars + products + triples)
+
+
+def _chirality(harmonic: Multiplets) -> NDArray[np.float64]:
+    return np.array([couple(*(harmonic[key] for key in triple)) for triple in _chiral_triples()])
+
+
+def _multiplets(order: int) -> list[Key]:
+    """The harmonic moments (n, l) that turn, l > 0, but for those of first order, which are zero about the center."""
+    return [(n, l) for n, l in degrees(order) if l and n > 1]
+
+
+@lru_cache
+def _pairs() -> list[tuple[Key, Key]]:
+    return [(a, b) for a, b in combinations_with_replacement(_multiplets(INVARIANT_ORDER), 2) if a[1] == b[1]]
+
+
+@lru_cache
+def _even_triples() -> list[tuple[Key, Key, Key]]:
+    triples = combinations_with_replacement(_multiplets(COUPLED_ORDER), 3)
+    return [t for t in triples if _can_couple(t) and sum(l for _, l in t) % 2 == 0]
+
+
+@lru_cache
+def _chiral_triples() -> list[tuple[Key, Key, Key]]:
+    """Three different multiplets: of two alike, an odd coupling is zero."""
+    return [t for t in combinations(_multiplets(CHIRAL_ORDER), 3) if _can_couple(t) and sum(l for _, l in t) % 2]
+
+
+def _can_couple(triple: tuple[Key, Key, Key]) -> bool:
+    """Whether three multiplets have a scalar: their degrees are the sides of a triangle."""
+    a, b, c = sorted(l for _, l in triple)
+    return c <= a + b

@@ -1,0 +1,250 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The rotations and reflections about its center that take a body to itself.
+
+Moments show which ones can: a rotation takes one of the frames in which all moments to some order are alike to another
+one (see `canonical_frame`), and a reflection takes a frame of the body to one of its mirror image. So every symmetry
+that the body has is among them, and moments of higher order, or details smaller than noise, may rule some out again;
+the body's geometry decides (`confirm`). The group is named by its Schoenflies symbol: C1 has nothing, D2h is a box, Oh
+a cube, C∞v a body of revolution, K a ball.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..inertia.axial_harmonics import MAX_TILT, AxialHarmonics, axis_last, turn_by_harmonics
+from ..inertia.canonical_frame import NOISE_LEVEL
+from ..inertia.principal_frames import equivalent_frames
+from ..moments.moments import Moments
+from ..moments.symmetric_tensors import distinct_arrays, invert_through_point
+from ..numerics.arguments import check_type
+
+EQUAL_OPERATION_ATOL = 1e-6  # matrices of one operation are equal to this
+MAX_AXIS_ORDER = 128  # the highest order of an axis that is looked for
+FIRST_SAMPLES = 64  # points at most that are looked at first: most of what does not hold fails there
+
+Distance = Callable[[NDArray], NDArray]
+
+
+@dataclass(frozen=True, eq=False)
+class Symmetry:
+    """Rotations and reflections about the center that take a body to itself.
+
+    Attributes
+    ----------
+    operations : (k, 3, 3) array
+        The finite ones, orthogonal, the identity among them.
+    revolution_axes : array
+        (1, 3) the axis about which every rotation is one; (0, 3) none, (3, 3) all directions.
+    order : int
+        Of the moments it was found from, or of harmonics about an axis.
+    tolerance : float or None
+        That the geometry was compared with, None where it was not.
+    """
+
+    operations: NDArray[np.float64]
+    revolution_axes: NDArray[np.float64]
+    order: int
+    tolerance: float | None = None
+
+    @property
+    def group(self) -> str:
+        """The Schoenflies symbol."""
+        if len(self.revolution_axes) == 3:
+            return "K"
+        if len(self.revolution_axes):
+            return "D∞h" if _reverses_axis(self.operations, self.revolution_axes[0]).any() else "C∞v"
+        return _schoenflies(self)
+
+    @property
+    def axes(self) -> list[tuple[NDArray, int]]:
+        """Rotation axes as (direction, order), the highest order first."""
+        proper = self.operations[np.linalg.det(self.operations) > 0.0]
+        turns = proper[np.trace(proper, axis1=1, axis2=2) < 3.0 - EQUAL_OPERATION_ATOL]
+        directions = _distinct_lines(
+            np.array([np.linalg.eigh(rotation + rotation.T)[1][:, 2] for rotation in turns]).reshape(-1, 3)
+        )
+        return sorted(((axis, 1 + int(same.sum())) for axis, same in directions), key=lambda pair: -pair[1])
+
+    @property
+    def planes(self) -> list[NDArray]:
+        """The normals of the reflection planes."""
+        flips = (np.linalg.det(self.operations) < 0.0) & (
+            np.abs(np.trace(self.operations, axis1=1, axis2=2) - 1.0) < EQUAL_OPERATION_ATOL
+        )
+        return [np.linalg.eigh(reflection + reflection.T)[1][:, 0] for reflection in self.operations[flips]]
+
+    @property
+    def has_center(self) -> bool:
+        """Whether inversion in the center is one of them."""
+        return bool((np.abs(self.operations + np.eye(3)).max(axis=(1, 2)) < EQUAL_OPERATION_ATOL).any())
+
+
+def symmetry(
+    moments: Moments, noise: float = NOISE_LEVEL, axial: Callable[[NDArray], AxialHarmonics] | None = None
+) -> Symmetry:
+    """Find the symmetries that moments allow.
+
+    Parameters
+    ----------
+    moments : Moments
+        To third order at least.
+    noise : float
+        As for `equivalent_frames`.
+    axial : callable, optional
+        Returns the harmonics about the third axis of a (3, 3) frame; called where the moments are those of a body of
+        revolution, about its axis.
+
+    Returns
+    -------
+    Symmetry
+        All that the body has are among them; `confirm` compares them with the surface.
+
+    Examples
+    --------
+    >>> from body_moments.core.mesh import Surface
+    >>> from body_moments.core.polyhedron import polyhedron_moments
+    >>> from body_moments.core.shape import symmetry
+    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    >>> symmetry(polyhedron_moments(surface, 6)[0]).group
+    'C3v'
+    """
+    check_type("moments", moments, Moments)
+    central = moments.about_center()
+    alike, mirrored = equivalent_frames(central, noise), equivalent_frames(invert_through_point(central), noise)
+    order = moments.order
+    is_known = max(alike.tilt, mirrored.tilt) <= MAX_TILT
+    if axial is not None and is_known and len(alike.revolution_axes) == 1:
+        harmonics = axial(axis_last(alike))
+        order = harmonics.order
+        alike, mirrored = (
+            turn_by_harmonics(alike, harmonics, noise),
+            turn_by_harmonics(mirrored, harmonics.inverted(), noise),
+        )
+    first = alike.frames[0]
+    operations = [frame @ first.T for frame in alike.frames]
+    if (np.abs(alike.values - mirrored.values) <= alike.noise).all():
+        operations += [-frame @ first.T for frame in mirrored.frames]
+    axes = first.T[list(alike.revolution_axes)]
+    operations = np.array(operations)
+    if len(axes) == 1:
+        operations = _finite_operations(operations, axes[0])
+    elif len(axes) == 3:
+        operations = np.array([np.eye(3)])
+    return Symmetry(distinct_arrays(operations, EQUAL_OPERATION_ATOL), axes, order)
+
+
+def confirm(candidate: Symmetry, center: NDArray, points: NDArray, distance: Distance, tolerance: float) -> Symmetry:
+    """Those that the geometry has.
+
+    points: (n, 3) on the surface, corners and what lies between them. distance: of (k, 3) points from the surface,
+    (k,). tolerance: how far a point's image may lie from it.
+    """
+    points = points - center
+    some = points[:: 1 + len(points) // FIRST_SAMPLES]
+
+    def holds(operation: NDArray) -> bool:
+        return all((distance(part @ operation.T + center) <= tolerance).all() for part in (some, points))
+
+    if len(candidate.revolution_axes) == 3:
+        turns = [_axis_rotation(axis, 1.0) for axis in np.concatenate([np.eye(3), np.ones((1, 3)) / 3.0**0.5])]
+        ball = all(holds(turn) for turn in turns)
+        return Symmetry(
+            np.eye(3)[None], candidate.revolution_axes if ball else np.empty((0, 3)), candidate.order, tolerance
+        )
+    operations = candidate.operations
+    if len(candidate.revolution_axes):
+        axis = candidate.revolution_axes[0]
+        if all(holds(_axis_rotation(axis, angle)) for angle in (1.0, 0.1, 0.01)):
+            confirmed = [operation for operation in operations if holds(operation)]
+            return Symmetry(np.array(confirmed), candidate.revolution_axes, candidate.order, tolerance)
+        operations = _around_axis(points, axis, holds)
+    confirmed = np.array([operation for operation in operations if holds(operation)])
+    return Symmetry(confirmed, np.empty((0, 3)), candidate.order, tolerance)
+
+
+def _around_axis(points: NDArray, axis: NDArray, holds: Callable[[NDArray], bool]) -> NDArray[np.float64]:
+    """Candidates for a body whose moments are those of a body of revolution, but which has corners: a prism of many
+    sides. Its mirrors and half turns take one of the points farthest from the axis to another one."""
+    # Where the tolerance lets a turn by about the right angle pass, turns by several times that do not.
+    fold = next(
+        n
+        for n in range(MAX_AXIS_ORDER, 0, -1)
+        if all(holds(_axis_rotation(axis, 2.0 * np.pi * k / n)) for k in range(1, n // 2 + 1))
+    )
+    turns = [_axis_rotation(axis, 2.0 * np.pi * k / fold) for k in range(fold)]
+    across = np.eye(3) - 2.0 * np.outer(axis, axis)
+    seeds = [np.eye(3)] + [
+        operation for operation in (across, _axis_rotation(axis, np.pi / fold) @ across) if holds(operation)
+    ]
+    flat = points - np.outer(points @ axis, axis)
+    radius = np.linalg.norm(flat, axis=1)
+    outer = flat[radius > (1.0 - 1e-4) * radius.max()] / radius.max()
+    outer = outer[np.unique(np.round(outer, 5), axis=0, return_index=True)[1]]
+    x = outer[0] / np.linalg.norm(outer[0])
+    across = np.stack([np.cross(axis, x), x])
+    for corner in outer[: 2 * MAX_AXIS_ORDER]:
+        half = np.arctan2(*(across @ corner)) / 2.0
+        side, middle = np.array([[np.cos(half), -np.sin(half)], [np.sin(half), np.cos(half)]]) @ across
+        flips = [
+            operation
+            for operation in (np.eye(3) - 2.0 * np.outer(side, side), 2.0 * np.outer(middle, middle) - np.eye(3))
+            if holds(operation)
+        ]
+        if flips:
+            seeds += [seed @ operation for seed in list(seeds) for operation in flips]
+            break
+    return distinct_arrays(np.array([turn @ seed for seed in seeds for turn in turns]), EQUAL_OPERATION_ATOL)
+
+
+def _finite_operations(operations: NDArray, axis: NDArray) -> NDArray[np.float64]:
+    """The operations of a body of revolution that stand for all: the identity, and whether it can be turned over."""
+    if not _reverses_axis(operations, axis).any():
+        return np.eye(3)[None]
+    return np.array([np.eye(3), np.eye(3) - 2.0 * np.outer(axis, axis)])
+
+
+def _reverses_axis(operations: NDArray, axis: NDArray) -> NDArray[np.bool_]:
+    return (operations @ axis) @ axis < 0.0
+
+
+def _axis_rotation(axis: NDArray, angle: float) -> NDArray[np.float64]:
+    """(3, 3) the rotation about an axis: Rodrigues' formula."""
+    x, y, z = axis
+    cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+    return np.eye(3) + np.sin(angle) * cross + (1.0 - np.cos(angle)) * cross @ cross
+
+
+def _distinct_lines(vectors: NDArray) -> list[tuple[NDArray, NDArray]]:
+    """Each line once, with which of the (k, 3) unit vectors lie along it."""
+    same = np.abs(vectors @ vectors.T) > 1.0 - EQUAL_OPERATION_ATOL
+    return [(vectors[i], same[i]) for i in range(len(vectors)) if np.argmax(same[i]) == i]
+
+
+def _schoenflies(symmetry_found: Symmetry) -> str:
+    axes, planes, center = symmetry_found.axes, symmetry_found.planes, symmetry_found.has_center
+    proper = int((np.linalg.det(symmetry_found.operations) > 0.0).sum())
+    improper = len(symmetry_found.operations) - proper
+    if not axes:
+        return "C1" if not improper else "Cs" if planes else "Ci"
+    axis, n = axes[0]
+    if proper == n:
+        if not improper:
+            return "C{:d}".format(n)
+        if any(abs(normal @ axis) > 1.0 - EQUAL_OPERATION_ATOL for normal in planes):
+            return "C{:d}h".format(n)
+        return "C{:d}v".format(n) if planes else "S{:d}".format(2 * n)
+    if sum(order == n for _, order in axes) > 1 and n > 2:
+        letter = {3: "T", 4: "O", 5: "I"}[n]
+        return letter if not improper else letter + "h" if center else letter + "d"
+    if not improper:
+        return "D{:d}".format(n)
+    if n == 2:
+        return "D2h" if center else "D2d"
+    flat = any(abs(normal @ axis) > 1.0 - EQUAL_OPERATION_ATOL for normal in planes)
+    return "D{:d}{:s}".format(n, "h" if flat else "d")

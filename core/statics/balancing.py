@@ -1,0 +1,317 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The least change of shape that brings a body's center of mass to a given point.
+
+Some vertices may move. With the derivative G of the center at the start, the moves v that bring it there with the least
+Σ a |v|² / m are v = (m / a) G' λ, with one λ for each coordinate of the center. Here a is the area that a vertex stands
+for, an equal share of its faces', so that the shape found does not depend on how finely the mesh is cut, and m ≤ 1 how
+freely it moves. Moves longer than a limit are cut to it, which is the solution of the same problem with that limit.
+For G and a, every face is taken as the fan around its middle, so that the diagonals it is cut by show in the shape as
+little as they can: the center itself is that of the faces as they are cut.
+
+The center is not a linear function of the moves, so λ is found by Newton's method, with the exact derivative at every
+step, until the center is there to rounding. The moves are then least to first order: those of the least sum differ by
+terms of their square. They are not looked for, because on fine meshes they wrinkle: a shell gains area by nothing as
+cheaply as by folds.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..mesh.surface import Surface, normals
+from ..moments.moments import Moments, U
+from ..numerics.arguments import check_type, float_array, index_array
+from ..numerics.arrays import first_occurrence, sums_by_index
+from ..polyhedron.integration import polyhedron_moments
+from ..verdict.finding import MeasureError
+from ..wall.walls import first_positive_root
+from .gradient import Gradient, area_gradient, volume_gradient
+
+MAX_NEWTON_STEPS = 100  # of Newton's method at most; it takes a few
+MAX_STEP_HALVINGS = 20  # of one step, until the center comes nearer
+REACHED_TOLERANCE = 64.0 * U  # of the body's size and how far it or its target lies: what rounding leaves
+MIN_RELATIVE_EFFECT = 1e-12  # of what the most effective direction does
+SLIVER_RTOL = 1e-9  # of its longest side squared: a triangle without a normal
+
+
+@dataclass(frozen=True, eq=False)
+class BalanceResult:
+    """Where vertices go so that the center comes to its target.
+
+    Attributes
+    ----------
+    points : (n, 3) array
+        float64.
+    before, after : (3,) arrays
+        The center.
+
+    Examples
+    --------
+    >>> from body_moments.core.statics import BalanceResult
+    >>> BalanceResult(np.zeros((4, 3)), np.zeros(3), np.ones(3)).after.tolist()
+    [1.0, 1.0, 1.0]
+    """
+
+    points: NDArray[np.float64]
+    before: NDArray[np.float64]
+    after: NDArray[np.float64]
+
+
+def balance(
+    surface: Surface,
+    movable: NDArray[np.integer],
+    target: NDArray,
+    *,
+    across: NDArray | None = None,
+    weights: NDArray | None = None,
+    limit: float = np.inf,
+    shell: bool = False,
+) -> BalanceResult:
+    """Move vertices as little as possible so that the center of mass comes to a point.
+
+    Parameters
+    ----------
+    surface : Surface
+    movable : (k,) integer array
+        The vertices that may move.
+    target : (3,) array
+    across : (r, 3) array, optional
+        Orthonormal rows: move the center along these directions only; by default all three.
+    weights : (k,) array, optional
+        Above 0 to 1: how freely each vertex moves.
+    limit : float
+        How far a vertex may move.
+    shell : bool
+        Whether the mass is in the surface, otherwise in the body it bounds, which must be closed. Uniform density, and
+        all lengths in one unit.
+
+    Returns
+    -------
+    BalanceResult
+
+    Raises
+    ------
+    MeasureError
+        If the center cannot come there, or faces would be turned over.
+
+    Examples
+    --------
+    >>> from body_moments.core.mesh import Surface
+    >>> from body_moments.core.statics import balance
+    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    >>> result = balance(surface, np.arange(4), np.array([0.25, 0.25, 0.3]))
+    >>> np.round(result.after, 9).tolist()
+    [0.25, 0.25, 0.3]
+    """
+    check_type("surface", surface, Surface)
+    across = np.eye(3) if across is None else float_array("across", across, "r", 3)
+    movable = index_array("movable", movable, "k", count=len(surface.points))
+    weights = np.ones(len(movable)) if weights is None else float_array("weights", weights, len(movable))
+    problem = _Problem(surface, shell, across, float_array("target", target, 3))
+    fans = _Fans(surface, shell)
+    area = fans.areas[movable]
+    used = (area > 0.0) & (weights > 0.0)
+    if not used.any():
+        raise MeasureError("balance_no_area")
+    movable = movable[used]
+    start = problem.evaluate(problem.start)
+    if start is None:
+        raise MeasureError("balance_zero_volume")
+    before, _, gradient = start
+    step_directions = np.einsum("ri,nik->rnk", across, fans.center_gradient(before)[movable])
+    step_directions *= (weights[used] / area[used])[:, None]
+    if not _is_solvable(_center_jacobian(step_directions, np.zeros(len(across)), gradient[:, movable], np.inf)):
+        raise MeasureError("balance_no_effect")
+    points, center, far = _newton_solve(problem, start, step_directions, movable, np.inf)
+    left = far
+    if far or np.linalg.norm(points - problem.start, axis=1).max() > limit:
+        points, center, left = _newton_solve(problem, start, step_directions, movable, limit)
+    if left and far:  # without a limit too: it is not the limit that stands against it
+        raise MeasureError("balance_short", distance=float(far))
+    if left:
+        raise MeasureError("balance_short_by_limit", limit=float(limit), distance=float(left))
+    problem.check(points, movable)
+    return BalanceResult(points, before, center)
+
+
+def _newton_solve(
+    problem: _Problem, start: tuple[NDArray, NDArray, NDArray], step_directions: NDArray, movable: NDArray, limit: float
+) -> tuple[NDArray[np.float64], NDArray[np.float64], float]:
+    """(n, 3) and (3,) the points and the center, and how far it stays from its target, 0 where it comes there. start:
+    as of `_Problem.evaluate`."""
+    points, (center, residual, gradient) = problem.start, start
+    multiplier = np.zeros(len(step_directions))
+    slope = _center_jacobian(step_directions, multiplier, gradient[:, movable], limit)
+    for _ in range(MAX_NEWTON_STEPS):
+        far = float(np.linalg.norm(residual))
+        if far <= problem.tolerance:
+            return points, center, 0.0
+        change, share = np.linalg.solve(slope, residual), 1.0
+        for _ in range(MAX_STEP_HALVINGS):
+            trial = multiplier + share * change
+            moved = problem.start.copy()
+            moved[movable] += _limited_moves(step_directions, trial, limit)
+            state = problem.evaluate(moved)
+            if state is not None and np.linalg.norm(state[1]) <= (1.0 - 0.1 * share) * far:
+                slope = _center_jacobian(step_directions, trial, state[2][:, movable], limit)
+                if _is_solvable(slope) or np.linalg.norm(state[1]) <= problem.tolerance:
+                    break  # else too many are at the limit to go on from there
+            share /= 2.0
+        else:
+            return points, center, far if far > 16.0 * problem.tolerance else 0.0
+        points, multiplier, (center, residual, gradient) = moved, trial, state
+    far = float(np.linalg.norm(residual))
+    return points, center, far if far > problem.tolerance else 0.0
+
+
+def _is_solvable(system: NDArray) -> bool:
+    """Whether the (r, r) system can be solved: none of its directions is without effect."""
+    strength = np.linalg.svd(system, compute_uv=False)
+    return bool(np.isfinite(strength).all() and strength[-1] > MIN_RELATIVE_EFFECT * strength[0])
+
+
+def _limited_moves(step_directions: NDArray, multiplier: NDArray, limit: float) -> NDArray[np.float64]:
+    """(k, 3) the moves of the (r, k, 3) pulls times the (r,) multiplier, cut to the limit."""
+    moves = np.einsum("rnk,r->nk", step_directions, multiplier)
+    length = np.linalg.norm(moves, axis=1)
+    if not (length > limit).any():  # also for no limit
+        return moves
+    return moves * (limit / np.maximum(length, limit))[:, None]
+
+
+def _center_jacobian(
+    step_directions: NDArray, multiplier: NDArray, gradient: NDArray, limit: float
+) -> NDArray[np.float64]:
+    """(r, r) the derivative of the center by the multiplier. A move that is cut can still turn, not grow."""
+    if np.isfinite(limit):
+        moves = np.einsum("rnk,r->nk", step_directions, multiplier)
+        length = np.linalg.norm(moves, axis=1)
+        along = moves / np.where(length > 0.0, length, 1.0)[:, None]
+        radial = np.einsum("rnk,nk->rn", step_directions, along)[:, :, None] * along
+        step_directions = np.where(
+            (length > limit)[:, None],
+            (step_directions - radial) * (limit / np.maximum(length, limit))[:, None],
+            step_directions,
+        )
+    return np.einsum("rnk,snk->rs", gradient, step_directions)
+
+
+class _Problem:
+    """The center of one surface as a function of its points, and what comes of them."""
+
+    def __init__(self, surface: Surface, shell: bool, across: NDArray, target: NDArray):
+        triangles, _ = surface.all_triangles()
+        self.triangles, self.start = triangles, surface.points.astype(np.float64)
+        self.surface = Surface(self.start, triangles)
+        self.shell, self.across, self.target = shell, across, target
+        used = self.start[np.unique(triangles)]
+        self.size = float(np.linalg.norm(np.ptp(used, axis=0)))
+        farthest = max(np.abs(used).max(), np.abs(self.across @ self.target).max())
+        self.tolerance = REACHED_TOLERANCE * (self.size + farthest)
+        self.sign = 1.0 if shell else float(np.sign(self._moments(self.start).total))
+
+    def _moments(self, points: NDArray) -> Moments:
+        volume, area = polyhedron_moments(
+            replace(self.surface, points=points), area_order=3 if self.shell else 0, allow_open=True
+        )
+        return area if self.shell else volume
+
+    def evaluate(self, points: NDArray) -> tuple[NDArray, NDArray, NDArray] | None:
+        """(3,) the center, (r,) how far it is from its target, and (r, n, 3) its derivatives; None where the body has
+        turned inside out."""
+        moments = self._moments(points)
+        if not moments.total * self.sign > moments.rounding_error[0]:
+            return None
+        center = moments.center
+        derive = area_gradient if self.shell else volume_gradient
+        gradient: Gradient = derive(replace(self.surface, points=points), center, order=1)
+        return (
+            center,
+            self.across @ (self.target - center),
+            np.einsum("ri,nik->rnk", self.across, gradient.center(moments.total)),
+        )
+
+    def check(self, points: NDArray, movable: NDArray) -> None:
+        """MeasureError where a triangle turns by a right angle or more on its way: N(s)·N(0), a quadratic in s, must
+        stay positive to s = 1."""
+        moved = np.zeros(len(points), bool)
+        moved[movable] = True
+        triangles = self.triangles[moved[self.triangles].any(axis=1)]
+        a, b, c = (self.start[triangles[:, k]] for k in range(3))
+        u, v, w = (points[triangles[:, k]] - corner for k, corner in enumerate((a, b, c)))
+        edges, turns = (b - a, c - a), (v - u, w - u)
+        normal = np.cross(*edges)
+        double = np.linalg.norm(normal, axis=1)
+        longest = np.max([(edge * edge).sum(axis=1) for edge in (*edges, c - b)], axis=0)
+        solid = double > SLIVER_RTOL * longest
+        coefficients = (normal, np.cross(edges[0], turns[1]) + np.cross(turns[0], edges[1]), np.cross(*turns))
+        jacobian = np.array([(row * normal).sum(axis=1) for row in coefficients])[:, None, solid]
+        turn_length = np.sqrt(np.max([(turn * turn).sum(axis=1) for turn in turns], axis=0))
+        long = np.sqrt(longest)
+        error = 32.0 * U * np.array([long * long, 2.0 * long * turn_length, turn_length * turn_length]) * double
+        folded = int(np.count_nonzero(first_positive_root(jacobian, error[:, solid]) <= 1.0))
+        if folded:
+            raise MeasureError("balance_folds_faces", count=folded)
+
+
+class _Fans:
+    """The faces of a surface as triangles around the mean of each face's vertices; triangles stay as they are.
+
+    areas: (n,) what each vertex stands for, an equal share of each of its faces.
+    """
+
+    def __init__(self, surface: Surface, shell: bool):
+        triangles, faces = surface.all_triangles()
+        self.shell, self.count = shell, len(surface.points)
+        points = surface.points.astype(np.float64)
+        names, faces = np.unique(faces, return_inverse=True)
+        faces, number = faces.ravel(), len(names)
+        vectors = normals(points, triangles)
+        corner = np.unique(np.repeat(faces, 3) * np.int64(self.count) + triangles.ravel())
+        self.owner, self.vertex = corner // self.count, corner % self.count
+        self.share = 1.0 / np.bincount(self.owner)[self.owner]
+        area = sums_by_index(faces, np.linalg.norm(vectors, axis=1) / 2.0, number)
+        self.areas = sums_by_index(self.vertex, area[self.owner] * self.share, self.count)
+        middles = np.stack(
+            [sums_by_index(self.owner, points[self.vertex, k] * self.share, number) for k in range(3)], axis=1
+        )
+        whole = np.bincount(faces)[faces] == 1
+        boundary, owners = _face_boundaries(triangles[~whole], faces[~whole])
+        fan = np.concatenate([triangles[whole], np.concatenate([boundary, self.count + owners[:, None]], axis=1)])
+        owners = np.concatenate([faces[whole], owners])
+        self.points = np.concatenate([points, middles])
+        facing = np.stack([sums_by_index(faces, column, number) for column in vectors.T], axis=1)[owners]
+        self.opposed = (normals(self.points, fan) * facing).sum(axis=1) < 0.0  # where a face is not convex
+        self.fan = fan
+
+    def center_gradient(self, center: NDArray) -> NDArray[np.float64]:
+        """(n, 3, 3) ∂ center[i] / ∂ vertex[k], each face's middle moving with its vertices."""
+        if self.shell:  # signed as the faces' own areas are
+            parts = [
+                area_gradient(Surface(self.points, triangles), center, order=1).by_vertex[:, 1:4]
+                for triangles in (self.fan[~self.opposed], self.fan[self.opposed])
+            ]
+            gradient, total = parts[0] - parts[1], self.areas.sum()
+        else:
+            surface = Surface(self.points, self.fan)
+            gradient = volume_gradient(surface, center, order=1).by_vertex[:, 1:4]
+            total = polyhedron_moments(surface)[0].total
+        gradient /= total
+        vertex_gradient, middle = gradient[: self.count].reshape(-1, 9), gradient[self.count :].reshape(-1, 9)
+        for column, shared in zip(vertex_gradient.T, middle.T):
+            column += sums_by_index(self.vertex, shared[self.owner] * self.share, self.count)
+        return vertex_gradient.reshape(-1, 3, 3)
+
+
+def _face_boundaries(triangles: NDArray, faces: NDArray) -> tuple[NDArray[np.integer], NDArray[np.integer]]:
+    """(k, 2) the sides of triangles that no other triangle of the same face runs along the other way, and (k,) the face
+    of each."""
+    start, stop = triangles.ravel().astype(np.int64), np.roll(triangles, -1, axis=1).ravel().astype(np.int64)
+    owner = np.repeat(faces, 3).astype(np.int64)
+    first = first_occurrence(np.minimum(start, stop), np.maximum(start, stop), owner)
+    on_boundary = np.bincount(first)[first] == 1
+    return np.stack([start[on_boundary], stop[on_boundary]], axis=1), owner[on_boundary]

@@ -1,0 +1,266 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""3MF files: meshes, components, the build's transforms and its unit.
+
+Read as the 3MF Core Specification 1.3 and its Production Extension say (https://3mf.io/spec). Everything that the file
+may make a reader do is limited: the archive's entries and their size, the number of placed meshes. XML has no entities
+or document types here, which the specification forbids.
+"""
+
+from __future__ import annotations
+
+import posixpath
+import zipfile
+import zlib
+from array import array
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from xml.parsers import expat
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..scans.limits import DEFAULT_LIMITS, Limits
+from ..verdict.finding import FileError, system_reason
+from ..verdict.number_text import SPACES, parse_number, parse_numbers, parse_whole
+
+MAX_INSTANCES = 100_000  # meshes that the build places
+MAX_TEXT = 60  # letters of a wrong field that are shown
+UNITS = {"micron": 1e-6, "millimeter": 1e-3, "centimeter": 1e-2, "inch": 0.0254, "foot": 0.3048, "meter": 1.0}
+_KNOWN = ("core/2015/02", "material/2015/02", "production/2015/06")  # what is understood, or changes no shape
+_PACKAGE = "http://schemas.openxmlformats.org/package/2006/relationships"
+_BLOCK = 1 << 16
+
+
+@dataclass
+class _Object:
+    """An object of a model: a mesh, or components (part, id, transform)."""
+
+    name: str
+    points: array = field(default_factory=lambda: array("d"))
+    triangles: array = field(default_factory=lambda: array("q"))
+    components: list[tuple[str, str, NDArray[np.float64]]] = field(default_factory=list)
+
+
+@dataclass(frozen=True)
+class Placed:
+    """A mesh of the build: `key` is the same for all places of one mesh. matrix: 4 by 4, column vectors."""
+
+    name: str
+    key: tuple[str, str]
+    points: NDArray[np.float64]
+    triangles: NDArray[np.int64]
+    matrix: NDArray[np.float64]
+
+
+def read_3mf(path: str, limits: Limits = DEFAULT_LIMITS) -> tuple[list[Placed], float]:
+    """Read what a file builds.
+
+    Parameters
+    ----------
+    path : str
+    limits : Limits
+        `entries` and `unpacked_bytes` count.
+
+    Returns
+    -------
+    placed : list of Placed
+        Each mesh at each of its places, in the file's unit.
+    unit : float
+        Meters per unit.
+
+    Raises
+    ------
+    FileError
+        If the file is damaged, beyond a limit, or needs an extension that changes shapes.
+    """
+    try:
+        with zipfile.ZipFile(path) as archive:
+            package = _Package(archive, limits)
+            return package.build()
+    except (zipfile.BadZipFile, zlib.error, EOFError, NotImplementedError, RuntimeError, expat.ExpatError) as error:
+        raise FileError("threemf_damaged", error=str(error).rstrip(".") or type(error).__name__) from error
+    except (KeyError, ValueError, IndexError, OverflowError) as error:
+        raise FileError("threemf_damaged", error="{}: {}".format(type(error).__name__, error)) from error
+    except OSError as error:
+        raise FileError("file_unreadable", error=system_reason(error)) from error
+
+
+class _Package:
+    """An open archive, and the parts of it that were read."""
+
+    def __init__(self, archive: zipfile.ZipFile, limits: Limits) -> None:
+        self._archive, self._limits, self._unpacked = archive, limits, 0
+        entries = archive.infolist()
+        self._check("entries", len(entries))
+        self._names = {"/" + entry.filename.lstrip("/").lower(): entry for entry in entries}
+        self._models: dict[str, _Model] = {}
+        self._arrays: dict[tuple[str, str], tuple[NDArray, NDArray]] = {}
+
+    def _check(self, name: str, count: int) -> None:
+        limit = getattr(self._limits, name)
+        if count > limit:
+            values = {"name": name, "count": count, "limit": limit, "next": max(count, 2 * limit)}
+            raise FileError("file_exceeds_limit", file=posixpath.basename(self._archive.filename or ""), **values)
+
+    def pieces(self, part: str) -> Iterator[bytes]:
+        """The bytes of a part."""
+        with self._archive.open(self._names[part.lower()]) as file:
+            while piece := file.read(_BLOCK):
+                self._unpacked += len(piece)
+                self._check("unpacked_bytes", self._unpacked)
+                yield piece
+
+    def model(self, part: str) -> _Model:
+        if part not in self._models:
+            self._models[part] = _Model(part, self.pieces(part))
+        return self._models[part]
+
+    def build(self) -> tuple[list[Placed], float]:
+        root = self._root()
+        model = self.model(root)
+        placed: list[Placed] = []
+        for part, identifier, matrix in model.items:
+            self._place(part, identifier, matrix, (), "", placed)
+        return placed, UNITS[model.unit]
+
+    def _root(self) -> str:
+        if "/_rels/.rels" in self._names:
+            for target, kind in _relationships(self.pieces("/_rels/.rels")):
+                if kind.endswith("/3dmodel"):
+                    return posixpath.join("/", target)
+        return "/3D/3dmodel.model"
+
+    def _place(
+        self,
+        part: str,
+        identifier: str,
+        matrix: NDArray[np.float64],
+        above: tuple[tuple[str, str], ...],
+        name: str,
+        placed: list[Placed],
+    ) -> None:
+        key = (part, identifier)
+        if key in above:
+            raise ValueError("an object is a component of itself")
+        if len(placed) >= MAX_INSTANCES or len(above) > 100:
+            raise FileError("threemf_instances", limit=MAX_INSTANCES)
+        found = self.model(part).objects[identifier]
+        name = name or found.name
+        if len(found.triangles):
+            points, triangles = self._mesh(key, found)
+            placed.append(Placed(name or "Object " + identifier, key, points, triangles, matrix))
+        for part, identifier, local in found.components:
+            self._place(part, identifier, matrix @ local, (*above, key), found.name or name, placed)
+
+    def _mesh(self, key: tuple[str, str], found: _Object) -> tuple[NDArray, NDArray]:
+        if key not in self._arrays:
+            points = np.frombuffer(found.points, np.float64).reshape(-1, 3)
+            triangles = np.frombuffer(found.triangles, np.int64).reshape(-1, 3)
+            if triangles.size and not (triangles.min() >= 0 and triangles.max() < len(points)):
+                raise ValueError("a triangle has a vertex that is not there")
+            self._arrays[key] = points, triangles
+        return self._arrays[key]
+
+
+def _parser() -> expat.XMLParserType:
+    def refuse(*_: object) -> None:
+        raise FileError("threemf_damaged", error="it has a document type, which 3MF forbids")
+
+    parser = expat.ParserCreate(namespace_separator=" ")
+    parser.buffer_text = True
+    parser.StartDoctypeDeclHandler = refuse
+    parser.EntityDeclHandler = refuse
+    return parser
+
+
+def _relationships(pieces: Iterator[bytes]) -> list[tuple[str, str]]:
+    """Target and type of each relationship."""
+    found: list[tuple[str, str]] = []
+    parser = _parser()
+
+    def start(name: str, values: dict[str, str]) -> None:
+        if name == _PACKAGE + " Relationship":
+            found.append((values["Target"], values["Type"]))
+
+    parser.StartElementHandler = start
+    _feed(parser, pieces)
+    return found
+
+
+def _feed(parser: expat.XMLParserType, pieces: Iterator[bytes]) -> None:
+    for piece in pieces:
+        parser.Parse(piece, False)
+    parser.Parse(b"", True)
+
+
+class _Model:
+    """A model part: its objects by id, the items of its build (part, id, transform), its unit."""
+
+    def __init__(self, part: str, pieces: Iterator[bytes]) -> None:
+        self._part = part
+        self.unit, self._tag = "millimeter", ""
+        self.objects: dict[str, _Object] = {}
+        self.items: list[tuple[str, str, NDArray[np.float64]]] = []
+        self._object = _Object("")
+        self._spaces: dict[str, str] = {}
+        parser = _parser()
+        parser.StartNamespaceDeclHandler = lambda prefix, uri: self._spaces.__setitem__(prefix or "", uri or "")
+        parser.StartElementHandler = self._start
+        try:
+            _feed(parser, pieces)
+        except ValueError as error:  # with the text of a field
+            place = {"line": parser.CurrentLineNumber, "element": self._tag, "text": str(error)[:MAX_TEXT]}
+            raise FileError("threemf_field", **place) from error
+
+    def _start(self, name: str, values: dict[str, str]) -> None:
+        space, _, tag = name.rpartition(" ")
+        if not space.endswith("core/2015/02"):
+            return
+        self._tag = tag
+        if tag == "vertex":
+            self._object.points.extend([_coordinate(values.get(axis, "")) for axis in "xyz"])
+        elif tag == "triangle":
+            self._object.triangles.extend(
+                parse_whole(values.get(corner, "").strip(SPACES)) for corner in ("v1", "v2", "v3")
+            )
+        elif tag == "object":
+            self._object = self.objects[values["id"]] = _Object(values.get("name", ""))
+        elif tag == "component":
+            self._object.components.append(self._reference(values))
+        elif tag == "item":
+            self.items.append(self._reference(values))
+        elif tag == "model":
+            self.unit = values.get("unit", self.unit)
+            if self.unit not in UNITS:
+                raise ValueError(self.unit)
+            for prefix in values.get("requiredextensions", "").split():
+                if not self._spaces.get(prefix, prefix).endswith(_KNOWN):
+                    raise FileError("threemf_extension", name=self._spaces.get(prefix, prefix))
+
+    def _reference(self, values: dict[str, str]) -> tuple[str, str, NDArray[np.float64]]:
+        path = next((value for name, value in values.items() if name.endswith("production/2015/06 path")), self._part)
+        matrix = np.eye(4)
+        if "transform" in values:
+            matrix[:3] = _transform(values["transform"])
+        return path, values["objectid"], matrix
+
+
+def _transform(text: str) -> NDArray[np.float64]:
+    """Return (3, 4) of a transform, whose vectors are rows. Raise ValueError with a wrong text."""
+    numbers = np.array(parse_numbers(text))
+    if len(numbers) != 12 or not np.isfinite(numbers).all():
+        raise ValueError(text)
+    return numbers.reshape(4, 3).T
+
+
+def _coordinate(text: str) -> float:
+    """Return a number that single precision has. Raise ValueError with a wrong text."""
+    value = parse_number(text.strip(SPACES))
+    if not abs(value) < 3.4e38:
+        raise ValueError(text)
+    return value
+
+
+def _index(text: str) -> int:
+    return parse_whole(text.strip(SPACES))

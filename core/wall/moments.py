@@ -1,0 +1,121 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The moments of a wall to any order.
+
+Both sides of a wall are polyhedra, and what joins them along the surface's boundary are bilinear patches: its moments
+are those of what they bound. Against the polynomials of `walls`, which end at third order, digits are lost: as many as
+the wall is thinner than the body, and the bounds say so.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..mesh.edges import find_edges
+from ..mesh.surface import Surface
+from ..moments.moments import Measure, Moments, U, monomials
+from ..numerics.arguments import check_type
+from ..numerics.quadrature import gauss_legendre
+from ..numerics.vectors import cross
+from ..polyhedron.integration import polyhedron_moments
+from .walls import ORDER, OffsetSolid
+
+NODES_PER_BLOCK = 1 << 14
+
+
+def wall_moments(wall: OffsetSolid, inward: float, outward: float, order: int) -> Moments:
+    """Return the volume moments of a wall to any order, about the middle of the surface's bounding box.
+
+    Parameters
+    ----------
+    wall : OffsetSolid
+        With its arrays.
+    inward, outward : float
+        How far the wall reaches below the surface and above it.
+    order : int
+
+    Returns
+    -------
+    Moments
+        To third order those of `OffsetSolid.moments`.
+
+    Raises
+    ------
+    ValueError
+        If the wall folds over.
+
+    Examples
+    --------
+    >>> from body_moments.core.mesh import Surface
+    >>> from body_moments.core.wall import offset_solid, wall_moments
+    >>> plate = offset_solid(Surface.from_triangles(np.eye(4, 3, -1), [[0, 1, 2]]))
+    >>> round(wall_moments(plate, 0.0, 0.5, 6).about_point((0, 0, 0))[2, 0, 4] * 1920, 9)
+    1.0
+    """
+    check_type("wall", wall, OffsetSolid)
+    known = wall.moments(inward, outward)
+    if order <= ORDER:
+        return known.truncate(order)
+    count = len(wall.points)
+    points = np.concatenate([wall.points - inward * wall.vectors, wall.points + outward * wall.vectors])
+    sides = Surface(points, np.concatenate([wall.triangles[:, ::-1], wall.triangles + count]))
+    moments = polyhedron_moments(sides, order, about=wall.about, allow_open=True)[0]
+    boundary = find_edges(wall.triangles).boundary_sides()
+    if len(boundary):
+        start, stop = wall.triangles.ravel()[boundary], np.roll(wall.triangles, -1, axis=1).ravel()[boundary]
+        corners = np.stack([points[start], points[stop], points[stop + count], points[start + count]])
+        moments = moments + _strip_moments(corners - wall.about, wall.about, order)
+    reach = (wall.reach[0] + max(inward, outward) * wall.reach[1]) * (1.0 + 1e-9)
+    largest = np.multiply.reduce(reach ** monomials(order), axis=1)
+    rounded, moved = (
+        sum(float(row @ s ** np.arange(4)) for s in (inward, outward))
+        for row in (wall.swept_rounding, wall.swept_bound)
+    )
+    lower = len(known.raw)
+    error = moments.rounding_error + rounded * largest
+    return replace(
+        moments,
+        raw=np.concatenate([known.raw, moments.raw[lower:]]),
+        rounding_error=np.concatenate([known.rounding_error, error[lower:]]),
+        input_error=np.concatenate([known.input_error, moved * largest[lower:]]),
+    )
+
+
+def _strip_moments(corners: NDArray[np.float64], about: NDArray[np.float64], order: int) -> Moments:
+    """The moments of the cones from the origin on bilinear patches, (4, k, 3) about it: Gauss's rule is exact."""
+    table = monomials(order)
+    sums = np.zeros((2, len(table)))
+    nodes, weights = gauss_legendre((order + 4) // 2)
+    u, w = (grid.ravel() for grid in np.meshgrid(nodes, nodes))
+    weight = np.multiply.outer(weights, weights).ravel()
+    share = np.stack([(1 - u) * (1 - w), u * (1 - w), u * w, (1 - u) * w])
+    along, across = np.stack([1 - w, w]), np.stack([1 - u, u])
+    step = max(1, NODES_PER_BLOCK // len(weight))
+    for first in range(0, corners.shape[1], step):
+        block = corners[:, first : first + step]
+        # by differences of corners, whose rounding is that of sides that may be much shorter than they are far
+        sides, ends = block[[1, 2]] - block[[0, 3]], block[[3, 2]] - block[[0, 1]]
+        place, reach, tangent, other = (
+            np.einsum("cn,cki->ikn", rows, vectors).reshape(3, -1)
+            for rows, vectors in ((share, block), (share, np.abs(block)), (along, sides), (across, ends))
+        )
+        flux = np.einsum("in,in->n", place, np.stack(cross(tangent, other)))
+        mixed = (
+            np.abs(tangent)[[1, 2, 0]] * np.abs(other)[[2, 0, 1]]
+            + np.abs(tangent)[[2, 0, 1]] * np.abs(other)[[1, 2, 0]]
+        )
+        flux_size = np.einsum("in,in->n", reach, mixed)
+        fluxes = np.stack([flux, flux_size]) * np.tile(weight, block.shape[1])
+        factors = np.stack([place, reach])
+        powers = np.ones((order + 1, 2, 3, place.shape[1]))
+        for power in range(order):
+            powers[power + 1] = powers[power] * factors
+        for number, (p, q, r) in enumerate(table.tolist()):
+            values = powers[p, :, 0] * powers[q, :, 1] * powers[r, :, 2]
+            sums[:, number] += np.add.reduce(values * fluxes, axis=1)
+    raw, size = sums / (table.sum(axis=1) + 3.0)
+    units = (8.0 * table.sum(axis=1) + 64.0 + corners.shape[1] * len(weight) / step) * U
+    return Moments(raw, about, Measure.VOLUME, units * size)

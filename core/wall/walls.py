@@ -1,0 +1,477 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Walls: the material between a surface and its offset, with moments that are polynomials in the thickness.
+
+With the directions d of its vertices (see `directions`), a triangle sweeps the prism x = p + s d, both linear on the
+triangle, with Jacobian J = Σ λ_k N(s)·d_k, where N(s) = (e + s f) × (e' + s f') is the normal of the triangle moved by
+s, e, e' its edges and f, f' the differences of its directions. J x^α is a polynomial of degree |α| + 2 in s and |α| + 1
+in the barycentric coordinates λ: six nodes (Dunavant, Int. J. Numer. Methods Eng. 21, 1985) integrate it exactly over
+the triangle, coefficient by coefficient. Neighboring prisms share the ruled surface over their edge, so that their sum
+is the wall, with no gap.
+
+J is linear in λ, hence positive on a prism exactly where its three quadratics N(s)·d_k in s are: their first roots are
+the thickness at which the offset folds over. That is a local test: walls that run into each other far along the surface
+are looked for separately, one thickness at a time, and what two share counts twice.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..mesh.bvh import sort_components
+from ..mesh.edges import find_edges
+from ..mesh.surface import Surface
+from ..mesh.welding import first_at_equal_position
+from ..moments.moments import PAIRWISE_SUM_ROUNDINGS, Measure, Moments, U, monomial_count, monomial_index, monomials
+from ..numerics.arguments import check_type
+from ..numerics.graph import connected_components
+from ..numerics.vectors import cross
+from ..solid.boundary_loops import vertex_pairs
+from ..solid.nesting import classify_pairs, self_overlaps, surfaces_intersect
+from ..verdict.finding import MeasureError
+from ..verdict.tolerances import check_size
+from .directions import UNEVEN_RTOL, blocks, offset_directions
+
+ORDER = 3
+COEFFICIENT_COUNT = ORDER + 3  # coefficients in s: degrees 0 to 5
+TOUCHING_RTOL = 1e-6  # of the size: nearer sides touch
+MAX_UNORIENTED_SHARE = 0.01  # of the area: above it, too many faces have lost their direction for a wall
+JACOBIAN_ROUNDINGS = 20.0  # u: what rounds a Jacobian, relative to the product of the lengths in it
+INNER_NODES, OUTER_NODES = (0.10810301816807023, 0.81684757298045851), (0.44594849091596489, 0.091576213509770743)
+NODES = np.concatenate(
+    [np.full((3, 3), outer) + (inner - outer) * np.eye(3) for inner, outer in zip(INNER_NODES, OUTER_NODES)]
+)
+WEIGHTS = np.repeat([0.11169079483900573, 0.054975871827660933], 3)
+
+
+@dataclass(frozen=True, eq=False)
+class OffsetSolid:
+    """What a surface sweeps when it moves along its directions by s, per unit of s, as polynomials in s.
+
+    Attributes
+    ----------
+    points, vectors, triangles : (n, 3), (n, 3) and (m, 3) arrays
+        What moves where.
+    about : (3,) array
+        The point that the moments are about.
+    coefficients, rounding_error, input_error : (20, 6) arrays
+        Of s^0 to s^5 for each moment to third order: the coefficients, and bounds for positive and negative s of what
+        rounding and storing the points as float32 may have changed.
+    swept_bound, swept_rounding : (4,) arrays
+        Of s^0 to s^3: what a side, and what joins both along the boundary, sweep at most when storing the points as
+        float32 moves them, or rounding; this bounds the changes as `input_error` does.
+    reach : (2, 3) array
+        Of the points from `about` and of the vectors, by axis.
+    outward, inward : float
+        How far the surface can move before a prism folds over, infinite where none does.
+    outward_at, inward_at : int
+        The triangles that fold first, -1 for none.
+    inexact_vertices : int
+        How many vertices have no direction that moves all their faces alike.
+    min_ratio, max_ratio : float
+        The thickness at those, divided by the thickness asked for.
+    degenerate_triangles : int
+        Triangles without a known normal, which are swept but ask for nothing.
+
+    Examples
+    --------
+    >>> from body_moments.core.mesh import Surface
+    >>> from body_moments.core.wall import OffsetSolid, offset_solid
+    >>> square = Surface.from_triangles(np.eye(4, 3, -1), [[0, 1, 2]])
+    >>> wall = offset_solid(square)
+    >>> isinstance(wall, OffsetSolid), round(wall.moments(0.0, 0.2).total, 9)
+    (True, 0.1)
+    """
+
+    points: NDArray[np.float64]
+    vectors: NDArray[np.float64]
+    triangles: NDArray[np.integer]
+    about: NDArray[np.float64]
+    coefficients: NDArray[np.float64]
+    rounding_error: NDArray[np.float64]
+    input_error: NDArray[np.float64]
+    swept_bound: NDArray[np.float64]
+    swept_rounding: NDArray[np.float64]
+    reach: NDArray[np.float64]
+    outward: float
+    inward: float
+    outward_at: int
+    inward_at: int
+    inexact_vertices: int
+    min_ratio: float
+    max_ratio: float
+    degenerate_triangles: int
+
+    def moments(self, inward: float, outward: float) -> Moments:
+        """Return the volume moments to third order of a wall, about the middle of the surface's bounding box.
+
+        Parameters
+        ----------
+        inward, outward : float
+            How far the wall reaches below the surface and above it.
+
+        Returns
+        -------
+        Moments
+
+        Raises
+        ------
+        ValueError
+            If the wall folds over.
+        """
+        if not (inward < self.inward or inward == 0.0) or not (outward < self.outward or outward == 0.0):
+            raise ValueError("offset folds over")
+        degree = np.arange(1, COEFFICIENT_COUNT + 1)
+        up, down = outward**degree / degree, -((-inward) ** degree) / degree
+        both = outward**degree / degree + inward**degree / degree
+        raw = self.coefficients @ (up + down)
+        error = self.rounding_error @ both + 16.0 * U * (np.abs(self.coefficients) @ both)
+        swept = sum(self.swept_bound @ s ** np.arange(4) for s in (inward, outward))
+        reach = self.reach[0] + max(inward, outward) * self.reach[1]
+        moved = swept * np.multiply.reduce(reach ** monomials(ORDER), axis=1)
+        return Moments(raw, self.about, Measure.VOLUME, error, np.minimum(self.input_error @ both, moved))
+
+    def box(self, inward: float, outward: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Return the smallest and the largest coordinates of the wall, (3,) and (3,)."""
+        sides = [self.points - inward * self.vectors, self.points + outward * self.vectors]
+        return np.min(sides, axis=(0, 1)), np.max(sides, axis=(0, 1))
+
+    def self_intersects(self, inward: float, outward: float) -> bool:
+        """Return whether the two sides of the wall go through each other, a moved side through itself, or the walls of
+        parts into one another, as far as is found within bounds of time.
+        """
+        count = len(self.points)
+        points = np.concatenate([self.points - inward * self.vectors, self.points + outward * self.vectors])
+        triangles = np.concatenate([self.triangles, self.triangles + count])
+        shell = np.repeat([0, 1], len(self.triangles))
+        tolerance = min(TOUCHING_RTOL * float(np.ptp(points, axis=0).max()), 1e-3 * (inward + outward))
+        pairs = [(0, 1), *((k, k) for k, moved in enumerate((inward, outward)) if moved)]
+        return surfaces_intersect(
+            points, triangles, shell, np.array(pairs), np.tile(np.arange(count), 2), tolerance
+        ) or self._overlaps(points, tolerance)
+
+    def _overlaps(self, points: NDArray, tolerance: float) -> bool:
+        """Whether the walls of parts reach into one another or into themselves, where no edge need pierce a face: skins
+        that have moved past each other, or that are flush. Each wall is a closed body: both its sides and the strip
+        along its boundary."""
+        part, number = connected_components(
+            len(self.points), self.triangles.ravel(), np.roll(self.triangles, 1, axis=1).ravel()
+        )
+        boundary, count = find_edges(self.triangles).boundary_sides(), len(self.points)
+        start, stop = self.triangles.ravel()[boundary], np.roll(self.triangles, -1, axis=1).ravel()[boundary]
+        triangles = np.concatenate(
+            [
+                self.triangles[:, ::-1],
+                self.triangles + count,
+                np.stack([start, stop, stop + count], axis=1),
+                np.stack([start, stop + count, start + count], axis=1),
+            ]
+        )
+        shells = sort_components(points, triangles, part[triangles[:, 0] % count].astype(np.intp), number)
+        solid = shells.volume > 0.0
+        if self_overlaps(points, shells, solid, tolerance):
+            return True
+        relations = classify_pairs(points, shells, solid, tolerance)
+        return len(relations.contained_in) + len(relations.intersecting) > 0
+
+    def drop_arrays(self) -> OffsetSolid:
+        """Return the same without the arrays that are as large as the mesh."""
+        return replace(self, points=self.points[:0], vectors=self.vectors[:0], triangles=self.triangles[:0])
+
+    def first_fold_location(self, side: str) -> NDArray[np.float64]:
+        """Return the (3,) middle of the triangle that folds first on that side."""
+        at = {
+            "inward": self.inward_at,
+            "outward": self.outward_at,
+            "centered": self.inward_at if self.inward < self.outward else self.outward_at,
+        }[side]
+        return self.points[self.triangles[at]].mean(axis=0)
+
+    def max_thickness(self, side: str) -> float:
+        """Return the thickness from which the wall on that side folds over: "inward", "outward" or "centered"."""
+        return {"inward": self.inward, "outward": self.outward, "centered": 2.0 * min(self.inward, self.outward)}[side]
+
+
+def split_thickness(side: str, thickness: float) -> tuple[float, float]:
+    """Return how much of a thickness is inside the surface and outside.
+
+    Parameters
+    ----------
+    side : str
+        "inward", "outward" or "centered".
+    thickness : float
+
+    Returns
+    -------
+    inward, outward : float
+
+    Examples
+    --------
+    >>> from body_moments.core.wall import split_thickness
+    >>> split_thickness("centered", 0.5)
+    (0.25, 0.25)
+    """
+    return {"inward": (thickness, 0.0), "outward": (0.0, thickness), "centered": (thickness / 2.0, thickness / 2.0)}[
+        side
+    ]
+
+
+def offset_solid(surface: Surface) -> OffsetSolid:
+    """Return the walls of a surface, as polynomials in their thickness.
+
+    Parameters
+    ----------
+    surface : Surface
+        Closed or open; its faces must agree which side is outward. Points at exactly the same place are one.
+
+    Returns
+    -------
+    OffsetSolid
+
+    Raises
+    ------
+    MeasureError
+        If faces disagree, more than two meet in an edge, or float32 has lost which way they face; the finding's edges
+        are pairs of the surface's vertices.
+
+    Examples
+    --------
+    >>> from body_moments.core.mesh import Surface
+    >>> from body_moments.core.wall import offset_solid
+    >>> cube = Surface(
+    ...     np.array([[x, y, z] for x in (0.0, 1.0) for y in (0.0, 1.0) for z in (0.0, 1.0)]),
+    ...     quads=np.array([[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]),
+    ... )
+    >>> wall = offset_solid(cube)
+    >>> round(wall.moments(0.1, 0.0).total, 9), round(float(wall.max_thickness("inward")), 5)
+    (0.488, 0.5)
+    """
+    check_type("surface", surface, Surface)
+    points, triangles = _weld_equal(surface)
+    stored = float(np.linalg.norm(surface.coordinate_error))
+    low, high = points.min(axis=0), points.max(axis=0)
+    check_size(*(high - low).tolist())
+    about = low / 2.0 + high / 2.0
+    directions = offset_directions(points, triangles, stored)
+    vectors = directions.vectors
+    reach = np.abs(points - about).max(axis=0) * (1.0 + 4.0 * U), np.abs(vectors).max(axis=0)
+    sums, bounds, swept, tested = np.zeros((20, COEFFICIENT_COUNT)), np.zeros((3, 7)), np.zeros((2, 4)), []
+    rounded, slid = 4.0 * U * float(np.linalg.norm(reach[0])), 4.0 * U * float(np.linalg.norm(reach[1]))
+    for part, known in zip(blocks(triangles), blocks(directions.has_normal)):
+        prisms = _Prisms(points[part], about, vectors[part])
+        sums += prisms.sums()
+        slide, lift = directions.tangential_error[:, part].max(axis=2), directions.normal_error[:, part].max(axis=2)
+        if stored:
+            lift[1] += np.where(known, 0.0, 1.0 + prisms.far)  # it should have moved by one
+        bounds += prisms.bounds(slide, lift, stored)
+        swept[0] += prisms.swept(slide[0] + slid, lift[0] + slid, rounded)
+        swept[1] += prisms.swept(slide[1], lift[1], stored)
+        tested.append(prisms.jacobians())
+    jacobian, jacobian_error, double = (np.concatenate(column, axis=-1) for column in zip(*tested))
+    solid = directions.has_normal
+    lost, total = float(double[~solid].sum()), float(double.sum())
+    if stored and lost > MAX_UNORIENTED_SHARE * total:
+        raise MeasureError("wall_precision_lost", share=lost / total)
+    rest = np.flatnonzero(solid)
+    outward, inward = (
+        first_positive_root(jacobian[:, :, solid] * signs[:, None, None], jacobian_error[:, solid])
+        for signs in (np.array([1.0, 1.0, 1.0]), np.array([1.0, -1.0, 1.0]))
+    )
+    height = jacobian[0, :, solid] / double[solid, None]
+    uneven = np.abs(height - 1.0) > UNEVEN_RTOL
+    error, moved = _propagate_error(bounds, reach, len(tested), stored)
+    slides = directions.tangential_error.max(axis=1) + directions.normal_error.max(axis=1)
+    swept[0] += _swept_by_strips(points, vectors, triangles, rounded, slides[0] + 2.0 * slid)
+    swept[1] += _swept_by_strips(points, vectors, triangles, stored, slides[1])
+    return OffsetSolid(
+        points,
+        vectors,
+        triangles,
+        about,
+        sums,
+        error,
+        moved,
+        swept[1],
+        swept[0],
+        np.array(reach),
+        outward.min(initial=np.inf),
+        inward.min(initial=np.inf),
+        *(int(rest[np.argmin(limit)]) if np.isfinite(limit.min(initial=np.inf)) else -1 for limit in (outward, inward)),
+        inexact_vertices=len(np.unique(triangles[solid][uneven])),
+        min_ratio=height.min(initial=1.0),
+        max_ratio=height.max(initial=1.0),
+        degenerate_triangles=int(np.count_nonzero(~solid)),
+    )
+
+
+def _weld_equal(surface: Surface) -> tuple[NDArray[np.float64], NDArray[np.integer]]:
+    """Points and triangles with one vertex for each place."""
+    triangles, _ = surface.all_triangles()
+    first = first_at_equal_position(surface.points)
+    triangles = first[triangles.astype(np.intp)]
+    triangles = triangles[(triangles != np.roll(triangles, 1, axis=1)).all(axis=1)]
+    if not len(triangles):
+        raise MeasureError("no_face_area")
+    used, number = np.unique(triangles, return_inverse=True)
+    triangles = number.reshape(-1, 3)
+    edges = find_edges(triangles)
+    crowded = edges.count > 2
+    if crowded.any():
+        pairs = used[vertex_pairs(triangles, edges.first[crowded])]
+        raise MeasureError("wall_non_manifold", elements=pairs, count=len(pairs))
+    misoriented = (edges.count == 2) & (edges.signed_use_count(np.zeros(len(triangles), bool)) != 0.0)
+    if misoriented.any():
+        pairs = used[vertex_pairs(triangles, edges.first[misoriented])]
+        raise MeasureError("wall_inconsistent_faces", elements=pairs, count=len(pairs))
+    return surface.points[used].astype(np.float64), triangles
+
+
+class _Prisms:
+    """What (m, 3, 3) corners sweep along their (m, 3, 3) directions; columns are prisms."""
+
+    def __init__(self, points: NDArray, about: NDArray, vectors: NDArray):
+        a, b, c = points.transpose(1, 2, 0)  # corner, axis, prism
+        u, v, w = self.vectors = vectors.transpose(1, 2, 0)
+        self.points = points.transpose(1, 2, 0) - about[:, None]
+        self.edges, self.turns = (b - a, c - a), (v - u, w - u)
+        plain, first, second, turned = (
+            np.stack(cross(first, second)) for first in (b - a, v - u) for second in (c - a, w - u)
+        )
+        self.normals = plain, first + second, turned
+        # power of s, corner, prism
+        self.own_size = np.array(
+            [[np.einsum("im,im->m", normal, vector) for vector in self.vectors] for normal in self.normals]
+        )
+        self.double = np.sqrt(np.einsum("im,im->m", self.normals[0], self.normals[0]))
+        self.long, self.turned_length, self.far = (
+            np.sqrt(np.max([np.einsum("im,im->m", row, row) for row in vectors_by_axis], axis=0))
+            for vectors_by_axis in (self.edges, self.turns, self.vectors)
+        )
+
+    def jacobians(self) -> tuple[NDArray, NDArray, NDArray]:
+        """(3, 3, m) coefficients in s of J at each corner, (3, m) what rounding may have changed them by, and (m,)
+        |N(0)|."""
+        return self.own_size, JACOBIAN_ROUNDINGS * U * self._sizes(), self.double
+
+    def _sizes(self) -> NDArray[np.float64]:
+        """(3, m) bounds of the coefficients of J."""
+        return np.array([self.long**2, 2.0 * self.long * self.turned_length, self.turned_length**2]) * self.far
+
+    def sums(self) -> NDArray[np.float64]:
+        """(20, 6) the coefficients of the moments."""
+        sums, count = np.zeros((monomial_count(ORDER), COEFFICIENT_COUNT)), self.points.shape[2]
+        place, step = (
+            np.einsum("nk,kim->inm", NODES, corners).reshape(3, 6 * count) for corners in (self.points, self.vectors)
+        )
+        table = {(0, 0, 0): (np.einsum("nk,pkm->pnm", NODES, self.own_size) * WEIGHTS[:, None]).reshape(3, 6 * count)}
+        for exponents in map(tuple, monomials(ORDER).tolist()):
+            if exponents not in table:
+                axis = next(i for i in range(3) if exponents[i])
+                lower = table[tuple(n - (i == axis) for i, n in enumerate(exponents))]
+                product = np.zeros((len(lower) + 1, 6 * count))
+                np.multiply(lower, place[axis], out=product[:-1])
+                product[1:] += lower * step[axis]
+                table[exponents] = product
+            values = np.add.reduce(table[exponents], axis=1)
+            sums[monomial_index(*exponents), : len(values)] = values
+        return sums
+
+    def bounds(self, tangential_error: NDArray, normal_error: NDArray, stored: float) -> NDArray[np.float64]:
+        """(3, 7) coefficients in s, summed over the prisms. First row: the sizes of J, three; the other four are zero.
+        Second row: by how much J changes where directions move by slide[0], (m,), and by lift[0] along the normals,
+        three; and the sizes of J times the move of x, four. Third row: the same where directions move by slide[1] and
+        lift[1], and points by `stored`."""
+        sizes, coefficients = self._sizes(), [np.zeros((7, len(self.double)))]
+        coefficients[0][:3] = sizes
+        long, turned, far = self.long, self.turned_length, self.far
+        for delta, along, step in zip(tangential_error, normal_error, (0.0, stored)):
+            change = [
+                4.0 * long * step * far + self.double * along,
+                (4.0 * turned * step + 4.0 * long * delta) * far + 2.0 * long * turned * delta,
+                4.0 * turned * delta * far + turned**2 * delta,
+            ]
+            flat = self.double * far
+            place = [flat * step, flat * delta + sizes[1] * step, sizes[1] * delta + sizes[2] * step, sizes[2] * delta]
+            coefficients.append(np.array(change + place))
+        return np.add.reduce(np.array(coefficients), axis=2) / 2.0
+
+    def swept(self, tangential_error: NDArray, normal_error: NDArray, stored: float) -> NDArray[np.float64]:
+        """(4,) coefficients in s of what the triangles and what they have become at s sweep together, when points move
+        by `stored` and directions by `tangential_error` in all and `normal_error` along the normals."""
+        unit = self.normals[0] / np.where(self.double > 0.0, self.double, 1.0)
+        height = [np.einsum("im,im->m", normal, unit) for normal in self.normals]
+        rest = [normal - along * unit for normal, along in zip(self.normals, height)]
+        along = np.abs(height)
+        size, across = (
+            [np.sqrt(np.einsum("im,im->m", vector, vector)) for vector in vectors] for vectors in (self.normals, rest)
+        )
+        across = [a + 8.0 * U * b for a, b in zip(across, size)]
+        coefficients = [
+            2.0 * size[0] * stored,
+            size[1] * stored + size[0] * normal_error,
+            size[2] * stored + along[1] * normal_error + across[1] * tangential_error,
+            along[2] * normal_error + across[2] * tangential_error,
+        ]
+        return np.add.reduce(np.array(coefficients), axis=1) / 2.0
+
+
+def _swept_by_strips(
+    points: NDArray, vectors: NDArray, triangles: NDArray, stored: float, slide: float
+) -> NDArray[np.float64]:
+    """(4,) coefficients in s of what the strips along the boundary sweep when points move by `stored` and directions by
+    `slide`."""
+    boundary = find_edges(triangles).boundary_sides()
+    start, stop = triangles.ravel()[boundary], np.roll(triangles, -1, axis=1).ravel()[boundary]
+    ends = [np.linalg.norm(array[stop] - array[start], axis=1) for array in (points, vectors)]
+    far = np.maximum(*(np.linalg.norm(vectors[end], axis=1) for end in (start, stop)))
+    long, turned = (float((end * far).sum()) for end in ends)
+    return np.array([0.0, long * stored, turned * stored + long * slide, turned * slide])
+
+
+def _propagate_error(
+    bounds: NDArray, reach: tuple[NDArray, NDArray], blocks: int, stored: float
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """(20, 6) and (20, 6) `rounding_error` and `input_error` from the sums of `_Prisms.bounds`, with every point within
+    reach[0] of the middle and every direction within reach[1], by axis."""
+    place, step = reach[0] + stored, reach[1]
+
+    def times(row: NDArray, exponents: list[int]) -> NDArray[np.float64]:
+        for axis, power in enumerate(exponents):
+            for _ in range(power):
+                row = np.convolve(row, (place[axis], step[axis]))
+        return row
+
+    error, moved = np.zeros((2, monomial_count(ORDER), COEFFICIENT_COUNT))
+    for i, exponents in enumerate(monomials(ORDER).tolist()):
+        degree = sum(exponents)
+        rounded = (JACOBIAN_ROUNDINGS + 8.0 * degree + PAIRWISE_SUM_ROUNDINGS + blocks) * U
+        error[i, : degree + 3] = times(rounded * bounds[0, :3], exponents)
+        for target, row in ((error, bounds[1]), (moved, bounds[2])):
+            target[i, : degree + 3] += times(row[:3], exponents)
+            for axis, power in enumerate(exponents):
+                if power:
+                    lower = [n - (k == axis) for k, n in enumerate(exponents)]
+                    target[i, : degree + 3] += power * times(row[3:], lower)
+    return error, moved
+
+
+def first_positive_root(jacobian: NDArray, error: NDArray) -> NDArray[np.float64]:
+    """(m,) the s up to which three quadratics a + b s + c s² are certainly positive, infinite where they always are.
+
+    jacobian: (3, 3, m) their coefficients a, b and c; error: (3, m) what rounding may have raised these by, which is
+    taken off. A discriminant that rounding alone may have made negative counts as zero. The largest root of
+    a y² + b y + c is 1 / s.
+    """
+    a, b, c = jacobian - error[:, None]
+    dead = ~(a > 0.0)
+    size = b * b + np.abs(4.0 * a * c)
+    square = b * b - 4.0 * a * c
+    real = square >= -16.0 * U * size
+    root = np.sqrt(np.maximum(square, 0.0) + 16.0 * U * size)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        largest = np.where(b > 0.0, -2.0 * c / (b + root), (root - b) / (2.0 * a))
+        largest = np.where(dead, np.inf, np.where(real & (largest > 0.0), largest, 0.0))
+        return (1.0 / largest).min(axis=0) * (1.0 - 16.0 * U)

@@ -1,0 +1,93 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Getting numbers out: one value to the last digit, or the whole report as text."""
+
+import sys
+from typing import Any
+
+import bpy
+from bpy.props import StringProperty
+from bpy.types import Context, Operator, OperatorProperties
+
+from ...blender.read.total_caveats import open_body_caveats, total_caveats
+from ...blender.session.tracking import staleness
+from ...blender.write import properties, reports
+from ...blender.write.text_report import stored_document, text
+from ...blender.write.translations import localized
+from ...core.verdict.finding import Finding, finding
+from .. import selection
+
+
+def copy_text(operator: Operator, context: Context, text: str, done: Finding) -> None:
+    """Without a window there is no clipboard, and long reports are cut short: the text goes to the standard output."""
+    if bpy.app.background:
+        sys.stdout.write(text.removesuffix("\n") + "\n")
+    else:
+        context.window_manager.clipboard = text
+        reports.report(operator, done)
+
+
+class OBJECT_OT_body_moments_copy_value(Operator):
+    """Copy this value to the clipboard in SI units, with all digits"""
+
+    bl_idname = "object.body_moments_copy_value"
+    bl_label = "Copy Value"
+    bl_options = {"INTERNAL"}
+
+    value: StringProperty(name="Value", options={"HIDDEN", "SKIP_SAVE"})
+    unit: StringProperty(name="Unit", options={"HIDDEN", "SKIP_SAVE"})
+
+    @classmethod
+    def description(cls, _context: Context, values: OperatorProperties) -> str:
+        return localized("Copy {:s}\n\nUnit: {:s}").format(values.value, values.unit or localized("none"))
+
+    def execute(self, context: Context) -> set[str]:
+        if not self.value:
+            reports.report(self, finding("no_value_to_copy"))
+            return {"CANCELLED"}
+        copy_text(self, context, self.value, finding("value_copied", value=self.value))
+        return {"FINISHED"}
+
+
+def poll_stored(cls: type[Operator], context: Context) -> bool:
+    """Whether a selected object has stored results; says why not."""
+    if not selection.poll_selection(cls, context, any_mode=True):
+        return False
+    if not any(properties.is_stored(obj) for obj in context.view_layer.objects.selected):
+        return reports.unavailable(cls, finding("poll_measure_selected"))
+    return True
+
+
+def selected_document(context: Context) -> dict[str, Any]:
+    """The stored results of the selected objects and their total, with what is out of date or doubtful in it."""
+    objects = selection.selected_measurable(context)
+    outdated = {obj.name for obj in objects if staleness.stale_reason(obj, context.scene)}
+    counted = [obj for obj in objects if properties.is_stored(obj)]
+    caveats = open_body_caveats((obj.name, properties.method(obj)) for obj in counted)
+    caveats += total_caveats(counted, context.view_layer)
+    version = ".".join(map(str, bpy.app.version))
+    return stored_document(context, objects, outdated, caveats, bpy.data.filepath or None, version)
+
+
+class OBJECT_OT_body_moments_copy_report(Operator):
+    """Copy the stored mass properties of the selected objects"""
+
+    bl_idname = "object.body_moments_copy_report"
+    bl_label = "Copy Report"
+    bl_description = (
+        "Copy the stored mass properties of the selected objects and their total to the clipboard, as text in SI units"
+    )
+    bl_options = {"REGISTER"}
+
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        return poll_stored(cls, context)
+
+    def execute(self, context: Context) -> set[str]:
+        document = selected_document(context)
+        count = len(document["objects"]) + len(document["errors"])
+        copy_text(self, context, text(document), finding("report_copied", count=count))
+        return {"FINISHED"}
+
+
+CLASSES = (OBJECT_OT_body_moments_copy_value, OBJECT_OT_body_moments_copy_report)

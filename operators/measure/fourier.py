@@ -1,0 +1,198 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The Fourier transform of the active object on a grid: a file of its values, and a picture of them."""
+
+from __future__ import annotations
+
+import os
+from math import pi
+from pathlib import Path
+
+import bpy
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
+from bpy.types import Context, Event, Operator
+
+from ...blender.bodies.flat.flat_fourier import FlatTransform, flat_transform
+from ...blender.bodies.fourier import ObjectTransform, object_transform
+from ...blender.bodies.measure_object import THREADS
+from ...blender.read import measurable
+from ...blender.settings.options import MeasureOptions
+from ...blender.write import reports, spectrum
+from ...core.fourier.wave_vectors import FrequencyGrid
+from ...core.numerics.float32 import shortest_decimal
+from ...core.verdict.finding import FileError, MeasureError, finding, system_reason
+from .. import files
+from ..modal import ModalSteps
+
+SUFFIX = ".npz"
+
+
+class _Settings:
+    """What is asked for, in both operators."""
+
+    filepath: StringProperty(
+        name="File Path", description="Path of the .npz file to write", subtype="FILE_PATH", options={"SKIP_SAVE"}
+    )
+    of: EnumProperty(
+        name="Domain",
+        default="BODY",
+        description="What the transform integrates over",
+        items=(
+            ("BODY", "Body", "∫ exp(−i q·x) dV in m³. For shells, area times thickness"),
+            ("AREA", "Surface", "∫ exp(−i q·x) dA over the faces, in m²"),
+            ("FLAT", "Flat Shape", "∫ exp(−i q·x) dA of a flat shape in its own plane, in m²"),
+        ),
+    )
+    frame: EnumProperty(
+        name="Frame",
+        default="WORLD",
+        description="Axes and origin of the frequencies",
+        items=(
+            ("WORLD", "World", "World axes and origin"),
+            ("OBJECT", "Object", "Location and rotation of the object, with unit scale"),
+        ),
+    )
+    count: IntProperty(
+        name="Frequencies",
+        default=64,
+        min=2,
+        max=256,
+        description="Number of frequencies along each axis. 0 is in the middle, as after numpy.fft.fftshift",
+    )
+    largest: FloatProperty(
+        name="Max Frequency",
+        default=0.0,
+        min=0.0,
+        soft_max=1e6,
+        precision=4,
+        description="Highest frequency along each axis in rad/m. 0 uses that of a discrete Fourier transform of a box "
+        "of twice the object's size",
+    )
+
+
+class OBJECT_OT_body_moments_fourier(_Settings, Operator):
+    """Ask for a file and a grid of frequencies, then write the Fourier transform of the active object"""
+
+    bl_idname = "object.body_moments_fourier"
+    bl_label = "Fourier Transform"
+    bl_description = (
+        "Write the Fourier transform of the active object on a regular grid of frequencies to an .npz file, and show "
+        "slices of its magnitude as an image"
+    )
+    bl_options = {"UNDO"}
+
+    filter_glob: StringProperty(default="*" + SUFFIX, options={"HIDDEN"})
+    check_existing: BoolProperty(default=True, options={"HIDDEN"})
+
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        if context.object is None or not measurable(context.object):
+            return reports.unavailable(cls, finding("poll_active_surface"))
+        return True
+
+    def invoke(self, context: Context, event: Event) -> set[str]:
+        obj = context.object
+        if not self.properties.is_property_set("of") and obj.body_moments.kind == "SOLID" and not min(obj.dimensions):
+            self.of = "FLAT"
+        name = bpy.path.clean_name(obj.name) + SUFFIX
+        folder = os.path.dirname(self.filepath or bpy.data.filepath)
+        self.filepath = os.path.join(folder, name)
+        context.window_manager.fileselect_add(self)
+        return {"RUNNING_MODAL"}
+
+    def check(self, context: Context) -> bool:
+        return files.ensure_suffix(self, SUFFIX)
+
+    def draw(self, context: Context) -> None:
+        column = self.layout.column()
+        column.use_property_split = True
+        for name in ("of", "frame", "count", "largest"):
+            column.prop(self, name)
+        if not self.largest:
+            column.label(text=str(finding("panel_fourier_default")), icon="INFO")
+
+    def execute(self, context: Context) -> set[str]:
+        settings = {name: getattr(self, name) for name in ("filepath", "of", "frame", "count", "largest")}
+        invoked = "EXEC_DEFAULT" if context.window is None else "INVOKE_DEFAULT"
+        try:
+            return bpy.ops.object.body_moments_fourier_run(invoked, **settings)
+        except RuntimeError as error:  # its report, as Blender raises it here
+            self.report({"ERROR"}, str(error).removeprefix("Error: ").strip())
+            return {"CANCELLED"}
+
+
+class OBJECT_OT_body_moments_fourier_run(ModalSteps, _Settings, Operator):
+    """Write the Fourier transform of the active object to a file"""
+
+    bl_idname = "object.body_moments_fourier_run"
+    bl_label = "Fourier Transform"
+    bl_options = {"UNDO", "INTERNAL"}
+    PROGRESS = finding("progress_fourier")
+    CANCELED = finding("canceled_fourier")
+
+    poll = OBJECT_OT_body_moments_fourier.poll
+
+    def execute(self, context: Context) -> set[str]:
+        """All at once: in background there is nobody to press Esc."""
+        try:
+            self._begin(context)
+            return self.run_all_steps(context, 1.0)
+        except MeasureError as error:
+            return self._refuse(error)
+
+    def invoke(self, context: Context, event: Event) -> set[str]:
+        try:
+            self._begin(context)
+        except MeasureError as error:
+            return self._refuse(error)
+        return self.start_modal(context, 1.0)
+
+    def modal(self, context: Context, event: Event) -> set[str]:
+        try:
+            return ModalSteps.modal(self, context, event)
+        except MeasureError as error:
+            return self._refuse(error)
+
+    def _begin(self, context: Context) -> None:
+        obj, depsgraph = context.object, context.evaluated_depsgraph_get()
+        self._path = Path(bpy.path.abspath(bpy.path.ensure_ext(self.filepath, SUFFIX)))
+        if not self.filepath:
+            raise FileError("fourier_path_missing")
+        if not self._path.parent.is_dir():
+            raise FileError("fourier_folder_missing", folder=str(self._path.parent))
+        self._dimension, frame = 2 if self.of == "FLAT" else 3, self.frame.lower()
+        self._work: ObjectTransform | FlatTransform
+        if self.of == "FLAT":
+            self._work = flat_transform(obj, depsgraph, self._grid, frame=frame)
+        else:
+            options, area = MeasureOptions(threads=THREADS), self.of == "AREA"
+            self._work = object_transform(obj, depsgraph, options, self._grid, frame=frame, area=area)
+        self._steps = (done for done in self._work.steps())
+
+    def _grid(self, size: float) -> FrequencyGrid:
+        """The grid for a body of this size in m. Where no largest frequency is asked for, its step is π over the
+        size."""
+        largest = shortest_decimal(self.largest) or pi / size * (self.count // 2)
+        return FrequencyGrid(self.count, largest, self._dimension)
+
+    def _finish(self, context: Context) -> set[str]:
+        transform, findings = self._work.result()
+        try:
+            spectrum.save(self._path, transform, self.frame.lower(), plane=self._work.arrays)
+        except OSError as error:
+            raise FileError("fourier_not_written", error=system_reason(error)) from error
+        name = "Fourier Transform of {:s}".format(self._work.name)
+        image = spectrum.picture(name, transform.values, self.count, self._dimension)
+        for area in context.screen.areas if context.screen else ():
+            if area.type == "IMAGE_EDITOR":
+                area.spaces.active.image = image
+        done = finding("fourier_written", count=len(transform.q), file=self._path.name, image=image.name)
+        reports.report(self, done, *reports.first(findings))
+        return {"FINISHED"}
+
+    def _refuse(self, error: MeasureError) -> set[str]:
+        reports.report(self, reports.refusal(error))
+        return {"CANCELLED"}
+
+
+CLASSES = (OBJECT_OT_body_moments_fourier_run, OBJECT_OT_body_moments_fourier)

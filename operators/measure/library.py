@@ -1,0 +1,151 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Measure a folder or an asset library while the window goes on living: other processes open its files."""
+
+from __future__ import annotations
+
+import os
+import time
+from collections.abc import Generator
+from pathlib import Path
+
+import bpy
+from bpy.props import BoolProperty, EnumProperty, StringProperty
+from bpy.types import Context, Event, Operator
+
+from ...blender.write import reports
+from ...command.supervisor import listing
+from ...command.supervisor.journal import Journal
+from ...command.supervisor.whole_run import WholeRun
+from ...core.files.whole_file import whole_file
+from ...core.measurement.page import to_html
+from ...core.verdict.finding import MeasureError, finding, system_reason
+from ..modal import ModalSteps
+
+RESULT, REPORT = "body_moments.jsonl", "body_moments.html"
+JOURNAL = RESULT + ".journal"
+FOLDER = "FOLDER"
+_PAUSE = 0.05  # seconds between looks at the run
+
+
+def _sources(_operator: Operator | None, context: Context | None) -> list[tuple[str, str, str]]:
+    """The folder that is chosen in the browser, and the asset libraries of the preferences."""
+    libraries = context.preferences.filepaths.asset_libraries if context else ()
+    found = [(FOLDER, "Folder", "The folder that is open in the file browser")]
+    found += [("LIBRARY_{:d}".format(number), one.name, one.path) for number, one in enumerate(libraries)]
+    _kept[:] = found  # Blender keeps no reference to the texts
+    return found
+
+
+_kept: list[tuple[str, str, str]] = []
+
+
+class OBJECT_OT_body_moments_measure_library(ModalSteps, Operator):
+    """Measure all files of a folder or an asset library in separate processes, and write results and a report there"""
+
+    bl_idname = "object.body_moments_measure_library"
+    bl_label = "Measure Library"
+    bl_options = {"REGISTER"}
+    PROGRESS = finding("progress_library")
+    CANCELED = finding("canceled_library")
+
+    directory: StringProperty(name="Folder", description="Folder with the files to measure", subtype="DIR_PATH")
+    filter_folder: BoolProperty(default=True, options={"HIDDEN"})
+    source: EnumProperty(name="Measure", description="Folder or asset library to measure", items=_sources)
+    asset_metadata: BoolProperty(
+        name="Write Asset Metadata",
+        description="Write mass, volume and center into the metadata of the objects and collections that are assets",
+        default=False,
+    )
+    overwrite: BoolProperty(
+        name="Overwrite Files",
+        description="Save the metadata in the asset files themselves instead of in copies beside them",
+        default=False,
+    )
+    thumbnails: BoolProperty(name="Pictures", description="Draw a picture of each body in the report", default=True)
+
+    def draw(self, _context: Context) -> None:
+        layout = self.layout
+        layout.use_property_split = True
+        layout.prop(self, "source")
+        layout.prop(self, "thumbnails")
+        layout.prop(self, "asset_metadata")
+        row = layout.row()
+        row.enabled = self.asset_metadata
+        row.prop(self, "overwrite")
+
+    def invoke(self, context: Context, _event: Event) -> set[str]:
+        context.window_manager.fileselect_add(self)
+        return {"RUNNING_MODAL"}
+
+    def execute(self, context: Context) -> set[str]:
+        try:
+            count = self._begin(context)
+        except MeasureError as refusal:
+            reports.report(self, refusal.finding)
+            return {"CANCELLED"}
+        except OSError as error:
+            reports.report(self, finding("library_not_started", error=system_reason(error)))
+            return {"CANCELLED"}
+        if bpy.app.background or context.window is None:
+            return self.run_all_steps(context, count)
+        return self.start_modal(context, count)
+
+    def modal(self, context: Context, event: Event) -> set[str]:
+        outcome = ModalSteps.modal(self, context, event)
+        return {"PASS_THROUGH"} if outcome == {"RUNNING_MODAL"} and event.type != "TIMER" else outcome
+
+    def _begin(self, context: Context) -> int:
+        """Start the run; how many files it has. Raises MeasureError and OSError."""
+        folder = self.directory
+        if self.source != FOLDER:
+            library = context.preferences.filepaths.asset_libraries[int(self.source.removeprefix("LIBRARY_"))]
+            folder = library.path
+        folder = os.path.abspath(bpy.path.abspath(folder))
+        count = sum(1 for _ in listing.expand([folder]))
+        self._folder = Path(folder)
+        words = [folder, "--format", "jsonl", *(["--thumbnails"] if self.thumbnails else [])]
+        is_begun = (self._folder / JOURNAL).exists() and not (self._folder / RESULT).exists()
+        words += ["--resume"] if is_begun else []  # it was ended before
+        if self.asset_metadata:
+            words += ["--asset-metadata", "file" if self.overwrite else "copy"]
+        blender = None if bpy.app.module else bpy.app.binary_path
+        self._steps = self._watch(WholeRun(words, self._folder / RESULT, blender))
+        return count
+
+    def _watch(self, run: WholeRun) -> Generator[float, None, None]:
+        try:
+            while run.exit_code is None:
+                time.sleep(_PAUSE)
+                yield run.done()
+            self._exit_code = run.exit_code
+        finally:
+            run.stop()
+
+    def _finish(self, context: Context) -> set[str]:
+        result = self._folder / RESULT
+        if self._exit_code not in (0, 1, 70) or not result.exists():
+            reports.report(self, finding("library_failed", code=self._exit_code))
+            return {"CANCELLED"}
+        with Journal(result.with_name(JOURNAL)) as journal:
+            paths = list(journal.entries)
+            failed = sum(entry.status != "ok" for entry in journal.entries.values())
+            documents = _Documents(journal, paths)
+            with whole_file(self._folder / REPORT) as file:
+                file.writelines(piece.encode("utf-8", "backslashreplace") for piece in to_html(documents))
+        code = "library_measured_with_failures" if failed else "library_measured"
+        reports.report(self, finding(code, count=len(paths), failed=failed, file=str(self._folder / REPORT)))
+        return {"FINISHED"}
+
+
+class _Documents:
+    """Those of a journal, read again each time."""
+
+    def __init__(self, journal: Journal, paths: list[str]) -> None:
+        self._journal, self._paths = journal, paths
+
+    def __iter__(self) -> Generator[dict, None, None]:
+        yield from map(self._journal.document, self._paths)
+
+
+CLASSES = (OBJECT_OT_body_moments_measure_library,)

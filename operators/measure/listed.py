@@ -1,0 +1,118 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The list of measured objects: a click selects; the numbers of the selection as a table or a document."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import bpy
+from bpy.props import BoolProperty, IntProperty, StringProperty
+from bpy.types import Context, Event, Operator, Scene
+
+from ...blender.write import reports
+from ...core.files.whole_file import whole_file
+from ...core.measurement.documents import FORMATS
+from ...core.verdict.finding import FileError, MeasureError, finding, system_reason
+from .. import files, selection
+from .copy import copy_text, poll_stored, selected_document
+
+SUFFIXES = {".csv": "csv", ".json": "json", ".jsonl": "jsonl"}
+
+
+class OBJECT_OT_body_moments_copy_csv(Operator):
+    """Copy the stored mass properties of the selected objects to the clipboard as a table, in SI units"""
+
+    bl_idname = "object.body_moments_copy_csv"
+    bl_label = "Copy as CSV"
+    bl_options = {"REGISTER"}
+
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        return poll_stored(cls, context)
+
+    def execute(self, context: Context) -> set[str]:
+        document = selected_document(context)
+        copy_text(
+            self, context, "".join(FORMATS["csv"]([document])), finding("csv_copied", count=len(document["objects"]))
+        )
+        return {"FINISHED"}
+
+
+class OBJECT_OT_body_moments_save_numbers(Operator):
+    """Save the stored mass properties of the selected objects and their total, in SI units, as .csv, .json or .jsonl"""
+
+    bl_idname = "object.body_moments_save_numbers"
+    bl_label = "Save CSV or JSON"
+    bl_options = {"REGISTER"}
+
+    filepath: StringProperty(name="File Path", description="File to write", subtype="FILE_PATH")
+    check_existing: BoolProperty(name="Check Existing", default=True, options={"HIDDEN"})
+    filter_glob: StringProperty(default="*.csv;*.json;*.jsonl", options={"HIDDEN"})
+
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        return poll_stored(cls, context)
+
+    def invoke(self, context: Context, _event: Event) -> set[str]:
+        return files.ask_for_table(self, context)
+
+    def check(self, _context: Context) -> bool:
+        return files.ensure_suffix(self, ".csv", SUFFIXES)
+
+    def execute(self, context: Context) -> set[str]:
+        try:
+            if not self.filepath:
+                raise FileError("no_export_file")
+            path = Path(bpy.path.abspath(self.filepath))
+            if path.suffix.lower() not in SUFFIXES:
+                raise FileError("numbers_suffix", file=path.name)
+            document = selected_document(context)
+            try:
+                with whole_file(path) as file:
+                    for piece in FORMATS[SUFFIXES[path.suffix.lower()]]([document]):
+                        file.write(piece.encode())
+            except OSError as error:
+                raise FileError("file_not_written", error=system_reason(error)) from error
+        except MeasureError as error:
+            selection.report(self, reports.refusal(error))
+            return {"CANCELLED"}
+        selection.report(self, finding("numbers_saved", count=len(document["objects"]), file=path.name))
+        return {"FINISHED"}
+
+
+def _active_index(_scene: Scene) -> int:
+    objects = bpy.context.view_layer.objects
+    active = objects.active
+    return -1 if active is None else objects.find(active.name)
+
+
+def _select(_scene: Scene, index: int) -> None:
+    """Select the object of the list's line alone, and make it active; in Object Mode."""
+    layer = bpy.context.view_layer
+    if bpy.context.mode != "OBJECT" or not 0 <= index < len(layer.objects):
+        return
+    for obj in layer.objects.selected:
+        obj.select_set(False)
+    chosen = layer.objects[index]
+    chosen.select_set(True)
+    layer.objects.active = chosen
+
+
+CLASSES = (OBJECT_OT_body_moments_copy_csv, OBJECT_OT_body_moments_save_numbers)
+
+
+def register() -> None:
+    """Register the operators, and the line of the list that is the active object's."""
+    for cls in CLASSES:
+        bpy.utils.register_class(cls)
+    Scene.body_moments_listed = IntProperty(
+        name="Object", description="Select this object", get=_active_index, set=_select, options={"SKIP_SAVE"}
+    )
+
+
+def unregister() -> None:
+    """Remove them."""
+    del Scene.body_moments_listed
+    for cls in reversed(CLASSES):
+        bpy.utils.unregister_class(cls)

@@ -1,0 +1,60 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The button that lets the numbers of objects follow what happens to them."""
+
+from __future__ import annotations
+
+from bpy.types import Context, Object, Operator
+
+from ...blender.read import measurable
+from ...blender.session.live import live
+from ...blender.session.tracking import posed
+from ...blender.write import reports
+from ...core.verdict.finding import finding
+from .. import selection
+from ..modal import redraw
+
+
+class OBJECT_OT_body_moments_live(Operator):
+    """Let the numbers of the selected objects follow what happens to them"""
+
+    bl_idname = "object.body_moments_live"
+    bl_label = "Live"
+    bl_description = (
+        "Update the numbers of the selected objects while they are edited, sculpted, posed or animated, until the file "
+        "is closed. In Pose Mode, those of the meshes that the armature deforms. Press Measure to store them"
+    )
+    bl_options = {"INTERNAL"}
+
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        if context.object is None or not _subjects(context):
+            return reports.unavailable(cls, finding("poll_select_objects"))
+        return True
+
+    def execute(self, context: Context) -> set[str]:
+        objects = _subjects(context)
+        if any(live.is_live(obj) for obj in posed.subjects([context.object])):
+            for obj in objects:
+                live.stop(obj)
+            redraw(context)
+            return {"FINISHED"}
+        depsgraph = context.evaluated_depsgraph_get()
+        refusals = []
+        for obj in objects:
+            result = live.start(obj, depsgraph)
+            if result.refusal is not None:
+                refusals.append(reports.failure(obj.name, result.refusal))
+        if refusals:
+            selection.report(self, *reports.first(refusals))
+        redraw(context)
+        return {"FINISHED"}
+
+
+def _subjects(context: Context) -> list[Object]:
+    """The active object and the selected ones, as far as they can be measured."""
+    objects = posed.subjects([context.object, *context.view_layer.objects.selected])
+    return [obj for obj in objects if measurable(obj)]
+
+
+CLASSES = (OBJECT_OT_body_moments_live,)

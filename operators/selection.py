@@ -1,0 +1,104 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What all operators on the selection share: which objects, polls that say why, progress, and
+one report a run.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
+
+from bpy.types import Context, Object, Operator
+
+from ..blender.read import measurable
+from ..blender.scene.transforms import ancestors
+from ..blender.session.stored import outcome
+from ..blender.settings.preferences import copy_defaults
+from ..blender.write import reports
+from ..core.verdict.finding import Finding, finding
+from .modal import progress
+
+
+def selected_measurable(context: Context) -> list[Object]:
+    """The selected objects that could be measured, parents before children. Works in background
+    too. A scene that is used for the first time gets its defaults.
+    """
+    copy_defaults(context.scene)
+    objects = [obj for obj in context.view_layer.objects.selected if measurable(obj)]
+    return sorted(objects, key=lambda obj: len([*ancestors(obj)]))
+
+
+def poll_selection(cls: type[Operator], context: Context, any_mode: bool = False) -> bool:
+    """Whether something is selected, in Object Mode unless any mode will do; says why not."""
+    if not any_mode and context.mode != "OBJECT":
+        return reports.unavailable(cls, finding("poll_object_mode"))
+    if not context.view_layer.objects.selected:
+        return reports.unavailable(cls, finding("poll_select_objects"))
+    return True
+
+
+def report(operator: Operator, *findings: Finding) -> None:
+    """One report, which stands in the panel until the next action where it refuses or warns."""
+    outcome.remember(operator.bl_label, findings)
+    reports.report(operator, *findings)
+
+
+def summarize(
+    operator: Operator,
+    changed: int,
+    total: int,
+    done: Finding,
+    failures: Sequence[Finding] = (),
+    findings: Sequence[Finding] = (),
+    idle: Finding | None = None,
+) -> set[str]:
+    """One report for the run, and what `execute` returns. All failures and warnings stand in the panel until the next
+    action.
+
+    done: what happened to `changed` of `total` objects. failures: of each that was left as it is, why. findings: what
+    else was noticed. idle: where nothing had to be done, why.
+    """
+    if not changed and not failures and idle is not None:
+        done = finding("nothing_to_do", cause=idle.as_record()) if total else finding("nothing_measurable")
+    sentences = [done] if changed or not failures else []
+    if failures:
+        causes = [failure.as_record() for failure in reports.first(failures)]
+        sentences.append(finding("left_unchanged", count=len(failures), total=total, causes=causes))
+    outcome.remember(operator.bl_label, [*failures, *findings])
+    reports.report(operator, *sentences, *reports.first(findings))
+    return {"FINISHED"} if changed else {"CANCELLED"}
+
+
+def iterate_objects(
+    objects: Iterable[Object], action: Callable[[Object], Iterator[float] | None], failures: list[Finding]
+) -> Generator[float, None, None]:
+    """Run `action` on one object after the other: it does the work, or returns an iterator that does it in steps and
+    yields its share that is done. Yields how many objects are done. Why an object was refused, or that the work on it
+    failed, is added to `failures`: none of them ends the others.
+    """
+    for done, obj in enumerate(objects, 1):
+        try:
+            for share in action(obj) or ():
+                yield done - 1 + share
+        except Exception as error:
+            failures.append(reports.failure(obj.name_full, error))  # objects of two libraries may have one name
+        yield done
+
+
+def apply_to_all(
+    objects: Sequence[Object], action: Callable[[Object], bool | None]
+) -> tuple[list[Object], list[Finding]]:
+    """Run `action` on each object; which it changed, all but those of which it says no, and why others were refused or
+    failed."""
+    changed: list[Object] = []
+    failures: list[Finding] = []
+
+    def run(obj: Object) -> None:
+        is_changed = action(obj)
+        if is_changed is None or is_changed:
+            changed.append(obj)
+
+    with progress(len(objects)) as step:
+        for done in iterate_objects(objects, run, failures):
+            step(done)
+    return changed, failures

@@ -1,0 +1,165 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Materials for all selected objects at once, presets of one's own, and settings from one object
+to the others.
+"""
+
+import bpy
+from bl_operators.presets import AddPresetBase
+from bpy.props import EnumProperty, StringProperty
+from bpy.types import Context, Object, Operator
+
+from ...blender.scene.transforms import require_storable_data
+from ...blender.settings.preferences import MATERIAL_ITEMS, copy_defaults
+from ...blender.settings.properties import COPIED_PROPERTIES, copy_settings
+from ...blender.write import reports
+from ...core.density.materials import BY_NAME
+from ...core.verdict.finding import finding
+from .. import selection
+
+PRESET_FOLDER = "body_moments"  # folder of the user's presets
+
+
+def _targets(context: Context) -> list[Object]:
+    """The selected objects, and the active one, whose settings the panel shows."""
+    active = context.view_layer.objects.active
+    objects = list(context.view_layer.objects.selected)
+    return objects if active is None or active in objects else [active, *objects]
+
+
+class OBJECT_OT_body_moments_set_material(Operator):
+    """Set the density of the selected objects to that of a material"""
+
+    bl_idname = "object.body_moments_set_material"
+    bl_label = "Set Material"
+    bl_description = (
+        "Set the density of the selected objects to that of a material. With Density From set to Materials, it "
+        "applies to faces whose material has no density"
+    )
+    bl_options = {"REGISTER", "UNDO"}
+    bl_property = "material"
+
+    material: EnumProperty(
+        name="Material",
+        description="Material to take the density from",
+        items=MATERIAL_ITEMS,
+    )
+
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        if not _targets(context):
+            return reports.unavailable(cls, finding("poll_select_objects"))
+        return True
+
+    def invoke(self, context: Context, _event) -> set[str]:
+        context.window_manager.invoke_search_popup(self)
+        return {"RUNNING_MODAL"}
+
+    def execute(self, context: Context) -> set[str]:
+        copy_defaults(context.scene)
+        material = BY_NAME[self.material]
+        objects = _targets(context)
+
+        def set_density(obj: Object) -> bool:
+            require_storable_data(obj, "library_override_settings")
+            settings = obj.body_moments
+            before = _density_of(settings)
+            settings.mass_from = "DENSITY"
+            if settings.density_from != "MATERIALS":
+                settings.density_from = "VALUE"
+            settings.density = material.density
+            settings.material = material.name
+            return before != _density_of(settings)
+
+        changed, failures = selection.apply_to_all(objects, set_density)
+        done = finding("material_set", count=len(changed), material=material.name)
+        idle = finding("material_set_already", material=material.name)
+        return selection.summarize(self, len(changed), len(objects), done, failures, idle=idle)
+
+
+def _density_of(settings) -> tuple:
+    return settings.mass_from, settings.density_from, settings.density, settings.material
+
+
+class MATERIAL_OT_body_moments_set_density(Operator):
+    """Set the density of a Blender material from the material table"""
+
+    bl_idname = "material.body_moments_set_density"
+    bl_label = "Set Material Density"
+    bl_options = {"REGISTER", "UNDO"}
+    bl_property = "material"
+
+    material: EnumProperty(
+        name="Material",
+        description="Entry of the material table to take the density from",
+        items=MATERIAL_ITEMS,
+    )
+    target: StringProperty(
+        name="Blender Material",
+        description="Material to set the density of",
+        options={"HIDDEN"},
+    )
+
+    def invoke(self, context: Context, _event) -> set[str]:
+        context.window_manager.invoke_search_popup(self)
+        return {"RUNNING_MODAL"}
+
+    def execute(self, _context: Context) -> set[str]:
+        target = bpy.data.materials.get((self.target, None))
+        if target is None:
+            reports.report(self, finding("material_not_local", material=self.target))
+            return {"CANCELLED"}
+        entry = BY_NAME[self.material]
+        target.body_moments.density = entry.density
+        target.body_moments.material = entry.name
+        reports.report(self, finding("blender_material_set", target=target.name, material=entry.name))
+        return {"FINISHED"}
+
+
+class OBJECT_OT_body_moments_copy_settings(Operator):
+    """Copy the settings of the active object to the other selected objects"""
+
+    bl_idname = "object.body_moments_copy_settings"
+    bl_label = "Copy Settings to Selected"
+    bl_description = (
+        "Copy kind, material, density or mass, wall and overlaps from the active object to the other selected objects"
+    )
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        active = context.view_layer.objects.active
+        if active is None or not any(obj != active for obj in context.view_layer.objects.selected):
+            return reports.unavailable(cls, finding("poll_select_others"))
+        return True
+
+    def execute(self, context: Context) -> set[str]:
+        active = context.view_layer.objects.active
+        objects = [obj for obj in context.view_layer.objects.selected if obj != active]
+
+        def copy(obj: Object) -> bool:
+            require_storable_data(obj, "library_override_settings")
+            return copy_settings(active.body_moments, obj.body_moments)
+
+        copied, failures = selection.apply_to_all(objects, copy)
+        done = finding("settings_copied", count=len(copied))
+        return selection.summarize(self, len(copied), len(objects), done, failures, idle=finding("settings_equal"))
+
+
+class OBJECT_OT_body_moments_preset_add(AddPresetBase, Operator):
+    """Add or remove a preset of the active object's settings"""
+
+    bl_idname = "object.body_moments_preset_add"
+    bl_label = "Add Body Moments Preset"
+    preset_menu = "OBJECT_PT_body_moments_presets"
+    preset_subdir = PRESET_FOLDER
+    preset_defines = ["settings = bpy.context.object.body_moments"]
+    preset_values = ["settings." + name for name in COPIED_PROPERTIES if name != "density_volume"]  # it is the file's
+
+
+CLASSES = (
+    OBJECT_OT_body_moments_set_material,
+    MATERIAL_OT_body_moments_set_density,
+    OBJECT_OT_body_moments_copy_settings,
+    OBJECT_OT_body_moments_preset_add,
+)

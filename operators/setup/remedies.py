@@ -1,0 +1,265 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the buttons beside warnings do for the active object, which is measured again after it."""
+
+from __future__ import annotations
+
+import bmesh
+import bpy
+import numpy as np
+from bpy.props import BoolProperty, FloatProperty, StringProperty
+from bpy.types import Context, Object, Operator
+
+from ...blender.bodies.measure_object import measure_object
+from ...blender.read import measurable
+from ...blender.scene.transforms import require_storable_data
+from ...blender.session.stored import outcome
+from ...blender.settings.accepted import accepted_codes, set_accepted, with_acceptance
+from ...blender.settings.preferences import copy_defaults
+from ...blender.write import properties, reports
+from ...core.verdict.finding import EditRefusedError, MeasureError, finding
+from .. import selection
+from ..measure.select_faults import require_editable_mesh
+
+# Findings whose elements are the faces that were reversed; without elements, all faces were
+REVERSED = ("flipped_faces", "flipped_faces_slightly", "inverted_components", "inverted_components_slightly")
+MILLIMETER = 0.001
+
+
+def measure_anew(context: Context, objects: list[Object]) -> None:
+    """Measure objects as the button does, with what it reports."""
+    with context.temp_override(selected_objects=objects):
+        bpy.ops.object.body_moments_measure()
+
+
+def _poll_active(cls: type[Operator], context: Context, mesh: bool = False) -> bool:
+    obj = context.object
+    if obj is None or not measurable(obj):
+        return reports.unavailable(cls, finding("poll_active_measurable"))
+    if mesh and obj.type != "MESH":
+        return reports.unavailable(cls, finding("poll_active_mesh"))
+    if mesh and context.mode != "OBJECT":
+        return reports.unavailable(cls, finding("poll_object_mode"))
+    return True
+
+
+def _refuse(operator: Operator, refusal: MeasureError) -> set[str]:
+    selection.report(operator, reports.failure(refusal.subject, refusal))
+    return {"CANCELLED"}
+
+
+class OBJECT_OT_body_moments_count_as_union(Operator):
+    """Unite the overlapping components of the active object before it is measured, and measure it again"""
+
+    bl_idname = "object.body_moments_count_as_union"
+    bl_label = "Count as Union"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        return _poll_active(cls, context)
+
+    def execute(self, context: Context) -> set[str]:
+        obj = context.object
+        try:
+            require_storable_data(obj, "library_override_settings")
+        except EditRefusedError as refusal:
+            return _refuse(self, refusal.about(obj.name_full))
+        obj.body_moments.overlap = "UNION"
+        measure_anew(context, [obj])
+        return {"FINISHED"}
+
+
+class OBJECT_OT_body_moments_measure_as_shell(Operator):
+    """Measure the active object as a sheet of the given thickness"""
+
+    bl_idname = "object.body_moments_measure_as_shell"
+    bl_label = "Measure as Shell"
+    bl_options = {"REGISTER", "UNDO"}
+
+    thickness: FloatProperty(
+        name="Thickness",
+        description="Thickness of the sheet. At 0, that of the object's settings",
+        default=0.0,
+        min=0.0,
+        precision=6,
+        unit="LENGTH",
+    )
+
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        return _poll_active(cls, context)
+
+    def execute(self, context: Context) -> set[str]:
+        obj = context.object
+        try:
+            require_storable_data(obj, "library_override_settings")
+        except EditRefusedError as refusal:
+            return _refuse(self, refusal.about(obj.name_full))
+        obj.body_moments.kind = "SHELL"
+        if self.thickness:
+            obj.body_moments.thickness = self.thickness
+        measure_anew(context, [obj])
+        return {"FINISHED"}
+
+
+class OBJECT_OT_body_moments_recalculate_outside(Operator):
+    """Reverse the faces of the active mesh that were measured as reversed, and measure it again"""
+
+    bl_idname = "object.body_moments_recalculate_outside"
+    bl_label = "Recalculate Outside"
+    bl_description = (
+        "Reverse the faces of the active mesh that were measured as reversed: flipped ones, and those of components "
+        "that are inside out. Cavities keep facing inward. Other objects that use the mesh change too"
+    )
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        return _poll_active(cls, context, mesh=True)
+
+    def execute(self, context: Context) -> set[str]:
+        obj = context.object
+        try:
+            require_editable_mesh(obj)
+            measurement = measure_object(obj, context.evaluated_depsgraph_get())
+        except MeasureError as refusal:
+            return _refuse(self, refusal.about(obj.name_full))
+        found = [shown.elements for shown in measurement.findings if shown.code in REVERSED]
+        whole = np.arange(len(obj.data.polygons) if any(not len(elements) for elements in found) else 0)
+        faces = np.unique(np.concatenate([whole, *(np.asarray(elements, np.int64) for elements in found)]))
+        if not len(faces):
+            reports.report(self, finding("nothing_to_do", cause=finding("no_reversed_faces").as_record()))
+            return {"CANCELLED"}
+        _reverse(obj.data, faces)
+        measure_anew(context, [obj])
+        reports.report(self, finding("faces_reversed", count=len(faces)))
+        return {"FINISHED"}
+
+
+def _reverse(data: bpy.types.Mesh, faces: np.ndarray) -> None:
+    mesh = bmesh.new()
+    mesh.from_mesh(data)
+    mesh.faces.ensure_lookup_table()
+    bmesh.ops.reverse_faces(mesh, faces=[mesh.faces[index] for index in faces.tolist()], flip_multires=True)
+    mesh.to_mesh(data)
+    mesh.free()
+
+
+class SCENE_OT_body_moments_set_millimeters(Operator):
+    """Let one unit of the scene be a millimeter, and measure again what was measured"""
+
+    bl_idname = "scene.body_moments_set_millimeters"
+    bl_label = "Set Units to Millimeters"
+    bl_options = {"REGISTER", "UNDO"}
+
+    remeasure: BoolProperty(
+        name="Measure Again",
+        description="Measure the objects of the view layer that were measured, as all their numbers change",
+        default=True,
+    )
+
+    def execute(self, context: Context) -> set[str]:
+        scene = context.scene
+        copy_defaults(scene)
+        scene.body_moments.units_answered = True
+        units = scene.unit_settings
+        units.system, units.scale_length, units.length_unit = "METRIC", MILLIMETER, "MILLIMETERS"
+        measured = [obj for obj in context.view_layer.objects if properties.is_stored(obj) and obj.is_editable]
+        if self.remeasure and measured:
+            measure_anew(context, measured)
+        return {"FINISHED"}
+
+
+class SCENE_OT_body_moments_keep_units(Operator):
+    """Keep the units of the scene, and do not ask again"""
+
+    bl_idname = "scene.body_moments_keep_units"
+    bl_label = "Keep Units"
+    bl_options = {"INTERNAL", "UNDO"}
+
+    def execute(self, context: Context) -> set[str]:
+        context.scene.body_moments.units_answered = True
+        return {"FINISHED"}
+
+
+class OBJECT_OT_body_moments_accept(Operator):
+    """Accept this warning for the active object: it becomes a note, also when the object is measured again"""
+
+    bl_idname = "object.body_moments_accept"
+    bl_label = "Accept Warning"
+    bl_options = {"INTERNAL", "UNDO"}
+
+    code: StringProperty(name="Code", options={"HIDDEN", "SKIP_SAVE"})
+    accepted: BoolProperty(name="Accepted", default=True, options={"HIDDEN", "SKIP_SAVE"})
+
+    @classmethod
+    def description(cls, _context: Context, values) -> str:
+        if values.accepted:
+            return cls.__doc__ or ""
+        return "Show this note as a warning again"
+
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        return _poll_active(cls, context)
+
+    def execute(self, context: Context) -> set[str]:
+        obj = context.object
+        try:
+            require_storable_data(obj, "library_override_settings")
+        except EditRefusedError as refusal:
+            return _refuse(self, refusal.about(obj.name_full))
+        if not self.code or not set_accepted(obj, self.code, self.accepted):
+            return {"CANCELLED"}
+        if properties.is_stored(obj):
+            properties.store_findings(obj, with_acceptance(properties.findings(obj), accepted_codes(obj)))
+        return {"FINISHED"}
+
+
+class OBJECT_OT_body_moments_select_refused(Operator):
+    """Select the objects that the last action refused or warned of"""
+
+    bl_idname = "object.body_moments_select_refused"
+    bl_label = "Select These Objects"
+    bl_options = {"INTERNAL", "UNDO"}
+
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        if context.mode != "OBJECT":
+            return reports.unavailable(cls, finding("poll_object_mode"))
+        return outcome.last() is not None
+
+    def execute(self, context: Context) -> set[str]:
+        last = outcome.last()
+        assert last is not None
+        objects = [obj for obj in context.view_layer.objects if obj.name_full in last.objects]
+        if not objects:
+            return {"CANCELLED"}
+        for obj in context.view_layer.objects:
+            obj.select_set(obj in objects)
+        context.view_layer.objects.active = objects[0]
+        return {"FINISHED"}
+
+
+class WM_OT_body_moments_dismiss(Operator):
+    """Hide what the last action refused or warned of"""
+
+    bl_idname = "wm.body_moments_dismiss"
+    bl_label = "Dismiss"
+    bl_options = {"INTERNAL"}
+
+    def execute(self, _context: Context) -> set[str]:
+        outcome.forget()
+        return {"FINISHED"}
+
+
+CLASSES = (
+    OBJECT_OT_body_moments_count_as_union,
+    OBJECT_OT_body_moments_measure_as_shell,
+    OBJECT_OT_body_moments_recalculate_outside,
+    SCENE_OT_body_moments_set_millimeters,
+    SCENE_OT_body_moments_keep_units,
+    OBJECT_OT_body_moments_accept,
+    OBJECT_OT_body_moments_select_refused,
+    WM_OT_body_moments_dismiss,
+)

@@ -1,0 +1,169 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The sub-panel of the density, and what of it stands beside the answer: given mass, one value, materials, polynomial,
+attribute, Volume object."""
+
+from __future__ import annotations
+
+import bpy
+from bpy.types import Context, Object, Scene, UILayout
+
+from ...blender.read.visibility import GEOMETRY_TYPES
+from ...blender.session.stored import walls as wall_slider
+from ...blender.settings.given import shows_collection
+from ...blender.settings.preferences import default_material
+from ...blender.settings.properties import density_field_name
+from ...blender.write.translations import CONTEXT
+from ...blender.write.units import Units
+from ...core.verdict.finding import finding
+from .. import rows
+from ..places import in_both_places
+from ..settings import setting
+from . import grid
+from . import material_menus as materials
+
+
+class DensityPanel:
+    """What the object is made of"""
+
+    bl_label = "Density"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        return context.object is not None and _has_density(context.object)
+
+    def draw(self, context: Context) -> None:
+        self.layout.use_property_decorate = False
+        _settings(self.layout, context, context.object)
+
+
+def _has_density(obj: Object) -> bool:
+    return obj.type in GEOMETRY_TYPES or shows_collection(obj)
+
+
+def material_row(layout: UILayout, context: Context, obj: Object) -> None:
+    """Draw the one row of the density that is changed most: the material, or what stands in its place."""
+    if not _has_density(obj):
+        return
+    settings = obj.body_moments
+    column = layout.column()
+    column.use_property_split = True
+    if obj.type == "VOLUME" and settings.grid_as == "DENSITY":
+        setting(column, settings, "grid")
+    elif settings.mass_from == "MASS":
+        setting(column, settings, "mass", text="Mass (kg)")
+    elif settings.kind == "WIRE":
+        setting(column, settings, "linear_density", text="Density (kg/m)")
+    elif settings.density_from == "VALUE" or obj.type == "VOLUME":
+        _material(column, context, settings, "Material")
+    else:
+        setting(column, settings, "density_from")
+
+
+def _settings(layout: UILayout, context: Context, obj: Object) -> None:
+    settings = obj.body_moments
+    if obj.override_library is not None:
+        rows.message(layout, context, finding("panel_override"))
+    if obj.type == "VOLUME" and grid.settings_rows(layout, context, obj):
+        return
+    column = layout.column()
+    column.use_property_split = True
+    if obj.type == "VOLUME":
+        setting(column, settings, "mass_from", expand=True)
+        if settings.mass_from == "MASS":
+            setting(column, settings, "mass", text="Mass (kg)")
+        else:
+            _uniform_density(column, context, settings, "Material")
+        return
+    row = _labeled_row(column, "Kind")
+    row.use_property_split = False
+    for kind in ("SOLID", "SHELL", "WIRE") if obj.type == "CURVE" or settings.kind == "WIRE" else ("SOLID", "SHELL"):
+        row.prop_enum(settings, "kind", kind)
+    if settings.kind == "SHELL":
+        setting(column, settings, "wall")
+        setting(column, settings, "thickness")
+        _max_thickness(column, context, obj)
+    elif settings.kind == "SOLID":
+        setting(column, settings, "overlap")
+    setting(column, settings, "mass_from", expand=True)
+    if settings.mass_from == "DENSITY" and settings.kind == "WIRE":
+        setting(column, settings, "linear_density", text="Density (kg/m)")
+        return
+    if settings.mass_from == "MASS":
+        setting(column, settings, "mass", text="Mass (kg)")
+        return
+    setting(column, settings, "density_from")
+    if settings.density_from == "POLYNOMIAL":
+        setting(column, settings, "density_polynomial")
+        setting(column, settings, "density_frame", expand=True)
+    elif settings.density_from == "ATTRIBUTE":
+        if obj.type == "MESH":
+            column.prop_search(settings, "density_attribute", obj.data, "attributes", results_are_suggestions=True)
+        else:
+            setting(column, settings, "density_attribute")
+    elif settings.density_from == "VOLUME":
+        setting(column, settings, "density_volume")
+    elif settings.density_from == "MATERIALS":
+        _materials(layout, context, obj)
+    else:
+        _uniform_density(column, context, settings, "Material")
+
+
+def _max_thickness(layout: UILayout, context: Context, obj: Object) -> None:
+    """How thick the wall may be, once that is known."""
+    limit = wall_slider.max_thickness(obj)
+    if limit is None:
+        return
+    folds = wall_slider.is_too_thick(obj)
+    row = layout.row()
+    row.alert = folds
+    rows.message(row, context, finding("panel_wall_folds" if folds else "panel_wall_limit", length=limit))
+
+
+def _materials(layout: UILayout, context: Context, obj: Object) -> None:
+    settings = obj.body_moments
+    column = layout.column(align=True)
+    rows.filled(column, "Densities ({:s})", Units.of(context.scene.unit_settings).unit("density", 0.0)[1])
+    shown = {slot.material: None for slot in obj.material_slots if slot.material}
+    for material in shown:
+        materials.density_row(column, context.scene, material, material.name)
+    if not shown:
+        rows.message(column, context, finding("panel_no_material_slots"))
+    column = layout.column()
+    column.use_property_split = True
+    _uniform_density(column, context, settings, "Others")
+
+
+def _labeled_row(column: UILayout, label: str) -> UILayout:
+    """A row beside a label, as Blender puts properties there, or below it where there is little room."""
+    if rows.is_narrow(bpy.context):
+        rows.title(column, label)
+        return column.row(align=True)
+    split = column.row(align=True).split(factor=0.4, align=True)
+    heading = split.row()
+    heading.alignment = "RIGHT"
+    heading.label(text=label, text_ctxt=CONTEXT)
+    return split.row(align=True)
+
+
+def _uniform_density(column: UILayout, context: Context, settings, heading: str) -> None:
+    """The object's own density, with the table and the user's presets."""
+    _material(column, context, settings, heading)
+    setting(column, settings, density_field_name(context.scene))
+
+
+def _material(column: UILayout, context: Context, settings, heading: str) -> None:
+    row = _labeled_row(column, heading)
+    row.menu("OBJECT_MT_body_moments_materials", text=settings.material or _unset_material(settings, context.scene))
+    row.popover("OBJECT_PT_body_moments_presets", text="", icon="PRESET")
+
+
+def _unset_material(settings, scene: Scene) -> str:
+    """What stands for the material of an object whose density was not taken from the table."""
+    if settings.is_property_set("density"):
+        return "Custom"
+    return default_material(scene) or "Custom"
+
+
+CLASSES = VIEW3D_PT_body_moments_density, OBJECT_PT_body_moments_density = in_both_places(DensityPanel, "density")

@@ -1,0 +1,68 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The sub-panel of the inertia: principal moments and axes, radii of gyration, tensor."""
+
+from __future__ import annotations
+
+import numpy as np
+from bpy.types import Context
+
+from ...blender.session.stored import results
+from ...blender.write import properties
+from ...blender.write.units import Units
+from ...core.verdict.finding import finding
+from .. import rows
+from ..places import in_both_places
+from .numbers import PRINCIPAL_LABELS
+
+ERROR_OF_A_DIFFERENCE = 6.0  # of principal moments: each is off by at most 3 times what an entry of the tensor is
+EQUAL_MOMENTS = {  # by whether 1 and 2, and 2 and 3, are equal
+    (True, True): "panel_equal_moments_all",
+    (True, False): "panel_equal_moments_12",
+    (False, True): "panel_equal_moments_23",
+}
+
+
+class InertiaPanel:
+    """Principal moments and axes, radii of gyration and inertia tensor"""
+
+    bl_label = "Inertia"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        return context.object is not None and results.of_object(context.object, context.scene) is not None
+
+    def draw(self, context: Context) -> None:
+        layout, scene = self.layout, context.scene
+        layout.use_property_decorate = False
+        units = Units.of(scene.unit_settings)
+        shown = results.of_object(context.object, scene)
+        if shown is None:
+            return
+        layout.row().prop(scene.body_moments, "frame", expand=True)
+        column = layout.column(align=True)
+        moments = shown.body.principal.moments
+        rows.heading(column, "Principal Moments", "inertia", moments)
+        rows.values(column, units, PRINCIPAL_LABELS, "inertia", moments)
+        column = layout.column(align=True)
+        rows.heading(column, "Principal Axes", "", shown.body.principal.axes.T)
+        for label, axis in zip(PRINCIPAL_LABELS, shown.body.principal.axes.T):
+            rows.direction(column, label, axis)
+        error = shown.error_bound["inertia"] + shown.error_bound["input"]["inertia"]
+        code = EQUAL_MOMENTS.get(tuple((np.diff(moments) <= ERROR_OF_A_DIFFERENCE * error).tolist()))
+        if code:
+            rows.message(column, context, finding(code))
+        column = layout.column(align=True)
+        rows.heading(column, "Radii of Gyration", "length", shown.body.radii_of_gyration)
+        rows.values(column, units, PRINCIPAL_LABELS, "length", shown.body.radii_of_gyration)
+        header, body = layout.panel("body_moments_tensor")
+        header.label(text="Inertia Tensor")
+        if body is not None:
+            column = body.column(align=True)
+            entries = properties.tensor_entries(shown.body.inertia)
+            rows.heading(column, "About the center of mass, Ixy = −∫xy dm", "inertia", entries)
+            rows.values(column, units, ["I" + name for name in properties.ENTRIES], "inertia", entries)
+
+
+CLASSES = VIEW3D_PT_body_moments_inertia, OBJECT_PT_body_moments_inertia = in_both_places(InertiaPanel, "inertia")

@@ -1,0 +1,140 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Warnings right under the verdict, each with the buttons that do its remedy or accept it; what the last action
+refused; and the question whether a unit is a millimeter.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from bpy.types import Context, UILayout
+
+from ...blender.session.stored import outcome
+from ...blender.write.properties import StoredProperties
+from ...blender.write.translations import localized
+from ...blender.write.units import Units
+from ...core.verdict.finding import Finding, Severity, finding, truncate
+from ...core.verdict.messages import of_severity, severity
+from .. import rows
+
+UNION = ("object.body_moments_count_as_union", "MOD_BOOLEAN")
+OUTSIDE = ("object.body_moments_recalculate_outside", "NORMALS_FACE")
+DEFECTS = ("object.body_moments_select_faults", "ZOOM_SELECTED")
+SHELL = ("object.body_moments_measure_as_shell", "MOD_SOLIDIFY")
+REMEDIES = {
+    "components_nested": (UNION,),
+    "components_overlap": (UNION,),
+    "self_intersecting": (UNION,),
+    "self_intersection": (UNION,),
+    "flipped_faces": (OUTSIDE, DEFECTS),
+    "inverted_components": (OUTSIDE,),
+    "faces_reversed_before_union": (OUTSIDE,),
+    "holes_capped": (DEFECTS, SHELL),
+    "holes_capped_before_union": (DEFECTS,),
+    "duplicate_faces_ignored": (DEFECTS,),
+    "duplicate_faces_counted": (DEFECTS,),
+    "duplicate_faces_of_shell": (DEFECTS,),
+    "vertices_welded": (DEFECTS,),
+    "one_sided_components": (SHELL,),
+    "non_manifold_components": (DEFECTS, SHELL),
+    "flat_components": (SHELL,),
+    "flat_surface": (SHELL,),
+    "no_volume": (SHELL,),
+    "negative_inertia": (UNION, SHELL),
+    "rigid_body_center_elsewhere": (("object.body_moments_axes_to_principal", "EMPTY_AXIS"),),
+}
+MESH_ONLY = (OUTSIDE, DEFECTS)
+MAX_SHOWN = 8  # of what the last action refused
+MIN_QUESTIONED_LENGTH = 5.0  # m: longer bodies may be meant in millimeters
+MIN_QUESTIONED_MASS = 1e5  # kg
+QUESTION_DIGITS = 3
+
+
+def warnings(
+    layout: UILayout, context: Context, idname: str, findings: Sequence[Finding], can_accept: bool = True
+) -> None:
+    """Draw a sub-panel, open at first, of warnings and errors, where there are any; errors first."""
+    alarming = [*of_severity(findings, Severity.ERROR), *of_severity(findings, Severity.WARNING)]
+    if not alarming:
+        return
+    header, body = layout.panel(idname)
+    rows.filled(header, "Warnings ({:d})", len(alarming))
+    for shown in alarming if body is not None else ():
+        column = body.column(align=True)
+        rows.message(column, context, shown)
+        remedies(column, context, shown)
+        if can_accept and severity(shown) == Severity.WARNING:
+            _accept(column, context, shown, accepted=True)
+
+
+def notes(layout: UILayout, context: Context, idname: str, findings: Sequence[Finding]) -> None:
+    """Draw a sub-panel, closed at first, of notes and accepted warnings."""
+    shown_notes = of_severity(findings, Severity.NOTE)
+    if not shown_notes:
+        return
+    header, body = layout.panel(idname, default_closed=True)
+    rows.filled(header, "Notes ({:d})", len(shown_notes))
+    for shown in shown_notes if body is not None else ():
+        row = body.row(align=True)
+        rows.message(row, context, shown)
+        if shown.values.get("accepted"):
+            _accept(row, context, shown, accepted=False)
+
+
+def remedies(layout: UILayout, context: Context, shown: Finding) -> None:
+    """Draw the buttons that do what the sentence of a finding advises."""
+    for idname, icon in REMEDIES.get(shown.code, ()):
+        if context.object.type == "MESH" or (idname, icon) not in MESH_ONLY:
+            rows.button(layout, context, idname, icon)
+
+
+def _accept(layout: UILayout, context: Context, shown: Finding, accepted: bool) -> None:
+    if accepted:
+        button = rows.button(layout, context, "object.body_moments_accept", "CHECKMARK", text="Accept")
+    else:
+        button = layout.operator("object.body_moments_accept", text="", icon="LOOP_BACK")
+    button.code = shown.code
+    button.accepted = accepted
+
+
+def last_action(layout: UILayout, context: Context) -> None:
+    """Draw what the last action refused or warned of, until the next one."""
+    last = outcome.last()
+    if last is None:
+        return
+    box = layout.box()
+    header = box.row(align=True)
+    icon = "NONE" if rows.is_narrow(context) else "ERROR"
+    rows.sentence(header, context, localized(last.action), icon=icon, boxed=True)
+    header.operator("wm.body_moments_dismiss", text="", icon="X", emboss=False)
+    column = box.column(align=True)
+    shown, more = truncate(last.findings, MAX_SHOWN)
+    for refused in shown:
+        rows.message(column, context, refused, icon="NONE", boxed=True)
+        remedies(column, context, refused)
+    if more:
+        rows.message(column, context, finding("and_more", count=more), icon="NONE")
+    if len(last.objects) > 1 or last.objects and last.objects[0] != context.object.name_full:
+        rows.button(box, context, "object.body_moments_select_refused", "RESTRICT_SELECT_OFF")
+
+
+def unit_question(layout: UILayout, context: Context, shown: StoredProperties) -> None:
+    """Ask whether a unit is a millimeter, where the body is as large as prints in millimeters are; once a scene."""
+    scene, length = context.scene, max(context.object.dimensions)
+    if (
+        scene.body_moments.units_answered
+        or scene.unit_settings.scale_length != 1.0
+        or length < MIN_QUESTIONED_LENGTH
+        or shown.body.mass < MIN_QUESTIONED_MASS
+    ):
+        return
+    box = layout.box()
+    units = replace(Units.of(scene.unit_settings), mass="TONNES", digits=QUESTION_DIGITS)
+    texts = {"length": units.text("length", length), "mass": units.text("mass", shown.body.mass)}
+    question = finding("panel_unit_question", **texts)
+    rows.message(box, context, question, icon="QUESTION", boxed=True)
+    column = box.column(align=True)
+    rows.button(column, context, "scene.body_moments_set_millimeters", "DRIVER_DISTANCE")
+    rows.button(column, context, "scene.body_moments_keep_units", "X")

@@ -1,0 +1,144 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Section properties under the body's, in the order of engineers' tables."""
+
+from __future__ import annotations
+
+from math import degrees
+
+from bpy.types import Context, UILayout
+
+from ...blender.read.section import SECTION_TYPES
+from ...blender.write import section as record
+from ...blender.write.translations import localized
+from ...blender.write.units import SI_UNITS, Units, number
+from ...operators.measure import section as sections
+from .. import rows
+from ..places import in_both_places
+from . import remedies
+
+AXIS_LABELS = ("X", "Y", "Z")
+ABOUT_LABELS = ("x", "y", "1", "2")
+BOUND_LABELS = {
+    "area": ("Area", "area"),
+    "perimeter": ("Perimeter", "length"),
+    "centroid": ("Centroid", "length"),
+    "second": ("Moments", "area_moment"),
+}
+
+
+class SectionPanel:
+    """Section properties"""
+
+    bl_label = "Section"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        obj = context.object
+        return obj is not None and (obj.type in SECTION_TYPES or record.KEY in obj)
+
+    def draw(self, context: Context) -> None:
+        obj, layout = context.object, self.layout
+        layout.use_property_decorate = False
+        rows.button(layout, context, "object.body_moments_measure_section", "FACESEL", short="Measure")
+        stored = record.stored(obj)
+        if stored is None:
+            layout.label(text="Not Measured", icon="RADIOBUT_OFF")
+            return
+        units = Units.of(context.scene.unit_settings)
+        _verdict(layout, context, stored, sections.stale_reason(obj, context.scene, stored))
+        remedies.warnings(layout, context, "body_moments_section_warnings", stored.findings, can_accept=False)
+        _numbers(layout, units, stored.section)
+        _more_numbers(layout, units, stored.section)
+        remedies.notes(layout, context, "body_moments_section_notes", stored.findings)
+        rows.button(layout, context, "object.body_moments_copy_section", "COPYDOWN", short="Copy")
+
+
+def _verdict(layout: UILayout, context: Context, stored: record.StoredSection, outdated: str | None) -> None:
+    column = layout.column(align=True)
+    outlines, holes = stored.section.outlines, stored.section.holes
+    counts = ((outlines, "1 Outline", "{:d} Outlines"), (holes, "1 Hole", "{:d} Holes"))
+    parts = [localized(singular if count == 1 else plural).format(count) for count, singular, plural in counts if count]
+    rows.sentence(
+        column, context, "{:s}: {:s}".format(localized(stored.description), ", ".join(parts)), icon="CHECKMARK"
+    )
+    rows.stale_row(column, context, outdated)
+
+
+def _numbers(layout: UILayout, units: Units, section) -> None:
+    column = layout.column(align=True)
+    rows.quantities(column, units, [("Area", "area", section.area), ("Perimeter", "length", section.perimeter)])
+    size = section.area**0.5
+    column = layout.column(align=True)
+    rows.heading(column, "Centroid (World)", "length", section.center)
+    rows.values(column, units, AXIS_LABELS, "length", section.center, size)
+    column = layout.column(align=True)
+    rows.heading(column, "Second Moments of Area", "area_moment", section.second)
+    second = *section.second, section.polar
+    rows.values(column, units, ("Ix", "Iy", "Ixy", "Polar Jp"), "area_moment", second, section.polar)
+    column = layout.column(align=True)
+    rows.heading(column, "Principal", "area_moment", section.principal)
+    rows.values(column, units, ("I1", "I2"), "area_moment", section.principal)
+    if section.axes_undetermined:
+        column.label(text="Every Axis Is Principal", icon="INFO")
+    else:
+        angle = degrees(section.angle)
+        rows.text(
+            column,
+            "Angle from x to 1",
+            "{:s}°".format(number(0.0 if abs(angle) < 1e-6 else angle)),
+            repr(section.angle),
+            "rad",
+        )
+
+
+def _more_numbers(layout: UILayout, units: Units, section) -> None:
+    header, body = layout.panel("body_moments_section_moduli", default_closed=True)
+    header.label(text="Section Moduli and Radii of Gyration")
+    if body is not None:
+        column = body.column(align=True)
+        rows.heading(column, "Elastic, at the Outermost Corner", "volume", section.moduli)
+        rows.values(column, units, ["W" + name for name in ABOUT_LABELS], "volume", section.moduli)
+        column = body.column(align=True)
+        rows.heading(column, "Radii of Gyration", "length", section.radii)
+        rows.values(column, units, ["i" + name for name in ABOUT_LABELS], "length", section.radii)
+    header, body = layout.panel("body_moments_section_plane", default_closed=True)
+    header.label(text="Plane")
+    if body is not None:
+        column = body.column(align=True)
+        rows.filled(column, "x is nearest to the object's {:s} axis", section.plane.x_axis_name)
+        for label, axis in zip(("x", "y", "n"), section.plane.axes.T):
+            rows.direction(column, label, axis)
+        column = body.column(align=True)
+        rows.heading(column, "Centroid from Object Origin", "length", section.centroid)
+        rows.values(column, units, ("x", "y"), "length", section.centroid, section.area**0.5)
+        column.label(text="About the centroid, Ix = ∫y² dA, Ixy = +∫xy dA")
+        column.label(text="Jp = Ix + Iy is not the torsion constant")
+    header, body = layout.panel("body_moments_section_bounds", default_closed=True)
+    header.label(text="Error Bounds")
+    if body is not None:
+        sizes = {
+            "area": section.area,
+            "perimeter": section.perimeter,
+            "centroid": section.area**0.5,
+            "second": section.polar,
+        }
+        for title, bounds in (
+            ("Rounding, at Most", section.rounding_error),
+            ("Float32 Coordinates, at Most", section.input_error),
+        ):
+            column = body.column(align=True)
+            column.label(text=title)
+            rows.table(
+                column,
+                [
+                    (label, units.bound(quantity, bounds[name], sizes[name]), repr(bounds[name]), SI_UNITS[quantity])
+                    for name, (label, quantity) in BOUND_LABELS.items()
+                ],
+            )
+
+
+CLASSES = VIEW3D_PT_body_moments_section, OBJECT_PT_body_moments_section = in_both_places(
+    SectionPanel, "section", parent="advanced"
+)

@@ -1,0 +1,144 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The sub-panel of the selection: the measured objects as a list, and the selected ones as one body."""
+
+from __future__ import annotations
+
+from bpy.props import BoolProperty, EnumProperty
+from bpy.types import Context, UILayout, UIList
+
+from ...blender.session.stored import results
+from ...blender.session.stored.listing import SortBy, listed_masses, listing
+from ...blender.session.stored.shown import shown_body
+from ...blender.session.stored.trust import Trust
+from ...blender.write.translations import localized
+from ...blender.write.units import Units
+from ...core.verdict.finding import finding
+from ...core.verdict.messages import truncate_list
+from .. import rows
+from ..places import in_both_places
+from .numbers import AXIS_LABELS, PRINCIPAL_LABELS
+
+VERDICT_ICONS = {  # the form says it, not the color alone
+    Trust.EXACT: "CHECKMARK",
+    Trust.REPAIRED: "MODIFIER",
+    Trust.DOUBTFUL: "ERROR",
+    Trust.OUT_OF_DATE: "FILE_REFRESH",
+}
+LINES = 5  # of the list, before it scrolls
+
+
+class BODY_MOMENTS_UL_measured(UIList):
+    """The measured objects of the view layer with mass and verdict"""
+
+    sort_by: EnumProperty(
+        name="Sort By",
+        items=(
+            (SortBy.NAME, "Name", "By name"),
+            (SortBy.MASS, "Mass", "The heaviest first"),
+            (SortBy.VERDICT, "Verdict", "The least trustworthy first"),
+        ),
+        default=SortBy.NAME,
+    )
+    warnings_first: BoolProperty(
+        name="Warnings First", description="List what is out of date or doubtful before all others"
+    )
+
+    def draw_item(self, context, layout, _data, obj, _icon, _active_data, _active_property, _index) -> None:
+        body = shown_body(obj, context.scene)
+        if body is None:
+            layout.label(text=obj.name, translate=False)
+            return
+        row = layout.row(align=True)
+        row.alert = body.verdict == Trust.OUT_OF_DATE
+        row.active = obj.select_get()
+        row.label(text=obj.name, icon=VERDICT_ICONS[body.verdict], translate=False)
+        if not rows.is_narrow(context):
+            cell = row.row(align=True)
+            cell.alignment = "RIGHT"
+            cell.label(text=listed_masses(context.scene, context.view_layer)[obj.session_uid], translate=False)
+
+    def draw_filter(self, _context, layout) -> None:
+        row = layout.row(align=True)
+        row.prop(self, "filter_name", text="", icon="VIEWZOOM")
+        row.prop(self, "warnings_first", text="", icon="ERROR")
+        row.prop(self, "use_filter_sort_reverse", text="", icon="SORT_DESC")
+        layout.row(align=True).prop(self, "sort_by", expand=True)
+
+    def filter_items(self, context, _data, _name) -> tuple[list[int], list[int]]:
+        listed, lines = listing(
+            context.scene, context.view_layer, self.filter_name, SortBy(self.sort_by), self.warnings_first
+        )
+        return [self.bitflag_filter_item if shown else 0 for shown in listed], lines
+
+
+class SelectionPanel:
+    """The selected objects as one body"""
+
+    bl_label = "Selection"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context: Context) -> None:
+        layout = self.layout
+        if len(context.selected_objects) > 1:
+            rows.button(layout, context, "object.body_moments_copy_settings", "PASTEDOWN", short="Copy Settings")
+        _listed(layout, context)
+        _total(layout, context, Units.of(context.scene.unit_settings))
+
+
+def _listed(layout: UILayout, context: Context) -> None:
+    """Draw the measured objects, and what makes a table of the selected ones."""
+    layout.template_list(
+        BODY_MOMENTS_UL_measured.__name__,
+        "",
+        context.view_layer,
+        "objects",
+        context.scene,
+        "body_moments_listed",
+        rows=LINES,
+    )
+    column = layout.column(align=True)
+    rows.button(column, context, "object.body_moments_copy_csv", "COPYDOWN")
+    rows.button(
+        column, context, "object.body_moments_save_numbers", "FILE_TICK", text="Save CSV or JSON...", short="Save..."
+    )
+
+
+def _total(layout: UILayout, context: Context, units: Units) -> None:
+    rows.title(layout, "Total of Selection")
+    total = results.total(context)
+    column = layout.column(align=True)
+    if not total.count:
+        rows.message(column, context, finding("panel_nothing_measured"))
+        return
+    rows.filled(column, "1 Object" if total.count == 1 else "{:d} Objects", total.count, icon="GROUP")
+    for names, text in (
+        (total.missing, "Not measured: {:s}"),
+        (total.stale, "Out of date: {:s}"),
+        (total.doubtful, "Doubtful: {:s}"),
+    ):
+        if names:
+            row = column.row()
+            row.alert = True
+            rows.sentence(row, context, localized(text).format(truncate_list(names, translate=localized)), icon="ERROR")
+    for caveat in total.findings:
+        rows.message(column, context, caveat)
+    column = layout.column(align=True)
+    mass = None if total.body is None else total.body.mass
+    entries = [("Mass", "mass", mass), ("Volume", "volume", total.volume), ("Area", "area", total.area)]
+    rows.quantities(column, units, [(label, quantity, si) for label, quantity, si in entries if si])
+    if total.body is None:
+        return
+    column = layout.column(align=True)
+    rows.heading(column, "Center of Mass (World)", "length", total.body.center)
+    rows.values(column, units, AXIS_LABELS, "length", total.body.center, total.body.radii_of_gyration.max())
+    column = layout.column(align=True)
+    moments = total.body.principal.moments
+    rows.heading(column, "Principal Moments", "inertia", moments)
+    rows.values(column, units, PRINCIPAL_LABELS, "inertia", moments)
+
+
+PANELS = VIEW3D_PT_body_moments_selection, OBJECT_PT_body_moments_selection = in_both_places(
+    SelectionPanel, "selection"
+)
+CLASSES = (BODY_MOMENTS_UL_measured, *PANELS)

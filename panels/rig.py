@@ -1,0 +1,116 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Bones: the part of the active bone among the bone's properties, and the sub-panel of a whole character."""
+
+from __future__ import annotations
+
+from bpy.types import Context, Panel, PoseBone, UILayout
+
+from ..blender.session.stored import rig as stored_rig
+from ..blender.write import properties
+from ..blender.write.units import Units
+from . import rows
+from .measure.numbers import AXIS_LABELS, PRINCIPAL_LABELS
+from .places import in_both_places
+from .settings import setting
+
+LISTED = 60  # bones that the sub-panel lists
+
+
+class BonesPanel:
+    """The parts of a character's bones"""
+
+    bl_label = "Bones"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        return context.object is not None and context.object.type == "ARMATURE"
+
+    def draw(self, context: Context) -> None:
+        layout, armature = self.layout, context.object
+        layout.use_property_decorate = False
+        button = layout.row()
+        button.scale_y = 1.4
+        button.operator("object.body_moments_measure_bones", icon="BONE_DATA")
+        if not properties.is_stored(armature):
+            return
+        rows.stale_row(layout, context, stored_rig.stale_reason(armature, context.scene))
+        units = Units.of(context.scene.unit_settings)
+        stored = [(bone, properties.numbers(bone)) for bone in armature.pose.bones]
+        measured = [(bone, numbers[0][0]) for bone, numbers in stored if numbers is not None]
+        total = sum(mass for _, mass in measured)
+        column = layout.column(align=True)
+        for bone, mass in measured[:LISTED]:
+            row = column.row(align=True)
+            row.label(text=bone.name, icon="BONE_DATA", translate=False)
+            cell = row.row(align=True)
+            cell.alignment = "RIGHT"
+            cell.label(text=units.text("mass", mass), translate=False)
+            cell.label(text="{:.1f}%".format(100.0 * mass / total), translate=False)
+        if len(measured) > LISTED:
+            rows.filled(layout, "And {:d} more", len(measured) - LISTED)
+        column = layout.column(align=True)
+        rows.button(column, context, "object.body_moments_physics_rig", "RIGID_BODY")
+        rows.button(column, context, "object.body_moments_rig_center", "EMPTY_AXIS")
+        rows.button(column, context, "object.body_moments_clear_bones", "TRASH")
+
+
+class BONE_PT_body_moments(Panel):
+    """The part of the active bone, in rest pose and the bone's rest frame"""
+
+    bl_idname = "BONE_PT_body_moments"
+    bl_label = "Body Moments"
+    bl_space_type = "PROPERTIES"
+    bl_region_type = "WINDOW"
+    bl_context = "bone"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        return _pose_bone(context) is not None
+
+    def draw(self, context: Context) -> None:
+        bone, layout = _pose_bone(context), self.layout
+        layout.use_property_decorate = False
+        settings = bone.body_moments
+        column = layout.column()
+        setting(column, settings, "mass_from")
+        if settings.mass_from == "DENSITY":
+            setting(column, settings, "density", text="Density (kg/m³)")
+        elif settings.mass_from == "MASS":
+            setting(column, settings, "mass", text="Mass (kg)")
+        rows.button(layout, context, "object.body_moments_measure_bones", "BONE_DATA")
+        rows.stale_row(layout, context, stored_rig.stale_reason(bone.id_data, context.scene))
+        _numbers(layout, context, bone)
+
+
+def _pose_bone(context: Context) -> PoseBone | None:
+    obj = context.object
+    if obj is None or obj.type != "ARMATURE" or obj.pose is None or obj.data.bones.active is None:
+        return None
+    return obj.pose.bones.get(obj.data.bones.active.name)
+
+
+def _numbers(layout: UILayout, context: Context, bone: PoseBone) -> None:
+    numbers = properties.numbers(bone)
+    if numbers is None:
+        return
+    stored, units = properties.from_numbers(numbers), Units.of(context.scene.unit_settings)
+    column = layout.column(align=True)
+    rows.quantities(column, units, [("Mass", "mass", stored.body.mass), ("Volume", "volume", stored.volume)])
+    column = layout.column(align=True)
+    rows.heading(column, "Center of Mass (Rest Frame)", "length", stored.body.center)
+    rows.values(column, units, AXIS_LABELS, "length", stored.body.center, stored.body.radii_of_gyration.max())
+    column = layout.column(align=True)
+    moments = stored.body.principal.moments
+    rows.heading(column, "Principal Moments", "inertia", moments)
+    rows.values(column, units, PRINCIPAL_LABELS, "inertia", moments)
+    column = layout.column(align=True)
+    entries = properties.tensor_entries(stored.body.inertia)
+    rows.heading(column, "Inertia, Ixy = −∫xy dm", "inertia", entries)
+    rows.values(column, units, ["I" + name for name in properties.ENTRIES], "inertia", entries)
+
+
+VIEW3D_PT_body_moments_bones, OBJECT_PT_body_moments_bones = in_both_places(BonesPanel, "bones")
+CLASSES = (VIEW3D_PT_body_moments_bones, OBJECT_PT_body_moments_bones, BONE_PT_body_moments)

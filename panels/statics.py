@@ -1,0 +1,106 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The sub-panel of stability: whether the object stands, margin and tipping angle, the poses in which it rests."""
+
+from __future__ import annotations
+
+import numpy as np
+from bpy.types import Context, Object, UILayout
+
+from ..blender.session.stored import stability
+from ..blender.write.units import Units
+from ..core.numerics.float32 import shortest_decimal
+from ..core.statics.resting import RestingPoses
+from ..core.statics.support import Support
+from ..core.verdict.finding import Finding, finding
+from . import rows
+from .places import in_both_places
+
+MAX_POSES = 6  # that are listed: round bodies have thousands
+
+
+class StabilityPanel:
+    """Whether the object stands on the ground below it, and the poses in which it rests"""
+
+    bl_label = "Stability"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context: Context) -> None:
+        layout, obj = self.layout, context.object
+        layout.use_property_decorate = False
+        if not stability.is_known(obj):
+            rows.message(layout, context, finding("panel_stability_unknown"))
+        elif stability.is_stale(obj):
+            rows.message(layout, context, finding("panel_stability_stale"), icon="FILE_REFRESH")
+        rows.button(layout, context, "object.body_moments_stability", "CON_FLOOR", short="Check")
+        support = stability.support(obj, context.scene)
+        if support is not None:
+            _support(layout, context, support)
+            _poses(layout, context, obj)
+        rows.button(
+            layout,
+            context,
+            "object.body_moments_balance_group",
+            "CON_FOLLOWPATH",
+            text="Balance Group...",
+            short="Balance...",
+        )
+
+
+def _support(layout: UILayout, context: Context, support: Support) -> None:
+    unit = shortest_decimal(context.scene.unit_settings.scale_length)
+    column = layout.column(align=True)
+    if support.stands:
+        column.label(text="Stands", icon="CHECKMARK")
+    else:
+        column.label(text="Tips Over", icon="ERROR")
+    margin = support.margin * unit
+    angle = float(np.degrees(support.tipping_angle))
+    toward = float(np.degrees(np.arctan2(support.direction[1], support.direction[0])))
+    rows.table(
+        column,
+        [
+            ("Margin", Units.of(context.scene.unit_settings).text("length", margin), repr(margin), "m"),
+            ("Tipping Angle", _degrees(angle), repr(angle), "°"),
+            ("Toward, from X", _degrees(toward), repr(toward), "°"),
+        ],
+    )
+
+
+def _degrees(angle: float) -> str:
+    return "{:.2f}°".format(round(angle, 2) + 0.0).replace("-", "−")
+
+
+def _poses(layout: UILayout, context: Context, obj: Object) -> None:
+    poses = stability.poses(obj, context.scene)
+    layout.label(text="Resting Poses")
+    if isinstance(poses, Finding):
+        rows.message(layout, context, poses)
+    if not isinstance(poses, RestingPoses):
+        return
+    narrow = rows.is_narrow(context)
+    column = layout.column(align=True)
+    heading = column.row()
+    heading.label(text="Share" if narrow else "Probability")
+    cell = heading.row()
+    cell.alignment = "RIGHT"
+    cell.label(text="Tips at")
+    if not narrow:
+        cell.label(icon="BLANK1")
+    angles = np.degrees(poses.tipping_angles)
+    for place, (share, angle) in enumerate(zip(poses.shares[:MAX_POSES], angles)):
+        row = column.row(align=True)
+        number = "" if narrow else "{:d}: ".format(place + 1)
+        row.label(text="{:s}{:.1f}%".format(number, 100.0 * share), translate=False)
+        cell = row.row(align=True)
+        cell.alignment = "RIGHT"
+        cell.label(text="{:.1f}°".format(angle), translate=False)
+        row.operator("object.body_moments_rest_on_ground", text="", icon="TRIA_DOWN_BAR").pose = place + 1
+    if len(angles) > MAX_POSES:
+        rows.filled(column, "{:d} more", len(angles) - MAX_POSES)
+    rows.button(layout, context, "object.body_moments_rest_on_ground", "TRIA_DOWN_BAR", short="Rest").pose = 1
+
+
+CLASSES = VIEW3D_PT_body_moments_stability, OBJECT_PT_body_moments_stability = in_both_places(
+    StabilityPanel, "stability"
+)

@@ -1,0 +1,121 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""`audit` on the command line: reports, repaired copies, exit codes."""
+
+import csv
+import io
+import json
+
+import pytest
+
+pytest.importorskip("bpy")
+from body_moments.command import audit
+from body_moments.core.robots.write import audit_report
+from body_moments.operators import batch
+
+BOX = (
+    '<link name="{}"><inertial><mass value="{}"/><inertia ixx="{}" iyy="{}" izz="{}" ixy="0" ixz="0" iyz="0"/>'
+    '</inertial><collision><geometry><box size="2 2 2"/></geometry></collision></link>'
+)
+RIGHT = BOX.format("right", 8000, *["5333.3333"] * 3)
+WRONG = BOX.format("=cmd|x&lt;b&gt;", 8000, *["5333333.3"] * 3)
+
+
+def description(path, *links):
+    path.write_text('<robot name="r">{}</robot>'.format("".join(links)), encoding="utf-8")
+    return path
+
+
+def answer(*words):
+    return audit.answer(audit.parse(["audit", *map(str, words)]))
+
+
+def test_a_report_lists_links_with_findings_and_the_repair(tmp_path):
+    path = description(tmp_path / "r.urdf", RIGHT, WRONG)
+    text, faults, internal = answer(path)
+    found = json.loads(text)
+    assert (found["schema"], found["status"], faults, internal) == (audit_report.SCHEMA, "findings", 1, 0)
+    right, wrong = found["links"]
+    assert right["findings"] == [] and right["repaired"] is None
+    codes = [entry["code"] for entry in wrong["findings"]]
+    assert codes == ["inertial_spread_outside", "audit_inertia_unit"]
+    assert abs(wrong["repaired"]["inertia"][0][0] / 5333.3333 - 1.0) < 1e-6
+    assert answer(description(tmp_path / "s.urdf", RIGHT))[1] == 0
+
+
+def test_several_files_are_a_list_and_one_that_cannot_be_read_is_among_them(tmp_path):
+    good, bad = description(tmp_path / "a.urdf", RIGHT), tmp_path / "b.urdf"
+    bad.write_text("<robot", encoding="utf-8")
+    text, faults, _ = answer(good, bad)
+    first, second = json.loads(text)
+    assert (first["status"], second["status"], faults) == ("ok", "error", 1)
+    assert second["errors"][0]["code"] == "xml_invalid" and second["links"] == []
+
+
+def test_tables_and_pages_carry_nothing_out_of_the_file_as_code(tmp_path):
+    path = description(tmp_path / "r.urdf", RIGHT, WRONG)
+    rows = list(csv.DictReader(io.StringIO(answer("--format", "csv", path)[0])))
+    assert [row["code"] for row in rows] == ["ok", "inertial_spread_outside", "audit_inertia_unit"]
+    assert rows[1]["link"] == "'=cmd|x<b>"
+    page = answer("--format", "html", path)[0]
+    assert "&lt;b&gt;" in page and "<b>" not in page and "<script" not in page and "audit_inertia_unit" in page
+
+
+def test_a_repaired_copy_is_written_elsewhere_and_is_right(tmp_path):
+    (tmp_path / "out").mkdir()
+    path = description(tmp_path / "r.urdf", RIGHT, WRONG)
+    text = answer("--repair", tmp_path / "out", path)[0]
+    assert json.loads(text)["repaired"] == str(tmp_path / "out" / "r.urdf")
+    again = json.loads(answer(tmp_path / "out" / "r.urdf")[0])
+    assert again["status"] == "ok" and RIGHT in (tmp_path / "out" / "r.urdf").read_text(encoding="utf-8")
+    for words in (["--repair", tmp_path], ["--repair", tmp_path / "none"], ["--format", "xml"]):
+        with pytest.raises(SystemExit) as ended:
+            audit.parse(["audit", *map(str, words), str(path)])
+        assert ended.value.code == 2
+
+
+def test_the_entry_gives_the_exit_codes(tmp_path, monkeypatch):
+    kept = []
+    monkeypatch.setattr("body_moments.command.files.output.write", lambda parts, *_: kept.extend(parts))
+    good, bad = description(tmp_path / "a.urdf", RIGHT), description(tmp_path / "b.urdf", WRONG)
+    assert batch.main(["audit", str(good)], channel=1) == 0
+    assert batch.main(["audit", str(bad)], channel=1) == 1
+    assert batch.main(["audit"], channel=1) == 2
+    assert json.loads(kept[0])["status"] == "ok"
+
+
+def test_no_file_of_a_user_is_replaced_without_being_asked_to(tmp_path, capfd):
+    """Reports and repaired copies alike; an older report is."""
+    (tmp_path / "out").mkdir()
+    path, notes, copy = description(tmp_path / "r.urdf", WRONG), tmp_path / "notes.txt", tmp_path / "out" / "r.urdf"
+    notes.write_text("mine", encoding="utf-8")
+    for target in (notes, path, tmp_path, tmp_path / "none" / "a.json"):
+        assert batch.main(["audit", str(path), "--output", str(target)], channel=1) == 2
+        error = capfd.readouterr().err
+        assert "--output" in error and error.startswith("usage: body_moments audit")
+    assert batch.main(["audit", str(path), "--output", str(path), "--force"], channel=1) == 2
+    assert notes.read_text(encoding="utf-8") == "mine" and WRONG in path.read_text(encoding="utf-8")
+    report = tmp_path / "report"
+    for form in (*audit_report.FORMATS, "json"):
+        assert batch.main(["audit", str(path), "--output", str(report), "--format", form], channel=1) == 1
+    assert json.loads(report.read_text(encoding="utf-8"))["schema"] == audit_report.SCHEMA
+    assert batch.main(["audit", str(path), "--output", str(notes), "--force"], channel=1) == 1
+    assert "mine" not in notes.read_text(encoding="utf-8")
+    copy.write_text("mine", encoding="utf-8")
+    found = json.loads(answer("--repair", tmp_path / "out", path)[0])
+    assert found["errors"][0]["code"] == "audit_copy_exists" and copy.read_text(encoding="utf-8") == "mine"
+    for words in (["--force"], []):  # and the same once more is no loss
+        assert not json.loads(answer("--repair", tmp_path / "out", *words, path)[0])["errors"]
+    assert "mine" not in copy.read_text(encoding="utf-8")
+
+
+def test_only_an_empty_file_or_the_same_copy_is_replaced(tmp_path):
+    (tmp_path / "out").mkdir()
+    path, copy = description(tmp_path / "r.urdf", WRONG), tmp_path / "out" / "r.urdf"
+    copy.touch()
+    assert json.loads(answer("--repair", tmp_path / "out", path)[0])["repaired"] == str(copy)
+    good = copy.read_bytes()
+    copy.write_bytes(good + b" ")
+    found = json.loads(answer("--repair", tmp_path / "out", path)[0])
+    assert found["errors"][0]["values"] == {"path": str(copy)} and copy.read_bytes() == good + b" "
+    assert json.loads(answer(path)[0])["repaired"] is None and copy.read_bytes() == good + b" "

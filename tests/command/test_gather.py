@@ -1,0 +1,302 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What gathers results: summaries, comparisons, the report as a page. And the options that the panel has too."""
+
+import html
+import json
+import math
+import re
+import shutil
+import subprocess
+from pathlib import Path
+
+import bpy
+import numpy as np
+import pytest
+from body_moments.core.density.materials import BY_NAME
+from body_moments.core.measurement import documents
+from body_moments.core.measurement.page import to_html
+from body_moments.operators import batch
+
+from tests.blender import batch_files as files
+from tests.blender.batch_files import document, measured
+from tests.blender.grids import vdb_grid, volume_object
+from tests.close import close
+
+pytestmark = pytest.mark.usefixtures("scene")
+HOSTILE = "<script>document.title='run'</script>\"'&\u202e"
+
+
+@pytest.fixture
+def main(tmp_path, capfd):
+    def run(*words):
+        with open(tmp_path / "standard output", "wb+") as out:
+            code = batch.main(list(map(str, words)), channel=out.fileno())
+            out.seek(0)
+            return code, out.read().decode(), capfd.readouterr().err
+
+    return run
+
+
+def result(path, *found):
+    path.write_text("".join(documents.to_json_lines(found)), encoding="utf-8")
+    return path
+
+
+def failed(name, status="crashed"):
+    return documents.failed_document(name, "It <b>failed</b>.", status, blender="5.2.2", frame="world")
+
+
+def test_a_list_in_another_folder_has_absolute_names(main, tmp_path, monkeypatch):
+    for folder in ("in", "lists"):
+        (tmp_path / folder).mkdir()
+    (tmp_path / "in" / "a.stl").write_bytes(b"solid")
+    monkeypatch.chdir(tmp_path)
+    name = str(Path("in", "a.stl"))
+    for words, wanted in (([], name), (["--output", "list"], name), (["--output", "lists/list"], str(tmp_path / name))):
+        code, out, _ = main("manifest", "in", *words)
+        text = Path(words[1]).read_text(encoding="utf-8") if words else out
+        assert code == 0 and [json.loads(line)["path"] for line in text.splitlines()[1:]] == [wanted]
+
+
+def test_a_summary_counts_what_became_of_files(main, tmp_path):
+    files.add_box("Box")
+    path = result(tmp_path / "a.jsonl", document(), failed("b.stl"), failed("c.stl", "timeout"))
+    code, out, _ = main("summary", path)
+    assert code == 0
+    assert "3 files: 1 ok, 1 crashed, 1 timeout" in out and "1 object: 1 exact" in out
+    assert "density_defaulted" in out and "crashed  b.stl: It <b>failed</b>." in out
+    code, out, _ = main("to-csv", path)
+    assert code == 0 and len(out.splitlines()) == 4
+    (tmp_path / "b").write_text("{}")
+    assert main("summary", tmp_path / "b")[0] == 2 and main("merge", tmp_path / "none")[0] == 2
+    assert main("merge", path, "--output", tmp_path / "b")[0] == 1
+    assert main("merge", path, "--output", tmp_path / "b", "--force")[0] == 0
+
+
+def test_of_two_results_about_one_file_the_later_counts(main, tmp_path):
+    files.add_box("Box")
+    good = {**document(), "file": "b.stl"}
+    paths = result(tmp_path / "a", failed("a.stl"), failed("b.stl")), result(tmp_path / "b", good, failed("c.stl"))
+    _, out, _ = main("merge", *paths)
+    assert [(one["file"], one["status"]) for one in map(json.loads, out.splitlines())] == [
+        *(("a.stl", "crashed"), ("b.stl", "ok"), ("c.stl", "crashed")),
+    ]
+
+
+def test_results_that_differ_by_less_than_their_bounds_are_the_same(main, tmp_path):
+    box = files.add_box("Box")
+    first = result(tmp_path / "a", document("--pose"))
+    assert main("compare", first, first)[0] == 0
+    changed = json.loads(first.read_text())
+    entry = changed["objects"][0]
+    bound = entry["error_bound"]["volume"] + entry["error_bound"]["input"]["volume"]
+    for factor, code in ((1.9, 0), (2.1, 1)):
+        entry["volume"] = 6.0 + factor * bound
+        ended, out, _ = main("compare", first, result(tmp_path / "b", changed))
+        assert ended == code and ("FAIL" in out) == bool(code)
+    assert main("compare", first, tmp_path / "b", "--tolerance", "1e-3")[0] == 0
+    box.location = (1, -2, 5)
+    box.rotation_euler = (0.4, 1.0, -2.0)
+    bpy.context.view_layer.update()
+    moved = result(tmp_path / "c", document("--pose"))
+    assert main("compare", first, moved, "--tolerance", "1e-4")[0] == 1
+    assert main("compare", first, moved, "--tolerance", "1e-4", "--align")[0] == 0
+    assert main("compare", first, result(tmp_path / "d"))[0] == 1
+    assert main("compare", first)[0] == 2
+
+
+def test_every_number_is_compared(main, tmp_path):
+    """Of objects, assemblies and bones: moments, tensors about a point, density. A change of any of them is found."""
+    files.add_box("Box", (1.0, 2.0, 3.0))
+    whole = document("--order", "2", "--surface-moments", "--about", "0.5,0,0", "--pose")
+    whole["assemblies"] = [{**whole["objects"][0], "name": "All"}]
+    whole["bones"] = [{**whole["objects"][0], "name": "Arm", "armature": "Rig"}]
+    first = result(tmp_path / "a", whole)
+    code, out, _ = main("compare", first, first)
+    assert code == 0 and out == "3 bodies compared, 0 differences beyond what is allowed\n"
+
+    def change(body, *path):
+        changed = json.loads(first.read_text())
+        place = changed[body][0]
+        for key in path[:-1]:
+            place = place[key]
+        place[path[-1]] *= 1.01
+        return main("compare", first, result(tmp_path / "b", changed))
+
+    for path, name in {
+        ("density",): "density",
+        ("moments", "volume", "1,0,0"): "moments.volume[1,0,0]",
+        ("moments", "mass", "0,0,2"): "moments.mass[0,0,2]",
+        ("moments", "surface", "0,1,0"): "moments.surface[0,1,0]",
+        ("inertia_about", "inertia", 0, 1): "inertia_about[xy]",
+        ("inertia", 2, 2): "inertia[zz]",
+        ("principal_moments", 1): "principal_moments[2]",
+    }.items():
+        code, out, _ = change("objects", *path)
+        assert code == 1 and out.count("FAIL") == 1 and "FAIL  : Box: " + name in out.replace("None", ""), out
+    for body, name in (("assemblies", "assembly All"), ("bones", "bone Arm of Rig")):
+        code, out, _ = change(body, "mass")
+        assert code == 1 and out.count("FAIL") == 1 and name + ": mass" in out
+    gone = json.loads(first.read_text())
+    del gone["objects"][0]["moments"]["mass"]
+    assert main("compare", first, result(tmp_path / "b", gone))[0] == 1
+    assert main("compare", result(tmp_path / "b", gone), first)[0] == 1
+
+
+def test_a_point_that_moved_by_as_much_as_a_center_is_uncertain(main, tmp_path):
+    """The bound of a tensor about a point holds what the center's bound makes of it: from both sides."""
+    files.add_box("Box", (1000.0, 0.0, 0.0))
+    first = document("--about", "world", "--density", "1")
+    entry = json.loads(json.dumps(first["objects"][0]))
+    about, bounds = entry["inertia_about"]["inertia"], entry["error_bound"]
+    bound = bounds["center_of_mass"] + bounds["input"]["center_of_mass"]
+    share = (bounds["volume"] + bounds["input"]["volume"]) / entry["volume"]
+    allowed = 2.0 * (2.0 * 6.0 * 1000.0 * bound + 6.0 * share * 1e6 + bounds["inertia"] + bounds["input"]["inertia"])
+    for factor, code in ((0.9, 0), (1.1, 1)):
+        about[1][1] = first["objects"][0]["inertia_about"]["inertia"][1][1] + factor * allowed
+        words = (result(tmp_path / "a", first), result(tmp_path / "b", {**first, "objects": [entry]}))
+        assert main("compare", *words)[0] == code
+
+
+def page(tmp_path):
+    files.add_box(HOSTILE)
+    found = [document("--thumbnails"), failed(HOSTILE + ".stl"), failed("b.stl", "timeout")]
+    bpy.ops.mesh.primitive_uv_sphere_add()
+    found.append({**document("--object", "Sphere"), "file": "z.blend"})
+    path = tmp_path / "report.html"
+    path.write_text("".join(to_html(found)), encoding="utf-8")
+    return path
+
+
+def test_the_report_is_one_page_whose_names_are_text(tmp_path):
+    text = page(tmp_path).read_text(encoding="utf-8")
+    assert text.count("<script>") == 1 and "data:image/png;base64," in text and "<svg" in text
+    assert "&lt;script&gt;" in text and r"\u202e" in text and "It &lt;b&gt;failed" in text
+    assert not re.search(r"(src|href)=[\"']?(http|//|file)", text)
+
+
+CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+DRIVE = """
+<script>
+{
+const rows=()=>[...document.querySelectorAll("tbody tr")].filter(row=>!row.hidden);
+const names=()=>rows().map(row=>row.cells[2].textContent);
+const told=[document.title,rows().length];
+document.querySelectorAll("th button")[4].click();told.push(names());
+document.querySelectorAll("th button")[4].click();told.push(names());
+const text=document.getElementById("text");text.value="sphere";text.dispatchEvent(new Event("input"));
+told.push(names());text.value="";text.dispatchEvent(new Event("input"));
+const status=document.getElementById("status");status.value="timeout";status.dispatchEvent(new Event("change"));
+told.push(rows().length);told.push([...document.images].every(image=>image.naturalWidth>0));
+document.body.innerHTML="<pre></pre>";document.querySelector("pre").textContent=JSON.stringify(told);
+}
+</script>
+"""
+
+
+@pytest.mark.skipif(not CHROMIUM, reason="needs chromium")
+def test_the_report_sorts_and_filters_in_a_browser(tmp_path):
+    """The page's own policy lets no other script run, so the one that drives it is let in by taking the policy away."""
+    path = page(tmp_path)
+    words = [CHROMIUM, "--headless", "--no-sandbox", "--disable-gpu", "--user-data-dir=" + str(tmp_path / "user")]
+    words += ["--virtual-time-budget=5000", "--dump-dom"]
+    shown = subprocess.run([*words, path.as_uri()], capture_output=True, timeout=240, check=True).stdout.decode()
+    assert "<title>Body Moments</title>" in shown and "4 of 4" in shown  # its script ran, that of a name did not
+    text = re.sub(r"<meta http-equiv[^>]*>", "", path.read_text(encoding="utf-8")).replace("</body>", DRIVE + "</body>")
+    driven = tmp_path / "driven.html"
+    driven.write_text(text, encoding="utf-8")
+    shown = subprocess.run([*words, driven.as_uri()], capture_output=True, timeout=240, check=True).stdout.decode()
+    title, count, up, down, found, late, pictures = json.loads(
+        html.unescape(re.search(r"<pre>(.*)</pre>", shown, re.S)[1])
+    )
+    assert (title, count, late, pictures) == ("Body Moments", 4, 1, True)
+    assert up[0] == "Sphere" and down[0] != "Sphere" and found == ["Sphere"]
+
+
+# Options that the panel has
+
+
+def test_a_material_is_its_density():
+    files.add_box("Box")
+    entry = measured("--material", "Aluminum 6061")
+    assert close(entry["mass"], 6.0 * BY_NAME["Aluminum 6061"].density, 1e-12)
+    assert "density_defaulted" not in files.codes(entry)
+
+
+def test_a_polynomial_is_every_objects_density():
+    files.add_box("Box", (0, 0, 0))
+    entry = measured("--polynomial", "1000 + 600*x")
+    assert close(entry["mass"], 6000.0, 1e-12)
+    # ∫ x (1000 + 600 x) over 1 by 2 by 3, by the mass.
+    assert close(entry["center_of_mass"][0], 600.0 / 12.0 / 1000.0, 1e-12)
+
+
+def test_materials_and_volumes_are_sources_of_density():
+    box = files.add_box("Box")
+    material = bpy.data.materials.new("Heavy")
+    material.body_moments.density = 5000.0
+    box.data.materials.append(material)
+    assert close(measured("--density-from", "materials")["mass"], 30000.0, 1e-12)
+    assert close(measured("--density-from", "value", "--order", "0")["mass"], 6000.0, 1e-12)
+    assert "no Volume object" in document("--density-from", "volume:none")["errors"][0]["reason"]
+
+
+def test_an_attribute_and_a_volume_are_the_sources_that_the_panel_has(tmp_path):
+    box = files.add_box("Box", (0, 0, 0))
+    values = np.array([1.0 + corner.co.x for corner in box.data.vertices], np.float32)
+    box.data.attributes.new("weight", "FLOAT", "POINT").data.foreach_set("value", values)
+    sheet = "--kind", "shell", "--thickness", "0.01"
+    found = measured(*sheet, "--density-from", "attribute:weight")
+    box.body_moments.kind, box.body_moments.density_from, box.body_moments.density_attribute = (
+        "SHELL",
+        "ATTRIBUTE",
+        "weight",
+    )
+    box.body_moments.thickness = 0.01
+    as_set = measured()
+    assert found["mass"] == as_set["mass"] and found["inertia"] == as_set["inertia"]
+    assert found["center_of_mass"] == as_set["center_of_mass"] != [0.0, 0.0, 0.0]
+
+    box.body_moments.kind, box.body_moments.density_from = "SOLID", "VALUE"
+    samples = np.random.default_rng(1).uniform(1.0, 2.0, (12, 12, 12)).astype(np.float32)
+    cloud = volume_object(tmp_path / "a.vdb", vdb_grid(samples, offset=(-6, -6, -6)))
+    found = measured("--object", "Box", "--density-from", "volume:Cloud")
+    box.body_moments.density_from, box.body_moments.density_volume = "VOLUME", cloud
+    as_set = measured("--object", "Box")
+    assert found["mass"] == as_set["mass"] and found["inertia"] == as_set["inertia"]
+    assert 6.0 < found["mass"] < 12.0  # of a box of 6 m³
+
+
+def test_a_wall_of_real_thickness():
+    files.add_box("Box")
+    entry = measured("--kind", "shell", "--thickness", "0.1", "--wall", "inward", "--density", "1")
+    assert close(entry["mass"], 6.0 - 0.8 * 1.8 * 2.8, 1e-6)
+
+
+@pytest.mark.parametrize("frame", ["world", "object"])
+def test_inertia_and_moments_about_a_point(frame):
+    box = files.add_box("Box", (3.0, 4.0, 5.0))
+    box.rotation_euler = (0.3, 0.2, 0.1)
+    bpy.context.view_layer.update()
+    for about in ("center", "origin", "world", "0.5,-1,2"):
+        entry = measured("--about", about, "--order", "2", "--density", "2", "--frame", frame)
+        point, moments = np.array(entry["inertia_about"]["point"]), entry["moments"]
+        assert moments["about"] == entry["inertia_about"]["point"]
+        second = {key: 2.0 * value for key, value in moments["volume"].items()}  # with the density
+        xx, yy, zz = second["2,0,0"], second["0,2,0"], second["0,0,2"]
+        xy, xz, yz = second["1,1,0"], second["1,0,1"], second["0,1,1"]
+        expected = np.array([[yy + zz, -xy, -xz], [-xy, xx + zz, -yz], [-xz, -yz, xx + yy]])
+        assert np.abs(entry["inertia_about"]["inertia"] - expected).max() < 1e-12 * np.abs(expected).max()
+        first = np.array([second[key] for key in ("1,0,0", "0,1,0", "0,0,1")]) / entry["mass"]
+        assert np.abs(first - (np.array(entry["center_of_mass"]) - point)).max() < 1e-12
+        expected = {"center": entry["center_of_mass"], "0.5,-1,2": [0.5, -1.0, 2.0]}
+        expected["origin"] = [3.0, 4.0, 5.0] if frame == "world" else [0.0, 0.0, 0.0]
+        expected["world"] = (
+            [0.0, 0.0, 0.0]
+            if frame == "world"
+            else -(np.array(box.matrix_world.to_3x3()).T @ np.array(box.matrix_world.translation))
+        )
+        assert np.abs(point - expected[about]).max() < 1e-6
+        assert math.isclose(entry["mass"], 12.0, rel_tol=1e-6)
+    assert "inertia_about" not in measured()

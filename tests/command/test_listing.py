@@ -1,0 +1,32 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a batch of files finds in folders."""
+
+import os
+
+import pytest
+from body_moments.command.supervisor.listing import expand
+
+from tests.core.findings import refused
+
+FILES = "a.stl", "b.NRRD", "c_2x3x4_uint8.raw", "d.nii.gz", "e.body_moments.blend.blend", "f/g.blend", "f/h/i.iges"
+OTHERS = "a.txt", "b", "c.raw", "d.gz", "e.body_moments.blend", ".f.stl", ".g/h.stl", "f/stl"
+
+
+def test_folders_are_what_can_be_measured_in_them_and_files_are_themselves(tmp_path):
+    for name in (*FILES, *OTHERS):
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / name).write_bytes(b"")
+    if os.name == "posix":
+        (tmp_path / "f" / "around").symlink_to(tmp_path)
+    found = [os.path.relpath(path, tmp_path).replace(os.sep, "/") for path in expand([str(tmp_path)])]
+    assert found == list(FILES)
+    assert [*expand([str(tmp_path / "a.txt"), "nowhere"])] == [str(tmp_path / "a.txt"), "nowhere"]
+
+
+@pytest.mark.parametrize("others", [(), OTHERS[:3]])
+def test_a_folder_with_nothing_to_measure_is_refused(tmp_path, others):
+    for name in others:
+        (tmp_path / name).write_bytes(b"")
+    with refused("folder_without_files", folder=str(tmp_path)):
+        [*expand([str(tmp_path)])]

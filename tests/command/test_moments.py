@@ -1,0 +1,184 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Moments of high order from the command line: instances, repaired surfaces, unions, shells and frames, against the
+closed form of the box."""
+
+import itertools
+import math
+
+import pytest
+
+pytest.importorskip("bpy")
+import bmesh
+import bpy
+from body_moments.core.verdict.finding import finding
+from mathutils import Matrix
+
+from tests.blender import batch_files as files
+from tests.blender.batch_files import document, measured, sentence
+from tests.close import close
+from tests.command.test_options import box_moment
+
+pytestmark = pytest.mark.usefixtures("scene")
+
+
+def moments_of(*words):
+    """Volume and surface moments by exponents."""
+    found = measured(*words, "--surface-moments")["moments"]
+    return tuple(
+        {tuple(map(int, key.split(","))): value for key, value in found[weight].items()}
+        for weight in ("volume", "surface")
+    )
+
+
+def box_surface_moment(powers, low, high):
+    """Of the six sides of a box."""
+
+    def one(i, n):
+        return (high[i] ** (n + 1) - low[i] ** (n + 1)) / (n + 1)
+
+    return sum(
+        (low[i] ** powers[i] + high[i] ** powers[i]) * math.prod(one(j, powers[j]) for j in range(3) if j != i)
+        for i in range(3)
+    )
+
+
+def test_moments_of_high_order_are_those_of_the_box_wherever_and_however_it_stands():
+    box = files.add_box(center=(0, 0, 0), size=(1, 1, 1))
+    box.location, box.scale = (0.5, 0.25, 0.0), (1, 2, -3)  # mirrored, unevenly scaled
+    low, high = (0.0, -0.75, -1.5), (1.0, 1.25, 1.5)
+    volume, surface = moments_of("--order", "12")
+    assert len(volume) == len(surface) == 455
+    for powers, value in volume.items():
+        exact = box_moment(powers, (0.5, 0.25, 0.0), (1, 2, 3))
+        assert value == pytest.approx(exact, rel=1e-12, abs=1e-13)
+    for powers, value in surface.items():
+        assert value == pytest.approx(box_surface_moment(powers, low, high), rel=1e-12, abs=1e-12)
+    own, _ = moments_of("--order", "12", "--frame", "object")
+    assert own[0, 4, 6] == pytest.approx(box_moment((0, 4, 6), (0, 0, 0), (1, 2, 3)), rel=1e-12)
+
+
+def test_high_orders_of_instances_are_the_sum_over_their_places():
+    box = files.add_box(center=(0, 0, 0), size=(1, 1, 1))
+    group = bpy.data.collections.new("Pair")
+    bpy.context.scene.collection.objects.unlink(box)
+    group.objects.link(box)
+    for x in (0.0, 5.0):
+        place = bpy.data.objects.new("Place", None)
+        place.instance_type, place.instance_collection = "COLLECTION", group
+        place.location.x, place.scale = x, (1.0, 1.0, 1.0 + x / 5.0)
+        bpy.context.scene.collection.objects.link(place)
+    found = [moments_of("--order", "8", "--object", name) for name in ("Place", "Place.001")]
+    for (volume, surface), x in zip(found, (0.0, 5.0), strict=True):
+        size = (1.0, 1.0, 1.0 + x / 5.0)
+        low, high = ([c + sign * s / 2 for c, s in zip((x, 0, 0), size)] for sign in (-1, 1))
+        for powers in volume:
+            exact = box_moment(powers, (x, 0, 0), size)
+            assert volume[powers] == pytest.approx(exact, rel=1e-12, abs=1e-11)
+            exact = box_surface_moment(powers, low, high)
+            assert surface[powers] == pytest.approx(exact, rel=1e-12, abs=1e-11)
+
+
+def test_high_orders_of_a_repaired_body_are_those_of_the_body_and_its_own_faces():
+    box = files.add_box(center=(0, 0, 0), size=(2, 2, 2))
+    bm = bmesh.new()
+    bm.from_mesh(box.data)
+    bm.faces.ensure_lookup_table()
+    top = next(face for face in bm.faces if face.normal.z > 0.9)
+    bm.faces.remove(top)
+    bm.to_mesh(box.data)
+    bm.free()
+    volume, surface = moments_of("--order", "6")
+    assert volume[0, 0, 6] == pytest.approx(box_moment((0, 0, 6), (0, 0, 0), (2, 2, 2)), rel=1e-12)
+    assert surface[0, 0, 0] == pytest.approx(20.0, rel=1e-12)  # the cap is no part of the area
+    assert surface[2, 0, 0] == pytest.approx(3 * 4 / 3 + 2 * 4.0, rel=1e-12)
+    assert surface[0, 0, 1] == pytest.approx(-4.0, rel=1e-12)
+
+
+@pytest.mark.parametrize("kind", ["solid", "shell"])
+def test_a_flat_part_adds_its_area_to_every_order(kind):
+    box = files.add_box(center=(0, 0, 0), size=(2, 2, 2))
+    bm = bmesh.new()
+    bm.from_mesh(box.data)
+    *rim, middle = (bm.verts.new(place) for place in ((3, -1, 0), (4, -1, 0), (4, 1, 0), (3, 1, 0), (3.5, 0, 0)))
+    bm.faces.new(rim)
+    for one, other in zip(rim, rim[1:] + rim[:1]):  # the other side of the sheet
+        bm.faces.new((other, one, middle))
+    bm.to_mesh(box.data)
+    bm.free()
+    volume, surface = moments_of("--kind", kind, "--thickness", "1", "--order", "4")
+    assert measured("--kind", kind, "--thickness", "1")["area"] == pytest.approx(28.0, rel=1e-13)
+    assert surface[0, 0, 0] == pytest.approx(28.0, rel=1e-13)
+    assert surface[1, 0, 0] == pytest.approx(2 * 2 * 3.5, rel=1e-13)
+    assert surface[4, 0, 0] == pytest.approx(4 * 4 / 5 + 2 * 4 + 2 * 2 * (4**5 - 3**5) / 5, rel=1e-13)
+    assert close(volume[0, 0, 0], 8.0 if kind == "solid" else 28.0, rel=1e-13)
+
+
+def test_high_orders_of_united_shells_count_what_they_share_once():
+    box = files.add_box(center=(0, 0, 0), size=(1, 1, 1))
+    other = box.data.copy()
+    other.transform(Matrix.Translation((0.5, 0, 0)))
+    bm = bmesh.new()
+    bm.from_mesh(box.data)
+    bm.from_mesh(other)
+    bm.to_mesh(box.data)
+    bm.free()
+    volume, surface = moments_of("--order", "5", "--overlap", "union")
+    center, size = (0.25, 0, 0), (1.5, 1, 1)
+    for powers in volume:
+        assert volume[powers] == pytest.approx(box_moment(powers, center, size), rel=1e-6, abs=1e-6)
+        exact = box_surface_moment(powers, (-0.5, -0.5, -0.5), (1.0, 0.5, 0.5))
+        assert surface[powers] == pytest.approx(exact, rel=1e-6, abs=1e-6)
+    each, _ = moments_of("--order", "5")
+    assert each[0, 0, 0] == pytest.approx(2.0)
+
+
+def test_high_orders_of_a_shell_are_those_of_its_thin_volume():
+    files.add_box(center=(0, 0, 0), size=(2, 2, 2))
+    volume, surface = moments_of("--order", "6", "--kind", "shell", "--thickness", "0.01")
+    for powers, value in surface.items():
+        exact = box_surface_moment(powers, (-1, -1, -1), (1, 1, 1))
+        assert value == pytest.approx(exact, rel=1e-12, abs=1e-13)
+        assert volume[powers] == pytest.approx(0.01 * exact, rel=1e-12, abs=1e-15)
+
+
+def test_asking_for_high_orders_changes_nothing_else():
+    files.add_box()
+    plain, more = measured(), measured("--order", "10", "--surface-moments")
+    more.pop("moments")
+    assert more == plain
+
+
+def test_a_thick_wall_has_moments_to_any_order():
+    box = files.add_box(size=(1, 1, 1), center=(0, 0, 0))
+    box.body_moments.wall = "INWARD"
+    entry = measured("--order", "20", "--kind", "shell", "--thickness", "0.1", "--density", "1000", "--surface-moments")
+    moments = entry["moments"]
+    for p, q, r in itertools.product(range(0, 21, 4), repeat=3):
+        if p + q + r <= 20:
+            key, powers = "{},{},{}".format(p, q, r), (p, q, r)
+            exact = math.prod(2 * 0.5 ** (n + 1) / (n + 1) for n in powers)
+            exact -= math.prod(2 * 0.4 ** (n + 1) / (n + 1) for n in powers)
+            bound = moments["error"]["volume"][key]
+            # A thickness of 0.1 is no float32 number, and the box's size is one.
+            assert abs(moments["volume"][key] - exact) <= bound + 1e-13 * exact and bound < 1e-9 * exact
+            assert close(moments["mass"][key], 1000.0 * moments["volume"][key], rel=1e-14)
+    assert close(moments["surface"]["0,0,0"], 6.0, rel=1e-13)
+
+
+def test_what_has_no_mass_is_refused_once():
+    files.add_box(size=(1, 1, 0))
+    found = files.document("--order", "4")
+    assert found["objects"] == [] and len(found["errors"]) == 1
+
+
+def test_moments_beyond_the_range_of_numbers_are_an_error_beside_the_mass():
+    files.add_box().scale = (1e35, 1e35, 1e35)
+    bpy.context.view_layer.update()
+    (plain,) = document()["objects"]
+    cause = finding("moments_overflow", order=8).as_record()
+    for words in ((), ("--surface-moments",)):
+        found = document("--order", "8", *words)
+        assert found["errors"] == [{"name": files.BOX_NAME, "reason": sentence("moments_unavailable", cause=cause)}]
+        assert found["objects"] == [plain] and "moments" not in plain and found["status"] == "error"
+    assert "moments" in document("--order", "4")["objects"][0]

@@ -1,0 +1,481 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The command line's --write: results stored in the .blend file, whole or not at all, and nobody else's work lost."""
+
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+
+import pytest
+
+pytest.importorskip("bpy")
+import bpy
+import numpy as np
+from body_moments.command.measure import measuring
+from body_moments.core.files import file_lock
+
+from tests.blender import batch_files as files
+from tests.blender.batch_files import document, measured, run
+from tests.command.test_process import BLENDER, SCRIPT, in_blender, process
+
+pytestmark = pytest.mark.usefixtures("scene")
+
+
+def reopened(path):
+    files.empty_scene()
+    bpy.ops.wm.open_mainfile(filepath=str(path))
+    return bpy.data.objects
+
+
+def test_results_are_in_the_file_when_it_is_opened_again(tmp_path):
+    path = tmp_path / "part.blend"
+    entry = measured(files.box_file(path), "--write")
+    box = reopened(path)[files.BOX_NAME]
+    assert box["body_mass"] == entry["mass"] and box["body_volume"] == entry["volume"]
+    assert list(box["body_principal_moments"]) == entry["principal_moments"]
+    assert list(box["body_center_of_mass"]) == pytest.approx([0.0, 0.0, 0.0], abs=1e-6)
+    assert box["body_method"] == "exact"
+    assert [file.name for file in tmp_path.iterdir()] == ["part.blend"]
+
+
+def test_writing_twice_gives_the_same_numbers(tmp_path):
+    path = files.box_file(tmp_path / "part.blend")
+    first, second = measured(path, "--write"), measured(path, "--write")
+    assert first == second
+
+
+@pytest.mark.parametrize("compress", [False, True])
+def test_the_file_stays_compressed_or_not(tmp_path, compress):
+    path = tmp_path / "part.blend"
+    files.add_box()
+    bpy.ops.wm.save_as_mainfile(filepath=str(path), copy=True, compress=compress)
+    head = path.read_bytes()[:4]
+    measured(path, "--write")
+    assert path.read_bytes()[:4] == head
+
+
+def test_settings_workspaces_and_other_scenes_are_still_there(tmp_path):
+    path = tmp_path / "part.blend"
+    bpy.context.workspace.name = "My Workspace"
+    box = files.add_box()
+    box.body_moments.density = 2500.0
+    bpy.data.scenes.new("Second")
+    files.save(path)
+    measured(path, "--write")
+    objects = reopened(path)
+    assert objects[files.BOX_NAME].body_moments.density == 2500.0
+    assert "My Workspace" in bpy.data.workspaces and "Second" in bpy.data.scenes
+
+
+def test_what_is_written_is_not_out_of_date_when_the_file_is_opened(tmp_path):
+    """The options that the numbers came from are written as settings with them."""
+    from body_moments.blender.session.tracking import staleness
+
+    path = files.box_file(tmp_path / "part.blend")
+    measured(path, "--write", "--density", "5.123456789")
+    box = reopened(path)[files.BOX_NAME]
+    assert box["body_density"] == 5.123456789 and box.body_moments.density == np.float32(5.123456789)
+    assert staleness.stale_reason(box, bpy.context.scene) is None
+    measured(path, "--write", "--kind", "shell", "--thickness", "0.002", "--mass", "3")
+    box = reopened(path)[files.BOX_NAME]
+    assert box.body_moments.kind == "SHELL" and box.body_moments.mass_from == "MASS"
+    assert staleness.stale_reason(box, bpy.context.scene) is None
+
+
+@pytest.mark.parametrize("by_link", [False, True])
+def test_relative_paths_stay_as_they_are(tmp_path, by_link):
+    """Also where the file is opened by way of a link in another folder; and it stays the one that is open."""
+    path, opened = tmp_path / "part.blend", tmp_path / "links" / "linked.blend"
+    files.add_box()
+    image = bpy.data.images.new("Picture", 1, 1)
+    image.source, image.use_fake_user, image.filepath = "FILE", True, "//textures/picture.png"
+    files.save(path)
+    if by_link:
+        opened.parent.mkdir()
+        try:
+            opened.symlink_to(path)
+        except OSError:
+            pytest.skip("not on this system: links")
+    else:
+        opened = path
+    measured(opened, "--write")
+    assert bpy.data.filepath == str(opened)
+    reopened(path)
+    assert bpy.data.images["Picture"].filepath == "//textures/picture.png"
+
+
+def test_a_file_that_cannot_be_replaced_is_left_as_it_was(tmp_path, monkeypatch):
+    path = tmp_path / "part.blend"
+    files.box_file(path)
+    before = path.read_bytes()
+
+    def refuse(*_):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("body_moments.command.files.files.os.replace", refuse)
+    found = document(path, "--write")
+    assert [entry["name"] for entry in found["objects"]] == [files.BOX_NAME]
+    (error,) = found["errors"]
+    assert error == {"name": None, "reason": files.sentence("file_not_saved", error="No space left on device")}
+    assert path.read_bytes() == before and [file.name for file in tmp_path.iterdir()] == ["part.blend"]
+
+
+def test_a_link_to_a_file_stays_a_link(tmp_path):
+    path = tmp_path / "real.blend"
+    files.box_file(path)
+    link = tmp_path / "link.blend"
+    try:
+        link.symlink_to(path)
+    except OSError:
+        pytest.skip("not on this system: links")
+    measured(link, "--write")
+    assert link.is_symlink() and "body_mass" in reopened(path)[files.BOX_NAME]
+
+
+def test_only_a_blend_file_can_be_written(tmp_path):
+    path = tmp_path / "part.stl"
+    files.box_file(path)
+    before = path.read_bytes()
+    found = document(path, "--write", "--unit-scale", "1")
+    assert len(found["objects"]) == 1 and path.read_bytes() == before
+    (error,) = found["errors"]
+    assert error["name"] is None and error["reason"] == files.sentence("results_need_blend")
+
+
+def test_a_scene_that_was_never_saved_cannot_be_written():
+    files.add_box()
+    line = run("--write")
+    (found,) = line.documents
+    assert len(found["objects"]) == 1 and line.errors == 1 and not line.has_saved
+    assert found["errors"] == [{"name": None, "reason": files.sentence("scene_never_saved")}]
+    assert "body_mass" not in bpy.data.objects[files.BOX_NAME]
+
+
+def test_the_open_file_is_saved_where_it_is(tmp_path):
+    path = files.box_file(tmp_path / "part.blend")
+    bpy.ops.wm.open_mainfile(filepath=path)
+    measured("--write")
+    assert bpy.data.filepath == path
+    assert "body_mass" in reopened(path)[files.BOX_NAME]
+
+
+def test_what_is_measured_does_not_depend_on_what_was_stored_before_it(tmp_path):
+    path = tmp_path / "driven.blend"
+    files.add_box("A", (0, 0, 0), (1, 1, 1))
+    driven = files.add_box("B", (0, 0, 0), (1, 1, 1))
+    driver = driven.driver_add("scale", 0).driver
+    driver.expression = "1 + mass"
+    variable = driver.variables.new()
+    variable.name = "mass"
+    bpy.data.objects["A"]["body_mass"] = 0.0
+    variable.targets[0].id = bpy.data.objects["A"]
+    variable.targets[0].data_path = '["body_mass"]'
+    found = document(files.save(path), "--write")
+    assert [entry["volume"] for entry in found["objects"]] == pytest.approx([1.0, 1.0])
+
+
+def test_a_linked_object_keeps_its_record_and_its_refusal_is_an_error(tmp_path):
+    library = files.box_file(tmp_path / "library.blend")
+    files.empty_scene()
+    files.add_box("Local")
+    with bpy.data.libraries.load(library, link=True) as (_, wanted):
+        wanted.objects = [files.BOX_NAME]
+    bpy.context.scene.collection.objects.link(wanted.objects[0])
+    path = files.save(tmp_path / "part.blend")
+    found = document(path, "--write")
+    assert sorted(entry["name"] for entry in found["objects"]) == ["Local", files.BOX_NAME]
+    assert found["errors"] == [{"name": files.BOX_NAME, "reason": files.sentence("linked_results")}]
+    assert "body_mass" in reopened(path)["Local"]
+
+
+def meanwhile(monkeypatch, action):
+    """Do something once while the object is measured."""
+    real, waiting = measuring.measure_object, [action]
+
+    def measure(*rest):
+        while waiting:
+            waiting.pop()()
+        return real(*rest)
+
+    files.measure_with(monkeypatch, measure)
+
+
+def replaced(path):
+    other = path.with_name("other")
+    other.write_bytes(path.read_bytes() + b"more")
+    os.replace(other, path)
+
+
+def edited(path):
+    """One byte is another; the size and the times are as before."""
+    status = path.stat()
+    with open(path, "r+b") as file:
+        file.seek(-1, os.SEEK_END)
+        last = file.read(1)
+        file.seek(-1, os.SEEK_END)
+        file.write(bytes([last[0] ^ 1]))
+    os.utime(path, ns=(status.st_atime_ns, status.st_mtime_ns))
+
+
+@pytest.mark.parametrize("opened", [False, True], ids=["named", "open"])
+@pytest.mark.parametrize("change", [replaced, edited])
+def test_what_was_saved_meanwhile_is_kept(tmp_path, monkeypatch, change, opened):
+    path = tmp_path / "part.blend"
+    files.box_file(path)
+    if opened:
+        bpy.ops.wm.open_mainfile(filepath=str(path))
+    saved = []
+    meanwhile(monkeypatch, lambda: (change(path), saved.append(path.read_bytes())))
+    line = run("--write", *(() if opened else (path,)))
+    (found,) = line.documents
+    assert [entry["name"] for entry in found["objects"]] == [files.BOX_NAME]
+    (error,) = found["errors"]
+    assert "Measure it again" in error["reason"] and line.internal_errors == 0
+    assert [path.read_bytes()] == saved and [file.name for file in tmp_path.iterdir()] == ["part.blend"]
+
+
+def test_a_file_that_is_gone_does_not_come_back(tmp_path, monkeypatch):
+    path = tmp_path / "part.blend"
+    files.box_file(path)
+    meanwhile(monkeypatch, path.unlink)
+    (error,) = document(path, "--write")["errors"]
+    assert "no longer there" in error["reason"] and list(tmp_path.iterdir()) == []
+
+
+@pytest.fixture
+def holder():
+    """Another thread that holds a file's lock: for some time, or until the test ends. What it does before the end."""
+    threads, over = [], threading.Event()
+
+    def hold(path, seconds=None, last=lambda: None):
+        begun = threading.Event()
+
+        def work():
+            with file_lock.locked(path):
+                begun.set()
+                over.wait(seconds)
+                last()
+
+        threads.append(threading.Thread(target=work))
+        threads[-1].start()
+        assert begun.wait(120)
+
+    yield hold
+    over.set()
+    for thread in threads:
+        thread.join()
+
+
+def test_a_second_writer_waits_and_adds_to_what_the_first_one_saved(tmp_path, holder):
+    path, later = tmp_path / "part.blend", tmp_path / "later.blend"
+    files.box_file(path)
+    files.add_box("First")["body_mass"] = 7.0
+    files.save(later)
+    holder(path, 0.5, lambda: os.replace(later, path))
+    found = document(path, "--write", "--object", files.BOX_NAME)
+    assert found["errors"] == [] and [file.name for file in tmp_path.iterdir()] == ["part.blend"]
+    objects = reopened(path)
+    assert objects["First"]["body_mass"] == 7.0 and "body_mass" in objects[files.BOX_NAME]
+
+
+def test_a_second_writer_of_the_open_file_saves_nothing_over_the_first_one(tmp_path, holder):
+    path, later = tmp_path / "part.blend", tmp_path / "later.blend"
+    files.box_file(path)
+    bpy.ops.wm.open_mainfile(filepath=str(path))
+    later.write_bytes(path.read_bytes() + b"more")
+    kept = later.read_bytes()
+    holder(path, 0.5, lambda: os.replace(later, path))
+    assert len(document("--write")["errors"]) == 1 and path.read_bytes() == kept
+
+
+def test_a_writer_that_waited_too_long_is_refused_and_removes_nothing_of_the_other(tmp_path, holder, monkeypatch):
+    path = tmp_path / "part.blend"
+    files.box_file(path)
+    kept = path.read_bytes()
+    partial = tmp_path / ".part.blend.1.partial"
+    partial.touch()
+    monkeypatch.setattr(file_lock, "WAIT", 0.2)
+    holder(path)
+    found = document(path, "--write")
+    (error,) = found["errors"]
+    assert len(found["objects"]) == 1 and "another process" in error["reason"]
+    assert path.read_bytes() == kept and partial.exists() and file_lock.beside(path, "body_moments.lock").exists()
+
+
+def test_two_processes_write_one_file_and_both_results_are_in_it(tmp_path):
+    path = tmp_path / "part.blend"
+    files.add_box("A")
+    files.add_box("B")
+    files.save(path)
+    words = (sys.executable, SCRIPT, "measure", path, "--write", "--object")
+    writers = [subprocess.Popen([*map(str, words), name], stdout=subprocess.DEVNULL) for name in "AB"]
+    assert [writer.wait(600) for writer in writers] == [0, 0]
+    objects = reopened(path)
+    assert "body_mass" in objects["A"] and "body_mass" in objects["B"]
+    assert [file.name for file in tmp_path.iterdir()] == ["part.blend"]
+
+
+def test_what_killed_processes_left_is_removed_and_nothing_else(tmp_path):
+    path = tmp_path / "part.blend"
+    files.box_file(path)
+    for name in (".part.blend.1.partial", ".part.blend.22.partial@", ".part.blend.body_moments.lock"):
+        (tmp_path / name).touch()
+    others = [".other.blend.1.partial", ".part.blend.x.partial", "part.blend1"]
+    for name in others:
+        (tmp_path / name).touch()
+    measured(path, "--write")
+    assert sorted(file.name for file in tmp_path.iterdir()) == sorted([*others, "part.blend"])
+
+
+# A process that is in the midst of saving the file behind --write, and does not get any further.
+_SAVING = """
+import os, runpy, sys, time
+def stop(descriptor):
+    print("saving", file=sys.stderr, flush=True)
+    time.sleep(600)
+os.fsync = stop
+sys.argv = sys.argv[1:]
+sys.path[0] = sys.argv[0]
+runpy.run_path(sys.argv[0], run_name="__main__")
+"""
+
+
+@pytest.mark.skipif(os.name == "nt", reason="not on this system: signals")
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGKILL] if os.name != "nt" else [])
+def test_a_process_that_is_ended_while_it_saves(tmp_path, number):
+    path = tmp_path / "part.blend"
+    files.box_file(path)
+    kept = path.read_bytes()
+    words = [sys.executable, "-c", _SAVING, SCRIPT, "measure", "--no-supervisor", str(path), "--write"]
+    with subprocess.Popen(words, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE) as saving:
+        while b"saving" not in (line := saving.stderr.readline()):
+            assert line
+        assert len(list(tmp_path.iterdir())) == 3
+        saving.send_signal(number)
+        assert saving.wait(120) == -number
+    assert path.read_bytes() == kept
+    assert len(list(tmp_path.iterdir())) == (1 if number == signal.SIGTERM else 3)
+    begun = time.monotonic()
+    measured(path, "--write")  # the lock has ended with its process
+    assert time.monotonic() - begun < file_lock.WAIT
+    assert [file.name for file in tmp_path.iterdir()] == ["part.blend"]
+
+
+@pytest.mark.skipif(os.name == "nt", reason="not on this system: owners and modes")
+def test_the_file_keeps_its_owner_and_its_mode_and_is_on_the_disk_first(tmp_path, monkeypatch):
+    path = tmp_path / "part.blend"
+    files.box_file(path)
+    path.chmod(0o640)
+    if not os.getuid():
+        os.chown(path, 12345, 23456)
+    before, fsync, modes = path.stat(), os.fsync, []
+
+    def synchronize(descriptor):
+        modes.append(os.fstat(descriptor).st_mode & 0o777)
+        fsync(descriptor)
+
+    monkeypatch.setattr(os, "fsync", synchronize)
+    measured(path, "--write")
+    after = path.stat()
+    assert (after.st_mode, after.st_uid, after.st_gid) == (before.st_mode, before.st_uid, before.st_gid)
+    assert after.st_ino != before.st_ino and modes[0] == 0o640 and len(modes) == 2  # the file, then its folder
+
+
+def test_a_second_name_of_the_file_is_reported_to_keep_the_old_content(tmp_path, capsys):
+    path, other = tmp_path / "part.blend", tmp_path / "other.blend"
+    files.box_file(path)
+    os.link(path, other)
+    kept = other.read_bytes()
+    (warning,) = document(path, "--write")["total"]["warnings"]
+    assert "2 names" in warning and "hard links" in warning and warning in capsys.readouterr().err
+    assert other.read_bytes() == kept and "body_mass" in reopened(path)[files.BOX_NAME]
+    assert document(path, "--write")["total"]["warnings"] == []
+
+
+@in_blender
+def test_a_file_that_was_saved_while_blender_started_is_not_overwritten(tmp_path):
+    path = tmp_path / "part.blend"
+    files.box_file(path)
+    start = (BLENDER, "--factory-startup", "-b", path)
+    save = "open({!r}, 'ab').write(b'more')".format(str(path))  # after Blender has read it, before the script runs
+    words = ("--python", SCRIPT, "--", "measure", "--write")
+    assert process(*start, *words).returncode == 0
+    ended = process(*start, "--python-expr", save, *words)
+    assert ended.returncode == 1 and b"name the file" in ended.stderr and path.read_bytes().endswith(b"more")
+
+
+def error_of(found):
+    """The reason of the one error, of a file whose object has a record all the same."""
+    assert [entry["name"] for entry in found["objects"]] == [files.BOX_NAME]
+    (error,) = found["errors"]
+    assert error["name"] is None
+    return error["reason"]
+
+
+def test_a_file_that_may_not_be_written_stays(tmp_path, monkeypatch):
+    path = tmp_path / "part.blend"
+    files.box_file(path)
+    before, real = path.read_bytes(), os.access
+    monkeypatch.setattr(os, "access", lambda one, mode: str(one) != str(path) and real(one, mode))
+    assert error_of(document(path, "--write")) == files.sentence("file_read_only")
+    assert path.read_bytes() == before and [*tmp_path.iterdir()] == [path]
+
+
+def test_an_open_file_that_is_gone_does_not_come_back(tmp_path):
+    path = tmp_path / "part.blend"
+    bpy.ops.wm.open_mainfile(filepath=files.box_file(path))
+    path.unlink()
+    assert error_of(run("--write").documents[0]) == files.sentence("file_vanished") and [*tmp_path.iterdir()] == []
+
+
+def test_a_file_that_cannot_be_locked_is_measured_and_stays(tmp_path, monkeypatch):
+    path = tmp_path / "part.blend"
+    files.box_file(path)
+    before = path.read_bytes()
+
+    def fail(*_):
+        raise OSError(5, "Input/output error")
+
+    monkeypatch.setattr(file_lock, "_lock", fail)
+    assert error_of(document(path, "--write")) == files.sentence("file_not_saved", error="Input/output error")
+    assert path.read_bytes() == before and path in tmp_path.iterdir()
+
+
+def test_a_copy_that_cannot_be_saved_is_an_error_and_the_file_stays(tmp_path, monkeypatch):
+    path = tmp_path / "part.blend"
+    files.empty_scene()
+    files.add_box().asset_mark()
+    files.save(path)
+    before = path.read_bytes()
+
+    def full(_):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(os, "fsync", full)
+    expected = files.sentence("file_not_saved", error="No space left on device")
+    for where in ("copy", "file"):
+        assert error_of(document(path, "--asset-metadata", where)) == expected
+        assert path.read_bytes() == before and [*tmp_path.iterdir()] == [path]
+
+
+@pytest.mark.skipif(os.name == "nt", reason="not on this system: modes")
+def test_nobody_else_can_read_the_file_before_it_has_the_mode_of_the_other(tmp_path):
+    path, masks = tmp_path / "part.blend", []
+    files.box_file(path)
+
+    @bpy.app.handlers.persistent
+    def look(*_):
+        masks.append(os.umask(0o777))
+        os.umask(masks[-1])
+
+    before = os.umask(0o022)
+    bpy.app.handlers.save_pre.append(look)
+    try:
+        measured(path, "--write")
+        assert masks == [0o077] and os.umask(before) == 0o022
+    finally:
+        bpy.app.handlers.save_pre.remove(look)
+        os.umask(before)

@@ -1,0 +1,215 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Meshes in blocks on the command line: the numbers of an import, and what is said of what was not looked for."""
+
+import json
+
+import numpy as np
+import pytest
+from body_moments.blender.bodies.files import stream as stream_bodies
+from body_moments.blender.settings.options import MeasureOptions
+from body_moments.command.files import bare_files
+from body_moments.command.supervisor import processes
+from body_moments.operators import batch
+
+from tests.blender.batch_files import codes, in_process, sentence
+from tests.close import close
+from tests.command.test_process import script
+from tests.core.bodies import inverted, soup, sphere, torus, without
+from tests.core.mesh_files import ply, stl, stl_text, write_large_torus
+from tests.records import valid
+
+pytestmark = pytest.mark.usefixtures("scene")
+
+MEMORY_MB = 300  # of a child, with Blender in it
+
+FORMS = {"part.stl": stl, "part text.stl": stl_text, "part.ply": lambda part: ply(*part)}
+
+
+def run(tmp_path, *words):
+    out = tmp_path / "out.json"
+    code = batch.main(in_process("measure", "--force", "--output", out, *words), channel=2, file_needed=True)
+    document = json.loads(out.read_text(encoding="utf-8"))
+    assert valid(document)
+    return code, document
+
+
+def part(scale=0.1):
+    points, triangles = torus(12, 9)
+    return (points * scale + [1.0, 2.0, 3.0]).astype(np.float32), triangles
+
+
+def written(tmp_path, name="part.stl", body=None):
+    (tmp_path / name).write_bytes(FORMS[name](body or part()))
+    return tmp_path / name
+
+
+@pytest.mark.parametrize("name", FORMS)
+@pytest.mark.parametrize("kind", ["solid", "shell"])
+def test_a_record_is_that_of_an_import_but_for_what_was_not_looked_for(tmp_path, name, kind):
+    words = [
+        written(tmp_path, name),
+        "--density",
+        "7800",
+        "--unit-scale",
+        "0.5",
+        "--kind",
+        kind,
+        "--thickness",
+        "0.002",
+    ]
+    words += ["--order", "6", "--surface-moments", "--about", "1,2,3"]
+    code, streamed = run(tmp_path, *words, "--stream", "always")
+    assert code == 0 and streamed["status"] == "ok"
+    _, imported = run(tmp_path, *words)
+    (one,), (other,) = streamed["objects"], imported["objects"]
+    assert (one["name"], one["type"], one["kind"], one["method"]) == tuple(
+        other[key] for key in ("name", "type", "kind", "method")
+    )
+    for key in ("mass", "volume", "area", "density", "center_of_mass"):
+        assert close(one[key], other[key], rel=1e-12), key
+    apart = np.abs(np.subtract(one["inertia"], other["inertia"])).max()
+    assert apart <= 1e-12 * np.trace(other["inertia"])
+    for domain in ("volume", "surface", "mass"):
+        for power, value in one["moments"][domain].items():
+            bounds = [entry["moments"]["error"][domain][power] for entry in (one, other)]
+            assert abs(value - other["moments"][domain][power]) <= sum(bounds), (domain, power)
+    assert "mesh_streamed" in codes(one) and "mesh_streamed" not in codes(other)
+    assert one["health"]["closed"] is True and one["health"]["components"] is None
+    assert other["health"]["components"] == 1
+
+
+def test_open_and_inside_out_meshes_are_said_to_be(tmp_path):
+    _, document = run(tmp_path, written(tmp_path, body=without(part(), 5)), "--stream", "always")
+    (entry,) = document["objects"]
+    assert entry["method"] == "open" and not entry["health"]["closed"] and "streamed_open" in codes(entry)
+    _, document = run(tmp_path, written(tmp_path, body=inverted(part())), "--stream", "always", "--order", "3")
+    (entry,) = document["objects"]
+    assert entry["method"] == "reoriented" and "streamed_inside_out" in codes(entry)
+    assert close(entry["volume"], run(tmp_path, written(tmp_path))[1]["objects"][0]["volume"], rel=1e-12)
+    assert min(entry["moments"]["volume"][key] for key in ("0,0,0", "2,0,0", "0,2,0")) > 0.0
+
+
+def test_what_is_larger_than_memory_is_read_in_blocks_unless_that_is_turned_off(tmp_path, monkeypatch):
+    path = written(tmp_path)
+    needed = len(part()[1]) * bare_files.BYTES_PER_FACE
+    for memory, stream, expected in (
+        (2 * needed, "auto", False),
+        (needed // 2, "auto", True),
+        (needed // 2, "never", False),
+        (2 * needed, "always", True),
+        (None, "auto", False),
+    ):
+        monkeypatch.setattr(processes, "memory_share", lambda count=1, memory=memory: memory)
+        _, document = run(tmp_path, path, "--stream", stream)
+        assert ("mesh_streamed" in codes(document["objects"][0])) == expected, (memory, stream)
+
+
+def test_the_usual_findings_are_there(tmp_path):
+    _, document = run(tmp_path, written(tmp_path), "--stream", "always", "--pose", "--signature", "--spacing", "1,1,1")
+    (entry,) = document["objects"]
+    assert {"unit_assumed", "density_defaulted", "shape_of_stream", "array_options_unused"} <= {*codes(entry)}
+    assert entry["pose"] is None and entry["signature"] is None and entry["density"] == 1000.0
+    _, document = run(tmp_path, written(tmp_path), "--stream", "always", "--mass", "7")
+    assert document["objects"][0]["mass"] == pytest.approx(7.0, rel=1e-14)
+    assert "density_defaulted" not in codes(document["objects"][0])
+    code, document = run(tmp_path, written(tmp_path), "--stream", "always", "--object", "other")
+    assert code == 1 and [error["name"] for error in document["errors"]] == ["other"] and not document["objects"]
+
+
+def test_a_sheet_without_a_thickness_has_no_mass(tmp_path):
+    code, document = run(tmp_path, written(tmp_path), "--stream", "always", "--kind", "shell")
+    assert code == 1 and [error["reason"] for error in document["errors"]] == [sentence("no_thickness")]
+
+
+@pytest.mark.parametrize(
+    "words, code",
+    [
+        (("--kind", "shell", "--thickness", "1", "--wall", "inward"), "stream_options"),
+        (("--polynomial", "1 + x"), "stream_options"),
+        (("--kind", "wire"), "stream_options"),
+        (("--overlap", "union"), "stream_options"),
+        (("--write",), "results_need_blend"),
+    ],
+)
+def test_what_needs_the_mesh_is_refused(tmp_path, words, code):
+    exit_code, document = run(tmp_path, written(tmp_path), "--stream", "always", *words)
+    options = {"options": [words[-2] if "--wall" not in words else "--wall"]} if code == "stream_options" else {}
+    assert exit_code == 1 and [error["reason"] for error in document["errors"]] == [sentence(code, **options)]
+
+
+def test_damaged_and_empty_files_are_errors(tmp_path):
+    path = written(tmp_path)
+    whole = path.read_bytes()
+    points, triangles = soup(part())
+    points[7] = np.nan
+    place = {"code": "at_triangle", "values": {"triangle": 2}}
+    for data, reason in (
+        (whole[:-1], sentence("stl_size")),
+        (b"", sentence("file_empty")),
+        (stl((points, triangles)), sentence("non_finite_coordinates", count=3, place=place)),
+        (stl((points[:0], triangles[:0])), sentence("file_without_faces")),
+        (stl_text(part())[:-40], sentence("stl_cut_short")),
+    ):
+        path.write_bytes(data)
+        code, document = run(tmp_path, path, "--stream", "always")
+        assert code == 1 and [error["reason"] for error in document["errors"]] == [reason]
+    code, document = run(tmp_path, tmp_path / "missing.stl", "--stream", "always")
+    assert code == 1 and document["status"] == "missing"
+    flat = written(tmp_path, body=(np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0.0]]), np.array([[0, 1, 2], [0, 2, 1]])))
+    assert run(tmp_path, flat, "--stream", "always")[0] == 1
+
+
+def test_a_result_replaces_an_older_one(tmp_path):
+    path = written(tmp_path)
+    out = tmp_path / "out.json"
+    for _ in range(2):
+        words = in_process("measure", "--stream", "always", "--output", out, path)
+        assert batch.main(words, channel=2, file_needed=True) == 0
+
+
+def test_a_thousand_meters_from_the_origin(tmp_path):
+    points, triangles = sphere(3)
+    far = (points + 1000.0).astype(np.float32), triangles
+    _, document = run(tmp_path, written(tmp_path, body=far), "--stream", "always", "--order", "20")
+    (entry,) = document["objects"]
+    assert abs(entry["volume"] - 4.0 / 3.0 * np.pi) < 0.1 and close(entry["center_of_mass"], [1000.0] * 3, rel=1e-6)
+
+
+def test_five_million_triangles_are_measured_in_little_memory(tmp_path):
+    """By a child, which would be ended if it took more."""
+    path, out = tmp_path / "large.stl", tmp_path / "out.json"
+    volume = write_large_torus(path, 2500, 1000)
+    words = ["measure", "--memory-mb", str(MEMORY_MB), "--jobs", "1", "--density", "1", "--output", out, path]
+    ended = script(*words)
+    document = valid(json.loads(out.read_text(encoding="utf-8")))
+    assert ended.returncode == 0 and document["status"] == "ok", ended.stderr
+    (entry,) = document["objects"]
+    assert {one["values"]["count"] for one in entry["findings"] if one["code"] == "mesh_streamed"} == {5_000_000}
+    assert entry["health"]["closed"] and entry["method"] == "exact"
+    assert abs(entry["volume"] - volume) <= entry["error_bound"]["volume"] + 1e-12 * volume
+    assert entry["error_bound"]["volume"] < 1e-10 * volume
+
+
+@pytest.mark.parametrize("size", [2.0**-30, 2.0**60])
+def test_a_mesh_has_a_volume_whatever_its_size(tmp_path, size):
+    points, triangles = part()
+    path, found = tmp_path / "part.stl", []
+    for factor in (1.0, size):
+        path.write_bytes(stl((points * np.float32(factor), triangles)))
+        found.append(stream_bodies.measure_mesh_file(str(path), "part", MeasureOptions()))
+    corners = points.astype(float)[triangles]
+    assert close(found[0].volume, abs(np.linalg.det(corners - points[0]).sum()) / 6.0, rel=1e-12)
+    assert close(found[0].mass_properties.mass, 1000.0 * found[0].volume, rel=1e-14)
+    assert close(found[1].volume, size**3 * found[0].volume, rel=1e-12)
+
+
+def test_of_a_sheet_it_does_not_matter_whether_its_faces_enclose_anything(tmp_path):
+    flat = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0.0]]), np.array([[0, 1, 2], [0, 2, 3]])
+    options = MeasureOptions(kind="shell", thickness=0.5, density=2.0)
+    for body, area in ((flat, 1.0), (without(part(), 5), None), (inverted(part()), None)):
+        found = stream_bodies.measure_mesh_file(str(written(tmp_path, body=body)), "part", options)
+        assert [one.code for one in found.findings] == ["mesh_streamed"]
+        assert found.findings[0].values == {"count": len(body[1])} and found.mass_properties.mass > 0.0
+        assert area is None or close([found.area, found.mass_properties.mass], [area, area], rel=1e-14)
+        assert found.health.as_record()["welded"] is False

@@ -1,0 +1,396 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Runs over many files in child processes: each file has one record, whatever it or a signal does to a child."""
+
+import json
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from contextlib import suppress
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+with suppress(ImportError):  # Windows
+    import pty
+
+pytest.importorskip("bpy")
+import bpy
+from body_moments.command.supervisor import listing, processes
+from body_moments.command.supervisor.journal import Journal
+
+from tests.blender import batch_files as files
+from tests.command.test_process import BLENDER, SCRIPT, in_blender, process, script
+from tests.soak import commands, hostile, kills
+
+on_linux = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="not on this system: /proc")
+signals = pytest.mark.skipif(os.name == "nt", reason="not on this system: signals")
+
+
+def lines(path):
+    return [json.loads(line) for line in path.read_text(encoding="utf-8").splitlines()]
+
+
+def statuses(path):
+    return {Path(document["file"]).name: document["status"] for document in lines(path)}
+
+
+@pytest.fixture(scope="module")
+def scans(tmp_path_factory):
+    """Twelve scans, whose masses tell them apart."""
+    folder = tmp_path_factory.mktemp("scans")
+    for number in range(12):
+        np.save(folder / "scan {:02d}.npy".format(number), np.full((3, 4, 5), number + 1, "u2"))
+    return folder
+
+
+@pytest.fixture(scope="module")
+def killer(tmp_path_factory):
+    """A file that kills Blender: one that promises more vertices than there is memory."""
+    path = tmp_path_factory.mktemp("killer") / "killer.ply"
+    path.write_text("ply\nformat ascii 1.0\nelement vertex 4000000000\nend_header\n")
+    return path
+
+
+def test_a_file_that_kills_blender_is_a_record_and_the_others_are_there(scans, killer, tmp_path):
+    first, second = sorted(scans.iterdir())[:2]
+    out = tmp_path / "out.jsonl"
+    words = ("measure", first, killer, tmp_path / "none.stl", second, first, "--jobs", "1", "--format", "jsonl")
+    ended = script(*words, "--output", out)
+    assert ended.returncode == 1 and b"Traceback" not in ended.stderr
+    found = lines(out)
+    assert [Path(one["file"]) for one in found] == [first, killer, tmp_path / "none.stl", second, first]
+    assert [one["status"] for one in found] == ["ok", "crashed", "missing", "ok", "ok"]
+    assert found[0] == found[4] and "2 times" in found[1]["errors"][0]["reason"]
+    assert b"4 files in" in ended.stderr and b"killer.ply: Blender crashed" in ended.stderr
+    attempts = {Path(one["key"]["path"]).name: one["attempts"] for one in lines(tmp_path / "out.jsonl.journal")}
+    assert attempts == {first.name: 1, killer.name: 2, "none.stl": 1, second.name: 1}
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["out.jsonl", "out.jsonl.journal"]
+
+
+def test_what_hangs_or_takes_too_much_memory_is_a_record(tmp_path):
+    path = tmp_path / "a_2048x2048x2048_uint8.raw"
+    with open(path, "wb") as file:
+        os.truncate(file.fileno(), 1 << 33)
+    out = tmp_path / "out.json"
+    ended = script("measure", path, "--timeout", "1", "--output", out)
+    assert ended.returncode == 1 and json.loads(out.read_text())["status"] == "timeout"
+    assert b"longer than 1 s" in ended.stderr
+    if sys.platform.startswith("linux"):
+        assert script("measure", path, "--memory-mb", "60", "--output", out).returncode == 1
+        assert json.loads(out.read_text())["status"] == "memory"
+        assert json.loads((tmp_path / "out.json.old").read_text())["status"] == "timeout"
+
+
+def test_files_of_other_versions_have_a_status_of_their_own(tmp_path):
+    path = tmp_path / "future.blend"
+    files.box_file(path)
+    path.write_bytes(b"BLENDER17-99v0999" + path.read_bytes()[17:])
+    found = files.document(path)
+    assert found["status"] == "unsupported_version" and "9.99" in found["errors"][0]["reason"] or "99.0" in str(found)
+
+
+def test_folders_manifests_and_ranges_name_the_same_files(scans, tmp_path):
+    (tmp_path / "in").mkdir()
+    link = tmp_path / "in" / "round"
+    if os.name != "nt":
+        link.symlink_to(tmp_path)
+    shutil.copytree(scans, tmp_path / "in" / "scans")
+    (tmp_path / "in" / "notes.txt").write_text("")
+    (tmp_path / "in" / ".hidden.npy").write_text("")
+    names = ["scan {:02d}.npy".format(number) for number in range(12)]
+    listed = tmp_path / "list"
+    assert script("manifest", tmp_path / "in", "--output", listed).returncode == 0
+    assert [Path(path).name for path in listing.read(listed)] == names
+    parts = []
+    for part in ("0:5", "5:12"):
+        parts.append(tmp_path / "part {}.jsonl".format(part[0]))
+        words = ("measure", "--manifest", listed, "--range", part, "--format", "jsonl", "--output", parts[-1])
+        assert script(*words).returncode == 0
+    merged = tmp_path / "merged.jsonl"
+    assert script("merge", *parts, parts[1], "--output", merged).returncode == 0
+    whole = script("measure", tmp_path / "in", "--format", "jsonl")
+    assert whole.returncode == 0 and whole.stdout == merged.read_bytes()
+    assert [one["objects"][0]["mass"] for one in lines(merged)] == [60.0 * (number + 1) for number in range(12)]
+    assert script("measure", tmp_path / "in" / "nothing", "--manifest", scans).returncode == 2
+    (tmp_path / "empty").mkdir()
+    assert script("measure", tmp_path / "empty").returncode == 2
+
+
+def test_resuming_measures_what_is_missing_or_changed_and_nothing_else(scans, tmp_path):
+    folder = tmp_path / "scans"
+    shutil.copytree(scans, folder)
+    out, journal = tmp_path / "out.json", tmp_path / "out.json.journal"
+    words = ("measure", folder, "--output", out)
+    assert script(*words).returncode == 0
+    whole = lines(journal)
+    assert [one["status"] for one in whole] == ["ok"] * 12
+    torn = journal.read_bytes()[:-40]
+    journal.write_bytes(torn)
+    np.save(folder / "scan 03.npy", np.full((3, 4, 5), 100, "u2"))
+    os.utime(folder / "scan 03.npy", ns=(1, 1))
+    ended = script(*words, "--resume")
+    assert ended.returncode == 0 and b"2 files in" in ended.stderr
+    masses = [one["objects"][0]["mass"] for one in json.loads(out.read_text())]
+    assert masses == [60.0 * (100 if number == 3 else number + 1) for number in range(12)]
+    ended = script(*words, "--resume", "--density-scale", "2")  # other numbers
+    assert b"12 files in" in ended.stderr
+    assert script("measure", folder, "--resume").returncode == 2
+    assert not (tmp_path / "out.json.old").exists()
+    before = out.read_bytes()
+    assert script(*words).returncode == 0
+    assert (tmp_path / "out.json.old").read_bytes() == before and (tmp_path / "out.json.journal.old").exists()
+
+
+def test_a_longer_time_out_is_tried_when_resuming(tmp_path):
+    key = {"path": "a", "size": 1, "mtime_ns": 2, "options": "x", "addon": "1", "blender": "5"}
+    with Journal(tmp_path / "journal") as journal:
+        journal.append(key, "timeout", 2, 4.0, {"seconds": 2.0, "memory": 10}, b'{"a": 1}')
+        entry = journal.entries["a"]
+        assert entry.serves(key, {"seconds": 2.0, "memory": 20})
+        assert not entry.serves(key, {"seconds": 3.0, "memory": 10})
+        assert not entry.serves({**key, "mtime_ns": 3}, {"seconds": 2.0, "memory": 10})
+        assert journal.document("a") == {"a": 1}
+
+
+@pytest.mark.parametrize("name", ["out.json.old", "out.json.journal"])
+def test_what_is_in_the_way_of_an_older_result_is_kept(scans, tmp_path, name):
+    (tmp_path / "out.json").write_text(script("measure", next(scans.iterdir())).stdout.decode())
+    (tmp_path / name).write_text("a novel")
+    words = ("measure", next(scans.iterdir()), "--output", tmp_path / "out.json")
+    ended = script(*words)
+    assert ended.returncode == 2 and name.encode() in ended.stderr
+    assert (tmp_path / name).read_text() == "a novel"
+
+
+@signals
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM] if os.name != "nt" else [])
+def test_a_signal_ends_a_run_at_once_and_it_can_be_resumed(tmp_path, number):
+    folder = tmp_path / "scans"
+    folder.mkdir()
+    for one in range(4):
+        np.save(folder / "{}.npy".format(one), np.full((3, 4, 5), one + 1, "u2"))
+    slow = folder / "z_2048x2048x2048_uint8.raw"
+    slow.touch()
+    os.truncate(slow, 1 << 33)
+    out, journal = tmp_path / "out.jsonl", tmp_path / "out.jsonl.journal"
+    words = (folder, "--jobs", "1", "--format", "jsonl", "--output", out)
+    running = commands.start(*words)
+    assert commands.wait_until(lambda: journal.exists() and journal.read_bytes().count(b"\n") == 4, 120)
+    born = commands.children(running.pid)
+    sent = time.monotonic()
+    running.send_signal(number)
+    _, said = running.communicate(timeout=20)
+    assert time.monotonic() - sent < 10.0  # within a second on a machine at rest, where the file would take minutes
+    assert running.returncode == 3 and b"interrupted after 4 of 5" in said and not out.exists()
+    assert not any(map(commands.is_running, born))
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["out.jsonl.journal", "scans"]
+    slow.unlink()
+    ended = script("measure", *words, "--resume")
+    assert ended.returncode == 0 and b"0 files in" in ended.stderr and len(lines(out)) == 4
+
+
+@signals
+def test_children_that_do_not_listen_end_together():
+    """One period of grace for all of them: with one each these would take 8 s."""
+    stubborn = ["sh", "-c", "trap '' TERM; echo; while :; do sleep 1; done"]
+    children = [subprocess.Popen(stubborn, stdout=subprocess.PIPE, start_new_session=True) for _ in range(20)]
+    for child in children:
+        child.stdout.readline()
+        child.stdout.close()
+    begun = time.monotonic()
+    processes.kill(children, gently=True)
+    assert time.monotonic() - begun < 4.0
+    assert [child.returncode for child in children] == [-signal.SIGKILL] * 20
+
+
+@on_linux
+def test_a_terminal_shows_a_bar_and_its_interrupt_key_ends_the_run(tmp_path):
+    """The key reaches the supervisor alone, not its children, and the bar is gone before the last line."""
+    for one in range(3):
+        np.save(tmp_path / "{}.npy".format(one), np.full((3, 4, 5), one + 1, "u2"))
+    slow = tmp_path / "z_2048x2048x2048_uint8.raw"
+    slow.touch()
+    os.truncate(slow, 1 << 33)
+    words = [sys.executable, SCRIPT, "measure", str(tmp_path), "--jobs", "1", "--output", str(tmp_path / "out")]
+    try:
+        pid, terminal = pty.fork()
+    except OSError:
+        pytest.skip("needs a terminal")
+    if pid == 0:
+        os.execv(sys.executable, words)
+    shown = b""
+    with open(terminal, "rb+", buffering=0) as screen:
+        while b"3 of 4" not in shown:
+            shown += screen.read(1 << 16)
+        born = commands.children(pid)
+        screen.write(b"\x03")
+        with suppress(OSError):  # how the end of a terminal is read
+            while data := screen.read(1 << 16):
+                shown += data
+    _, status = os.waitpid(pid, 0)
+    assert os.waitstatus_to_exitcode(status) == 3
+    assert b"\r\x1b[K[##################......] 3 of 4 files" in shown
+    assert (
+        shown.rstrip().endswith(b"--resume goes on.") or b"interrupted after 3 of 4" in shown.rpartition(b"\x1b[K")[2]
+    )
+    assert born and not any(map(commands.is_running, born))
+
+
+def test_two_runs_do_not_write_the_same_result(scans, tmp_path):
+    slow = tmp_path / "z_2048x2048x2048_uint8.raw"
+    slow.touch()
+    os.truncate(slow, 1 << 33)
+    running = commands.start(slow, "--output", tmp_path / "out.json")
+    try:
+        assert commands.wait_until(lambda: (tmp_path / ".out.json.body_moments.work").exists(), 60)
+        ended = script("measure", next(scans.iterdir()), "--output", tmp_path / "out.json")
+        assert ended.returncode == 2 and b"another run" in ended.stderr
+    finally:
+        running.terminate()
+        running.communicate(timeout=20)
+
+
+@on_linux
+def test_kills_lose_nothing_and_leave_nothing():
+    assert "kills" in kills.run(0.0, 1, children=3, supervisors=2, files=24)
+
+
+def test_hostile_files_have_one_record_each():
+    """More of them, and on every format, in `project.py soak`."""
+    assert "files" in hostile.run(0.0, 1, fuzzed=40)
+
+
+def test_wrong_settings_are_wrong_usage_before_anything_is_moved(scans, tmp_path):
+    out = tmp_path / "out.json"
+    scan = next(scans.iterdir())
+    assert script("measure", scan, "--output", out).returncode == 0
+    before = out.read_bytes()
+    for words in (("--material", "Cheese"), ("--polynomial", "1 +"), ("--density-from", "volume"), ("--jobs", "0")):
+        ended = script("measure", scan, "--output", out, *words)
+        assert ended.returncode == 2 and ended.stderr.count(b"error: ") == 1, words
+    assert [path.name for path in tmp_path.iterdir()] == ["out.json"] and out.read_bytes() == before
+    assert script("measure", "--jobs", "2", "--no-supervisor", scan).returncode == 2
+    assert script("measure", scan, "--range", "3:1").returncode == 2
+
+
+@in_blender
+def test_any_python_supervises_a_blender(scans, killer, tmp_path):
+    out = tmp_path / "out.jsonl"
+    words = (next(scans.iterdir()), killer, "--format", "jsonl", "--output", out)
+    bare = (sys.executable, "-S", SCRIPT, "measure")
+    ended = process(*bare, "--blender", BLENDER, *words)
+    assert ended.returncode == 1, ended.stderr
+    assert [*statuses(out).values()] == ["ok", "crashed"]
+    before = [{**one, "blender": None} for one in lines(out)]
+    ended = process(BLENDER, "-b", "--factory-startup", "--python", SCRIPT, "--", "measure", *words)
+    assert ended.returncode == 1 and [{**one, "blender": None} for one in lines(out)] == before
+    ended = process(*bare, "--blender", tmp_path / "no blender", *words)
+    assert ended.returncode == 2 and b"no process that measures" in ended.stderr
+
+
+def test_results_are_written_into_many_files_and_those_are_known_when_resuming(tmp_path):
+    for name in "ab":
+        files.empty_scene()
+        files.add_box("Box")
+        files.save(tmp_path / "{}.blend".format(name))
+    out = tmp_path / "out.jsonl"
+    words = ("measure", tmp_path / "a.blend", tmp_path / "b.blend", "--density", "2", "--format", "jsonl")
+    assert script(*words, "--write", "--output", out).returncode == 0
+    stored = (tmp_path / "a.blend").read_bytes()
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "a.blend"))
+    assert bpy.data.objects["Box"]["body_mass"] == pytest.approx(12.0)
+    ended = script(*words, "--write", "--output", out, "--resume")
+    assert b"0 files in" in ended.stderr and (tmp_path / "a.blend").read_bytes() == stored
+
+
+def test_positions_of_samples_are_read_and_looked_at_when_resuming(tmp_path):
+    np.save(tmp_path / "scan.npy", np.full((2, 2, 2), 3, "u2"))
+    along, out = tmp_path / "x.npy", tmp_path / "out.json"
+    np.save(along, np.array([0.0, 1.0]))
+    words = ("measure", tmp_path / "scan.npy", tmp_path / "scan.npy", "--positions", "x={}".format(along))
+    ended = script(*words, "--output", along, "--force")
+    assert ended.returncode == 2 and b"x.npy" in ended.stderr and np.load(along).tolist() == [0.0, 1.0]
+    assert script(*words, "--output", out).returncode == 0
+    before = json.loads(out.read_text())[0]["objects"][0]["mass"]
+    np.save(along, np.array([0.0, 2.0]))
+    os.utime(along, ns=(1, 1))
+    assert script(*words, "--output", out, "--resume").returncode == 0
+    assert json.loads(out.read_text())[0]["objects"][0]["mass"] == pytest.approx(2.0 * before)
+
+
+def test_the_scan_through_children_is_the_one_without(scans):
+    names = sorted(scans.iterdir())[:3]
+    one, other = (script("measure", *names, *words) for words in ((), ("--no-supervisor",)))
+    assert one.returncode == other.returncode == 0 and one.stdout == other.stdout
+
+
+def test_a_closed_pipe_of_the_supervisor_ends_its_child(tmp_path):
+    """As when the supervisor is killed: the descriptor that a child watches closes."""
+    if not sys.platform.startswith("linux"):
+        pytest.skip("not on this system: signals of pipes")
+    watched, kept = os.pipe()
+    child = subprocess.Popen(
+        [sys.executable, SCRIPT, "child", str(watched)],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.DEVNULL,
+        pass_fds=[watched],
+    )
+    os.close(watched)
+    time.sleep(0.5)
+    os.close(kept)
+    assert child.wait(60) in (-signal.SIGIO, 0)
+    child.stdin.close()
+    child.stdout.close()
+
+
+def test_what_a_file_refers_to_is_looked_at_when_resuming(tmp_path):
+    """A library linked by way of another, the buffer of a glTF, the samples of a detached NRRD."""
+    files.empty_scene()
+    files.add_box("Box")
+    files.save(tmp_path / "inner.blend")
+    files.empty_scene()
+    with bpy.data.libraries.load(str(tmp_path / "inner.blend"), link=True) as (_, into):
+        into.meshes = ["Box"]
+    bpy.context.collection.objects.link(bpy.data.objects.new("Outer", bpy.data.meshes["Box"]))
+    files.save(tmp_path / "outer.blend")
+    files.empty_scene()
+    with bpy.data.libraries.load(str(tmp_path / "outer.blend"), link=True) as (_, into):
+        into.objects = ["Outer"]
+    bpy.context.collection.objects.link(bpy.data.objects["Outer"])
+    files.save(tmp_path / "main.blend")
+    files.empty_scene()
+    files.add_box("Box")
+    files.save(tmp_path / "part.gltf")
+    header = "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 2 2 2\nencoding: raw\ndata file: samples.bin\n"
+    (tmp_path / "scan.nhdr").write_text(header)
+    (tmp_path / "samples.bin").write_bytes(bytes([1] * 8))
+    (tmp_path / "broken.gltf").write_text((tmp_path / "part.gltf").read_text().replace("part.bin", "absent.bin"))
+    out = tmp_path / "out.jsonl"
+    named = [tmp_path / name for name in ("main.blend", "part.gltf", "scan.nhdr", "broken.gltf")]
+    words = ("measure", *named, "--jobs", "1", "--format", "jsonl", "--output", out)
+    assert script(*words).returncode == 1
+    assert [one["status"] for one in lines(out)] == ["ok", "ok", "ok", "error"]
+
+    def measured_again():
+        ended = script(*words, "--resume")
+        return ended.stderr.decode().rpartition(" file")[0].split()[-1], [one["status"] for one in lines(out)]
+
+    assert measured_again()[0] == "0"
+    files.empty_scene()
+    files.add_box("Box", size=(2.0, 2.0, 2.0))
+    files.save(tmp_path / "inner.blend")
+    (tmp_path / "samples.bin").write_bytes(bytes([3] * 8))
+    os.utime(tmp_path / "samples.bin", ns=(1, 1))
+    shutil.copy(tmp_path / "part.bin", tmp_path / "absent.bin")
+    assert measured_again() == ("3", ["ok"] * 4)
+    assert lines(out)[0]["objects"][0]["volume"] == pytest.approx(8.0) and lines(out)[2]["objects"][0]["mass"] == 24.0
+    (tmp_path / "part.bin").unlink()
+    (tmp_path / "inner.blend").unlink()
+    assert measured_again() == ("2", ["error", "error", "ok", "ok"])
+    assert measured_again()[0] == "0"

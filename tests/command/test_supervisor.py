@@ -1,0 +1,524 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Runs over files with scripted children that crash, hang, grow or answer nonsense."""
+
+import json
+import os
+import re
+import signal
+import subprocess
+import sys
+import threading
+import time
+from collections import Counter
+from pathlib import Path
+
+import pytest
+
+pytest.importorskip("bpy")
+from body_moments.command.supervisor import lifeline, listing, processes
+from body_moments.command.supervisor.journal import Entry, Journal, is_journal, state
+from body_moments.command.supervisor.pool import Limits, Pool
+from body_moments.core.verdict.finding import QueryError, finding
+from body_moments.operators import batch
+
+from tests.blender.batch_files import sentence
+
+pytestmark = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="not on this system: /proc")
+
+CHILD = r"""
+import json, os, signal, sys, time
+
+def answer(head, data=b"", mark=b"\x1e"):
+    head = dict(head, bytes=len(data)) if data else head
+    sys.stdout.buffer.write(mark + json.dumps(head).encode() + b"\n" + data)
+    sys.stdout.buffer.flush()
+
+def say(text):
+    sys.stderr.write(text)
+    sys.stderr.flush()
+
+def log(**entry):
+    with open(sys.argv[1], "a") as file:
+        file.write(json.dumps(dict(entry, pid=os.getpid())) + "\n")
+
+setup = json.loads(sys.stdin.readline())
+places = {name: os.environ[name] for name in ("TMPDIR", "TEMP", "TMP", "BLENDER_USER_RESOURCES")}
+log(setup=setup, folder=places["TMPDIR"], places=places, is_there=os.path.isdir(places["TMPDIR"]))
+if "refuse" in (setup["options"]["object"] or ()):
+    answer({"usage": "error: no\n"})
+if "slow" in (setup["options"]["object"] or ()):
+    time.sleep(0.5)
+say("a stray line\n")
+print("a stray word", flush=True)
+answer({"ready": {"blender": "9.8.7"}})
+kept = []
+for line in sys.stdin:
+    ((verb, path),) = json.loads(line).items()
+    kind = os.path.basename(path).partition(" ")[0]
+    log(verb=verb, path=path)
+    os.ftruncate(2, 0)
+    status = "error" if kind == "bad" else "ok"
+    document = json.dumps({"schema": "body-moments/1", "file": path, "status": status}).encode() + b"\n"
+    if verb == "reads":
+        answer({"reads": [path + ".samples"]})
+        continue
+    if kind == "once" and not os.path.exists(path):
+        open(path, "w").close()
+        os.abort()
+    if kind == "crash":
+        say("body_moments: last words\n")
+        os.kill(os.getpid(), signal.SIGSEGV)
+    if kind == "exit":
+        sys.exit(3)
+    if kind in ("hang", "fat"):
+        signal.signal(signal.SIGTERM, lambda *_: (open(path + " tidied", "w").close(), sys.exit(7)))
+    if kind == "hang":
+        time.sleep(600)
+    if kind == "fat":
+        kept.append(bytearray(b"x") * (400 << 20))
+        time.sleep(600)
+    if kind == "grow":
+        kept.append(bytearray(b"x") * (4 << 20))
+    if kind == "long":
+        say("x" * 70000)
+    if kind == "mad":
+        answer({}, mark=b"\x1e{")
+        time.sleep(600)
+    if kind == "short":
+        answer({"bytes": 100})
+        sys.stdout.buffer.write(b"{}")
+        sys.exit(0)
+    if kind == "empty":
+        answer({})
+        continue
+    if kind == "note":
+        answer({"note": "half of it"})
+    say("body_moments: {}: read\nchatter\n".format(path))
+    head = {"faults": int(kind == "fault"), "state": {"size": 5, "mtime_ns": 7}}
+    answer(dict(head, reads={path + ".samples": {"size": 1, "mtime_ns": 2}}) if kind == "refers" else head, document)
+"""
+
+
+@pytest.fixture
+def fake(tmp_path, monkeypatch):
+    """The command of a child, and what its children have logged."""
+    (tmp_path / "child.py").write_text(CHILD)
+    log = tmp_path / "log"
+    command = [sys.executable, "-S", "-E", str(tmp_path / "child.py"), str(log)]
+    monkeypatch.setattr(processes, "child_command", lambda blender: command)
+
+    def logged(key):
+        return [entry for entry in map(json.loads, log.read_text().splitlines()) if key in entry]
+
+    logged.command = command
+    return logged
+
+
+@pytest.fixture
+def main(tmp_path, fake, capsys):
+    """`measure` with these words: exit code, documents by file, lines on the standard error, lines of the journal."""
+    (tmp_path / "out").mkdir()
+
+    def run(*words, reads=True):
+        out = tmp_path / "out" / "result"
+        code = batch.main(["measure", *map(str, words), "--format", "jsonl", "--output", str(out)], channel=-1)
+        said = re.sub(r"in [\d.]+ s", "in 0 s", capsys.readouterr().err).splitlines()
+        documents = [json.loads(line) for line in out.read_text().splitlines()] if reads and out.exists() else []
+        journal = out.with_name("result.journal")
+        lines = [json.loads(line) for line in journal.read_text().splitlines()] if journal.exists() else []
+        assert {path.name for path in out.parent.iterdir()} <= {"result", "result.journal", "result.old"} | {
+            "result.journal.old"
+        }
+        return code, documents, said, lines
+
+    return run
+
+
+def test_each_end_of_a_child_is_a_record(tmp_path, main, fake):
+    names = ["ok 1", "crash", "exit", "once", "mad", "short", "empty", "note", "bad", "refers", "ok 2"]
+    paths = [str(tmp_path / name) for name in names]
+    begun = time.monotonic()
+    code, documents, said, journal = main(*paths, paths[0], "--jobs", "1", "--memory-mb", "150", "--timeout", "60")
+    assert sum(line["seconds"] for line in journal) < time.monotonic() - begun
+    assert code == 1 and [one["file"] for one in documents] == [*paths, paths[0]]
+    ends = {"crash": ("SIGSEGV", 2), "exit": ("exit code 3", 2), "mad": ("SIGKILL", 2), "short": ("exit code 0", 2)}
+    ends["empty"] = "no answer", 1
+    status = dict.fromkeys(names, "ok") | dict.fromkeys(ends, "crashed") | {"bad": "error"}
+    assert [one["status"] for one in documents] == [*(status[name] for name in names), "ok"]
+    reasons = {name: sentence("file_crashed", how=how, count=count) for name, (how, count) in ends.items()}
+    for document in documents:
+        name = Path(document["file"]).name
+        if name in reasons:
+            assert document["errors"] == [{"name": None, "reason": reasons[name]}]
+            assert (document["blender"], document["frame"]) == ("9.8.7", "world")
+    expected = [
+        "body_moments: {}: {}".format(path, reasons.get(name, "read"))
+        for path, name in zip(paths, names)
+        if name != "note"
+    ]
+    note = "body_moments: {}: ".format(tmp_path / "note")
+    assert sorted(said[:-1]) == sorted([*expected, note + "half of it", note + "read"])
+    assert said[-1] == "body_moments: 11 files in 0 s: 5 ok, 5 crashed, 1 error"
+    by_name = {Path(line["key"]["path"]).name: line for line in journal}
+    assert len(journal) == len(by_name) == len(names)
+    for name, line in by_name.items():
+        known = {"size": 5, "mtime_ns": 7} if name not in reasons else state(str(tmp_path / name))
+        assert {**line["key"], "options": "", "addon": ""} == {
+            **{"path": str(tmp_path / name), "options": "", "addon": "", "blender": "9.8.7"},
+            **known,
+        }
+        assert line["status"] == status[name] and line["limits"] == {"seconds": 60.0, "memory": 150_000_000}
+        assert line["attempts"] == (2 if name == "once" else ends.get(name, ("", 1))[1])
+        assert line["reads"] == ({paths[9] + ".samples": {"size": 1, "mtime_ns": 2}} if name == "refers" else {})
+        assert 0.0 <= line["seconds"] < 60.0 and line["document"]["status"] == status[name]
+    started = fake("setup")
+    assert {one["setup"]["threads"] for one in started} == {processes.cores()}
+    assert {(one["setup"]["seconds"], one["setup"]["memory"]) for one in started} == {(60.0, 150_000_000)}
+    for one in started:
+        *temporary, user = one["places"].values()
+        assert {*temporary} == {one["folder"]} and user == one["folder"] + "/user"
+        assert one["is_there"] and not Path(one["folder"]).exists()
+    asked = Counter(Path(one["path"]).name for one in fake("verb"))
+    assert asked == Counter({name: by_name[name]["attempts"] for name in names})
+    # a second attempt is made by a child that has measured nothing
+    first_of = {}
+    for one in fake("verb"):
+        first_of.setdefault(one["pid"], one["path"])
+    for name in ("crash", "exit", "mad", "short", "once"):
+        assert [one["path"] for one in fake("verb") if one["path"] == str(tmp_path / name)][1] in first_of.values()
+
+
+@pytest.mark.parametrize(
+    ("name", "status", "words", "reason"),
+    [
+        ("hang", "timeout", ("--timeout", "1.5"), sentence("file_timed_out", seconds=1.5)),
+        ("fat", "memory", ("--memory-mb", "100"), sentence("file_took_memory", megabytes=100.0)),
+    ],
+)
+def test_what_takes_too_long_or_too_much_is_ended(name, status, words, reason, tmp_path, main, monkeypatch):
+    """One at a time: what takes too much may take long, too, where memory is slow. What is late may clean up first."""
+    monkeypatch.setattr(processes, "_GRACE", 10.0)  # as much as a busy machine may need
+    code, documents, said, journal = main(tmp_path / name, tmp_path / "ok", *words, "--jobs", "1")
+    assert code == 1 and [one["status"] for one in documents] == [status, "ok"]
+    assert documents[0]["errors"][0]["reason"] == reason
+    (line,) = [line for line in journal if line["status"] != "ok"]
+    assert line["status"] == status and line["attempts"] == 2
+    assert (tmp_path / (name + " tidied")).exists() == (status == "timeout")
+    if status == "timeout":
+        assert 3.0 <= line["seconds"] < 30.0
+    assert said[-1] == "body_moments: 2 files in 0 s: 1 {:s}, 1 ok".format(status)
+
+
+def test_what_is_recorded_is_not_measured_again(tmp_path, main, fake):
+    (tmp_path / "samples").mkdir()
+    paths = [tmp_path / "samples" / name for name in ("ok 1", "bad", "refers", "crash", "ok 2")]
+    for path in paths:
+        path.write_text("five!")
+        os.utime(path, ns=(7, 7))
+    words = (*paths, "--jobs", "2", "--timeout", "60")
+    code, documents, _, _ = main(*words)
+    assert code == 1
+    samples = tmp_path / "samples" / "refers.samples"
+    samples.write_text("1")
+    os.utime(samples, ns=(2, 2))
+    asked = len(fake("verb"))
+    code, again, said, _ = main(*words, "--resume")
+    assert code == 1 and again == documents and len(fake("verb")) == asked
+    assert said == ["body_moments: 0 files in 0 s: -"]
+    samples.write_text("2")
+    os.utime(paths[0], ns=(7, 8))
+    _, again, said, journal = main(*words, "--resume")
+    assert again == documents and said[-1] == "body_moments: 2 files in 0 s: 2 ok"
+    assert {one["path"] for one in fake("verb")[asked:]} == {str(paths[0]), str(paths[2])}
+    assert len(journal) == 7
+    _, _, said, journal = main(*words)  # from the beginning: what was there is kept
+    assert said[-1].startswith("body_moments: 5 files") and len(journal) == 5
+    old = tmp_path / "out" / "result.journal.old"
+    assert len(old.read_text().splitlines()) == 7 and (tmp_path / "out" / "result.old").exists()
+
+
+def test_a_run_that_is_interrupted_says_how_far_it_is(tmp_path, main, fake):
+    """Also when it has been resumed: what was there before counts."""
+    (tmp_path / "out" / "result.journal").write_text("")
+    paths = [tmp_path / name for name in ("ok 1", "bad", "hang")]
+    for path in paths:
+        path.write_text("five!")
+        os.utime(path, ns=(7, 7))
+    for words in ((), ("--resume",)):
+        count = len([one for one in fake("path") if "hang" in one["path"]]) if words else 0
+
+        def interrupt(count=count):
+            while not (tmp_path / "log").exists() or sum("hang" in one["path"] for one in fake("path")) == count:
+                time.sleep(0.02)
+            time.sleep(0.3)
+            os.kill(os.getpid(), signal.SIGINT)
+
+        thread = threading.Thread(target=interrupt)
+        thread.start()
+        code, documents, said, journal = main(*paths, "--jobs", "1", *words)
+        thread.join()
+        assert code == 3 and documents == [] and len(journal) == 2
+        assert said[-1] == "body_moments: {}".format(sentence("interrupted_resumable", done=2, total=3))
+
+
+def test_what_has_ended_a_child_waits_for_a_fresh_one(tmp_path, fake):
+    with Pool(fake.command, 2, {"options": {"object": ["slow"]}}, Limits(60.0), tmp_path / "work") as found:
+        found.add(["crash", *("ok {}".format(number) for number in range(6))])
+        outcomes = []
+        while not found.is_done:
+            outcomes += found.step()
+    assert sorted((one.status, one.how) for one in outcomes) == [("answered", "")] * 6 + [("crashed", "SIGSEGV")]
+    first, second = [one["pid"] for one in fake("path") if one["path"] == "crash"]
+    assert first != second and [one["path"] for one in fake("path") if one["pid"] == second] == ["crash"]
+
+
+def test_what_a_target_replaces_is_not_read_by_way_of_a_file(tmp_path, main):
+    (tmp_path / "out" / "result").write_text("a novel")
+    (tmp_path / "ok").write_text("")
+    (tmp_path / "ok.samples").symlink_to(tmp_path / "out" / "result")
+    target = tmp_path / "out" / "result"
+    code, _, said, _ = main(tmp_path / "ok", "--force", reads=False)
+    assert code == 2 and sentence("usage_overwrites_dependency", option="output", path=str(target)) in said[-1]
+    (tmp_path / "ok.samples").unlink()
+    assert main(tmp_path / "ok", "--force")[0] == 0 and "novel" not in target.read_text()
+
+
+def test_a_journal_is_known_and_damaged_lines_count_as_none(tmp_path):
+    path = tmp_path / "journal"
+    limits = {"seconds": 2.0, "memory": None}
+    with Journal(path) as journal:
+        for number in range(4):
+            key = {"path": "f {}".format(number), "size": number}
+            journal.append(key, "ok", 1, 0.1234567, limits, b' {"n": 1}\n', {"r": state("none")} if number else None)
+    lines = path.read_bytes().splitlines(keepends=True)
+    assert json.loads(lines[1])["seconds"] == 0.123457 and is_journal(path)
+    wrong = [
+        lines[0].replace(b"journal/1", b"journal/2"),
+        lines[1].replace(b'"document": {"n": 1}', b'"document": 1'),
+        lines[2].replace(b'"path": "f 2"', b'"path": 2'),
+        lines[3].replace(b'"attempts": 1', b'"attempts": "x"'),
+        b"[" * 100_000 + b"\n",
+        b"{}\n",
+        lines[3][:-2],
+    ]
+    path.write_bytes(lines[0] + b"".join(wrong))
+    with Journal(path) as journal:
+        assert list(journal.entries) == ["f 0"] and journal.document("f 0") == {"n": 1}
+        entry = journal.entries["f 0"]
+        assert (entry.key, entry.status, entry.attempts, entry.seconds) == (
+            {"path": "f 0", "size": 0},
+            "ok",
+            1,
+            0.123457,
+        )
+        assert (entry.limits, entry.refers, entry.offset, entry.length) == (limits, False, 0, len(lines[0]))
+        journal.append({"path": "g"}, "ok", 1, 0.0, limits, b"{}", {"none": state("none")})
+        assert journal.is_current("g") and journal.is_current("f 0")
+        journal.append({"path": "g"}, "ok", 1, 0.0, limits, b"{}", {"none": {"size": 1, "mtime_ns": None}})
+        assert not journal.is_current("g") and journal.entries["g"].refers
+    with Journal(path) as journal:
+        assert list(journal.entries) == ["f 0", "g"]
+    for text in (b"a novel", lines[0].replace(b"journal/1", b"journal/10")):
+        path.write_bytes(text)
+        assert not is_journal(path)
+    path.write_text("")
+    assert is_journal(path)
+    (tmp_path / "link").symlink_to(path)
+    with pytest.raises(OSError):
+        Journal(tmp_path / "link")
+
+
+def test_a_line_behind_a_torn_one_is_whole(tmp_path):
+    path = tmp_path / "journal"
+    for rest in (b"", b'{"schema": "body-moments-jou', b"\n", b"{}\n"):
+        path.write_bytes(rest)
+        with Journal(path) as journal:
+            for name in "ab":
+                journal.append({"path": name}, "ok", 1, 0.0, {}, json.dumps({"n": name}).encode())
+            assert [journal.document(name) for name in "ab"] == [{"n": "a"}, {"n": "b"}]
+        lines = path.read_bytes().splitlines(keepends=True)
+        assert len(lines) == 2 + bool(rest) and all(line.endswith(b"\n") for line in lines)
+        with Journal(path) as journal:
+            assert [*journal.entries] == ["a", "b"] and journal.document("b") == {"n": "b"}
+
+
+@pytest.mark.parametrize("status", ["ok", "error", "crashed", "timeout", "memory"])
+def test_a_higher_limit_alone_is_a_reason_to_try_again(status):
+    key = {"path": "a", "size": 1}
+    name = {"timeout": "seconds", "memory": "memory"}.get(status)
+    for before, now, higher in ((2.0, 2.0, False), (2.0, 2.5, True), (2.0, 1.5, False), (2.0, None, True)) + (
+        *((None, None, False), (None, 2.0, False)),
+    ):
+        for limit in ("seconds", "memory"):
+            limits, other = {"seconds": 5.0, "memory": 5.0, limit: before}, {"seconds": 5.0, "memory": 5.0, limit: now}
+            entry = Entry(key, status, 1, 0.0, limits, False, 0, 1)
+            assert entry.serves(key, other) == (not (higher and limit == name)), (limit, before, now)
+            assert not entry.serves({**key, "size": 2}, other)
+
+
+LINE = """
+import importlib.util, sys, time
+spec = importlib.util.spec_from_file_location("lifeline", {!r})
+lifeline = importlib.util.module_from_spec(spec)
+spec.loader.exec_module(lifeline)
+lifeline.BY_SIGNAL, lifeline._LATE = {}, 0.2
+line = lifeline.Lifeline(1, int(sys.argv[1]))
+for message in line.messages():
+    with line.limited(message["seconds"]):
+        time.sleep(message["work"])
+    line.answer(message, b"data" * message["many"])
+line.answer({{"over": True}})
+"""
+
+
+@pytest.mark.parametrize("by_signal", [True, False])
+def test_a_child_answers_what_it_is_sent_and_ends_with_its_supervisor(by_signal):
+    watched, kept = os.pipe()
+    words = [sys.executable, "-S", "-c", LINE.format(lifeline.__file__, by_signal), str(watched)]
+
+    def child():
+        return subprocess.Popen(
+            words, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE, pass_fds=[watched]
+        )
+
+    messages = [{"seconds": 60, "work": 0, "many": many} for many in (0, 3, 100_000)]
+    answers = b"".join(
+        b"\x1e" + json.dumps({**one, **({"bytes": 4 * one["many"]} if one["many"] else {})}).encode() + b"\n"
+        + b"data" * one["many"] for one in messages
+    )  # fmt: skip
+    first = child()
+    out, _ = first.communicate("".join(json.dumps(one) + "\n" for one in messages).encode(), timeout=60)
+    # where a thread listens, the end of the messages is that of the process, whatever it is doing
+    assert out == answers + b'\x1e{"over": true}\n' if by_signal else (answers + b"\x1e").startswith(out[:20])
+    assert first.returncode == 0
+    second = child()
+    second.stdin.write(json.dumps({"seconds": 0.1, "work": 600, "many": 0}).encode() + b"\n")
+    second.stdin.flush()
+    assert second.wait(60) == 1 and b"Timeout" in second.stderr.read()  # after that time, and a moment
+    third = child()
+    third.stdin.write(json.dumps({"seconds": 600, "work": 600, "many": 0}).encode() + b"\n")
+    third.stdin.flush()
+    os.close(watched)
+    os.close(kept)
+    if by_signal:
+        assert third.wait(60) in (0, -signal.SIGIO)
+    third.stdin.close()
+    assert third.wait(60) in (0, -signal.SIGIO)
+    for one in (first, second, third):
+        for stream in (one.stdin, one.stdout, one.stderr):
+            stream.close()
+
+
+def test_a_run_ends_with_the_window_that_has_started_it():
+    """A window that has gone already, and one that goes later, also where the signal of that was ignored; without one
+    nothing is watched.
+    """
+    code = "import signal; signal.signal(signal.SIGIO, signal.SIG_IGN); "
+    code += "import runpy; runpy.run_path({!r})['end_with_window'](); import os; os.write(1, b'.'); {}"
+    for closed_before in (True, False):
+        watched, kept = os.pipe()
+        words = [sys.executable, "-c", code.format(lifeline.__file__, "import time; time.sleep(600)")]
+        environment = {**os.environ, lifeline.WINDOW: str(watched)}
+        if closed_before:
+            os.close(kept)
+        child = subprocess.Popen(words, env=environment, pass_fds=[watched], stdout=subprocess.PIPE)
+        os.close(watched)
+        assert child.stdout.read(1) == (b"" if closed_before else b".")
+        if not closed_before:
+            os.close(kept)
+        assert child.wait(60) in (0, -signal.SIGIO)
+        child.stdout.close()
+    alone = [sys.executable, "-c", code.format(lifeline.__file__, "assert 'BODY_MOMENTS_WATCHED' not in os.environ")]
+    assert subprocess.run(alone, check=True, stdout=subprocess.PIPE).stdout == b"."
+
+
+def test_a_disk_that_is_full_is_said_and_the_older_result_stays(tmp_path, main, monkeypatch):
+    words = (tmp_path / "ok 1", tmp_path / "ok 2", "--jobs", "1")
+    assert main(*words)[0] == 0
+    result = (tmp_path / "out" / "result").read_bytes()
+
+    def full(*_):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(Journal, "append", full)
+    code, _, said, _ = main(*words, reads=False)
+    assert code == 1
+    assert said[-1] == "body_moments: {}".format(sentence("usage_result_not_written", error="No space left on device"))
+    assert (tmp_path / "out" / "result.old").read_bytes() == result
+
+
+@pytest.mark.parametrize(
+    "lines",
+    [
+        b"",
+        b"a.stl\nb.stl\n",
+        b'[{"schema": "body-moments-manifest/1"}]\n',
+        b'{"files": 0}\n',
+        b'{"schema": "body-moments-manifest/2", "files": 1}\n{"path": "a.stl"}\n',
+        b'{"schema": "body-moments-manifest/1", "files": 2}\n{"path": "a.stl"}\n',
+        b'{"schema": "body-moments-manifest/1", "files": 0}\n{"path": "a.stl"}\n',
+        b'{"schema": "body-moments-manifest/1"}\n{"path": "a.stl"}\n',
+        b'{"schema": "body-moments-manifest/1", "files": 1}\n{"name": "a.stl"}\n',
+        b'{"schema": "body-moments-manifest/1", "files": 2}\n{"path": "a.stl"}\n{"path": 5}\n',
+        b'{"schema": "body-moments-manifest/1", "files": 1}\n{"path": "\xff"}\n',
+        b"[" * 100_000,
+    ],
+)
+def test_what_is_no_list_of_files_is_wrong_usage(tmp_path, fake, capsys, lines):
+    listed = tmp_path / "list"
+    listed.write_bytes(lines)
+    assert batch.main(["measure", "--manifest", str(listed)], channel=-1) == 2
+    assert capsys.readouterr().err.endswith("error: {}\n".format(sentence("manifest_malformed", file=str(listed))))
+    assert not (tmp_path / "log").exists()
+
+
+def test_the_names_in_a_list_are_meant_from_its_folder(tmp_path, monkeypatch):
+    names = ["a.stl", "b/ü\n\udcff.stl", str(tmp_path / "c.stl")]
+    (tmp_path / "in").mkdir()
+    listed = tmp_path / "in" / "list"
+    listed.write_text("".join(listing.write_lines(names)) + "\n")
+    assert listing.read(listed) == [str(tmp_path / "in" / name) for name in names[:2]] + names[2:]
+    monkeypatch.chdir(tmp_path)
+    assert listing.read(Path("in/list")) == ["in/" + name for name in names[:2]] + names[2:]
+    monkeypatch.chdir(tmp_path / "in")
+    assert listing.read(Path("list")) == names
+    missing = tmp_path / "none"
+    with pytest.raises(QueryError) as refused:
+        listing.read(missing)
+    assert refused.value.finding == finding("manifest_unreadable", file=str(missing), error="No such file or directory")
+
+
+def test_what_a_child_is_asked_to_end_by_is_heard_first(monkeypatch):
+    """It may clean up, for a moment; one that does not listen is ended all the same, with all that it has started."""
+    monkeypatch.setattr(processes, "_GRACE", 2.0)  # as much as a busy machine may need
+    code = "import signal, sys, time; signal.signal(signal.SIGTERM, {}); print(flush=True); time.sleep(600)"
+    heard, deaf = "lambda *_: sys.exit(7)", "signal.SIG_IGN"
+    for gently, ends in ((True, [7, -signal.SIGKILL]), (False, [-signal.SIGKILL] * 2)):
+        started = [
+            subprocess.Popen(
+                [sys.executable, "-S", "-c", code.format(one)], stdout=subprocess.PIPE, start_new_session=True
+            )
+            for one in (heard, deaf)
+        ]
+        for one in started:
+            one.stdout.readline()
+        begun = time.monotonic()
+        processes.kill(started, gently=gently)
+        took = time.monotonic() - begun
+        assert [one.returncode for one in started] == ends and (took >= processes._GRACE) == gently
+        processes.kill(started, gently=True)  # what has ended is not signaled again
+        for one in started:
+            one.stdout.close()
+
+
+def test_the_folder_of_a_run_is_new_and_gone_in_the_end(tmp_path):
+    """Also one that somebody else has removed meanwhile."""
+    work = tmp_path / "new" / "work"
+    with Pool(["nothing"], 1, {}, Limits(60.0), work):
+        assert work.is_dir()
+        with pytest.raises(FileExistsError), Pool(["nothing"], 1, {}, Limits(60.0), work):
+            pass
+    assert not work.exists()
+    with Pool(["nothing"], 1, {}, Limits(60.0), work):
+        work.rmdir()

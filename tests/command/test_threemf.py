@@ -1,0 +1,181 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""3MF files: units, components and transforms, and what a hostile one may not do."""
+
+import contextlib
+import zipfile
+
+import numpy as np
+import pytest
+
+pytest.importorskip("bpy")
+
+import bpy
+from body_moments.command.files import import_3mf
+from body_moments.core.scans.limits import Limits
+from body_moments.core.streams import threemf
+from body_moments.core.verdict.finding import FileError
+
+from tests.blender.batch_files import CORNERS, FACES, document, measured
+from tests.close import close
+
+pytestmark = pytest.mark.usefixtures("scene")
+CORE = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02"
+PRODUCTION = "http://schemas.microsoft.com/3dmanufacturing/production/2015/06"
+RELATIONS = (
+    '<Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships">'
+    '<Relationship Id="r" Target="{}" Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/></Relationships>'
+)
+MOVED = "1 0 0 0 1 0 0 0 1 10 20 30"
+TURNED = "0 2 0 -2 0 0 0 0 2 0 0 0"  # x to y, twice as large
+
+
+def mesh(corners=CORNERS, faces=FACES):
+    points = "".join('<vertex x="{}" y="{}" z="{}"/>'.format(*corner) for corner in corners)
+    triangles = "".join('<triangle v1="{}" v2="{}" v3="{}"/>'.format(*face) for face in faces)
+    return "<mesh><vertices>{}</vertices><triangles>{}</triangles></mesh>".format(points, triangles)
+
+
+def model(resources, build, attributes="", head=""):
+    text = '<?xml version="1.0"?>{}<model xmlns="{}" xmlns:p="{}" {}><resources>{}</resources><build>{}</build></model>'
+    return text.format(head, CORE, PRODUCTION, attributes, resources, build)
+
+
+def package(path, text, more=(), root="/3D/part.model"):
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
+        archive.writestr("_rels/.rels", RELATIONS.format(root))
+        archive.writestr(root.lstrip("/"), text)
+        for name, data in more:
+            archive.writestr(name, data)
+    return path
+
+
+ONE = '<object id="1" name="Tetra">{}</object>'.format(mesh())
+
+
+@pytest.mark.parametrize("unit", [None, *threemf.UNITS])
+def test_a_mesh_has_its_files_unit(tmp_path, unit):
+    attributes = 'unit="{}"'.format(unit) if unit else ""
+    scale = threemf.UNITS[unit or "millimeter"]
+    entry = measured(package(tmp_path / "a.3mf", model(ONE, '<item objectid="1"/>', attributes)), "--density", "1")
+    assert entry["name"] == "Tetra" and entry["method"] == "exact"
+    assert close(entry["volume"], scale**3, 1e-12)
+    assert close(entry["center_of_mass"], np.array([0.25, 0.5, 0.75]) * scale, 1e-12)
+
+
+def test_components_and_the_build_place_meshes(tmp_path):
+    pair = '<object id="2"><components><component objectid="1"/><component objectid="1" transform="{}"/></components>'
+    text = model(
+        ONE + pair.format(TURNED) + "</object>", '<item objectid="2" transform="{}"/>'.format(MOVED), 'unit="meter"'
+    )
+    found = document(package(tmp_path / "a.3mf", text), "--density", "1")
+    first, second = found["objects"]
+    assert close(found["total"]["volume"], 9.0, 1e-12)
+    assert close(first["center_of_mass"], [10.25, 20.5, 30.75], 1e-12)
+    assert close(second["center_of_mass"], [10.0 - 2.0 * 0.5, 20.0 + 2.0 * 0.25, 30.0 + 2.0 * 0.75], 1e-7)
+
+
+def test_a_sheared_place_is_kept(tmp_path):
+    item = '<item objectid="1" transform="1 0 0 0.5 1 0 0 0 1 0 0 0"/>'  # x grows by half of y
+    entry = measured(package(tmp_path / "a.3mf", model(ONE, item, 'unit="meter"')))
+    assert close(entry["volume"], 1.0, 1e-6) and close(entry["center_of_mass"], [0.5, 0.5, 0.75], 1e-6)
+
+
+def test_a_place_that_single_precision_rounds_is_the_objects_own(tmp_path):
+    """Not one of its mesh, as a sheared one is."""
+    item = '<item objectid="1" transform="1 0 0 0 1 0 0 0 1 12345.678 0 0"/>'
+    import_3mf.import_3mf(package(tmp_path / "a.3mf", model(ONE, item, 'unit="meter"')))
+    assert [round(obj.location.x, 2) for obj in bpy.context.scene.objects if obj.type == "MESH"] == [12345.68]
+
+
+def test_objects_of_other_parts(tmp_path):
+    other = model(ONE, "")
+    text = model("", '<item objectid="1" p:path="/3D/other.model"/>', 'unit="meter" requiredextensions="p"')
+    entry = measured(package(tmp_path / "a.3mf", text, [("3D/other.model", other)]))
+    assert close(entry["volume"], 1.0, 1e-12)
+
+
+BOMB = '<!DOCTYPE m [<!ENTITY a "aaaaaaaaaa"><!ENTITY b "&a;&a;&a;&a;&a;">]>'
+ITEM = '<item objectid="1"/>'
+WRONG = {
+    "entities": model(ONE, ITEM, head=BOMB),
+    "a circle": model('<object id="1"><components><component objectid="1"/></components></object>', ITEM),
+    "no such object": model(ONE, '<item objectid="7"/>'),
+    "nan": model('<object id="1">{}</object>'.format(mesh(((0, 0, 0), ("nan", 0, 0), (0, 2, 0), (0, 0, 3)))), ITEM),
+    "too large": model('<object id="1">{}</object>'.format(mesh(((0, 0, 0), (1e39, 0, 0), (0, 2, 0)))), ITEM),
+    "no such vertex": model('<object id="1">{}</object>'.format(mesh(faces=((0, 1, 4),))), ITEM),
+    "a negative vertex": model('<object id="1">{}</object>'.format(mesh(faces=((0, 1, -1),))), ITEM),
+    "half a transform": model(ONE, '<item objectid="1" transform="1 0 0"/>'),
+    "an infinite transform": model(ONE, '<item objectid="1" transform="inf{}"/>'.format(MOVED[1:])),
+    "unit": model(ONE, ITEM, 'unit="parsec"'),
+    "not xml": "<model",
+    "words": model('<object id="1">{}</object>'.format(mesh((("a", 0, 0),))), ITEM),
+    "beams": model(
+        ONE, ITEM, 'xmlns:b="http://schemas.microsoft.com/3dmanufacturing/beamlattice/2017/02" requiredextensions="b"'
+    ),
+}
+
+
+@pytest.mark.parametrize("name", WRONG)
+def test_a_wrong_file_is_an_error_with_a_reason(tmp_path, name):
+    found = document(package(tmp_path / "a.3mf", WRONG[name]))
+    (error,) = found["errors"]
+    assert found["objects"] == [] and "3MF" in error["reason"] and "Internal" not in error["reason"]
+
+
+@pytest.mark.parametrize("word", ["1_0", "٣", "1.0D0", "0x1", "--1", "", "1 2", "1,0", "INF"])
+@pytest.mark.parametrize(
+    "element, field",
+    [("vertex", 'x="1"'), ("triangle", 'v2="1"'), ("item", MOVED), ("component", MOVED)],
+)
+def test_word_for_a_number_is_named_with_its_element(tmp_path, element, field, word):
+    parts = '<object id="2"><components><component objectid="1" transform="{}"/></components></object>'.format(MOVED)
+    text = model(ONE + "\n" + parts, '\n<item objectid="2" transform="{}"/>'.format(MOVED))
+    at = text.index(field, text.index("<" + element + " ") if element != "vertex" else 0)
+    wrong = field[: field.rindex("1")] + word + field[field.rindex("1") + 1 :] if field != MOVED else word + field[1:]
+    path = package(tmp_path / "a.3mf", text[:at] + wrong + text[at + len(field) :])
+    with pytest.raises(FileError) as caught:
+        threemf.read_3mf(str(path))
+    found = caught.value.finding
+    line = {"vertex": 1, "triangle": 1, "component": 2, "item": 3}[element]
+    assert (found.code, found.values["line"], found.values["element"]) == ("threemf_field", line, element)
+    assert word.split()[:1] == found.values["text"].split()[:1] or found.values["text"] == wrong
+
+
+def test_numbers_of_xml_schema_are_read(tmp_path):
+    corners = [(" 0 ", "+0", "-0.0"), ("+1.", "0e5", ".0"), ("0", "\t2E0\n", "0"), ("0", "0", "3.0e+00")]
+    text = model('<object id="1">{}</object>'.format(mesh(corners)), ITEM)
+    assert close(measured(package(tmp_path / "a.3mf", text), "--unit-scale", 1)["volume"], 1e-9, rel=1e-6)
+
+
+def test_no_random_damage_is_our_fault(tmp_path):
+    data = package(tmp_path / "a.3mf", model(ONE, ITEM)).read_bytes()
+    chance = np.random.default_rng(1)
+    for _ in range(150):
+        damaged = bytearray(data)
+        for place in chance.integers(len(damaged), size=3):
+            damaged[place] = chance.integers(256)
+        (tmp_path / "b.3mf").write_bytes(bytes(damaged[: chance.integers(1, len(damaged) + 1)]))
+        with contextlib.suppress(FileError):
+            threemf.read_3mf(str(tmp_path / "b.3mf"))
+
+
+def test_limits_of_the_archive(tmp_path):
+    path = package(tmp_path / "a.3mf", model(ONE, ITEM), [("x{}".format(number), "") for number in range(50)])
+    assert len(threemf.read_3mf(str(path))[0]) == 1
+    for limits in (Limits(entries=20), Limits(unpacked_bytes=100)):
+        with pytest.raises(FileError) as refused:
+            threemf.read_3mf(str(path), limits)
+        assert refused.value.finding.code == "file_exceeds_limit"
+    wide = '<object id="{}"><components>{}</components></object>'
+    many = "".join(wide.format(number, '<component objectid="{}"/>'.format(number - 1) * 10) for number in range(2, 12))
+    with pytest.raises(FileError) as refused:
+        threemf.read_3mf(str(package(tmp_path / "b.3mf", model(ONE + many, '<item objectid="11"/>'))))
+    assert refused.value.finding.code == "threemf_instances"
+
+
+def test_a_package_without_relations_has_its_model_at_the_usual_place(tmp_path):
+    foreign = '<x:object xmlns:x="http://example.org/x" id="1"/><x:vertex xmlns:x="http://example.org/x" x="a"/>'
+    with zipfile.ZipFile(tmp_path / "a.3mf", "w") as archive:
+        archive.writestr("3D/3dmodel.model", model(ONE + foreign, ITEM, 'unit="meter"'))
+    assert close(measured(tmp_path / "a.3mf")["volume"], 1.0, 1e-12)

@@ -1,0 +1,280 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Assemblies at work: what is stored and driven, when it is out of date, its tree, its table and its snaps."""
+
+import csv
+
+import bpy
+import numpy as np
+import pytest
+from body_moments.blender.session.stored import assembly as session
+from body_moments.blender.session.stored import results
+from body_moments.blender.session.tracking import staleness
+from body_moments.blender.write import properties
+from mathutils import Matrix
+
+from tests.blender.bodies.test_assembly import box, boxes_inertia, collection, empty
+from tests.blender.objects import only, place
+from tests.close import close
+
+pytestmark = pytest.mark.usefixtures("registered", "scene")
+
+BOXES = [(7850, (1, 2, 4), (8, 0, -2)), (1000, (2, 2, 2), (-4, 6, 1))]
+
+
+def activate(made):
+    """Make a collection the active one."""
+
+    def found(layer):
+        if layer.collection == made:
+            return layer
+        return next(filter(None, map(found, layer.children)), None)
+
+    bpy.context.view_layer.active_layer_collection = found(bpy.context.view_layer.layer_collection)
+
+
+def assembly_of_boxes():
+    root = collection("Robot")
+    inner = collection("Arm", root)
+    for number, (density, size, at) in enumerate(BOXES):
+        box(inner if number else root, size, at, density, f"b{number}")
+    activate(root)
+    return root
+
+
+def test_the_total_is_stored_on_the_collection_and_drives(reported):
+    root = assembly_of_boxes()
+    obj = bpy.data.objects["b0"]
+    assert bpy.ops.object.body_moments_measure_assembly() == {"FINISHED"}
+    mass, center, tensor = boxes_inertia(BOXES)
+    assert close(root["body_mass"], mass, 1e-14)
+    assert close(root["body_center_of_mass"].to_list(), center, 1e-14)
+    entries = tensor[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]
+    assert np.abs(np.array(root["body_inertia"].to_list()) - entries).max() <= 1e-14 * entries.max()
+    assert (
+        root["body_method"] == "assembly"
+        and root["body_inertia_products"].to_list() == root["body_inertia"].to_list()[3:]
+    )
+    assert close(bpy.data.collections["Arm"]["body_mass"], 8000.0, 1e-14) and close(obj["body_mass"], 62800.0, 1e-14)
+    driver = bpy.data.objects.new("Driven", None).driver_add("location", 0).driver
+    bpy.context.scene.collection.objects.link(bpy.data.objects["Driven"])
+    variable = driver.variables.new()
+    variable.type, variable.name = "SINGLE_PROP", "mass"
+    variable.targets[0].id_type, variable.targets[0].id = "COLLECTION", root
+    variable.targets[0].data_path = '["body_mass"]'
+    driver.expression = "mass + 0"
+    obj.body_moments.density = 1.0
+    bpy.ops.object.body_moments_measure_assembly()
+    mass = 8008.0
+    bpy.context.view_layer.update()
+    depsgraph = bpy.context.evaluated_depsgraph_get()
+    assert close(bpy.data.objects["Driven"].evaluated_get(depsgraph).location[0], mass, 1e-6)
+    assert set(properties.LENGTHS) <= set(root.keys())
+    assert bpy.ops.object.body_moments_clear_assembly() == {"FINISHED"}
+    assert not any(key in root for key in properties.DESCRIPTIONS)
+    assert bpy.ops.object.body_moments_clear_assembly() == {"CANCELLED"}
+    assert reported.values("results_removed") == {"count": 1} and reported.codes[-1] == "no_results_to_remove"
+
+
+@pytest.mark.parametrize(
+    "change, reason",
+    [
+        (lambda root: setattr(bpy.data.objects["b1"].body_moments, "density", 2.0), "stale_member"),
+        (lambda root: setattr(bpy.data.objects["b1"], "location", (9, 9, 9)), "stale_member"),
+        (lambda root: box(root, (1, 1, 1), name="new"), "stale_members"),
+        (lambda root: setattr(root.body_moments, "mass_from", "MASS"), "stale_members"),
+        (lambda root: setattr(bpy.data.collections["Arm"].body_moments, "mass_from", "MASS"), "stale_members"),
+        (lambda root: setattr(bpy.data.objects["b0"], "hide_render", True), "stale_members"),
+        (lambda root: None, None),
+    ],
+)
+def test_an_assembly_is_out_of_date_when_a_member_is(change, reason):
+    root = assembly_of_boxes()
+    bpy.ops.object.body_moments_measure_assembly()
+    assert session.stale_reason(root) is None
+    change(root)
+    bpy.context.view_layer.update()
+    assert session.stale_reason(root) == reason
+    bpy.ops.object.body_moments_measure_assembly()
+    assert session.stale_reason(root) is None
+
+
+@pytest.mark.parametrize(
+    "operator, options, kept",
+    [
+        ("rigid_bodies", {}, True),
+        ("rigid_bodies", {"frame": "ORIGIN"}, True),
+        ("rigid_bodies", {"use_density": True, "density": 5.0}, False),
+        ("origin_to_center", {}, True),
+        ("axes_to_principal", {}, True),
+    ],
+)
+def test_members_that_only_get_other_frames_leave_their_assembly_up_to_date(operator, options, kept):
+    root = assembly_of_boxes()
+    for obj in root.all_objects:
+        obj.data.transform(Matrix.Translation((0.5, 0.25, 1.0)))
+        obj.rotation_euler = (0.3, 0.2, 0.1)
+    bpy.context.view_layer.update()
+    bpy.ops.object.body_moments_measure_assembly()
+    before = [obj.matrix_world.copy() for obj in root.all_objects]
+    for obj in root.all_objects:
+        obj.select_set(True)
+    assert getattr(bpy.ops.object, "body_moments_" + operator)(**options) == {"FINISHED"}
+    assert all(obj.matrix_world != was for obj, was in zip(root.all_objects, before))
+    assert session.stale_reason(root) == (None if kept else "stale_member")
+    assert session.stale_reason(bpy.data.collections["Arm"]) == (None if kept else "stale_member")
+    bpy.data.objects["b1"].location.x += 1.0
+    bpy.context.view_layer.update()
+    assert session.stale_reason(root) == "stale_member"
+
+
+def test_an_empty_with_children_carries_their_total_and_moves_to_its_center():
+    root = empty(bpy.context.scene.collection, "Root", (1, 0, 0))
+    root.rotation_euler.z = 0.5
+    for number, (density, size, at) in enumerate(BOXES):
+        child = box(bpy.context.scene.collection, size, at, density, f"b{number}")
+        child.parent = root
+    bpy.context.view_layer.update()
+    only(root)
+    before = {child: place(child) for child in root.children}
+    assert bpy.ops.object.body_moments_measure_assembly(target="OBJECT") == {"FINISHED"}
+    mass, center, _ = boxes_inertia(BOXES)
+    assert close(root["body_center_of_mass"].to_list(), center, 1e-6)
+    assert staleness.stale_reason(root, bpy.context.scene) is None
+    assert bpy.ops.object.body_moments_assembly_origin(target="OBJECT") == {"FINISHED"}
+    for child, was in before.items():
+        assert np.abs(place(child) - was).max() < 1e-5
+    assert np.abs(root["body_center_of_mass"].to_list()).max() < 1e-5
+    root.select_set(True)
+    for child in root.children:
+        child.select_set(True)
+    total = results.total(bpy.context)
+    assert total.count == 2 and close(total.body.mass, mass, 1e-6)
+
+
+@pytest.mark.parametrize("size", [1.0, 1e-3])
+def test_children_however_they_are_held_stay_where_they_are_at_any_size(size):
+    root = empty(bpy.context.scene.collection, "Root", np.array([0.3, 0.2, 0.1]) * size)
+    root.rotation_euler = (0.1, 0.2, 0.3)
+    for number in range(3):
+        sides, at = np.array([1, 2, 1]) * size, np.array([number, 2 * number, -1]) * size
+        child = box(bpy.context.scene.collection, sides, at, rotation=(0.3 * number, number, 2))
+        child.parent, child.matrix_parent_inverse = root, Matrix.Rotation(0.7, 4, (1, 2, 3))
+    bpy.context.view_layer.update()
+    only(root)
+    before = {child: place(child) for child in root.children}
+    assert bpy.ops.object.body_moments_assembly_origin(target="OBJECT") == {"FINISHED"}
+    assert np.abs(place(root)[:3, 3]).max() > size
+    for child, was in before.items():
+        off = np.abs(place(child) - was)
+        assert off[:3, 3].max() < 1e-5 * size and off[:3, :3].max() < 1e-6
+
+
+@pytest.mark.parametrize("share", [0.8, 1.25])
+@pytest.mark.parametrize("at", [0.3, 10.0])
+def test_children_that_would_move_by_more_than_rounding_are_left_with_their_empty(at, share, reported):
+    """Cubes a unit away from their center, one of which follows a little of the way of the empty, which is a unit."""
+    root = empty(bpy.context.scene.collection, "Root", (at, 1, 0))
+    children = [box(bpy.context.scene.collection, (0.5, 0.5, 0.5), (at + x, 0, 0)) for x in (-1, 1)]
+    bpy.context.view_layer.update()
+    for child in children:
+        child.parent, child.matrix_parent_inverse = root, root.matrix_world.inverted()
+    follow = children[0].constraints.new("COPY_LOCATION")
+    follow.target, follow.use_x, follow.use_z = root, False, False
+    follow.influence = share * 4e-6 * max(1.0, at)
+    bpy.context.view_layer.update()
+    only(root)
+    before = [obj.matrix_world.copy() for obj in (root, *children)]
+    if share < 1.0:
+        assert bpy.ops.object.body_moments_assembly_origin(target="OBJECT") == {"FINISHED"}
+        assert abs(root.matrix_world.translation.y) < 1e-4
+        return
+    with pytest.raises(RuntimeError, match=r"\A.+\n?\Z"):
+        bpy.ops.object.body_moments_assembly_origin(target="OBJECT")
+    assert reported.values("children_would_move") == {"names": [children[0].name]}
+    assert [obj.matrix_world for obj in (root, *children)] == before
+
+
+@pytest.mark.parametrize(("angle", "is_moved"), [(3e-6, True), (3e-5, False)])
+@pytest.mark.parametrize(("at", "scale"), [(100, 1.0), (1, 0.1)])
+def test_children_that_would_turn_are_left_with_their_empty(at, scale, angle, is_moved, reported):
+    """However far away and however small they are: single precision holds their axes as well."""
+    root = empty(bpy.context.scene.collection, "Root", (at, 1, 0))
+    children = [box(bpy.context.scene.collection, (0.5, 0.5, 0.5), (at + x, 0, 0), scale=[scale] * 3) for x in (-1, 1)]
+    bpy.context.view_layer.update()
+    for child in children:
+        child.parent, child.matrix_parent_inverse = root, root.matrix_world.inverted()
+    turn = children[0].constraints.new("TRANSFORM")  # by the angle where the empty is at 1, by none at 0
+    turn.target, turn.map_from, turn.map_to, turn.map_to_z_from = root, "LOCATION", "ROTATION", "Y"
+    turn.from_max_y, turn.to_max_z_rot = 1.0, angle
+    bpy.context.view_layer.update()
+    only(root)
+    if is_moved:
+        assert bpy.ops.object.body_moments_assembly_origin(target="OBJECT") == {"FINISHED"}
+        return
+    with pytest.raises(RuntimeError, match=r"\A.+\n?\Z"):
+        bpy.ops.object.body_moments_assembly_origin(target="OBJECT")
+    assert reported.values("children_would_move") == {"names": [children[0].name]}
+
+
+@pytest.mark.parametrize("unit", [1.0, 0.5])
+def test_cursor_empty_and_offset_go_to_the_center(unit):
+    bpy.context.scene.unit_settings.scale_length = unit
+    root = assembly_of_boxes()
+    _, center, _ = boxes_inertia(BOXES)
+    assert bpy.ops.view3d.body_moments_cursor_to_assembly(rotate=True) == {"FINISHED"}
+    assert close(bpy.context.scene.cursor.location, center, 1e-6)
+    for _ in range(2):
+        assert bpy.ops.object.body_moments_assembly_empty() == {"FINISHED"}
+    (made,) = [obj for obj in bpy.context.scene.objects if obj.type == "EMPTY"]
+    assert close(place(made)[:3, 3], center, 1e-6)
+    assert bpy.ops.object.body_moments_assembly_origin() == {"FINISHED"}
+    assert close(root.instance_offset, center, 1e-6)
+
+
+def test_an_empty_of_a_library_is_not_moved(reported):
+    root = assembly_of_boxes()
+    bpy.ops.object.body_moments_assembly_empty()
+    (made,) = [obj for obj in bpy.context.scene.objects if obj.type == "EMPTY"]
+    path = bpy.app.tempdir + "frame.blend"
+    bpy.data.libraries.write(path, {root, made})
+    bpy.data.batch_remove([*bpy.data.objects, *bpy.data.meshes, *bpy.data.collections])
+    with bpy.data.libraries.load(path, link=True) as (_, names):
+        names.collections, names.objects = ["Robot"], ["Robot Principal Frame"]
+    bpy.context.scene.collection.children.link(names.collections[0])
+    bpy.context.scene.collection.objects.link(names.objects[0])
+    bpy.context.view_layer.update()
+    activate(names.collections[0])
+    with pytest.raises(RuntimeError, match=r"\A.+\n?\Z"):
+        bpy.ops.object.body_moments_assembly_empty()
+    assert reported.codes[-1] == "linked_object"
+
+
+def test_the_bill_of_masses_is_a_table_of_all_members(tmp_path):
+    root = assembly_of_boxes()
+    box(root, (1, 1, 1), name="=out").hide_render = True
+    path = tmp_path / "bill.csv"
+    assert bpy.ops.object.body_moments_export_bill(filepath=str(path)) == {"FINISHED"}
+    with path.open(encoding="utf-8", newline="") as file:
+        rows = list(csv.DictReader(file))
+    assert [(row["level"], row["name"]) for row in rows] == [
+        ("0", "Robot"), ("1", "Arm"), ("2", "b1"), ("1", "'=out"), ("1", "b0"),
+    ]  # fmt: skip
+    mass, center, _ = boxes_inertia(BOXES)
+    assert close(float(rows[0]["mass"]), mass, 1e-14) and close(float(rows[0]["center_of_mass_x"]), center[0], 1e-14)
+    assert close(float(rows[2]["inertia_xx"]), 8000 * 8 / 12, 1e-14) and rows[2]["method"] == "exact"
+    assert rows[3]["left_out"] and rows[3]["counted"] == "false" and not rows[3]["mass"]
+    with pytest.raises(RuntimeError, match="No file is named"):
+        bpy.ops.object.body_moments_export_bill()
+
+
+def test_point_masses_are_measured_and_listed_as_objects_are():
+    made = empty(bpy.context.scene.collection, "Point", (1, 2, 3), mass=5.0)
+    plain = empty(bpy.context.scene.collection, "Plain")
+    bpy.context.view_layer.update()
+    only(made, plain)
+    bpy.ops.object.body_moments_measure()
+    assert close(made["body_mass"], 5.0, 1e-15) and made["body_method"] == "given" and "body_mass" not in plain
+    assert staleness.stale_reason(made, bpy.context.scene) is None
+    made.body_moments.mass = 6.0
+    assert staleness.stale_reason(made, bpy.context.scene) == "stale_settings"

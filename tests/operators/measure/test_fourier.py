@@ -1,0 +1,254 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Fourier transforms of objects: on the command line and by the operator."""
+
+import numpy as np
+import pytest
+
+pytest.importorskip("bpy")
+import bpy
+from body_moments.blender.bodies import fourier
+from body_moments.blender.bodies.fourier import object_transform
+from body_moments.blender.settings.options import MeasureOptions
+from body_moments.command.measure import fourier as command
+from body_moments.core.fourier import instances as fourier_body
+from body_moments.core.fourier.wave_vectors import FrequencyGrid
+from body_moments.core.mesh.surface import Surface
+
+from tests.blender import batch_files as files
+from tests.blender import objects
+from tests.blender.batch_files import document, measured, run
+from tests.blender.findings import refused, said
+from tests.close import close
+
+pytestmark = pytest.mark.usefixtures("scene")
+
+SIZE, CENTER = np.array([1.0, 2.0, 3.0]), np.array(files.CENTER)
+Q = np.random.default_rng(3).normal(size=(30, 3)) * np.logspace(-9, 1.5, 30)[:, None]
+
+
+def box_spectrum(q, size=SIZE, center=CENTER):
+    return np.prod(size * np.sinc(q * size / (2 * np.pi)), axis=1) * np.exp(-1j * (q @ center))
+
+
+@pytest.fixture
+def wave_vectors(tmp_path):
+    path = tmp_path / "q.npy"
+    np.save(path, Q)
+    return path
+
+
+def transform(obj, q=Q, options=None, **more):
+    bpy.context.view_layer.update()
+    found = object_transform(obj, bpy.context.evaluated_depsgraph_get(), options or MeasureOptions(), q, **more)
+    for _ in found.steps():
+        pass
+    return found.result()
+
+
+def test_the_command_writes_wave_vectors_as_given_and_the_transform(tmp_path, wave_vectors):
+    files.add_box()
+    out = tmp_path / "out.npz"
+    entry = measured("--fourier", out, "--q", wave_vectors)
+    assert entry["volume"] == pytest.approx(6.0)
+    with np.load(out) as found:
+        assert np.array_equal(found["q"], Q)
+        assert found["F"].dtype == np.complex128
+        assert np.abs(found["F"] - box_spectrum(Q)).max() <= 1e-13
+        assert (found["error"] <= 1e-12).all() and found["input"] < 1e-4
+        assert (str(found["method"]), str(found["frame"])) == ("exact", "world")
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["out.npz", "q.npy"]
+
+
+def test_the_command_writes_a_grid(tmp_path):
+    files.add_box()
+    out = tmp_path / "out"  # the name is taken as it is
+    measured("--fourier", out, "--grid", 6, "--qmax", 4.5, "--kind", "solid")
+    with np.load(out) as found:
+        axis = np.arange(-3, 3) * 1.5
+        assert np.array_equal(np.unique(found["q"]), axis) and found["q"].shape == (216, 3)
+        assert np.abs(found["F"] - box_spectrum(found["q"])).max() <= 1e-13
+
+
+def test_the_object_frame_has_the_location_and_the_rotation_but_unit_scale(tmp_path, wave_vectors):
+    box = files.add_box(center=(0, 0, 0))
+    box.location, box.rotation_euler, box.scale = (5, 6, 7), (0.3, -0.2, 1.1), (2, 1, 0.5)
+    out = tmp_path / "out.npz"
+    measured("--fourier", out, "--q", wave_vectors, "--frame", "object")
+    with np.load(out) as found:
+        assert str(found["frame"]) == "object"
+        assert np.abs(found["F"] - box_spectrum(Q, SIZE * [2, 1, 0.5], np.zeros(3))).max() <= 1e-4
+
+
+def test_the_units_of_the_scene_count(scene, tmp_path, wave_vectors):
+    files.add_box(center=(0, 0, 0))
+    scene.unit_settings.scale_length = 0.01
+    measured("--fourier", tmp_path / "out.npz", "--q", wave_vectors)
+    with np.load(tmp_path / "out.npz") as found:
+        assert np.abs(found["F"] - box_spectrum(Q, SIZE / 100, np.zeros(3))).max() <= 1e-18
+
+
+def test_a_shell_is_its_area_times_its_thickness():
+    box = files.add_box(center=(0, 0, 0))
+    found, _ = transform(box, np.zeros((1, 3)), MeasureOptions(kind="shell", thickness=0.25))
+    assert close(found.values[0], 22.0 * 0.25, rel=1e-14)
+    found, _ = transform(box, np.zeros((1, 3)), area=True)
+    assert close(found.values[0], 22.0, rel=1e-14)
+    with refused("no_thickness"):
+        transform(box, options=MeasureOptions(kind="shell", thickness=0.0))
+
+
+def test_a_wall_of_real_thickness_is_refused_with_the_remedy():
+    box = files.add_box(center=(0, 0, 0))
+    thick = MeasureOptions(kind="shell", thickness=0.1, wall="inward")
+    with refused("fourier_of_wall", box.name):
+        transform(box, options=thick)
+    assert close(transform(box, np.zeros((1, 3)), thick, area=True)[0].values[0], 22.0, rel=1e-14)
+
+
+def test_a_grid_is_as_long_as_the_box_around_turned_instances():
+    """Of a unit cube about (2, 0, 0): one where it is, one a quarter turn about z later, one of three more along y; and
+    one that rises by 3 along x.
+    """
+    corners = np.array([(x, y, z) for x in (1.5, 2.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)])
+    matrices = np.array([np.eye(4)] * 4)
+    matrices[1, :2, :2] = (0.0, -1.0), (1.0, 0.0)
+    matrices[2, 1, 3] = matrices[3, 2, 0] = 3.0
+    surface = Surface.from_triangles(corners, np.array([(0, 1, 2), (5, 6, 7)]))
+    for count, length in ((1, 1.0), (2, 3.0), (3, 4.0), (4, 8.5)):
+        assert close(fourier._extent([(surface, matrices[:count])]), length, rel=1e-15)
+    assert close(fourier._extent([(surface.transform(0.125 * np.eye(3)), matrices[:1])]), 0.125, rel=1e-15)
+
+
+@pytest.mark.parametrize("kind", ["solid", "shell"])
+def test_a_grid_needs_an_extent(kind):
+    """A mesh with all its corners at one place has none."""
+    mesh = bpy.data.meshes.new("Point")
+    mesh.from_pydata([(1, 2, 3)] * 3, [], [(0, 1, 2)])
+    point = objects.add(mesh)
+    options = MeasureOptions(kind=kind, thickness=0.1)
+    with refused("fourier_no_extent", point.name):
+        transform(point, lambda size: FrequencyGrid(4, 1.0 / size, 3), options, area=kind == "solid")
+
+
+def test_meters_per_unit_that_are_given_take_the_place_of_the_scenes_in_both_frames(scene):
+    scene.unit_settings.scale_length = 10.0
+    box = files.add_box()
+    options = MeasureOptions(unit_scale=0.01)
+    true = box_spectrum(Q, SIZE / 100, CENTER / 100)
+    assert np.abs(transform(box, options=options)[0].values - true).max() <= 1e-18
+    own = box_spectrum(Q, SIZE / 100, np.zeros(3))
+    assert np.abs(transform(box, options=options, frame="object")[0].values - own).max() <= 1e-18
+
+
+def test_a_wire_is_refused_with_the_remedy():
+    box = files.add_box()
+    with refused("fourier_of_wire"):
+        transform(box, options=MeasureOptions(kind="wire"))
+
+
+def test_flipped_faces_are_turned_and_holes_capped_as_they_are_for_the_mass():
+    box = files.add_box()
+    box.data.polygons[2].flip()
+    found, findings = transform(box)
+    assert np.abs(found.values - box_spectrum(Q)).max() <= 1e-13
+    assert said(findings) == {"flipped_faces": {"count": 1}}
+    mesh = bpy.data.meshes.new("Open")
+    corners = [vertex.co[:] for vertex in box.data.vertices]
+    sides = [polygon.vertices[:] for polygon in box.data.polygons]
+    mesh.from_pydata(corners, [], sides[:4])  # without the two across z
+    found, findings = transform(objects.add(mesh, location=files.CENTER))
+    assert np.abs(found.values - box_spectrum(Q)).max() <= 1e-13
+    assert said(findings)["holes_capped"]["count"] == 2
+
+
+def test_what_cannot_be_closed_is_refused_with_the_remedy():
+    mesh = bpy.data.meshes.new("Fins")
+    mesh.from_pydata([(0, 0, 0), (0, 0, 1), (1, 0, 0), (0, 1, 0), (-1, -1, 0)], [], [(0, 1, 2), (0, 1, 3), (0, 1, 4)])
+    obj = objects.add(mesh)
+    with refused("fourier_of_open_surface"):
+        transform(obj)
+    found, _ = transform(obj, np.zeros((1, 3)), area=True)
+    assert found.values[0] == pytest.approx(0.5 + 0.5 + 2**0.5 / 2, rel=1e-12)
+
+
+def test_overlapping_shells_count_twice_or_are_united():
+    box = files.add_box(center=(0, 0, 0), size=(1, 1, 1))
+    other = files.add_box("Other", center=(0.5, 0, 0), size=(1, 1, 1))
+    objects.only(box, other)
+    bpy.ops.object.join()
+    twice = box_spectrum(Q, np.ones(3), np.zeros(3)) + box_spectrum(Q, np.ones(3), np.array([0.5, 0, 0]))
+    found, findings = transform(bpy.context.object)
+    assert np.abs(found.values - twice).max() <= 1e-13 and said(findings) == {"components_overlap": {"count": 2}}
+    found, findings = transform(bpy.context.object, options=MeasureOptions(overlap="union"))
+    once = box_spectrum(Q, np.array([1.5, 1, 1]), np.array([0.25, 0, 0]))
+    assert np.abs(found.values - once).max() <= 1e-5 and "union_by_boolean" in said(findings)
+
+
+def test_instances_are_phases_and_maps():
+    box = files.add_box(center=(0, 0, 0))
+    collection = bpy.data.collections.new("Parts")
+    collection.objects.link(box)
+    empty = objects.add(None, "Instancer", location=(1, 2, 3), scale=(2, 1, -0.5))
+    empty.instance_type, empty.instance_collection = "COLLECTION", collection
+    found, _ = transform(empty)
+    true = box_spectrum(Q, SIZE * [2, 1, 0.5], np.array([1.0, 2, 3]))
+    assert np.abs(found.values - true).max() <= 1e-12
+
+
+def test_one_object_is_needed_and_a_refusal_is_an_error(tmp_path, wave_vectors):
+    files.add_box("a")
+    files.add_box("b")
+    out = tmp_path / "out.npz"
+    found = document("--fourier", out, "--q", wave_vectors)
+    assert len(found["objects"]) == 2 and "--object" in found["errors"][0]["reason"] and not out.exists()
+    assert measured("--fourier", out, "--q", wave_vectors, "--object", "b")["name"] == "b" and out.exists()
+    out.unlink()
+    mesh = bpy.data.meshes.new("Plane")
+    mesh.from_pydata([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [], [(0, 1, 2)])
+    objects.add(mesh, "Flat")
+    line = run("--fourier", out, "--q", wave_vectors, "--object", "Flat")
+    assert line.errors == 1 and line.internal_errors == 0 and not out.exists()
+
+
+def test_a_file_that_cannot_be_written_is_an_error(tmp_path, wave_vectors, monkeypatch):
+    files.add_box()
+
+    def full(*_):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("os.replace", full)
+    found = document("--fourier", tmp_path / "out.npz", "--q", wave_vectors)
+    assert "No space left" in found["errors"][0]["reason"]
+    assert [path.name for path in tmp_path.iterdir()] == ["q.npy"]
+
+
+def test_the_operator_writes_the_file_and_an_image(tmp_path):
+    box = objects.add(objects.mesh_body(), location=(1, 2, 3))
+    selected, mode = bpy.context.selected_objects, bpy.context.mode
+    path = tmp_path / "body.npz"
+    result = bpy.ops.object.body_moments_fourier(filepath=str(path.with_suffix("")), count=12)
+    assert result == {"FINISHED"}
+    expected, _ = transform(box, lambda size: fourier_body.FrequencyGrid(12, np.pi / size * 6))
+    with np.load(path) as found:
+        assert np.array_equal(found["q"], expected.q)
+        assert np.array_equal(found["F"], expected.values)
+        assert found["q"].max() == pytest.approx(np.pi / 3.5 * 5, rel=1e-6)
+        values = np.abs(found["F"]).reshape(12, 12, 12)
+    image = bpy.data.images["Fourier Transform of Body"]
+    assert tuple(image.size) == (3 * 12 + 4, 12) and image.packed_file
+    pixels = np.empty(40 * 12 * 4, np.float32)
+    image.pixels.foreach_get(pixels)
+    pixels = pixels.reshape(12, 40, 4)
+    gray = pixels[..., 0]
+    assert (pixels[..., :3] == gray[..., None]).all() and (pixels[..., 3] == 1.0).all()
+    assert gray[6, 6] == gray[6, 14 + 6] == gray[6, 28 + 6] == 1.0  # F(0) = V is the largest
+    for found, slice_ in ((gray[:, :12], values[:, :, 6]), (gray[:, 14:26], values[:, 6]), (gray[:, 28:], values[6])):
+        assert np.abs(found.T - (1 + np.log10(slice_ / values.max()).clip(-6, 0) / 6)).max() <= 1 / 255
+    assert (bpy.context.selected_objects, bpy.context.mode) == (selected, mode)
+
+
+def test_an_archive_in_place_of_an_array_is_refused(tmp_path):
+    np.savez(tmp_path / "q.npz", a=Q, b=Q)
+    with refused("wave_vectors_archive"):
+        command._read_wave_vectors(tmp_path / "q.npz")

@@ -1,0 +1,255 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Inertia about any reference of the scene: shown, stored, copied, and moments about it."""
+
+import re
+from ast import literal_eval
+
+import bmesh
+import bpy
+import numpy as np
+import pytest
+from body_moments.blender.read.reference import ReferenceChoice
+from body_moments.blender.session.stored import moments as moments_table
+from body_moments.blender.session.stored import reference
+from body_moments.core.verdict.finding import Finding
+from mathutils import Euler
+
+from tests.blender.bodies.test_assembly import box, boxes_inertia, collection
+from tests.blender.objects import only
+from tests.close import close
+
+pytestmark = pytest.mark.usefixtures("registered", "scene")
+SIZE, AT, DENSITY = (1, 2, 4), (8, -4, 2), 1000
+
+
+def measured_box():
+    obj = box(bpy.context.scene.collection, SIZE, AT, DENSITY)
+    only(obj)
+    bpy.ops.object.body_moments_measure()
+    return obj
+
+
+def about(point):
+    mass, center, tensor = boxes_inertia([(DENSITY, SIZE, AT)])
+    arm = center - point
+    return tensor + mass * (arm @ arm * np.eye(3) - np.outer(arm, arm))
+
+
+def choose(kind, **settings):
+    chosen = bpy.context.scene.body_moments_reference
+    chosen.about = kind
+    for name, value in settings.items():
+        setattr(chosen, name, value)
+
+
+def shown(obj):
+    return reference.referred(obj, bpy.context.scene)
+
+
+def test_each_reference_is_about_its_point_and_along_its_axes():
+    obj = measured_box()
+    choose("WORLD")
+    assert np.abs(shown(obj).inertia - about((0, 0, 0))).max() <= 1e-14 * about((0, 0, 0)).max()
+    choose("CENTER")
+    assert np.abs(shown(obj).inertia - about(AT)).max() <= 1e-13 * about(AT).max()
+    choose("ORIGIN")
+    assert np.abs(shown(obj).inertia - about(AT)).max() <= 1e-13 * about(AT).max()
+    cursor = bpy.context.scene.cursor
+    choose("CURSOR")
+    cursor.location = (1, 2, 3)
+    assert np.abs(shown(obj).inertia - about((1, 2, 3))).max() <= 1e-14 * about((1, 2, 3)).max()
+    cursor.rotation_euler = (0, 0, np.pi / 2)
+    swapped = about((1, 2, 3))[[1, 0, 2]][:, [1, 0, 2]] * [[1, -1, 1], [-1, 1, -1], [1, -1, 1]]
+    assert np.abs(shown(obj).inertia - swapped).max() <= 1e-6 * swapped.max()
+    other = bpy.data.objects.new("Other", None)
+    bpy.context.scene.collection.objects.link(other)
+    other.location, other.rotation_euler = (5, 0, 0), (0.3, 0.2, 0.1)
+    bpy.context.view_layer.update()
+    choose("OBJECT", object=other)
+    turn = np.array(Euler((0.3, 0.2, 0.1)).to_matrix())
+    truth = turn.T @ about((5, 0, 0)) @ turn
+    assert np.abs(shown(obj).inertia - truth).max() <= 1e-6 * truth.max()
+    other.location.x = 6.0
+    bpy.context.view_layer.update()
+    assert close(shown(obj).reference.origin[0], 6.0, 1e-14)  # it follows
+    choose("AXIS", first=(0, 0, 1), second=(3, 4, 1))
+    along = np.array([0.6, 0.8, 0.0])
+    assert close(shown(obj).about_z, along @ about((0, 0, 1)) @ along, 1e-13)
+    choose("AXIS", second=(0, 0, 1))
+    assert isinstance(shown(obj), Finding) and shown(obj).code == "axis_points_coincide"
+    choose("OBJECT", object=None)
+    assert shown(obj).code == "reference_object_missing"
+
+
+def test_references_stand_where_the_unit_of_the_scene_puts_them():
+    """Of lengths that are a fourth, inertia about what is as far away is 4^-5 of it."""
+    obj = measured_box()
+    other = bpy.data.objects.new("Other", None)
+    bpy.context.scene.collection.objects.link(other)
+    other.location, obj.data.vertices[0].co.x = (5, 1, -2), -1.0
+    bpy.context.scene.cursor.location = (1, 2, 3)
+
+    def inertias():
+        bpy.ops.object.body_moments_measure()
+        for kind in ("WORLD", "CENTER", "ORIGIN", "CURSOR", "OBJECT"):
+            choose(kind, object=other)
+            yield shown(obj).inertia
+        choose("AXIS", first=(0, 0, 1), second=(3, 4, 1))
+        yield shown(obj).about_z
+
+    large = list(inertias())
+    bpy.context.scene.unit_settings.scale_length = 0.25
+    for small, before in zip(inertias(), large, strict=True):
+        assert np.abs(small - before / 4.0**5).max() <= 1e-13 * np.abs(before).max() / 4.0**5
+
+
+def test_what_is_stored_follows_the_next_measurement():
+    obj = measured_box()
+    choose("AXIS", first=(0, 0, 0), second=(0, 0, 2))
+    assert bpy.ops.object.body_moments_store_reference() == {"FINISHED"}
+    truth = about((0, 0, 0))
+    assert close(obj["body_axis_inertia"], truth[2, 2], 1e-14)
+    rotation = np.array(shown(obj).reference.axes)
+    entries = (rotation.T @ truth @ rotation)[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]
+    assert np.abs(np.array(obj["body_reference_inertia"].to_list()) - entries).max() <= 1e-14 * entries.max()
+    assert len(obj["body_reference_error_bound"]) == 4
+    assert ReferenceChoice.parse(obj["body_reference"]).points == ((0, 0, 0), (0, 0, 2))
+    choose("WORLD")
+    obj.body_moments.density = 2.0 * DENSITY
+    bpy.ops.object.body_moments_measure()
+    assert close(obj["body_axis_inertia"], 2.0 * truth[2, 2], 1e-14)
+    bpy.ops.object.body_moments_store_reference()
+    assert "body_axis_inertia" not in obj and ReferenceChoice.parse(obj["body_reference"]).about == "WORLD"
+    bpy.ops.object.body_moments_clear()
+    assert "body_reference" not in obj
+
+
+def test_what_is_driven_by_it_follows_when_it_is_stored():
+    obj = measured_box()
+    choose("AXIS", first=(0, 0, 0), second=(0, 0, 2))
+    bpy.ops.object.body_moments_store_reference()
+    driven = bpy.data.objects.new("Driven", None)
+    bpy.context.scene.collection.objects.link(driven)
+    driver = driven.driver_add("location", 0).driver
+    variable = driver.variables.new()
+    variable.type, variable.targets[0].id, variable.targets[0].data_path = "SINGLE_PROP", obj, '["body_axis_inertia"]'
+    driver.type = "SUM"
+    for second, entry in (((0, 0, 2), 2), ((2, 0, 0), 0)):
+        choose("AXIS", second=second)
+        bpy.ops.object.body_moments_store_reference()
+        bpy.context.view_layer.update()
+        assert close(driven.matrix_world.translation.x, about((0, 0, 0))[entry, entry], 1e-6)
+
+
+def test_an_assembly_is_referred_too():
+    root = collection()
+    box(root, SIZE, AT, DENSITY)
+    layers = bpy.context.view_layer.layer_collection.children
+    bpy.context.view_layer.active_layer_collection = layers[root.name]
+    bpy.ops.object.body_moments_measure_assembly()
+    choose("WORLD")
+    assert np.abs(shown(root).inertia - about((0, 0, 0))).max() <= 1e-14 * about((0, 0, 0)).max()
+
+
+def test_the_axis_comes_from_what_is_selected():
+    obj = measured_box()
+    other = box(bpy.context.scene.collection, (1, 1, 1), (0, 0, 1), name="Other")
+    only(obj, other)
+    assert bpy.ops.object.body_moments_axis_from_selection() == {"FINISHED"}
+    chosen = bpy.context.scene.body_moments_reference
+    assert chosen.about == "AXIS" and tuple(chosen.first) == (0, 0, 1) and tuple(chosen.second) == AT
+    only(obj)
+    with pytest.raises(RuntimeError, match="1 points are selected"):
+        bpy.ops.object.body_moments_axis_from_selection()
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="DESELECT")
+    bpy.ops.object.mode_set(mode="OBJECT")
+    for index in (0, 7):
+        obj.data.vertices[index].select = True
+    bpy.ops.object.mode_set(mode="EDIT")
+    assert bpy.ops.object.body_moments_axis_from_selection() == {"FINISHED"}
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert close(chosen.first, (7.5, -5, 0), 1e-6) and close(chosen.second, (8.5, -3, 4), 1e-6)
+
+
+@pytest.mark.parametrize(
+    ("active", "selected", "points"),
+    [("A", "AC", (3.0, 1.0)), ("C", "AC", (1.0, 3.0)), ("B", "AC", (1.0, 3.0)), ("A", "ABC", None), ("A", "", None)],
+)
+def test_the_axis_goes_from_the_other_object_to_the_active_one_or_by_name(active, selected, points, reported):
+    made = {name: box(bpy.context.scene.collection, (1, 1, 1), (ord(name) - 64, 2, 0), name=name) for name in "CBA"}
+    only(made[active])
+    for name, obj in made.items():
+        obj.select_set(name in selected)
+    if points is None:
+        with pytest.raises(RuntimeError, match=r"\A.+\n?\Z"):
+            bpy.ops.object.body_moments_axis_from_selection()
+        assert reported.values("axis_needs_two_points") == {"count": len(selected)}
+        return
+    assert bpy.ops.object.body_moments_axis_from_selection() == {"FINISHED"}
+    chosen = bpy.context.scene.body_moments_reference
+    assert [tuple(point) for point in (chosen.first, chosen.second)] == [(place, 2.0, 0.0) for place in points]
+
+
+@pytest.mark.parametrize("by", ["order", "edge", "one of each"])
+def test_the_axis_goes_through_vertices_in_the_order_in_which_they_were_selected(by):
+    turned = {"rotation": (0, 0, np.pi / 2), "scale": (2, 3, 1)}
+    objects = [box(bpy.context.scene.collection, (1, 1, 1), (x, 0, 0), name=f"{x}", **turned) for x in (5, 9)]
+    only(*objects)
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="DESELECT")
+    chosen = {"order": [(0, 7), (0, 2)], "edge": [(0, 7), (0, 2)], "one of each": [(0, 1), (1, 4)]}[by]
+    for number, index in chosen:
+        mesh = bmesh.from_edit_mesh(objects[number].data)
+        mesh.verts.ensure_lookup_table()
+        mesh.verts[index].select_set(True)
+        if by == "order":
+            mesh.select_history.add(mesh.verts[index])
+    if by == "edge":
+        mesh.edges.ensure_lookup_table()
+        mesh.select_history.add(mesh.edges[0])
+        chosen = chosen[::-1]
+    assert bpy.ops.object.body_moments_axis_from_selection() == {"FINISHED"}
+    bpy.ops.object.mode_set(mode="OBJECT")
+    settings = bpy.context.scene.body_moments_reference
+    for (number, index), point in zip(chosen, (settings.first, settings.second), strict=True):
+        x, y, z = objects[number].data.vertices[index].co
+        assert close(point, (objects[number].location.x - 3.0 * y, 2.0 * x, z), 1e-6)
+
+
+def test_moments_of_any_order_are_about_the_reference():
+    obj = measured_box()
+    settings = bpy.context.scene.body_moments
+    bpy.ops.object.body_moments_compute_moments()
+    settings.moments_about = "REFERENCE"
+    bpy.context.scene.cursor.location = (8, -4, 0)
+    choose("CURSOR")
+    degrees, missing = moments_table.current_numbers(obj, bpy.context.scene)
+    assert missing is None
+    exact = {label: float(value) for degree in degrees for label, _, value in degree.rows}
+    assert close(exact["z"], 16.0, 1e-14) and close(exact["z²"], 8 * 16 / 3, 1e-14)
+    bpy.context.scene.cursor.location.z = 2.0
+    degrees, _ = moments_table.current_numbers(obj, bpy.context.scene)
+    exact = {label: float(value) for degree in degrees for label, _, value in degree.rows}
+    assert close(exact["z²"], 8 * 4 / 3, 1e-13)
+
+
+@pytest.mark.parametrize("kind", ["AXIS", "WORLD"])
+def test_it_is_copied_with_its_bounds(kind, capsys):
+    obj = measured_box()
+    choose(kind, first=(0, 0, 0), second=(0, 0, 2))
+    capsys.readouterr()
+    assert bpy.ops.object.body_moments_copy_reference() == {"FINISHED"}
+    name, *lines = capsys.readouterr().out.splitlines()
+    choice, found = ReferenceChoice.of(bpy.context.scene.body_moments_reference), shown(obj)
+    assert name == "Box, about " + choice.text
+    about_axis = [found.about_z, found.radius_about_z, found.distance_from_z]
+    expected = [[0.0] * 3, found.reference.axes.tolist(), 8000.0, found.center.tolist(), found.inertia.tolist()]
+    *rows, bounds = lines
+    values = [literal_eval(re.search(r" ([-\d.]+(e-?\d+)?|\[.*\])\Z", row)[1]) for row in rows]
+    assert values == expected + about_axis * (kind == "AXIS")
+    assert bounds == f"rounding, at most {found.rounding_error!r}; float32 coordinates, at most {found.input_error!r}"
+    if kind == "AXIS":
+        assert close(found.about_z, about((0, 0, 0))[2, 2], 1e-14)
+        assert close(found.distance_from_z, np.hypot(8.0, 4.0), 1e-14)

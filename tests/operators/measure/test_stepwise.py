@@ -1,0 +1,222 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Operators that work in steps: what Esc, the end and a fault between two steps leave behind."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+pytest.importorskip("bpy")
+import bpy
+from body_moments.blender.session.stored import results
+from body_moments.operators import modal as stepwise
+from body_moments.operators.measure.fourier import OBJECT_OT_body_moments_fourier_run
+from body_moments.operators.measure.measure_selected import OBJECT_OT_body_moments_measure
+from body_moments.operators.shape.find_similar import OBJECT_OT_body_moments_find_similar
+from body_moments.operators.shape.find_symmetry import OBJECT_OT_body_moments_find_symmetry
+from body_moments.operators.shape.match_pose import OBJECT_OT_body_moments_match_pose
+
+from tests.blender.objects import add, mesh_body, only, place
+
+pytestmark = pytest.mark.usefixtures("registered", "scene")
+TIMER, ESC, MOUSE = (SimpleNamespace(type=name) for name in ("TIMER", "ESC", "MOUSEMOVE"))
+
+
+def stand_in(cls, report, **settings):
+    """Return an object with the functions and default settings of an operator class; `report` gets its reports."""
+    functions = {name: value for name, value in vars(cls).items() if name not in ("__dict__", "__weakref__")}
+    bases = tuple(base for base in cls.__bases__ if base is not bpy.types.Operator)
+    made = type(cls.__name__, bases, functions)()
+    made.report = report
+    category, _, name = cls.__name__.partition("_OT_")
+    made.bl_rna = getattr(getattr(bpy.ops, category.lower()), name).get_rna_type()
+    made.properties = SimpleNamespace(is_property_set=settings.__contains__)
+    for prop in made.bl_rna.properties:
+        if prop.type == "ENUM" and prop.is_enum_flag:
+            setattr(made, prop.identifier, set(prop.default_flag))
+        elif prop.type not in ("POINTER", "COLLECTION"):
+            setattr(made, prop.identifier, tuple(prop.default_array) if getattr(prop, "is_array", 0) else prop.default)
+    vars(made).update(settings)
+    return made
+
+
+class Window:
+    """What of a window such an operator uses; everything else is Blender's."""
+
+    def __init__(self):
+        self.handlers, self.timers, self.status = [], [], []
+        self.window = self.window_manager = self.workspace = self
+        self.modal_handler_add = self.handlers.append
+        self.status_text_set = self.status.append
+        self.progress_begin = self.progress_update = lambda *_: None
+
+    def __getattr__(self, name):
+        return getattr(bpy.context, name)
+
+    def event_timer_add(self, _seconds, window):
+        self.timers.append(window)
+        return window
+
+    def event_timer_remove(self, timer):
+        self.timers.remove(timer)
+
+    def progress_end(self):
+        pass
+
+
+@pytest.fixture(autouse=True)
+def one_step_at_a_time(monkeypatch):
+    monkeypatch.setattr(stepwise, "STEP_SECONDS", 0.0)
+    monkeypatch.setattr(stepwise, "MAX_STEP_SECONDS", 0.0)
+
+
+def pressed(cls, **settings):
+    """An operator as its button starts it, without Blender's own part, and the window that it has."""
+    reports = []
+    operator = stand_in(cls, lambda kind, text: reports.append((*kind, text)), **settings)
+    operator.reports = reports
+    window = Window()
+    assert operator.invoke(window, None) == {"RUNNING_MODAL"}
+    assert window.handlers == [operator] and window.timers == [window]
+    return operator, window
+
+
+def finished(operator, window, limit=100):
+    for _ in range(limit):
+        result = operator.modal(window, TIMER)
+        if result != {"RUNNING_MODAL"}:
+            assert window.timers == [] and window.status[-1] is None
+            return result
+    raise AssertionError("it never ends")
+
+
+def three():
+    bodies = [add(mesh_body(), name, location=(3 * i, i, 1), rotation=(i, 0, 1)) for i, name in enumerate("abc")]
+    only(*bodies)
+    return bodies
+
+
+OPERATORS = [
+    (OBJECT_OT_body_moments_measure, {}),
+    (OBJECT_OT_body_moments_find_symmetry, {"tolerance": 1e-3}),
+    (OBJECT_OT_body_moments_match_pose, {}),
+]
+
+
+@pytest.mark.parametrize(("cls", "settings"), OPERATORS)
+def test_esc_between_two_objects_leaves_everything_as_it_was(cls, settings, monkeypatch):
+    monkeypatch.setattr("body_moments.operators.measure.measure_selected.MAX_OBJECTS_WITHOUT_REDRAW", 1)
+    bodies = three()
+    before = [place(body) for body in bodies]
+    operator, window = pressed(cls, **settings)
+    assert operator.modal(window, MOUSE) == {"RUNNING_MODAL"}
+    assert operator.modal(window, TIMER) == {"RUNNING_MODAL"} and "Esc" in window.status[-1]
+    assert operator.modal(window, ESC) == {"CANCELLED"}
+    assert window.timers == [] and window.status[-1] is None and operator.reports[-1][0] == "INFO"
+    assert all((place(body) == matrix).all() for body, matrix in zip(bodies, before, strict=True))
+    assert not any("body_mass" in body or body.is_property_set("body_moments_symmetry") for body in bodies)
+
+
+@pytest.mark.parametrize(
+    ("cls", "count"),
+    [
+        (OBJECT_OT_body_moments_find_symmetry, 1),
+        (OBJECT_OT_body_moments_match_pose, 2),
+        (OBJECT_OT_body_moments_find_similar, 2),
+    ],
+)
+def test_esc_within_an_object_leaves_everything_as_it_was(cls, count):
+    bodies = three()[:count]
+    only(*bodies)
+    before = [place(body) for body in bodies]
+    settings = {"tolerance": 1e-3, "select": True, "mirrored": False, "scaled": False}
+    for steps in range(1, 100):
+        operator, window = pressed(cls, **settings)
+        for _ in range(steps):
+            result = operator.modal(window, TIMER)
+        if result != {"RUNNING_MODAL"}:
+            break
+        assert operator.modal(window, ESC) == {"CANCELLED"}
+        assert window.timers == [] and window.status[-1] is None
+        assert all((place(body) == matrix).all() for body, matrix in zip(bodies, before, strict=True))
+        assert not any(body.is_property_set("body_moments_symmetry") for body in bodies)
+        assert not len(bpy.context.scene.body_moments_search.found)
+        shares = [float(text.split(": ")[1].partition("%")[0]) for text in window.status[:-1]]
+        assert shares == sorted(shares) and 0.0 <= shares[-1] <= 100.0
+    assert result == {"FINISHED"} and steps > 4
+
+
+def test_esc_leaves_what_was_said_of_objects_that_could_not_be_measured(monkeypatch):
+    monkeypatch.setattr("body_moments.operators.measure.measure_selected.MAX_OBJECTS_WITHOUT_REDRAW", 1)
+    bodies = three()
+    whole, nothing = bodies[0].data, bpy.data.meshes.new("Nothing")
+    for body in bodies:
+        body.data = nothing
+    assert finished(*pressed(OBJECT_OT_body_moments_measure)) == {"CANCELLED"}
+    refusals = [results.failure(body) for body in bodies]
+    assert {refusal.code for refusal in refusals} == {"no_geometry"}
+    for body in bodies:
+        body.data = whole
+    operator, window = pressed(OBJECT_OT_body_moments_measure)
+    assert operator.modal(window, TIMER) == {"RUNNING_MODAL"}
+    assert operator.modal(window, ESC) == {"CANCELLED"}
+    assert [results.failure(body) for body in bodies] == refusals
+    assert finished(*pressed(OBJECT_OT_body_moments_measure)) == {"FINISHED"}
+    assert not any(results.failure(body) for body in bodies)
+
+
+@pytest.mark.parametrize(("cls", "settings"), OPERATORS)
+def test_a_fault_in_a_step_gives_the_window_back(cls, settings, monkeypatch):
+    monkeypatch.setattr("body_moments.operators.measure.measure_selected.MAX_OBJECTS_WITHOUT_REDRAW", 1)
+    three()
+    operator, window = pressed(cls, **settings)
+
+    def broken():
+        yield 1
+        raise ZeroDivisionError
+
+    operator._steps = broken()
+    with pytest.raises(ZeroDivisionError):
+        finished(operator, window)
+    assert window.timers == [] and window.status[-1] is None
+
+
+def test_a_child_is_laid_where_it_belongs_although_its_parent_moves_too():
+    target, parent, child = three()
+    child.parent = parent
+    bpy.context.view_layer.update()
+    operator, window = pressed(OBJECT_OT_body_moments_match_pose)
+    assert finished(operator, window) == {"FINISHED"}
+    assert operator.reports[-1][0] == "INFO"
+    for body in (parent, child):
+        assert np.abs(place(body) - place(target)).max() < 2e-6
+
+
+def test_a_child_that_lies_right_is_laid_again_after_its_parent_has_moved():
+    target, parent, child = three()
+    child.matrix_world = target.matrix_world
+    child.parent = parent
+    child.matrix_parent_inverse = parent.matrix_world.inverted()
+    before = place(child)
+    assert np.abs(before - place(target)).max() < 1e-6
+    operator, window = pressed(OBJECT_OT_body_moments_match_pose)
+    assert finished(operator, window) == {"FINISHED"}
+    for body in (parent, child):
+        assert np.abs(place(body) - place(target)).max() < 3e-6
+
+
+def test_a_fourier_transform_that_fails_under_way_gives_the_window_back_and_says_why(tmp_path):
+    add(mesh_body())
+    settings = {"filepath": str(tmp_path / "a.npz"), "of": "BODY", "frame": "WORLD", "count": 8, "largest": 0.0}
+    operator, window = pressed(OBJECT_OT_body_moments_fourier_run, **settings)
+    assert "0%" in window.status[-1]
+    path = operator._path
+    operator._path = path.parent / "none" / path.name
+    assert finished(operator, window) == {"CANCELLED"}
+    assert operator.reports[-1][0] == "ERROR" and not path.exists()
+    assert operator.reports[-1][1].endswith("No such file or directory.")
+    operator, window = pressed(OBJECT_OT_body_moments_fourier_run, **settings)
+    assert operator.modal(window, ESC) == {"CANCELLED"} and not path.exists() and window.timers == []
+    operator, window = pressed(OBJECT_OT_body_moments_fourier_run, **settings)
+    assert finished(operator, window) == {"FINISHED"} and path.exists()

@@ -1,0 +1,163 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The buttons beside warnings: each does its remedy in one step, and nothing else; accepted findings are notes."""
+
+import bpy
+import pytest
+
+from tests.blender.objects import add, only
+from tests.close import close
+from tests.panels.drawing import findings_of, labels, shown
+
+pytestmark = pytest.mark.usefixtures("scene")
+
+
+def boxes(*sizes, reverse=()):
+    """A mesh of boxes about one center, with some faces reversed."""
+    import bmesh  # is there once bpy is
+
+    mesh, built = bpy.data.meshes.new("Boxes"), bmesh.new()
+    for size in sizes:
+        bmesh.ops.create_cube(built, size=size)
+    built.faces.ensure_lookup_table()
+    bmesh.ops.reverse_faces(built, faces=[built.faces[index] for index in reverse])
+    built.to_mesh(mesh)
+    built.free()
+    return mesh
+
+
+def buttons(record=None):
+    return [entry[1] for entry in record or shown() if entry[0] == "operator"]
+
+
+def orders(mesh):
+    return [tuple(face.vertices) for face in mesh.polygons]
+
+
+def test_reversed_faces_are_those_that_were_measured_as_reversed_and_a_cavity_stays_one():
+    """Flipped faces of an outer box, all of a second box beside it, and a cavity that is right as it is."""
+    import bmesh
+
+    mesh = boxes(2.0, 1.0, 4.0, reverse=[0, *range(6, 12)])
+    for vertex in mesh.vertices[16:]:
+        vertex.co.x += 10.0
+    right = orders(mesh)
+    mesh.flip_normals()
+    right_of_third = orders(mesh)[12:]
+    mesh.flip_normals()
+    inside_out = bmesh.new()
+    inside_out.from_mesh(mesh)
+    inside_out.faces.ensure_lookup_table()
+    bmesh.ops.reverse_faces(inside_out, faces=inside_out.faces[12:])
+    inside_out.to_mesh(mesh)
+    inside_out.free()
+    obj = add(mesh, location=(1.0, 2.0, 3.0), scale=(1.0, -2.0, 1.0))
+    bpy.ops.object.body_moments_measure()
+    volume = obj["body_volume"]
+    assert close(volume, 2.0 * (8.0 - 1.0 + 64.0), rel=1e-12)
+    assert findings_of(obj, "warning") == ["flipped_faces", "inverted_components"]
+    assert "object.body_moments_recalculate_outside" in buttons()
+    assert bpy.ops.object.body_moments_recalculate_outside() == {"FINISHED"}
+    assert findings_of(obj, "warning") == [] and close(obj["body_volume"], volume, rel=1e-12)
+    assert {frozenset(face) for face in orders(mesh)[6:12]} == {frozenset(face) for face in right[6:12]}
+    assert [set(face) for face in orders(mesh)[12:]] == [set(face) for face in right_of_third]
+    assert obj["body_method"] == "exact"
+    before = orders(mesh)
+    assert bpy.ops.object.body_moments_recalculate_outside() == {"CANCELLED"}
+    assert orders(mesh) == before
+
+
+def test_a_mesh_that_is_inside_out_as_a_whole_is_turned():
+    mesh = boxes(2.0, reverse=range(6))
+    obj = add(mesh)
+    assert bpy.ops.object.body_moments_recalculate_outside() == {"FINISHED"}
+    assert obj["body_method"] == "exact" and findings_of(obj, "warning") == []
+
+
+def test_count_as_union_and_measure_as_shell_set_the_setting_and_measure():
+    obj = add(boxes(2.0, 1.0))
+    bpy.ops.object.body_moments_measure()
+    assert findings_of(obj, "warning") == ["components_nested"] and close(obj["body_volume"], 9.0, rel=1e-12)
+    assert "object.body_moments_count_as_union" in buttons()
+    assert bpy.ops.object.body_moments_count_as_union() == {"FINISHED"}
+    assert close(obj["body_volume"], 8.0, rel=1e-6) and obj.body_moments.overlap == "UNION"
+    assert bpy.ops.object.body_moments_measure_as_shell(thickness=0.25) == {"FINISHED"}
+    assert obj["body_method"] == "shell" and close(obj["body_volume"], 0.25 * 30.0, rel=1e-6)
+
+
+def test_an_accepted_warning_is_a_note_here_in_records_and_when_measured_again():
+    from body_moments.blender.bodies.measure_object import measure_object
+    from body_moments.blender.session.tracking import staleness
+    from body_moments.core.measurement import record
+
+    obj, other = add(boxes(2.0, 1.0)), add(boxes(2.0, 1.0), "Other")
+    only(obj, other)
+    bpy.ops.object.body_moments_measure()
+    bpy.context.view_layer.objects.active = obj
+    assert obj["body_warnings"]
+    assert bpy.ops.object.body_moments_accept(code="components_nested") == {"FINISHED"}
+    assert not obj["body_warnings"] and other["body_warnings"]
+    assert findings_of(obj, "warning") == [] and "components_nested" in findings_of(obj, "note")
+    assert staleness.stale_reason(obj, bpy.context.scene) is None
+    assert "Accepted: 1 outward component lies" in " ".join(labels(shown()))
+    bpy.ops.object.body_moments_measure()
+    assert findings_of(obj, "warning") == [] and findings_of(other, "warning") == ["components_nested"]
+    measurement = measure_object(obj, bpy.context.evaluated_depsgraph_get())
+    entry = record.described(measurement.findings)
+    assert entry["warnings"] == [] and [found["severity"] for found in entry["findings"]] == ["note"]
+    assert bpy.ops.object.body_moments_accept(code="components_nested", accepted=False) == {"FINISHED"}
+    assert findings_of(obj, "warning") == ["components_nested"] and obj["body_warnings"]
+    assert bpy.ops.object.body_moments_accept(code="components_nested", accepted=False) == {"CANCELLED"}
+    assert bpy.ops.object.body_moments_accept(code="") == {"CANCELLED"}
+
+
+def test_errors_cannot_be_accepted_away():
+    from body_moments.blender.settings.accepted import with_acceptance
+    from body_moments.core.verdict.finding import Severity, finding
+    from body_moments.core.verdict.messages import severity
+
+    (marked,) = with_acceptance([finding("no_faces")], {"no_faces"})
+    assert severity(marked) == Severity.ERROR
+    (again,) = with_acceptance([marked], ())
+    assert again == finding("no_faces")
+
+
+def test_the_unit_is_asked_for_once_a_scene_and_set_at_a_click():
+    scene = bpy.context.scene
+    obj = add(boxes(60.0), location=(20.0, 0.0, 0.0))
+    obj.body_moments.density = 1240.0
+    ask = "scene.body_moments_set_millimeters"
+    assert ask not in buttons()
+    bpy.ops.object.body_moments_measure()
+    assert ask in buttons() and "60 m long and 268\u2009000 t" in " ".join(labels(shown()))
+    assert bpy.ops.scene.body_moments_set_millimeters() == {"FINISHED"}
+    assert scene.unit_settings.length_unit == "MILLIMETERS" and close(scene.unit_settings.scale_length, 1e-3, rel=1e-6)
+    assert close(obj["body_mass"], 0.26784, rel=1e-6) and ask not in buttons()
+    assert "20 mm" in labels(shown())
+    scene.unit_settings.scale_length = 1.0
+    bpy.ops.object.body_moments_measure()
+    assert ask not in buttons()
+
+
+def test_what_was_measured_is_measured_in_millimeters_where_that_is_wanted(reported, tmp_path):
+    scene = bpy.context.scene
+    other, obj = add(boxes(60.0), "Other"), add(boxes(60.0))
+    assert bpy.ops.scene.body_moments_set_millimeters() == {"FINISHED"} and not reported.codes
+    scene.unit_settings.scale_length = 1.0
+    bpy.ops.object.body_moments_measure()
+    reported.clear()
+    mass = obj["body_mass"]
+    assert bpy.ops.scene.body_moments_set_millimeters(remeasure=False) == {"FINISHED"}
+    assert obj["body_mass"] == mass and not reported.codes
+    assert bpy.ops.scene.body_moments_set_millimeters() == {"FINISHED"}
+    assert close(obj["body_mass"], 1e-9 * mass, rel=1e-6) and "body_mass" not in other and reported.codes
+    path = str(tmp_path / "library.blend")
+    bpy.data.libraries.write(path, {obj})
+    bpy.data.batch_remove([obj, other])
+    with bpy.data.libraries.load(path, link=True) as (found, names):
+        names.objects = [*found.objects]
+    (linked,) = names.objects
+    scene.collection.objects.link(linked)
+    reported.clear()
+    assert "body_mass" in linked and bpy.ops.scene.body_moments_set_millimeters() == {"FINISHED"}
+    assert not reported.codes

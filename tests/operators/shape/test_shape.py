@@ -1,0 +1,431 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Match Pose, Find Similar and Find Symmetry on objects of a scene."""
+
+import bpy
+import numpy as np
+import pytest
+from body_moments.operators import batch
+
+from tests.blender.objects import add, mesh_body, only, place, seen
+
+pytestmark = pytest.mark.usefixtures("scene")
+
+WEDGE = [(0, 0, 0), (1, 0.2, 0), (0.3, 2, 0.1), (0.2, 0.4, 3)]
+SIDES = [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
+
+
+def wedge(name="Wedge", scale=1.0, mirrored=False, **where):
+    mesh = bpy.data.meshes.new(name)
+    sign = -1 if mirrored else 1
+    points = [(sign * scale * x, scale * y, scale * z) for x, y, z in WEDGE]
+    mesh.from_pydata(points, [], [face[::-1] if mirrored else face for face in SIDES])
+    return add(mesh, name, **where)
+
+
+def cut(obj):
+    """The same shape with other faces and vertices."""
+    modifier = obj.modifiers.new("Cut", "SUBSURF")
+    modifier.subdivision_type, modifier.levels = "SIMPLE", 2
+    bpy.context.view_layer.update()
+
+
+def run(operator, **options):
+    return getattr(bpy.ops.object, "body_moments_" + operator)(**options)
+
+
+def refused(operator, **options):
+    with pytest.raises(RuntimeError) as error:
+        run(operator, **options)
+    return str(error.value)
+
+
+def test_a_copy_with_other_faces_comes_to_lie_on_the_active_object():
+    target = wedge("Target", location=(1, 2, 3), rotation=(0.3, 0.4, 0.5))
+    copy = wedge("Copy", location=(-7, 2, 1), rotation=(2.0, 1.0, -0.4))
+    cut(copy)
+    was = place(target)
+    only(target, copy)
+    assert run("match_pose") == {"FINISHED"}
+    assert (place(target) == was).all()
+    assert np.abs(place(copy) - place(target)).max() < 2e-6
+
+
+def test_objects_of_other_origins_and_units_are_laid_on_as_well():
+    bpy.context.scene.unit_settings.scale_length = 0.001
+    target = wedge("Target", location=(100, 200, 300), rotation=(0.3, 0.4, 0.5))
+    copy = wedge("Copy", location=(-7, 2, 1))
+    for vertex in copy.data.vertices:
+        vertex.co.x += 5.0
+    only(target, copy)
+    assert run("match_pose") == {"FINISHED"}
+    assert np.abs(seen(copy) - seen(target)).max() < 1e-4
+
+
+def test_a_mirror_image_stays_where_it_is(reported):
+    target = wedge("Target")
+    image = wedge("Image", mirrored=True, location=(5, 0, 0))
+    was = place(image)
+    only(target, image)
+    assert run("match_pose") == {"CANCELLED"}
+    assert (place(image) == was).all()
+    assert "mirror_image" in reported.codes
+
+
+def test_a_symmetric_object_takes_the_nearest_of_its_poses():
+    bpy.ops.mesh.primitive_cube_add(location=(1, 2, 3), rotation=(0.2, 0.1, 0.3))
+    target = bpy.context.object
+    bpy.ops.mesh.primitive_cube_add(location=(-4, 0, 0), rotation=(0.25, 0.1, 0.3))
+    copy = bpy.context.object
+    before = place(copy)
+    only(target, copy)
+    assert run("match_pose") == {"FINISHED"}
+    assert np.trace(before[:3, :3].T @ place(copy)[:3, :3]) > 2.99  # it turned by a little, not by a quarter
+    assert np.abs(place(copy) - place(target)).max() < 1e-5
+
+
+def test_round_objects_turn_no_more_than_they_must():
+    bpy.ops.mesh.primitive_cylinder_add(vertices=64, depth=3, location=(1, 2, 3), rotation=(0.5, 0.1, 0.3))
+    target = bpy.context.object
+    bpy.ops.mesh.primitive_cylinder_add(vertices=64, depth=3, location=(5, 2, 3), rotation=(0.5, 0.1, 0.3))
+    copy = bpy.context.object
+    before = place(copy)
+    only(target, copy)
+    assert run("match_pose") == {"FINISHED"}
+    assert np.abs(place(copy)[:3, :3] - before[:3, :3]).max() < 1e-5
+    assert np.allclose(place(copy)[:3, 3], (1, 2, 3), atol=1e-5)
+
+
+def test_a_part_of_the_target_is_no_copy(reported):
+    """Both directions are looked at: every corner of the small cube lies on a face of the slotted one."""
+    bpy.ops.mesh.primitive_cube_add(size=2)
+    target = bpy.context.object
+    bpy.ops.mesh.primitive_cube_add(size=1, location=(5, 0, 0))
+    small = bpy.context.object
+    only(target, small)
+    assert run("match_pose") == {"FINISHED"}
+    assert "pose_not_a_copy" in reported.codes
+
+
+def test_one_undo_takes_a_match_back():
+    target, copy = wedge("Target"), wedge("Copy", location=(3, 2, 1), rotation=(1, 2, 3))
+    only(target, copy)
+    before = place(copy)
+    bpy.ops.ed.undo_push()
+    run("match_pose")
+    bpy.ops.ed.undo_push()
+    assert np.abs(place(bpy.data.objects["Copy"]) - before).max() > 0.1
+    bpy.ops.ed.undo()
+    assert np.abs(place(bpy.data.objects["Copy"]) - before).max() < 1e-6
+
+
+def test_a_parent_is_not_laid_onto_its_child(reported):
+    parent, child = wedge("Parent"), wedge("Child", location=(3, 2, 1))
+    child.parent = parent
+    only(child, parent)
+    assert run("match_pose") == {"CANCELLED"}
+    assert "active_is_child" in reported.codes
+
+
+@pytest.mark.parametrize("operator", ["find_symmetry", "find_similar"])
+def test_what_is_too_far_away_for_its_shape_to_be_seen_is_refused(operator, reported):
+    far, near = wedge("Far", location=(1e20, 0, 0)), wedge("Near", location=(1e7, 0, 0))
+    only(far, near)
+    if operator == "find_similar":
+        refused(operator)
+        only(near)
+        assert run(operator) == {"FINISHED"}
+    else:
+        assert run(operator) == {"FINISHED"} and not far.is_property_set("body_moments_symmetry")
+    assert reported.codes.count("shape_far_from_origin") == (2 if operator == "find_similar" else 1)
+
+
+def test_an_object_of_astronomical_size_is_found_by_its_shape():
+    small = wedge("Small", location=(1, 2, 3))
+    huge = wedge("Huge", location=(0, 0, 0), scale=1e12)
+    huge.scale = (1e15, 1e15, 1e15)
+    only(huge)
+    bpy.context.view_layer.update()
+    assert run("find_similar", scaled=True) == {"FINISHED"}
+    (found,) = bpy.context.scene.body_moments_search.found
+    assert found.name == small.name and found.distance < 1e-6
+
+
+@pytest.mark.parametrize("held", [0, 1, 2])
+def test_what_is_held_where_it_is_keeps_no_other_from_its_place(held, reported):
+    target, *others = (wedge(name, location=(9 * place, 1, 2)) for place, name in enumerate("abcd"))
+    limit = others[held].constraints.new("LIMIT_LOCATION")
+    limit.use_min_x, limit.min_x = True, 5.0
+    only(target, *others)
+    bpy.context.view_layer.update()
+    assert run("match_pose") == {"FINISHED"} and reported.values("poses_matched")["count"] == 2
+    apart = [np.abs(place(other) - place(target)).max() for other in others]
+    assert [distance > 1.0 for distance in apart] == [number == held for number in range(3)]
+
+
+def scene_of_shapes():
+    wanted = wedge("Wanted", location=(1, 2, 3), rotation=(0.3, 0.4, 0.5))
+    copy = wedge("Copy", location=(-7, 2, 1), rotation=(2.0, 1.0, -0.4))
+    cut(copy)
+    wedge("Image", mirrored=True, location=(5, 0, 0))
+    wedge("Big", scale=2.0, location=(0, 9, 0))
+    add(mesh_body(), "Other", location=(5, 5, 5))
+    only(wanted)
+    return wanted
+
+
+def found():
+    return {row.name: row.verdict for row in bpy.context.scene.body_moments_search.found}
+
+
+def selected():
+    return {obj.name for obj in bpy.context.selected_objects}
+
+
+def test_similar_objects_are_found_listed_and_selected():
+    scene_of_shapes()
+    assert run("find_similar") == {"FINISHED"}
+    rows = found()
+    assert rows == {"Copy": "copy", "Image": "mirror", "Big": "scaled_copy", "Other": rows["Other"]}
+    assert rows["Other"] in ("similar", "different")
+    assert next(iter(rows)) == "Copy" and bpy.context.scene.body_moments_search.wanted == "Wanted"
+    assert selected() == {"Wanted", "Copy"}
+
+
+@pytest.mark.parametrize(
+    "options, more",
+    [
+        ({"mirrored": True}, {"Image"}),
+        ({"scaled": True}, {"Big"}),
+        ({"mirrored": True, "scaled": True}, {"Image", "Big", "Big Image"}),
+    ],
+)
+def test_mirror_images_and_other_sizes_are_selected_where_asked_for(options, more):
+    wedge("Big Image", scale=2.0, mirrored=True, location=(0, -9, 0))
+    scene_of_shapes()
+    run("find_similar", **options)
+    assert selected() == {"Wanted", "Copy"} | more
+
+
+def prism(name, points, **where):
+    """A triangular prism, its points turned and moved within the object, which rounds them."""
+    turn = np.array([[0.36, 0.48, -0.8], [-0.8, 0.6, 0.0], [0.48, 0.64, 0.6]])
+    corners = [(*point, z) for z in (0.0, 1.5) for point in points]
+    mesh = bpy.data.meshes.new(name)
+    if where:
+        corners = np.array(corners) @ turn.T + [0.3, 0.2, 0.1]
+    mesh.from_pydata(np.array(corners).tolist(), [], [(2, 1, 0), (3, 4, 5), (0, 1, 4, 3), (1, 2, 5, 4), (2, 0, 3, 5)])
+    return add(mesh, name, **where)
+
+
+def test_copies_whose_hands_rounding_hides_are_held_against_the_surface():
+    wanted = prism("Wanted", [(0, 0), (3, 0), (1, 1)])
+    prism("Copy", [(0, 0), (3, 0), (1, 1)], location=(9, 0, 0))
+    only(wanted)
+    from body_moments.blender.bodies.shape.shape import surface_shape_of
+    from body_moments.core.shape.library import classify
+    from body_moments.core.shape.signatures import similarity
+
+    depsgraph = bpy.context.evaluated_depsgraph_get()
+    first, second = (surface_shape_of(bpy.data.objects[name], depsgraph).signature(12) for name in ("Wanted", "Copy"))
+    assert classify(similarity(first, second)) == "copy_or_mirror"
+    assert run("find_similar") == {"FINISHED"}
+    assert found() == {"Copy": "copy"} and selected() == {"Wanted", "Copy"}
+
+
+def test_a_library_measured_in_batch_is_searched(tmp_path, reported):
+    scene_of_shapes()
+    path = tmp_path / "library.jsonl"
+    with open(tmp_path / "sink", "wb") as sink:
+        assert (
+            batch.main(["measure", "--signature", "--format", "jsonl", "--output", str(path)], channel=sink.fileno())
+            == 0
+        )
+    for name in ("Copy", "Image", "Big", "Other"):
+        bpy.data.objects.remove(bpy.data.objects[name])
+    assert run("find_in_library", filepath=str(path)) == {"FINISHED"}
+    rows = found()
+    assert rows["Copy"] == "copy" and rows["Image"] == "mirror" and rows["Big"] == "scaled_copy"
+    assert bpy.context.scene.body_moments_search.looked_at == "library.jsonl"
+    refused("find_in_library", filepath=str(tmp_path / "none.jsonl"))
+    assert reported.codes[-1] == "library_file_unreadable"
+    bpy.context.object.data = bpy.data.meshes.new("Nothing")
+    refused("find_in_library", filepath=str(path))
+    assert reported.codes[-1] != "library_file_unreadable" and found() == rows
+
+
+def test_what_was_found_survives_saving_and_loading(tmp_path, reported):
+    scene_of_shapes()
+    run("find_similar")
+    run("find_symmetry")
+    before = found()
+    path = str(tmp_path / "scene.blend")
+    bpy.ops.wm.save_as_mainfile(filepath=path)
+    bpy.ops.wm.open_mainfile(filepath=path)
+    assert found() == before
+    assert bpy.data.objects["Copy"].body_moments_symmetry.group == "C1"
+    assert run("select_found", name="Image") == {"FINISHED"}
+    assert bpy.context.object.name == "Image" and selected() == {"Image"}
+    refused("select_found", name="Nobody")
+    assert reported.codes[-1] == "object_not_in_view_layer"
+
+
+@pytest.mark.parametrize(
+    "make, group",
+    [
+        (lambda: bpy.ops.mesh.primitive_cube_add(), "Oh"),
+        (lambda: bpy.ops.mesh.primitive_cylinder_add(vertices=12), "D12h"),
+        (lambda: bpy.ops.mesh.primitive_cylinder_add(vertices=256), "D∞h"),
+        (lambda: bpy.ops.mesh.primitive_cone_add(vertices=5), "C5v"),
+        (lambda: bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=2), "Ih"),
+        (lambda: bpy.ops.mesh.primitive_torus_add(major_segments=48, minor_segments=12), "D48h"),
+        (lambda: bpy.ops.mesh.primitive_monkey_add(), "Cs"),
+    ],
+)
+def test_the_symmetry_of_what_blender_adds(make, group):
+    make()
+    obj = bpy.context.object
+    obj.location, obj.rotation_euler = (1, 2, 3), (0.3, 0.4, 0.5)
+    if group == "Cs":
+        obj.body_moments.kind = "SHELL"  # the monkey's eyes are open
+    bpy.context.view_layer.update()
+    assert run("find_symmetry") == {"FINISHED"}
+    assert obj.body_moments_symmetry.group == group
+
+
+def test_the_elements_are_in_the_object_s_own_axes():
+    bpy.ops.mesh.primitive_cone_add(vertices=5, rotation=(0.3, 0.4, 0.5), location=(1, 2, 3))
+    obj = bpy.context.object
+    for _ in range(2):  # what was found before is forgotten
+        run("find_symmetry")
+    elements = obj.body_moments_symmetry.elements
+    (axis,) = [one for one in elements if one.kind == "AXIS"]
+    assert axis.order == 5 and np.allclose(axis.direction, (0, 0, 1), atol=1e-5)
+    planes = [one for one in elements if one.kind == "PLANE"]
+    assert len(planes) == 5 and all(abs(plane.direction[2]) < 1e-5 for plane in planes)
+
+
+def test_nothing_of_the_objects_is_touched():
+    scene_of_shapes()
+    before = {obj.name: (place(obj), [tuple(vertex.co) for vertex in obj.data.vertices]) for obj in bpy.data.objects}
+    run("find_similar", select=False)
+    run("find_symmetry")
+    for obj in bpy.data.objects:
+        assert (place(obj) == before[obj.name][0]).all()
+        assert [tuple(vertex.co) for vertex in obj.data.vertices] == before[obj.name][1]
+
+
+def test_a_symmetry_is_out_of_date_after_an_edit_and_not_after_a_motion():
+    from body_moments.blender.session.tracking import staleness
+
+    obj = wedge()
+    run("measure")
+    run("find_symmetry")
+    scene = bpy.context.scene
+    assert staleness.symmetry_stale_reason(obj) is None and staleness.stale_reason(obj, scene) is None
+    obj.location.x, obj.rotation_euler.y, obj.scale = 3.0, 1.0, (2, 2, 2)
+    bpy.context.view_layer.update()
+    assert staleness.symmetry_stale_reason(obj) is None
+    obj.scale.x = 1.5
+    bpy.context.view_layer.update()
+    assert staleness.symmetry_stale_reason(obj) == "stale_scale"
+    obj.data.vertices[0].co.x += 0.5
+    obj.data.update()
+    bpy.context.view_layer.update()
+    assert staleness.symmetry_stale_reason(obj) == "stale_geometry"
+    assert obj.body_moments_symmetry.group == "C1"
+
+
+def test_a_signature_goes_beyond_order_20_by_quadrature():
+    from body_moments.blender.bodies.shape.shape import shape_of
+
+    shape = shape_of(wedge(location=(1, 2, 3), scale=2.0), bpy.context.evaluated_depsgraph_get())
+    long, short = shape.signature(26), shape.signature()
+    assert len(long.zernike) == 196 and len(short.zernike) == 121
+    assert np.abs(long.zernike[:121] - short.zernike).max() < 1e-9
+
+
+def test_a_shell_has_a_pose_and_a_signature_of_its_sheet():
+    from body_moments.blender.bodies.shape.shape import shape_of
+
+    obj = wedge(location=(1, 2, 3))
+    obj.body_moments.kind = "SHELL"
+    bpy.context.view_layer.update()
+    shape = shape_of(obj, bpy.context.evaluated_depsgraph_get())
+    assert shape.moments.measure == "area" and shape.pose()["symmetry"] == "C1"
+    assert len(shape.signature(6).fourier) == 0 and len(shape.signature(6).zernike) == 16
+
+
+def test_instances_are_part_of_the_shape():
+    from body_moments.blender.bodies.shape.shape import shape_of
+    from body_moments.core.shape.signatures import similarity
+
+    obj = wedge()
+    array = obj.modifiers.new("Array", "ARRAY")
+    array.relative_offset_displace = (2.0, 0.0, 0.0)
+    group = bpy.data.collections.new("Two")
+    for x in (0.0, 2.0):
+        one = wedge("One", location=(x, 0, 0))
+        bpy.context.scene.collection.objects.unlink(one)
+        group.objects.link(one)
+    empty = add(None, "Both", location=(5, 5, 5), rotation=(1, 2, 3))
+    empty.instance_type, empty.instance_collection = "COLLECTION", group
+    bpy.context.view_layer.update()
+    depsgraph = bpy.context.evaluated_depsgraph_get()
+    one, other = (shape_of(thing, depsgraph).signature(8) for thing in (obj, empty))
+    assert similarity(one, other).distance() < 1e-4
+
+
+def test_clearing_takes_the_symmetry_away():
+    obj = wedge()
+    run("find_symmetry")
+    assert obj.is_property_set("body_moments_symmetry")
+    assert run("clear") == {"FINISHED"}
+    assert not obj.is_property_set("body_moments_symmetry")
+    assert run("clear") == {"CANCELLED"}
+
+
+@pytest.mark.parametrize("body", ["wedge", "sliver", "sphere"])
+def test_distances_from_a_skin_are_those_from_all_triangles_and_decide_alike(body):
+    from body_moments.blender.bodies.shape.shape import SurfaceDistance, shape_of
+    from body_moments.core.mesh.point_triangle import triangle_distances
+
+    if body == "sphere":
+        bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=3, location=(1, 2, 3))
+        obj = bpy.context.object
+    else:
+        obj = wedge(location=(1, 2, 3))
+        obj.scale.z = 1.0 if body == "wedge" else 1e-3
+        bpy.context.view_layer.update()
+    shape = shape_of(obj, bpy.context.evaluated_depsgraph_get())
+    skin = SurfaceDistance(shape)
+    assert list(skin.build())[-1] == 1.0
+    (piece,) = shape.pieces()
+    corners = piece.points[piece.all_triangles()[0]]
+    rng = np.random.default_rng(0)
+    away = rng.normal(size=skin.points.shape) * 10.0 ** rng.uniform(-7, 0.5, len(skin.points))[:, None] * shape.size
+    points = skin.points + away
+    truth = np.array([triangle_distances(point, corners).min() for point in points])
+    found = skin.distance(points)
+    assert np.abs(found - truth).max() < 2e-6 * shape.size + 1e-6 * truth.max()
+    near = (truth > 2e-5 * shape.size) & (truth < 9e-3 * shape.size)
+    assert near.sum() > 5 and (found - truth)[near].max() < 1e-12  # single precision may tell less
+    for tolerance in np.array([1e-6, 1e-4, 1e-3, 1e-2, 0.1]) * shape.size:
+        assert ((found <= tolerance) == (skin.distance(points, within=tolerance) <= tolerance)).all()
+
+
+def test_a_copy_of_another_size_lies_on_the_first_one_once_it_is_scaled():
+    from body_moments.blender.bodies.shape.shape import SurfaceDistance, register_surfaces, shape_of
+
+    objects = wedge(location=(1, 2, 3), rotation=(0.3, 1.0, 2.0)), wedge(location=(-4, 5, 6), rotation=(1, 2, 3))
+    objects[0].scale = (2.5, 2.5, 2.5)
+    bpy.context.view_layer.update()
+    depsgraph = bpy.context.evaluated_depsgraph_get()
+    source, target = (shape_of(obj, depsgraph) for obj in objects)
+    skins = SurfaceDistance(source), SurfaceDistance(target)
+    assert [list(skin.build()) for skin in skins] == [[0.2, 0.4, 1.0]] * 2
+    found = register_surfaces(source, target, *skins, scale=0.4)
+    turn = np.array(objects[1].matrix_world.to_3x3()) @ np.array(objects[0].matrix_world.to_3x3()).T / 2.5
+    assert np.abs(found.rotation - turn).max() < 1e-5 and found.max_distance < 1e-5 * target.size
+    apart = register_surfaces(source, target, *skins)
+    assert apart.mean_distance > 0.1 * target.size

@@ -1,0 +1,433 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Sculpt Balance in Edit Mode and Object Mode: what moves, what does not, and what is refused."""
+
+from contextlib import contextmanager
+
+import bpy
+import numpy as np
+import pytest
+from body_moments.blender.session.tracking import staleness
+from body_moments.blender.write import properties
+from mathutils import Matrix
+
+from tests.blender.objects import add, measured, only
+from tests.close import close
+
+bmesh = pytest.importorskip("bmesh")  # only found once bpy is loaded
+pytestmark = pytest.mark.usefixtures("scene")
+
+balance = bpy.ops.object.body_moments_sculpt_balance
+
+
+def figure(**more):
+    """A sphere cut in quads, its upper half pulled to one side: it would fall over."""
+    mesh = bpy.data.meshes.new("Figure")
+    work = bmesh.new()
+    bmesh.ops.create_uvsphere(work, u_segments=20, v_segments=14, radius=1.0)
+    for vertex in work.verts:
+        if vertex.co.z > 0.0:
+            vertex.co.x += 0.6 * vertex.co.z
+    work.to_mesh(mesh)
+    work.free()
+    return add(mesh, "Figure", **more)
+
+
+def split(mesh):
+    """The same faces, each with vertices of its own."""
+    work = bmesh.new()
+    work.from_mesh(mesh)
+    bmesh.ops.split_edges(work, edges=work.edges)
+    made = bpy.data.meshes.new("Split")
+    work.to_mesh(made)
+    work.free()
+    return made
+
+
+def points(obj):
+    if obj.mode == "EDIT":
+        return np.array([v.co[:] for v in bmesh.from_edit_mesh(obj.data).verts], np.float64)
+    found = np.empty(3 * len(obj.data.vertices), np.float32)
+    obj.data.vertices.foreach_get("co", found)
+    return found.reshape(-1, 3).astype(np.float64)
+
+
+def world(obj, local):
+    matrix = np.array(obj.matrix_world, np.float64)
+    return local @ matrix[:3, :3].T + matrix[:3, 3]
+
+
+def edit(obj, chosen=lambda co: co.z > 0.1):
+    only(obj)
+    bpy.ops.object.mode_set(mode="EDIT")
+    mesh = bmesh.from_edit_mesh(obj.data)
+    for vertex in mesh.verts:
+        vertex.select = chosen(vertex.co)
+    mesh.select_flush_mode()
+    bmesh.update_edit_mesh(obj.data)
+    return np.array([v.select for v in mesh.verts])
+
+
+def group(obj, weight=lambda co: float(co.z > 0.1), name="Top"):
+    made = obj.vertex_groups.new(name=name)
+    for vertex in obj.data.vertices:
+        value = weight(vertex.co)
+        if value > 0.0:
+            made.add([vertex.index], value, "REPLACE")
+    return made
+
+
+def center(obj):
+    return measured(obj).mass_properties.center
+
+
+@contextmanager
+def told_of(mesh):
+    """The changes of a mesh's geometry that Blender is told of."""
+    changes = []
+
+    def note(_scene, depsgraph):
+        changes.extend(one for one in depsgraph.updates if one.id.original == mesh and one.is_updated_geometry)
+
+    bpy.app.handlers.depsgraph_update_post.append(note)
+    try:
+        yield changes
+    finally:
+        bpy.app.handlers.depsgraph_update_post.remove(note)
+
+
+@pytest.fixture(autouse=True)
+def object_mode():
+    yield
+    if bpy.context.mode != "OBJECT":
+        bpy.ops.object.mode_set(mode="OBJECT")
+
+
+def test_selected_vertices_move_and_the_center_comes_over_the_cursor():
+    obj = figure()
+    selected = edit(obj)
+    before, height = points(obj), center(obj)[2]
+    bpy.context.scene.cursor.location = (0.02, 0.01, -1.0)
+    assert balance() == {"FINISHED"}
+    assert obj.mode == "EDIT"
+    moved = np.abs(points(obj) - before).max(axis=1) > 0
+    assert np.array_equal(points(obj)[~selected], before[~selected]) and moved[selected].sum() > 20
+    assert np.abs(center(obj)[:2] - (0.02, 0.01)).max() < 1e-6
+    assert 0.0 < abs(center(obj)[2] - height) < 0.3
+    for face in bmesh.from_edit_mesh(obj.data).faces:
+        shown = face.normal.copy()
+        face.normal_update()
+        assert (shown - face.normal).length < 1e-6
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert np.abs(center(obj)[:2] - (0.02, 0.01)).max() < 1e-6
+    assert np.array_equal([vertex.select for vertex in obj.data.vertices], selected)
+
+
+def test_all_three_axes_on_request():
+    obj = figure()
+    edit(obj)
+    bpy.context.scene.cursor.location = (0.05, 0.0, 0.02)
+    assert balance(axes="ALL") == {"FINISHED"}
+    assert np.abs(center(obj) - (0.05, 0.0, 0.02)).max() < 1e-6
+
+
+def test_a_point_instead_of_the_cursor():
+    obj = figure()
+    edit(obj)
+    assert balance(target="POINT", point=(0.03, 0.0, 9.0)) == {"FINISHED"}
+    assert np.abs(center(obj)[:2] - (0.03, 0.0)).max() < 1e-6
+
+
+@pytest.mark.parametrize("is_on", [True, False])
+def test_gravity_says_what_over_means_where_it_is_on(is_on):
+    obj = figure()
+    edit(obj)
+    bpy.context.scene.gravity, bpy.context.scene.use_gravity = (0.0, 9.81, 0.0), is_on
+    bpy.context.scene.cursor.location = (0.05, 5.0, 0.0) if is_on else (0.05, 0.0, 5.0)
+    assert balance() == {"FINISHED"}
+    assert np.abs(center(obj)[[0, 2 if is_on else 1]] - (0.05, 0.0)).max() < 1e-6
+
+
+@pytest.mark.parametrize("scale", [(2.0, 0.5, 1.5), (-1.0, 1.0, 1.0), (0.01, 0.01, 0.01)])
+def test_a_scaled_turned_and_parented_object_is_balanced_in_the_world(scale):
+    parent = bpy.data.objects.new("Parent", None)
+    bpy.context.scene.collection.objects.link(parent)
+    parent.scale, parent.location = (1.0, 1.5, 2.0), (10.0, -5.0, 3.0)
+    obj = figure(rotation=(0.5, 0.2, 0.1), scale=scale)
+    obj.parent = parent
+    bpy.context.view_layer.update()
+    size = np.ptp(world(obj, points(obj)), axis=0).max()
+    target = center(obj) + np.array([-0.01, 0.01, 0.0]) * size
+    edit(obj)
+    assert balance(target="POINT", point=target) == {"FINISHED"}
+    assert np.abs(center(obj) - target)[:2].max() < 2e-6 * (size + 10.0)
+
+
+def test_the_scenes_unit_is_the_points_and_the_limits():
+    bpy.context.scene.unit_settings.scale_length = 0.01
+    obj = figure()
+    edit(obj)
+    assert balance(target="POINT", point=(0.03, 0.0, 0.0), limit=1.0) == {"FINISHED"}
+    assert np.abs(center(obj)[:2] / 0.01 - (0.03, 0.0)).max() < 1e-6
+
+
+def test_no_vertex_moves_further_than_the_limit():
+    obj = figure()
+    edit(obj)
+    before = points(obj)
+    bpy.context.scene.cursor.location = (0.06, 0.0, 0.0)
+    assert balance() == {"FINISHED"}
+    free = np.linalg.norm(points(obj) - before, axis=1).max()
+    bpy.ops.object.mode_set(mode="OBJECT")
+    obj.data.vertices.foreach_set("co", before.astype(np.float32).ravel())
+    edit(obj)
+    assert balance(limit=0.7 * free) == {"FINISHED"}
+    assert np.linalg.norm(points(obj) - before, axis=1).max() <= 0.7 * free * (1 + 1e-6)
+    assert np.abs(center(obj)[:2] - (0.06, 0.0)).max() < 1e-6
+
+
+def test_a_vertex_group_moves_as_willingly_as_it_weighs():
+    obj = figure()
+    group(obj, lambda co: max(co.z, 0.0))
+    before = points(obj)
+    bpy.context.scene.cursor.location = (0.1, 0.0, 0.0)
+    assert balance() == {"FINISHED"}
+    lengths = np.linalg.norm(points(obj) - before, axis=1)
+    assert np.abs(center(obj)[:2] - (0.1, 0.0)).max() < 1e-6
+    assert (lengths[before[:, 2] <= 0.0] == 0.0).all() and lengths[before[:, 2] > 0.5].max() > 0.0
+    assert obj.mode == "OBJECT"
+
+
+def test_a_named_group_is_used_and_a_missing_one_is_reported(reported):
+    obj = figure()
+    group(obj)
+    group(obj, lambda co: float(co.z < -0.1), "Feet")
+    before = points(obj)
+    bpy.context.scene.cursor.location = (0.15, 0.0, 0.0)
+    assert balance(group="Top") == {"FINISHED"}
+    assert np.array_equal(points(obj)[before[:, 2] < 0.0], before[before[:, 2] < 0.0])
+    assert balance(group="Missing") == {"CANCELLED"}
+    assert reported.values("balance_no_group") == {"group": "Missing"}
+
+
+def test_a_thin_shell_is_balanced_by_its_area():
+    obj = figure()
+    obj.body_moments.kind = "SHELL"
+    edit(obj)
+    bpy.context.scene.cursor.location = (0.12, 0.0, 0.0)
+    assert balance() == {"FINISHED"}
+    assert str(measured(obj).method) == "shell"
+    assert np.abs(center(obj)[:2] - (0.12, 0.0)).max() < 1e-6
+
+
+def test_faces_that_bend_are_measured_as_they_are_cut_afterwards():
+    mesh = bpy.data.meshes.new("Crate")
+    corners = [(x, y, z) for z in (0, 1, 2) for y in (0, 1) for x in (0, 1)]
+    mesh.from_pydata(
+        corners,
+        [],
+        [
+            (0, 2, 3, 1),
+            (8, 9, 11, 10),
+            *((a + k, b + k, b + k + 4, a + k + 4) for k in (0, 4) for a, b in ((0, 1), (1, 3), (3, 2), (2, 0))),
+        ],
+    )
+    obj = add(mesh)
+    edit(obj, lambda co: co.z > 1.5)
+    bpy.context.scene.cursor.location = (0.55, 0.45, 0.0)
+    assert balance() == {"FINISHED"}
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert np.abs(center(obj)[:2] - (0.55, 0.45)).max() < 1e-6
+
+
+def test_an_n_gon_is_moved_too():
+    mesh = bpy.data.meshes.new("Drum")
+    work = bmesh.new()
+    bmesh.ops.create_cone(work, cap_ends=True, segments=24, radius1=1.0, radius2=1.0, depth=2.0)
+    work.to_mesh(mesh)
+    work.free()
+    obj = add(mesh)
+    edit(obj, lambda co: co.z > 0.5)
+    bpy.context.scene.cursor.location = (0.01, 0.0, 0.0)
+    assert balance() == {"FINISHED"}
+    assert np.abs(center(obj)[:2] - (0.01, 0.0)).max() < 1e-6
+
+
+def test_numbers_that_were_stored_are_brought_up_to_date():
+    obj = figure()
+    only(obj)
+    bpy.ops.object.body_moments_measure()
+    edit(obj)
+    bpy.context.scene.cursor.location = (0.05, 0.0, 0.0)
+    assert balance() == {"FINISHED"}
+    bpy.ops.object.mode_set(mode="OBJECT")
+    bpy.context.view_layer.update()
+    assert np.abs(np.array(obj["body_center_of_mass"])[:2] - (0.05, 0.0)).max() < 1e-6
+
+
+def unchanged(obj, before, code, reported):
+    assert balance() == {"CANCELLED"}
+    assert np.array_equal(points(obj), before)
+    assert code in reported.codes
+
+
+@pytest.fixture
+def over_cursor(scene):
+    bpy.context.scene.cursor.location = (0.05, 0.0, 0.0)
+
+
+@pytest.mark.usefixtures("over_cursor")
+class TestRefused:
+    """Refusals leave everything as it was, with the reason."""
+
+    def test_no_selection(self, reported):
+        obj = figure()
+        edit(obj, lambda co: False)
+        unchanged(obj, points(obj), "balance_no_selection", reported)
+
+    def test_too_far(self, reported):
+        obj = figure()
+        only(obj)
+        bpy.ops.object.body_moments_measure()
+        numbers = properties.numbers(obj)
+        edit(obj, lambda co: co.z > 0.8)
+        bpy.context.scene.cursor.location = (50.0, 0.0, 0.0)
+        before = points(obj)
+        unchanged(obj, before, "balance_short_by_limit", reported)
+        size = np.linalg.norm(np.ptp(before, axis=0))  # the limit where none is given
+        assert close(reported.values("balance_short_by_limit")["limit"], size, rel=1e-6)
+        bpy.ops.object.mode_set(mode="OBJECT")
+        assert properties.numbers(obj) == numbers
+
+    @pytest.mark.parametrize("unit", [1.0, 0.01])
+    @pytest.mark.parametrize("way", [edit, group])
+    def test_a_limit_that_is_too_small_moves_nothing_and_others_need_not_look(self, way, unit, reported):
+        bpy.context.scene.unit_settings.scale_length = unit
+        obj = figure()
+        way(obj)
+        bpy.context.view_layer.update()
+        before = points(obj)
+        with told_of(obj.data) as changes:
+            assert balance(limit=1e-4) == {"CANCELLED"}
+            bpy.context.view_layer.update()
+        assert not changes and np.array_equal(points(obj), before)
+        assert close(reported.values("balance_short_by_limit")["limit"], 1e-4 * unit, rel=1e-6)
+
+    def test_faces_that_would_turn_over(self, reported):
+        obj = figure()
+        edit(obj)
+        before = points(obj)
+        assert balance(target="POINT", point=(-0.4, 0.0, 0.0)) == {"CANCELLED"}
+        assert np.array_equal(points(obj), before)
+        assert reported.values("balance_folds_faces")["count"] > 0
+
+    def test_a_mesh_that_is_open(self, reported):
+        obj = figure()
+        edit(obj)
+        mesh = bmesh.from_edit_mesh(obj.data)
+        mesh.faces.ensure_lookup_table()
+        bmesh.ops.delete(mesh, geom=mesh.faces[:1], context="FACES")
+        bmesh.update_edit_mesh(obj.data)
+        unchanged(obj, points(obj), "balance_unclean", reported)
+
+    def test_a_mesh_whose_faces_share_no_vertices(self, reported):
+        obj = figure()
+        obj.data = split(obj.data)
+        edit(obj)
+        unchanged(obj, points(obj), "balance_unclean", reported)
+
+    def test_shape_keys(self, reported):
+        obj = figure()
+        obj.shape_key_add(name="Basis")
+        edit(obj)
+        unchanged(obj, points(obj), "balance_shape_keys", reported)
+
+    def test_modifiers_that_change_the_mesh(self, reported):
+        obj = figure()
+        obj.modifiers.new("Smooth", "SUBSURF").levels = 1
+        obj.modifiers.new("Hidden", "SUBSURF").show_viewport = False
+        edit(obj)
+        unchanged(obj, points(obj), "balance_modified", reported)
+        assert reported.values("balance_modified") == {"modifiers": ["Smooth"]}
+
+    def test_what_is_bent_by_its_parent(self, reported):
+        cage = add(bpy.data.lattices.new("Cage"), "Cage", scale=(3, 3, 3), select=False)
+        cage.data.points[1].co_deform.x += 0.3
+        obj = figure()
+        obj.parent, obj.parent_type = cage, "LATTICE"
+        group(obj)
+        bpy.context.view_layer.update()
+        unchanged(obj, points(obj), "balance_modified_unknown", reported)
+
+    def test_no_active_group(self, reported):
+        obj = figure()
+        group(obj)
+        obj.vertex_groups.active_index = -1
+        unchanged(obj, points(obj), "balance_no_active_group", reported)
+
+    def test_a_wall(self, reported):
+        obj = figure()
+        obj.body_moments.kind, obj.body_moments.wall = "SHELL", "INWARD"
+        edit(obj)
+        unchanged(obj, points(obj), "balance_wall", reported)
+
+    def test_a_zero_scale(self, reported):
+        obj = figure(scale=(1, 1, 0))
+        obj.body_moments.kind = "SHELL"
+        edit(obj)
+        unchanged(obj, points(obj), "balance_zero_scale", reported)
+
+    def test_a_group_without_weights(self, reported):
+        obj = figure()
+        group(obj, lambda co: 0.0)
+        unchanged(obj, points(obj), "balance_group_empty", reported)
+
+
+@pytest.mark.usefixtures("over_cursor")
+def test_other_users_of_the_mesh_are_reported_and_their_numbers_are_out_of_date(reported):
+    obj = figure()
+    other = add(obj.data, "Other")
+    only(obj, other)
+    bpy.ops.object.body_moments_measure()
+    only(obj)
+    group(obj)
+    assert balance() == {"FINISHED"}
+    assert "balance_mesh_shared" in reported.codes
+    bpy.context.view_layer.update()
+    reasons = [staleness.stale_reason(one, bpy.context.scene) for one in (obj, other)]
+    assert reasons == [None, "stale_geometry"]
+
+
+def test_a_refusal_does_not_make_stored_numbers_out_of_date():
+    obj = figure()
+    group(obj, lambda co: float(co.z > 0.95))
+    bpy.ops.object.body_moments_measure()
+    bpy.context.scene.cursor.location = (3.0, 0.0, 0.0)
+    assert balance() == {"CANCELLED"}
+    bpy.context.view_layer.update()
+    assert staleness.stale_reason(obj, bpy.context.scene) is None
+
+
+def test_undo_brings_the_vertices_back():
+    obj = figure()
+    group(obj)
+    before = points(obj)
+    bpy.ops.ed.undo_push(message="Before")
+    bpy.context.scene.cursor.location = (0.1, 0.0, 0.0)
+    assert balance("EXEC_DEFAULT", True) == {"FINISHED"}
+    obj = bpy.data.objects["Figure"]
+    assert np.abs(points(obj) - before).max() > 0
+    bpy.ops.ed.undo()
+    assert np.array_equal(points(bpy.data.objects["Figure"]), before)
+
+
+def test_a_fine_mesh_far_from_the_origin_is_balanced_as_well_as_float32_lets_it():
+    mesh = bpy.data.meshes.new("Fine")
+    work = bmesh.new()
+    bmesh.ops.create_icosphere(work, subdivisions=5, radius=1.0, matrix=Matrix.Diagonal((1.0, 1.5, 0.7, 1.0)))
+    work.to_mesh(mesh)
+    work.free()
+    obj = add(mesh, location=(1000.0, 0.0, 0.0))
+    group(obj, lambda co: float(co.z > 0.0))
+    assert balance(target="POINT", point=(1000.02, 0.01, 0.0)) == {"FINISHED"}
+    assert np.abs(center(obj)[:2] - (1000.02, 0.01)).max() < 1e-4

@@ -1,0 +1,98 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the redo panel can change after the fact: by default nothing, else that alone."""
+
+import bpy
+import pytest
+from body_moments.blender.session.tracking import staleness
+from body_moments.blender.write import section
+
+from tests.blender.objects import add, mesh_body, only
+from tests.close import close
+from tests.operators.setup.test_remedy_buttons import boxes
+
+pytestmark = pytest.mark.usefixtures("scene")
+
+
+def test_measure_changes_settings_only_where_it_is_told_to():
+    obj = add(boxes(2.0, 1.0))
+    before = {name: getattr(obj.body_moments, name) for name in ("kind", "overlap", "density", "material")}
+    bpy.ops.object.body_moments_measure()
+    assert {name: getattr(obj.body_moments, name) for name in before} == before
+    assert not obj.body_moments.is_property_set("density")
+    bpy.ops.object.body_moments_measure(material="Copper", overlap="UNION")
+    assert obj.body_moments.material == "Copper" and close(obj["body_mass"], 8.0 * 8960.0, rel=1e-6)
+    bpy.ops.object.body_moments_measure(kind="SHELL")
+    assert obj["body_method"] == "shell" and obj.body_moments.material == "Copper"
+
+
+def test_only_the_chosen_kinds_of_defects_are_selected():
+    import bmesh
+
+    mesh = boxes(2.0, reverse=[0])
+    obj = add(mesh)
+    bpy.ops.object.body_moments_select_faults(kinds={"boundary_edges"})
+    assert bpy.context.mode == "OBJECT"
+    bpy.ops.object.body_moments_select_faults(kinds={"flipped_faces"})
+    assert bpy.context.mode == "EDIT_MESH"
+    selected = [face.index for face in bmesh.from_edit_mesh(obj.data).faces if face.select]
+    assert selected == [0]
+
+
+@pytest.mark.parametrize("kinds", [{"MASS"}, {"SECTION"}, {"SYMMETRY"}, {"MASS", "SECTION"}])
+def test_only_the_chosen_results_are_cleared_and_the_others_stay_up_to_date(kinds):
+    bpy.ops.mesh.primitive_plane_add()
+    obj = bpy.context.object
+    obj.body_moments.kind = "SHELL"
+    bpy.ops.object.body_moments_measure()
+    bpy.ops.object.body_moments_measure_section()
+    bpy.ops.object.body_moments_find_symmetry()
+    bpy.context.view_layer.update()
+    assert bpy.ops.object.body_moments_clear(kinds=kinds) == {"FINISHED"}
+    bpy.context.view_layer.update()
+    kept = {"MASS": "body_mass" in obj, "SECTION": section.KEY in obj}
+    kept["SYMMETRY"] = obj.is_property_set("body_moments_symmetry")
+    assert {kind for kind in kept if not kept[kind]} == kinds
+    assert staleness.stale_reason(obj, bpy.context.scene) is None
+    assert staleness.section_stale_reason(obj) is None or not kept["SECTION"]
+    assert staleness.symmetry_stale_reason(obj) is None
+    assert bpy.ops.object.body_moments_clear(kinds=kinds) == {"CANCELLED"}
+    assert bpy.ops.object.body_moments_clear() == {"FINISHED"} and "body_mass" not in obj
+
+
+def test_an_edit_just_before_results_are_cleared_still_counts_for_the_others():
+    obj = add(mesh_body())
+    bpy.ops.object.body_moments_measure()
+    bpy.ops.object.body_moments_find_symmetry()
+    obj.data.vertices[0].co.x += 0.5
+    obj.data.update()
+    assert bpy.ops.object.body_moments_clear(kinds={"MASS"}) == {"FINISHED"}
+    bpy.context.view_layer.update()
+    assert staleness.symmetry_stale_reason(obj) == "stale_geometry"
+
+
+def test_results_that_were_out_of_date_when_they_were_cleared_are_so_after_undo():
+    obj = add(mesh_body())
+    bpy.ops.object.body_moments_measure()
+    bpy.ops.ed.undo_push(message="measured")
+    obj.data.vertices[0].co.x += 0.5
+    obj.data.update()
+    bpy.ops.ed.undo_push(message="edited")
+    assert bpy.ops.object.body_moments_clear("EXEC_DEFAULT", True) == {"FINISHED"}
+    bpy.ops.ed.undo()
+    bpy.context.view_layer.update()
+    obj = bpy.data.objects["Body"]
+    assert "body_mass" in obj and staleness.stale_reason(obj, bpy.context.scene) == "stale_geometry"
+
+
+def test_an_empty_has_the_form_and_size_that_were_asked_for():
+    obj = add(mesh_body())
+    bpy.ops.object.body_moments_add_empty()
+    plain = bpy.data.objects["Body Principal Frame"]
+    assert plain.empty_display_type == "ARROWS" and plain.show_in_front and plain.rotation_mode == "QUATERNION"
+    size = plain.empty_display_size
+    bpy.data.objects.remove(plain)
+    only(obj)
+    bpy.ops.object.body_moments_add_empty(display="SPHERE", size=0.5)
+    made = bpy.data.objects["Body Principal Frame"]
+    assert made.empty_display_type == "SPHERE" and close(made.empty_display_size, 0.5 * size, rel=1e-6)

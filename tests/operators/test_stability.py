@@ -1,0 +1,255 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Check Stability and Rest on Ground: margins and angles through Blender's matrices, poses, one undo step, refusals."""
+
+from itertools import product
+from math import atan2, degrees
+
+import bpy
+import numpy as np
+import pytest
+from mathutils import Matrix
+
+from tests.blender import objects
+from tests.close import close
+
+BLENDER = 1e-6  # of the size, through float32 matrices
+
+
+def box(sides, offset=(0.0, 0.0, 0.0), name="Box"):
+    """A closed box as a mesh."""
+    corners = np.array(list(product((0.0, 1.0), repeat=3))) * sides + offset
+    quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+    mesh = bpy.data.meshes.new(name)
+    mesh.from_pydata(corners.tolist(), [], quads)
+    return mesh
+
+
+def wedge():
+    """A leaning prism, 2 high, whose center is beyond its base of length 1 by 1/4."""
+    profile = ((0.0, 0.0), (1.0, 0.0), (2.5, 2.0), (1.5, 2.0))
+    mesh = bpy.data.meshes.new("Wedge")
+    mesh.from_pydata(
+        [(x, y, z) for y in (0.0, 1.0) for x, z in profile],
+        [],
+        [(0, 1, 2, 3), (7, 6, 5, 4), *((i, 4 + i, 4 + (i + 1) % 4, (i + 1) % 4) for i in range(4))],
+    )
+    return mesh
+
+
+def support(obj):
+    from body_moments.blender.session.stored import stability
+
+    bpy.context.view_layer.update()
+    return stability.support(obj)
+
+
+def lowest(obj):
+    return objects.seen(obj)[:, 2].min()
+
+
+@pytest.mark.parametrize("scale", [1.0, 0.001])
+def test_a_box_stands_by_its_narrow_side_wherever_it_is(scene, scale):
+    scene.unit_settings.scale_length = scale
+    obj = objects.add(box((4.0, 2.0, 6.0)), location=(30.0, -20.0, 5.0), rotation=(0, 0, 0.7), scale=(1.0, 1.0, 0.5))
+    assert bpy.ops.object.body_moments_stability() == {"FINISHED"}
+    found = support(obj)
+    assert found.stands
+    assert close(found.margin, 1.0, BLENDER * 4.0)
+    assert close(found.height, 1.5, BLENDER * 4.0)
+    assert close(found.tipping_angle, atan2(1.0, 1.5), BLENDER * 4.0)
+    assert np.abs(found.polygon[:, 2] - 5.0).max() <= BLENDER * 30.0
+    assert obj["body_mass"] > 0.0
+
+
+def test_support_follows_a_turn_without_measuring_again(scene):
+    obj = objects.add(box((2.0, 2.0, 6.0), (-1.0, -1.0, 0.0)))
+    bpy.ops.object.body_moments_stability()
+    mark = obj["body_fingerprint"]
+    assert support(obj).stands
+    obj.rotation_euler.x = np.radians(30.0)  # beyond atan(1 / 3)
+    found = support(obj)
+    assert not found.stands and len(found.polygon) == 2
+    assert close(found.margin, -(3.0 * np.sin(np.radians(30.0)) - np.cos(np.radians(30.0))), BLENDER * 10.0)
+    obj.rotation_euler.x = 0.0
+    assert support(obj).stands
+    assert obj["body_fingerprint"] == mark
+
+
+def test_gravity_of_the_scene_says_what_is_down(scene):
+    obj = objects.add(box((4.0, 2.0, 6.0)))
+    bpy.ops.object.body_moments_stability()
+    scene.gravity = (0.0, 3.0, 0.0)
+    found = support(obj)
+    assert close(found.height, 1.0, BLENDER) and close(found.margin, 2.0, BLENDER)
+
+
+@pytest.mark.parametrize("size", [1e-3, 1.0, 1e3])
+def test_a_wedge_tips_over_its_edge(scene, size):
+    obj = objects.add(wedge(), rotation=(0.0, 0.0, 0.9), scale=(size, size, size))
+    bpy.ops.object.body_moments_stability()
+    found = support(obj)
+    assert not found.stands
+    assert close(found.margin, -0.25 * size, BLENDER * 10.0)
+    assert close(found.tipping_angle, -atan2(0.25, 1.0), BLENDER * 10.0)
+    assert close(found.direction[:2], (np.cos(0.9), np.sin(0.9)), BLENDER * 10.0)
+
+
+def test_an_edit_puts_it_out_of_date(scene):
+    from body_moments.blender.session.stored import stability
+
+    obj = objects.add(box((4.0, 2.0, 6.0)))
+    bpy.ops.object.body_moments_stability()
+    for vertex in obj.data.vertices[:4]:
+        vertex.co.x -= 1.0
+    obj.data.update()
+    assert support(obj) is None and stability.is_stale(obj)
+    bpy.ops.object.body_moments_stability()
+    assert close(obj["body_volume"], 60.0, BLENDER) and support(obj).stands
+
+
+@pytest.mark.parametrize("rotation", [(0.3, 1.1, -0.4), (2.0, 0.2, 3.0)])
+@pytest.mark.parametrize("pose", [1, 3, 6])
+def test_a_box_is_laid_on_the_chosen_face(scene, rotation, pose):
+    sides = np.array([4.0, 2.0, 6.0])
+    obj = objects.add(box(sides, (5.0, 0.0, 0.0)), location=(3.0, 4.0, 9.0), rotation=rotation)
+    bpy.ops.object.body_moments_measure()
+    center = objects.measured(obj).mass_properties.center
+    assert bpy.ops.object.body_moments_rest_on_ground(pose=pose) == {"FINISHED"}
+    after = objects.measured(obj).mass_properties.center
+    assert np.abs(after[:2] - center[:2]).max() <= BLENDER * 10.0
+    assert abs(lowest(obj)) <= BLENDER * 10.0
+    height = {1: 1.0, 3: 2.0, 6: 3.0}[pose]
+    assert close(after[2], height, BLENDER * 10.0)
+    found = support(obj)
+    assert found.stands and len(found.polygon) == 4
+    assert obj["body_center_of_mass"] is not None and close(obj["body_mass"], 48000.0, 1e-5)
+
+
+@pytest.mark.parametrize("size", [1.0, 1e-3])
+@pytest.mark.parametrize("angle", [5e-4, 1e-5])
+def test_what_lies_at_the_right_height_and_is_turned_a_little_is_laid(scene, size, angle):
+    place = {"location": (0.0, 0.0, 0.5 * size), "rotation": (angle, 0.0, 0.0), "scale": (size,) * 3}
+    obj = objects.add(box((3.0, 3.0, 1.0), (-1.5, -1.5, -0.5)), **place)
+    assert bpy.ops.object.body_moments_rest_on_ground(pose=0) == {"FINISHED"}
+    assert np.abs(objects.place(obj)[:3, :3] / size - np.eye(3)).max() < 2e-6
+    assert bpy.ops.object.body_moments_rest_on_ground(pose=0) == {"CANCELLED"}
+
+
+@pytest.mark.parametrize(("angle", "height", "is_laid"), [(0, 1e-4, False), (0, 1e-3, True), (5e-4, 0, True)])
+def test_how_far_away_an_object_is_says_how_high_and_not_how_turned_it_may_lie(scene, angle, height, is_laid):
+    """Of a location of 1000, single precision holds 6e-5."""
+    place = {"location": (1000.0, 0.0, 0.5 + height), "rotation": (angle, 0.0, 0.0)}
+    obj = objects.add(box((3.0, 3.0, 1.0), (-1.5, -1.5, -0.5)), **place)
+    assert bpy.ops.object.body_moments_rest_on_ground(pose=0) == ({"FINISHED"} if is_laid else {"CANCELLED"})
+    found = objects.place(obj)
+    assert np.abs(found[:3, :3] - np.eye(3)).max() < 2e-6
+    assert close(found[2, 3], 0.5 if is_laid else 0.5 + height, 1e-6)
+
+
+def test_pose_0_is_the_nearest(scene):
+    obj = objects.add(box((4.0, 2.0, 6.0)), rotation=(0.1, 0.05, 0.0), location=(0.0, 0.0, 2.0))
+    bpy.ops.object.body_moments_rest_on_ground(pose=0)
+    assert close(support(obj).height, 3.0, BLENDER * 10.0)
+    assert degrees(obj.matrix_world.to_3x3().col[2].angle((0.0, 0.0, 1.0))) < 0.01
+
+
+@pytest.mark.parametrize("ground, level", [("CURSOR", 2.5), ("LOWEST", 7.0)])
+def test_the_ground_is_where_it_is_chosen(scene, ground, level):
+    scene.cursor.location = (9.0, 9.0, 2.5)
+    obj = objects.add(box((4.0, 2.0, 6.0)), location=(0.0, 0.0, 7.0))
+    bpy.ops.object.body_moments_rest_on_ground(pose=1, ground=ground)
+    assert abs(lowest(obj) - level) <= BLENDER * 10.0
+
+
+def test_a_mirrored_sheared_child_is_laid_too(scene):
+    parent = objects.add(None, "Parent", rotation=(0.3, 0.2, 0.1), scale=(2.0, 2.0, 2.0))
+    obj = objects.add(objects.mesh_body(), rotation=(1.0, 0.4, 2.0), scale=(-1.0, 1.5, 1.0))
+    obj.parent = parent
+    bpy.context.view_layer.update()
+    objects.only(obj)
+    assert bpy.ops.object.body_moments_rest_on_ground(pose=1) == {"FINISHED"}
+    assert abs(lowest(obj)) <= BLENDER * 20.0
+    assert support(obj).stands and len(support(obj).polygon) >= 3
+
+
+def test_mesh_selection_and_active_object_stay(scene):
+    other = objects.add(box((1.0, 1.0, 1.0)), "Other", location=(20.0, 0.0, 0.0))
+    obj = objects.add(box((4.0, 2.0, 6.0)), rotation=(0.3, 0.1, 0.0))
+    before = [vertex.co.copy() for vertex in obj.data.vertices]
+    bpy.ops.object.body_moments_rest_on_ground(pose=2)
+    assert [vertex.co for vertex in obj.data.vertices] == before
+    assert obj.select_get() and not other.select_get() and bpy.context.object == obj
+    assert tuple(other.location) == (20.0, 0.0, 0.0)
+
+
+def test_open_and_empty_objects_are_refused_by_name(scene, reported):
+    objects.add(objects.strip_mesh())
+    assert bpy.ops.object.body_moments_stability() == {"CANCELLED"}
+    assert "failure" in reported.codes
+    scene.collection.objects[0].scale.x = 0.0
+    bpy.context.view_layer.update()
+    assert bpy.ops.object.body_moments_rest_on_ground() == {"CANCELLED"}
+    assert "objects_tip" not in reported.codes
+
+
+def test_instances_stand_on_what_they_show(scene):
+    part = objects.add(box((1.0, 1.0, 1.0), (-0.5, -0.5, 0.0)), "Leg")
+    array = part.modifiers.new("Array", "ARRAY")
+    array.use_relative_offset, array.use_constant_offset = False, True
+    array.constant_offset_displace = (5.0, 0.0, 0.0)
+    bpy.ops.object.body_moments_stability()
+    found = support(part)
+    assert close(np.ptp(found.polygon[:, 0]), 6.0, BLENDER)
+
+
+def test_faults_are_where_they_are(scene):
+    from body_moments.blender.session.stored import faults
+
+    mesh = box((1.0, 1.0, 1.0))
+    mesh.polygons[1].flip()
+    obj = objects.add(mesh, location=(4.0, 0.0, 0.0))
+    bpy.ops.object.body_moments_measure()
+    found = faults.of_object(obj)
+    assert len(found.triangles) == 2 and close(found.triangles[..., 0], 1.0, BLENDER)
+    obj.data.vertices[0].co.x -= 1.0
+    obj.data.update()
+    bpy.context.view_layer.update()
+    assert faults.of_object(obj) is None
+
+
+def test_a_body_far_from_its_origin_rests_on_its_faces(scene):
+    """Coordinates of 200 sizes: float32 makes its faces uneven by 1e-5 of the size."""
+    from body_moments.blender.session.stored import stability
+
+    bpy.ops.mesh.primitive_grid_add(x_subdivisions=8, y_subdivisions=8)
+    obj = bpy.context.object
+    solidify = obj.modifiers.new("Solidify", "SOLIDIFY")
+    solidify.thickness, solidify.offset = 1.5, 0.0
+    bpy.ops.object.modifier_apply(modifier="Solidify")
+    obj.data.transform(Matrix.Rotation(0.7, 4, (1.0, 2.0, 3.0)))
+    obj.data.transform(Matrix.Translation((400.0, 300.0, -200.0)))
+    bpy.ops.object.body_moments_stability()
+    poses = stability.poses(obj)
+    assert len(poses.shares) == 6
+    assert close(np.sort(poses.margins), np.repeat([0.75, 1.0], [4, 2]), 1e-3)
+
+
+@pytest.mark.parametrize("start", [(1, 0, 0), (0, -1, 0), (0, 0, 1), (0.6, 0, -0.8), (2 / 3, -1 / 3, 2 / 3)])
+def test_what_points_the_opposite_way_makes_a_half_turn(start):
+    from body_moments.operators.statics.rest_on_ground import shortest_turn
+
+    start = np.array(start, float)
+    turn = shortest_turn(start, -start)
+    assert np.abs(turn @ start + start).max() < 1e-15 and np.abs(turn @ turn - np.eye(3)).max() < 1e-15
+    assert abs(np.linalg.det(turn) - 1.0) < 1e-14 and np.abs(turn @ turn.T - np.eye(3)).max() < 1e-14
+
+
+@pytest.mark.parametrize("angle", [1e-4, 1e-6])
+def test_what_points_nearly_the_opposite_way_is_turned_there(angle):
+    from body_moments.operators.statics.rest_on_ground import shortest_turn
+
+    start, across = np.array([0.6, 0.0, -0.8]), np.array([0.0, 1.0, 0.0])
+    end = np.sin(angle) * across - np.cos(angle) * start
+    turn = shortest_turn(start, end)
+    assert np.abs(turn @ start - end).max() < 1e-8 and np.abs(turn @ turn.T - np.eye(3)).max() < 1e-14

@@ -1,0 +1,165 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the overlay draws, as arrays: where it is, how large, in which form. tests/window looks at its pixels."""
+
+import bpy
+import numpy as np
+import pytest
+
+from tests.blender import objects
+from tests.close import close
+
+
+@pytest.fixture
+def view(registered):
+    """A perspective of 60° from (3, -4, 5) at an odd size, rolled."""
+    from body_moments.panels.overlay.view import View
+
+    rotation = np.linalg.qr(np.random.default_rng(3).standard_normal((3, 3)))[0]
+    rotation *= np.sign(np.linalg.det(rotation))
+    matrix = np.eye(4)
+    matrix[:3, :3], matrix[:3, 3] = rotation, -rotation @ (3.0, -4.0, 5.0)
+    near, far, width, height = 0.1, 100.0, 641.0, 357.0
+    slope = np.tan(np.radians(30.0))
+    projection = np.diag([1.0 / slope, width / height / slope, -(far + near) / (far - near), 0.0])
+    projection[2, 3], projection[3, 2] = -2.0 * far * near / (far - near), -1.0
+    return View(matrix, projection, np.array([width, height]))
+
+
+def in_front(view, count=5):
+    """(count, 3) points that the view shows."""
+    random = np.random.default_rng(5)
+    seen = np.stack([*(random.uniform(-0.4, 0.4, (2, count)) * 8.0), -random.uniform(6.0, 12.0, count)], axis=1)
+    return (seen - view.view[:3, 3]) @ view.view[:3, :3]
+
+
+def test_shapes_have_their_size_in_pixels_wherever_they_are(view):
+    anchors = in_front(view)
+    offsets = np.random.default_rng(7).uniform(-20.0, 20.0, (len(anchors), 6, 2))
+    placed = view.place(anchors, offsets)
+    on_screen = view.pixels(placed.reshape(-1, 3)).reshape(offsets.shape)
+    assert close(on_screen - view.pixels(anchors)[:, None], offsets, 1e-9)
+    assert close(
+        view.depths(placed.reshape(-1, 3)).reshape(-1, 6), view.depths(anchors)[:, None].repeat(6, axis=1), 1e-12
+    )
+
+
+def test_an_equal_box_has_the_inertia_of_the_body(registered):
+    from body_moments.panels.overlay import solids
+
+    sides = np.array([1.0, 2.0, 5.0])
+    inertia = (sides @ sides - sides**2) / 12.0  # of a box of mass 1
+    centers, axes = np.array([[10.0, 20.0, 30.0]]), np.eye(3)[None]
+    corners = solids.box_lines(centers, axes, np.sqrt(inertia)[None]).reshape(-1, 3)
+    assert close(np.ptp(corners, axis=0), sides, 1e-12)
+    assert close(corners.mean(axis=0), centers[0], 1e-12)
+
+
+def test_an_equal_ellipsoid_has_the_inertia_of_the_body(registered):
+    from body_moments.panels.overlay import solids
+
+    half = np.array([1.0, 2.0, 5.0])
+    inertia = (half @ half - half**2) / 5.0
+    turn = np.linalg.qr(np.random.default_rng(1).standard_normal((3, 3)))[0]
+    points = solids.ellipsoid_lines(np.zeros((1, 3)), turn[None], np.sqrt(inertia)[None]).reshape(-1, 3)
+    assert close(((points @ turn / half) ** 2).sum(axis=1), 1.0, 1e-12)
+    assert close(np.abs(points @ turn).max(axis=0), half, 1e-12)
+
+
+def test_axes_are_as_long_as_the_radii_of_gyration(registered):
+    from body_moments.panels.overlay import solids
+
+    gyration = np.array([[1.0, 2.0, 3.0]])
+    turn = np.linalg.qr(np.random.default_rng(2).standard_normal((3, 3)))[0]
+    segments = solids.axis_lines(np.ones((1, 3)), turn[None], gyration)[0]
+    assert close(segments.mean(axis=1), 1.0, 1e-12)
+    assert close(segments[:, 1] - segments[:, 0], 2.0 * (turn * gyration).T, 1e-12)
+
+
+def test_verdicts_differ_in_form_where_colors_are_not_seen(registered):
+    from body_moments.panels.overlay import appearance, glyphs
+
+    discs = glyphs.discs()
+    forms = [np.round(shape, 3).tobytes() for shape in discs.corners]
+    assert len(set(forms)) == len(appearance.VERDICTS)
+    for verdict, color in enumerate(appearance.COLORS):
+        assert (discs.colors[:, verdict] == color).all(axis=2).any(axis=1).all()
+
+
+def test_the_body_is_drawn_where_it_is_in_the_world(scene):
+    from body_moments.blender.session.stored.shown import shown_body
+
+    scene.unit_settings.scale_length = 0.001
+    obj = objects.add(objects.mesh_body(), location=(7, -3, 2), rotation=(0.3, 1.1, -0.4), scale=(2, 2, 2))
+    bpy.ops.object.body_moments_measure()
+    measurement = objects.measured(obj)
+    body = shown_body(obj)
+    assert close(body.center, measurement.mass_properties.center / 0.001, 1e-6)
+    assert close(body.gyration, measurement.mass_properties.radii_of_gyration / 0.001, 1e-6)
+    assert close(np.abs((body.axes * measurement.mass_properties.principal.axes).sum(axis=0)), 1.0, 1e-6)
+    assert body.verdict == "exact"
+
+
+def test_what_is_not_measured_is_not_drawn(scene):
+    from body_moments.blender.session.stored.shown import shown_body
+
+    assert shown_body(objects.add(objects.mesh_body())) is None
+
+
+def test_an_open_body_is_doubtful_and_an_edited_one_out_of_date(scene):
+    from body_moments.blender.session.stored.shown import shown_body
+
+    strip = objects.add(objects.strip_mesh())
+    bpy.ops.object.body_moments_measure()
+    assert shown_body(strip) is None or shown_body(strip).verdict == "doubtful"
+    body = objects.add(objects.mesh_body())
+    bpy.ops.object.body_moments_measure()
+    body.data.vertices[0].co.z -= 0.5
+    body.data.update()
+    bpy.context.view_layer.update()
+    assert shown_body(body).verdict == "out of date"
+
+
+def test_nothing_is_registered_to_draw_in_background_mode(registered):
+    from body_moments.panels.overlay import draw
+
+    assert bpy.app.background and draw._state.handle is None
+
+
+def test_discs_are_made_where_they_are_seen_and_named_where_axes_are_long(view):
+    from body_moments.panels.overlay.bodies import Bodies
+    from body_moments.panels.overlay.glyphs import digits, discs
+    from body_moments.panels.overlay.lines import disc_triangles
+
+    places = np.array([(0.0, 0.0, -8.0), (1.0, 1.0, -8.0), (-1.0, 0.5, -7.0), (0.0, 0.0, 8.0), (50.0, 0.0, -8.0)])
+    centers = (places - view.view[:3, 3]) @ view.view[:3, :3]  # three before the eye, one behind it, one beside
+    axes, verdicts = np.tile(np.eye(3), (5, 1, 1)), np.zeros(5, np.intp)
+    short, long = (
+        disc_triangles(Bodies(centers, axes, np.full((5, 3), gyration), verdicts), view, 1.0, True)
+        for gyration in (1e-3, 1.0)
+    )
+    disc, digit = discs().corners.shape[1], digits().corners.shape[1]
+    assert len(short[0]) == short[1].shape[1] == 3 * disc
+    assert len(long[0]) == 3 * (disc + 3 * digit)
+    for points, _, triangles in (short, long):
+        assert triangles.dtype == np.int32 and points.dtype == np.float32  # as the GPU takes them
+        assert triangles.min() == 0 and triangles.max() < len(points)
+        assert np.isfinite(points).all()
+        assert np.abs(view.pixels(points.astype(float)) - view.size / 2.0).max() < view.size.max() + 500.0
+
+
+@pytest.mark.parametrize("inside", [None, [True, True, False, False, True]])
+def test_a_path_is_another_color_where_the_center_leaves_the_support_polygon(inside, registered):
+    from body_moments.blender.session.stored.balance_groups import Path
+    from body_moments.panels.overlay import appearance as look
+    from body_moments.panels.overlay.details import _path
+
+    centers = np.array([[0, 0, 0], [1, 2, 0], [3, 2, 1], [4, 0, 5], [20, 1, 1]], float)
+    drawn = _path(Path(np.arange(5.0), centers, None if inside is None else np.array(inside)))
+    segments, colors = drawn.segments
+    lines, ticks = segments[:4], segments[4:]
+    assert (lines[:, 0] == centers[:-1]).all() and (lines[:, 1] == centers[1:]).all()
+    assert (ticks[:, 0] == centers).all() and (ticks[:, 1] == centers + [0.0, 0.0, 0.2]).all()
+    leaves = [False] * 9 if inside is None else [False, True, True, True, False, False, True, True, False]
+    wanted = [look.TIPS if tips else look.PATH for tips in leaves]
+    assert (colors == np.array(wanted, np.float32)).all() and len(drawn.triangles[0]) == 0

@@ -1,0 +1,300 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the panel shows of numbers, findings and why they no longer hold, beside what is stored."""
+
+import bpy
+import numpy as np
+import pytest
+from body_moments.core.verdict.finding import finding
+
+from tests.blender.objects import add, measured, mesh_body, only, strip_mesh
+from tests.panels.drawing import copied, findings_of, labels, shown, shows
+
+pytestmark = pytest.mark.usefixtures("scene")
+
+
+def test_what_measure_and_live_refuse_for_the_same_reason_is_not_shown_twice():
+    obj = add(mesh_body())
+    bpy.ops.object.body_moments_measure()
+    obj.body_moments.density_from, obj.body_moments.density_polynomial = "POLYNOMIAL", "-1"
+    bpy.ops.object.body_moments_live()
+    from body_moments.blender.session.live import live
+    from body_moments.blender.session.stored import results
+
+    sentence = str(live.current_numbers(obj).refusal)
+    assert sentence in " ".join(labels(shown()))
+    bpy.ops.object.body_moments_measure()
+    assert " ".join(labels(shown())).count(sentence) == 1
+    assert str(results.failure(obj)) == sentence
+    bpy.ops.object.body_moments_live()
+
+
+def test_a_refusal_is_not_held_against_other_settings():
+    obj = add(mesh_body())
+    settings = obj.body_moments
+    settings.density_from, settings.density_polynomial = "POLYNOMIAL", "1000+"
+    bpy.ops.object.body_moments_measure()
+    assert shows(shown(), "polynomial_syntax_at", part="1000+")
+    settings.density_from = "VALUE"
+    assert "Not Measured" in labels(shown()) and not shows(shown(), "polynomial_syntax_at", part="1000+")
+    settings.density_from = "POLYNOMIAL"
+    assert shows(shown(), "polynomial_syntax_at", part="1000+")
+
+
+def test_values_are_shown_with_units_and_copied_with_all_digits():
+    obj = add(mesh_body(), location=(1, 2, 3), rotation=(0.3, 0.2, 0.1))
+    bpy.ops.object.body_moments_measure()
+    found = measured(obj)
+    record = shown(without=("selection",))
+    assert "3.15 m³" in labels(record)
+    assert float(copied(record, "m³")[0]) == obj["body_volume"]
+    assert float(copied(record, "kg")[0]) == obj["body_mass"]
+    center = [float(text) for text in copied(record, "m")[1:4]]
+    assert np.abs(np.array(center) - found.mass_properties.center).max() < 1e-12
+
+
+@pytest.mark.parametrize("frame", ["WORLD", "OBJECT"])
+@pytest.mark.parametrize("unit", [1.0, 0.001])
+def test_the_frame_shown_is_the_frame_chosen(frame, unit):
+    from body_moments.blender.session.stored import results
+
+    scene = bpy.context.scene
+    scene.unit_settings.scale_length = unit
+    obj = add(mesh_body(), location=(1, 2, 3), rotation=(0.3, 0.2, 0.1), scale=(1, 2, -1))
+    bpy.ops.object.body_moments_measure()
+    scene.body_moments.frame = frame
+    shown, truth = results.of_object(obj, scene).body, measured(obj)
+    truth = truth.mass_properties if frame == "WORLD" else truth.in_object_frame()
+    assert np.abs(shown.center - truth.center).max() < 1e-12 * max(1.0, np.abs(truth.center).max())
+    assert np.abs(shown.inertia - truth.inertia).max() < 1e-12 * np.trace(truth.inertia)
+    assert np.abs(shown.principal.axes - truth.principal.axes).max() < 1e-9
+    assert np.abs(shown.radii_of_gyration / truth.radii_of_gyration - 1.0).max() < 1e-12
+
+
+def test_the_total_shows_what_may_be_no_part_of_it(capfd):
+    """Without a window there is no clipboard: the whole report goes to the standard output."""
+    from body_moments.blender.session.stored import results
+
+    body, cutter = add(mesh_body(), "Body"), add(mesh_body(), "Cutter", location=(1, 1, 1))
+    cutter.display_type = "WIRE"
+    body.modifiers.new("Cut", "BOOLEAN").object = cutter
+    only(body, cutter)
+    bpy.ops.object.body_moments_measure()
+    (caveat,) = results.total(bpy.context).findings
+    assert caveat.code == "total_boolean_operands" and "“Cutter” of “Body”" in str(caveat)
+    assert shows(shown(), caveat.code, **caveat.values)
+    bpy.ops.object.body_moments_copy_report()
+    assert str(caveat) in capfd.readouterr().out
+    body.modifiers.clear()
+    bpy.context.view_layer.update()
+    assert [one.code for one in results.total(bpy.context).findings] == ["total_hidden_objects"]
+    only(cutter)
+    bpy.context.view_layer.update()
+    assert results.total(bpy.context).findings == ()
+
+
+def test_the_total_shows_that_an_open_body_makes_it_depend_on_a_point(capfd):
+    from body_moments.blender.session.stored import results
+
+    only(add(mesh_body(), "Body"), add(strip_mesh(), "Strip"))
+    bpy.ops.object.body_moments_measure()
+    (caveat,) = results.total(bpy.context).findings
+    assert caveat.code == "total_of_open_objects"
+    assert "“Strip”" in str(caveat) and "“Body”" not in str(caveat)
+    bpy.ops.object.body_moments_copy_report()
+    assert str(caveat) in capfd.readouterr().out
+
+
+def test_what_is_rounding_in_a_totals_center_is_shown_as_0():
+    for turn in ((0.3, 0.2, 0.1), (0.1, 0.5, 0.7)):
+        bpy.ops.mesh.primitive_cylinder_add(vertices=7, rotation=turn)
+    bpy.ops.object.select_all(action="SELECT")
+    bpy.ops.object.body_moments_measure()
+    told = labels(shown())
+    assert told[told.index("Center of Mass (World)") :][1:6:2] == ["X", "Y", "Z"]
+    assert told[told.index("Center of Mass (World)") :][2:7:2] == ["0 m", "0 m", "0 m"]
+
+
+def test_totals_have_parallel_axis_terms():
+    from body_moments.blender.session.stored import results
+
+    objects = [add(mesh_body(), str(i), location=(10 * i, 2 * i, -i), rotation=(i, 0, 0)) for i in range(3)]
+    only(*objects)
+    bpy.ops.object.body_moments_measure()
+    add(mesh_body(), "Not Measured")
+    for obj in objects:
+        obj.select_set(True)
+    from body_moments.core.inertia.mass_properties import combine
+
+    truth = combine([measured(obj).mass_moments for obj in objects])
+    total = results.total(bpy.context)
+    assert total.count == 3 and total.missing == ("Not Measured",)
+    assert abs(total.body.mass / truth.mass - 1.0) < 1e-12
+    assert np.abs(total.body.center - truth.center).max() < 1e-9
+    moments = truth.principal.moments
+    assert np.abs(total.body.principal.moments - moments).max() < 1e-9 * moments.max()
+    found = labels(shown())
+    assert "3 Objects" in found
+    assert "Not measured: “Not Measured”" in " ".join(found)
+    objects[1].body_moments.kind = "SHELL"
+    bpy.context.view_layer.update()
+    assert "Out of date: “1”" in " ".join(labels(shown()))
+
+
+def test_damaged_results_are_not_shown():
+    obj = add(mesh_body())
+    bpy.ops.object.body_moments_measure()
+    obj["body_center_of_mass"] = 5.0
+    assert "Not Measured" in labels(shown())
+    obj["body_center_of_mass"] = [1.0, 2.0]
+    assert "Not Measured" in labels(shown())
+
+
+def test_findings_that_are_damaged_or_of_another_version_do_not_stop_the_panel():
+    obj = add(mesh_body())
+    bpy.ops.object.body_moments_measure()
+    for text in ("", "[", "{}", '[{"code": "of_the_future", "values": {}}]', '[{"code": "holes_capped"}]', "[1]"):
+        obj["body_findings"] = text
+        assert "Exact" in labels(shown())
+    obj["body_method"] = "guess"
+    assert "Guess" in labels(shown())
+
+
+@pytest.mark.parametrize("kind", ["FONT", "META", "CURVE"])
+def test_polygons_that_stand_for_a_curve_are_a_note_and_no_warning(kind, capfd):
+    if kind == "META":
+        bpy.ops.object.metaball_add()
+        bpy.context.object.data.render_resolution = bpy.context.object.data.resolution
+    elif kind == "FONT":
+        bpy.ops.object.text_add()
+        bpy.context.object.data.body, bpy.context.object.data.extrude = "o", 0.1
+    else:
+        bpy.ops.curve.primitive_bezier_circle_add()
+        bpy.context.object.data.bevel_depth = 0.2
+    bpy.ops.object.body_moments_measure()
+    obj = bpy.context.object
+    out = capfd.readouterr().out
+    assert {"surface_drawn_as_polygons", "curves_drawn_as_polygons"} & {*findings_of(obj, "note")}
+    assert not findings_of(obj, "warning") and obj["body_warnings"] == ""
+    assert "Info: Measured {:s}\n".format(obj.name) in out and "Warning" not in out
+    found = labels(shown())
+    assert any(label.startswith("Notes (") for label in found)
+    assert not any(label.startswith("Warnings (") for label in found)
+
+
+def test_a_density_from_a_grid_is_shown_and_no_warning(tmp_path, capfd):
+    from tests.blender.grids import vdb_grid, volume_object
+
+    only(volume_object(tmp_path / "a.vdb", vdb_grid(np.ones((4, 4, 4), np.float32))))
+    bpy.ops.object.body_moments_measure()
+    assert "Warning" not in capfd.readouterr().out
+    assert "Notes (2)" in labels(shown())
+
+
+def test_faces_of_a_mesh_that_are_not_planar_are_a_warning():
+    obj = add(mesh_body())
+    obj.data.vertices[3].co.z += 0.2
+    obj.data.update()
+    bpy.ops.object.body_moments_measure()
+    assert findings_of(obj, "warning") == ["non_planar_faces"] and "Warnings (1)" in labels(shown())
+
+
+def test_drawing_changes_nothing_and_measures_nothing(monkeypatch):
+    from body_moments.blender.bodies import request
+
+    obj = add(mesh_body())
+    bpy.ops.object.body_moments_measure()
+    monkeypatch.setattr(request, "read_object", lambda *_: pytest.fail("the panel measures"))
+    before = {key: str(obj[key]) for key in obj.keys() if key.startswith("body_")}  # noqa: SIM118
+    shown()
+    assert {key: str(obj[key]) for key in obj.keys() if key.startswith("body_")} == before  # noqa: SIM118
+
+
+def outdated():
+    """The code of the reason that is shown, if any."""
+    text = " ".join(labels(shown(without=("selection",))))
+    codes = ("settings", "geometry", "transform")
+    return [code for code in codes if "Out of date: {}".format(finding("stale_" + code)) in text]
+
+
+def test_out_of_date_after_a_change_of_transform_settings_or_geometry_and_not_after_measuring():
+    obj = add(mesh_body())
+    update = bpy.context.view_layer.update
+    bpy.ops.object.body_moments_measure()
+    update()
+    assert not outdated()
+    obj.scale.x = 2.0
+    update()
+    assert outdated() == ["transform"]
+    obj.scale.x = 1.0
+    update()
+    assert not outdated()
+    obj.body_moments.kind = "SHELL"
+    assert outdated() == ["settings"]
+    bpy.ops.object.body_moments_measure()
+    update()
+    assert not outdated()
+    obj.data.vertices[0].co.x -= 1.0
+    obj.data.update()
+    update()
+    assert outdated() == ["geometry"]
+    bpy.ops.object.body_moments_measure()
+    update()
+    assert not outdated()
+    obj.modifiers.new("Subdivision", "SUBSURF")
+    update()
+    assert outdated()
+
+
+def test_selecting_renaming_and_undoing_something_else_leaves_results_up_to_date():
+    obj = add(mesh_body())
+    bpy.ops.object.body_moments_measure()
+    bpy.context.view_layer.update()
+    bpy.ops.ed.undo_push(message="measured")
+    obj.select_set(False)
+    obj.select_set(True)
+    obj.name = "Renamed"
+    bpy.context.view_layer.update()
+    assert not outdated()
+    bpy.ops.ed.undo_push(message="renamed")
+    bpy.ops.ed.undo()
+    bpy.context.view_layer.update()
+    assert bpy.context.object.name == "Body" and not outdated()
+
+
+def test_an_operator_that_refuses_leaves_results_up_to_date():
+    obj = add(mesh_body())
+    obj.modifiers.new("Cast", "CAST")
+    bpy.ops.object.body_moments_measure()
+    bpy.context.view_layer.update()
+    assert bpy.ops.object.body_moments_origin_to_center() == {"CANCELLED"}
+    assert not outdated()
+
+
+def test_a_saved_file_is_up_to_date_when_opened_and_out_of_date_when_edited(tmp_path):
+    add(mesh_body())
+    bpy.ops.object.body_moments_measure()
+    path = str(tmp_path / "a.blend")
+    bpy.ops.wm.save_as_mainfile(filepath=path)
+    bpy.ops.wm.open_mainfile(filepath=path)
+    assert not outdated()
+    obj = bpy.context.object
+    obj.data.vertices[0].co.x -= 1.0
+    obj.data.update()
+    bpy.context.view_layer.update()
+    assert outdated()
+
+
+def test_a_file_saved_after_an_edit_is_out_of_date_when_opened(tmp_path):
+    obj = add(mesh_body())
+    bpy.ops.object.body_moments_measure()
+    obj.data.vertices[0].co.x -= 1.0
+    obj.data.update()
+    bpy.context.view_layer.update()
+    path = str(tmp_path / "a.blend")
+    bpy.ops.wm.save_as_mainfile(filepath=path)
+    assert outdated()
+    bpy.ops.wm.open_mainfile(filepath=path)
+    assert outdated()
+    bpy.ops.object.body_moments_measure()
+    assert not outdated()
