@@ -2,39 +2,29 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Body Moments: exact mass properties of objects, and snapping to them.
 
-This file puts the parts together and does nothing else: it hands the core the sentences of its findings, and registers
-the add-on. Blender is imported inside `register`, so that `body_moments.core` can be imported, tested and used where
-there is no Blender.
+This file registers the add-on and does nothing else. Blender is imported inside `register`, so that
+`body_moments.core` can be imported, tested and used without Blender.
 """
 
 from contextlib import ExitStack
 
-from .core.verdict.finding import Finding, use_sentences
-
-
-def _sentence(finding: Finding) -> str:
-    from .core.verdict.messages import sentence
-
-    return sentence(finding)
-
-
-use_sentences(_sentence)
-
 
 def register() -> None:
     """Register every class, property and command; if one part fails, undo the others and raise."""
-    from . import operators, panels
+    from . import blender, operators, panels
+    from .blender.registration import register_modules, unregister_modules
 
     with ExitStack() as undo:
-        for part in (operators, panels):
-            part.register()
-            undo.callback(part.unregister)
+        for wing in (blender, operators, panels):
+            register_modules(wing.__name__, wing.MODULES)
+            undo.callback(unregister_modules, wing.__name__, wing.MODULES)
         undo.pop_all()
 
 
 def unregister() -> None:
     """Remove everything that `register` added, in reverse."""
-    from . import operators, panels
+    from . import blender, operators, panels
+    from .blender.registration import unregister_modules
 
-    for part in (panels, operators):
-        part.unregister()
+    for wing in (panels, operators, blender):
+        unregister_modules(wing.__name__, wing.MODULES)

@@ -41,63 +41,21 @@ The packages, each with its own public names in its `__init__` (none imports one
 Importing this package loads neither numpy nor any of these: each name is imported when it is first used.
 """
 
-from importlib import import_module
-from typing import TYPE_CHECKING
+from .lazy import lazy_names
 
-if TYPE_CHECKING:
-    from .density.spline_grid import grid_moments
-    from .fourier.transform import solid_transform
-    from .inertia.mass_properties import MassProperties
-    from .inertia.principal_frames import pose_matrix, principal_frame
-    from .mesh.surface import Surface
-    from .moments.moments import Moments
-    from .polyhedron.integration import polyhedron_moments
-    from .scans.formats import read_scan
-    from .shape.signatures import signature
-    from .solid.measure import measure_solid
-    from .verdict.finding import Finding, MeasureError
-
-__all__ = [
-    "Finding",
-    "MassProperties",
-    "MeasureError",
-    "Moments",
-    "Surface",
-    "grid_moments",
-    "measure_solid",
-    "polyhedron_moments",
-    "pose_matrix",
-    "principal_frame",
-    "read_scan",
-    "signature",
-    "solid_transform",
-]
-
-_PACKAGES = {
-    "Finding": "verdict",
-    "MassProperties": "inertia",
-    "MeasureError": "verdict",
-    "Moments": "moments",
-    "Surface": "mesh",
-    "grid_moments": "density",
-    "measure_solid": "solid",
-    "polyhedron_moments": "polyhedron",
-    "pose_matrix": "inertia",
-    "principal_frame": "inertia",
-    "read_scan": "scans",
-    "signature": "shape",
-    "solid_transform": "fourier",
-}
-
-
-def __getattr__(name: str) -> object:
-    """Import a public name when it is first used (PEP 562), so that numpy need not be there before."""
-    if name not in _PACKAGES:
-        raise AttributeError("module {!r} has no attribute {!r}".format(__name__, name))
-    value = getattr(import_module("." + _PACKAGES[name], __name__), name)
-    globals()[name] = value
-    return value
-
-
-def __dir__() -> list[str]:
-    return sorted({*globals(), *__all__})
+__getattr__, __dir__, __all__ = lazy_names(
+    __name__,
+    Finding="verdict",
+    MassProperties="inertia",
+    MeasureError="verdict",
+    Moments="moments",
+    Surface="mesh",
+    grid_moments="density",
+    measure_solid="solid",
+    polyhedron_moments="polyhedron",
+    pose_matrix="inertia",
+    principal_frame="inertia",
+    read_scan="scans",
+    signature="shape",
+    solid_transform="fourier",
+)

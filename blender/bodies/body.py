@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from ...core.inertia.principal_frames import OwnMoments
 from ...core.mesh.surface import Surface
 from ...core.moments.affine_maps import are_similarities
+from ...core.moments.exponents import KNOWN_ORDER
 from ...core.moments.images import sum_of_images
 from ...core.moments.moments import Moments, monomials, stack_moments, sum_moments
 from ...core.moments.symmetric_tensors import invert_through_point
@@ -29,7 +30,6 @@ from ...core.verdict.method import Method, Verdict
 from .mesh.instances import area_of_instances
 
 MAX_MASS_MOMENT = 1e100  # kg m^n whose squares are still numbers
-KNOWN_ORDER = 3  # the order to which every body has its moments
 
 
 @dataclass(frozen=True, eq=False)

@@ -14,6 +14,7 @@ from ...core.inertia.canonical_frame import MAX_ORDER
 from ...core.inertia.mass_properties import MassProperties
 from ...core.inertia.principal_frames import OwnMoments
 from ...core.measurement.measurement import DENSITY_FROM_MASS, DENSITY_FROM_VALUE, Measurement
+from ...core.moments.exponents import KNOWN_ORDER
 from ...core.moments.moments import Moments
 from ...core.verdict.finding import ReadError, finding
 from ...core.verdict.method import Method, Verdict
@@ -22,7 +23,7 @@ from ..read.fingerprint import effective_hash, fingerprint, transform_key
 from ..read.grids.volume import VolumeReading
 from ..settings.accepted import with_acceptance
 from ..settings.options import ResolvedOptions
-from .body import KNOWN_ORDER, Body
+from .body import Body
 from .request import Request
 
 # faces up to which moments of higher order, for a frame that needs them, take no time to speak of

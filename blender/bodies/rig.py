@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from ...core.measurement.measurement import DENSITY_FROM_MASS, DENSITY_FROM_VALUE, Measurement
 from ...core.mesh.surface import Surface
 from ...core.moments.affine_maps import are_similarities
+from ...core.moments.exponents import KNOWN_ORDER
 from ...core.moments.moments import Measure, Moments, U, sum_moments
 from ...core.numerics.float32 import shortest_decimal
 from ...core.polyhedron import polyhedron_moments
@@ -29,7 +30,6 @@ from ..read.reading import Part, to_si
 from ..read.rig import RestBones, hanging_objects, pose_bone_of, rest_pose, skinned_objects, vertex_weights
 from ..settings.density import is_density_unset, unset_density
 from .assembly.combined import combined_measurement
-from .body import KNOWN_ORDER
 from .measure_object import measure_body
 from .request import Request
 

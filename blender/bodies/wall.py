@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from ...core.mesh.boxes import boxes_overlap
 from ...core.mesh.surface import Surface
+from ...core.moments.exponents import KNOWN_ORDER
 from ...core.moments.images import sum_of_images
 from ...core.moments.moments import Measure, Moments, monomials, sum_moments
 from ...core.polyhedron import polyhedron_moments
@@ -26,7 +27,7 @@ from ...core.verdict.method import Verdict
 from ...core.verdict.tolerances import NEGLIGIBLE
 from ...core.wall import OffsetSolid, offset_solid, split_thickness, wall_moments
 from ..read import Reading
-from .body import KNOWN_ORDER, Body, MeshBody
+from .body import Body, MeshBody
 from .mesh.instances import group_by_similarity
 
 REPORTED = 0.01  # of the thickness: less unevenness is not reported

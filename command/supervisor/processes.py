@@ -33,7 +33,7 @@ def child_command(blender: str | None) -> list[str] | None:
 
 def run_command(blender: str | None, words: Sequence[str]) -> list[str] | None:
     """What starts our command line with these words, in a Blender, or in this Python as above."""
-    batch = importlib.util.find_spec("..batch", __package__)
+    batch = importlib.util.find_spec("...operators.batch", __package__)
     assert batch is not None and batch.origin is not None
     script = str(Path(batch.origin).resolve())
     if blender is not None:

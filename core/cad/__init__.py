@@ -2,10 +2,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """B-spline surfaces in CAD files: IGES, and .obj files with free-form surfaces."""
 
-from .surface_file import SurfaceBody, SurfaceFile, read_surfaces
+from ..lazy import lazy_names
 
-__all__ = [
-    "SurfaceBody",
-    "SurfaceFile",
-    "read_surfaces",
-]
+__getattr__, __dir__, __all__ = lazy_names(
+    __name__,
+    SurfaceBody="surface_file",
+    SurfaceFile="surface_file",
+    read_surfaces="surface_file",
+)

@@ -2,22 +2,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Bodies whose density varies: by part, by face, as a polynomial, as a grid or spline of samples."""
 
-from .materials import MATERIALS
-from .piecewise_mass import solid_mass_moments
-from .polynomial import parse_polynomial
-from .spline_grid import TrivariateSpline, density_moments, grid_moments
-from .spline_tables import SplineAxis
-from .threshold import threshold_body
-from .voxel_fill import inside_moments
+from ..lazy import lazy_names
 
-__all__ = [
-    "MATERIALS",
-    "SplineAxis",
-    "TrivariateSpline",
-    "density_moments",
-    "grid_moments",
-    "inside_moments",
-    "parse_polynomial",
-    "solid_mass_moments",
-    "threshold_body",
-]
+__getattr__, __dir__, __all__ = lazy_names(
+    __name__,
+    MATERIALS="materials",
+    SplineAxis="spline_tables",
+    TrivariateSpline="spline_grid",
+    density_moments="spline_grid",
+    grid_moments="spline_grid",
+    inside_moments="voxel_fill",
+    parse_polynomial="polynomial",
+    solid_mass_moments="piecewise_mass",
+    threshold_body="threshold",
+)

@@ -2,18 +2,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Area moments of polygons with holes, and the section properties that engineers know."""
 
-from .polygon import area_moments, directed_edges, find_defects, orient_loops
-from .regions import region_moments
-from .section import Plane, Section, fit_plane, measure_section
+from ..lazy import lazy_names
 
-__all__ = [
-    "Plane",
-    "Section",
-    "area_moments",
-    "directed_edges",
-    "find_defects",
-    "fit_plane",
-    "measure_section",
-    "orient_loops",
-    "region_moments",
-]
+__getattr__, __dir__, __all__ = lazy_names(
+    __name__,
+    Plane="section",
+    Section="section",
+    area_moments="polygon",
+    directed_edges="polygon",
+    find_defects="polygon",
+    fit_plane="section",
+    measure_section="section",
+    orient_loops="polygon",
+    region_moments="regions",
+)

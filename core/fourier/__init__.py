@@ -2,19 +2,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The Fourier transform of solids, surfaces and polygons, in closed form and on large grids."""
 
-from .grid import GridTransform
-from .instances import BodyTransform
-from .polygon import polygon_transform
-from .spectrum import Spectrum
-from .transform import solid_transform, surface_transform
-from .wave_vectors import FrequencyGrid
+from ..lazy import lazy_names
 
-__all__ = [
-    "BodyTransform",
-    "FrequencyGrid",
-    "GridTransform",
-    "Spectrum",
-    "polygon_transform",
-    "solid_transform",
-    "surface_transform",
-]
+__getattr__, __dir__, __all__ = lazy_names(
+    __name__,
+    BodyTransform="instances",
+    FrequencyGrid="wave_vectors",
+    GridTransform="grid",
+    Spectrum="spectrum",
+    polygon_transform="polygon",
+    solid_transform="transform",
+    surface_transform="transform",
+)

@@ -2,25 +2,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Mass, center, inertia and radii of gyration; the principal frame, made unique by higher moments."""
 
-from .mass_properties import MassProperties, combine
-from .principal_frames import (
-    PrincipalFrame,
-    equivalent_frames,
-    nearest_frame,
-    pose_matrix,
-    principal_frame,
-    zhang_chen_frame,
-)
-from .reference import Reference
+from ..lazy import lazy_names
 
-__all__ = [
-    "MassProperties",
-    "PrincipalFrame",
-    "Reference",
-    "combine",
-    "equivalent_frames",
-    "nearest_frame",
-    "pose_matrix",
-    "principal_frame",
-    "zhang_chen_frame",
-]
+__getattr__, __dir__, __all__ = lazy_names(
+    __name__,
+    MassProperties="mass_properties",
+    PrincipalFrame="principal_frames",
+    Reference="reference",
+    combine="mass_properties",
+    equivalent_frames="principal_frames",
+    nearest_frame="principal_frames",
+    pose_matrix="principal_frames",
+    principal_frame="principal_frames",
+    zhang_chen_frame="principal_frames",
+)

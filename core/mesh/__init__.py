@@ -2,16 +2,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Triangle and quad surfaces: arrays, edges, welding, planarity, boxes, bounding-volume hierarchy."""
 
-from .hulls import ConvexHull, convex_hull, convex_polygon
-from .surface import Surface, join_surfaces, normals
-from .winding import winding_number
+from ..lazy import lazy_names
 
-__all__ = [
-    "ConvexHull",
-    "Surface",
-    "convex_hull",
-    "convex_polygon",
-    "join_surfaces",
-    "normals",
-    "winding_number",
-]
+__getattr__, __dir__, __all__ = lazy_names(
+    __name__,
+    ConvexHull="hulls",
+    Surface="surface",
+    convex_hull="hulls",
+    convex_polygon="hulls",
+    join_surfaces="surface",
+    normals="surface",
+    winding_number="winding",
+)

@@ -2,20 +2,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Raw moments about a point, their sums, affine images and error bounds; the monomials that index them."""
 
-from .complex_form import complex_moments
-from .exponents import monomial_count, monomial_index, monomials
-from .images import sum_of_images
-from .moments import Measure, Moments, sum_moments
-from .normalized import normalize
+from ..lazy import lazy_names
 
-__all__ = [
-    "Measure",
-    "Moments",
-    "complex_moments",
-    "monomial_count",
-    "monomial_index",
-    "monomials",
-    "normalize",
-    "sum_moments",
-    "sum_of_images",
-]
+__getattr__, __dir__, __all__ = lazy_names(
+    __name__,
+    Measure="moments",
+    Moments="moments",
+    complex_moments="complex_form",
+    monomial_count="exponents",
+    monomial_index="exponents",
+    monomials="exponents",
+    normalize="normalized",
+    sum_moments="moments",
+    sum_of_images="images",
+)

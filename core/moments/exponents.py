@@ -10,6 +10,8 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+KNOWN_ORDER = 3  # every body has its moments to this order
+
 Index = TypeVar("Index", int, NDArray[np.int64])  # one, or an array of them
 
 

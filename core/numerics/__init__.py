@@ -2,19 +2,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What every subject computes with: vectors, exact sums, rotations, quadrature, splines, graphs, segments."""
 
-from .bspline import SplineSpace, clamped_space
-from .float32 import shortest_decimal
-from .graph import connected_components
-from .quadrature import gauss_legendre, triangle_rule
-from .rotations import quaternion, rotation_matrix
+from ..lazy import lazy_names
 
-__all__ = [
-    "SplineSpace",
-    "clamped_space",
-    "connected_components",
-    "gauss_legendre",
-    "quaternion",
-    "rotation_matrix",
-    "shortest_decimal",
-    "triangle_rule",
-]
+__getattr__, __dir__, __all__ = lazy_names(
+    __name__,
+    SplineSpace="bspline",
+    clamped_space="bspline",
+    connected_components="graph",
+    gauss_legendre="quadrature",
+    quaternion="rotations",
+    rotation_matrix="rotations",
+    shortest_decimal="float32",
+    triangle_rule="quadrature",
+)

@@ -2,17 +2,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Moments of what triangles and quads bound: to third order, to any order, in n dimensions."""
 
-from .integration import MAX_ORDER, polyhedron_moments
-from .n_dimensions import SimplexMoments, enclosed_moments, facet_moments
-from .sheared_areas import area_of_images
-from .simplices import facets_of
+from ..lazy import lazy_names
 
-__all__ = [
-    "MAX_ORDER",
-    "SimplexMoments",
-    "area_of_images",
-    "enclosed_moments",
-    "facet_moments",
-    "facets_of",
-    "polyhedron_moments",
-]
+__getattr__, __dir__, __all__ = lazy_names(
+    __name__,
+    MAX_ORDER="integration",
+    SimplexMoments="n_dimensions",
+    area_of_images="sheared_areas",
+    enclosed_moments="n_dimensions",
+    facet_moments="n_dimensions",
+    facets_of="simplices",
+    polyhedron_moments="integration",
+)

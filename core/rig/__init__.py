@@ -2,7 +2,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Skinned bodies cut into the pieces of their bones."""
 
-from .cuts import BonePiece, bone_pieces, bones_of_caps
-from .dominance import VertexWeights, dominant_bones
+from ..lazy import lazy_names
 
-__all__ = ["BonePiece", "VertexWeights", "bone_pieces", "bones_of_caps", "dominant_bones"]
+__getattr__, __dir__, __all__ = lazy_names(
+    __name__,
+    BonePiece="cuts",
+    VertexWeights="dominance",
+    bone_pieces="cuts",
+    bones_of_caps="cuts",
+    dominant_bones="dominance",
+)

@@ -2,6 +2,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Robots as plain data: links with their inertials and shapes, joints between them."""
 
-from .model import FreeAxis, Inertial, Joint, Link, Pose, Robot, Shape
+from ..lazy import lazy_names
 
-__all__ = ["FreeAxis", "Inertial", "Joint", "Link", "Pose", "Robot", "Shape"]
+__getattr__, __dir__, __all__ = lazy_names(
+    __name__,
+    FreeAxis="model",
+    Inertial="model",
+    Joint="model",
+    Link="model",
+    Pose="model",
+    Robot="model",
+    Shape="model",
+)

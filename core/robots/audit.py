@@ -11,9 +11,9 @@ from math import inf, pi, radians
 import numpy as np
 from numpy.typing import NDArray
 
-from ...blender.bodies.body import KNOWN_ORDER
 from ..inertia.mass_properties import combine
 from ..mesh.surface import Surface
+from ..moments.exponents import KNOWN_ORDER
 from ..moments.moments import SECOND_MOMENT_INDEX, Measure, Moments, monomial_count
 from ..solid.measure import measure_solid
 from ..verdict.finding import FileError, Finding, MeasureError, finding

@@ -2,15 +2,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Files of samples, and the samples in them: NRRD, NIfTI, numpy's formats."""
 
-from .formats import SUFFIXES, read_scan, sample_matrix, scan_suffix
-from .positions import read_positions
-from .scan import Scan
+from ..lazy import lazy_names
 
-__all__ = [
-    "SUFFIXES",
-    "Scan",
-    "read_positions",
-    "read_scan",
-    "sample_matrix",
-    "scan_suffix",
-]
+__getattr__, __dir__, __all__ = lazy_names(
+    __name__,
+    SUFFIXES="formats",
+    Scan="scan",
+    read_positions="positions",
+    read_scan="formats",
+    sample_matrix="formats",
+    scan_suffix="formats",
+)

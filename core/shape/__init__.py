@@ -2,20 +2,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What a shape is apart from where it stands: symmetry, signature, registration, libraries of shapes."""
 
-from .flat_signatures import flat_signature
-from .library import classify, rank, read_library
-from .registration import match
-from .signatures import Signature, signature, similarity
-from .symmetries import symmetry
+from ..lazy import lazy_names
 
-__all__ = [
-    "Signature",
-    "classify",
-    "flat_signature",
-    "match",
-    "rank",
-    "read_library",
-    "signature",
-    "similarity",
-    "symmetry",
-]
+__getattr__, __dir__, __all__ = lazy_names(
+    __name__,
+    Signature="signatures",
+    classify="library",
+    flat_signature="flat_signatures",
+    match="registration",
+    rank="library",
+    read_library="library",
+    signature="signatures",
+    similarity="signatures",
+    symmetry="symmetries",
+)

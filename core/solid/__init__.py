@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Whether a surface bounds a solid, what has to be repaired to measure it, and its moments."""
 
-from .measure import measure_solid
-from .solid_verdict import SolidIntegrals
+from ..lazy import lazy_names
 
-__all__ = [
-    "SolidIntegrals",
-    "measure_solid",
-]
+__getattr__, __dir__, __all__ = lazy_names(
+    __name__,
+    SolidIntegrals="solid_verdict",
+    measure_solid="measure",
+)

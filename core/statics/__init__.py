@@ -4,19 +4,17 @@
 center.
 """
 
-from .balancing import BalanceResult, balance
-from .gradient import Gradient, area_gradient, volume_gradient
-from .resting import RestingPoses, resting_poses
-from .support import Support, find_support
+from ..lazy import lazy_names
 
-__all__ = [
-    "BalanceResult",
-    "Gradient",
-    "RestingPoses",
-    "Support",
-    "area_gradient",
-    "balance",
-    "find_support",
-    "resting_poses",
-    "volume_gradient",
-]
+__getattr__, __dir__, __all__ = lazy_names(
+    __name__,
+    BalanceResult="balancing",
+    Gradient="gradient",
+    RestingPoses="resting",
+    Support="support",
+    area_gradient="gradient",
+    balance="balancing",
+    find_support="support",
+    resting_poses="resting",
+    volume_gradient="gradient",
+)

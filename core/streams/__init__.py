@@ -2,11 +2,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Meshes in files that are larger than memory, measured in blocks."""
 
-from .measure import StreamIntegrals, measure_stream
-from .mesh_file import open_mesh_file
+from ..lazy import lazy_names
 
-__all__ = [
-    "StreamIntegrals",
-    "measure_stream",
-    "open_mesh_file",
-]
+__getattr__, __dir__, __all__ = lazy_names(
+    __name__,
+    StreamIntegrals="measure",
+    measure_stream="measure",
+    open_mesh_file="mesh_file",
+)

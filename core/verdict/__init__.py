@@ -5,16 +5,16 @@
 Nothing here that is offered imports numpy: a process without it can read findings.
 """
 
-from .finding import FileError, Finding, MeasureError, QueryError, Severity
-from .method import Method, Source, Verdict
+from ..lazy import lazy_names
 
-__all__ = [
-    "FileError",
-    "Finding",
-    "MeasureError",
-    "Method",
-    "QueryError",
-    "Severity",
-    "Source",
-    "Verdict",
-]
+__getattr__, __dir__, __all__ = lazy_names(
+    __name__,
+    FileError="finding",
+    Finding="finding",
+    MeasureError="finding",
+    Method="method",
+    QueryError="finding",
+    Severity="finding",
+    Source="method",
+    Verdict="method",
+)

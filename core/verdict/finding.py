@@ -3,14 +3,12 @@
 """What was noticed, decided or refused, as data; and the exceptions that carry a refusal.
 
 A finding is a code, the values that its sentence needs, and the elements that it is about. Its severity and its
-sentence belong to the code and stand in one table, `core/verdict/messages.py`: no code reads a sentence. This file
-knows that table only as a function that the add-on's root hands in, so that `str` of a refusal is a sentence wherever
-it is caught.
+sentence belong to the code and stand in `core/verdict/messages.py`: no code reads a sentence.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from typing import Any, Protocol
@@ -94,7 +92,9 @@ class Finding:
         return hash((self.code, repr(sorted(self.values.items()))))
 
     def __str__(self) -> str:
-        return _sentence_of(self)
+        from .messages import sentence  # that module needs this one
+
+        return sentence(self)
 
 
 def finding(code: str, elements: Elements = (), /, **values: Any) -> Finding:
@@ -234,19 +234,3 @@ class QueryError(MeasureError):
     >>> QueryError("name_unknown", name="Cube").finding.values
     {'name': 'Cube'}
     """
-
-
-def _plain(found: Finding) -> str:
-    """The sentence of a finding where nobody has handed in the table: the code in words, and the values."""
-    words = found.code.replace("_", " ").capitalize()
-    values = ", ".join("{} {}".format(name.replace("_", " "), value) for name, value in found.values.items())
-    return "{} ({}).".format(words, values) if values else words + "."
-
-
-_sentence_of: Callable[[Finding], str] = _plain
-
-
-def use_sentences(sentence: Callable[[Finding], str]) -> None:
-    """Let `str` of findings and refusals be what this function makes of them."""
-    global _sentence_of
-    _sentence_of = sentence

@@ -2,12 +2,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Shells of real thickness: where their vertices go, and their moments as polynomials in the thickness."""
 
-from .moments import wall_moments
-from .walls import OffsetSolid, offset_solid, split_thickness
+from ..lazy import lazy_names
 
-__all__ = [
-    "OffsetSolid",
-    "offset_solid",
-    "split_thickness",
-    "wall_moments",
-]
+__getattr__, __dir__, __all__ = lazy_names(
+    __name__,
+    OffsetSolid="walls",
+    offset_solid="walls",
+    split_thickness="walls",
+    wall_moments="moments",
+)

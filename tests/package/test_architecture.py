@@ -7,35 +7,39 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 
-# Each package may import those of the rows above its own and itself; those of one row do not know each other, but for
-# those of one row of the core.
-CORE = (
-    ("numerics", "verdict"),
-    ("moments",),
-    ("mesh", "inertia", "papers"),
-    ("polyhedron", "shape", "scans", "robots"),
-    ("solid", "plane", "fourier", "rigs", "streams"),
-    ("density", "nurbs", "offset"),
-    ("statics", "cad"),
-    ("measurement",),
-)
-OPERATORS = (
-    ("settings", "write"),
-    ("read", "supervisor"),
-    ("bodies", "scene"),
-    ("session",),
-    ("actions", "command"),
-    ("batch",),
-)
+# Each wing may import those before it and itself.
+WINGS = ("core", "blender", "command", "operators", "panels")
+# Each package of a wing may import those of the rows above its own and itself; those of one row do not know each other,
+# but for those of one row of the core.
+ORDER = {
+    "core": (
+        ("lazy",),
+        ("numerics", "verdict", "files"),
+        ("moments",),
+        ("mesh", "inertia", "papers"),
+        ("polyhedron", "shape", "scans"),
+        ("solid", "flat", "fourier", "rig", "streams"),
+        ("density", "nurbs", "wall"),
+        ("statics", "cad"),
+        ("measurement",),
+        ("robots",),
+    ),
+    "blender": (
+        ("registration", "settings", "write"),
+        ("read",),
+        ("bodies", "scene"),
+        ("session",),
+    ),
+}
 MAY_KNOW_EACH_OTHER = ("mesh", "inertia", "papers")
 WITHOUT_WRITE = ("settings", "read", "bodies", "scene")  # what only makes findings and numbers
 # Blender is imported when it is needed: the package can be imported without it, and a script has to be ready first.
-LATE = {"__init__.py", "operators/batch.py", "panels/__init__.py"}
+LATE = {"__init__.py", "core/verdict/finding.py", "operators/batch.py"}
 
 
 def shipped() -> dict[tuple[str, ...], Path]:
     files = [ROOT / "__init__.py"]
-    for part in ("core", "operators", "panels"):
+    for part in WINGS:
         files += (ROOT / part).rglob("*.py")
     return {path.relative_to(ROOT).with_suffix("").parts: path for path in files}
 
@@ -81,18 +85,18 @@ def complaints() -> list[str]:
             if not target or module == ("__init__",):
                 continue
             part = module[0]
-            if part == "core" and target[0] != "core" or part == "operators" and target[0] == "panels":
+            if WINGS.index(part) < WINGS.index(target[0]):
                 result.append(place + ": up")
                 continue
-            if part != target[0] or part == "panels" or len(target) < 2 or module[1] == "__init__":
+            if part != target[0] or part not in ORDER or len(target) < 2 or module[1] == "__init__":
                 continue
-            order = CORE if part == "core" else OPERATORS
+            order = ORDER[part]
             source, destination = rank(order, module[1]), rank(order, target[1])
             if destination > source:
                 result.append(place + ": up")
             elif destination == source and module[1] != target[1] and module[1] not in MAY_KNOW_EACH_OTHER:
                 result.append(place + ": sideways")
-            if part == "operators" and module[1] in WITHOUT_WRITE and target[1] == "write":
+            if part == "blender" and module[1] in WITHOUT_WRITE and target[1] == "write":
                 result.append(place + ": only what shows or stores may write")
     return result
 
@@ -101,7 +105,7 @@ def cycles() -> list[list[str]]:
     """Modules that import each other, however far around; a package stands for its own __init__."""
     graph = {}
     for module in MODULES:
-        targets = {target if target in MODULES else (*target, "__init__") for target, _, _ in imports(module)}
+        targets = {target if target in MODULES else (*target, "__init__") for target, _, top in imports(module) if top}
         graph["/".join(module)] = sorted("/".join(target) for target in targets if target in MODULES)
     done, path, result = set(), [], []
 

@@ -11,12 +11,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tests.package.test_architecture import CORE, OPERATORS
+from tests.package.test_architecture import ORDER
 from tests.window import png
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 DOCUMENTS = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
-PLACE = re.compile(r"`((?:core|operators|panels|tests|docs)/[\w/.]*?|__init__\.py)(?::([A-Za-z_][\w.]*))?`")
+PLACE = re.compile(
+    r"`((?:core|blender|command|operators|panels|tests|docs)/[\w/.]*?|__init__\.py)(?::([A-Za-z_][\w.]*))?`"
+)
 
 
 def places(document: Path) -> list[tuple[str, str]]:
@@ -49,11 +51,9 @@ def test_the_architecture_names_its_functions():
 
 def test_the_architecture_draws_the_imports_that_are_tested():
     text = (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8")
-    existing = {path.name for path in (ROOT / "core").iterdir()} | {path.stem for path in (ROOT / "core").iterdir()}
-    rows = [", ".join(package for package in row if package in existing) for row in CORE]
-    rows += [", ".join(row) for row in OPERATORS]
-    drawn = re.search(r"    core  .*?(?=\n\n    panels)", text, re.S).group()
-    lines = [re.sub(r"^    (core|operators)?\s+", "", line) for line in drawn.splitlines() if line.strip()]
+    rows = [", ".join(row) for wing in ORDER.values() for row in wing]
+    drawn = re.search(r"    core  .*?(?=\n\n    command)", text, re.S).group()
+    lines = [re.sub(r"^    (core|blender)?\s+", "", line) for line in drawn.splitlines() if line.strip()]
     assert lines == rows
 
 

@@ -12,6 +12,7 @@ from pathlib import Path, PurePosixPath
 import pytest
 
 from tests.package import extension
+from tests.package.test_architecture import WINGS
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 
@@ -98,7 +99,7 @@ def test_the_zip_holds_the_add_on_and_nothing_else(archive):
     top = {"__init__.py", "blender_manifest.toml", "LICENSE", "README.md"}
     expected = {
         path.relative_to(ROOT).as_posix()
-        for part in ("core", "operators", "panels")
+        for part in WINGS
         for path in (ROOT / part).rglob("*")
         if path.is_file() and path.suffix != ".pyc"
     }

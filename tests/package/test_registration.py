@@ -94,12 +94,12 @@ def test_classes_are_unregistered_in_reverse(before, monkeypatch):
 
 
 def test_a_failure_half_way_rises_and_leaves_nothing_registered(before, monkeypatch):
-    from body_moments import panels
+    from body_moments.panels import menus
 
     def fail():
         raise RuntimeError("no panels today")
 
-    monkeypatch.setattr(panels, "register", fail)
+    monkeypatch.setattr(menus, "register", fail)
     with pytest.raises(RuntimeError, match="no panels today"):
         body_moments.register()
     assert footprint() == before

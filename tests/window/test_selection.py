@@ -175,7 +175,8 @@ def test_columns_sort_and_warnings_come_first_on_request(three):
     window.ask("bpy.ops.object.select_all(action='SELECT')")
     window.redraw()
     window.picture("list-warnings-first")
-    total = "__import__('sys').modules['bl_ext.user_default.body_moments.blender.session.stored.results'].total(bpy.context)"
+    results = "bl_ext.user_default.body_moments.blender.session.stored.results"
+    total = f"__import__('sys').modules['{results}'].total(bpy.context)"
     assert window.get(f"[{total}.count, {total}.stale, {total}.doubtful]") == [3, ["C"], []]
 
 

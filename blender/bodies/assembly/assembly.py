@@ -17,6 +17,7 @@ from bpy.types import Depsgraph, Object
 
 from ....core.measurement.measurement import DENSITY_FROM_MASS, Measurement
 from ....core.moments.affine_maps import are_similarities
+from ....core.moments.exponents import KNOWN_ORDER
 from ....core.moments.moments import Measure, Moments, U, sum_moments
 from ....core.numerics.float32 import shortest_decimal
 from ....core.numerics.rotations import rotation_matrix
@@ -30,7 +31,6 @@ from ...read.total_caveats import open_body_caveats
 from ...settings.density import unset_density
 from ...settings.given import GivenPart
 from ...settings.options import AS_SET, MeasureOptions
-from ..body import KNOWN_ORDER
 from ..measure_object import Measured
 from ..mesh.instances import merge_health
 from ..stacks.many import measure_many

@@ -10,11 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....core.measurement.measurement import Measurement
+from ....core.moments.exponents import KNOWN_ORDER
 from ....core.moments.moments import Measure, Moments, monomial_count
 from ....core.verdict.finding import Finding, finding
 from ....core.verdict.health import MeshHealth
 from ....core.verdict.method import Method, Verdict
-from ..body import KNOWN_ORDER
 from .given import properties_of
 
 

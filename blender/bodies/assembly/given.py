@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from ....core.inertia.mass_properties import MassProperties
 from ....core.inertia.principal_frames import PrincipalFrame
 from ....core.measurement.measurement import DENSITY_FROM_MASS, Measurement
+from ....core.moments.exponents import KNOWN_ORDER
 from ....core.moments.moments import SECOND_MOMENT_INDEX, Measure, Moments, U, monomial_count
 from ....core.numerics.float32 import shortest_decimal
 from ....core.verdict.finding import Finding, ReadError, finding
@@ -26,7 +27,7 @@ from ...read.fingerprint import effective_hash, fingerprint, matrix_hash
 from ...read.objects import locate
 from ...read.reading import to_si
 from ...settings.given import GivenPart, is_point_mass
-from ..body import KNOWN_ORDER, Body
+from ..body import Body
 from ..measurement import extent
 from ..request import Request
 

@@ -18,6 +18,7 @@ from ....core.density.part_densities import PartDensities, part_densities
 from ....core.density.piecewise_mass import sheet_mass_moments, solid_mass_moments, to_mass_moments
 from ....core.mesh.surface import Surface
 from ....core.moments.affine_maps import are_similarities, distinct_linear_parts
+from ....core.moments.exponents import KNOWN_ORDER
 from ....core.moments.images import sum_of_images
 from ....core.moments.moments import Moments, sum_moments
 from ....core.polyhedron import polyhedron_moments
@@ -30,7 +31,7 @@ from ...read import Reading
 from ...read.reading import attribute_to_source, to_si
 from ...settings.density import DensityField, material_density
 from ...settings.digest import density_key
-from ..body import KNOWN_ORDER, MAX_MASS_MOMENT, MeshBody
+from ..body import MAX_MASS_MOMENT, MeshBody
 from ..measurement import extent
 from ..mesh.instances import area_of_instances, findings_by_part
 from ..request import Request

@@ -11,13 +11,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....core.measurement.measurement import Measurement
+from ....core.moments.exponents import KNOWN_ORDER
 from ....core.scans import Scan, read_scan, sample_matrix
 from ....core.scans.limits import DEFAULT_LIMITS, Limits
 from ....core.scans.positions import Positions, place_samples, read_all_positions
 from ....core.verdict.finding import Finding, ReadError, finding
 from ...settings.grid import GridOptions
 from ...settings.options import MeasureOptions, ResolvedOptions
-from ..body import KNOWN_ORDER, Body
+from ..body import Body
 from ..grids.grid import density_body
 from ..grids.threshold import MAX_SAMPLES, TRILINEAR, ThresholdGrid, threshold_grid_body
 from ..measurement import measurement_of

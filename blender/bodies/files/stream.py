@@ -11,6 +11,7 @@ from typing import ClassVar
 import numpy as np
 
 from ....core.measurement.measurement import Measurement
+from ....core.moments.exponents import KNOWN_ORDER
 from ....core.moments.moments import Moments
 from ....core.streams import StreamIntegrals, measure_stream, open_mesh_file
 from ....core.streams.mesh_file import MeshFile
@@ -18,7 +19,7 @@ from ....core.verdict.finding import Finding, ReadError, finding
 from ....core.verdict.health import MeshHealth
 from ....core.verdict.method import Method, Verdict
 from ...settings.options import MeasureOptions, ResolvedOptions
-from ..body import KNOWN_ORDER, Body
+from ..body import Body
 from ..measurement import measurement_of
 from ..request import Request
 from .bare_file import about_file, bare_reading

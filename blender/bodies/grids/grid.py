@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....core.density.spline_grid import Blocks, grid_moments
+from ....core.moments.exponents import KNOWN_ORDER
 from ....core.moments.moments import Measure, Moments
 from ....core.scans.positions import AXES, EVEN, Positions
 from ....core.verdict.finding import Finding, ReadError, finding
@@ -24,7 +25,7 @@ from ...read.reading import to_si
 from ...read.tracking import tracking_paused
 from ...settings.digest import density_key, grid_key
 from ...settings.grid import GridOptions
-from ..body import KNOWN_ORDER, MAX_MASS_MOMENT, Body, MeshBody
+from ..body import MAX_MASS_MOMENT, Body, MeshBody
 from ..mesh.mesh import mesh_body
 from ..request import Request
 from .threshold import threshold_grid, threshold_grid_body

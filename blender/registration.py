@@ -1,0 +1,45 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Registration of a wing's modules, each with `register` and `unregister`, or with a tuple CLASSES alone."""
+
+from collections.abc import Iterable
+from contextlib import ExitStack
+from importlib import import_module
+from types import ModuleType
+
+import bpy
+
+
+def register_modules(package: str, names: Iterable[str]) -> None:
+    """Register the modules in order; if one fails, remove the others and let the error rise."""
+    with ExitStack() as undo:
+        for name in names:
+            module = import_module("." + name, package)
+            _register(module)
+            undo.callback(_unregister, module)
+        undo.pop_all()
+
+
+def unregister_modules(package: str, names: Iterable[str]) -> None:
+    """Remove everything that `register_modules` added, in reverse."""
+    for name in reversed([*names]):
+        _unregister(import_module("." + name, package))
+
+
+def _register(module: ModuleType) -> None:
+    if hasattr(module, "register"):
+        module.register()
+        return
+    with ExitStack() as undo:
+        for cls in module.CLASSES:
+            bpy.utils.register_class(cls)
+            undo.callback(bpy.utils.unregister_class, cls)
+        undo.pop_all()
+
+
+def _unregister(module: ModuleType) -> None:
+    if hasattr(module, "unregister"):
+        module.unregister()
+        return
+    for cls in reversed(module.CLASSES):
+        bpy.utils.unregister_class(cls)

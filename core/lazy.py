@@ -1,0 +1,26 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Public names of packages, imported when they are first used (PEP 562)."""
+
+import sys
+from collections.abc import Callable
+from importlib import import_module
+from typing import Any
+
+
+def lazy_names(package: str, **modules: str) -> tuple[Callable[[str], Any], Callable[[], list[str]], list[str]]:
+    """Return `__getattr__`, `__dir__` and `__all__` of a package, given the module of each public name.
+
+    A package without names of its own module offers the modules themselves. Importing the package loads none of them.
+    """
+    names = sorted(modules)
+
+    def load(name: str) -> Any:
+        if name not in modules:
+            raise AttributeError("module {!r} has no attribute {!r}".format(package, name))
+        module = import_module("." + modules[name], package)
+        value = getattr(module, name, module)
+        setattr(sys.modules[package], name, value)
+        return value
+
+    return load, lambda: names, names
