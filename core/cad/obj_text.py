@@ -120,7 +120,7 @@ def _indices(letters: NDArray, is_word: NDArray, is_inside: NDArray) -> tuple[ND
     return at, slashes - np.maximum.accumulate(np.where(is_first, slashes, 0)), value
 
 
-def _find_fault(line: bytes, before: Sequence[int]) -> Finding | None:
+def _find_fault(line: bytes, before: Sequence[int] | NDArray) -> Finding | None:
     """Return what an importer would misread in a statement, or None. before: counts of v, vt and vn."""
     kind = line.split(None, 1)[0]
     # Behind an index without a space, a comment is a part of it; 1.#IND has none.
@@ -145,7 +145,7 @@ def _find_fault(line: bytes, before: Sequence[int]) -> Finding | None:
     return count_fault(line.split()) if fault is None and len(words) < least else fault
 
 
-def _find_index_fault(word: bytes, before: Sequence[int]) -> Finding | None:
+def _find_index_fault(word: bytes, before: Sequence[int] | NDArray) -> Finding | None:
     """Return why a word is no index of v, vt and vn, or None. Importers ignore vt and vn where there are none."""
     if not re.fullmatch(_ANY_INDEX, word):
         return finding("field_not_whole", text=shorten(word))

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from .arguments import float_array
 
@@ -182,7 +182,7 @@ class SplineSpace:
         return near[..., self.order - order : self.order - 1], near[..., self.order - 1 : self.order + order - 2]
 
     def collocation_matrix(
-        self, parameters: NDArray, derivative: int = 0, spans: NDArray[np.integer] | None = None
+        self, parameters: ArrayLike, derivative: int = 0, spans: NDArray[np.integer] | None = None
     ) -> NDArray[np.float64]:
         """(n, count) what each control point weighs at each of n parameters, or in a derivative there. spans: (n,)
         those that they belong to, where a knot may end one or begin the next."""

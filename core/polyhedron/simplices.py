@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from ..numerics.arguments import float_array, index_array
 
 
-def facets_of(points: ArrayLike, simplices: ArrayLike) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
+def facets_of(points: ArrayLike, simplices: ArrayLike) -> tuple[NDArray[np.integer], NDArray[np.float64]]:
     """Return the facets around full simplices, each turned so that what it encloses is positive.
 
     Parameters
