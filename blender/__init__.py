@@ -18,5 +18,4 @@ MODULES = (
     "session.stored.assembly",
     "session.stored.rig",
     "session.stored.outcome",
-    "session.tracking.staleness",
 )

@@ -310,10 +310,10 @@ def failing(_path, *_):
 @pytest.mark.parametrize(
     ("name", "reader"),
     [
-        ("part.stl", "finite.stl_obj.check_stl_text"),
-        ("part.igs", "import_surfaces.read_surfaces"),
-        ("part.obj", "import_surfaces.has_surfaces"),
-        ("part.3mf", "import_3mf.read_3mf"),
+        ("part.stl", "files.finite.stl_obj.check_stl_text"),
+        ("part.igs", "files.import_surfaces.read_surfaces"),
+        ("part.obj", "files.import_surfaces.has_surfaces"),
+        ("part.3mf", "files.import_3mf.read_3mf"),
     ],
 )
 def test_a_disk_that_fails_while_a_file_is_read_is_an_error_of_the_file(tmp_path, monkeypatch, name, reader):

@@ -21,7 +21,7 @@ pytest.importorskip("bpy")
 
 from tests.blender import batch_files as files
 
-ROOT = Path(__file__).resolve().parent.parent.parent.parent
+ROOT = Path(__file__).resolve().parent.parent.parent
 SCRIPT = str(ROOT / "operators" / "batch.py")
 BLENDER = os.environ.get("BLENDER") or shutil.which("blender")
 in_blender = pytest.mark.skipif(

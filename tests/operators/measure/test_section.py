@@ -72,7 +72,7 @@ def refused(obj, code, **values):
 
 
 def stored(obj):
-    from body_moments.operators.measure import section
+    from body_moments.blender.write import section
 
     return section.stored(obj)
 
