@@ -18,6 +18,14 @@ from ..core.robots.repair import repaired_copy
 from ..core.robots.write import audit_report
 from ..core.verdict import internal_error
 from ..core.verdict.finding import FileError, MeasureError, Severity, finding, system_reason
+from .findings import (
+    AUDIT_COPIES_ALIKE,
+    AUDIT_COPY_EXISTS,
+    AUDIT_DONE,
+    AUDIT_NOT_WRITTEN,
+    USAGE_REPAIR_FOLDER,
+    USAGE_REPAIR_SAME,
+)
 from .options import targets
 from .parser import Parser
 
@@ -52,10 +60,10 @@ def parse(argv: list[str]) -> argparse.Namespace:
     options = parser.parse_intermixed_args(argv)
     if options.repair is not None:
         if not options.repair.is_dir():
-            parser.error(finding("usage_repair_folder", path=str(options.repair)))
+            parser.error(finding(USAGE_REPAIR_FOLDER, path=str(options.repair)))
         here = os.path.realpath(options.repair)
         if any(os.path.realpath(path.parent) == here for path in options.files):
-            parser.error(finding("usage_repair_same", path=str(options.repair)))
+            parser.error(finding(USAGE_REPAIR_SAME, path=str(options.repair)))
     targets.check_places(options, parser.error)
     targets.files_to_replace(options, options.files, parser.error)
     return options
@@ -97,7 +105,7 @@ def summary(document: dict[str, Any]) -> Any:
     """How many findings a document has, as a finding."""
     levels = [found["severity"] for link in document["links"] for found in link["findings"]]
     counts = {str(level) + "s": levels.count(level) for level in Severity}
-    return finding("audit_done", links=len(document["links"]), **counts)
+    return finding(AUDIT_DONE, links=len(document["links"]), **counts)
 
 
 def _write_copy(path: Path, audit: Audit, options: argparse.Namespace, copies: set[str]) -> str | None:
@@ -106,15 +114,15 @@ def _write_copy(path: Path, audit: Audit, options: argparse.Namespace, copies: s
     if folder is None or not repairs:
         return None
     if path.name in copies:
-        raise FileError("audit_copies_alike", name=path.name)
+        raise FileError(AUDIT_COPIES_ALIKE, name=path.name)
     copies.add(path.name)
     target = folder / path.name
     try:
         copy = repaired_copy(audit.description, repairs)
         if target.is_file() and not options.force and target.read_bytes() not in (b"", copy):
-            raise FileError("audit_copy_exists", path=str(target))
+            raise FileError(AUDIT_COPY_EXISTS, path=str(target))
         with whole_file(target) as file:
             file.write(copy)
     except OSError as error:
-        raise FileError("audit_not_written", error=system_reason(error)) from error
+        raise FileError(AUDIT_NOT_WRITTEN, error=system_reason(error)) from error
     return str(target)

@@ -11,6 +11,7 @@ from contextlib import contextmanager, suppress
 
 from ..core.measurement.plain_text import print_message
 from ..core.verdict.finding import Finding, finding
+from .findings import PROGRESS_SAMPLES
 
 PERIOD = 5.0  # seconds between reports of progress
 
@@ -80,7 +81,7 @@ class Progress:
     """Counts what is read from a file, samples or faces, and reports their number every `PERIOD` seconds by the message
     of that code."""
 
-    def __init__(self, file: str, code: str = "progress_samples") -> None:
+    def __init__(self, file: str, code: str = PROGRESS_SAMPLES) -> None:
         self._file, self._code, self._count, self._due = file, code, 0, time.monotonic() + PERIOD
 
     def __call__(self, count: int) -> None:

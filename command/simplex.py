@@ -20,7 +20,17 @@ from ..core.polyhedron import SimplexMoments, enclosed_moments, facet_moments, f
 from ..core.polyhedron.n_dimensions import multi_indices
 from ..core.polyhedron.simplices import closes, outer_facets
 from ..core.scans.numpy_files import read_arrays
+from ..core.streams.findings import FILE_UNREADABLE
 from ..core.verdict.finding import FileError, QueryError, finding, system_reason
+from .findings import (
+    SIMPLEX_ARRAYS,
+    SIMPLEX_OPEN,
+    SIMPLEX_POINT,
+    SIMPLEX_POINTS,
+    SIMPLEX_ROWS,
+    SIMPLEX_SIGNS,
+    SIMPLEX_TOO_MANY,
+)
 from .options import option_types as types
 from .options.arguments import join_negative_values
 from .parser import Parser
@@ -61,16 +71,16 @@ def answer(options: argparse.Namespace) -> str:
     points, simplices, signs = _read(options.file)
     dimension = points.shape[1]
     if comb(dimension + options.order, dimension) > MAX_MOMENTS:
-        raise QueryError("simplex_too_many", dimension=dimension, order=options.order, limit=MAX_MOMENTS)
+        raise QueryError(SIMPLEX_TOO_MANY, dimension=dimension, order=options.order, limit=MAX_MOMENTS)
     about = np.zeros(dimension) if options.about is None else np.array(options.about)
     if len(about) != dimension:
-        raise QueryError("simplex_point", count=len(about), dimension=dimension)
+        raise QueryError(SIMPLEX_POINT, count=len(about), dimension=dimension)
     facets = simplices
     if simplices.shape[1] == dimension + 1:
         facets, turned = facets_of(points, simplices)
         signs = turned if signs is None else turned * np.tile(signs, dimension + 1)
     is_closed = closes(points, facets, signs)
-    findings = [] if is_closed else [finding("simplex_open")]
+    findings = [] if is_closed else [finding(SIMPLEX_OPEN)]
     for one in findings:
         print_message(options.file, one)
     record: dict[str, Any] = {
@@ -105,19 +115,19 @@ def _as_record(moments: SimplexMoments) -> dict[str, dict[str, float]]:
 def _read(path: Path) -> tuple[NDArray[np.float64], NDArray[np.integer], NDArray | None]:
     arrays = read_arrays(path, ("points", "simplices", "signs"), scan_limits())
     if not {"points", "simplices"} <= arrays.keys():
-        raise FileError("simplex_arrays")
+        raise FileError(SIMPLEX_ARRAYS)
     points, simplices, signs = arrays["points"], arrays["simplices"], arrays.get("signs")
     dimension = points.shape[1] if points.ndim == 2 else 0
     if points.dtype.kind not in "iuf" or not 1 <= dimension <= MAX_DIMENSION or not np.isfinite(points).all():
-        raise FileError("simplex_points", limit=MAX_DIMENSION)
+        raise FileError(SIMPLEX_POINTS, limit=MAX_DIMENSION)
     is_table = simplices.ndim == 2 and simplices.dtype.kind in "iu" and simplices.shape[1] in (dimension, dimension + 1)
     if not is_table or not len(simplices) or simplices.min() < 0 or simplices.max() >= len(points):
-        raise FileError("simplex_rows", dimension=dimension)
+        raise FileError(SIMPLEX_ROWS, dimension=dimension)
     if signs is not None and (signs.shape != (len(simplices),) or not np.isin(signs, (-1, 1)).all()):
-        raise FileError("simplex_signs")
+        raise FileError(SIMPLEX_SIGNS)
     return points.astype(np.float64), simplices.astype(np.int64), signs
 
 
 def reason_of(error: OSError) -> object:
     """Why the file cannot be read."""
-    return finding("file_unreadable", error=system_reason(error))
+    return finding(FILE_UNREADABLE, error=system_reason(error))

@@ -43,6 +43,7 @@ def main(argv: list[str], *, channel: int | None = None, file_needed: bool = Fal
     """
     from ..command import interruption
     from ..command.files import output
+    from ..command.findings import INTERRUPTED as INTERRUPTED_RUN
     from ..core.measurement.plain_text import print_message
     from ..core.verdict.finding import finding
 
@@ -51,7 +52,7 @@ def main(argv: list[str], *, channel: int | None = None, file_needed: bool = Fal
         with interruption.interruptible():
             return _answer(argv, channel, file_needed)
     except KeyboardInterrupt:
-        print_message(finding("interrupted"))
+        print_message(finding(INTERRUPTED_RUN))
         return INTERRUPTED
     except Exception:
         traceback.print_exc()

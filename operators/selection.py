@@ -10,12 +10,13 @@ from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
 
 from bpy.types import Context, Object, Operator
 
-from ..blender.read import measurable
+from ..blender.read.visibility import measurable
 from ..blender.scene.transforms import ancestors
 from ..blender.session.stored import outcome
 from ..blender.settings.preferences import copy_defaults
 from ..blender.write import reports
 from ..core.verdict.finding import Finding, finding
+from .findings import LEFT_UNCHANGED, NOTHING_MEASURABLE, NOTHING_TO_DO, POLL_OBJECT_MODE, POLL_SELECT_OBJECTS
 from .modal import progress
 
 
@@ -31,9 +32,9 @@ def selected_measurable(context: Context) -> list[Object]:
 def poll_selection(cls: type[Operator], context: Context, any_mode: bool = False) -> bool:
     """Whether something is selected, in Object Mode unless any mode will do; says why not."""
     if not any_mode and context.mode != "OBJECT":
-        return reports.unavailable(cls, finding("poll_object_mode"))
+        return reports.unavailable(cls, finding(POLL_OBJECT_MODE))
     if not context.view_layer.objects.selected:
-        return reports.unavailable(cls, finding("poll_select_objects"))
+        return reports.unavailable(cls, finding(POLL_SELECT_OBJECTS))
     return True
 
 
@@ -59,11 +60,11 @@ def summarize(
     else was noticed. idle: where nothing had to be done, why.
     """
     if not changed and not failures and idle is not None:
-        done = finding("nothing_to_do", cause=idle.as_record()) if total else finding("nothing_measurable")
+        done = finding(NOTHING_TO_DO, cause=idle.as_record()) if total else finding(NOTHING_MEASURABLE)
     sentences = [done] if changed or not failures else []
     if failures:
         causes = [failure.as_record() for failure in reports.first(failures)]
-        sentences.append(finding("left_unchanged", count=len(failures), total=total, causes=causes))
+        sentences.append(finding(LEFT_UNCHANGED, count=len(failures), total=total, causes=causes))
     outcome.remember(operator.bl_label, [*failures, *findings])
     reports.report(operator, *sentences, *reports.first(findings))
     return {"FINISHED"} if changed else {"CANCELLED"}

@@ -15,7 +15,7 @@ from ..blender.session.stored import assembly as stored_assembly
 from ..blender.write import properties
 from ..blender.write.translations import localized
 from ..blender.write.units import Units
-from ..core.verdict.messages import severity
+from ..core.verdict.sentences import severity
 from . import rows
 from .density.given import given_rows
 from .measure import remedies

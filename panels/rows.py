@@ -19,7 +19,7 @@ from bpy.types import Context, UILayout
 from ..blender.write.translations import localized, localized_sentence
 from ..blender.write.units import SI_UNITS, Units
 from ..core.verdict.finding import Finding, Severity, finding
-from ..core.verdict.messages import severity
+from ..core.verdict.sentences import severity
 from ..operators.measure.copy import OBJECT_OT_body_moments_copy_value
 
 # share of a row that its label takes, one of few letters, and of one

@@ -9,8 +9,15 @@ from bpy.types import Context, Object, UILayout
 from ..blender.session.tracking import staleness
 from ..blender.write.translations import localized
 from ..core.verdict.finding import finding, truncate
-from ..core.verdict.messages import SIMILARITY
+from ..core.verdict.findings import AND_MORE
+from ..core.verdict.sentences import SIMILARITY
 from . import rows
+from .findings import (
+    PANEL_NOTHING_TO_COMPARE,
+    PANEL_SYMMETRY_OF_MOMENTS,
+    PANEL_SYMMETRY_TOLERANCE,
+    PANEL_SYMMETRY_TOLERANCE_OF_DISPLAY_MESH,
+)
 from .places import in_both_places
 
 MAX_SHOWN = 12  # elements of a symmetry, and similar shapes
@@ -54,8 +61,8 @@ def _symmetry(layout: UILayout, context: Context, obj: Object) -> None:
     rows.filled(column, "Symmetry {:s}", stored.group, icon="CHECKMARK")
     rows.stale_row(column, context, staleness.symmetry_stale_reason(obj))
     if stored.compatible != stored.group:
-        rows.message(column, context, finding("panel_symmetry_of_moments", group=stored.compatible), icon="BLANK1")
-    code = "panel_symmetry_tolerance_of_display_mesh" if stored.of_display_mesh else "panel_symmetry_tolerance"
+        rows.message(column, context, finding(PANEL_SYMMETRY_OF_MOMENTS, group=stored.compatible), icon="BLANK1")
+    code = PANEL_SYMMETRY_TOLERANCE_OF_DISPLAY_MESH if stored.of_display_mesh else PANEL_SYMMETRY_TOLERANCE
     rows.message(column, context, finding(code, share=stored.tolerance), icon="BLANK1")
     if not stored.elements:
         return
@@ -70,7 +77,7 @@ def _symmetry(layout: UILayout, context: Context, obj: Object) -> None:
         rows.filled(column, KINDS[element.kind], element.order)
         rows.direction(column, "", element.direction)
     if more:
-        rows.message(column, context, finding("and_more", count=more), icon="BLANK1")
+        rows.message(column, context, finding(AND_MORE, count=more), icon="BLANK1")
 
 
 def _similar(layout: UILayout, context: Context) -> None:
@@ -85,7 +92,7 @@ def _similar(layout: UILayout, context: Context) -> None:
     if search.looked_at:
         column.label(text=search.looked_at, icon="FILE", translate=False)
     if not search.found:
-        rows.message(column, context, finding("panel_nothing_to_compare"))
+        rows.message(column, context, finding(PANEL_NOTHING_TO_COMPARE))
     else:
         row = column.row()
         row.alignment = "RIGHT"

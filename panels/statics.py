@@ -14,6 +14,7 @@ from ..core.statics.resting import RestingPoses
 from ..core.statics.support import Support
 from ..core.verdict.finding import Finding, finding
 from . import rows
+from .findings import PANEL_STABILITY_STALE, PANEL_STABILITY_UNKNOWN
 from .places import in_both_places
 
 MAX_POSES = 6  # that are listed: round bodies have thousands
@@ -29,9 +30,9 @@ class StabilityPanel:
         layout, obj = self.layout, context.object
         layout.use_property_decorate = False
         if not stability.is_known(obj):
-            rows.message(layout, context, finding("panel_stability_unknown"))
+            rows.message(layout, context, finding(PANEL_STABILITY_UNKNOWN))
         elif stability.is_stale(obj):
-            rows.message(layout, context, finding("panel_stability_stale"), icon="FILE_REFRESH")
+            rows.message(layout, context, finding(PANEL_STABILITY_STALE), icon="FILE_REFRESH")
         rows.button(layout, context, "object.body_moments_stability", "CON_FLOOR", short="Check")
         support = stability.support(obj, context.scene)
         if support is not None:

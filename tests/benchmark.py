@@ -415,7 +415,7 @@ def blender(side: int, rounds: int) -> None:
     import bmesh
     import bpy
     from body_moments.blender.bodies.measure_object import measure_object
-    from body_moments.blender.read import read_object
+    from body_moments.blender.read.objects import read_object
     from body_moments.blender.settings.options import MeasureOptions
 
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)

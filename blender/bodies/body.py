@@ -27,6 +27,7 @@ from ...core.solid.measure import SolidIntegrals
 from ...core.verdict.finding import Finding, ReadError
 from ...core.verdict.health import MeshHealth
 from ...core.verdict.method import Method, Verdict
+from .findings import WALL_ORDER
 from .mesh.instances import area_of_instances
 
 MAX_MASS_MOMENT = 1e100  # kg m^n whose squares are still numbers
@@ -98,7 +99,7 @@ class Body:
         ReadError
             Where they are not known.
         """
-        raise ReadError("wall_order", order=KNOWN_ORDER)
+        raise ReadError(WALL_ORDER, order=KNOWN_ORDER)
 
     def third_order(self) -> Moments:
         """Return what the principal frame of a solid or a wire is made from, with exact third order."""

@@ -12,6 +12,7 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
+from ...core.fourier.findings import FOURIER_OF_OPEN_SURFACE
 from ...core.fourier.instances import FOURIER_RTOL, BodyTransform
 from ...core.fourier.spectrum import APPROXIMATE, Spectrum
 from ...core.fourier.wave_vectors import FrequencyGrid
@@ -19,10 +20,20 @@ from ...core.mesh.surface import Surface
 from ...core.moments.moments import Measure
 from ...core.verdict.finding import Finding, MeasureError, ReadError, finding
 from ...core.verdict.method import Verdict
-from ..read import Reading, read_object, shows_flat_region
-from ..read.reading import to_si
+from ..read.objects import read_object
+from ..read.reading import Reading, to_si
+from ..read.visibility import shows_flat_region
 from ..settings.density import density_field
 from ..settings.options import MeasureOptions, ResolvedOptions
+from .findings import (
+    FOURIER_APPROXIMATE,
+    FOURIER_NO_EXTENT,
+    FOURIER_OF_DISPLAY_MESH,
+    FOURIER_OF_UNIFORM_DENSITY,
+    FOURIER_OF_WALL,
+    FOURIER_OF_WIRE,
+    NO_THICKNESS,
+)
 from .mesh.mesh import mesh_body
 from .request import with_object_settings
 
@@ -51,7 +62,7 @@ class ObjectTransform:
         spectrum = self.transform.result().scale(self.factor)
         findings = self.findings
         if spectrum.method == APPROXIMATE:
-            findings += (finding("fourier_approximate", share=FOURIER_RTOL),)
+            findings += (finding(FOURIER_APPROXIMATE, share=FOURIER_RTOL),)
         return spectrum, findings
 
 
@@ -84,9 +95,9 @@ def object_transform(
             of, total = Measure.AREA, body.area.total
         else:
             if resolved.kind == "wire":
-                raise ReadError("fourier_of_wire")
+                raise ReadError(FOURIER_OF_WIRE)
             if body.method.verdict == Verdict.OPEN:
-                raise ReadError("fourier_of_open_surface")
+                raise ReadError(FOURIER_OF_OPEN_SURFACE)
             parts = [(solid.repaired_surface, matrices) for solid, matrices in body.solids]
             of, total = Measure.VOLUME, body.volume.total
         if frame == "object":
@@ -102,17 +113,17 @@ def object_transform(
     factor = resolved.thickness if shell and not area else 1.0
     findings = [*reading.findings, *body.findings]
     if reading.has_patches or (obj.type == "CURVE" and shell and shows_flat_region(obj)):
-        findings.append(finding("fourier_of_display_mesh"))
+        findings.append(finding(FOURIER_OF_DISPLAY_MESH))
     if varies:
-        findings.append(finding("fourier_of_uniform_density"))
+        findings.append(finding(FOURIER_OF_UNIFORM_DENSITY))
     return ObjectTransform(obj.name, transform, factor, tuple(findings))
 
 
 def _require_thin(options: ResolvedOptions) -> None:
     if options.wall != "thin":
-        raise ReadError("fourier_of_wall")
+        raise ReadError(FOURIER_OF_WALL)
     if not options.thickness > 0.0:
-        raise ReadError("no_thickness")
+        raise ReadError(NO_THICKNESS)
 
 
 def _extent(parts: list[tuple[Surface, NDArray]]) -> float:
@@ -125,7 +136,7 @@ def _extent(parts: list[tuple[Surface, NDArray]]) -> float:
         low, high = np.minimum(low, (center - extent).min(axis=0)), np.maximum(high, (center + extent).max(axis=0))
     size = float((high - low).max())
     if not 0.0 < size < np.inf:
-        raise ReadError("fourier_no_extent")
+        raise ReadError(FOURIER_NO_EXTENT)
     return size
 
 

@@ -18,8 +18,8 @@ from ...core.inertia.mass_properties import MassProperties
 from ...core.measurement.measurement import Measurement
 from ...core.verdict.finding import Finding, MeasureError
 from ...core.verdict.method import Method
-from ..read import Reading
 from ..read.grids.volume import VolumeReading
+from ..read.reading import Reading
 from ..settings.options import AS_SET, MeasureOptions
 from .assembly.given import point_measurement, read_point, with_given
 from .body import Body

@@ -11,19 +11,23 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.inertia.canonical_frame import MAX_ORDER
+from ...core.inertia.findings import MOMENTS_OVERFLOW
 from ...core.inertia.mass_properties import MassProperties
 from ...core.inertia.principal_frames import OwnMoments
 from ...core.measurement.measurement import DENSITY_FROM_MASS, DENSITY_FROM_VALUE, Measurement
 from ...core.moments.exponents import KNOWN_ORDER
 from ...core.moments.moments import Moments
+from ...core.solid.findings import OBJECT_TOO_LARGE
 from ...core.verdict.finding import ReadError, finding
 from ...core.verdict.method import Method, Verdict
-from ..read import Reading
+from ...core.wall.findings import NO_FACE_AREA
 from ..read.fingerprint import effective_hash, fingerprint, transform_key
 from ..read.grids.volume import VolumeReading
+from ..read.reading import Reading
 from ..settings.accepted import with_acceptance
 from ..settings.options import ResolvedOptions
 from .body import Body
+from .findings import AXES_FROM_THIRD_ORDER, NO_THICKNESS, NO_VOLUME, WALL_ORDER, ZERO_DENSITY, ZERO_MASS
 from .request import Request
 
 # faces up to which moments of higher order, for a frame that needs them, take no time to speak of
@@ -55,7 +59,7 @@ def measurement_of(reading: Reading | VolumeReading, body: Body, request: Reques
         higher=higher if uses_high_order else None,
     )
     left_open = options.axes and not uses_high_order and higher is not None and not properties.principal.is_unique
-    frame = (finding("axes_from_third_order"),) if left_open else ()
+    frame = (finding(AXES_FROM_THIRD_ORDER),) if left_open else ()
     given = DENSITY_FROM_VALUE if options.mass is None else DENSITY_FROM_MASS
     volume_moments, area_moments = None if thin else solid, body.area
     if options.order is not None:
@@ -106,8 +110,8 @@ def extent(body: Body, options: ResolvedOptions) -> Moments:
     volume = body.area * options.thickness if shell and body.wall is None else body.wall or body.volume
     if not volume.raw[0] > 0.0:
         if body.face_count and not body.area.total > 0.0:
-            raise ReadError("no_face_area")
-        raise ReadError("no_thickness" if shell and body.area.total > 0.0 else "no_volume")
+            raise ReadError(NO_FACE_AREA)
+        raise ReadError(NO_THICKNESS if shell and body.area.total > 0.0 else NO_VOLUME)
     return volume
 
 
@@ -122,7 +126,7 @@ def _weighed(
         density = options.density or 0.0 if options.mass is None else options.mass / measured.total
         moments, factor = (body.area, density * options.thickness) if thin else (body.length or solid, density)
     if not density > 0.0:
-        raise ReadError("zero_density" if options.mass is None else "zero_mass")
+        raise ReadError(ZERO_DENSITY if options.mass is None else ZERO_MASS)
     return moments, factor, density
 
 
@@ -138,7 +142,7 @@ def _frame_moments(body: Body, shell: bool) -> Moments | OwnMoments:
         found = body.moments_for_axes(MAX_ORDER, shell)
     moments = found.moments if isinstance(found, OwnMoments) else found
     if not (np.isfinite(moments.raw).all() and np.isfinite(moments.rounding_error).all()):
-        raise ReadError("object_too_large")
+        raise ReadError(OBJECT_TOO_LARGE)
     return found
 
 
@@ -150,13 +154,13 @@ def _to_order(body: Body, options: ResolvedOptions, order: int) -> tuple[Moments
         return None
     if not body.any_order:
         if order > KNOWN_ORDER or (options.surface and not shell):
-            raise ReadError("wall_order", order=KNOWN_ORDER)
+            raise ReadError(WALL_ORDER, order=KNOWN_ORDER)
         return None
     with np.errstate(over="ignore", invalid="ignore"):
         volume, area = body.moments(order, shell or options.surface)
     for moments in (volume, area):
         if moments is not None and not np.isfinite([moments.raw, moments.rounding_error, moments.input_error]).all():
-            raise ReadError("moments_overflow", order=order)
+            raise ReadError(MOMENTS_OVERFLOW, order=order)
     return None if thin else volume, area or body.area
 
 

@@ -27,9 +27,9 @@ from ...core.nurbs.patch_moments import area_moments, volume_moments
 from ...core.nurbs.solid import PatchIntegrals, measure_patches, measure_sheet
 from ...core.verdict.finding import Finding, MeasureError, ReadError, finding
 from ...core.verdict.method import Method, Source, Verdict, least_trusted
-from ..read import Part, Reading
-from ..read.reading import SplineReading, to_si
+from ..read.reading import Part, Reading, SplineReading, to_si
 from .body import Body, MeshBody, extend_input_error
+from .findings import UNION_OF_DISPLAY_MESH, WALL_CREASES, WALL_ERROR_ESTIMATE_LARGE, WALL_OF_MIXED_SURFACES
 from .mesh.instances import (
     each_once,
     findings_by_part,
@@ -164,7 +164,7 @@ def nurbs_body(
     measures = [measure_patches(_patches(part), area_order=3, stored=_stored(part)) for part in patch_parts]
     if union and (reading.instance_count > 1 or measures[0].health.components > 1):
         united = mesh_body(reading, unit, shell=False, union=True, threads=threads)
-        return replace(united, findings=(finding("union_of_display_mesh"), *united.findings))
+        return replace(united, findings=(finding(UNION_OF_DISPLAY_MESH), *united.findings))
     rest = mesh_body(meshes, unit, shell=False, union=False, threads=threads) if meshes.parts else None
     pieces = [(part, measure, to_si(part.matrices, unit)) for part, measure in zip(patch_parts, measures)]
     volume = sum_moments(
@@ -246,7 +246,7 @@ def _sheet_body(reading: Reading, unit: float, wall: str, thickness: float, thre
     """Thin sheets, or walls with the surfaces at their inner or outer side or in their middle."""
     patch_parts, meshes = _split_parts(reading)
     if meshes.parts and wall != "thin":
-        raise ReadError("wall_of_mixed_surfaces")
+        raise ReadError(WALL_OF_MIXED_SURFACES)
     sheets, areas, healths, by_part = [], [], [], []
     for part in patch_parts:
         matrices = to_si(part.matrices, unit)
@@ -261,7 +261,7 @@ def _sheet_body(reading: Reading, unit: float, wall: str, thickness: float, thre
         ]
         sharpest = sharpest_crease(_patches(part), measure.topology)
         if sharpest > MIN_CREASE_ANGLE:
-            by_part.append((part.source_object_name, [finding("wall_creases", angle=float(np.degrees(sharpest)))]))
+            by_part.append((part.source_object_name, [finding(WALL_CREASES, angle=float(np.degrees(sharpest)))]))
         inner, outer = (thickness * height for height in HEIGHTS[wall])
         for patches, translations_of_image in _distinct_images(outward, matrices):
             grown = unit * float(np.linalg.norm(part.matrices[:, :3, :3], 2, axis=(1, 2)).max())
@@ -269,7 +269,7 @@ def _sheet_body(reading: Reading, unit: float, wall: str, thickness: float, thre
             sheets.append(sum_of_images(sheet, translations_of_image))
             areas.append(sum_of_images(area, translations_of_image))
             if not fine:
-                by_part.append((part.source_object_name, [finding("wall_error_estimate_large")]))
+                by_part.append((part.source_object_name, [finding(WALL_ERROR_ESTIMATE_LARGE)]))
     findings = findings_by_part(by_part, reading.name)
     polygons = None
     if meshes.parts:

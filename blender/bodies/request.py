@@ -12,7 +12,8 @@ import bpy
 
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import Finding
-from ..read import Reading, read_object
+from ..read.objects import read_object
+from ..read.reading import Reading
 from ..settings.accepted import accepted_codes
 from ..settings.density import DensityField, density_field, object_density
 from ..settings.options import AS_SET, MeasureOptions, ResolvedOptions

@@ -23,17 +23,33 @@ from ...core.solid.measure import measure_solid
 from ...core.verdict import internal_error
 from ...core.verdict.finding import Finding, MeasureError, ReadError, finding
 from ...core.verdict.method import Method, Verdict, least_trusted
-from ..read import read_object
 from ..read.fingerprint import digest, fingerprint, matrix_hash, settings_hash
-from ..read.objects import locate
+from ..read.objects import locate, read_object
 from ..read.reading import Part, to_si
 from ..read.rig import RestBones, hanging_objects, pose_bone_of, rest_pose, skinned_objects, vertex_weights
 from ..settings.density import is_density_unset, unset_density
 from .assembly.combined import combined_measurement
+from .findings import (
+    BONE_MISSING,
+    BONE_PART_IMPOSSIBLE,
+    BONE_PARTS_IMPOSSIBLE,
+    DENSITY_FROM_MEMBERS,
+    MEMBERS_DENSITY_UNSET,
+    MEMBERS_LEFT_OUT,
+    MEMBERS_NOT_MEASURED,
+    NO_DEFORMING_BONES,
+    NO_VOLUME,
+    RIG_MEAN_DENSITY,
+    RIG_OPEN_MESH,
+    RIG_WALL_THIN,
+    RIG_WITHOUT_PARTS,
+    UNWEIGHTED_VERTICES,
+    ZERO_DENSITY,
+)
 from .measure_object import measure_body
 from .request import Request
 
-DENSITIES_FROM = {"MESH": finding("density_from_members"), "DENSITY": DENSITY_FROM_VALUE, "MASS": DENSITY_FROM_MASS}
+DENSITIES_FROM = {"MESH": finding(DENSITY_FROM_MEMBERS), "DENSITY": DENSITY_FROM_VALUE, "MASS": DENSITY_FROM_MASS}
 
 
 @dataclass(eq=False)
@@ -147,23 +163,23 @@ class _Measuring:
         objects = list(self.depsgraph.view_layer.objects)
         skinned = skinned_objects(self.armature, objects)
         if skinned and not self.bones.deforming:
-            raise ReadError("no_deforming_bones", subject=self.armature.name)
+            raise ReadError(NO_DEFORMING_BONES, subject=self.armature.name)
         hanging = hanging_objects(self.armature, skinned)
         unrendered = [obj.name for obj in (*skinned, *[obj for obj, _ in hanging]) if obj.hide_render]
         if unrendered:
-            self.findings.append(finding("members_left_out", count=len(unrendered), names=unrendered))
+            self.findings.append(finding(MEMBERS_LEFT_OUT, count=len(unrendered), names=unrendered))
         for obj in skinned:
             self._try(obj, self._skin)
         for obj, bone in hanging:
             self._try(obj, lambda obj, bone=bone: self._hang(obj, bone))
         if self.refused:
-            self.findings.append(finding("members_not_measured", count=len(self.refused), names=self.refused))
+            self.findings.append(finding(MEMBERS_NOT_MEASURED, count=len(self.refused), names=self.refused))
         if self.unset:
-            self.findings.append(finding("members_density_unset", count=len(self.unset), names=self.unset))
+            self.findings.append(finding(MEMBERS_DENSITY_UNSET, count=len(self.unset), names=self.unset))
         parts = tuple(self._part(name, self.sums[name]) for name in self.bones.names if name in self.sums)
         impossible = [part.name for part in parts if part.refusal is not None]
         if impossible:
-            self.findings.append(finding("bone_parts_impossible", count=len(impossible), names=impossible))
+            self.findings.append(finding(BONE_PARTS_IMPOSSIBLE, count=len(impossible), names=impossible))
         return Rig(self.armature, parts, self._total(parts), tuple(self.objects))
 
     def _try(self, obj: Object, measure) -> None:
@@ -185,7 +201,7 @@ class _Measuring:
 
     def _hang(self, obj: Object, bone: str) -> None:
         if bone not in self.bones.frames:
-            self.findings.append(finding("bone_missing", bone=bone).of_sources([obj.name]))
+            self.findings.append(finding(BONE_MISSING, bone=bone).of_sources([obj.name]))
             return
         measured = measure_body(obj, self.depsgraph)
         measurement = measured.measurement
@@ -207,18 +223,18 @@ class _Measuring:
         options, reading = request.options, read_object(obj, self.depsgraph)
         shell = options.kind == "shell"
         if shell and options.wall != "thin":
-            self.findings.append(finding("rig_wall_thin").of_sources([obj.name]))
+            self.findings.append(finding(RIG_WALL_THIN).of_sources([obj.name]))
         pieces = [piece for part in reading.parts for piece in self._pieces(obj, part, shell)]
         volume = sum(moments.total for _, moments, *_ in pieces) * (options.thickness if shell else 1.0)
         if not volume > 0.0:
-            raise ReadError("no_volume")  # `rig` says the names of these, not why
+            raise ReadError(NO_VOLUME)  # `rig` says the names of these, not why
         density = options.density or 0.0 if options.mass is None else options.mass / volume
         if options.mass is None and request.density is not None:
             measurement = measure_body(obj, self.depsgraph).measurement
             density = measurement.mass_properties.mass / measurement.volume
-            self.findings.append(finding("rig_mean_density").of_sources([obj.name]))
+            self.findings.append(finding(RIG_MEAN_DENSITY).of_sources([obj.name]))
         if not density > 0.0:
-            raise ReadError("zero_density")
+            raise ReadError(ZERO_DENSITY)
         for name, moments, area, surface, matrix, verdict in pieces:
             found = self._of(name, obj)
             carrier = replace(moments.truncate(KNOWN_ORDER), measure=Measure.MASS)
@@ -250,11 +266,11 @@ class _Measuring:
         if len(bare):
             count = int(np.count_nonzero(used))
             self.findings.append(
-                finding("unweighted_vertices", bare, count=len(bare), total=count).of_sources([obj.name])
+                finding(UNWEIGHTED_VERTICES, bare, count=len(bare), total=count).of_sources([obj.name])
             )
         solid = None if shell else measure_solid(surface)
         if solid is not None and solid.method == Verdict.OPEN:
-            self.findings.append(finding("rig_open_mesh").of_sources([obj.name]))
+            self.findings.append(finding(RIG_OPEN_MESH).of_sources([obj.name]))
         if solid is not None:
             self.findings += [found.of_sources([obj.name]) for found in solid.findings]
         for matrix in part.matrices:
@@ -318,12 +334,12 @@ class _Measuring:
                 density_from=DENSITIES_FROM[settings.mass_from],
             )
         except MeasureError as error:
-            refusal = finding("bone_part_impossible", cause=error.finding.as_record())
+            refusal = finding(BONE_PART_IMPOSSIBLE, cause=error.finding.as_record())
         return BonePart(name, mass, measurement, refusal, tuple(found.surfaces), tuple(found.sources))
 
     def _total(self, parts: tuple[BonePart, ...]) -> Measurement:
         if not parts:
-            raise ReadError("rig_without_parts", subject=self.armature.name)
+            raise ReadError(RIG_WITHOUT_PARTS, subject=self.armature.name)
         at = locate(self.armature, self.depsgraph)
         sums = [self.sums[part.name] for part in parts]
         volume, area = (_total([_total(getattr(found, name)) for found in sums]) for name in ("extents", "areas"))

@@ -26,8 +26,25 @@ from ...core.verdict.finding import Finding, ReadError, finding, unique
 from ...core.verdict.method import Verdict
 from ...core.verdict.tolerances import NEGLIGIBLE
 from ...core.wall import OffsetSolid, offset_solid, split_thickness, wall_moments
-from ..read import Reading
+from ..read.reading import Reading
+from ..write.findings import WALL_MEASURED
 from .body import Body, MeshBody
+from .findings import (
+    INSTANCE_WALLS_UNCHECKED,
+    NO_THICKNESS,
+    WALL_FACES_FOLD_BACK,
+    WALL_FACES_FOLD_BACK_SOMEWHERE,
+    WALL_FACES_REVERSED,
+    WALL_FACES_WITHOUT_AREA,
+    WALL_FOLDS,
+    WALL_FOLDS_SOMEWHERE,
+    WALL_NEEDS_ONE_DENSITY,
+    WALL_OVERLAP_UNCHECKED,
+    WALL_THICKNESS_VARIES,
+    WALL_THICKNESS_VARIES_SLIGHTLY,
+    WALL_UNORIENTED,
+    WALLS_OVERLAP,
+)
 from .mesh.instances import group_by_similarity
 
 REPORTED = 0.01  # of the thickness: less unevenness is not reported
@@ -94,7 +111,7 @@ class Walls:
         """The body with walls that thick, m. check_overlap: whether walls that meet are looked for, which takes time.
         ReadError where a wall folds over."""
         if not thickness > 0.0:
-            raise ReadError("no_thickness")
+            raise ReadError(NO_THICKNESS)
         if any(piece.folds(self.side, thickness) for piece in self.pieces):
             raise ReadError(self._folded_reason(thickness))
         wall = sum_moments([piece.moments(self.side, thickness) for piece in self.pieces])
@@ -127,27 +144,27 @@ class Walls:
             point = piece.matrices[0, :3, :3] @ piece.offset.first_fold_location(self.side) + piece.matrices[0, :3, 3]
             near = {"point": point.tolist()}
         if not largest > 0.0:
-            return finding("wall_faces_fold_back" if near else "wall_faces_fold_back_somewhere", **near)
+            return finding(WALL_FACES_FOLD_BACK if near else WALL_FACES_FOLD_BACK_SOMEWHERE, **near)
         sizes = {"thickness": thickness, "side": self.side, "largest": _round_down(largest)}
-        return finding("wall_folds" if near else "wall_folds_somewhere", **sizes, **near)
+        return finding(WALL_FOLDS if near else WALL_FOLDS_SOMEWHERE, **sizes, **near)
 
     def _decisions(self, thickness: float, looked: bool) -> list[Finding]:
-        findings = [finding("wall_measured", thickness=thickness, side=self.side), *self.findings]
+        findings = [finding(WALL_MEASURED, thickness=thickness, side=self.side), *self.findings]
         minimum = float(min(piece.offset.min_ratio for piece in self.pieces))
         maximum = float(max(piece.offset.max_ratio for piece in self.pieces))
         if minimum < 1.0 - REPORTED or maximum > 1.0 + REPORTED:
             slight = self._unevenness() < NEGLIGIBLE
-            code = "wall_thickness_varies_slightly" if slight else "wall_thickness_varies"
+            code = WALL_THICKNESS_VARIES_SLIGHTLY if slight else WALL_THICKNESS_VARIES
             findings.append(finding(code, minimum=minimum, maximum=maximum))
         ignored = sum(piece.offset.degenerate_triangles for piece in self.pieces)
         if ignored:
-            findings.append(finding("wall_faces_without_area", count=ignored))
+            findings.append(finding(WALL_FACES_WITHOUT_AREA, count=ignored))
         if not looked:
-            findings.append(finding("wall_overlap_unchecked"))
+            findings.append(finding(WALL_OVERLAP_UNCHECKED))
         elif any(piece.self_intersects(self.side, thickness) for piece in self.pieces):
-            findings.append(finding("walls_overlap"))
+            findings.append(finding(WALLS_OVERLAP))
         elif self._instances_overlap(thickness):
-            findings.append(finding("instance_walls_unchecked"))
+            findings.append(finding(INSTANCE_WALLS_UNCHECKED))
         return findings
 
     def _unevenness(self) -> float:
@@ -183,7 +200,7 @@ class WallBody(Body):
 def find_walls(reading: Reading, body: MeshBody, side: str) -> Walls:
     """The walls of an object that was measured as a thin shell. MeasureError where a surface has no sides."""
     if body.mass is not None:
-        raise ReadError("wall_needs_one_density")
+        raise ReadError(WALL_NEEDS_ONE_DENSITY)
     pieces, findings = [], []
     for part, (solid, matrices) in zip(reading.parts, body.solids):
         surface = _orient_outward(part.surface, solid, findings)
@@ -203,9 +220,9 @@ def _orient_outward(surface: Surface, solid: SolidIntegrals, findings: list[Find
         area = polyhedron_moments(solid.repaired_surface, area_order=0, allow_open=True)[1].total
         if abs(area - solid.area.total) <= SAME_AREA_RTOL * solid.area.total:  # else the repair has left something out
             if solid.method == Verdict.REORIENTED:
-                findings.append(finding("wall_faces_reversed"))
+                findings.append(finding(WALL_FACES_REVERSED))
             return solid.repaired_surface
-    findings.append(finding("wall_unoriented"))
+    findings.append(finding(WALL_UNORIENTED))
     return surface
 
 

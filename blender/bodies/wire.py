@@ -16,8 +16,10 @@ from ...core.nurbs.curve_moments import length_moments
 from ...core.verdict.finding import ReadError
 from ...core.verdict.health import MeshHealth
 from ...core.verdict.method import Method, Verdict
-from ..read import Reading, read_lines
+from ..read.objects import read_lines
+from ..read.reading import Reading
 from .body import Body
+from .findings import NO_LENGTH
 from .request import Request
 
 MEASURED_AS = frozenset({"wire"})
@@ -54,7 +56,7 @@ def body(reading: Reading, request: Request) -> Body:
     curves, stored = curves_in_world(reading.curves, reading.matrix, request.unit)
     length = length_moments(curves)
     if not length.total > 0.0:
-        raise ReadError("no_length")
+        raise ReadError(NO_LENGTH)
     nothing = Moments(np.zeros(monomial_count(3)), length.about, Measure.VOLUME)
     # a length moves by as much as its ends, and by its turning as much again: an estimate for smooth curves
     reach = max(float(np.abs(curve.points - length.about).max()) for curve in curves)

@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 
 from ...core.verdict.finding import Finding, finding
 from ..settings.given import is_point_mass, shows_collection
+from .findings import BOOLEAN_OPERAND, DISABLED_IN_VIEWPORTS, MEMBER_COUNTED_BEFORE, NOT_RENDERED
 from .instances import MAX_DEPTH
 from .reading import float64_matrix
 from .total_caveats import left_out_reasons, operands_of
@@ -123,7 +124,7 @@ class _Walk:
     def collection(self, collection: bpy.types.Collection, depth: int = 0) -> Member:
         """A collection with its nested ones, before its own objects."""
         if self.inside and (collection.hide_render or collection.hide_viewport):
-            return Member(collection, MemberKind.COLLECTION, left_out=finding("not_rendered"))
+            return Member(collection, MemberKind.COLLECTION, left_out=finding(NOT_RENDERED))
         members = [self.collection(child, depth) for child in collection.children]
         for obj in sorted(collection.objects, key=_name):
             if obj in self.replaced:
@@ -157,10 +158,10 @@ class _Walk:
             return []
         kind = MemberKind.POINT if is_point_mass(obj) else MemberKind.OBJECT
         if obj in self.counted:
-            return [Member(obj, kind, left_out=finding("member_counted_before", assembly=self.counted[obj]))]
+            return [Member(obj, kind, left_out=finding(MEMBER_COUNTED_BEFORE, assembly=self.counted[obj]))]
         self.counted[obj] = place
         reason = self._left_out(obj)
-        if reason is not None and not (kind == MemberKind.POINT and reason.code == "not_rendered"):
+        if reason is not None and not (kind == MemberKind.POINT and reason.code == NOT_RENDERED):
             return [Member(obj, kind, left_out=reason)]
         if _shows_members(obj) and depth < MAX_DEPTH:
             source = obj.instance_collection
@@ -174,12 +175,12 @@ class _Walk:
         """Why an object is no part, or why Blender cannot show that it is one."""
         if self.inside:
             if obj in self.operands and obj.display_type in {"WIRE", "BOUNDS"}:
-                return finding("boolean_operand")
-            return finding("not_rendered") if obj.hide_render or obj.hide_viewport else None
+                return finding(BOOLEAN_OPERAND)
+            return finding(NOT_RENDERED) if obj.hide_render or obj.hide_viewport else None
         reason = self.reasons.get(obj)
         if reason is None and obj.hide_viewport:
-            return finding("disabled_in_viewports")
-        if reason is None or reason.code != "not_rendered" or obj.hide_render:
+            return finding(DISABLED_IN_VIEWPORTS)
+        if reason is None or reason.code != NOT_RENDERED or obj.hide_render:
             return reason
         return hidden_reason(obj, self.depsgraph) or reason
 

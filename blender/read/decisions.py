@@ -12,6 +12,50 @@ from collections.abc import Iterator
 
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import Finding, finding
+from .findings import (
+    COLLECTION_WITHOUT_SURFACE,
+    CURVES_DRAWN_AS_POLYGONS,
+    DISPLAY_MESH_FOR_MODIFIERS,
+    DISPLAY_MESH_FOR_WEIGHTS,
+    DISPLAY_MESH_MEASURED,
+    EDIT_MODE_MESH,
+    EDIT_MODE_MODIFIERS,
+    EDIT_MODE_MODIFIERS_OFF,
+    EDIT_MODE_SHAPE_KEYS,
+    EDIT_MODE_SINGLE_SHAPE_KEY,
+    EMPTY_TEXT,
+    HIDDEN_OBJECT_MEASURED,
+    INSTANCED_BY_PARENT,
+    INSTANCER_HIDDEN,
+    INSTANCES_VANISHED,
+    KIND_VOLUMES,
+    LINES_ONLY_CURVE,
+    LINES_ONLY_SURFACE,
+    LINES_ONLY_TEXT,
+    METABALL_FAMILY,
+    METABALL_OF_FAMILY,
+    MODIFIER_ERROR,
+    NO_GEOMETRY,
+    NO_SURFACE,
+    NO_VISIBLE_INSTANCES,
+    ONLY_LOOSE_GEOMETRY,
+    ONLY_VOLUME_INSTANCES,
+    ONLY_WITHOUT_SURFACE,
+    RENDER_DIFFERS,
+    RENDER_LEVELS_DIFFER,
+    RENDER_MODIFIER_OFF,
+    RENDER_MODIFIER_ONLY,
+    RENDER_ONLY_MEMBERS,
+    RENDER_PARTICLES_DIFFER,
+    RENDER_RESOLUTION_DIFFERS,
+    RENDER_RESOLUTION_U_DIFFERS,
+    RENDER_RESOLUTION_V_DIFFERS,
+    SCULPT_MODE_MODIFIERS,
+    SPLINES_WITHOUT_SURFACE,
+    SURFACE_DRAWN_AS_POLYGONS,
+    SURFACELESS_LEFT_OUT,
+    VIEWPORT_ONLY_MEMBERS,
+)
 from .instances import InstanceCollector, shows_itself, visible_objects
 from .nurbs.curves import is_round
 from .nurbs.deformation import spline_modifiers
@@ -19,7 +63,7 @@ from .nurbs.splines import nonpositive_weights
 from .reading import attribute_to_source
 from .visibility import blends_keys, edit_modifiers, hidden_reason, instanced_by_parent, measurable, metaball_families
 
-LINES_ONLY = {"CURVE": "lines_only_curve", "FONT": "lines_only_text"}
+LINES_ONLY = {"CURVE": LINES_ONLY_CURVE, "FONT": LINES_ONLY_TEXT}
 
 
 def why_empty(obj, gathered: InstanceCollector, depsgraph) -> Finding:
@@ -28,44 +72,44 @@ def why_empty(obj, gathered: InstanceCollector, depsgraph) -> Finding:
     if obj.type == "META":
         mother = _family(obj, depsgraph)[0]
         if mother != obj:
-            return finding("metaball_of_family", object=mother.name)
+            return finding(METABALL_OF_FAMILY, object=mother.name)
     if gathered.vanished_count:
-        return finding("no_visible_instances")
+        return finding(NO_VISIBLE_INSTANCES)
     if obj.type == "FONT" and not obj.data.body.strip():
-        return finding("empty_text")
+        return finding(EMPTY_TEXT)
     if obj.type in LINES_ONLY and not obj.modifiers:
         return finding(LINES_ONLY[obj.type])
     if obj.type == "SURFACE" and not obj.modifiers and obj.instance_type == "NONE" and obj.data.splines:
-        return finding("lines_only_surface" if vertices else "splines_without_surface")
-    if set(gathered.left_out) == {"kind_volumes"} and (gathered.sources or obj.type != "VOLUME"):
-        return finding("only_volume_instances")
+        return finding(LINES_ONLY_SURFACE if vertices else SPLINES_WITHOUT_SURFACE)
+    if set(gathered.left_out) == {KIND_VOLUMES} and (gathered.sources or obj.type != "VOLUME"):
+        return finding(ONLY_VOLUME_INSTANCES)
     if gathered.left_out:
-        return finding("only_without_surface", kinds=_kinds(gathered.left_out))
+        return finding(ONLY_WITHOUT_SURFACE, kinds=_kinds(gathered.left_out))
     if vertices:
-        return finding("only_loose_geometry", vertices=vertices, edges=edges)
+        return finding(ONLY_LOOSE_GEOMETRY, vertices=vertices, edges=edges)
     if obj.instance_type == "COLLECTION":
-        return finding("collection_without_surface")
+        return finding(COLLECTION_WITHOUT_SURFACE)
     if obj.type in {"CURVES", "POINTCLOUD", "VOLUME", "GREASEPENCIL"}:
-        return finding("no_surface")
+        return finding(NO_SURFACE)
     if not shows_itself(obj, False):
-        return finding("instancer_hidden")
-    return finding("no_geometry")
+        return finding(INSTANCER_HIDDEN)
+    return finding(NO_GEOMETRY)
 
 
 def reading_findings(obj, gathered: InstanceCollector, depsgraph) -> Iterator[Finding]:
     """A finding for each thing that was decided while reading."""
     hidden = hidden_reason(obj, depsgraph)
     if hidden:
-        yield finding("hidden_object_measured", cause=hidden.as_record())
+        yield finding(HIDDEN_OBJECT_MEASURED, cause=hidden.as_record())
     if instanced_by_parent(obj):
-        yield finding("instanced_by_parent", parent=obj.parent.name)
+        yield finding(INSTANCED_BY_PARENT, parent=obj.parent.name)
     for evaluated, splines in gathered.splines.items():
         for result in _spline_findings(evaluated, splines):
             yield attribute_to_source(result, evaluated.original.name, obj.name)
     if obj.type == "META":
         family_members = _family(obj, depsgraph)[1:]
         if family_members:
-            yield finding("metaball_family", objects=_names(family_members))
+            yield finding(METABALL_FAMILY, objects=_names(family_members))
     if gathered.drawn:
         yield from _polygons(obj, gathered.drawn)
     yield from _mode_findings(obj)
@@ -78,9 +122,9 @@ def reading_findings(obj, gathered: InstanceCollector, depsgraph) -> Iterator[Fi
     if obj.modifiers:
         yield from _node_errors(obj)
     if gathered.vanished_count:
-        yield finding("instances_vanished", count=gathered.vanished_count)
+        yield finding(INSTANCES_VANISHED, count=gathered.vanished_count)
     if gathered.left_out:
-        yield finding("surfaceless_left_out", kinds=_kinds(gathered.left_out))
+        yield finding(SURFACELESS_LEFT_OUT, kinds=_kinds(gathered.left_out))
 
 
 def modifier_findings(obj, scene) -> Iterator[Finding]:
@@ -92,7 +136,7 @@ def modifier_findings(obj, scene) -> Iterator[Finding]:
 def _render_findings(obj, scene, exact: bool = False) -> Iterator[Finding]:
     differences = [difference.as_record() for difference in _render_differences(obj, scene, exact)]
     if differences:
-        yield finding("render_differs", differences=differences)
+        yield finding(RENDER_DIFFERS, differences=differences)
 
 
 def _member_findings(collections) -> Iterator[Finding]:
@@ -108,17 +152,17 @@ def _member_findings(collections) -> Iterator[Finding]:
     )
     missing = [member for member in rendered if member not in shown]
     if missing:
-        yield finding("render_only_members", objects=_names(missing))
+        yield finding(RENDER_ONLY_MEMBERS, objects=_names(missing))
     extra = [member for member in shown if member not in rendered]
     if extra:
-        yield finding("viewport_only_members", objects=_names(extra))
+        yield finding(VIEWPORT_ONLY_MEMBERS, objects=_names(extra))
 
 
 def _node_errors(obj) -> Iterator[Finding]:
     for modifier in obj.modifiers:
         for warning in getattr(modifier, "node_warnings", ()):
             if warning.type == "ERROR":
-                yield finding("modifier_error", modifier=modifier.name, error=warning.message)
+                yield finding(MODIFIER_ERROR, modifier=modifier.name, error=warning.message)
 
 
 def _family(obj, depsgraph) -> list:
@@ -130,27 +174,27 @@ def _polygons(obj, drawn) -> Iterator[Finding]:
     """What polygons stand for, of curves, text and metaballs."""
     for source in drawn:
         if source.type == "META":
-            yield attribute_to_source(finding("surface_drawn_as_polygons"), source.name, obj.name)
+            yield attribute_to_source(finding(SURFACE_DRAWN_AS_POLYGONS), source.name, obj.name)
         elif source.type in {"CURVE", "FONT"} and is_round(source):
-            yield attribute_to_source(finding("curves_drawn_as_polygons"), source.name, obj.name)
+            yield attribute_to_source(finding(CURVES_DRAWN_AS_POLYGONS), source.name, obj.name)
 
 
 def _mode_findings(obj) -> Iterator[Finding]:
     if obj.type == "MESH" and obj.data.is_editmode:
         acting = edit_modifiers(obj)
         if acting:
-            yield finding("edit_mode_modifiers", modifiers=_names(acting))
+            yield finding(EDIT_MODE_MODIFIERS, modifiers=_names(acting))
         elif blends_keys(obj):
-            yield finding("edit_mode_shape_keys")
+            yield finding(EDIT_MODE_SHAPE_KEYS)
         else:
-            yield finding("edit_mode_mesh")
+            yield finding(EDIT_MODE_MESH)
         if obj.mode == "EDIT" and obj.active_shape_key and not blends_keys(obj):
-            yield finding("edit_mode_single_shape_key", shape_key=obj.active_shape_key.name)
+            yield finding(EDIT_MODE_SINGLE_SHAPE_KEY, shape_key=obj.active_shape_key.name)
         idle = [modifier for modifier in obj.modifiers if modifier.show_viewport and not modifier.show_in_editmode]
         if idle:
-            yield finding("edit_mode_modifiers_off", modifiers=_names(idle))
+            yield finding(EDIT_MODE_MODIFIERS_OFF, modifiers=_names(idle))
     elif obj.mode == "SCULPT" and obj.modifiers:
-        yield finding("sculpt_mode_modifiers")
+        yield finding(SCULPT_MODE_MODIFIERS)
 
 
 def _spline_findings(evaluated, splines) -> Iterator[Finding]:
@@ -160,11 +204,11 @@ def _spline_findings(evaluated, splines) -> Iterator[Finding]:
         return
     meshed, count = spline_modifiers(evaluated.original)[1], nonpositive_weights(evaluated.data.splines)
     if meshed:
-        yield finding("display_mesh_for_modifiers", modifiers=_names(meshed))
+        yield finding(DISPLAY_MESH_FOR_MODIFIERS, modifiers=_names(meshed))
     elif count:
-        yield finding("display_mesh_for_weights", count=count)
+        yield finding(DISPLAY_MESH_FOR_WEIGHTS, count=count)
     else:
-        yield finding("display_mesh_measured")
+        yield finding(DISPLAY_MESH_MEASURED)
 
 
 def _render_differences(obj, scene, exact: bool = False) -> Iterator[Finding]:
@@ -172,25 +216,25 @@ def _render_differences(obj, scene, exact: bool = False) -> Iterator[Finding]:
     for modifier in obj.modifiers:
         shown, rendered = modifier.show_viewport, modifier.show_render
         if shown != rendered:
-            yield finding("render_modifier_off" if shown else "render_modifier_only", modifier=modifier.name)
+            yield finding(RENDER_MODIFIER_OFF if shown else RENDER_MODIFIER_ONLY, modifier=modifier.name)
         elif shown:
             here, there = _levels(modifier, scene.render)
             if here != there:
-                yield finding("render_levels_differ", modifier=modifier.name, viewport=here, render=there)
+                yield finding(RENDER_LEVELS_DIFFER, modifier=modifier.name, viewport=here, render=there)
             system = getattr(modifier, "particle_system", None)
             if system is not None and system.settings.display_percentage < 100:
                 share = system.settings.display_percentage / 100.0
-                yield finding("render_particles_differ", modifier=modifier.name, share=share)
+                yield finding(RENDER_PARTICLES_DIFFER, modifier=modifier.name, share=share)
     data = obj.data
     if not exact and obj.type in {"CURVE", "FONT", "SURFACE"}:
-        axes = (("u", "render_resolution_u_differs"), ("v", "render_resolution_v_differs"))
+        axes = (("u", RENDER_RESOLUTION_U_DIFFERS), ("v", RENDER_RESOLUTION_V_DIFFERS))
         for axis, code in axes if obj.type == "SURFACE" else axes[:1]:
             shown, rendered = getattr(data, "resolution_" + axis), getattr(data, "render_resolution_" + axis)
             if rendered not in (0, shown):
                 yield finding(code, viewport=shown, render=rendered)
     if obj.type == "META" and data.resolution != data.render_resolution:
         yield finding(
-            "render_resolution_differs",
+            RENDER_RESOLUTION_DIFFERS,
             viewport=shortest_decimal(data.resolution),
             render=shortest_decimal(data.render_resolution),
         )

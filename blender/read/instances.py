@@ -24,6 +24,14 @@ from numpy.typing import NDArray
 
 from ...core.mesh.surface import Surface
 from ...core.verdict.finding import MeasureError, ReadError
+from .findings import (
+    INSTANCES_OF_HIDDEN_OBJECT,
+    KIND_CURVES,
+    KIND_METABALLS,
+    KIND_POINTS,
+    KIND_VOLUMES,
+    NON_FINITE_INSTANCES,
+)
 from .mesh import face_slots, from_edit_mesh, mesh_surface, vertex_values
 from .nurbs.splines import spline_reading
 from .reading import NO_VALUES, FaceAttributes, Part, SplineReading, float64_matrix
@@ -98,7 +106,7 @@ class InstanceCollector:
             finite = np.isfinite(matrices).all(axis=(1, 2))
             if not finite.all():
                 raise ReadError(
-                    "non_finite_instances",
+                    NON_FINITE_INSTANCES,
                     subject=self.root.name,
                     count=int((~finite).sum()),
                     total=len(matrices),
@@ -120,7 +128,7 @@ class InstanceCollector:
             raise _NeedsInstanceList
         if self._path:
             if original.type == "META":
-                self.left_out["kind_metaballs"] += len(matrices)
+                self.left_out[KIND_METABALLS] += len(matrices)
                 return
             self.sources[original] = None
         self._path.append(original)
@@ -203,7 +211,7 @@ class InstanceCollector:
         """The root and its instances as `depsgraph.object_instances` has them."""
         original = self.root.original
         if not original.visible_get(view_layer=self.depsgraph.view_layer):
-            raise ReadError("instances_of_hidden_object", subject=original.name)
+            raise ReadError(INSTANCES_OF_HIDDEN_OBJECT, subject=original.name)
         if original.type in GEOMETRY_TYPES:
             geometry = self._geometry(self.root)
             if shows_itself(original, True):
@@ -276,11 +284,11 @@ class InstanceCollector:
 
     def _count_surfaceless(self, geometry, count: int) -> None:
         if geometry.curves is not None and len(geometry.curves.curves):
-            self.left_out["kind_curves"] += count * len(geometry.curves.curves)
+            self.left_out[KIND_CURVES] += count * len(geometry.curves.curves)
         if geometry.pointcloud is not None and len(geometry.pointcloud.points):
-            self.left_out["kind_points"] += count * len(geometry.pointcloud.points)
+            self.left_out[KIND_POINTS] += count * len(geometry.pointcloud.points)
         if geometry.volume is not None:
-            self.left_out["kind_volumes"] += count
+            self.left_out[KIND_VOLUMES] += count
 
 
 def _object_slots(owner) -> tuple:

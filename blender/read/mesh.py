@@ -25,6 +25,7 @@ from numpy.typing import NDArray
 
 from ...core.mesh.surface import Surface
 from ...core.verdict.finding import ReadError
+from .findings import ATTRIBUTE_MISSING, ATTRIBUTE_TYPE
 
 # One triangle read by its index costs as much as about five in a `foreach_get` of all of them.
 SINGLE_ACCESS_COST = 5
@@ -132,9 +133,9 @@ def vertex_values(mesh, name: str) -> NDArray[np.float64]:
     """(n,) the values of a float attribute on vertices. ReadError where there is none."""
     attribute = mesh.attributes.get(name)
     if attribute is None:
-        raise ReadError("attribute_missing", attribute=name)
+        raise ReadError(ATTRIBUTE_MISSING, attribute=name)
     if attribute.domain != "POINT" or attribute.data_type != "FLOAT":
-        raise ReadError("attribute_type", attribute=name)
+        raise ReadError(ATTRIBUTE_TYPE, attribute=name)
     return _attribute(mesh, name, "value", (len(mesh.vertices),), np.float32).astype(np.float64)
 
 

@@ -13,8 +13,11 @@ import numpy as np
 
 from ...core.mesh.surface import Surface
 from ...core.numerics.rotations import rotation_matrix
+from ...core.nurbs.findings import NON_POSITIVE_WEIGHTS
+from ...core.solid.findings import NON_FINITE_VERTICES
 from ...core.verdict.finding import ReadError, finding
 from .decisions import reading_findings, why_empty
+from .findings import NON_FINITE_TRANSFORM, ONLY_CURVES_ARE_WIRES
 from .instances import InstanceCollector
 from .nurbs.curves import read_curves
 from .nurbs.deformation import is_deformed
@@ -55,7 +58,7 @@ def read_lines(obj, depsgraph) -> Reading:
     """
     obj = obj.original
     if obj.type != "CURVE":
-        raise ReadError("only_curves_are_wires", subject=obj.name)
+        raise ReadError(ONLY_CURVES_ARE_WIRES, subject=obj.name)
     reading = locate(obj, depsgraph)
     reading.curves, reading.findings = read_curves(obj, depsgraph)
     return reading
@@ -89,7 +92,7 @@ def locate(obj, depsgraph) -> Reading:
         raise ReadError(why_not_evaluated(obj, depsgraph), subject=obj.name)
     matrix = float64_matrix(evaluated.matrix_world)
     if not np.isfinite(matrix).all():
-        raise ReadError("non_finite_transform", subject=obj.name)
+        raise ReadError(NON_FINITE_TRANSFORM, subject=obj.name)
     location, rotation, _scale = evaluated.matrix_world.decompose()
     return Reading(
         name=obj.name,
@@ -105,8 +108,8 @@ def _require_finite(obj, part: Part) -> None:
     if np.isfinite(surface.box).all():
         return
     if obj.type == "SURFACE" and nonpositive_weights(obj.data.splines):
-        raise ReadError("non_positive_weights", subject=obj.name)
+        raise ReadError(NON_POSITIVE_WEIGHTS, subject=obj.name)
     points = surface.points
     misplaced = np.flatnonzero(~np.isfinite(points).all(axis=1))
-    found = finding("non_finite_vertices", misplaced, count=len(misplaced), total=len(points))
+    found = finding(NON_FINITE_VERTICES, misplaced, count=len(misplaced), total=len(points))
     raise ReadError(attribute_to_source(found, part.source_object_name, obj.name), subject=obj.name)

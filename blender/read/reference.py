@@ -16,6 +16,7 @@ from ...core.inertia.reference import Reference
 from ...core.numerics.float32 import shortest_decimal
 from ...core.numerics.rotations import rotation_matrix
 from ...core.verdict.finding import QueryError
+from .findings import REFERENCE_OBJECT_MISSING
 
 Point = tuple[float, ...]
 
@@ -93,7 +94,7 @@ class ReferenceChoice:
         if self.about == "OBJECT":
             other = bpy.data.objects.get(self.object)
             if other is None:
-                raise QueryError("reference_object_missing")
+                raise QueryError(REFERENCE_OBJECT_MISSING)
             return _frame(other.matrix_world, unit)
         if self.about == "AXIS" and len(self.points) == 2:
             first, second = np.array(self.points) * unit

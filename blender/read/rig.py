@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from ...core.numerics.rotations import rotation_matrix
 from ...core.rig import VertexWeights
 from ...core.verdict.finding import ReadError
+from .findings import ARMATURE_IN_EDIT_MODE, NO_ACTIVE_ARMATURE
 from .reading import Part, float64_matrix
 from .tracking import tracking_paused
 from .visibility import evaluated_geometry, measurable
@@ -140,9 +141,9 @@ def vertex_weights(obj: Object, part: Part, bones: RestBones, depsgraph: Depsgra
 def require_armature(obj: Object | None) -> Object:
     """Return the armature object. ReadError for anything else."""
     if obj is None or obj.type != "ARMATURE":
-        raise ReadError("no_active_armature")
+        raise ReadError(NO_ACTIVE_ARMATURE)
     if obj.mode == "EDIT":
-        raise ReadError("armature_in_edit_mode", subject=obj.name)
+        raise ReadError(ARMATURE_IN_EDIT_MODE, subject=obj.name)
     return obj
 
 

@@ -21,6 +21,23 @@ from ...core.mesh.surface import Surface
 from ...core.numerics.rotations import polar_rotation
 from ...core.nurbs.curve import Curve
 from ...core.verdict.finding import Finding, ReadError, finding
+from .findings import (
+    FLAT_OF_TYPE,
+    SECTION_3D_CURVE,
+    SECTION_DRAWN_AS_POLYGONS,
+    SECTION_EXTRUDED,
+    SECTION_MODIFIED_FILL,
+    SECTION_NO_OUTLINE_CURVE,
+    SECTION_NO_OUTLINE_TEXT,
+    SECTION_NO_SELECTED_FACE,
+    SECTION_NON_FINITE,
+    SECTION_NOT_FILLED,
+    SECTION_OFFSET,
+    SECTION_RENDER_RESOLUTION,
+    SECTION_SPLINES_OPEN,
+    SECTION_TEXT_ON_CURVE,
+    SECTION_WITHOUT_MODIFIERS,
+)
 from .mesh import from_edit_mesh, mesh_surface
 from .nurbs.curves import read_curves, text_curves
 from .objects import locate, read_object
@@ -63,7 +80,7 @@ def read_section(obj, depsgraph, *, selected: bool = True, resolution: int | Non
     """
     obj = obj.original
     if obj.type not in SECTION_TYPES:
-        raise ReadError("flat_of_type", subject=obj.name)
+        raise ReadError(FLAT_OF_TYPE, subject=obj.name)
     if selected and obj.type == "MESH" and obj.data.is_editmode:
         return _selected_faces(obj, depsgraph)
     if obj.type in {"CURVE", "FONT"} and not _has_modifiers(obj):
@@ -71,7 +88,7 @@ def read_section(obj, depsgraph, *, selected: bool = True, resolution: int | Non
     reading = read_object(obj, depsgraph, edges=False)
     findings = list(reading.findings)
     if obj.type in {"CURVE", "FONT"}:
-        findings.append(finding("section_modified_fill"))
+        findings.append(finding(SECTION_MODIFIED_FILL))
     surface = reading.join()
     triangles, faces = surface.all_triangles()
     return SectionReading(
@@ -116,7 +133,7 @@ def _selected_faces(obj, depsgraph) -> SectionReading:
 
     chosen, surface = from_edit_mesh(obj.data, selected)
     if not chosen.any():
-        raise ReadError("section_no_selected_face", subject=obj.name)
+        raise ReadError(SECTION_NO_SELECTED_FACE, subject=obj.name)
     place = locate(obj, depsgraph)
     surface = surface.transform(place.matrix[:3, :3], place.matrix[:3, 3])
     triangles, faces = surface.all_triangles()
@@ -124,7 +141,7 @@ def _selected_faces(obj, depsgraph) -> SectionReading:
     triangles = triangles[inside]
     _require_finite(obj, surface.points)  # of all, which say how far float32 may have moved any
     acting = [modifier.name for modifier in obj.modifiers if modifier.show_viewport]
-    findings = [finding("section_without_modifiers", modifiers=acting)] if acting else []
+    findings = [finding(SECTION_WITHOUT_MODIFIERS, modifiers=acting)] if acting else []
     count = int(np.count_nonzero(chosen))
     return SectionReading(
         obj.name,
@@ -145,7 +162,7 @@ def _outlines(obj, depsgraph, resolution: int | None) -> SectionReading:
         obj.update_from_editmode()
     local, loops, open_splines = _spline_outlines(obj, resolution)
     if not loops:
-        code = "section_no_outline_text" if obj.type == "FONT" else "section_no_outline_curve"
+        code = SECTION_NO_OUTLINE_TEXT if obj.type == "FONT" else SECTION_NO_OUTLINE_CURVE
         raise ReadError(code, subject=obj.name)
     place = locate(obj, depsgraph)
     linear = place.matrix[:3, :3]
@@ -156,7 +173,7 @@ def _outlines(obj, depsgraph, resolution: int | None) -> SectionReading:
     if obj.type == "FONT" and obj.data.follow_curve is not None:
         # Only the evaluated text follows its curve, and only its fill is there to be read.
         if filled is None:
-            raise ReadError("section_text_on_curve", subject=obj.name)
+            raise ReadError(SECTION_TEXT_ON_CURVE, subject=obj.name)
         surface, loops = filled.transform(linear, place.matrix[:3, 3]), None
         triangles, faces = surface.all_triangles()
     else:
@@ -187,25 +204,25 @@ def _outlines(obj, depsgraph, resolution: int | None) -> SectionReading:
 
 def _outline_findings(obj, corners: int, open_splines: int) -> Iterator[Finding]:
     if open_splines:
-        yield finding("section_splines_open", count=open_splines)
+        yield finding(SECTION_SPLINES_OPEN, count=open_splines)
     if obj.data.fill_mode == "NONE":
-        yield finding("section_not_filled")
+        yield finding(SECTION_NOT_FILLED)
     resolution = _resolution(obj)
     if resolution:
-        yield finding("section_drawn_as_polygons", corners=corners, resolution=resolution)
+        yield finding(SECTION_DRAWN_AS_POLYGONS, corners=corners, resolution=resolution)
     rendered = obj.data.render_resolution_u
     if resolution and rendered not in (0, obj.data.resolution_u):
-        yield finding("section_render_resolution", render=rendered)
+        yield finding(SECTION_RENDER_RESOLUTION, render=rendered)
 
 
 def _require_flat_outlines(obj) -> None:
     curve = obj.data
     if obj.type == "CURVE" and curve.dimensions != "2D":
-        raise ReadError("section_3d_curve", subject=obj.name)
+        raise ReadError(SECTION_3D_CURVE, subject=obj.name)
     if curve.extrude or curve.bevel_depth or (curve.bevel_mode == "OBJECT" and curve.bevel_object):
-        raise ReadError("section_extruded", subject=obj.name)
+        raise ReadError(SECTION_EXTRUDED, subject=obj.name)
     if curve.offset:
-        raise ReadError("section_offset", subject=obj.name)
+        raise ReadError(SECTION_OFFSET, subject=obj.name)
 
 
 def _spline_outlines(obj, resolution: int | None) -> tuple[NDArray[np.float32], list[NDArray[np.intp]], int]:
@@ -259,4 +276,4 @@ def _resolution(obj) -> str:
 
 def _require_finite(obj, points: NDArray) -> None:
     if not np.isfinite(points).all():
-        raise ReadError("section_non_finite", subject=obj.name)
+        raise ReadError(SECTION_NON_FINITE, subject=obj.name)

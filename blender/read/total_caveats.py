@@ -10,6 +10,7 @@ from bpy.types import LayerCollection, Object, Scene, ViewLayer
 
 from ...core.verdict.finding import Finding, finding
 from ...core.verdict.method import Method, Verdict
+from .findings import BOOLEAN_OPERAND, NOT_RENDERED, TOTAL_BOOLEAN_OPERANDS, TOTAL_HIDDEN_OBJECTS, TOTAL_OF_OPEN_OBJECTS
 
 
 def left_out_reasons(scene: Scene, view_layer: ViewLayer) -> dict[Object, Finding]:
@@ -23,9 +24,9 @@ def left_out_reasons(scene: Scene, view_layer: ViewLayer) -> dict[Object, Findin
     reasons = {}
     for obj in scene.objects:
         if obj in operands and obj.display_type in {"WIRE", "BOUNDS"}:
-            reasons[obj] = finding("boolean_operand")
+            reasons[obj] = finding(BOOLEAN_OPERAND)
         elif obj not in rendered:
-            reasons[obj] = finding("not_rendered")
+            reasons[obj] = finding(NOT_RENDERED)
     return reasons
 
 
@@ -64,9 +65,9 @@ def total_caveats(objects: Collection[Object], view_layer: ViewLayer) -> list[Fi
     ]
     findings = []
     if cutters:
-        findings.append(finding("total_boolean_operands", operands=cutters))
+        findings.append(finding(TOTAL_BOOLEAN_OPERANDS, operands=cutters))
     if unseen:
-        findings.append(finding("total_hidden_objects", objects=unseen))
+        findings.append(finding(TOTAL_HIDDEN_OBJECTS, objects=unseen))
     return findings
 
 
@@ -74,7 +75,7 @@ def open_body_caveats(methods: Iterable[tuple[str, Method | None]]) -> list[Find
     """The same of bodies, given as names and methods, whose own numbers depend on a reference point."""
     methods = list(methods)
     names = sorted(name for name, method in methods if method is not None and method.verdict == Verdict.OPEN)
-    return [finding("total_of_open_objects", objects=names)] if names and len(methods) > 1 else []
+    return [finding(TOTAL_OF_OPEN_OBJECTS, objects=names)] if names and len(methods) > 1 else []
 
 
 def _operands(obj: Object) -> Iterator[Object]:

@@ -16,6 +16,21 @@ from itertools import islice
 
 from ...core.verdict.finding import Finding, ReadError, finding
 from ..settings.given import is_point_mass, shows_collection
+from .findings import (
+    COLLECTION_DISABLED,
+    COLLECTION_EXCLUDED,
+    COLLECTION_HIDDEN,
+    DISABLED_IN_VIEWPORTS,
+    DYNAMIC_TOPOLOGY,
+    EMPTY_WITHOUT_INSTANCES,
+    HIDDEN_IN_VIEWPORT,
+    INSTANCED_OBJECT_UNREADABLE,
+    NOT_EVALUATED,
+    NOT_IN_SCENE,
+    OBJECT_WITHOUT_GEOMETRY,
+    SCULPTED_MULTIRES,
+    SHAPE_KEYS_OF_OTHER_POINTS,
+)
 
 GEOMETRY_TYPES = {
     "MESH",
@@ -101,9 +116,9 @@ def require_kind(obj) -> None:
     if obj.type in GEOMETRY_TYPES or obj.instance_type == "COLLECTION":
         return
     if obj.type == "EMPTY":
-        raise ReadError("empty_without_instances", subject=obj.name)
+        raise ReadError(EMPTY_WITHOUT_INSTANCES, subject=obj.name)
     kind = obj.bl_rna.properties["type"].enum_items[obj.type].name
-    raise ReadError("object_without_geometry", subject=obj.name, type=kind)
+    raise ReadError(OBJECT_WITHOUT_GEOMETRY, subject=obj.name, type=kind)
 
 
 def evaluated_geometry(obj, depsgraph, reader):
@@ -114,14 +129,14 @@ def evaluated_geometry(obj, depsgraph, reader):
     """
     reason = _sculpt_mode_reason(obj) if obj.mode == "SCULPT" else None
     if obj.type in {"CURVE", "SURFACE"} and not _shape_keys_fit(obj.data):
-        reason = finding("shape_keys_of_other_points")
+        reason = finding(SHAPE_KEYS_OF_OTHER_POINTS)
     if reason is None:
         try:
             return obj.evaluated_get(depsgraph).evaluated_geometry()
         except (TypeError, RuntimeError):
             reason = why_not_evaluated(obj, depsgraph)
     if obj != reader:
-        reason = finding("instanced_object_unreadable", object=obj.name, cause=reason.as_record())
+        reason = finding(INSTANCED_OBJECT_UNREADABLE, object=obj.name, cause=reason.as_record())
     raise ReadError(reason, subject=reader.name)
 
 
@@ -138,16 +153,16 @@ def _shape_keys_fit(curve) -> bool:
 
 def why_not_evaluated(obj, depsgraph) -> Finding:
     """Why Blender has not evaluated the object."""
-    return hidden_reason(obj, depsgraph) or finding("not_evaluated")
+    return hidden_reason(obj, depsgraph) or finding(NOT_EVALUATED)
 
 
 def _sculpt_mode_reason(obj) -> Finding | None:
     """Why what the viewport shows of an object in Sculpt Mode is not its evaluated mesh; None where it is."""
     if obj.use_dynamic_topology_sculpting:
-        return finding("dynamic_topology")
+        return finding(DYNAMIC_TOPOLOGY)
     for modifier in obj.modifiers:
         if modifier.type == "MULTIRES" and modifier.show_viewport and modifier.sculpt_levels:
-            return finding("sculpted_multires", modifier=modifier.name)
+            return finding(SCULPTED_MULTIRES, modifier=modifier.name)
     return None
 
 
@@ -158,14 +173,14 @@ def hidden_reason(obj, depsgraph) -> Finding | None:
     homes = set(obj.users_collection)
     branches = [path for path in _branches(depsgraph.view_layer.layer_collection) if path[-1].collection in homes]
     if not branches:
-        return finding("not_in_scene", scene=depsgraph.scene.name)
+        return finding(NOT_IN_SCENE, scene=depsgraph.scene.name)
     if obj.hide_viewport:
-        return finding("disabled_in_viewports")
+        return finding(DISABLED_IN_VIEWPORTS)
     reasons, barred = [], set()
     for blocks, code in (
-        (lambda layer: layer.exclude, "collection_excluded"),
-        (lambda layer: layer.collection.hide_viewport, "collection_disabled"),
-        (lambda layer: layer.hide_viewport, "collection_hidden"),
+        (lambda layer: layer.exclude, COLLECTION_EXCLUDED),
+        (lambda layer: layer.collection.hide_viewport, COLLECTION_DISABLED),
+        (lambda layer: layer.hide_viewport, COLLECTION_HIDDEN),
     ):
         blocking = {k: layer for k, path in enumerate(branches) for layer in islice(filter(blocks, path), 1)}
         named = [finding(code, collection=layer.collection.name) for layer in blocking.values()]
@@ -176,7 +191,7 @@ def hidden_reason(obj, depsgraph) -> Finding | None:
     if len(barred) == len(branches):
         return reasons[-1]  # one for each of its collections: the mildest
     if obj.hide_get(view_layer=depsgraph.view_layer):
-        return finding("hidden_in_viewport")
+        return finding(HIDDEN_IN_VIEWPORT)
     return None
 
 

@@ -15,8 +15,10 @@ from mathutils import Matrix
 from numpy.typing import NDArray
 
 from ...core.verdict.finding import EditRefusedError, Finding, ReadError, finding
-from ..read import measurable, read_object
+from ..read.objects import read_object
+from ..read.visibility import measurable
 from .changes import LINKING_TYPES, users_of
+from .findings import CHILD_LINKED, CHILD_NOT_HELD, DEPENDENT_CURVE_CHANGES, DEPENDENT_SHAPE_CHANGES, FOLLOWER_MOVED
 from .transforms import FLOAT32, Matrix4, world
 
 # Of the size: what rounding in a chain of modifiers may move, and far less than anyone can see.
@@ -128,7 +130,7 @@ class DependentsGuard:
             dependent for dependent in dependents if dependent.library is not None and dependent.parent in self.changed
         ]
         if linked:
-            raise EditRefusedError("child_linked", object=linked[0].name)
+            raise EditRefusedError(CHILD_LINKED, object=linked[0].name)
         self.children = {
             dependent: np.array(dependent.matrix_parent_inverse, np.float64)
             for dependent in dependents
@@ -162,14 +164,14 @@ class DependentsGuard:
         for dependent, place in self.places.items():
             moved = self._moved(place, world(dependent), size)
             if moved and dependent in self.children:
-                raise EditRefusedError("child_not_held", object=dependent.name)
+                raise EditRefusedError(CHILD_NOT_HELD, object=dependent.name)
             if moved:
-                self.findings.append(finding("follower_moved", object=dependent.name))
+                self.findings.append(finding(FOLLOWER_MOVED, object=dependent.name))
         for dependent, before in self.shapes.items():
             if self._moved(self.places[dependent], world(dependent), size):
                 continue
             if not same_shape(before, shape(dependent, depsgraph), size):
-                code = "dependent_shape_changes" if dependent.modifiers else "dependent_curve_changes"
+                code = DEPENDENT_SHAPE_CHANGES if dependent.modifiers else DEPENDENT_CURVE_CHANGES
                 raise EditRefusedError(code, object=dependent.name)
 
     def _moved(self, before: NDArray, now: NDArray, size: float) -> bool:

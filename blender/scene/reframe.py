@@ -28,9 +28,31 @@ from numpy.typing import NDArray
 
 from ...core.verdict import internal_error
 from ...core.verdict.finding import EditRefusedError, Finding, finding
+from ..read.findings import SCALE_ZERO_AXIS
 from ..settings.density import density_anchor
 from .changes import SceneChange, dependents, independent_rounds, run_change, run_together
 from .dependents import SAME_SHAPE_RTOL, DependentsGuard, referring, same_shape, shape, transform_shape
+from .findings import (
+    BOUND_TO_ARMATURE,
+    COLLECTION_INSTANCE,
+    DATA_COPIED,
+    DATA_WITHOUT_TRANSFORM,
+    DENSITY_IN_OBJECT_COORDINATES,
+    DENSITY_IN_WORLD_COORDINATES,
+    INSTANCES_ON_OWN_GEOMETRY,
+    LINKED_OBJECT,
+    LINKED_OBJECT_DATA,
+    LOCATION_CONSTRAINED,
+    PARENT_SCALE_ZERO,
+    RENDER_ONLY_MODIFIER,
+    ROTATION_CONSTRAINED,
+    SHAPE_DEPENDS_ON_LOCATION,
+    SHAPE_DEPENDS_ON_LOCATION_UNKNOWN,
+    SHAPE_DEPENDS_ON_ORIGIN,
+    SHAPE_DEPENDS_ON_ORIGIN_UNKNOWN,
+    TEXT_OFF_PLANE,
+    VOLUME_NOT_REFRAMED,
+)
 from .reframe_meshes import Plan, data_change, location_tolerance, reframe_own_meshes, shows_own_mesh
 from .transforms import (
     FLOAT32,
@@ -67,26 +89,26 @@ FRAME_INDEPENDENT_MODIFIERS = {
 def check(obj: Object) -> None:
     """EditRefusedError where the object's data cannot be re-expressed at all."""
     if obj.library is not None or (obj.data is not None and obj.data.library is not None):
-        raise EditRefusedError("linked_object_data")
+        raise EditRefusedError(LINKED_OBJECT_DATA)
     if obj.data is None:
-        raise EditRefusedError("collection_instance")
+        raise EditRefusedError(COLLECTION_INSTANCE)
     if obj.type == "VOLUME":
-        raise EditRefusedError("volume_not_reframed")
+        raise EditRefusedError(VOLUME_NOT_REFRAMED)
     if obj.type not in {"MESH", "CURVE", "SURFACE", "META", "FONT"}:
-        raise EditRefusedError("data_without_transform")
+        raise EditRefusedError(DATA_WITHOUT_TRANSFORM)
     if obj.instance_type in {"VERTS", "FACES"} and obj.children:
-        raise EditRefusedError("instances_on_own_geometry")
+        raise EditRefusedError(INSTANCES_ON_OWN_GEOMETRY)
     unseen = [
         modifier.name
         for modifier in obj.modifiers
         if modifier.show_render and not modifier.show_viewport and modifier.type not in FRAME_INDEPENDENT_MODIFIERS
     ]
     if unseen:
-        raise EditRefusedError("render_only_modifier", modifier=unseen[0])
+        raise EditRefusedError(RENDER_ONLY_MODIFIER, modifier=unseen[0])
     if density_anchor(obj) == "own":
-        raise EditRefusedError("density_in_object_coordinates")
+        raise EditRefusedError(DENSITY_IN_OBJECT_COORDINATES)
     if abs(np.linalg.det(world(obj)[:3, :3])) == 0.0:
-        raise EditRefusedError("scale_zero_axis")
+        raise EditRefusedError(SCALE_ZERO_AXIS)
 
 
 def reframe(
@@ -195,21 +217,21 @@ def _reframe_group(group: list[Plan], users: dict[Object, set[Object]]) -> Scene
             bpy.data.batch_remove([trial])
         elif succeeded:
             for plan in group:
-                plan.findings.append(finding("data_copied"))
+                plan.findings.append(finding(DATA_COPIED))
 
 
 def check_movable(obj: Object) -> None:
     """EditRefusedError where the object cannot be moved as a whole and stay the body that it is."""
     if obj.library is not None:
-        raise EditRefusedError("linked_object")
+        raise EditRefusedError(LINKED_OBJECT)
     if density_anchor(obj) == "world":
-        raise EditRefusedError("density_in_world_coordinates")
+        raise EditRefusedError(DENSITY_IN_WORLD_COORDINATES)
     bound = [modifier.object for modifier in obj.modifiers if modifier.type == "ARMATURE" and modifier.show_viewport]
     if obj.parent_type == "ARMATURE":
         bound.append(obj.parent)
     for armature in bound:  # in its rest pose it deforms nothing yet
         if armature is not None and obj not in ancestors(armature):
-            raise EditRefusedError("bound_to_armature", armature=armature.name)
+            raise EditRefusedError(BOUND_TO_ARMATURE, armature=armature.name)
 
 
 def move(context: Context, plan: Plan) -> None:
@@ -223,9 +245,9 @@ def move(context: Context, plan: Plan) -> None:
         ):
             names = [modifier.name for modifier in obj.modifiers if modifier.show_viewport]
             raise (
-                EditRefusedError("shape_depends_on_location", modifiers=names)
+                EditRefusedError(SHAPE_DEPENDS_ON_LOCATION, modifiers=names)
                 if names
-                else EditRefusedError("shape_depends_on_location_unknown")
+                else EditRefusedError(SHAPE_DEPENDS_ON_LOCATION_UNKNOWN)
             )
     except BaseException:
         saved.restore()
@@ -240,7 +262,7 @@ def set_world_matrix(plan: Plan) -> SceneChange:
     obj = plan.obj
     outer = _parent_matrix(obj)
     if not abs(np.linalg.det(outer[:3, :3])) > 0.0:
-        raise EditRefusedError("parent_scale_zero")
+        raise EditRefusedError(PARENT_SCALE_ZERO)
     tolerance = location_tolerance(obj, plan.size) / np.cbrt(abs(np.linalg.det(outer[:3, :3])))
     target = plan.target
     for _ in range(3):  # what the parents' float32 matrices round is corrected once it is known
@@ -256,10 +278,10 @@ def set_world_matrix(plan: Plan) -> SceneChange:
         target[:3, 3] += off
     now = world(obj)
     if np.abs(now[:3, 3] - plan.target[:3, 3]).max() > location_tolerance(obj, plan.size):
-        raise EditRefusedError("location_constrained")
+        raise EditRefusedError(LOCATION_CONSTRAINED)
     scale = np.abs(plan.target[:3, :3]).max()
     if np.abs(now[:3, :3] - plan.target[:3, :3]).max() > MAX_SHEAR * scale:
-        raise EditRefusedError("rotation_constrained")
+        raise EditRefusedError(ROTATION_CONSTRAINED)
 
 
 def _parent_matrix(obj: Object) -> Matrix4:
@@ -270,7 +292,7 @@ def _parent_matrix(obj: Object) -> Matrix4:
         return world(obj.parent) @ np.array(obj.matrix_parent_inverse, np.float64)
     local = basis(obj)
     if abs(np.linalg.det(local[:3, :3])) == 0.0:
-        raise EditRefusedError("scale_zero_axis")
+        raise EditRefusedError(SCALE_ZERO_AXIS)
     return solve(local.T, world(obj).T).T
 
 
@@ -316,7 +338,7 @@ def _transform_points(collection, name: str, change: Matrix4) -> NDArray[np.floa
 def _translate_text(text: bpy.types.TextCurve, change: Matrix4) -> None:
     offset = change[:3, 3]
     if np.abs(change[:3, :3] - np.eye(3)).max() > 1e-6 or abs(offset[2]) > 1e-6 * max(np.abs(offset).max(), text.size):
-        raise EditRefusedError("text_off_plane")
+        raise EditRefusedError(TEXT_OFF_PLANE)
     text.offset_x += offset[0]
     text.offset_y += offset[1]
 
@@ -328,5 +350,5 @@ def _overriding_cause(obj: Object) -> Finding:
         if modifier.show_viewport and modifier.type not in FRAME_INDEPENDENT_MODIFIERS
     ]
     if names:
-        return finding("shape_depends_on_origin", modifiers=names)
-    return finding("shape_depends_on_origin_unknown")
+        return finding(SHAPE_DEPENDS_ON_ORIGIN, modifiers=names)
+    return finding(SHAPE_DEPENDS_ON_ORIGIN_UNKNOWN)

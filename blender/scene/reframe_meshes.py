@@ -24,6 +24,7 @@ from numpy.typing import NDArray
 from ...core.verdict import internal_error
 from ...core.verdict.finding import Finding, finding
 from .dependents import SAME_SHAPE_RTOL
+from .findings import DATA_COPIED
 from .transforms import (
     FLOAT32,
     MAX_SHEAR,
@@ -169,7 +170,7 @@ def _give_meshes(plans: Sequence[Plan], changes: NDArray, reach: NDArray) -> lis
                 copy = mesh.copy()
                 for plan in [plans[members[i]] for i in group]:
                     plan.obj.data = copy
-                    plan.findings.append(finding("data_copied"))
+                    plan.findings.append(finding(DATA_COPIED))
     return owners
 
 

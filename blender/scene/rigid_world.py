@@ -11,6 +11,7 @@ import bpy
 from bpy.types import Context, Object, RigidBodyConstraint, Scene
 
 from ...core.verdict.finding import EditRefusedError
+from .findings import RIGID_WORLD_LINKED
 
 
 def require_rigid_world(scene: Scene, joints: bool = False) -> None:
@@ -20,7 +21,7 @@ def require_rigid_world(scene: Scene, joints: bool = False) -> None:
         return
     for collection in (world.collection, world.constraints if joints else None):
         if collection is not None and (not collection.is_editable or collection.override_library is not None):
-            raise EditRefusedError("rigid_world_linked", collection=collection.name)
+            raise EditRefusedError(RIGID_WORLD_LINKED, collection=collection.name)
 
 
 def add_rigid_bodies(context: Context, objects: Sequence[Object], type: str = "ACTIVE") -> None:

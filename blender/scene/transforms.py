@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 
 from ...core.numerics.rotations import quaternion, rotation_matrix
 from ...core.verdict.finding import EditRefusedError
+from .findings import CHANNEL_ANIMATED, CHANNEL_LOCKED, LINKED_OBJECT, PARENT_OR_DELTA_SCALE_ZERO, PARENT_SHEARS
 
 FLOAT32 = float(np.finfo(np.float32).eps)
 MAX_SHEAR = 2e-6  # of a float32 matrix that is a rotation times a scale
@@ -33,7 +34,7 @@ Matrix4 = NDArray[np.float64]
 def require_editable(obj: Object) -> None:
     """EditRefusedError for a linked object."""
     if not obj.is_editable:
-        raise EditRefusedError("linked_object")
+        raise EditRefusedError(LINKED_OBJECT)
 
 
 def require_storable_data(obj: Object, code: str) -> None:
@@ -147,10 +148,10 @@ def set_rotation_and_scale(obj: Object, linear: Matrix3) -> None:
     """Make the 3×3 part of the basis `linear`, a rotation times a scale; EditRefusedError where it is sheared."""
     delta_scale = np.array(obj.delta_scale, np.float64)
     if np.linalg.norm(linear, axis=0).min() <= 0.0 or np.abs(delta_scale).min() == 0.0:
-        raise EditRefusedError("parent_or_delta_scale_zero")
+        raise EditRefusedError(PARENT_OR_DELTA_SCALE_ZERO)
     turn, scale, is_even = rotation_and_scale(linear, np.array(obj.scale, np.float64) * delta_scale)
     if not is_even:
-        raise EditRefusedError("parent_shears")
+        raise EditRefusedError(PARENT_SHEARS)
     _assign(obj, "scale", scale / delta_scale, obj.lock_scale)
     rotation = _delta_rotation(obj).T @ turn
     mode = obj.rotation_mode
@@ -174,9 +175,9 @@ def _assign(obj: Object, channel: str, value: NDArray, locks: Sequence[bool], to
     before = np.array(getattr(obj, channel), np.float64)
     moved = np.abs(value - before) > max(tolerance, 1e-6 * np.abs(before).max())
     if np.any(moved & np.array(locks, bool)):
-        raise EditRefusedError("channel_locked", channel=channel.split("_")[0])
+        raise EditRefusedError(CHANNEL_LOCKED, channel=channel.split("_")[0])
     if np.any(moved) and channel in driven_channels(obj):
-        raise EditRefusedError("channel_animated", channel=channel.split("_")[0])
+        raise EditRefusedError(CHANNEL_ANIMATED, channel=channel.split("_")[0])
     setattr(obj, channel, value)
 
 

@@ -14,17 +14,19 @@ from numpy.typing import NDArray
 
 from ...core.measurement.measurement import Measurement
 from ...core.mesh.surface import Surface, join_surfaces
+from ...core.robots.findings import ROBOT_WITHOUT_LINKS
 from ...core.robots.from_records import brief_record, robot_of_records
 from ...core.robots.model import Robot
 from ...core.verdict.finding import EditRefusedError, Finding, MeasureError, finding
 from ..bodies.assembly.assembly import measure_assembly
 from ..bodies.rig import measure_rig
 from ..bodies.stacks.many import measured_in_turn
-from ..read import measurable
 from ..read.rig import pose_bone_of
 from ..read.robots import bone_freedom, bone_parents, link_entry, link_surface, object_entry
+from ..read.visibility import measurable
 from ..settings.options import AS_SET, MeasureOptions
 from ..write import reports
+from .findings import LEFT_OUT_OF_ROBOT, ROBOT_WITHOUT_BONES
 
 
 @dataclass(frozen=True)
@@ -84,7 +86,7 @@ def object_links(
             failures.append(reports.failure(obj.name_full, error))
         step(done)
     if not measured:
-        raise EditRefusedError(failures[0] if failures else finding("robot_without_links"))
+        raise EditRefusedError(failures[0] if failures else finding(ROBOT_WITHOUT_LINKS))
     labels = {obj: obj.name_full for obj in measured}
     records = []
     for obj, measurement in measured.items():
@@ -142,7 +144,7 @@ def bone_links(context: Context, name: str, objects: list[Object]) -> SceneLinks
             records.append(brief_record(label, part.measurement, entry))
             pieces[label] = part.surfaces
     if not records:
-        raise EditRefusedError("robot_without_bones")
+        raise EditRefusedError(ROBOT_WITHOUT_BONES)
     robot, left = robot_of_records(name, records)
     return SceneLinks(robot, [*findings, *left], AS_SET.meters_per_unit(context.scene), pieces=pieces)
 
@@ -152,4 +154,4 @@ def left_out(failures: list[Finding], total: int) -> list[Finding]:
     if not failures:
         return []
     causes = [failure.as_record() for failure in reports.first(failures)]
-    return [finding("left_out_of_robot", count=len(failures), total=total, causes=causes)]
+    return [finding(LEFT_OUT_OF_ROBOT, count=len(failures), total=total, causes=causes)]

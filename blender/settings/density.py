@@ -9,13 +9,22 @@ from dataclasses import dataclass
 import bpy
 
 from ...core.density.polynomial import Polynomial, parse_polynomial
+from ...core.measurement.findings import DENSITY_FROM_VALUE
 from ...core.measurement.measurement import Measurement
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import Finding, ReadError, finding
+from .findings import (
+    DENSITY_ATTRIBUTE_MISSING,
+    DENSITY_FROM_COEFFICIENTS,
+    DENSITY_FROM_POLYNOMIAL,
+    DENSITY_VOLUME_MISSING,
+    OBJECT_DENSITY_USED,
+    OBJECT_DENSITY_USED_FOR_MATERIALS,
+)
 from .preferences import default_density
 
 # Where the density comes from the object's one value, or that of some faces.
-_BY_OBJECT = {"density_from_value", "object_density_used", "object_density_used_for_materials"}
+_BY_OBJECT = {DENSITY_FROM_VALUE, OBJECT_DENSITY_USED, OBJECT_DENSITY_USED_FOR_MATERIALS}
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,7 +45,7 @@ class DensityField:
 
     def polynomial_source(self) -> Finding:
         """Where a polynomial density comes from. Who meant a decimal comma sees here what it was taken for."""
-        code = "density_from_coefficients" if "," in self.text else "density_from_polynomial"
+        code = DENSITY_FROM_COEFFICIENTS if "," in self.text else DENSITY_FROM_POLYNOMIAL
         return finding(code, polynomial=self.text, frame=self.frame)
 
 
@@ -52,10 +61,10 @@ def density_field(settings: bpy.types.PropertyGroup) -> DensityField | None:
         return DensityField("polynomial", parse_polynomial(text), settings.density_frame == "WORLD", text)
     if settings.density_from == "VOLUME":
         if settings.density_volume is None:
-            raise ReadError("density_volume_missing")
+            raise ReadError(DENSITY_VOLUME_MISSING)
         return DensityField("volume")
     if not settings.density_attribute:
-        raise ReadError("density_attribute_missing")
+        raise ReadError(DENSITY_ATTRIBUTE_MISSING)
     return DensityField("attribute", attribute=settings.density_attribute)
 
 

@@ -15,6 +15,18 @@ from ...core.density.transfer_function import parse_table
 from ...core.numerics.float32 import shortest_decimal
 from ...core.scans.positions import AXES, EVEN, Positions
 from ...core.verdict.finding import Finding, ReadError, finding
+from .findings import (
+    BACKGROUND_EMPTY,
+    POSITIONS_DAMAGED,
+    POSITIONS_OF_OTHER_SAMPLES,
+    POSITIONS_ONLY_AS_DENSITY,
+    VALUES_BY_TABLE,
+    VALUES_BY_TABLE_SPLINE,
+    VALUES_NEGATIVE,
+    VALUES_NON_FINITE_FOR_TABLE,
+    VALUES_SCALED,
+    VALUES_SCALED_SPLINE,
+)
 
 
 @dataclass(frozen=True)
@@ -36,7 +48,7 @@ class GridOptions:
     table: str = ""
     spline_order: int = 1
     sample_positions: str = ""
-    negative: str = "values_negative"
+    negative: str = VALUES_NEGATIVE
 
     @classmethod
     def of(cls, settings, density: float | None = None) -> GridOptions:
@@ -71,11 +83,11 @@ class GridOptions:
         rows: list[NDArray[np.float64] | None] = []
         all_known = _parsed_positions(self.sample_positions)
         if all_known is None:
-            raise ReadError("positions_damaged", grid=grid)
+            raise ReadError(POSITIONS_DAMAGED, grid=grid)
         for axis, begin, count in zip(AXES, low, shape):
             known = all_known.get(axis)
             if known is not None and not 0 <= begin <= begin + count <= len(known):
-                raise ReadError("positions_of_other_samples", grid=grid, axis=axis, count=len(known))
+                raise ReadError(POSITIONS_OF_OTHER_SAMPLES, grid=grid, axis=axis, count=len(known))
             rows.append(known)
         x, y, z = rows
         return x, y, z
@@ -83,7 +95,7 @@ class GridOptions:
     def needs_even_samples(self, grid: str) -> None:
         """ReadError where samples do not stand evenly. grid: its name."""
         if self.sample_positions:
-            raise ReadError("positions_only_as_density", grid=grid)
+            raise ReadError(POSITIONS_ONLY_AS_DENSITY, grid=grid)
 
     def to_densities(self, background: float | None) -> Callable[[NDArray], NDArray]:
         """What makes densities in kg/m³ of values, and raises ReadError where it cannot. The background, if any, is
@@ -92,7 +104,7 @@ class GridOptions:
 
         def weighed(values: NDArray) -> NDArray[np.float64]:
             if pairs is not None and not np.isfinite(values).all():
-                raise ReadError("values_non_finite_for_table")
+                raise ReadError(VALUES_NON_FINITE_FOR_TABLE)
             densities = values * self.value_density if pairs is None else np.interp(values, *pairs)
             if background is not None:
                 densities[values == background] = 0.0
@@ -107,14 +119,14 @@ class GridOptions:
         if background is None or not np.isfinite(background):
             return ()
         density = np.interp(background, *parse_table(self.table)) if self.table else background * self.value_density
-        return (finding("background_empty", value=float(background)),) if density else ()
+        return (finding(BACKGROUND_EMPTY, value=float(background)),) if density else ()
 
     def meaning(self) -> Finding:
         """What a value stands for."""
         spline = {"order": self.spline_order} if self.spline_order > 1 else {}
         if self.table:
-            return finding("values_by_table_spline" if spline else "values_by_table", **spline)
-        return finding("values_scaled_spline" if spline else "values_scaled", density=self.value_density, **spline)
+            return finding(VALUES_BY_TABLE_SPLINE if spline else VALUES_BY_TABLE, **spline)
+        return finding(VALUES_SCALED_SPLINE if spline else VALUES_SCALED, density=self.value_density, **spline)
 
 
 def positions_text(positions: Positions) -> str:

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from ...core.inertia.mass_properties import MassProperties
 from ...core.measurement.documents import TENSOR, table
 from ...core.verdict.finding import Finding, Severity
-from ...core.verdict.messages import of_severity, sentence
+from ...core.verdict.sentences import of_severity, sentence
 
 COLUMNS = (
     *("level", "name", "type", "counted", "method", "mass", "share", "density", "volume", "area"),

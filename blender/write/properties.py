@@ -25,8 +25,9 @@ from ...core.measurement.measurement import UNIFORM_DENSITIES, Measurement
 from ...core.measurement.record import plain
 from ...core.numerics.rotations import quaternion, rotation_matrix
 from ...core.verdict.finding import EditRefusedError, Finding, Severity
-from ...core.verdict.messages import of_severity, sentence
 from ...core.verdict.method import Method, Source, Verdict
+from ...core.verdict.sentences import of_severity, sentence
+from .findings import LINKED_RESULTS, OVERRIDE_RESULTS
 
 DESCRIPTIONS = {
     "body_mass": "Mass in kg",
@@ -276,9 +277,9 @@ def require_storable(obj: Owner) -> None:
     """Raise EditRefusedError for what cannot hold results."""
     data = obj.id_data
     if not data.is_editable:
-        raise EditRefusedError("linked_results", subject=data.name_full)
+        raise EditRefusedError(LINKED_RESULTS, subject=data.name_full)
     if data.override_library is not None:  # Blender drops an override's new ID properties when the file is saved
-        raise EditRefusedError("override_results", subject=data.name_full)
+        raise EditRefusedError(OVERRIDE_RESULTS, subject=data.name_full)
 
 
 def clear(obj: Owner) -> bool:

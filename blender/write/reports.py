@@ -12,7 +12,8 @@ from bpy.types import Operator
 
 from ...core.verdict import internal_error
 from ...core.verdict.finding import Finding, MeasureError, Severity, finding, truncate_findings
-from ...core.verdict.messages import sentence, severity
+from ...core.verdict.sentences import sentence, severity
+from .findings import FAILURE, REFUSED
 from .units import Units
 
 MAX_REPORTED = 3  # findings of one kind that a report names before it only counts
@@ -56,11 +57,11 @@ def first(findings: Sequence[Finding]) -> list[Finding]:
 def failure(name: str, reason: Finding | Exception) -> Finding:
     """Why one of several objects was left as it is: it was refused, or this program failed."""
     cause = reason if isinstance(reason, Finding) else internal_error.finding_of(reason)
-    return finding("failure", object=name, cause=cause.as_record())
+    return finding(FAILURE, object=name, cause=cause.as_record())
 
 
 def refusal(error: MeasureError) -> Finding:
     """Why an operator does nothing at all."""
     if not error.subject:
         return error.finding
-    return finding("refused", object=error.subject, cause=error.finding.as_record())
+    return finding(REFUSED, object=error.subject, cause=error.finding.as_record())

@@ -17,7 +17,7 @@ import numpy as np
 
 from ...core.flat.section import Plane, Section
 from ...core.verdict.finding import Finding, Severity
-from ...core.verdict.messages import sentence, severity
+from ...core.verdict.sentences import sentence, severity
 from .properties import findings_in, findings_text, warning_lines
 from .units import rounded_up
 

@@ -20,9 +20,10 @@ from ...core.measurement.plain_text import visible
 from ...core.measurement.record import described, plain
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import Finding, MeasureError, ReadError, finding
-from ...core.verdict.messages import HEALTH, METHODS, method_key
 from ...core.verdict.method import Method, Verdict
+from ...core.verdict.sentences import HEALTH, METHODS, method_key
 from . import properties
+from .findings import NO_STORED_RESULTS, STALE_RESULTS, WALL_MEASURED
 from .units import rounded_up
 
 BOUNDS = {"volume": "m³", "area": "m²", "center_of_mass": "m", "inertia": "kg·m²"}
@@ -58,7 +59,7 @@ def stored_document(
     for obj in objects:
         numbers = properties.numbers(obj)
         if numbers is None:
-            errors.append({"name": obj.name, "reason": ReadError("no_stored_results").reason})
+            errors.append({"name": obj.name, "reason": ReadError(NO_STORED_RESULTS).reason})
             continue
         stored = properties.from_numbers(numbers)
         world = stored.in_world(obj.matrix_world, unit)
@@ -93,7 +94,7 @@ def text(file_document: dict[str, Any]) -> str:
 def _body(entry: dict[str, Any], frame: str) -> Iterable[str]:
     """The lines of one object, or of a total."""
     if "method" in entry:
-        walled = any(found["code"] == "wall_measured" for found in entry.get("findings", ()))
+        walled = any(found["code"] == WALL_MEASURED for found in entry.get("findings", ()))
         _, explanation = METHODS.get(method_key(Method.parse(entry["method"]), walled), ("", ""))
         yield _line("Verdict", ": ".join(filter(None, (entry["method"], explanation))))
         counts = list(_counts(entry.get("health", {})))
@@ -199,7 +200,7 @@ def _stored_record(obj: Any, stored: properties.StoredProperties, outdated: bool
     kinds = {Verdict.SHELL: "shell", Verdict.WIRE: "wire"}
     source = properties.density_from(obj)
     if outdated:
-        findings = (finding("stale_results"), *findings)
+        findings = (finding(STALE_RESULTS), *findings)
     entry = {
         "name": obj.name,
         "type": obj.type,

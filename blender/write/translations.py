@@ -16,8 +16,9 @@ from typing import Any
 
 import bpy
 
+from ...core.verdict.catalog import declared
 from ...core.verdict.finding import Finding
-from ...core.verdict.messages import MESSAGES, sentence
+from ...core.verdict.sentences import sentence
 from . import german
 from .units import Units
 
@@ -45,7 +46,7 @@ def _translated(language: ModuleType) -> dict[str, str]:
     """English text → text in a language."""
     texts = dict(language.TEXTS)
     for code, translated in language.MESSAGES.items():
-        entry = MESSAGES[code]
+        entry = declared(code)
         texts |= zip(filter(None, (entry.text, entry.plural)), translated, strict=True)
     return texts
 

@@ -14,11 +14,21 @@ from typing import Any
 
 from ...blender.bodies.files.array import ArrayOptions, measure_array
 from ...blender.bodies.files.stream import measure_mesh_file
+from ...blender.bodies.findings import SHAPE_OF_GRID
+from ...blender.session.findings import DENSITY_DEFAULTED
 from ...blender.settings.options import MeasureOptions
 from ...core.measurement import record
 from ...core.measurement.measurement import Measurement
 from ...core.scans import formats as scans
 from ...core.verdict.finding import MeasureError, QueryError, finding
+from ..findings import (
+    FOURIER_OF_ARRAY,
+    OBJECT_NOT_IN_FILE,
+    PROGRESS_FACES,
+    PROGRESS_SAMPLES,
+    SHAPE_OF_STREAM,
+    STREAM_OPTIONS,
+)
 from ..measure.objects import failure
 from ..options.file import OF_ARRAYS, unit_findings, unused_array_options, unused_options
 from .files import STREAMED, check_file, file_suffix
@@ -45,13 +55,13 @@ class BareFile:
         is_scan = bool(scans.scan_suffix(self.path))
         name = os.path.basename(self.path)[: -len(file_suffix(self.path))]
         names = [name] if self.options.object is None else self.options.object
-        self.errors = [failure(other, finding("object_not_in_file")) for other in names if other != name]
+        self.errors = [failure(other, finding(OBJECT_NOT_IN_FILE)) for other in names if other != name]
         if is_scan and self.options.fourier:
-            self.errors.append(failure(None, finding("fourier_of_array")))
+            self.errors.append(failure(None, finding(FOURIER_OF_ARRAY)))
         if name not in names:
             return
         measure = self._measure_array if is_scan else self._measure_mesh
-        count = progress(self.path, "progress_samples" if is_scan else "progress_faces")
+        count = progress(self.path, PROGRESS_SAMPLES if is_scan else PROGRESS_FACES)
         try:
             measurement = measure(name, measure_options, count)
         except MeasureError as refusal:
@@ -59,7 +69,7 @@ class BareFile:
             self.errors.append(failure(None, refusal.finding))
             return
         requested = [more for more in ("pose", "signature") if getattr(self.options, more)]
-        shapeless = [finding("shape_of_grid" if is_scan else "shape_of_stream")] if requested else []
+        shapeless = [finding(SHAPE_OF_GRID if is_scan else SHAPE_OF_STREAM)] if requested else []
         findings = (*measurement.findings, *unused_options(self.options, measurement), *shapeless)
         measurement = replace(measurement, findings=findings)
         surface = measurement.area_moments if self.options.surface_moments else None
@@ -82,10 +92,10 @@ class BareFile:
         given = [one for one in _NOT_OF_STREAMS if getattr(options, one) not in (None, "thin", "value")]
         given += ["overlap"] * (options.overlap == "union") + ["kind"] * (options.kind == "wire")
         if given:
-            raise QueryError("stream_options", options=["--" + one.replace("_", "-") for one in given])
+            raise QueryError(STREAM_OPTIONS, options=["--" + one.replace("_", "-") for one in given])
         findings = [*unit_findings(self.path, options.unit_scale)]
         if options.density is None and options.mass is None and options.material is None:
-            findings.append(finding("density_defaulted"))
+            findings.append(finding(DENSITY_DEFAULTED))
         findings += unused_array_options(options)
         wanted = replace(measure_options, unit_scale=options.unit_scale)
         return measure_mesh_file(self.path, name, wanted, tuple(findings), progress)

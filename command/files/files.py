@@ -26,8 +26,19 @@ import addon_utils
 import bpy
 
 from ...core.scans import formats as scans
+from ...core.scans.findings import DAMAGE_ARCHIVE, FILE_MISSING, FILE_NOT_REGULAR
 from ...core.scans.scan import damaged
+from ...core.streams.findings import FILE_TYPE, FILE_UNREADABLE, FILE_WITHOUT_OBJECTS, STL_CUT_SHORT, STL_SIZE
 from ...core.verdict.finding import FileError, Finding, finding, system_reason
+from ..findings import (
+    FILE_EMPTY,
+    FILE_IS_FOLDER,
+    FILE_NEWER_VERSION,
+    FILE_VERSION_UNSUPPORTED,
+    IMPORT_FAILED,
+    IMPORTER_MISSING,
+    MISSING_REFERENCES,
+)
 from .finite import check_numbers
 from .import_3mf import import_3mf
 from .import_surfaces import import_iges, import_obj
@@ -73,7 +84,7 @@ def open_file(path: str) -> Opened:
     try:
         return _opened(path)
     except OSError as error:  # such as of a disk that fails
-        raise FileError("file_unreadable", error=system_reason(error)) from error
+        raise FileError(FILE_UNREADABLE, error=system_reason(error)) from error
 
 
 def _opened(path: str) -> Opened:
@@ -92,12 +103,12 @@ def _opened(path: str) -> Opened:
         missing = unresolved_references(partial(_IMPORTERS[kind], absolute)) if kind in USD else []
         found = _IMPORTERS[kind](absolute) if kind not in USD else None
     except AttributeError as error:
-        raise FileError("importer_missing", suffix=kind) from error
+        raise FileError(IMPORTER_MISSING, suffix=kind) from error
     except RuntimeError as error:
-        raise FileError("import_failed", error=reason(error)) from error
-    unresolved = (finding("missing_references", names=missing),) if missing else ()
+        raise FileError(IMPORT_FAILED, error=reason(error)) from error
+    unresolved = (finding(MISSING_REFERENCES, names=missing),) if missing else ()
     if not bpy.context.scene.objects:
-        raise FileError(unresolved[0] if unresolved else finding("file_without_objects", suffix=kind))
+        raise FileError(unresolved[0] if unresolved else finding(FILE_WITHOUT_OBJECTS, suffix=kind))
     return found if isinstance(found, Opened) else Opened(unresolved)
 
 
@@ -109,9 +120,9 @@ def _open_blend(path: str) -> None:
         version = _saved_by(path)
         is_readable = version is not None and _OLDEST <= version <= tuple(bpy.app.version[:2])
         if version is None or is_readable:
-            raise FileError("import_failed", error=reason(error)) from error
+            raise FileError(IMPORT_FAILED, error=reason(error)) from error
         values = {"blender": bpy.app.version_string, "version": "{}.{}".format(*version) if version > (0, 0) else "-"}
-        raise FileError("file_version_unsupported", **values) from error
+        raise FileError(FILE_VERSION_UNSUPPORTED, **values) from error
 
 
 def _saved_by(path: str) -> tuple[int, int] | None:
@@ -136,20 +147,20 @@ def newer_version() -> Iterator[Finding]:
     """That a newer Blender has saved the open file, where that is so."""
     version = tuple(bpy.data.version[:2])
     if version > tuple(bpy.app.version[:2]):
-        yield finding("file_newer_version", version="{}.{}".format(*version), blender=bpy.app.version_string)
+        yield finding(FILE_NEWER_VERSION, version="{}.{}".format(*version), blender=bpy.app.version_string)
 
 
 def check_file(path: str) -> None:
     """Raise FileError where a file is none that can be opened, or is seen to be cut short."""
     kind = file_suffix(path)
     if os.path.isdir(path):
-        raise FileError("file_is_folder")
+        raise FileError(FILE_IS_FOLDER)
     if kind != BLEND and kind not in _IMPORTERS:
-        raise FileError("file_type", suffixes=" ".join((BLEND, *_IMPORTERS, *scans.SUFFIXES)))
+        raise FileError(FILE_TYPE, suffixes=" ".join((BLEND, *_IMPORTERS, *scans.SUFFIXES)))
     if not os.path.exists(path):
-        raise FileError("file_missing")
+        raise FileError(FILE_MISSING)
     if not os.path.isfile(path):
-        raise FileError("file_not_regular")
+        raise FileError(FILE_NOT_REGULAR)
     try:
         with open(path, "rb") as file:
             head = file.read(84)
@@ -157,9 +168,9 @@ def check_file(path: str) -> None:
             file.seek(max(0, size - 1024))
             tail = file.read()
     except OSError as error:
-        raise FileError("file_unreadable", error=system_reason(error)) from error
+        raise FileError(FILE_UNREADABLE, error=system_reason(error)) from error
     if not size:
-        raise FileError("file_empty")
+        raise FileError(FILE_EMPTY)
     if kind == ".stl":
         _check_stl(head, tail, size)
     elif kind == ".usdz":
@@ -178,7 +189,7 @@ def _check_usdz(path: Path, size: int) -> None:
                     while file.read(1 << 20):
                         pass
     except (zipfile.BadZipFile, NotImplementedError, RuntimeError, EOFError, OSError, ValueError) as error:
-        raise damaged(path, "damage_archive", error=str(error).rstrip(".")) from error
+        raise damaged(path, DAMAGE_ARCHIVE, error=str(error).rstrip(".")) from error
 
 
 def _check_stl(head: bytes, tail: bytes, size: int) -> None:
@@ -188,9 +199,9 @@ def _check_stl(head: bytes, tail: bytes, size: int) -> None:
     if len(head) == 84 and size == 84 + 50 * struct.unpack_from("<I", head, 80)[0]:
         return
     if not head.lstrip().lower().startswith(b"solid"):
-        raise FileError("stl_size")
+        raise FileError(STL_SIZE)
     if b"endsolid" not in tail.lower():
-        raise FileError("stl_cut_short")
+        raise FileError(STL_CUT_SHORT)
 
 
 def reason(error: Exception) -> str:

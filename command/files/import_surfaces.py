@@ -15,6 +15,7 @@ from ...core.cad.obj import has_surfaces
 from ...core.cad.surface_file import read_surfaces
 from ...core.cad.surfaces import SurfaceFile
 from ...core.verdict.finding import FileError, Finding, finding
+from ..findings import SURFACES_ROUNDED
 from .opened import Opened
 
 _MESH = re.compile(rb"[ \t]*(?:f|l|curv)[ \t]")  # what Blender's importer reads
@@ -49,6 +50,6 @@ def _added(file: SurfaceFile) -> Opened:
     made = import_bodies(file.bodies, bpy.context.scene.collection, unit)
     bpy.context.view_layer.update()
     by_object: dict[str, tuple[Finding, ...]] = {
-        obj.name: (finding("surfaces_rounded", share=moved),) if moved else () for obj, moved in made
+        obj.name: (finding(SURFACES_ROUNDED, share=moved),) if moved else () for obj, moved in made
     }
     return Opened(file.refused, file.notes, by_object)

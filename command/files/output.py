@@ -19,6 +19,7 @@ from pathlib import Path
 from ...core.files.whole_file import whole_file
 from ...core.measurement.plain_text import print_message
 from ...core.verdict.finding import finding, system_reason
+from ..findings import USAGE_RESULT_NOT_WRITTEN
 
 _STDOUT = {"/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"}  # its descriptor may not be 1 any more
 
@@ -80,7 +81,7 @@ def written(parts: Iterable[str], path: Path | None, channel: int, check: Callab
     try:
         write(parts, path, channel, check)
     except OSError as error:
-        print_message(finding("usage_result_not_written", error=system_reason(error)))
+        print_message(finding(USAGE_RESULT_NOT_WRITTEN, error=system_reason(error)))
         return False
     return True
 

@@ -12,6 +12,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from ...core.measurement.documents import FLAT_SPECTRUM_ARRAYS, SCHEMA, SPECTRUM_ARRAYS, to_csv
+from ...core.robots.findings import RESULT_FOREIGN_FILE
 from ...core.robots.write.marker import AUDIT_SCHEMA, is_audit, is_ours
 from ...core.verdict.finding import finding
 
@@ -41,7 +42,7 @@ def guard(option: str, forced: bool) -> Callable[[Path], None]:
 
     def check(path: Path) -> None:
         if not forced and not is_empty(path) and not replaceable(path, option):
-            raise FileExistsError(str(finding("result_foreign_file", path=str(path))))
+            raise FileExistsError(str(finding(RESULT_FOREIGN_FILE, path=str(path))))
 
     return check
 

@@ -15,6 +15,7 @@ from collections.abc import Callable, Iterator
 import bpy
 
 from ...core.verdict.finding import Finding, finding
+from ..findings import DRIVER_BLOCKED, MISSING_LINKS, SCRIPT_BLOCKED
 
 # As stage.cpp reports each error of composing a stage: "… -- In </A>: Could not open asset @file@ for reference …".
 _REPORT = re.compile(r"_ReportErrors at line \d+ of \S*stage\.cpp -- (.*)")
@@ -64,7 +65,7 @@ def missing_links() -> Iterator[Finding]:
     missing = {item.name_full for group in (*groups, data.node_groups) for item in group if item.is_missing}
     missing |= {path for path in _cache_paths() if not os.path.exists(path)}
     if missing:
-        yield finding("missing_links", names=sorted(missing))
+        yield finding(MISSING_LINKS, names=sorted(missing))
 
 
 def _cache_paths() -> Iterator[str]:
@@ -85,9 +86,9 @@ def blocked_scripts() -> Iterator[Finding]:
         return
     blocked = sorted({driver.expression for driver in _drivers() if not driver.is_valid and driver.type == "SCRIPTED"})
     if blocked:
-        yield finding("driver_blocked", drivers=blocked)
+        yield finding(DRIVER_BLOCKED, drivers=blocked)
     else:
-        yield finding("script_blocked", script=bpy.app.autoexec_fail_message)
+        yield finding(SCRIPT_BLOCKED, script=bpy.app.autoexec_fail_message)
 
 
 def _drivers() -> Iterator[bpy.types.Driver]:

@@ -20,6 +20,14 @@ import bpy
 from ...core.files.file_lock import locked
 from ...core.files.whole_file import partial_file, replace
 from ...core.verdict.finding import FileError, Finding, finding, system_reason
+from ..findings import (
+    FILE_CHANGED_MEANWHILE,
+    FILE_CHANGED_SINCE_START,
+    FILE_NOT_SAVED,
+    FILE_READ_ONLY,
+    FILE_VANISHED,
+    HARD_LINK_SEVERED,
+)
 from .files import reason
 
 _PACKED = (b"\x28\xb5\x2f\xfd", b"\x1f\x8b")  # how a .blend compressed with zstd or gzip begins
@@ -45,13 +53,13 @@ class Place:
         try:
             return self._save()
         except (RuntimeError, OSError) as error:
-            raise FileError("file_not_saved", error=reason(error)) from error
+            raise FileError(FILE_NOT_SAVED, error=reason(error)) from error
 
     def _save(self) -> tuple[Finding, ...]:
         if not os.path.lexists(self.path):
-            raise FileError("file_vanished")
+            raise FileError(FILE_VANISHED)
         if not os.access(self.path, os.W_OK):
-            raise FileError("file_read_only")
+            raise FileError(FILE_READ_ONLY)
         with open(self.path, "rb") as file:
             packed = file.read(4).startswith(_PACKED)
         with partial_file(self.path, self.alone) as partial:
@@ -61,12 +69,12 @@ class Place:
             finally:
                 os.umask(mask)
             if _digest(self.path) != self.digest:
-                raise FileError("file_changed_meanwhile")
+                raise FileError(FILE_CHANGED_MEANWHILE)
             names = os.stat(self.path).st_nlink
             replace(partial, self.path)
         if names < 2:
             return ()
-        return (finding("hard_link_severed", count=names, file=self.path.name),)
+        return (finding(HARD_LINK_SEVERED, count=names, file=self.path.name),)
 
 
 @contextmanager
@@ -82,11 +90,11 @@ def reserved(path: str, opened: bool, at_start: bool) -> Iterator[Place]:
             place.alone = held.enter_context(locked(place.path))
             place.digest = _digest(place.path)
             if before not in (None, place.digest):
-                place.refusal = finding("file_changed_meanwhile")
+                place.refusal = finding(FILE_CHANGED_MEANWHILE)
             elif at_start and _saved_since_start(place.path):
-                place.refusal = finding("file_changed_since_start")
+                place.refusal = finding(FILE_CHANGED_SINCE_START)
         except OSError as error:
-            place.refusal = finding("file_not_saved", error=system_reason(error))
+            place.refusal = finding(FILE_NOT_SAVED, error=system_reason(error))
         yield place
 
 

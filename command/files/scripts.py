@@ -10,6 +10,7 @@ from collections.abc import Iterator, Sequence
 import bpy
 
 from ...core.verdict.finding import Finding, finding
+from ..findings import SCRIPTS_ALLOWED
 
 _ALLOW = {"-y": True, "--enable-autoexec": True, "-Y": False, "--disable-autoexec": False}
 
@@ -19,7 +20,7 @@ def scripts_of_open_file() -> Iterator[Finding]:
     if bpy.data.filepath and _allowed(sys.argv):
         names = [*dict.fromkeys((*_texts(), *_drivers()))]
         if names:
-            yield finding("scripts_allowed", names=names)
+            yield finding(SCRIPTS_ALLOWED, names=names)
 
 
 def _allowed(words: Sequence[str]) -> bool:

@@ -16,6 +16,7 @@ from ...core.files.whole_file import partial_file, replace
 from ...core.measurement.measurement import Measurement
 from ...core.verdict.finding import FileError, Finding, finding
 from ..files.files import reason
+from ..findings import ASSETS_NOT_MEASURED, FILE_NOT_SAVED
 from ..supervisor.listing import COPY_SUFFIX
 
 _WITH_GEOMETRY = {"MESH", "CURVE", "SURFACE", "META", "FONT", "VOLUME"}
@@ -52,7 +53,7 @@ def _without_numbers(known: set[Root]) -> Iterator[Finding]:
     assets = (one for one in (*roots, *(data for group in geometry for data in group)) if one.asset_data is not None)
     names = sorted(one.name for one in assets if one.library is None)
     if names:
-        yield finding("assets_not_measured", names=names)
+        yield finding(ASSETS_NOT_MEASURED, names=names)
 
 
 def _has_geometry(root: Root) -> bool:
@@ -70,4 +71,4 @@ def save_copy(path: str) -> None:
             bpy.ops.wm.save_as_mainfile(filepath=str(partial), copy=True, relative_remap=False, check_existing=False)
             replace(partial, target)
     except (RuntimeError, OSError) as error:
-        raise FileError("file_not_saved", error=reason(error)) from error
+        raise FileError(FILE_NOT_SAVED, error=reason(error)) from error

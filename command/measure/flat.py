@@ -15,6 +15,7 @@ from ...core.measurement.flat_record import flat_record
 from ...core.moments.complex_form import flusser_invariants, hu_invariants
 from ...core.moments.normalized import normalize
 from ...core.verdict.finding import Finding, MeasureError, finding
+from ..findings import POSE_OF_FLAT
 
 LEAST_ORDER = 2  # of moments that are always found
 HU_ORDER = 3  # of Hu's invariants
@@ -48,7 +49,7 @@ def _record(
     order = options.order
     region = flat_region(obj, depsgraph, selected=False, unit=unit)
     moments = region.moments(max(order or 0, LEAST_ORDER))
-    posed = (finding("pose_of_flat"),) if options.pose else ()
+    posed = (finding(POSE_OF_FLAT),) if options.pose else ()
     more: dict[str, Any] = {"pose": None} if options.pose else {}
     more |= {"signature": flat_shape_of(obj, depsgraph, unit).signature().as_record()} if options.signature else {}
     invariants = []

@@ -17,9 +17,12 @@ from ...blender.bodies.fourier import ObjectTransform, object_transform
 from ...blender.settings.options import MeasureOptions
 from ...blender.write import spectrum
 from ...core.fourier.wave_vectors import FrequencyGrid, wave_vectors
+from ...core.scans.findings import FILE_NOT_REGULAR
 from ...core.scans.numpy_files import map_array
+from ...core.streams.findings import FILE_UNREADABLE
 from ...core.verdict.finding import Finding, QueryError, finding, system_reason
 from ..files.own_results import guard
+from ..findings import WAVE_VECTORS_ARCHIVE, WAVE_VECTORS_TOO_MANY, WAVE_VECTORS_UNREADABLE
 from ..options.option_types import MAX_GRID
 
 MAX_WAVE_VECTORS = MAX_GRID**3
@@ -56,14 +59,14 @@ def _read_wave_vectors(path: Path, dimension: int = 3) -> NDArray[np.float64]:
     """Those of a .npy file. Raises MeasureError."""
     try:
         if path.exists() and not path.is_file():
-            raise QueryError("wave_vectors_unreadable", file=str(path), cause=finding("file_not_regular").as_record())
+            raise QueryError(WAVE_VECTORS_UNREADABLE, file=str(path), cause=finding(FILE_NOT_REGULAR).as_record())
         with open(path, "rb") as file:
             if is_zipfile(file):
-                raise QueryError("wave_vectors_archive", file=str(path))
+                raise QueryError(WAVE_VECTORS_ARCHIVE, file=str(path))
         array = map_array(path)
     except OSError as error:
-        cause = finding("file_unreadable", error=system_reason(error))
-        raise QueryError("wave_vectors_unreadable", file=str(path), cause=cause.as_record()) from error
+        cause = finding(FILE_UNREADABLE, error=system_reason(error))
+        raise QueryError(WAVE_VECTORS_UNREADABLE, file=str(path), cause=cause.as_record()) from error
     if array.size > 3 * MAX_WAVE_VECTORS:
-        raise QueryError("wave_vectors_too_many", count=array.size // 3, limit=MAX_WAVE_VECTORS)
+        raise QueryError(WAVE_VECTORS_TOO_MANY, count=array.size // 3, limit=MAX_WAVE_VECTORS)
     return wave_vectors(array, dimension)

@@ -10,6 +10,7 @@ from typing import Any
 
 import bpy
 
+from ...blender.bodies.findings import SIGNATURE_NEEDS_POLYGONS
 from ...blender.bodies.measure_object import Measured, measure_object
 from ...blender.bodies.shape.shape import NoShapeError, shape_of
 from ...blender.bodies.stacks.many import measured_in_turn
@@ -18,6 +19,7 @@ from ...blender.settings.options import MeasureOptions
 from ...core.measurement.measurement import Measurement
 from ...core.verdict.finding import Finding, finding
 from ...core.verdict.method import Source
+from ..findings import SIGNATURE_OF_DISPLAY_MESH
 
 
 def measured_together(
@@ -50,8 +52,8 @@ def measure_shape(
     if options.signature and shape.has_surface:
         more["signature"] = shape.signature().as_record()
         if shape.measurement.method.source == Source.NURBS:
-            findings = (finding("signature_of_display_mesh"),)
+            findings = (finding(SIGNATURE_OF_DISPLAY_MESH),)
     elif options.signature:
         more["signature"] = None
-        findings = (finding("signature_needs_polygons"),)
+        findings = (finding(SIGNATURE_NEEDS_POLYGONS),)
     return shape.measurement, more, findings

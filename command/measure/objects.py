@@ -10,10 +10,11 @@ from typing import Any
 
 import bpy
 
-from ...blender.read import measurable, measurable_objects
 from ...blender.read.total_caveats import left_out_reasons
+from ...blender.read.visibility import measurable, measurable_objects
 from ...blender.settings.given import shows_collection
 from ...core.verdict.finding import Finding, finding
+from ..findings import NO_MEASURABLE_OBJECT, NOTHING_RENDERED, OBJECT_NOT_IN_SCENE, OTHER_SCENES
 
 
 def failure(name: str | None, reason: Finding) -> dict[str, Any]:
@@ -23,7 +24,7 @@ def failure(name: str | None, reason: Finding) -> dict[str, Any]:
 
 def why_nothing(left_out: int) -> Finding:
     """Why a file without errors has no records."""
-    return finding("nothing_rendered", count=left_out) if left_out else finding("no_measurable_object")
+    return finding(NOTHING_RENDERED, count=left_out) if left_out else finding(NO_MEASURABLE_OBJECT)
 
 
 def objects_to_measure(
@@ -50,7 +51,7 @@ def objects_to_measure(
         matches = matches or [(label, obj) for obj, label in labels.items() if obj.name == name]
         chosen += [pair for pair in matches if pair not in chosen]
         if not matches:
-            errors.append(failure(name, finding("object_not_in_scene")))
+            errors.append(failure(name, finding(OBJECT_NOT_IN_SCENE)))
     return chosen, [], errors
 
 
@@ -68,4 +69,4 @@ def other_scenes(scene: bpy.types.Scene) -> Iterator[Finding]:
     here = {*scene.objects}
     other_scenes = [other.name for other in bpy.data.scenes if any(measurable(obj) for obj in {*other.objects} - here)]
     if other_scenes:
-        yield finding("other_scenes", scene=scene.name, scenes=other_scenes)
+        yield finding(OTHER_SCENES, scene=scene.name, scenes=other_scenes)

@@ -23,6 +23,7 @@ from ...blender.bodies.measure_object import THREADS, Measured
 from ...blender.bodies.stacks.stack import Stacked
 from ...blender.read.total_caveats import boolean_operands, open_body_caveats, total_caveats
 from ...blender.read.tracking import tracking_paused
+from ...blender.session.findings import DENSITY_DEFAULTED, LINEAR_DENSITY_DEFAULTED
 from ...blender.session.tracking.staleness import mark_up_to_date
 from ...blender.settings import properties as settings
 from ...blender.settings.density import unset_density
@@ -32,6 +33,7 @@ from ...core.measurement import record
 from ...core.measurement.documents import document
 from ...core.measurement.measurement import Measurement
 from ...core.measurement.plain_text import print_message
+from ...core.scans.findings import FILE_MISSING
 from ...core.verdict import internal_error
 from ...core.verdict.finding import FileError, Finding, MeasureError, finding, system_reason
 from ..files.bare_files import BareFile, is_bare
@@ -40,6 +42,18 @@ from ..files.opened import Opened
 from ..files.references import blocked_scripts, missing_links
 from ..files.saving import Place, reserved
 from ..files.scripts import scripts_of_open_file
+from ..findings import (
+    FILE_NOT_OPENED,
+    FILE_VANISHED,
+    FILE_VERSION_UNSUPPORTED,
+    FOURIER_FAILED,
+    FOURIER_NOT_WRITTEN,
+    FOURIER_OBJECT_COUNT,
+    MOMENTS_UNAVAILABLE,
+    RESULTS_NEED_BLEND,
+    SCENE_NEVER_SAVED,
+    SOLID_OPERAND_MEASURED,
+)
 from ..interruption import Progress, check_interruption
 from ..options import density as density_options
 from ..options.file import is_unitless, unit_findings, unused_array_options, unused_options
@@ -49,7 +63,7 @@ from .measuring import measure_shape, measured_together
 from .objects import failure, objects_to_measure, other_scenes, why_nothing
 from .thumbnails import thumbnail_of
 
-_STATUSES = {"file_missing": "missing", "file_version_unsupported": "unsupported_version"}
+_STATUSES: dict[str, str] = {FILE_MISSING: "missing", FILE_VERSION_UNSUPPORTED: "unsupported_version"}
 
 
 @dataclass
@@ -201,7 +215,7 @@ class Run:
         in_turn = measured_together([obj for _, obj in chosen], self.options, wanted)
         for label, obj in chosen:
             user = operands.get(obj)
-            cut = [] if user is None else [finding("solid_operand_measured", object=user.name)]
+            cut = [] if user is None else [finding(SOLID_OPERAND_MEASURED, object=user.name)]
             try:
                 about = (*opened.by_object.get(obj.name, ()), *of_file, *cut)
                 one, entry = self._measure_record(label, obj, wanted, in_turn, about, errors)
@@ -243,7 +257,7 @@ class Run:
                 raise
             lower = replace(measure_options, order=None)
             measurement, more, of_shape = measure_shape(obj, self.options, lower)
-            errors.append(failure(label, finding("moments_unavailable", cause=refusal.finding.as_record())))
+            errors.append(failure(label, finding(MOMENTS_UNAVAILABLE, cause=refusal.finding.as_record())))
             order = None
         surface = measurement.area_moments if self.options.surface_moments and order is not None else None
         findings = (
@@ -261,9 +275,9 @@ class Run:
             return
         unset = unset_density(obj, measurement, bpy.context.scene)
         if unset == "density":
-            yield finding("density_defaulted")
+            yield finding(DENSITY_DEFAULTED)
         elif unset is not None:
-            yield finding("linear_density_defaulted")
+            yield finding(LINEAR_DENSITY_DEFAULTED)
 
     def _open(self, path: str | None, file: str | None) -> Opened:
         """Open what is to be measured, and return what was found on the way."""
@@ -272,7 +286,7 @@ class Run:
             self.has_opened = True
             return unresolved
         if file and not bpy.data.filepath:
-            raise FileError("file_not_opened")
+            raise FileError(FILE_NOT_OPENED)
         return Opened()
 
     def _fourier(
@@ -285,7 +299,7 @@ class Run:
         its record.
         """
         if len(chosen) != 1:
-            yield failure(None, finding("fourier_object_count", count=len(chosen)))
+            yield failure(None, finding(FOURIER_OBJECT_COUNT, count=len(chosen)))
             return
         if not objects:
             return  # the reason is among the errors already
@@ -293,9 +307,9 @@ class Run:
         try:
             record.add_findings(entry, fourier.write(obj, self.options, measure_options))
         except MeasureError as refusal:
-            yield failure(label, finding("fourier_failed", cause=refusal.finding.as_record()))
+            yield failure(label, finding(FOURIER_FAILED, cause=refusal.finding.as_record()))
         except OSError as error:
-            yield failure(label, finding("fourier_not_written", error=system_reason(error)))
+            yield failure(label, finding(FOURIER_NOT_WRITTEN, error=system_reason(error)))
         except Exception as error:
             yield self._internal_error(label, error)
 
@@ -314,9 +328,9 @@ class Run:
         measured next. The settings that were given go with them, or the results would be out of date.
         """
         if path is not None and file_suffix(path) != BLEND:
-            raise FileError("results_need_blend")
+            raise FileError(RESULTS_NEED_BLEND)
         if not bpy.data.filepath:
-            raise FileError("scene_never_saved")
+            raise FileError(SCENE_NEVER_SAVED)
         for label, obj, one in measured:
             try:
                 store(obj, one)
@@ -332,7 +346,7 @@ class Run:
 def _save(place: Place | None, file: str | None) -> tuple[Finding, ...]:
     """Save the file that was opened. Returns warnings, which are on the standard error too."""
     if place is None:
-        raise FileError("file_vanished")
+        raise FileError(FILE_VANISHED)
     findings = place.save()
     for one in findings:
         print_message(file, one)

@@ -28,6 +28,21 @@ from ...core.measurement.plain_text import PROGRAM, print_message
 from ...core.verdict.finding import Finding, MeasureError, finding, system_reason
 from .. import interruption
 from ..files import output, own_results
+from ..findings import (
+    CHILDREN_FAILED,
+    FILE_CRASHED,
+    FILE_TIMED_OUT,
+    FILE_TOOK_MEMORY,
+    INTERRUPTED,
+    INTERRUPTED_RESUMABLE,
+    ROBOT_ONE_FILE,
+    USAGE_BUSY,
+    USAGE_FOURIER_ONE_OBJECT,
+    USAGE_NO_BLENDER,
+    USAGE_OLD_FOREIGN,
+    USAGE_PATH,
+    USAGE_RESULT_NOT_WRITTEN,
+)
 from ..options import targets
 from ..options.arguments import as_record, fail, of_numbers
 from ..options.measure_parser import DEFAULT_TIMEOUT
@@ -52,7 +67,7 @@ def measure(options: Namespace, channel: int, opened: str | None) -> int:
         paths = files_of(options)
         command = processes.child_command(_blender(options))
         if command is None:
-            fail(finding("usage_no_blender"))
+            fail(finding(USAGE_NO_BLENDER))
         read = [path for path in (*paths, opened, options.q, *_positions(options)) if path]
         replaced = targets.files_to_replace(options, read)
         with ExitStack() as ends:
@@ -66,16 +81,16 @@ def measure(options: Namespace, channel: int, opened: str | None) -> int:
                 sys.stderr.write(str(error))
                 raise SystemExit(2) from error
             except ChildError as error:
-                print_message(finding("children_failed", reason=str(error)))
+                print_message(finding(CHILDREN_FAILED, reason=str(error)))
                 return 2
             except OSError as error:  # of the journal, such as on a full disk
-                print_message(finding("usage_result_not_written", error=system_reason(error)))
+                print_message(finding(USAGE_RESULT_NOT_WRITTEN, error=system_reason(error)))
                 return 1
             except KeyboardInterrupt:
                 if places.journal_is_kept:
-                    print_message(finding("interrupted_resumable", done=run.done, total=len(run.tasks)))
+                    print_message(finding(INTERRUPTED_RESUMABLE, done=run.done, total=len(run.tasks)))
                 else:
-                    print_message(finding("interrupted"))
+                    print_message(finding(INTERRUPTED))
                 return 3
 
 
@@ -93,9 +108,9 @@ def files_of(options: Namespace) -> list[str]:
     if is_open_file_meant or len(paths) == 1:
         return paths
     if options.fourier is not None:
-        fail(finding("usage_fourier_one_object"))
+        fail(finding(USAGE_FOURIER_ONE_OBJECT))
     if options.format in ROBOT_FORMATS:
-        fail(finding("robot_one_file", count=len(paths)))
+        fail(finding(ROBOT_ONE_FILE, count=len(paths)))
     return paths
 
 
@@ -134,9 +149,9 @@ class _Places:
                 for path in self._replaced:
                     _check_ours(path.with_name(path.name + _OLD), options.force)
         except Busy:
-            fail(finding("usage_busy", path=str(target)))
+            fail(finding(USAGE_BUSY, path=str(target)))
         except OSError as error:  # a name that is too long with what is added to it
-            fail(finding("usage_path", path=str(error.filename or target), error=system_reason(error)))
+            fail(finding(USAGE_PATH, path=str(error.filename or target), error=system_reason(error)))
 
     def set_aside(self) -> None:
         """Keep what is there of an earlier run as .old. Raises OSError."""
@@ -154,7 +169,7 @@ def _check_ours(path: Path, force: bool) -> None:
     if force:
         return
     if not path.is_file() or not (is_journal(path) or own_results.replaceable(path, "output")):
-        fail(finding("usage_old_foreign", path=str(path)))
+        fail(finding(USAGE_OLD_FOREIGN, path=str(path)))
 
 
 class _Supervised:
@@ -240,12 +255,12 @@ class _Supervised:
                 return json.loads(outcome.data)["status"], None, outcome.data
             outcome.status, outcome.how = "crashed", "no answer"
         if outcome.status == "timeout":
-            reason = finding("file_timed_out", seconds=self._limits.seconds)
+            reason = finding(FILE_TIMED_OUT, seconds=self._limits.seconds)
         elif outcome.status == "memory":
             assert self._limits.memory is not None
-            reason = finding("file_took_memory", megabytes=self._limits.memory / 1e6)
+            reason = finding(FILE_TOOK_MEMORY, megabytes=self._limits.memory / 1e6)
         else:
-            reason = finding("file_crashed", how=outcome.how, count=outcome.attempts)
+            reason = finding(FILE_CRASHED, how=outcome.how, count=outcome.attempts)
         values = {"blender": blender, "frame": self._options.frame}
         document = failed_document(outcome.task, str(reason), outcome.status, **values)
         return outcome.status, reason, json.dumps(document).encode()

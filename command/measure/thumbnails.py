@@ -7,7 +7,7 @@ from __future__ import annotations
 import bpy
 import numpy as np
 
-from ...blender.read import read_object
+from ...blender.read.objects import read_object
 from ...blender.write.thumbnail import thumbnail
 from ...core.measurement.measurement import Measurement
 from ...core.numerics.float32 import shortest_decimal

@@ -14,6 +14,20 @@ from typing import Any, NoReturn
 
 from ...core.measurement.documents import ROBOT_FORMATS
 from ...core.verdict.finding import finding
+from ..findings import (
+    ROBOT_ONE_FILE,
+    USAGE_FILE_NEEDED,
+    USAGE_FOURIER_ONE_OBJECT,
+    USAGE_FOURIER_POINTS,
+    USAGE_GRID_AND_QMAX,
+    USAGE_LINKS_OF_BONES,
+    USAGE_NEEDS_FOURIER,
+    USAGE_NEEDS_SUPERVISOR,
+    USAGE_PATH_TWICE,
+    USAGE_POSITIONS_TWICE,
+    USAGE_RESUME_OUTPUT,
+    USAGE_TEXT_FORMAT,
+)
 from .measure_parser import DEFAULT_ORDER, measure_parser
 
 TARGETS = ("output", "fourier")  # options whose files are written
@@ -37,31 +51,31 @@ def parse(argv: list[str], file_needed: bool = False) -> argparse.Namespace:
     options = parser.parse_intermixed_args(join_negative_values(argv))
     has_files = bool(options.files or options.manifest)
     if file_needed and not has_files:
-        fail(finding("usage_file_needed"))
+        fail(finding(USAGE_FILE_NEEDED))
     if options.format in ROBOT_FORMATS:
         if len(options.files) > 1:
-            fail(finding("robot_one_file", count=len(options.files)))
+            fail(finding(ROBOT_ONE_FILE, count=len(options.files)))
         options.frame = "object"  # of the links
         of_bodies = ("density", "mass", "material", "kind", "thickness", "wall", "overlap")
         given = [name for name in of_bodies if getattr(options, name) is not None]
         if options.links == "bone" and given:
-            fail(finding("usage_links_of_bones", option=given[0]))
+            fail(finding(USAGE_LINKS_OF_BONES, option=given[0]))
         if options.output is not None and options.output.suffix.lower() in _BINARY_SUFFIXES.get(options.format, ()):
-            fail(finding("usage_text_format", format=options.format))
+            fail(finding(USAGE_TEXT_FORMAT, format=options.format))
     if options.surface_moments and options.order is None:
         options.order = DEFAULT_ORDER
     if options.no_supervisor or not has_files:
         for name in ("jobs", "memory_mb", "timeout", "blender"):
             if getattr(options, name) is not None:
-                fail(finding("usage_needs_supervisor", option=name.replace("_", "-")))
+                fail(finding(USAGE_NEEDS_SUPERVISOR, option=name.replace("_", "-")))
         if options.resume:
-            fail(finding("usage_needs_supervisor", option="resume"))
+            fail(finding(USAGE_NEEDS_SUPERVISOR, option="resume"))
     if options.resume and options.output is None:
-        fail(finding("usage_resume_output"))
+        fail(finding(USAGE_RESUME_OUTPUT))
     _check_fourier(options)
     axes = [axis for axis, _ in options.positions or ()]
     if len(set(axes)) < len(axes):
-        fail(finding("usage_positions_twice", axes=axes))
+        fail(finding(USAGE_POSITIONS_TWICE, axes=axes))
     options.forced = []
     return options
 
@@ -103,17 +117,17 @@ def _check_fourier(options: argparse.Namespace) -> None:
     if target is None:
         for name in ("q", "grid", "qmax"):
             if getattr(options, name) is not None:
-                fail(finding("usage_needs_fourier", option=name))
+                fail(finding(USAGE_NEEDS_FOURIER, option=name))
         return
     if (options.q is None) == (options.grid is None):
-        fail(finding("usage_fourier_points"))
+        fail(finding(USAGE_FOURIER_POINTS))
     if (options.grid is None) != (options.qmax is None):
-        fail(finding("usage_grid_and_qmax"))
+        fail(finding(USAGE_GRID_AND_QMAX))
     if len(options.files) > 1 or len(options.object or ()) > 1:
-        fail(finding("usage_fourier_one_object"))
+        fail(finding(USAGE_FOURIER_ONE_OBJECT))
     for first, second in ((target, options.q), (target, options.output), (options.output, options.q)):
         if first is not None and second is not None and first.resolve() == second.resolve():
-            fail(finding("usage_path_twice", path=str(first)))
+            fail(finding(USAGE_PATH_TWICE, path=str(first)))
 
 
 def join_negative_values(argv: list[str]) -> list[str]:

@@ -15,6 +15,7 @@ import bpy
 from ...blender.settings.limits import scan_limits
 from ...core.verdict.finding import MeasureError, finding
 from ..files import inputs
+from ..findings import USAGE_VALUE
 from ..measure import fourier
 from . import density as density_options
 from . import targets
@@ -44,4 +45,4 @@ def prepare(options: Namespace) -> None:
         options.waves = fourier.wave_vectors_of(options)
     except MeasureError as error:
         name = "grid" if options.q is None else "q"
-        fail(finding("usage_value", option=name, cause=error.finding.as_record()))
+        fail(finding(USAGE_VALUE, option=name, cause=error.finding.as_record()))

@@ -14,13 +14,14 @@ import bpy
 from ...core.density.materials import BY_NAME
 from ...core.density.polynomial import parse_polynomial
 from ...core.verdict.finding import QueryError
+from ..findings import DENSITY_VOLUME_UNKNOWN, MATERIAL_UNKNOWN
 from .option_types import split_source
 
 
 def check(options: Namespace) -> None:
     """Raise MeasureError where there is no such material, or the polynomial cannot be read."""
     if options.material is not None and options.material not in BY_NAME:
-        raise QueryError("material_unknown", name=options.material, names=sorted(BY_NAME))
+        raise QueryError(MATERIAL_UNKNOWN, name=options.material, names=sorted(BY_NAME))
     if options.polynomial is not None:
         parse_polynomial(options.polynomial)
 
@@ -47,5 +48,5 @@ def apply(obj: bpy.types.Object, options: Namespace) -> None:
         elif source == "volume":
             volume = bpy.context.scene.objects.get(name)
             if volume is None or volume.type != "VOLUME":
-                raise QueryError("density_volume_unknown", name=name)
+                raise QueryError(DENSITY_VOLUME_UNKNOWN, name=name)
             settings.density_volume = volume

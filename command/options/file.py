@@ -10,6 +10,13 @@ from collections.abc import Iterator
 from ...core.measurement.measurement import Measurement
 from ...core.verdict.finding import Finding, finding
 from ..files.files import UNITLESS, file_suffix
+from ..findings import (
+    ARRAY_OPTIONS_UNUSED,
+    THICKNESS_OPTION_UNUSED,
+    THRESHOLD_OPTION_UNUSED,
+    UNIT_ASSUMED,
+    UNIT_SCALE_OPTION_UNUSED,
+)
 
 OF_ARRAYS = ("spacing", "origin", "spline_order", "density_scale", "positions")
 
@@ -22,21 +29,21 @@ def unit_findings(path: str | None, scale: float | None) -> Iterator[Finding]:
     """The decision about the file's unit, where there was one."""
     unitless = is_unitless(path)
     if unitless and scale is None:
-        yield finding("unit_assumed")
+        yield finding(UNIT_ASSUMED)
     elif not unitless and scale is not None:
-        yield finding("unit_scale_option_unused")
+        yield finding(UNIT_SCALE_OPTION_UNUSED)
 
 
 def unused_array_options(options: Namespace) -> Iterator[Finding]:
     """What was asked of arrays only, of a file that is none."""
     given = [name for name in OF_ARRAYS if getattr(options, name) is not None]
     if given:
-        yield finding("array_options_unused", options=["--" + name.replace("_", "-") for name in given])
+        yield finding(ARRAY_OPTIONS_UNUSED, options=["--" + name.replace("_", "-") for name in given])
 
 
 def unused_options(options: Namespace, measurement: Measurement) -> Iterator[Finding]:
     """What was asked of other kinds of bodies only."""
     if options.thickness is not None and measurement.kind != "shell":
-        yield finding("thickness_option_unused")
+        yield finding(THICKNESS_OPTION_UNUSED)
     if options.threshold is not None and measurement.type not in ("ARRAY", "VOLUME"):
-        yield finding("threshold_option_unused")
+        yield finding(THRESHOLD_OPTION_UNUSED)

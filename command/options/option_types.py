@@ -10,6 +10,21 @@ import math
 from ...core.measurement.documents import FORMATS
 from ...core.verdict.finding import finding
 from ...core.verdict.number_text import parse_number, parse_whole
+from ..findings import (
+    USAGE_COMMAND,
+    USAGE_DENSITY_SOURCE,
+    USAGE_FORMAT_UNKNOWN,
+    USAGE_FREQUENCY_COUNT,
+    USAGE_NOT_NUMBER,
+    USAGE_NOT_POSITIVE,
+    USAGE_NOT_POSITIVE_TRIPLE,
+    USAGE_NOT_TRIPLE,
+    USAGE_ORDER,
+    USAGE_ORDER_TOO_HIGH,
+    USAGE_POSITIONS,
+    USAGE_RANGE,
+    USAGE_SPLINE_ORDER,
+)
 
 # As in the core, which needs numpy: the process that supervises others may have none.
 MAX_ORDER = 30
@@ -24,7 +39,7 @@ def _refuse(code: str, **values: object) -> argparse.ArgumentTypeError:
 def command(text: str) -> str:
     """The one command that these options belong to."""
     if text != "measure":
-        raise _refuse("usage_command", name=text)
+        raise _refuse(USAGE_COMMAND, name=text)
     return text
 
 
@@ -48,7 +63,7 @@ def positive(text: str) -> float:
     """A positive number."""
     value = _float(text)
     if not (0.0 < value < math.inf):
-        raise _refuse("usage_not_positive", text=text)
+        raise _refuse(USAGE_NOT_POSITIVE, text=text)
     return value
 
 
@@ -56,14 +71,14 @@ def number(text: str) -> float:
     """A finite number."""
     value = _float(text)
     if not math.isfinite(value):
-        raise _refuse("usage_not_number", text=text)
+        raise _refuse(USAGE_NOT_NUMBER, text=text)
     return value
 
 
 def count(text: str) -> int:
     """A positive whole number."""
     if not (text.isdecimal() and text.isascii() and int(text[:9]) > 0 and len(text) <= 9):
-        raise _refuse("usage_not_positive", text=text)
+        raise _refuse(USAGE_NOT_POSITIVE, text=text)
     return int(text)
 
 
@@ -71,7 +86,7 @@ def triple(text: str) -> tuple[float, ...]:
     """Three finite numbers."""
     values = tuple(map(_float, text.split(",")))
     if len(values) != 3 or not all(map(math.isfinite, values)):
-        raise _refuse("usage_not_triple", text=text)
+        raise _refuse(USAGE_NOT_TRIPLE, text=text)
     return values
 
 
@@ -79,7 +94,7 @@ def spacing(text: str) -> tuple[float, ...]:
     """Three positive numbers."""
     values = triple(text)
     if min(values) <= 0.0:
-        raise _refuse("usage_not_positive_triple", text=text)
+        raise _refuse(USAGE_NOT_POSITIVE_TRIPLE, text=text)
     return values
 
 
@@ -87,14 +102,14 @@ def positions(text: str) -> tuple[str, str]:
     """AXIS=FILE, the positions of samples along x, y or z."""
     axis, equals, path = text.partition("=")
     if axis not in ("x", "y", "z") or not equals or not path:
-        raise _refuse("usage_positions", text=text)
+        raise _refuse(USAGE_POSITIONS, text=text)
     return axis, path
 
 
 def spline_order(text: str) -> int:
     """The order of a spline of samples."""
     if text not in {str(order) for order in range(1, MAX_SPLINE_ORDER + 1)}:
-        raise _refuse("usage_spline_order", text=text, limit=MAX_SPLINE_ORDER)
+        raise _refuse(USAGE_SPLINE_ORDER, text=text, limit=MAX_SPLINE_ORDER)
     return int(text)
 
 
@@ -102,9 +117,9 @@ def order(text: str) -> int:
     """The order of moments."""
     value = _int(text)
     if value < 0:
-        raise _refuse("usage_order", text=text, limit=MAX_ORDER)
+        raise _refuse(USAGE_ORDER, text=text, limit=MAX_ORDER)
     if value > MAX_ORDER:
-        raise _refuse("usage_order_too_high", text=text, limit=MAX_ORDER)
+        raise _refuse(USAGE_ORDER_TOO_HIGH, text=text, limit=MAX_ORDER)
     return value
 
 
@@ -112,14 +127,14 @@ def frequencies(text: str) -> int:
     """How many frequencies a grid has along an axis."""
     value = _int(text)
     if not 2 <= value <= MAX_GRID:
-        raise _refuse("usage_frequency_count", text=text, limit=MAX_GRID)
+        raise _refuse(USAGE_FREQUENCY_COUNT, text=text, limit=MAX_GRID)
     return value
 
 
 def format_name(text: str) -> str:
     """The name of a format of results."""
     if text not in FORMATS:
-        raise _refuse("usage_format_unknown", text=text, formats=", ".join(FORMATS))
+        raise _refuse(USAGE_FORMAT_UNKNOWN, text=text, formats=", ".join(FORMATS))
     return text
 
 
@@ -143,7 +158,7 @@ def source(text: str) -> str:
     """Where a density comes from: a word, with a name behind it where that is needed."""
     word, name = split_source(text)
     if word not in SOURCES or bool(name) != (word in _NAMED_SOURCES):
-        raise _refuse("usage_density_source", text=text)
+        raise _refuse(USAGE_DENSITY_SOURCE, text=text)
     return text
 
 
@@ -151,8 +166,8 @@ def file_range(text: str) -> tuple[int, int | None]:
     """A:B, the files from number A on and before number B, counted from 0; either may be left out."""
     begin, colon, end = text.partition(":")
     if not colon or not all(part.isascii() and (part.isdecimal() or not part) for part in (begin, end)):
-        raise _refuse("usage_range", text=text)
+        raise _refuse(USAGE_RANGE, text=text)
     first, last = int(begin or 0), int(end) if end else None
     if last is not None and last < first:
-        raise _refuse("usage_range", text=text)
+        raise _refuse(USAGE_RANGE, text=text)
     return first, last

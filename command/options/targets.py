@@ -13,8 +13,18 @@ from contextlib import suppress
 from pathlib import Path
 from typing import NoReturn
 
+from ...core.robots.findings import USAGE_OVERWRITES_INPUT
 from ...core.verdict.finding import finding, system_reason
 from ..files import output, own_results
+from ..findings import (
+    USAGE_FOLDER_MISSING,
+    USAGE_FOLDER_READ_ONLY,
+    USAGE_FOREIGN_FILE,
+    USAGE_IS_FOLDER,
+    USAGE_NOT_REPLACEABLE,
+    USAGE_OVERWRITES_DEPENDENCY,
+    USAGE_PATH,
+)
 from .arguments import TARGETS
 from .arguments import fail as fail_measure
 
@@ -30,19 +40,19 @@ def check_places(options: Namespace, fail: Fail = fail_measure) -> None:
         try:
             _check_place(option, target, fail)
         except OSError as error:  # a name that is too long, a folder that may not be entered
-            fail(finding("usage_path", path=str(error.filename), error=system_reason(error)))
+            fail(finding(USAGE_PATH, path=str(error.filename), error=system_reason(error)))
 
 
 def _check_place(option: str, target: Path, fail: Fail) -> None:
     if not target.parent.is_dir():
-        fail(finding("usage_folder_missing", option=option, folder=str(target.parent)))
+        fail(finding(USAGE_FOLDER_MISSING, option=option, folder=str(target.parent)))
     if target.is_dir():
-        fail(finding("usage_is_folder", option=option, path=str(target)))
+        fail(finding(USAGE_IS_FOLDER, option=option, path=str(target)))
     with suppress(FileNotFoundError):
         os.stat(target)
     folder = Path(os.path.realpath(target)).parent
     if not (target.exists() and not target.is_file() or os.access(folder, os.W_OK)):
-        fail(finding("usage_folder_read_only", option=option, folder=str(folder)))
+        fail(finding(USAGE_FOLDER_READ_ONLY, option=option, folder=str(folder)))
 
 
 def files_to_replace(
@@ -59,15 +69,15 @@ def files_to_replace(
         if target is None or not target.exists() or output.is_stdout(target):
             continue
         if any(os.path.exists(path) and os.path.samefile(path, target) for path in read):
-            fail(finding("usage_overwrites_input", option=option, path=str(target)))
+            fail(finding(USAGE_OVERWRITES_INPUT, option=option, path=str(target)))
         try:
             if own_results.replaceable(target, option):
                 continue
             empty = own_results.is_empty(target)
         except OSError as error:
-            fail(finding("usage_not_replaceable", option=option, path=str(target), error=system_reason(error)))
+            fail(finding(USAGE_NOT_REPLACEABLE, option=option, path=str(target), error=system_reason(error)))
         if not (empty or options.force):
-            fail(finding("usage_foreign_file", option=option, path=str(target)))
+            fail(finding(USAGE_FOREIGN_FILE, option=option, path=str(target)))
         replaced.append((target, option))
         if not empty:
             options.forced.append(target)
@@ -79,4 +89,4 @@ def check_dependencies(replaced: list[tuple[Path, str]], read: Iterable[str | Pa
     for path in read:
         for target, option in replaced:
             if os.path.exists(path) and target.samefile(path):
-                fail_measure(finding("usage_overwrites_dependency", option=option, path=str(target)))
+                fail_measure(finding(USAGE_OVERWRITES_DEPENDENCY, option=option, path=str(target)))

@@ -19,8 +19,10 @@ from typing import Any
 from ...core.measurement.documents import SCHEMA, to_csv, to_json_lines
 from ...core.measurement.page import to_html
 from ...core.measurement.plain_text import counted, print_message, visible
+from ...core.robots.findings import RESULT_FOREIGN_FILE
 from ...core.verdict.finding import MeasureError, QueryError, finding, system_reason
 from ..files import output, own_results
+from ..findings import COMPARE_TWO, RESULTS_MALFORMED, RESULTS_UNREADABLE
 from ..options.option_types import positive
 from ..parser import Parser
 from ..supervisor import journal, listing
@@ -63,9 +65,9 @@ class Results:
             try:
                 yield from _documents(path)
             except OSError as error:
-                raise QueryError("results_unreadable", file=str(path), error=system_reason(error)) from error
+                raise QueryError(RESULTS_UNREADABLE, file=str(path), error=system_reason(error)) from error
             except (ValueError, KeyError, TypeError, RecursionError) as error:
-                raise QueryError("results_malformed", file=str(path)) from error
+                raise QueryError(RESULTS_MALFORMED, file=str(path)) from error
 
 
 def _documents(path: Path) -> Iterator[tuple[dict[str, Any], dict[str, Any]]]:
@@ -106,7 +108,7 @@ def _guard(options: argparse.Namespace) -> Callable[[Path], None]:
     def check(path: Path) -> None:
         ours = own_results.is_empty(path) or own_results.replaceable(path, "output") or _is_made_here(path)
         if not ours and not options.force:
-            raise FileExistsError(str(finding("result_foreign_file", path=str(path))))
+            raise FileExistsError(str(finding(RESULT_FOREIGN_FILE, path=str(path))))
 
     return check
 
@@ -208,7 +210,7 @@ def _bound(entry: dict[str, Any]) -> float | None:
 
 def _compare(options: argparse.Namespace) -> tuple[Iterable[str], bool]:
     if len(options.paths) != 2:
-        raise QueryError("compare_two")
+        raise QueryError(COMPARE_TWO)
     first, second = (Results((Path(path),)) for path in options.paths)
     lines, failed = compare.differences(first, second, options.tolerance, options.align)
     return (visible(line) + "\n" for line in lines), failed

@@ -10,7 +10,8 @@ from pathlib import Path
 from ...core.measurement.plain_text import print_message, visible
 from ...core.shape.library import Entry, classify, rank, read_library
 from ...core.verdict.finding import QueryError, system_reason
-from ...core.verdict.messages import SIMILARITY
+from ...core.verdict.sentences import SIMILARITY
+from ..findings import LIBRARY_UNREADABLE, NAME_AMBIGUOUS, NAME_NOT_IN_LIBRARY
 from ..options.option_types import count
 from ..parser import Parser
 
@@ -48,7 +49,7 @@ def answer(options: argparse.Namespace) -> tuple[str, int]:
         try:
             readable, missing = read_library(path)
         except OSError as error:
-            raise QueryError("library_unreadable", file=str(path), error=system_reason(error)) from error
+            raise QueryError(LIBRARY_UNREADABLE, file=str(path), error=system_reason(error)) from error
         entries += readable
         failures += missing
     for failure in failures:
@@ -67,7 +68,7 @@ def answer(options: argparse.Namespace) -> tuple[str, int]:
 def _entry_by_name(entries: list[Entry], name: str) -> Entry:
     named = [entry for entry in entries if entry.name == name] or [entry for entry in entries if entry.label == name]
     if not named:
-        raise QueryError("name_not_in_library", name=name)
+        raise QueryError(NAME_NOT_IN_LIBRARY, name=name)
     if len(named) > 1:
-        raise QueryError("name_ambiguous", name=name, names=[entry.label for entry in named])
+        raise QueryError(NAME_AMBIGUOUS, name=name, names=[entry.label for entry in named])
     return named[0]

@@ -16,6 +16,7 @@ from contextlib import suppress
 from pathlib import Path
 
 from ...core.verdict.finding import QueryError, system_reason
+from ..findings import FOLDER_WITHOUT_FILES, MANIFEST_MALFORMED, MANIFEST_UNREADABLE
 
 SCHEMA = "body-moments-manifest/1"
 SUFFIXES = (
@@ -35,7 +36,7 @@ def expand(names: Iterable[str]) -> Iterator[str]:
             continue
         found = [*_walk(name)]
         if not found:
-            raise QueryError("folder_without_files", folder=name)
+            raise QueryError(FOLDER_WITHOUT_FILES, folder=name)
         yield from found
 
 
@@ -85,8 +86,8 @@ def read(path: Path) -> list[str]:
         if len(names) != lines[0]["files"] or not all(isinstance(name, str) for name in names):
             raise ValueError(path)
     except OSError as error:
-        raise QueryError("manifest_unreadable", file=str(path), error=system_reason(error)) from error
+        raise QueryError(MANIFEST_UNREADABLE, file=str(path), error=system_reason(error)) from error
     except (ValueError, KeyError, TypeError, IndexError, RecursionError) as error:
-        raise QueryError("manifest_malformed", file=str(path)) from error
+        raise QueryError(MANIFEST_MALFORMED, file=str(path)) from error
     folder = "" if path.parent == Path() else path.parent
     return [os.path.join(folder, name) for name in names]

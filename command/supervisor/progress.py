@@ -11,6 +11,7 @@ from collections import Counter
 
 from ...core.measurement.plain_text import print_message, visible
 from ...core.verdict.finding import finding
+from ..findings import PROGRESS_DONE, PROGRESS_FILES, PROGRESS_STARTED
 
 PERIOD = 5.0  # seconds between lines
 _REDRAW = 0.1  # and between bars
@@ -57,7 +58,7 @@ class Progress:
             counts = ", ".join("{} {}".format(number, status) for status, number in self.counts.most_common())
             seconds = time.monotonic() - self._began
             print_message(
-                finding("progress_done", count=self._done - self._before, seconds=seconds, counts=counts or "-")
+                finding(PROGRESS_DONE, count=self._done - self._before, seconds=seconds, counts=counts or "-")
             )
 
     def _state(self) -> object:
@@ -65,8 +66,8 @@ class Progress:
         rate = (self._done - self._before) / seconds
         values = {"done": self._done, "total": self._total, "rate": rate, "failed": self._failed()}
         if not rate:
-            return finding("progress_started", **values)
-        return finding("progress_files", left=_duration((self._total - self._done) / rate), **values)
+            return finding(PROGRESS_STARTED, **values)
+        return finding(PROGRESS_FILES, left=_duration((self._total - self._done) / rate), **values)
 
     def _failed(self) -> int:
         return sum(number for status, number in self.counts.items() if status != "ok")

@@ -17,6 +17,16 @@ from numpy.typing import NDArray
 
 from ..nurbs.patch import Patch
 from ..verdict.finding import FileError, finding
+from .findings import (
+    CURVES_LEFT_OUT,
+    SURFACE_FLATTENED,
+    SURFACE_OF_UNSUPPORTED,
+    SURFACE_RECURSIVE,
+    SURFACE_TRIMMED,
+    SURFACE_TYPE_UNSUPPORTED,
+    SURFACES_HIDDEN,
+    TOO_MANY_SURFACES,
+)
 from .iges_text import Entry, IgesText, integers, numbers, padded
 from .surfaces import MAX_SURFACES, Refusals, SurfaceBody, SurfaceFile, SurfaceRefusedError, blender_patches
 from .trims import Piece, trims_nothing
@@ -68,7 +78,7 @@ class _Reader:
                 hidden += 1
             else:
                 patches += self._place(entry, np.eye(4), ())
-        notes = [finding(code, count=n) for code, n in (("surfaces_hidden", hidden), ("curves_left_out", others)) if n]
+        notes = [finding(code, count=n) for code, n in ((SURFACES_HIDDEN, hidden), (CURVES_LEFT_OUT, others)) if n]
         return self._refusals.file([SurfaceBody(self._name, tuple(patches))], self._text.unit, notes)
 
     def _references(self) -> Iterator[int]:
@@ -95,11 +105,11 @@ class _Reader:
         """The patches of an entity where it stands. above: (4, 4) by the subfigures that it is in, path."""
         kind, name = NAMES[entry.type], entry.label or "D{}".format(entry.number)
         if entry.type in REFUSED:
-            self._refusals.add("surface_type_unsupported", "{} ({})".format(kind, entry.type), name)
+            self._refusals.add(SURFACE_TYPE_UNSUPPORTED, "{} ({})".format(kind, entry.type), name)
             return []
         self._placed += 1
         if self._placed > MAX_SURFACES:
-            raise FileError("too_many_surfaces", limit=MAX_SURFACES)
+            raise FileError(TOO_MANY_SURFACES, limit=MAX_SURFACES)
 
         def make() -> list[Patch]:
             if entry.type == INSTANCE:
@@ -114,7 +124,7 @@ class _Reader:
         x, y, z, scale = numbers(padded(fields[1:], 4))
         definition = self._entry(pointer, DEFINITION)
         if pointer in path or len(path) >= MAX_DEPTH:
-            raise SurfaceRefusedError("surface_recursive")
+            raise SurfaceRefusedError(SURFACE_RECURSIVE)
         local = np.diag([*[scale or 1.0] * 3, 1.0])
         local[:3, 3] = x, y, z
         matrix = above @ self._matrix(entry) @ local @ self._matrix(definition)
@@ -139,7 +149,7 @@ class _Reader:
             pointer = chain[-1].matrix
         known = self._matrices.get(pointer)
         if known is None:
-            raise SurfaceRefusedError("surface_recursive")
+            raise SurfaceRefusedError(SURFACE_RECURSIVE)
         for one in reversed(chain):
             rows = numbers(self._text.fields(one)[:12])
             matrix = np.eye(4)
@@ -147,7 +157,7 @@ class _Reader:
             known = known @ matrix
             self._matrices[one.number] = known
         if not abs(np.linalg.det(known[:3, :3])) > 0.0:
-            raise SurfaceRefusedError("surface_flattened")
+            raise SurfaceRefusedError(SURFACE_FLATTENED)
         return known
 
     def _surface(self, entry: Entry, above: NDArray) -> list[Patch]:
@@ -161,10 +171,10 @@ class _Reader:
         pointer, has_outer, holes = integers(fields, 3)
         base = self._entries[pointer]
         if base.type != SURFACE:
-            raise SurfaceRefusedError("surface_of_unsupported", base=NAMES.get(base.type, str(base.type)))
+            raise SurfaceRefusedError(SURFACE_OF_UNSUPPORTED, base=NAMES.get(base.type, str(base.type)))
         spline = _Spline(self._text.fields(base))
         if holes or has_outer and not self._trims_nothing(fields, pointer, spline):
-            raise SurfaceRefusedError("surface_trimmed")
+            raise SurfaceRefusedError(SURFACE_TRIMMED)
         return self._surface(base, above @ self._matrix(entry))
 
     def _trims_nothing(self, fields: list[str], surface: int, spline: _Spline) -> bool:

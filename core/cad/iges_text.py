@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..verdict.finding import FileError, finding
+from .findings import IGES_DAMAGED, IGES_DIRECTORY, IGES_GLOBAL_SECTION, IGES_NOT_ASCII, IGES_UNIT, IGES_UNRECOGNIZED
 
 LINE = 80  # columns
 SECTION = 72  # where the letter of a line's section is
@@ -60,12 +61,12 @@ class IgesText:
         for line in lines:
             letter = line[SECTION : SECTION + 1]
             if letter in ("B", "C") and not sections["S"]:
-                raise FileError("iges_not_ascii")
+                raise FileError(IGES_NOT_ASCII)
             if letter not in sections:
-                raise FileError("iges_unrecognized")
+                raise FileError(IGES_UNRECOGNIZED)
             sections[letter].append(line)
         if not (sections["G"] and sections["D"] and sections["P"]):
-            raise FileError("iges_unrecognized")
+            raise FileError(IGES_UNRECOGNIZED)
         self._lines = sections["P"]
         self._delimiter, self._end, fields = _global_fields("".join(line[:SECTION] for line in sections["G"]))
         self.unit = _unit(fields)
@@ -94,22 +95,22 @@ def _lines(text: str) -> list[str]:
 
 
 def _damaged(code: str, **values: object) -> FileError:
-    return FileError("iges_damaged", cause=finding(code, **values).as_record())
+    return FileError(IGES_DAMAGED, cause=finding(code, **values).as_record())
 
 
 def _global_fields(text: str) -> tuple[str, str, list[str]]:
     """What parts parameters, what ends them, and the parameters from the third on."""
     delimiter, rest = (text[2:3], text[3:]) if text.startswith("1H") else (",", text)
     if not rest.startswith(delimiter):
-        raise _damaged("iges_global_section")
+        raise _damaged(IGES_GLOBAL_SECTION)
     rest = rest[1:]
     end, rest = (rest[2:3], rest[3:]) if rest.startswith("1H") else (";", rest)
     if not rest.startswith((delimiter, end)) or delimiter == end:
-        raise _damaged("iges_global_section")
+        raise _damaged(IGES_GLOBAL_SECTION)
     try:
         return delimiter, end, _split(rest[1:], delimiter, end)
     except ValueError:
-        raise _damaged("iges_global_section") from None
+        raise _damaged(IGES_GLOBAL_SECTION) from None
 
 
 def _unit(fields: list[str]) -> float:
@@ -119,12 +120,12 @@ def _unit(fields: list[str]) -> float:
         scale = float(numbers([scale_word])[0]) or 1.0
         flag = _integer(flag_word) or 1
     except ValueError:
-        raise _damaged("iges_global_section") from None
+        raise _damaged(IGES_GLOBAL_SECTION) from None
     unit = UNIT_NAMES.get(name.strip().upper()) if flag == UNIT_BY_NAME else UNITS.get(flag)
     if unit is None:
-        raise FileError("iges_unit", unit=name.strip() or str(flag))
+        raise FileError(IGES_UNIT, unit=name.strip() or str(flag))
     if not 0.0 < unit / scale < math.inf:
-        raise _damaged("iges_global_section")
+        raise _damaged(IGES_GLOBAL_SECTION)
     return unit / scale
 
 
@@ -144,7 +145,7 @@ def _directory(lines: list[str]) -> dict[int, Entry]:
                 words[16].strip(),
             )
         except (ValueError, IndexError):
-            raise _damaged("iges_directory", number=number) from None
+            raise _damaged(IGES_DIRECTORY, number=number) from None
     return entries
 
 

@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 from ..nurbs.patch import Patch
 from ..verdict.finding import FileError
 from ..verdict.number_text import parse_number, parse_whole
+from .findings import OBJ_CALL, SURFACE_OF_UNSUPPORTED, SURFACE_ORDER, SURFACE_TRIMMED, TOO_MANY_SURFACES
 from .surfaces import MAX_ORDER, MAX_SURFACES, Refusals, SurfaceBody, SurfaceFile, SurfaceRefusedError, blender_patches
 
 KIND = "surf"
@@ -90,14 +91,14 @@ class _Reader:
                 degrees = rest
             elif word == "surf":
                 if len(self._elements) >= MAX_SURFACES:
-                    raise FileError("too_many_surfaces", limit=MAX_SURFACES)
+                    raise FileError(TOO_MANY_SURFACES, limit=MAX_SURFACES)
                 name = "{} {}".format(KIND, len(self._elements) + 1)
                 current = _Element(name, kind, rational, degrees, rest, len(self._vertices), body)
                 self._elements.append(current)
             elif word in ("end", "curv", "curv2"):
                 current = None
             elif word == "call":
-                raise FileError("obj_call")
+                raise FileError(OBJ_CALL)
             elif current is not None and word == "parm":
                 current.knots.setdefault("".join(rest[:1]), []).extend(rest[1:])
             elif current is not None and word in TRIMS:
@@ -139,14 +140,14 @@ def _number(word: str) -> float:
 def _patches(element: _Element, points: NDArray, weights: NDArray) -> list[Patch]:
     """Of one surface. ValueError, IndexError and SurfaceRefusedError where it cannot be kept."""
     if element.trimmed:
-        raise SurfaceRefusedError("surface_trimmed")
+        raise SurfaceRefusedError(SURFACE_TRIMMED)
     if element.type not in ("bspline", "bezier"):
-        raise SurfaceRefusedError("surface_of_unsupported", base=element.type or "cstype")
+        raise SurfaceRefusedError(SURFACE_OF_UNSUPPORTED, base=element.type or "cstype")
     degrees = [parse_whole(word) for word in element.degrees]
     if len(degrees) != 2 or min(degrees) < 1:
         raise ValueError("degrees")
     if max(degrees) >= MAX_ORDER:  # before knots are repeated so often
-        raise SurfaceRefusedError("surface_order", order=max(degrees) + 1, limit=MAX_ORDER)
+        raise SurfaceRefusedError(SURFACE_ORDER, order=max(degrees) + 1, limit=MAX_ORDER)
     part = [_number(word) for word in element.words[:4]]
     used = _indices(element.words[4:], element.vertices)
     knots = [[_number(word) for word in element.knots.get(name, [])] for name in "uv"]

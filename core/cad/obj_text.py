@@ -15,6 +15,7 @@ from itertools import chain
 import numpy as np
 from numpy.typing import NDArray
 
+from ..streams.findings import FIELD_NOT_VERTEX, FIELD_NOT_WHOLE, FIELD_NOT_WORD
 from ..streams.misread import (
     BLOCK,
     MARK,
@@ -52,7 +53,7 @@ _LINES = re.compile(
 def check_obj_text(data: Data) -> None:
     """Raise FileError if an importer would misread a statement."""
     if _MARKED.match(data[:BLOCK]):
-        refuse_line(data, 0, finding("field_not_word", text="U+FEFF", expected="v"))
+        refuse_line(data, 0, finding(FIELD_NOT_WORD, text="U+FEFF", expected="v"))
     counts = np.zeros(3, np.int64)  # of v, vt and vn before the block
     for start, text in _blocks(data):
         suspects, counts = _find_suspects(text, counts)
@@ -148,9 +149,9 @@ def _find_fault(line: bytes, before: Sequence[int] | NDArray) -> Finding | None:
 def _find_index_fault(word: bytes, before: Sequence[int] | NDArray) -> Finding | None:
     """Return why a word is no index of v, vt and vn, or None. Importers ignore vt and vn where there are none."""
     if not re.fullmatch(_ANY_INDEX, word):
-        return finding("field_not_whole", text=shorten(word))
+        return finding(FIELD_NOT_WHOLE, text=shorten(word))
     for role, (number, count) in enumerate(zip(word.split(b"/"), before)):
         is_there = len(number) < 19 and 0 < abs(int(number or 0)) <= count
         if number and not is_there and (count or not role):
-            return finding("field_not_vertex", text=shorten(word))
+            return finding(FIELD_NOT_VERTEX, text=shorten(word))
     return None

@@ -12,8 +12,18 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..numerics.bspline import SplineSpace
 from ..nurbs.bezier_form import bezier_patches
+from ..nurbs.findings import NON_FINITE_CONTROL_POINTS, NON_POSITIVE_WEIGHTS
 from ..nurbs.patch import Patch
 from ..verdict.finding import FileError, Finding, MeasureError, finding, truncate_findings
+from .findings import (
+    FILE_WITHOUT_SURFACES,
+    NO_SURFACE_KEPT,
+    SURFACE_DAMAGED,
+    SURFACE_ORDER,
+    SURFACE_POINTS,
+    SURFACE_TOO_LARGE,
+    TOO_MANY_CONTROL_POINTS,
+)
 
 MAX_ORDER = 6  # of the surfaces that are kept
 MAX_POINTS = 1 << 18  # control points of one patch in Bézier form
@@ -95,16 +105,16 @@ class Refusals:
             # What makes others of this file has counted them.
             self.points = max(self.points, before + sum(patch.points.size // 3 for patch in patches))
             if self.points > MAX_TOTAL_POINTS:
-                raise FileError("too_many_control_points", limit=MAX_TOTAL_POINTS)
+                raise FileError(TOO_MANY_CONTROL_POINTS, limit=MAX_TOTAL_POINTS)
             return patches
         except FileError:
             raise
         except SurfaceRefusedError as error:
             self.add(error.code, kind, name, **error.values)
         except MeasureError as error:  # of its control points
-            self.add("surface_points", kind, name, cause=error.finding)
+            self.add(SURFACE_POINTS, kind, name, cause=error.finding)
         except (ValueError, OverflowError, LookupError):
-            self.add("surface_damaged", kind, name)
+            self.add(SURFACE_DAMAGED, kind, name)
         return []
 
     def add(self, code: str, kind: str, name: str, **values: object) -> None:
@@ -128,9 +138,9 @@ class Refusals:
         refused, kept = self.findings(), tuple(body for body in bodies if body.patches)
         if not kept and refused:
             causes = [reason.as_record() for reason in truncate_findings(refused, MAX_REASONS)]
-            raise FileError("no_surface_kept", causes=causes)
+            raise FileError(NO_SURFACE_KEPT, causes=causes)
         if not kept:
-            raise FileError("file_without_surfaces")
+            raise FileError(FILE_WITHOUT_SURFACES)
         return SurfaceFile(kept, unit, refused, tuple(notes))
 
 
@@ -148,10 +158,10 @@ def blender_patches(
     meant, matrix: (4, 4) from the points to the file's coordinates.
     """
     if max(orders) > MAX_ORDER:
-        raise SurfaceRefusedError("surface_order", order=max(orders), limit=MAX_ORDER)
+        raise SurfaceRefusedError(SURFACE_ORDER, order=max(orders), limit=MAX_ORDER)
     points = np.asarray(points, np.float64) @ matrix[:3, :3].T + matrix[:3, 3]
     if not (np.abs(points) < MAX_COORDINATE).all():
-        raise SurfaceRefusedError("surface_points", cause=finding("non_finite_control_points"))
+        raise SurfaceRefusedError(SURFACE_POINTS, cause=finding(NON_FINITE_CONTROL_POINTS))
     s_space, t_space = (
         SplineSpace(tuple(np.asarray(row, np.float64).tolist()), order, count)
         for row, order, count in zip(knots, orders, points.shape)
@@ -159,10 +169,10 @@ def blender_patches(
     spaces = s_space, t_space
     sizes = [len(space.spans) * (space.order - 1) + 1 for space in spaces]
     if sizes[0] * sizes[1] > MAX_POINTS:
-        raise SurfaceRefusedError("surface_too_large", points=sizes[0] * sizes[1], limit=MAX_POINTS)
+        raise SurfaceRefusedError(SURFACE_TOO_LARGE, points=sizes[0] * sizes[1], limit=MAX_POINTS)
     patches = bezier_patches(Patch(spaces, points, weights), domain)
     if any(patch.weights is not None and _too_uneven(patch.weights) for patch in patches):
-        raise SurfaceRefusedError("surface_points", cause=finding("non_positive_weights"))
+        raise SurfaceRefusedError(SURFACE_POINTS, cause=finding(NON_POSITIVE_WEIGHTS))
     return patches
 
 

@@ -26,6 +26,24 @@ from ..moments.exponents import monomial_count, monomial_index, monomials, order
 from ..moments.moments import U
 from ..numerics.arrays import power_table
 from ..verdict.finding import MeasureError
+from .findings import (
+    POLYNOMIAL_BEYOND_NUMBERS,
+    POLYNOMIAL_CARET,
+    POLYNOMIAL_COEFFICIENTS,
+    POLYNOMIAL_DEGREE,
+    POLYNOMIAL_DIVISION_BY_ZERO,
+    POLYNOMIAL_EMPTY,
+    POLYNOMIAL_EXPONENT,
+    POLYNOMIAL_NESTED,
+    POLYNOMIAL_NOT_ALLOWED,
+    POLYNOMIAL_NOT_CONSTANT,
+    POLYNOMIAL_NUMBER_TOO_LARGE,
+    POLYNOMIAL_OVERFLOW,
+    POLYNOMIAL_SYNTAX,
+    POLYNOMIAL_SYNTAX_AT,
+    POLYNOMIAL_TOO_LONG,
+    POLYNOMIAL_UNKNOWN_NAME,
+)
 
 MAX_DEGREE = 17  # mass moments to order 3 then need those of the body to order 20
 MAX_LENGTH = 4096  # bits of a number, and characters of a text
@@ -98,7 +116,7 @@ class Polynomial:
         try:
             return {powers: float(value) for powers, value in self.terms.items()}
         except OverflowError as error:
-            raise MeasureError("polynomial_beyond_numbers") from error
+            raise MeasureError(POLYNOMIAL_BEYOND_NUMBERS) from error
 
     def translate(self, point: ArrayLike) -> Polynomial:
         """Return the polynomial q with q(u) = p(point + u), exactly."""
@@ -180,30 +198,30 @@ def parse_polynomial(text: str) -> Polynomial:
     """
     text = text.strip()
     if not text:
-        raise MeasureError("polynomial_empty")
+        raise MeasureError(POLYNOMIAL_EMPTY)
     if len(text) > MAX_LENGTH:
-        raise MeasureError("polynomial_too_long", limit=MAX_LENGTH)
+        raise MeasureError(POLYNOMIAL_TOO_LONG, limit=MAX_LENGTH)
     try:
         tree = ast.parse(text, mode="eval").body
     except SyntaxError as error:
         place = text[max((error.offset or 1) - 1, 0) :][:20] if error.lineno in (None, 1) else ""
         if place:
-            raise MeasureError("polynomial_syntax_at", part=place) from error
-        raise MeasureError("polynomial_syntax") from error
+            raise MeasureError(POLYNOMIAL_SYNTAX_AT, part=place) from error
+        raise MeasureError(POLYNOMIAL_SYNTAX) from error
     except (ValueError, RecursionError, MemoryError) as error:
-        raise MeasureError("polynomial_nested") from error
+        raise MeasureError(POLYNOMIAL_NESTED) from error
     try:
         if isinstance(tree, (ast.Tuple, ast.List)):
             return Polynomial(_from_list([_constant(_terms(item, text), item, text) for item in tree.elts]))
         return Polynomial(_terms(tree, text))
     except RecursionError as error:
-        raise MeasureError("polynomial_nested") from error
+        raise MeasureError(POLYNOMIAL_NESTED) from error
 
 
 def _from_list(values: list[Fraction]) -> dict[Exponents, Fraction]:
     degree = order_from_count(len(values))
     if degree > MAX_DEGREE:
-        raise MeasureError("polynomial_coefficients", limit=MAX_DEGREE)
+        raise MeasureError(POLYNOMIAL_COEFFICIENTS, limit=MAX_DEGREE)
     return {tuple(row): value for row, value in zip(monomials(degree).tolist(), values) if value}
 
 
@@ -211,7 +229,7 @@ def _terms(node: ast.expr, text: str) -> dict[Exponents, Fraction]:
     """The terms of a part of an expression."""
     if isinstance(node, ast.Constant) and type(node.value) in (int, float):
         if isinstance(node.value, float) and not math.isfinite(node.value):
-            raise MeasureError("polynomial_number_too_large", part=_source_text(node, text))
+            raise MeasureError(POLYNOMIAL_NUMBER_TOO_LARGE, part=_source_text(node, text))
         number = Fraction(node.value if isinstance(node.value, int) else str(node.value))  # the decimal that was typed
         return _validated(_nonzero({(0, 0, 0): number}), node, text)
     if isinstance(node, ast.Name) and node.id in VARIABLES:
@@ -222,8 +240,8 @@ def _terms(node: ast.expr, text: str) -> dict[Exponents, Fraction]:
     if isinstance(node, ast.BinOp):
         return _validated(_operation(node, text), node, text)
     if isinstance(node, ast.Name):
-        raise MeasureError("polynomial_unknown_name", part=node.id)
-    raise MeasureError("polynomial_not_allowed", part=_source_text(node, text))
+        raise MeasureError(POLYNOMIAL_UNKNOWN_NAME, part=node.id)
+    raise MeasureError(POLYNOMIAL_NOT_ALLOWED, part=_source_text(node, text))
 
 
 def _operation(node: ast.BinOp, text: str) -> dict[Exponents, Fraction]:
@@ -241,19 +259,19 @@ def _operation(node: ast.BinOp, text: str) -> dict[Exponents, Fraction]:
     if isinstance(node.op, ast.Div):
         divisor = _constant(right, node.right, text)
         if not divisor:
-            raise MeasureError("polynomial_division_by_zero", part=_source_text(node, text))
+            raise MeasureError(POLYNOMIAL_DIVISION_BY_ZERO, part=_source_text(node, text))
         return {powers: value / divisor for powers, value in left.items()}
     if isinstance(node.op, ast.Pow):
         return _power(left, _constant(right, node.right, text), node, text)
     caret = isinstance(node.op, ast.BitXor)
-    raise MeasureError("polynomial_caret" if caret else "polynomial_not_allowed", part=_source_text(node, text))
+    raise MeasureError(POLYNOMIAL_CARET if caret else POLYNOMIAL_NOT_ALLOWED, part=_source_text(node, text))
 
 
 def _power(
     base: dict[Exponents, Fraction], exponent: Fraction, node: ast.BinOp, text: str
 ) -> dict[Exponents, Fraction]:
     if exponent.denominator != 1 or not 0 <= exponent <= MAX_DEGREE:
-        raise MeasureError("polynomial_exponent", part=_source_text(node, text), limit=MAX_DEGREE)
+        raise MeasureError(POLYNOMIAL_EXPONENT, part=_source_text(node, text), limit=MAX_DEGREE)
     result = {(0, 0, 0): Fraction(1)}
     for _ in range(int(exponent)):
         result = _validated(_multiply(result, base, node, text), node, text)
@@ -265,7 +283,7 @@ def _multiply(
 ) -> dict[Exponents, Fraction]:
     degrees = [max((sum(powers) for powers in terms), default=0) for terms in (left, right)]
     if sum(degrees) > MAX_DEGREE:
-        raise MeasureError("polynomial_degree", part=_source_text(node, text), limit=MAX_DEGREE)
+        raise MeasureError(POLYNOMIAL_DEGREE, part=_source_text(node, text), limit=MAX_DEGREE)
     result: dict[Exponents, Fraction] = {}
     for left_powers, factor in left.items():
         for right_powers, value in right.items():
@@ -285,7 +303,7 @@ def _nonzero(terms: dict[Exponents, Fraction]) -> dict[Exponents, Fraction]:
 
 def _constant(terms: dict[Exponents, Fraction], node: ast.expr, text: str) -> Fraction:
     if set(terms) - {(0, 0, 0)}:
-        raise MeasureError("polynomial_not_constant", part=_source_text(node, text))
+        raise MeasureError(POLYNOMIAL_NOT_CONSTANT, part=_source_text(node, text))
     return terms.get((0, 0, 0), Fraction(0))
 
 
@@ -293,7 +311,7 @@ def _validated(terms: dict[Exponents, Fraction], node: ast.expr, text: str) -> d
     for value in terms.values():
         above, below = value.numerator.bit_length(), value.denominator.bit_length()
         if max(above, below) > MAX_LENGTH or abs(above - below) > MAX_EXPONENT:
-            raise MeasureError("polynomial_overflow", part=_source_text(node, text))
+            raise MeasureError(POLYNOMIAL_OVERFLOW, part=_source_text(node, text))
     return terms
 
 

@@ -30,6 +30,7 @@ from numpy.typing import ArrayLike, NDArray
 from ..moments.moments import Measure, Moments, U, monomials
 from ..numerics.arguments import check_type, float_array, number_array
 from ..verdict.finding import MeasureError
+from .findings import DENSITY_NON_FINITE, GRID_TRANSFORM_SINGULAR
 from .spline_tables import SplineAxis
 
 COEFFICIENTS_PER_BLOCK = 1 << 17  # coefficients at a time: 1 MB of float64
@@ -154,7 +155,7 @@ def grid_moments(
         samples = number_array("samples", samples, *shape)
     matrix = float_array("matrix", matrix, 4, 4)
     if not np.isfinite(matrix).all() or not np.linalg.det(matrix[:3, :3]):
-        raise MeasureError("grid_transform_singular")
+        raise MeasureError(GRID_TRANSFORM_SINGULAR)
     axes = [
         SplineAxis.uniform(count, spline_order) if row is None else SplineAxis.at_positions(row, spline_order)
         for count, row in zip(shape, positions)
@@ -307,7 +308,7 @@ def _moments_about(
         size += added if block.min() >= 0.0 else contract(np.abs(block), factors)
         blocks, longest = blocks + 1, max(longest, sum(block.shape))
     if not np.isfinite(total).all():
-        raise MeasureError("density_non_finite")
+        raise MeasureError(DENSITY_NON_FINITE)
     p, q, r = monomials(order)[:, axis_order].T
     bounds = [_absolute_from_even(axes[i], order, about[i]) for i in axis_order]
     size = np.einsum("ax,by,cz,xyz->abc", *bounds, size)

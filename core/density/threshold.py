@@ -27,6 +27,7 @@ from ..numerics.arguments import float_array, number_array
 from ..numerics.arrays import power_table
 from ..numerics.quadrature import gauss_legendre
 from ..verdict.finding import MeasureError
+from .findings import DENSITY_NON_FINITE, GRID_TRANSFORM_SINGULAR
 from .spline_grid import contract
 from .threshold_cells import TURNS, Cells, Columns, amounts_of, compare_rules, interpolate
 
@@ -131,14 +132,14 @@ def threshold_body(
     matrix = np.eye(4) if matrix is None else float_array("matrix", matrix, 4, 4)
     linear = matrix[:3, :3]
     if not np.isfinite(matrix).all() or not np.linalg.det(linear):
-        raise MeasureError("grid_transform_singular")
+        raise MeasureError(GRID_TRANSFORM_SINGULAR)
     cofactors = np.linalg.det(linear) * np.linalg.inv(linear)  # take the normals of pieces of surface along
     about = (shape - 1) // 2 - margin
     sums = _Sums(order, with_density, preview, cofactors @ cofactors.T)
     clipped, count, cut = False, 0, []
     for first, values in _slabs(samples, background, value):
         if not np.isfinite(values).all():
-            raise MeasureError("density_non_finite")
+            raise MeasureError(DENSITY_NON_FINITE)
         inside = values >= threshold
         clipped = clipped or _reaches_edge(inside, first == 0, first + len(values) == shape[0])
         corners = _corner_counts(inside)

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..verdict.finding import MeasureError
+from .findings import TRANSFER_TABLE_NUMBERS, TRANSFER_TABLE_ORDER, TRANSFER_TABLE_SYNTAX, TRANSFER_TABLE_TOO_SHORT
 
 # CT numbers in Hounsfield units to kg/m³: air, fat, water and soft tissue, bone, after Schneider, Bortfeld and Schlegel
 # (Phys. Med. Biol. 45, 2000), as the table of densities that comes with GATE has them.
@@ -30,13 +31,13 @@ def parse_table(text: str) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         try:
             value, density = map(float, words)
         except ValueError:
-            raise MeasureError("transfer_table_syntax", part=pair.strip()) from None
+            raise MeasureError(TRANSFER_TABLE_SYNTAX, part=pair.strip()) from None
         entries.append((value, density))
     table = np.array(entries, np.float64).reshape(-1, 2)
     if len(table) < 2:
-        raise MeasureError("transfer_table_too_short")
+        raise MeasureError(TRANSFER_TABLE_TOO_SHORT)
     if not np.isfinite(table).all() or (table[:, 1] < 0.0).any():
-        raise MeasureError("transfer_table_numbers")
+        raise MeasureError(TRANSFER_TABLE_NUMBERS)
     if (np.diff(table[:, 0]) <= 0.0).any():
-        raise MeasureError("transfer_table_order")
+        raise MeasureError(TRANSFER_TABLE_ORDER)
     return table[:, 0], table[:, 1]

@@ -23,6 +23,8 @@ from ..numerics.arguments import float_array
 from ..numerics.arrays import batches, power_table
 from ..numerics.quadrature import triangle_rule
 from ..verdict.finding import MeasureError
+from ..verdict.findings import NO_FACES
+from .findings import DENSITY_NON_FINITE
 
 PIECES_PER_BATCH = 1 << 17  # that are expected of the triangles taken at a time
 MAX_VOXELS = 1 << 27  # voxels of the box around the surface
@@ -64,11 +66,11 @@ def inside_moments(triangles: ArrayLike, densities: NDArray, order: int = 3) -> 
     """
     triangles = float_array("triangles", triangles, "n", 3, 3, finite=True)
     if not len(triangles):
-        raise MeasureError("no_faces")
+        raise MeasureError(NO_FACES)
     with np.errstate(invalid="ignore"):  # of NaN that signal
         densities = float_array("densities", densities, "nx", "ny", "nz")
     if not np.isfinite(densities).all():
-        raise MeasureError("density_non_finite")
+        raise MeasureError(DENSITY_NON_FINITE)
     shape = np.array(densities.shape)
     about = np.round(np.clip((triangles.min(axis=(0, 1)) + triangles.max(axis=(0, 1))) / 2.0, 0, shape))
     exponents = monomials(order)

@@ -21,6 +21,7 @@ from ..numerics.arrays import segment_ranges, sums_by_index
 from ..numerics.graph import connected_components
 from ..polyhedron.n_dimensions import SimplexMoments, enclosed_moments, facet_moments
 from ..verdict.finding import MeasureError
+from .findings import OUTLINE_OPEN, OUTLINES_COINCIDE
 
 SAMPLES_PER_OUTLINE = 16  # midpoints of an outline's edges that are asked what it lies in
 # of edges that are compared, and of rays and the edges they may meet; more rays are thinned out
@@ -91,7 +92,7 @@ def area_moments(points: ArrayLike, edges: ArrayLike, order: int, about: ArrayLi
     ends = [np.bincount(edges[:, i], minlength=len(points)) for i in (0, 1)]
     loose = int(np.count_nonzero(ends[0] != ends[1]))
     if loose:
-        raise MeasureError("outline_open", count=loose)
+        raise MeasureError(OUTLINE_OPEN, count=loose)
     return enclosed_moments(points, edges, order, about, allow_open=True)
 
 
@@ -174,7 +175,7 @@ def orient_loops(points: NDArray, loops: Sequence[NDArray]) -> NDArray[np.intp]:
             winding = np.abs(winding_numbers(points, directed_edges([loops[j]]), middle))
             clear = np.abs(winding - 0.5)  # a midpoint on the other loop has half a turn
             if clear.max() < 0.25:
-                raise MeasureError("outlines_coincide")
+                raise MeasureError(OUTLINES_COINCIDE)
             depth += int(winding[np.argmax(clear)] > 0.5)
         ahead = _twice_the_area(points, edges) > 0.0
         order.append(loop if ahead == (depth % 2 == 0) else loop[::-1])

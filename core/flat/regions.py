@@ -18,6 +18,7 @@ from ..moments.exponents import monomial_count, monomial_index
 from ..moments.moments import Measure, Moments
 from ..polyhedron.n_dimensions import multi_indices
 from ..verdict.finding import MeasureError
+from .findings import SECTION_ENCLOSES_NOTHING
 from .polygon import area_moments, edge_arrays
 
 BOUND_ROUNDING = 1.0 + 1e-9  # what the sums that make a bound may lack themselves
@@ -85,7 +86,7 @@ def region_moments(
         first = area_moments(points, edges, 1)
         bounds = first.rounding_error + _swept(points, edges, first.about, rounded, 1)
         if not abs(first.raw[0]) > bounds[0]:
-            raise MeasureError("section_encloses_nothing")
+            raise MeasureError(SECTION_ENCLOSES_NOTHING)
         about = first.about + first.raw[1:] / first.raw[0]
     flat = area_moments(points, edges, order, about)
     positions = plane_positions(order)

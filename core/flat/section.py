@@ -22,6 +22,7 @@ from ..mesh.welding import first_at_equal_position
 from ..moments.moments import U
 from ..numerics.arguments import check_type, float_array, index_array
 from ..verdict.finding import MeasureError
+from .findings import SECTION_ENCLOSES_NOTHING, SECTION_NO_AREA, SECTION_NOT_FLAT
 from .polygon import boundary_edges, edge_arrays, outline_areas, outline_moments
 from .regions import plane_positions, region_moments
 
@@ -206,7 +207,7 @@ def fit_plane(
     size = float(np.sqrt(((used.max(axis=0) - used.min(axis=0)) ** 2).sum()))
     largest = int(np.argmax(sizes))
     if not sizes[largest] > 0.0:
-        raise MeasureError("section_no_area")
+        raise MeasureError(SECTION_NO_AREA)
     # Faces that look the other way are of the same plane.
     side = np.sign(vectors @ vectors[largest])
     total = (vectors * side[:, None]).sum(axis=0)
@@ -217,7 +218,7 @@ def fit_plane(
     level = float(heights.min() + heights.max()) / 2.0
     off = float(np.ptp(heights)) / 2.0
     if off > PLANAR_RTOL * size + 4.0 * error:
-        raise MeasureError("section_not_flat", share=off / size)
+        raise MeasureError(SECTION_NOT_FLAT, share=off / size)
     axes, named = _axes(normal, prefer)
     distance = float((used[0] - origin) @ normal) + level
     return Plane(origin + distance * normal, axes, off, named)
@@ -295,7 +296,7 @@ def measure_section(plane: Plane, points: NDArray, edges: NDArray, error: float 
     rounded = projection_rounding(plane, points, used)
     moments = region_moments(flat, edges, 2, rounded=rounded, stored=error)
     if not moments.total > 0.0:
-        raise MeasureError("section_encloses_nothing")
+        raise MeasureError(SECTION_ENCLOSES_NOTHING)
     about, positions = moments.about[:2], plane_positions(2)
     raw = moments.raw[positions]
     length = outline_moments(flat, edges)

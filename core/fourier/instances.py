@@ -21,6 +21,7 @@ from ..moments.moments import Measure
 from ..numerics.arguments import check_type, float_array
 from ..numerics.compensated import phase_factors
 from ..verdict.finding import MeasureError
+from ..verdict.findings import NO_FACES
 from .grid import GridTransform
 from .spectrum import Spectrum
 from .transform import Transform
@@ -76,7 +77,7 @@ class BodyTransform:
         self.measure, self.threads = of, threads
         self.jobs = [job for surface, matrices in parts for job in _distinct_images(surface, matrices)]
         if not self.jobs:
-            raise MeasureError("no_faces")
+            raise MeasureError(NO_FACES)
         self.weights = [len(surface.triangles) for surface, _ in self.jobs]
         instance_count = sum(len(offsets) for _, offsets in self.jobs)
         self.tolerance = None

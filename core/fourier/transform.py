@@ -28,6 +28,7 @@ from ..moments.moments import Measure, U
 from ..numerics.compensated import phase_factors, two_sum
 from ..polyhedron.integration import polyhedron_moments
 from ..verdict.finding import MeasureError
+from .findings import FOURIER_OF_OPEN_SURFACE
 from .spectrum import Spectrum
 from .triangle_kernel import PAIRS_PER_BLOCK, TRIANGLES_PER_BLOCK, PhaseMeans, SortedTriangles
 from .wave_vectors import FrequencyGrid, GridWaves, ListWaves, wave_vectors
@@ -141,7 +142,7 @@ class Transform:
         if of == Measure.VOLUME:
             self.gap = float(np.linalg.norm(np.cross(GENERIC_WAVE_VECTOR[0], self._vector_sum()))) / 1.5
             if self.gap > OPEN_AREA_RTOL * self.faces.area:
-                raise MeasureError("fourier_of_open_surface")
+                raise MeasureError(FOURIER_OF_OPEN_SURFACE)
         scale = self.faces.scale
         self.waves = GridWaves(waves, scale) if isinstance(waves, FrequencyGrid) else ListWaves(waves * scale)
         self.sums, self.rest = np.zeros((2, self.waves.rows * self.waves.columns), np.complex128)

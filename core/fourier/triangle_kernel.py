@@ -28,7 +28,9 @@ from ..numerics.arguments import check_type
 from ..numerics.arrays import indices_in_range, spread_bits
 from ..numerics.compensated import compensated_normals
 from ..verdict.finding import MeasureError
+from ..verdict.findings import NO_FACES
 from ..verdict.tolerances import MAX_COORDINATE, MIN_SIZE
+from .findings import FOURIER_TOO_LARGE, FOURIER_TOO_SMALL
 from .wave_vectors import GridWaves, ListWaves
 
 TRIANGLES_PER_BLOCK = 128  # triangles
@@ -55,7 +57,7 @@ class SortedTriangles:
             raise ValueError("no such vertex")
         triangles = surface.all_triangles()[0]
         if not len(triangles):
-            raise MeasureError("no_faces")
+            raise MeasureError(NO_FACES)
         used = np.zeros(len(points), bool)
         used[triangles] = True
         corners = points[used].astype(np.float64)
@@ -68,9 +70,9 @@ class SortedTriangles:
         self.center = center
         reach = hypot(*np.maximum(high - center, center - low).tolist())
         if not reach < MAX_COORDINATE:
-            raise MeasureError("fourier_too_large")
+            raise MeasureError(FOURIER_TOO_LARGE)
         if 0.0 < reach < MIN_SIZE:
-            raise MeasureError("fourier_too_small")
+            raise MeasureError(FOURIER_TOO_SMALL)
         exponent = int(np.ceil(np.log2(reach))) if reach > 0.0 else 0
         self.scale = float(np.ldexp(1.0, exponent))
         self.points = np.ascontiguousarray(np.ldexp(points.astype(np.float64) - center, -exponent))

@@ -15,6 +15,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..verdict.finding import MeasureError
+from .findings import (
+    FREQUENCY_COUNT,
+    FREQUENCY_RANGE,
+    WAVE_VECTORS_NON_FINITE,
+    WAVE_VECTORS_SHAPE,
+    WAVE_VECTORS_TOO_LARGE,
+)
 
 MAX_FREQUENCY = 1e100  # frequency, whose square is still a number whatever the body's size
 
@@ -56,9 +63,9 @@ class FrequencyGrid:
 
     def __post_init__(self) -> None:
         if self.count < 2:
-            raise MeasureError("frequency_count")
+            raise MeasureError(FREQUENCY_COUNT)
         if not 0.0 < self.largest <= MAX_FREQUENCY:
-            raise MeasureError("frequency_range")
+            raise MeasureError(FREQUENCY_RANGE)
 
     @property
     def half(self) -> int:
@@ -94,12 +101,12 @@ def wave_vectors(q: ArrayLike, dimension: int) -> NDArray[np.float64]:
     """(M, dimension) wave vectors from a user. MeasureError where they are none."""
     q = np.asarray(q)
     if q.dtype.kind not in "fiu" or q.ndim != 2 or q.shape[1] != dimension:
-        raise MeasureError("wave_vectors_shape", dimension=dimension, shape=list(q.shape), type=str(q.dtype))
+        raise MeasureError(WAVE_VECTORS_SHAPE, dimension=dimension, shape=list(q.shape), type=str(q.dtype))
     q = q.astype(np.float64)
     if not np.isfinite(q).all():
-        raise MeasureError("wave_vectors_non_finite")
+        raise MeasureError(WAVE_VECTORS_NON_FINITE)
     if np.abs(q).max(initial=0.0) > MAX_FREQUENCY:
-        raise MeasureError("wave_vectors_too_large")
+        raise MeasureError(WAVE_VECTORS_TOO_LARGE)
     return q
 
 

@@ -24,6 +24,7 @@ from ..moments.exponents import monomial_index, monomials
 from ..moments.moments import Measure, Moments
 from ..moments.symmetric_tensors import _contract, _rotate_tensor, _tensor_positions, distinct_arrays, tensor_index
 from ..verdict.finding import MeasureError
+from .findings import MOMENTS_OVERFLOW
 
 MAX_ORDER = 6  # by which the axes of every prism to a hexagon's, of a cube and of an icosahedron are found
 NOISE_LEVEL = 1e-5  # a normalized third moment below this is noise: ten times what float32 coordinates make
@@ -92,7 +93,7 @@ def canonical_frames(moments: Moments, spread: SecondMomentAxes, starts: NDArray
     with np.errstate(over="ignore", under="ignore"):
         reach = total * spread.size.max() ** central.order
     if not np.finfo(float).tiny < reach < np.inf:
-        raise MeasureError("moments_overflow", order=central.order)
+        raise MeasureError(MOMENTS_OVERFLOW, order=central.order)
     central = replace(
         central, raw=central.raw / total, rounding_error=central.rounding_error / total, measure=Measure.MASS
     )

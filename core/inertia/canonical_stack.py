@@ -20,6 +20,7 @@ from ..moments.exponents import monomial_count, monomial_index, monomials, order
 from ..moments.moments import Moments
 from ..verdict.finding import MeasureError
 from .canonical_frame import FLAT_EXTENT_RTOL, NOISE_GROWTH
+from .findings import MOMENTS_OVERFLOW
 from .third_moment_frames import FIXED_AXIS, HALF_TURN_SIGNS, SYMMETRIES, ThirdMomentFrames
 
 THIRD = monomial_count(2)  # where the moments of third order begin
@@ -112,7 +113,7 @@ def _along_axes(
     with np.errstate(over="ignore"):
         reach = total[:, 0] * size.max(axis=1) ** order
     if not ((reach > np.finfo(float).tiny) & (reach < np.inf)).all():
-        raise MeasureError("moments_overflow", order=order)
+        raise MeasureError(MOMENTS_OVERFLOW, order=order)
     turned = fixed.axes[bodies].transpose(0, 2, 1)
     raw = rotate_moments(central.raw / total, order, turned)
     error = rotate_moments(central.rounding_error / total, order, np.abs(turned))[:, THIRD:]

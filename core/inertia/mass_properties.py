@@ -20,6 +20,7 @@ from ..numerics.arguments import check_type, float_array
 from ..numerics.arrays import PerBody
 from ..numerics.rotations import rotation_array
 from ..verdict.finding import MeasureError
+from .findings import NO_CERTAIN_VOLUME
 from .principal_frames import OwnMoments, PrincipalFrame, principal_frame, principal_frames
 from .third_moment_frames import ThirdMomentFrames
 
@@ -97,7 +98,7 @@ class MassProperties:
         if not 0.0 <= density < np.inf:
             raise ValueError("impossible density: {!r}".format(density))
         if not moments.raw[0] > moments.rounding_error[0]:
-            raise MeasureError("no_certain_volume")
+            raise MeasureError(NO_CERTAIN_VOLUME)
         return cls._with_frame(moments, density, principal_frame(moments, preferred_axes, refine, higher))
 
     @classmethod

@@ -29,8 +29,21 @@ from ..numerics.arguments import check_type, float_array
 from ..numerics.arrays import PerBody
 from ..numerics.rotations import rotation_array
 from ..verdict.finding import MeasureError, finding
+from ..verdict.findings import OBJECT_TOO_SMALL
 from .canonical_frame import NOISE_LEVEL, EquivalentFrames, canonical_frames
 from .canonical_stack import choose_about_axis, choose_half_turns
+from .findings import (
+    AXES_1_2_FREE,
+    AXES_1_2_FREE_BY_SHAPE,
+    AXES_2_3_FREE,
+    AXES_2_3_FREE_BY_SHAPE,
+    AXES_ALL_FREE,
+    AXES_ALL_FREE_BY_SHAPE,
+    AXES_AMBIGUOUS,
+    NEGATIVE_INERTIA,
+    STRICT_RULE_EQUAL_MOMENTS,
+    STRICT_RULE_NO_SKEWNESS,
+)
 from .frame_choice import align_frames, complete_free_axes, nearest_frames
 from .shared_search import shared_frames
 from .third_moment_frames import EQUAL_AXES, HALF_TURN_SIGNS, SYMMETRIES, ThirdMomentFrames, third_moment_frames
@@ -40,16 +53,16 @@ SIGN_BITS = np.array([1, 2, 4, 8])  # of the HALF_TURN_SIGNS that are allowed
 
 # What was chosen where the body leaves a choice: the object's own directions, or of the body's own ones the nearest.
 FREE = {
-    "isotropic": finding("axes_all_free"),
-    "prolate": finding("axes_2_3_free"),
-    "oblate": finding("axes_1_2_free"),
-    "asymmetric": finding("axes_ambiguous"),
+    "isotropic": finding(AXES_ALL_FREE),
+    "prolate": finding(AXES_2_3_FREE),
+    "oblate": finding(AXES_1_2_FREE),
+    "asymmetric": finding(AXES_AMBIGUOUS),
 }
 FREE_BY_SHAPE = {
-    "isotropic": finding("axes_all_free_by_shape"),
-    "prolate": finding("axes_2_3_free_by_shape"),
-    "oblate": finding("axes_1_2_free_by_shape"),
-    "asymmetric": finding("axes_ambiguous"),
+    "isotropic": finding(AXES_ALL_FREE_BY_SHAPE),
+    "prolate": finding(AXES_2_3_FREE_BY_SHAPE),
+    "oblate": finding(AXES_1_2_FREE_BY_SHAPE),
+    "asymmetric": finding(AXES_AMBIGUOUS),
 }
 
 
@@ -311,7 +324,7 @@ def _require_body(moments: Moments, fixed: ThirdMomentFrames) -> None:
     """Raise MeasureError where the second moments are those of no body."""
     if not fixed.is_body[0]:
         is_lost = np.abs(moments.raw[4:10]).max() < np.finfo(float).tiny  # in the smallest of numbers
-        raise MeasureError("object_too_small" if is_lost else "negative_inertia")
+        raise MeasureError(OBJECT_TOO_SMALL if is_lost else NEGATIVE_INERTIA)
 
 
 def nearest_frame(equivalent: EquivalentFrames, preferred_axes: NDArray) -> NDArray[np.float64]:
@@ -390,9 +403,9 @@ def zhang_chen_frame(moments: Moments, refine: Callable[[], Moments] | None = No
     if refine is not None and not (np.abs(fixed.skewness[0, :2]) > 2.0 * fixed.skewness_error[0, :2]).all():
         fixed = _of_one_body(refine())
     if fixed.symmetry[0]:
-        raise MeasureError("strict_rule_equal_moments")
+        raise MeasureError(STRICT_RULE_EQUAL_MOMENTS)
     if not (np.abs(fixed.skewness[0, :2]) > fixed.skewness_error[0, :2]).all():
-        raise MeasureError("strict_rule_no_skewness")
+        raise MeasureError(STRICT_RULE_NO_SKEWNESS)
     axes = fixed.axes[0].copy()
     axes[:, :2] *= np.sign(fixed.skewness[0, :2])
     axes[:, 2] = np.cross(axes[:, 0], axes[:, 1])

@@ -19,6 +19,7 @@ from ..moments.moments import SECOND_MOMENT_INDEX, Moments, U
 from ..numerics.arguments import check_type, float_array
 from ..numerics.rotations import rotation_array
 from ..verdict.finding import QueryError
+from .findings import AXIS_POINTS_COINCIDE, NO_CERTAIN_VOLUME
 from .mass_properties import MassProperties
 
 IDENTITY_3 = np.eye(3)
@@ -72,7 +73,7 @@ class Reference:
         way = second - first
         length = float(np.linalg.norm(way))
         if not length > MIN_AXIS_RATIO * max(np.abs(first).max(), np.abs(second).max()):
-            raise QueryError("axis_points_coincide")
+            raise QueryError(AXIS_POINTS_COINCIDE)
         along = way / length
         side = IDENTITY_3[np.abs(along).argmin()]
         side = side - (side @ along) * along
@@ -164,7 +165,7 @@ class Reference:
         shifted = moments.truncate(2).in_frame(self.axes, self.origin).about_point(np.zeros(3)) * density
         total = shifted.total
         if not total > 2.0 * shifted.rounding_error[0]:
-            raise QueryError("no_certain_volume")
+            raise QueryError(NO_CERTAIN_VOLUME)
         center = shifted.raw[1:4] / total
         second = shifted.raw[SECOND_MOMENT_INDEX]
         bounds = []

@@ -31,6 +31,7 @@ from .canonical_frame import (
     SecondMomentAxes,
     canonical_frames,
 )
+from .findings import MOMENTS_OVERFLOW
 from .third_moment_frames import EQUAL_AXES, FIXED_AXIS, HALF_TURN_SIGNS, SYMMETRIES, ThirdMomentFrames
 
 GRID = 1e-6  # of normalized moments, times NOISE_GROWTH: a tenth of NOISE_LEVEL
@@ -71,7 +72,7 @@ def shared_frames(moments: Moments, fixed: ThirdMomentFrames, bodies: NDArray[np
     with np.errstate(over="ignore", under="ignore"):
         reach = moments.raw[:, 0] * fixed.size[bodies].max(axis=1) ** moments.order
     if not ((reach > np.finfo(float).tiny) & (reach < np.inf)).all():
-        raise MeasureError("moments_overflow", order=moments.order)
+        raise MeasureError(MOMENTS_OVERFLOW, order=moments.order)
     found: list[EquivalentFrames | None] = [None] * len(bodies)
     for name in EQUAL_AXES:
         rows = np.flatnonzero(fixed.symmetry[bodies] == SYMMETRIES.index(name))

@@ -14,9 +14,10 @@ from ..moments.moments import Measure, Moments
 from ..verdict.finding import Finding, finding
 from ..verdict.health import MeshHealth
 from ..verdict.method import Method
+from .findings import DENSITY_FROM_MASS, DENSITY_FROM_VALUE
 
 # where a density came from that is the same everywhere
-UNIFORM_DENSITIES = DENSITY_FROM_VALUE, DENSITY_FROM_MASS = finding("density_from_value"), finding("density_from_mass")
+UNIFORM_DENSITIES = DENSITY_FROM_VALUE, DENSITY_FROM_MASS = finding(DENSITY_FROM_VALUE), finding(DENSITY_FROM_MASS)
 
 
 @dataclass(frozen=True, eq=False)

@@ -22,7 +22,7 @@ from ..inertia.mass_properties import MassProperties, combine
 from ..moments.exponents import order_from_count
 from ..moments.moments import Moments, monomials
 from ..verdict.finding import Finding, MeasureError, Severity
-from ..verdict.messages import sentence, severity
+from ..verdict.sentences import sentence, severity
 from .measurement import UNIFORM_DENSITIES, Measurement
 
 MAX_ELEMENTS = 1000  # of a finding

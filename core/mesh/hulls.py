@@ -24,6 +24,7 @@ from ..numerics.arguments import float_array
 from ..numerics.arrays import batches, segment_ranges
 from ..numerics.vectors import cross
 from ..verdict.finding import MeasureError
+from .findings import HULL_WITHOUT_EXTENT
 
 GRID_BITS = 29
 LOW_BITS = (1 << GRID_BITS) - 1
@@ -118,12 +119,12 @@ def convex_hull(points: ArrayLike, tolerance: float = 1e-8, max_corners: int | N
     points = float_array("points", points, "n", 3, finite=True)
     extent = float(np.ptp(points, axis=0).max()) if len(points) else 0.0
     if not extent > 0.0:
-        raise MeasureError("hull_without_extent")
+        raise MeasureError(HULL_WITHOUT_EXTENT)
     grid = np.rint((points - points.min(axis=0)) / extent * 2.0**GRID_BITS).astype(np.int64)
     step = tolerance * 2.0**GRID_BITS
     corners = _first_corners(grid.astype(np.float64), max(step, 1.0))
     if len(corners) == 2:
-        raise MeasureError("hull_without_extent")
+        raise MeasureError(HULL_WITHOUT_EXTENT)
     if len(corners) == 3:
         return _flat_hull(points, corners, tolerance)
     hull = _GrowingHull(grid, corners, step)

@@ -24,6 +24,7 @@ from ..numerics.arguments import check_type, float_array
 from ..numerics.arrays import PerBody
 from ..numerics.rotations import rotation_array
 from ..verdict.finding import MeasureError
+from ..verdict.findings import OBJECT_TOO_SMALL
 from .affine_maps import SIMILARITY_RTOL, absolute_moments, anisotropy, apply_linear, apply_translation, are_singular
 from .exponents import (
     check_exponents,
@@ -420,7 +421,7 @@ def measure_scale_factors(measure: Measure, linear: NDArray) -> tuple[NDArray, N
     det = np.abs(sum([plus - minus for plus, minus in terms], exact))
     vanished = det < TINY
     if vanished.any() and not are_singular(linear.transpose(2, 0, 1)[vanished]).all():
-        raise MeasureError("object_too_small")
+        raise MeasureError(OBJECT_TOO_SMALL)
     permanent = sum([np.abs(plus) + np.abs(minus) for plus, minus in terms], exact)
     if measure == Measure.VOLUME:
         return det, 8 * U * permanent, exact

@@ -10,6 +10,7 @@ from ..numerics.arguments import check_type
 from ..verdict.finding import MeasureError
 from .affine_maps import apply_translation
 from .exponents import monomials
+from .findings import NORMALIZATION_UNDEFINED
 from .moments import Measure, Moments, U
 
 
@@ -54,7 +55,7 @@ def normalize(moments: Moments, by: str = "size") -> Moments:
         raise ValueError("masses need 'gyration'")
     uncertain = moments.rounding_error[0] + moments.input_error[0]
     if moments.order < (2 if by == "gyration" else 1) or not moments.total > 2.0 * uncertain:
-        raise MeasureError("normalization_undefined")
+        raise MeasureError(NORMALIZATION_UNDEFINED)
     body = moments.about_center()
     n = monomials(moments.order).sum(axis=1)
     trace = float(body.raw[[4, 7, 9]].sum()) if by == "gyration" else 1.0
@@ -72,7 +73,7 @@ def normalize(moments: Moments, by: str = "size") -> Moments:
         if by == "gyration":
             spread = delta[[4, 7, 9]].sum() + away[[4, 7, 9]].sum()
             if not trace > 2.0 * spread:
-                raise MeasureError("normalization_undefined")
+                raise MeasureError(NORMALIZATION_UNDEFINED)
             stretch = total ** np.abs(n / 2.0 - 1.0) * (trace / (trace - spread)) ** (n / 2.0)
         else:
             stretch = total ** (1.0 + n / dimension)

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from ..numerics.arguments import check_type, float_array
 from ..numerics.bspline import SplineSpace
 from ..verdict.finding import MeasureError
+from .findings import NON_FINITE_CONTROL_POINTS, NON_POSITIVE_WEIGHTS
 
 
 def checked_points(
@@ -24,12 +25,12 @@ def checked_points(
     """
     points = _frozen_copy(float_array("points", points, *shape, 3))
     if not np.isfinite(points).all():
-        raise MeasureError("non_finite_control_points")
+        raise MeasureError(NON_FINITE_CONTROL_POINTS)
     if weights is None:
         return points, None
     weights = _frozen_copy(float_array("weights", weights, *shape))
     if not (np.isfinite(weights).all() and (weights > 0.0).all()):
-        raise MeasureError("non_positive_weights")
+        raise MeasureError(NON_POSITIVE_WEIGHTS)
     return points, None if (weights == weights.flat[0]).all() else weights
 
 

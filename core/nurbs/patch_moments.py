@@ -30,6 +30,7 @@ from ..numerics.quadrature import gauss_legendre, gauss_legendre_with_ends
 from ..numerics.vectors import cross, dot
 from ..verdict.finding import MeasureError
 from .bezier import BezierCells, Rule, Weights, cells_of
+from .findings import WALL_THICKER_THAN_CURVATURE
 from .patch import Patch, patches_center
 
 VOLUME_RTOL = 4e-15  # of the largest that the moment could be: what rounding leaves anyway
@@ -245,7 +246,7 @@ def sheet_moments(
         for height in (inner, outer):
             product = _offset_jacobian(along, across, turning, unit, height)
             if ((product < 0.0) | (2.0 * length + height * bend < 0.0)).any():
-                raise MeasureError("wall_thicker_than_curvature")
+                raise MeasureError(WALL_THICKER_THAN_CURVATURE)
         terms = np.zeros(())
         for height, step in zip(heights, steps):
             element = step * _offset_jacobian(along, across, turning, unit, height)

@@ -27,6 +27,7 @@ from ..numerics.bspline import SplineSpace, clamped_space
 from ..numerics.graph import connected_components
 from ..verdict.finding import MeasureError
 from .curve import Curve
+from .findings import DISCONTINUOUS_PATCH
 from .patch import Patch
 from .patch_moments import vector_area
 from .planar_regions import self_intersects
@@ -93,7 +94,7 @@ def find_topology(patches: Sequence[Patch], tolerance: float) -> PatchTopology:
     MeasureError where knots may tear one: a gap within a patch is not one of its sides.
     """
     if any(space.is_discontinuous for patch in patches for space in patch.spaces):
-        raise MeasureError("discontinuous_patch")
+        raise MeasureError(DISCONTINUOUS_PATCH)
     sides = [Side(i, patch.side(axis, end), forward) for i, patch in enumerate(patches) for axis, end, forward in SIDES]
     count = max([SAMPLES_PER_SIDE] + [2 * len(side.curve.space.spans) + 1 for side in sides])
     points = np.array([side.curve.apply_weights(_uniform_table(side.curve.space, count)) for side in sides])

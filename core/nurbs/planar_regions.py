@@ -13,6 +13,7 @@ from ..verdict.finding import MeasureError
 from ..verdict.tolerances import WELDING_RTOL
 from .curve import Curve
 from .curve_moments import curves_center
+from .findings import CURVE_OPEN, CURVE_TOO_SMALL, CURVES_CROSS, CURVES_NOT_COPLANAR
 
 SAMPLES_PER_SPAN = 16  # at first
 FINER_SAMPLES = 64, 256  # where what fewer make seems to cross
@@ -58,11 +59,11 @@ def planar_region(curves: Sequence[Curve], stored: float = 0.0) -> tuple[list[Cu
     if any(np.linalg.norm(loop[0] - loop[-1]) > tolerance for loop in loops) or any(
         curve.space.is_discontinuous for curve in curves
     ):
-        raise MeasureError("curve_open")
+        raise MeasureError(CURVE_OPEN)
     points = np.concatenate([curve.points for curve in curves]) - center
     _, _, axes = np.linalg.svd(np.concatenate([points, np.zeros((3, 3))]), full_matrices=False)
     if np.abs(points @ axes[2]).max() > tolerance:
-        raise MeasureError("curves_not_coplanar")
+        raise MeasureError(CURVES_NOT_COPLANAR)
     normal = axes[2]
     leading = next(axis for axis in (2, 1, 0) if abs(normal[axis]) > 1e-6)
     normal = normal * np.sign(normal[leading])
@@ -73,12 +74,12 @@ def planar_region(curves: Sequence[Curve], stored: float = 0.0) -> tuple[list[Cu
 
     flat = polygons(SAMPLES_PER_SPAN)
     if min(map(len, flat)) < 3:
-        raise MeasureError("curve_too_small")
+        raise MeasureError(CURVE_TOO_SMALL)
     spans = sum(len(curve.space.spans) for curve in curves)
     finer = [each for each in FINER_SAMPLES if spans * each <= MAX_CHORDS]
     while chords_cross(flat, tolerance):
         if not finer:
-            raise MeasureError("curves_cross")
+            raise MeasureError(CURVES_CROSS)
         flat = polygons(finer.pop(0))
     oriented = []
     for i, (curve, loop) in enumerate(zip(curves, flat)):

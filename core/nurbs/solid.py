@@ -18,12 +18,38 @@ from numpy.typing import NDArray
 
 from ..mesh.bvh import SortedComponents, sort_components
 from ..moments.moments import Moments, sum_moments
+from ..solid.findings import (
+    CAVITIES_BREAK_THROUGH,
+    CAVITIES_SUBTRACTED,
+    COMPONENTS_NESTED,
+    COMPONENTS_OVERLAP,
+    FLAT_COMPONENTS,
+    FLAT_SURFACE,
+    OVERLAP_UNCHECKED,
+)
 from ..solid.nesting import ComponentRelations, classify_pairs
 from ..solid.orientation import ComponentComparison, zero_volume
 from ..verdict.finding import Finding, MeasureError, finding
 from ..verdict.health import MeshHealth
 from ..verdict.method import Verdict
 from ..verdict.tolerances import NEGLIGIBLE, welding_tolerance
+from .findings import (
+    AMBIGUOUS_PATCH_SIDES,
+    AREA_ERROR_ESTIMATE_LARGE,
+    CURVED_PATCH_HOLES_CAPPED,
+    CURVED_PATCH_HOLES_CAPPED_SLIGHTLY,
+    FLAT_PATCH_HOLES_CAPPED,
+    FLAT_PATCH_HOLES_CAPPED_SLIGHTLY,
+    FLIPPED_PATCHES,
+    FLIPPED_PATCHES_SLIGHTLY,
+    INVERTED_PATCH_COMPONENTS,
+    INVERTED_PATCH_COMPONENTS_SLIGHTLY,
+    NO_EXTENT,
+    NO_PATCHES,
+    OPEN_PATCH_SIDES,
+    PATCH_BOUNDARY_CROSSES_ITSELF,
+    VOLUME_ERROR_ESTIMATE_LARGE,
+)
 from .input_error import with_area_error, with_swept_error
 from .patch import Patch, patches_center, patches_size
 from .patch_moments import area_moments, area_slope, sheet_moments, volume_moments
@@ -121,14 +147,14 @@ def measure_patches(
     ('capped', 1.0)
     """
     if not patches:
-        raise MeasureError("no_patches")
+        raise MeasureError(NO_PATCHES)
     size = patches_size(patches)
     if not size > 0.0:
-        raise MeasureError("no_extent")
+        raise MeasureError(NO_EXTENT)
     about = patches_center(patches)
     topology = find_topology(patches, welding_tolerance(size, stored))
     area, converged = area_moments(patches, area_order, about)
-    findings = () if converged else (finding("area_error_estimate_large"),)
+    findings = () if converged else (finding(AREA_ERROR_ESTIMATE_LARGE),)
     parts = oriented_parts(patches, topology)
     measured = [volume_moments(part, order, about) for part in parts]
     return assess(patches, topology, parts, measured, area, area_slope(patches), stored, findings)
@@ -193,7 +219,7 @@ def assess(
     misoriented = np.flatnonzero(topology.flipped).tolist()
     further = list(findings)
     if not all(converged for *_, converged, _ in turned_parts):
-        further.append(finding("volume_error_estimate_large"))
+        further.append(finding(VOLUME_ERROR_ESTIMATE_LARGE))
     outward = tuple(
         patch.reverse_orientation() if whole_sign * sign < 0.0 else patch
         for part, *_, sign in turned_parts
@@ -348,17 +374,17 @@ def _component_findings(comparison: ComponentComparison | None, size: float) -> 
     if comparison is None:
         return findings
     counts = {
-        "cavities_subtracted": comparison.cavities & ~comparison.breaking,
-        "cavities_break_through": comparison.breaking,
-        "components_nested": comparison.nested,
-        "components_overlap": comparison.intersecting,
+        CAVITIES_SUBTRACTED: comparison.cavities & ~comparison.breaking,
+        CAVITIES_BREAK_THROUGH: comparison.breaking,
+        COMPONENTS_NESTED: comparison.nested,
+        COMPONENTS_OVERLAP: comparison.intersecting,
     }
     for code, which in counts.items():
-        more = {"share": float(comparison.breakthrough / size)} if code == "cavities_break_through" else {}
+        more = {"share": float(comparison.breakthrough / size)} if code == CAVITIES_BREAK_THROUGH else {}
         if which.any():
             findings.append(finding(code, count=int(which.sum()), **more))
     if comparison.undecided_pairs:
-        findings.append(finding("overlap_unchecked", count=int(comparison.undecided_pairs)))
+        findings.append(finding(OVERLAP_UNCHECKED, count=int(comparison.undecided_pairs)))
     return findings
 
 
@@ -407,11 +433,11 @@ def _orientation_findings(
     """About patches, and whole parts, that were turned. mixed: patches that face against the rest of their part."""
     findings = []
     if mixed:
-        findings.append(finding("flipped_patches_slightly" if slight_patches else "flipped_patches", count=mixed))
+        findings.append(finding(FLIPPED_PATCHES_SLIGHTLY if slight_patches else FLIPPED_PATCHES, count=mixed))
         if closure.non_manifold_sides:
-            findings.append(finding("ambiguous_patch_sides", count=int(closure.non_manifold_sides)))
+            findings.append(finding(AMBIGUOUS_PATCH_SIDES, count=int(closure.non_manifold_sides)))
     if turn.any():
-        code = "inverted_patch_components_slightly" if slight_parts else "inverted_patch_components"
+        code = INVERTED_PATCH_COMPONENTS_SLIGHTLY if slight_parts else INVERTED_PATCH_COMPONENTS
         findings.append(finding(code, count=int(turn.sum()), total=int(closure.number)))
     return findings
 
@@ -422,12 +448,12 @@ def _closing_findings(
     """About what is open, flat or was capped. solid: (c,) the parts with a volume."""
     findings = []
     if closure.unclosable.any():
-        findings.append(finding("open_patch_sides"))
+        findings.append(finding(OPEN_PATCH_SIDES))
     if not solid.any():
-        return findings if closure.unclosable.any() else [finding("flat_surface")]
+        return findings if closure.unclosable.any() else [finding(FLAT_SURFACE)]
     flattened = int((~solid & ~closure.unclosable).sum())
     if flattened:
-        findings.append(finding("flat_components", count=flattened, total=int(closure.number)))
+        findings.append(finding(FLAT_COMPONENTS, count=flattened, total=int(closure.number)))
     loops = [loop for loop in closure.loops if solid[closure.component[loop.patch]]]
     flat, curved = (
         [loop for loop in loops if not loop.zero_area and loop.is_planar == level] for level in (True, False)
@@ -437,19 +463,19 @@ def _closing_findings(
         slight = capped * size < NEGLIGIBLE * volume
         findings.append(
             finding(
-                "flat_patch_holes_capped_slightly" if slight else "flat_patch_holes_capped",
+                FLAT_PATCH_HOLES_CAPPED_SLIGHTLY if slight else FLAT_PATCH_HOLES_CAPPED,
                 count=len(flat),
                 share=float(capped / area),
             )
         )
     crossing = sum(bool(loop.self_intersecting) for loop in loops)
     if crossing:
-        findings.append(finding("patch_boundary_crosses_itself", count=crossing))
+        findings.append(finding(PATCH_BOUNDARY_CROSSES_ITSELF, count=crossing))
     if curved:
         capped, worst = sum(loop.area for loop in curved), max(loop.out_of_plane for loop in curved)
         values = {"count": len(curved), "share": float(capped / area)}
         if capped * size < NEGLIGIBLE * volume:
-            findings.append(finding("curved_patch_holes_capped_slightly", **values))
+            findings.append(finding(CURVED_PATCH_HOLES_CAPPED_SLIGHTLY, **values))
         else:
-            findings.append(finding("curved_patch_holes_capped", **values, out_of_plane=float(worst / size)))
+            findings.append(finding(CURVED_PATCH_HOLES_CAPPED, **values, out_of_plane=float(worst / size)))
     return findings

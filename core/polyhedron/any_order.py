@@ -28,6 +28,7 @@ from typing import cast
 import numpy as np
 from numpy.typing import NDArray
 
+from ..inertia.findings import MOMENTS_OVERFLOW
 from ..mesh.surface import Surface, flipped_quads
 from ..moments.exponents import count_of_degree, monomial_count, monomials, quotient_indices
 from ..moments.moments import Measure, Moments, U
@@ -213,7 +214,7 @@ class _StreamIntegrator:
         if (beyond + 2) * (self.order + 3) > MAX_EXPONENT:
             raise ValueError("about and reach needed")
         if (max(beyond, 0) + self.exponent) * (self.order + 3) > MAX_EXPONENT:
-            raise MeasureError("moments_overflow", order=int(self.order))
+            raise MeasureError(MOMENTS_OVERFLOW, order=int(self.order))
 
     def _run(self, task: _FaceBatch) -> tuple[int, list[Sums]]:
         """One task, in whatever thread: how many faces it has, and what each of its blocks adds."""

@@ -15,6 +15,7 @@ from typing import Any, overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..inertia.findings import MOMENTS_OVERFLOW
 from ..mesh.boundary import BoundarySum
 from ..mesh.planarity import PlanarityAccumulator
 from ..mesh.surface import Surface
@@ -24,6 +25,7 @@ from ..numerics.arguments import check_order, check_type, float_array, number_ar
 from ..numerics.arrays import indices_in_range
 from ..verdict.finding import MeasureError
 from . import any_order, third_order
+from .findings import SURFACE_NOT_CLOSED
 from .third_order import box_center, finite_box, nothing
 from .third_order_kernel import NO_VERTEX
 
@@ -164,11 +166,11 @@ def polyhedron_moments(
         volume, area = _sum_to_third_order(stream, threads, about, progress, planarity=planarity, **options)
         # Bounds are not negative, and an area's have one power of the reach less.
         if not isfinite(np.add.reduce(volume.rounding_error[: monomial_count(highest)])):
-            raise MeasureError("moments_overflow", order=int(order))
+            raise MeasureError(MOMENTS_OVERFLOW, order=int(order))
     else:
         volume, area = any_order.integrate(stream, highest, area_order is not None, threads, progress, about, reach)
     if not boundary.is_zero:
-        raise MeasureError("surface_not_closed")
+        raise MeasureError(SURFACE_NOT_CLOSED)
     if area_order is None or area is None:
         return _to_order(volume, order), None
     return _to_order(volume, order), _to_order(area, area_order)

@@ -24,10 +24,13 @@ from math import comb, factorial, isfinite
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..inertia.findings import MOMENTS_OVERFLOW
 from ..moments.exponents import check_exponents
 from ..moments.moments import PAIRWISE_SUM_ROUNDINGS, U
 from ..numerics.arguments import check_order, float_array
 from ..verdict.finding import MeasureError
+from ..verdict.findings import OBJECT_TOO_SMALL
+from .findings import BOUNDARY_OPEN
 from .simplices import closes, simplex_arrays
 
 NUMBERS_PER_BLOCK = 1 << 20  # numbers in the table of a block
@@ -194,11 +197,11 @@ def _measure(
     measure = dimension if enclosed else dimension - 1
     extent = float((high / 2.0 - low / 2.0).max())
     if extent > 0.0 and int(np.frexp(extent)[1]) * measure < np.finfo(np.float64).minexp:
-        raise MeasureError("object_too_small")
+        raise MeasureError(OBJECT_TOO_SMALL)
     if signs is not None:
         signs = float_array("signs", signs, len(simplices))
     if not (allow_open or closes(points, simplices, signs)):
-        raise MeasureError("boundary_open")
+        raise MeasureError(BOUNDARY_OPEN)
     degree = indices.sum(axis=1)
     raw, size = np.zeros((2, len(indices)))
     block = max(MIN_SIMPLICES_PER_BLOCK, NUMBERS_PER_BLOCK // (2 * len(indices)))
@@ -230,7 +233,7 @@ def _measure(
     with np.errstate(over="ignore"):
         raw, error = np.ldexp(raw * factor, power), np.ldexp(error * factor, power)
     if not np.isfinite([raw, error]).all():
-        raise MeasureError("moments_overflow", order=int(order))
+        raise MeasureError(MOMENTS_OVERFLOW, order=int(order))
     return SimplexMoments(raw, center, order, error + np.finfo(np.float64).smallest_subnormal)
 
 

@@ -19,6 +19,16 @@ from ..solid.measure import measure_solid
 from ..verdict.finding import FileError, Finding, MeasureError, finding
 from ..verdict.method import Verdict
 from .diagnosis import OF_GEOMETRY, Reference, diagnose
+from .findings import (
+    AUDIT_SHAPE_ANGLES_IN_DEGREES,
+    AUDIT_UNIFORM_INSTEAD,
+    AUDIT_UP_AXIS,
+    INERTIAL_MASS_NOT_POSITIVE,
+    INERTIAL_MISSING,
+    INERTIAL_NOT_FINITE,
+    INERTIAL_OF_FRAME,
+    INERTIAL_TRIANGLE_SLIGHTLY,
+)
 from .model import Pose, Shape
 from .plausibility import Hull, impossible
 from .read.meshes import read_mesh
@@ -102,10 +112,10 @@ class Auditor:
         findings = list(link.findings)
         if link.inertial is None:
             if link.moves and not findings:
-                findings.append(finding("inertial_missing"))
+                findings.append(finding(INERTIAL_MISSING))
             return LinkAudit(link, tuple(findings))
         if not link.shapes and not link.inertial.mass and not link.inertial.tensor.any():
-            return LinkAudit(link, (*findings, finding("inertial_of_frame")))
+            return LinkAudit(link, (*findings, finding(INERTIAL_OF_FRAME)))
         pieces, unread = self._pieces(link.shapes)
         findings += unread
         found = _judge(link.inertial, pieces, bool(unread))
@@ -114,7 +124,7 @@ class Auditor:
             other = _judge(link.inertial, turned, bool(unread))
             if (other.impossible, 2.0 * other.apart) < (found.impossible, found.apart):
                 found = other
-                findings.append(finding("audit_up_axis"))
+                findings.append(finding(AUDIT_UP_AXIS))
         return LinkAudit(link, (*findings, *found.findings), found.repaired, found.density)
 
     def _pieces(self, shapes: Iterable[StatedShape]) -> tuple[Pieces, list[Finding]]:
@@ -160,11 +170,11 @@ def _judge(stated: StatedInertial, pieces: Pieces, incomplete: bool) -> _Judgmen
         for one, piece in several
     ]
     findings = impossible(stated, Hull(np.concatenate(points)) if points and not incomplete else None)
-    if any(one.code in ("inertial_not_finite", "inertial_mass_not_positive") for one in findings):
+    if any(one.code in (INERTIAL_NOT_FINITE, INERTIAL_MASS_NOT_POSITIVE) for one in findings):
         return _Judgment(findings, True)
     references = [] if incomplete else [made for several in pieces.values() if (made := _reference(several))]
     diagnosis = diagnose(stated, references, [] if incomplete else _turned(pieces))
-    wrong = any(one.code != "inertial_triangle_slightly" for one in findings)
+    wrong = any(one.code != INERTIAL_TRIANGLE_SLIGHTLY for one in findings)
     repaired, by_geometry = None, False
     if diagnosis is not None:
         findings.append(diagnosis.finding)
@@ -173,7 +183,7 @@ def _judge(stated: StatedInertial, pieces: Pieces, incomplete: bool) -> _Judgmen
         return _Judgment(findings, wrong, repaired)
     if wrong and repaired is None and not by_geometry:
         repaired = references[0].uniform(stated.mass)
-        findings.append(finding("audit_uniform_instead"))
+        findings.append(finding(AUDIT_UNIFORM_INSTEAD))
     apart = min(reference.of(stated) for reference in references)
     return _Judgment(findings, wrong, repaired, stated.mass / references[0].volume, apart)
 
@@ -217,7 +227,7 @@ def _turned(pieces: Pieces) -> list[tuple[Finding, Reference]]:
                 turned.append((replace(stated, shape=replace(stated.shape, pose=pose)), piece))
             reference = _reference(turned)
             if reference is not None:
-                result.append((finding("audit_shape_angles_in_degrees"), reference))
+                result.append((finding(AUDIT_SHAPE_ANGLES_IN_DEGREES), reference))
     return result
 
 

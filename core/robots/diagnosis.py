@@ -19,6 +19,38 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..numerics.rotations import rotation_matrix
 from ..verdict.finding import Finding, finding
+from .findings import (
+    AUDIT_ALL_AXES_SWAPPED,
+    AUDIT_ANGLES_IN_DEGREES,
+    AUDIT_ANGLES_IN_RADIANS,
+    AUDIT_AXES_SWAPPED,
+    AUDIT_AXES_TRANSPOSED,
+    AUDIT_CENTER_AXES_SWAPPED,
+    AUDIT_CENTER_SIGN,
+    AUDIT_CENTER_UNIT,
+    AUDIT_DENSITY,
+    AUDIT_DIAGONAL_SWAPPED,
+    AUDIT_FRAME_NOT_MEANT,
+    AUDIT_FRAME_TRANSPOSED,
+    AUDIT_FRAME_TURNED,
+    AUDIT_INERTIA_ABOUT_MESH_ORIGIN,
+    AUDIT_INERTIA_ABOUT_ORIGIN,
+    AUDIT_INERTIA_OF_UNIT_DENSITY,
+    AUDIT_INERTIA_OF_UNIT_MASS,
+    AUDIT_INERTIA_SHIFTED_TWICE,
+    AUDIT_INERTIA_UNIT,
+    AUDIT_LENGTH_UNIT,
+    AUDIT_MASS_AND_INERTIA_UNIT,
+    AUDIT_MASS_UNIT,
+    AUDIT_MESH_UNIT,
+    AUDIT_MIRRORED,
+    AUDIT_NOT_UNIFORM,
+    AUDIT_PRODUCTS_SIGN,
+    AUDIT_PRODUCTS_SWAPPED,
+    AUDIT_QUATERNION_ORDER,
+    AUDIT_SHAPE_ANGLES_IN_DEGREES,
+    AUDIT_TENSOR_TURNED,
+)
 from .stated import StatedInertial, rotation_of_angles
 
 AGREES, DIFFERS = 5e-3, 1e-2  # of radius of gyration and inertia: the same; more than digits can explain
@@ -27,7 +59,7 @@ INERTIA_UNITS = (1e-6, 1e-3, 1e-9, 1e-4, 1e-7, 1e6, 1e3, 1e9, 1e4, 1e7)
 DENSITIES = (10.0, 30_000.0)  # kg/m³ of what robots are made of: foam, and more than the heaviest metal
 USUAL_DENSITIES = (100.0, 12_000.0)  # of most of their parts: what a change that nothing else shows has to give
 AXES = np.array(list(permutations(range(3))))[1:]
-OF_GEOMETRY = ("audit_mesh_unit", "audit_shape_angles_in_degrees")  # what leaves the inertial as it is
+OF_GEOMETRY = (AUDIT_MESH_UNIT, AUDIT_SHAPE_ANGLES_IN_DEGREES)  # what leaves the inertial as it is
 PRODUCT_NAMES = ("xy", "xz", "yz")
 
 
@@ -135,7 +167,7 @@ def diagnose(
         return best[1]
     factor = float(np.trace(stated.inertia) / stated.mass / np.trace(nearest.inertia))
     distance = float(np.linalg.norm(stated.center - nearest.center))
-    return Diagnosis(finding("audit_not_uniform", factor=factor, distance=distance))
+    return Diagnosis(finding(AUDIT_NOT_UNIFORM, factor=factor, distance=distance))
 
 
 def _density(stated: StatedInertial, reference: Reference) -> Diagnosis | None:
@@ -147,18 +179,18 @@ def _density(stated: StatedInertial, reference: Reference) -> Diagnosis | None:
         if USUAL_DENSITIES[0] <= density * factor <= USUAL_DENSITIES[1]:
             mass, inertia = float(_times(stated.mass, factor)), _times(stated.inertia, factor)
             repaired = stated.along_link(inertia, mass=mass)
-            return Diagnosis(finding("audit_mass_and_inertia_unit", density=density, factor=factor), repaired)
-    return Diagnosis(finding("audit_density", density=density))
+            return Diagnosis(finding(AUDIT_MASS_AND_INERTIA_UNIT, density=density, factor=factor), repaired)
+    return Diagnosis(finding(AUDIT_DENSITY, density=density))
 
 
 def _with_density(change: Finding, stated: StatedInertial, reference: Reference) -> Finding:
     """Where both lengths may be wrong, the file's and the mesh's, the density decides."""
-    if change.code != "audit_length_unit":
+    if change.code != AUDIT_LENGTH_UNIT:
         return change
     factor, density = change.values["factor"], stated.mass / reference.volume
     other = density * factor**3  # were the mesh scaled by 1/factor
     if DENSITIES[0] <= other <= DENSITIES[1]:  # then `density` is not: cubes of factors are farther apart
-        return finding("audit_mesh_unit", factor=1.0 / factor)
+        return finding(AUDIT_MESH_UNIT, factor=1.0 / factor)
     return change
 
 
@@ -188,27 +220,27 @@ def _units(stated: StatedInertial, reference: Reference) -> Iterator[Change]:
     for factor in (1e-3, 1e3):
         heavy = density * factor
         if DENSITIES[0] <= heavy <= DENSITIES[1] and not DENSITIES[0] <= density <= DENSITIES[1]:
-            yield "audit_mass_unit", {"factor": factor}, replace(stated, mass=float(_times(mass, factor)))
+            yield AUDIT_MASS_UNIT, {"factor": factor}, replace(stated, mass=float(_times(mass, factor)))
     for factor in INERTIA_UNITS:
-        yield "audit_inertia_unit", {"factor": factor}, stated.along_link(_times(inertia, factor))
+        yield AUDIT_INERTIA_UNIT, {"factor": factor}, stated.along_link(_times(inertia, factor))
     for factor in LENGTH_UNITS:
-        yield "audit_center_unit", {"factor": factor}, replace(stated, center=_times(center, factor))
+        yield AUDIT_CENTER_UNIT, {"factor": factor}, replace(stated, center=_times(center, factor))
     for factor in LENGTH_UNITS:
         whole = stated.along_link(_times(_times(inertia, factor), factor), center=_times(center, factor))
-        yield "audit_length_unit", {"factor": factor}, whole
-    yield "audit_inertia_of_unit_mass", {"factor": mass}, stated.along_link(inertia * mass)
-    yield "audit_inertia_of_unit_density", {"factor": density}, stated.along_link(inertia * density)
+        yield AUDIT_LENGTH_UNIT, {"factor": factor}, whole
+    yield AUDIT_INERTIA_OF_UNIT_MASS, {"factor": mass}, stated.along_link(inertia * mass)
+    yield AUDIT_INERTIA_OF_UNIT_DENSITY, {"factor": density}, stated.along_link(inertia * density)
 
 
 def _points(stated: StatedInertial, reference: Reference) -> Iterator[Change]:
     """The inertia about another point than the center; the parallel-axis term with the wrong sign."""
     term = stated.mass * _square(stated.center)
-    yield "audit_inertia_about_origin", {}, stated.along_link(stated.inertia - term)
-    yield "audit_inertia_shifted_twice", {}, stated.along_link(stated.inertia + term)
+    yield AUDIT_INERTIA_ABOUT_ORIGIN, {}, stated.along_link(stated.inertia - term)
+    yield AUDIT_INERTIA_SHIFTED_TWICE, {}, stated.along_link(stated.inertia + term)
     for origin in reference.origins:
         term = stated.mass * _square(stated.center - origin)
         changed = stated.along_link(stated.inertia - term)
-        yield "audit_inertia_about_mesh_origin", {"point": origin.tolist()}, changed
+        yield AUDIT_INERTIA_ABOUT_MESH_ORIGIN, {"point": origin.tolist()}, changed
 
 
 def _square(arm: NDArray) -> NDArray[np.float64]:
@@ -218,15 +250,15 @@ def _square(arm: NDArray) -> NDArray[np.float64]:
 def _frames(stated: StatedInertial) -> Iterator[Change]:
     """The inertial frame's rotation in other units, the other way round, or not meant."""
     if stated.angles is not None:
-        for code, convert in (("audit_angles_in_degrees", radians), ("audit_angles_in_radians", degrees)):
+        for code, convert in ((AUDIT_ANGLES_IN_DEGREES, radians), (AUDIT_ANGLES_IN_RADIANS, degrees)):
             turned = rotation_of_angles(*map(convert, stated.angles))
             yield code, {}, replace(stated, rotation=turned)
     if stated.quaternion is not None:
         w, x, y, z = stated.quaternion
         for order in ((z, w, x, y), (x, y, z, w)):
-            yield "audit_quaternion_order", {}, replace(stated, rotation=rotation_matrix(order))
-    yield "audit_frame_transposed", {}, replace(stated, rotation=stated.rotation.T)
-    yield "audit_frame_not_meant", {}, replace(stated, rotation=np.eye(3))
+            yield AUDIT_QUATERNION_ORDER, {}, replace(stated, rotation=rotation_matrix(order))
+    yield AUDIT_FRAME_TRANSPOSED, {}, replace(stated, rotation=stated.rotation.T)
+    yield AUDIT_FRAME_NOT_MEANT, {}, replace(stated, rotation=np.eye(3))
 
 
 def _signs(stated: StatedInertial) -> Iterator[Change]:
@@ -238,16 +270,16 @@ def _signs(stated: StatedInertial) -> Iterator[Change]:
             tensor[rows, columns] = tensor[columns, rows] = tensor[rows, columns] * signs
             changed = stated.along_link(tensor) if along_link else replace(stated, tensor=tensor)
             names = [name for name, sign in zip(PRODUCT_NAMES, signs) if sign == -1.0]
-            yield "audit_products_sign", {"products": names}, changed
+            yield AUDIT_PRODUCTS_SIGN, {"products": names}, changed
     for signs in (*some, all_of_them):
         flipped = np.array(signs)
         names = [axis for axis, sign in zip("xyz", signs) if sign == -1.0]
-        yield "audit_center_sign", {"axes": names}, replace(stated, center=stated.center * flipped)
+        yield AUDIT_CENTER_SIGN, {"axes": names}, replace(stated, center=stated.center * flipped)
     for axis in range(3):
         mirror = np.ones(3)
         mirror[axis] = -1.0
         changed = stated.along_link(stated.inertia * np.outer(mirror, mirror), center=stated.center * mirror)
-        yield "audit_mirrored", {"axis": "xyz"[axis]}, changed
+        yield AUDIT_MIRRORED, {"axis": "xyz"[axis]}, changed
 
 
 def _orders(stated: StatedInertial) -> Iterator[Change]:
@@ -255,14 +287,14 @@ def _orders(stated: StatedInertial) -> Iterator[Change]:
     for order in AXES:
         swapped = stated.inertia[np.ix_(order, order)]
         values = {"order": "".join("xyz"[axis] for axis in order)}
-        yield "audit_axes_swapped", values, stated.along_link(swapped)
-        yield "audit_center_axes_swapped", values, replace(stated, center=stated.center[order])
-        yield "audit_all_axes_swapped", values, stated.along_link(swapped, center=stated.center[order])
+        yield AUDIT_AXES_SWAPPED, values, stated.along_link(swapped)
+        yield AUDIT_CENTER_AXES_SWAPPED, values, replace(stated, center=stated.center[order])
+        yield AUDIT_ALL_AXES_SWAPPED, values, stated.along_link(swapped, center=stated.center[order])
         diagonal = stated.inertia - np.diag(np.diag(stated.inertia)) + np.diag(np.diag(stated.inertia)[order])
-        yield "audit_diagonal_swapped", values, stated.along_link(diagonal)
+        yield AUDIT_DIAGONAL_SWAPPED, values, stated.along_link(diagonal)
         # The products alone, such as ixz before ixy: xy, xz and yz are opposite to z, y and x.
         products = np.diag(np.diag(stated.inertia)) + (swapped - np.diag(np.diag(swapped)))
-        yield "audit_products_swapped", values, stated.along_link(products)
+        yield AUDIT_PRODUCTS_SWAPPED, values, stated.along_link(products)
     for axis in range(3):  # a quarter turn: y up for z up
         for way in (1.0, -1.0):
             turn = np.eye(3)
@@ -271,8 +303,8 @@ def _orders(stated: StatedInertial) -> Iterator[Change]:
             turn[first, second], turn[second, first] = -way, way
             inertia, center = turn @ stated.inertia @ turn.T, turn @ stated.center
             values = {"axis": "xyz"[axis]}
-            yield "audit_frame_turned", values, stated.along_link(inertia, center=center)
-            yield "audit_tensor_turned", values, stated.along_link(inertia)
+            yield AUDIT_FRAME_TURNED, values, stated.along_link(inertia, center=center)
+            yield AUDIT_TENSOR_TURNED, values, stated.along_link(inertia)
 
 
 def _transposed(stated: StatedInertial) -> Iterator[Change]:
@@ -282,4 +314,4 @@ def _transposed(stated: StatedInertial) -> Iterator[Change]:
         for signs in ((1, 1, 1), (1, 1, -1), (1, -1, 1), (-1, 1, 1)):
             rows = axes[:, order] * signs
             tensor = rows.T @ (moments[list(order)][:, None] * rows)
-            yield "audit_axes_transposed", {}, stated.along_link(tensor)
+            yield AUDIT_AXES_TRANSPOSED, {}, stated.along_link(tensor)

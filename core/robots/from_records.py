@@ -18,6 +18,7 @@ import numpy as np
 from ..measurement.measurement import Measurement
 from ..numerics.rotations import rotation_matrix
 from ..verdict.finding import Finding, finding
+from .findings import ROBOT_LINKS_LEFT_OUT, ROBOT_WITHOUT_LINKS
 from .model import FreeAxis, Inertial, Joint, Link, Pose, Robot, Shape
 
 DEFAULT_NAME = "robot"
@@ -55,9 +56,9 @@ def robot_of_records(name: str, records: Sequence[Mapping[str, Any]]) -> tuple[R
         if parent is not None:
             joints.append(Joint("{}_joint".format(label), parent, label, _free(record["link"].get("free", ()))))
     left_out = [record["name"] for record in records if record["name"] not in usable]
-    findings = [finding("robot_links_left_out", count=len(left_out), links=left_out)] if left_out else []
+    findings = [finding(ROBOT_LINKS_LEFT_OUT, count=len(left_out), links=left_out)] if left_out else []
     if not usable:
-        findings.append(finding("robot_without_links"))
+        findings.append(finding(ROBOT_WITHOUT_LINKS))
     return Robot(name, tuple(links), tuple(joints)), findings
 
 

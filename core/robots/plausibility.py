@@ -16,6 +16,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..verdict.finding import Finding, finding
+from .findings import (
+    INERTIAL_CENTER_OUTSIDE,
+    INERTIAL_MASS_NOT_POSITIVE,
+    INERTIAL_NOT_FINITE,
+    INERTIAL_NOT_POSITIVE,
+    INERTIAL_SPREAD_OUTSIDE,
+    INERTIAL_TRIANGLE,
+    INERTIAL_TRIANGLE_SLIGHTLY,
+)
 from .stated import StatedInertial
 
 ROUNDING = 1e-3  # relatively: what numbers printed with few digits may break
@@ -116,17 +125,17 @@ def impossible(stated: StatedInertial, hull: Hull | None) -> list[Finding]:
     """
     numbers = np.concatenate([[stated.mass], stated.center, stated.inertia.ravel()])
     if not np.isfinite(numbers).all():
-        return [finding("inertial_not_finite")]
+        return [finding(INERTIAL_NOT_FINITE)]
     if not stated.mass > 0.0:
-        return [finding("inertial_mass_not_positive", mass=float(stated.mass))]
+        return [finding(INERTIAL_MASS_NOT_POSITIVE, mass=float(stated.mass))]
     moments = np.linalg.eigvalsh(stated.inertia)
     if not moments[0] > ZERO_RTOL * moments[2]:
         moment = 0.0 if abs(moments[0]) <= ZERO_RTOL * abs(moments[2]) else float(moments[0])
-        return [finding("inertial_not_positive", moment=moment)]
+        return [finding(INERTIAL_NOT_POSITIVE, moment=moment)]
     excess = float(moments[2] / (moments[0] + moments[1]) - 1.0)
     if excess > ROUNDING:
-        return [finding("inertial_triangle", moments=moments.tolist(), excess=excess)]
-    findings = [finding("inertial_triangle_slightly", excess=excess)] if excess > 1e-12 else []
+        return [finding(INERTIAL_TRIANGLE, moments=moments.tolist(), excess=excess)]
+    findings = [finding(INERTIAL_TRIANGLE_SLIGHTLY, excess=excess)] if excess > 1e-12 else []
     return findings if hull is None else findings + _outside(stated, hull)
 
 
@@ -152,7 +161,7 @@ def _outside(stated: StatedInertial, hull: Hull) -> list[Finding]:
     """Of what is the inertial of a body, why it is that of none within the hull."""
     distance = hull.distance(stated.center)
     if distance > CENTER_RTOL * hull.size:
-        return [finding("inertial_center_outside", distance=distance)]
+        return [finding(INERTIAL_CENTER_OUTSIDE, distance=distance)]
     second = (np.trace(stated.inertia) / 2.0 * np.eye(3) - stated.inertia) / stated.mass
     directions = np.concatenate([np.linalg.eigh(second)[1].T, _sphere(DIRECTIONS)])
     variance = np.einsum("ki,ij,kj->k", directions, second, directions)
@@ -162,7 +171,7 @@ def _outside(stated: StatedInertial, hull: Hull) -> list[Finding]:
     worst = int(np.argmax((variance - limit) / (limit + tolerance)))
     if variance[worst] > limit[worst] + tolerance[worst]:
         factor = float(variance[worst] / max(limit[worst], tolerance[worst]))
-        return [finding("inertial_spread_outside", factor=factor, direction=directions[worst].tolist())]
+        return [finding(INERTIAL_SPREAD_OUTSIDE, factor=factor, direction=directions[worst].tolist())]
     return []
 
 

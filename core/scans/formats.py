@@ -13,6 +13,18 @@ from numpy.typing import NDArray
 
 from ..numerics.arguments import check_type, float_array
 from ..verdict.finding import FileError, Finding, finding
+from .findings import (
+    FILE_MISSING,
+    FILE_NOT_REGULAR,
+    SCAN_FILE_TYPE,
+    SCAN_OUT_OF_MEMORY,
+    SCAN_OWN_UNIT,
+    SCAN_PLACEMENT,
+    SCAN_PLACEMENT_OVERRIDDEN,
+    SCAN_SCALING,
+    SCAN_WITHOUT_SPACING,
+    SCAN_WITHOUT_UNIT,
+)
 from .limits import DEFAULT_LIMITS, Limits
 from .nifti import read_nifti
 from .nrrd import read_nrrd
@@ -88,20 +100,20 @@ def read_scan(path: str | Path, limits: Limits = DEFAULT_LIMITS) -> Scan:
     path = Path(path)
     read = READERS.get(scan_suffix(path))
     if read is None:
-        raise FileError("scan_file_type", suffixes=" ".join(SUFFIXES))
+        raise FileError(SCAN_FILE_TYPE, suffixes=" ".join(SUFFIXES))
     if not path.is_file():
-        raise FileError("file_not_regular" if path.exists() else "file_missing")
+        raise FileError(FILE_NOT_REGULAR if path.exists() else FILE_MISSING)
     with open(path, "rb"):
         pass  # where it cannot be opened this says why; what reads it would take it for damaged
     try:
         scan = read(path, limits)
     except MemoryError as error:
-        raise FileError("scan_out_of_memory") from error
+        raise FileError(SCAN_OUT_OF_MEMORY) from error
     limits.check(path, "samples", scan.samples.size)
     if not np.isfinite(scan.matrix).all() or not abs(np.linalg.det(scan.matrix[:3, :3])) > 0.0:
-        raise FileError("scan_placement")
+        raise FileError(SCAN_PLACEMENT)
     if not (math.isfinite(scan.slope) and math.isfinite(scan.intercept)):
-        raise FileError("scan_scaling")
+        raise FileError(SCAN_SCALING)
     return scan
 
 
@@ -137,7 +149,7 @@ def sample_matrix(
     matrix = float_array("scan.matrix", scan.matrix, 4, 4).copy()
     meters_per_unit = (unit_scale or 1.0) if scan.unit is None else scan.unit
     if scan.unit is not None and unit_scale is not None:
-        findings.append(finding("scan_own_unit"))
+        findings.append(finding(SCAN_OWN_UNIT))
     given = unit_scale or 1.0
     matrix[:3] *= meters_per_unit
     if spacing is not None:
@@ -146,9 +158,9 @@ def sample_matrix(
         matrix[:3, 3] = float_array("origin", origin, 3) * given
     if scan.is_placed and (spacing is not None or origin is not None):
         fields = [name for name, value in (("spacing", spacing), ("origin", origin)) if value is not None]
-        findings.append(finding("scan_placement_overridden", fields=fields))
+        findings.append(finding(SCAN_PLACEMENT_OVERRIDDEN, fields=fields))
     if not scan.is_placed and spacing is None:
-        findings.append(finding("scan_without_spacing"))
+        findings.append(finding(SCAN_WITHOUT_SPACING))
     elif scan.unit is None and unit_scale is None and spacing is None:
-        findings.append(finding("scan_without_unit"))
+        findings.append(finding(SCAN_WITHOUT_UNIT))
     return matrix, tuple(findings)

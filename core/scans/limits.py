@@ -10,6 +10,7 @@ from pathlib import Path
 
 from ..verdict.finding import FileError, QueryError
 from ..verdict.number_text import parse_number
+from .findings import FILE_EXCEEDS_LIMIT, LIMITS_UNRECOGNIZED
 
 
 @dataclass(frozen=True)
@@ -39,7 +40,7 @@ class Limits:
             except (ValueError, OverflowError):
                 given[name] = 0
             if name not in names or given[name] < 1:
-                raise QueryError("limits_unrecognized", text=part[:60], names=names)
+                raise QueryError(LIMITS_UNRECOGNIZED, text=part[:60], names=names)
         return replace(cls(), **given)
 
     def check(self, path: Path, name: str, count: int) -> None:
@@ -47,7 +48,7 @@ class Limits:
         limit = getattr(self, name)
         if count > limit:
             wanted = max(int(count), 2 * limit)
-            raise FileError("file_exceeds_limit", file=path.name, name=name, count=int(count), limit=limit, next=wanted)
+            raise FileError(FILE_EXCEEDS_LIMIT, file=path.name, name=name, count=int(count), limit=limit, next=wanted)
 
 
 DEFAULT_LIMITS = Limits()

@@ -14,6 +14,17 @@ from numpy.typing import NDArray
 
 from ..numerics.rotations import rotation_matrix
 from ..verdict.finding import FileError
+from .findings import (
+    DAMAGE_HEADER,
+    NIFTI_DIMENSIONS,
+    NIFTI_HEADER_OF_PAIR,
+    NIFTI_OFFSET,
+    NIFTI_ROTATION,
+    NIFTI_SPACING,
+    NIFTI_TYPE,
+    NIFTI_TYPE_SIZE,
+    NIFTI_UNRECOGNIZED,
+)
 from .limits import Limits
 from .scan import Scan, damaged, gzip_blocks, map_samples, shape_of, unpack_samples
 
@@ -29,27 +40,27 @@ def read_nifti(path: Path, limits: Limits) -> Scan:
     packed = path.name.lower().endswith(".gz")
     head = _head(path, packed)
     if len(head) < HEADER:
-        raise damaged(path, "damage_header", bytes=HEADER)
+        raise damaged(path, DAMAGE_HEADER, bytes=HEADER)
     order: ByteOrder | None = next(
         (mark for mark in BYTE_ORDERS if struct.unpack_from(mark + "i", head)[0] == 348), None
     )
     if order is None or head[344:348] not in (b"n+1\0", b"ni1\0"):
-        raise FileError("nifti_unrecognized")
+        raise FileError(NIFTI_UNRECOGNIZED)
     if head[344:348] == b"ni1\0":
-        raise FileError("nifti_header_of_pair")
+        raise FileError(NIFTI_HEADER_OF_PAIR)
     dim = struct.unpack_from(order + "8h", head, 40)
     if not 1 <= dim[0] <= 7:
-        raise FileError("nifti_dimensions", dimensions=dim[0])
+        raise FileError(NIFTI_DIMENSIONS, dimensions=dim[0])
     shape = shape_of(dim[1 : dim[0] + 1])
     code, bits = struct.unpack_from(order + "2h", head, 70)
     if code not in TYPES:
-        raise FileError("nifti_type", type=code)
+        raise FileError(NIFTI_TYPE, type=code)
     dtype = np.dtype(TYPES[code]).newbyteorder(order)
     if bits not in (0, 8 * dtype.itemsize):
-        raise FileError("nifti_type_size", bits=bits, type=code)
+        raise FileError(NIFTI_TYPE_SIZE, bits=bits, type=code)
     offset, slope, intercept = struct.unpack_from(order + "3f", head, 108)
     if not 348.0 <= offset < 1 << 40 or offset != int(offset):
-        raise FileError("nifti_offset", offset=offset)
+        raise FileError(NIFTI_OFFSET, offset=offset)
     matrix, placed = _sample_matrix(head, order)
     if packed:
         samples = unpack_samples(path, 0, dtype, shape, int(offset), limits)
@@ -84,11 +95,11 @@ def _sample_matrix(head: bytes, order: str) -> tuple[NDArray[np.float64], bool]:
     spacing = np.abs(pixdim[1:4])
     if not all(0.0 < distance < math.inf for distance in spacing):
         if qform > 0 or any(pixdim[1:4]):
-            raise FileError("nifti_spacing", **dict(zip("xyz", spacing.tolist())))
+            raise FileError(NIFTI_SPACING, **dict(zip("xyz", spacing.tolist())))
         return matrix, False
     if qform > 0:
         if not all(map(math.isfinite, (b, c, d, *offset))) or b * b + c * c + d * d > 1.0 + 1e-5:
-            raise FileError("nifti_rotation")
+            raise FileError(NIFTI_ROTATION)
         a = math.sqrt(max(0.0, 1.0 - (b * b + c * c + d * d)))
         turn = rotation_matrix((a, b, c, d))
         turn[:, 2] *= -1.0 if pixdim[0] < 0.0 else 1.0

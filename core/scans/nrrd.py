@@ -14,6 +14,24 @@ from numpy.typing import NDArray
 
 from ..verdict.finding import FileError
 from ..verdict.number_text import parse_number, parse_whole
+from .findings import (
+    DAMAGE_LINES,
+    NRRD_DATA_FILE_MISSING,
+    NRRD_DATA_FILE_OUTSIDE,
+    NRRD_DIMENSION_MISMATCH,
+    NRRD_ENCODING,
+    NRRD_ENDIAN_MISSING,
+    NRRD_FIELD_MISSING,
+    NRRD_FIELD_NOT_NUMBERS,
+    NRRD_FIELD_NOT_ONE_NUMBER,
+    NRRD_HEADER_UNENDED,
+    NRRD_SEVERAL_FILES,
+    NRRD_SPACE_DIRECTIONS,
+    NRRD_SPACINGS,
+    NRRD_TYPE,
+    NRRD_UNRECOGNIZED,
+    NRRD_VECTOR,
+)
 from .limits import Limits
 from .scan import Scan, damaged, map_samples, shape_of, unpack_samples
 
@@ -61,11 +79,11 @@ def read_header(path: Path, limits: Limits) -> tuple[dict[str, str], int | None]
             seen = max(0, len(head) - 3)
             head += block
             if not re.match(rb"NRRD000[1-5]\r?\n", head):
-                raise FileError("nrrd_unrecognized")
+                raise FileError(NRRD_UNRECOGNIZED)
             end = _HEADER_END.search(head, seen)
             limits.check(path, "header_bytes", end.end() if end else len(head))
     if not head:
-        raise FileError("nrrd_unrecognized")
+        raise FileError(NRRD_UNRECOGNIZED)
     fields = {}
     text = head[: end.start() if end else len(head)].decode("latin-1")
     for line in text.splitlines()[1:]:
@@ -86,7 +104,7 @@ def read_nrrd(path: Path, limits: Limits) -> Scan:
 
     def needed(name: str) -> str:
         if name not in fields:
-            raise FileError("nrrd_field_missing", field=name)
+            raise FileError(NRRD_FIELD_MISSING, field=name)
         return fields[name]
 
     def numbers(name: str, kind: type, default: str = "") -> list:
@@ -94,19 +112,19 @@ def read_nrrd(path: Path, limits: Limits) -> Scan:
             parse = parse_whole if kind is int else parse_number
             return [parse(word) for word in fields.get(name, default).split()]
         except (ValueError, OverflowError):
-            raise FileError("nrrd_field_not_numbers", field=name, text=fields[name]) from None
+            raise FileError(NRRD_FIELD_NOT_NUMBERS, field=name, text=fields[name]) from None
 
     sizes = numbers("sizes", int) if needed("sizes") else []
     if numbers("dimension", int) != [len(sizes)]:
-        raise FileError("nrrd_dimension_mismatch")
+        raise FileError(NRRD_DIMENSION_MISMATCH)
     shape = shape_of(sizes)
     kind = TYPES.get(needed("type").lower())
     if kind is None:
-        raise FileError("nrrd_type", type=fields["type"])
+        raise FileError(NRRD_TYPE, type=fields["type"])
     dtype = np.dtype(kind)
     endian = fields.get("endian", "").lower()
     if dtype.itemsize > 1 and endian not in ("little", "big"):
-        raise FileError("nrrd_endian_missing")
+        raise FileError(NRRD_ENDIAN_MISSING)
     dtype = dtype.newbyteorder(">" if endian == "big" else "<")
     matrix, placed, unit = _sample_matrix(fields, numbers)
     (line_skip,), (byte_skip,) = (
@@ -122,7 +140,7 @@ def read_nrrd(path: Path, limits: Limits) -> Scan:
     elif encoding in ("gzip", "gz"):
         samples = unpack_samples(source, start, dtype, shape, byte_skip, limits)
     else:
-        raise FileError("nrrd_encoding", encoding=encoding)
+        raise FileError(NRRD_ENCODING, encoding=encoding)
     return Scan(samples, matrix, unit, placed)
 
 
@@ -130,21 +148,21 @@ def _samples_start(path: Path, name: str | None, start: int | None, limits: Limi
     """The file that has the samples, and from which byte on. name: of a detached file."""
     if name is None:
         if start is None:
-            raise FileError("nrrd_header_unended")
+            raise FileError(NRRD_HEADER_UNENDED)
         return path, start
     if name.upper().startswith("LIST") or "%" in name or len(name.split()) > 3:
-        raise FileError("nrrd_several_files")
+        raise FileError(NRRD_SEVERAL_FILES)
     source = path.parent / name
     if not source.is_file():
-        raise FileError("nrrd_data_file_missing", file=name)
+        raise FileError(NRRD_DATA_FILE_MISSING, file=name)
     if not (limits.allow_outside or source.resolve().is_relative_to(path.parent.resolve())):
-        raise FileError("nrrd_data_file_outside", file=name)
+        raise FileError(NRRD_DATA_FILE_OUTSIDE, file=name)
     return source, 0
 
 
 def _single_value(values: list, name: str) -> list:
     if len(values) != 1 or values[0] < -1:
-        raise FileError("nrrd_field_not_one_number", field=name)
+        raise FileError(NRRD_FIELD_NOT_ONE_NUMBER, field=name)
     return values
 
 
@@ -158,7 +176,7 @@ def _skip_lines(path: Path, start: int, count: int, limits: Limits) -> int:
         file.seek(start)
         for _ in range(count):
             if not file.readline(limits.header_bytes).endswith(b"\n"):
-                raise damaged(path, "damage_lines")
+                raise damaged(path, DAMAGE_LINES)
         return file.tell()
 
 
@@ -173,7 +191,7 @@ def _sample_matrix(
     if "space directions" in fields:
         directions = [row for row in _vectors(fields["space directions"], "space directions") if row is not None]
         if len(directions) != 3:
-            raise FileError("nrrd_space_directions")
+            raise FileError(NRRD_SPACE_DIRECTIONS)
         matrix[:3, :3] = np.array(directions).T
         if "space origin" in fields:
             origin = _vector(fields["space origin"], "space origin")
@@ -182,7 +200,7 @@ def _sample_matrix(
     spacings = numbers("spacings", float)
     if spacings:
         if len(spacings) < 3 or not all(0.0 < abs(spacing) < math.inf for spacing in spacings[:3]):
-            raise FileError("nrrd_spacings")
+            raise FileError(NRRD_SPACINGS)
         matrix[:3, :3] = np.diag(spacings[:3])
     mins = numbers(_alias(fields, "axis mins"), float)
     if len(mins) >= 3 and np.isfinite(mins[:3]).all():
@@ -199,7 +217,7 @@ def _vectors(text: str, name: str) -> Iterator[list[float] | None]:
         rest = rest.lstrip()
         if not rest:
             return
-    raise FileError("nrrd_vector", field=name, text=text)
+    raise FileError(NRRD_VECTOR, field=name, text=text)
 
 
 def _vector(text: str, name: str) -> list[float] | None:
@@ -210,5 +228,5 @@ def _vector(text: str, name: str) -> list[float] | None:
     except ValueError:
         row = []
     if len(row) != 3 or not np.isfinite(row).all():
-        raise FileError("nrrd_vector", field=name, text=text)
+        raise FileError(NRRD_VECTOR, field=name, text=text)
     return row

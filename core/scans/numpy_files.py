@@ -16,6 +16,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..verdict.finding import FileError, finding
+from .findings import (
+    ARRAYS_LEFT_OUT,
+    DAMAGE_ARCHIVE,
+    DAMAGE_ARRAY,
+    DAMAGE_ARRAYS,
+    NO_3D_ARRAY,
+    RAW_TYPE_UNKNOWN,
+    RAW_WITHOUT_LAYOUT,
+)
 from .limits import DEFAULT_LIMITS, Limits
 from .scan import Scan, check_length, damaged, map_samples, real_samples, shape_of
 
@@ -34,7 +43,7 @@ def map_array(path: Path) -> NDArray:
     cannot be opened."""
     with open(path, "rb") as file:
         start = file.read(12)
-    with _damage(path, "damage_array"):
+    with _damage(path, DAMAGE_ARRAY):
         _check_array_header(start)
         array = np.lib.format.open_memmap(path, mode="r")
     check_length(path, path.stat().st_size - array.offset, array.nbytes)
@@ -46,10 +55,10 @@ def read_npz(path: Path, limits: Limits) -> Scan:
     with _archive(path, limits) as (archive, shapes):
         volumes = [name for name, shape in shapes.items() if len(shape) == 3]
         if not volumes:
-            raise FileError("no_3d_array")
+            raise FileError(NO_3D_ARRAY)
         name = "density" if "density" in volumes else volumes[0]
         others = [volume for volume in volumes if volume != name]
-        findings = (finding("arrays_left_out", array=name, arrays=others),) if others else ()
+        findings = (finding(ARRAYS_LEFT_OUT, array=name, arrays=others),) if others else ()
         return Scan(real_samples(_unpack(archive, path, name, limits)), np.eye(4), findings=findings)
 
 
@@ -63,7 +72,7 @@ def read_arrays(path: Path, names: Sequence[str], limits: Limits) -> dict[str, N
 @contextmanager
 def _archive(path: Path, limits: Limits) -> Iterator[tuple[zipfile.ZipFile, dict[str, tuple[int, ...]]]]:
     """An archive and the shapes of its arrays, by name. What is raised meanwhile becomes a FileError."""
-    with open(path, "rb") as file, _damage(path, "damage_arrays"), zipfile.ZipFile(file) as archive:
+    with open(path, "rb") as file, _damage(path, DAMAGE_ARRAYS), zipfile.ZipFile(file) as archive:
         entries = archive.infolist()
         limits.check(path, "entries", len(entries))
         if any(ENTRY in entry.comment + entry.extra for entry in entries):
@@ -80,7 +89,7 @@ def _damage(path: Path, code: str) -> Iterator[None]:
     except (MemoryError, FileError):
         raise
     except zipfile.BadZipFile as error:
-        raise damaged(path, "damage_archive", error=str(error).rstrip(".")) from error
+        raise damaged(path, DAMAGE_ARCHIVE, error=str(error).rstrip(".")) from error
     except Exception as error:  # of a damaged header NumPy evaluates what it finds, and may raise anything
         raise damaged(path, code) from error
 
@@ -116,7 +125,7 @@ def read_raw(
 ) -> Scan:
     """Samples with no header: shape (nx, ny, nz), x running fastest; dtype: one of TYPES."""
     if dtype not in TYPES:
-        raise FileError("raw_type_unknown", type=dtype, types=", ".join(TYPES))
+        raise FileError(RAW_TYPE_UNKNOWN, type=dtype, types=", ".join(TYPES))
     kind = np.dtype(dtype).newbyteorder(">" if big_endian else "<")
     shape = shape_of(shape)
     limits.check(Path(path), "samples", math.prod(shape))
@@ -127,5 +136,5 @@ def read_named_raw(path: Path, limits: Limits) -> Scan:
     """A raw file that is called NAME_XxYxZ_TYPE.raw, as those of the Open SciVis collection are."""
     layout = re.search(r"_(\d+)x(\d+)x(\d+)_({:s})\.raw$".format("|".join(TYPES)), path.name, re.IGNORECASE)
     if not layout:
-        raise FileError("raw_without_layout")
+        raise FileError(RAW_WITHOUT_LAYOUT)
     return read_raw(path, [int(size[:20]) for size in layout.groups()[:3]], layout[4].lower(), limits=limits)

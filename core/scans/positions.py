@@ -11,6 +11,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..verdict.finding import FileError
+from .findings import (
+    POSITIONS_COUNT,
+    POSITIONS_MISSING,
+    POSITIONS_NON_FINITE,
+    POSITIONS_NOT_A_ROW,
+    POSITIONS_NOT_ASCENDING,
+    POSITIONS_OF_ONE_SAMPLE,
+)
 from .numpy_files import map_array
 
 AXES = "xyz"
@@ -56,20 +64,20 @@ def read_positions(path: str | Path, axis: str, count: int) -> NDArray[np.float6
     path = Path(path)
     whose = {"file": path.name, "axis": axis}
     if not path.is_file():
-        raise FileError("positions_missing", **whose)
+        raise FileError(POSITIONS_MISSING, **whose)
     array = map_array(path)
     if array.ndim != 1 or array.dtype.kind not in "iuf":
-        raise FileError("positions_not_a_row", **whose, type=str(array.dtype), dimensions=array.ndim)
+        raise FileError(POSITIONS_NOT_A_ROW, **whose, type=str(array.dtype), dimensions=array.ndim)
     if len(array) != count:
-        raise FileError("positions_count", **whose, count=len(array), samples=count)
+        raise FileError(POSITIONS_COUNT, **whose, count=len(array), samples=count)
     if count < 2:
-        raise FileError("positions_of_one_sample", **whose)
+        raise FileError(POSITIONS_OF_ONE_SAMPLE, **whose)
     row = np.array(array, np.float64)
     if not np.isfinite(row).all():
-        raise FileError("positions_non_finite", **whose, place=int(np.argmin(np.isfinite(row))))
+        raise FileError(POSITIONS_NON_FINITE, **whose, place=int(np.argmin(np.isfinite(row))))
     ascending = np.diff(row) > 0.0
     if not ascending.all():
-        raise FileError("positions_not_ascending", **whose, place=int(np.argmin(ascending)) + 1)
+        raise FileError(POSITIONS_NOT_ASCENDING, **whose, place=int(np.argmin(ascending)) + 1)
     return row
 
 

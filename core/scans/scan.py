@@ -18,15 +18,31 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..verdict.finding import FileError, Finding, finding
+from .findings import (
+    DAMAGE_CHECKSUM,
+    DAMAGE_PACKED,
+    DAMAGE_PACKED_END,
+    DAMAGE_PACKED_START,
+    DAMAGE_TOO_LONG,
+    DAMAGE_TOO_SHORT,
+    DAMAGE_TOO_SMALL,
+    DAMAGE_UNPACKED_LENGTH,
+    FILE_DAMAGED,
+    NRRD_SKIP_FROM_END,
+    SCAN_DIMENSIONS,
+    SCAN_EMPTY,
+    SCAN_SAMPLE_TYPE,
+    SCAN_SIZE,
+)
 from .limits import Limits
 
 MAX_GZIP_RATIO = 1032  # bytes that a byte of a gzip file can hold, at most
 PACKED = 1 << 16  # bytes that are unpacked at a time: what a small member leaves of them is copied
 BLOCK = 1 << 18  # unpacked bytes at a time
 FAULTS = {  # codes of what zlib reports, where there is more to say than its words
-    "incorrect data check": "damage_checksum",
-    "incorrect length check": "damage_unpacked_length",
-    "incorrect header check": "damage_packed_start",
+    "incorrect data check": DAMAGE_CHECKSUM,
+    "incorrect length check": DAMAGE_UNPACKED_LENGTH,
+    "incorrect header check": DAMAGE_PACKED_START,
 }
 
 
@@ -69,36 +85,36 @@ def shape_of(sizes: Sequence[int]) -> tuple[int, int, int]:
     sizes = tuple(int(size) for size in sizes)
     dimensions = max((number for number, size in enumerate(sizes, 1) if number <= 3 or size != 1), default=0)
     if dimensions != 3:
-        raise FileError("scan_dimensions", dimensions=dimensions)
+        raise FileError(SCAN_DIMENSIONS, dimensions=dimensions)
     x, y, z = sizes[:3]
     if min(x, y, z) < 1 or max(x, y, z) > 1 << 40 or x * y * z > 1 << 48:
-        raise FileError("scan_size", samples=[x, y, z])
+        raise FileError(SCAN_SIZE, samples=[x, y, z])
     return x, y, z
 
 
 def real_samples(array: NDArray) -> NDArray:
     """An array that can be a scan of densities."""
     if array.dtype.kind not in "biuf":
-        raise FileError("scan_sample_type", type=str(array.dtype))
+        raise FileError(SCAN_SAMPLE_TYPE, type=str(array.dtype))
     if array.ndim != 3:
-        raise FileError("scan_dimensions", dimensions=array.ndim)
+        raise FileError(SCAN_DIMENSIONS, dimensions=array.ndim)
     if not array.size:
-        raise FileError("scan_empty")
+        raise FileError(SCAN_EMPTY)
     return array
 
 
 def damaged(path: Path, code: str, **values: object) -> FileError:
     """The error for a file that is not what was once written, with the code of what is wrong with it."""
-    return FileError("file_damaged", file=path.name, cause=finding(code, **values).as_record())
+    return FileError(FILE_DAMAGED, file=path.name, cause=finding(code, **values).as_record())
 
 
 def check_length(path: Path, held: int, wanted: int) -> None:
     """A file must hold just the bytes of samples that its sizes ask for. More of them mean that the sizes are wrong, or
     that nobody knows what the rest is; of samples without a checksum nothing else can show damage."""
     if held < wanted:
-        raise damaged(path, "damage_too_short", bytes=held, total=wanted)
+        raise damaged(path, DAMAGE_TOO_SHORT, bytes=held, total=wanted)
     if held > wanted:
-        raise damaged(path, "damage_too_long", total=wanted)
+        raise damaged(path, DAMAGE_TOO_LONG, total=wanted)
 
 
 def map_samples(
@@ -122,9 +138,9 @@ def unpack_samples(
     byte_count = dtype.itemsize * math.prod(shape)
     total = skip + byte_count
     if skip < 0:
-        raise FileError("nrrd_skip_from_end")
+        raise FileError(NRRD_SKIP_FROM_END)
     if total > MAX_GZIP_RATIO * path.stat().st_size:
-        raise damaged(path, "damage_too_small", samples=list(shape))
+        raise damaged(path, DAMAGE_TOO_SMALL, samples=list(shape))
     limits.check(path, "unpacked_bytes", total)
     unpacked, done = np.empty(total, np.uint8), 0
     for block in gzip_blocks(path, start):
@@ -155,9 +171,9 @@ def gzip_blocks(path: Path, start: int) -> Iterator[bytes]:
                     reason = str(error).rpartition(": ")[2]
                     if reason in FAULTS:
                         raise damaged(path, FAULTS[reason]) from error
-                    raise damaged(path, "damage_packed", error=reason) from error
+                    raise damaged(path, DAMAGE_PACKED, error=reason) from error
                 if not (block or waiting or member.eof):
-                    raise damaged(path, "damage_packed_end")
+                    raise damaged(path, DAMAGE_PACKED_END)
                 yield block
                 waiting = member.unused_data if member.eof else member.unconsumed_tail or file.read(PACKED)
             first = False

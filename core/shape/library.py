@@ -13,6 +13,7 @@ from pathlib import Path
 
 from ..numerics.arguments import check_type
 from ..verdict.finding import FileError, Finding, finding
+from .findings import LIBRARY_LINE, LIBRARY_LINE_TOO_LONG, RECORD_WITHOUT_SHAPE, RECORD_WITHOUT_SIGNATURE
 from .signatures import MAX_SIMILAR_DIFFERENCE, Likeness, Signature, similarity
 
 # signatures nearer than this are one shape's: some float32 steps, and no more than a careless export
@@ -96,7 +97,7 @@ def read_library(path: Path) -> tuple[list[Entry], list[Finding]]:
             document = json.loads(line)
             records = [dict(record) for record in (*document["objects"], *document.get("flat", ()))]
         except (ValueError, KeyError, TypeError, RecursionError) as error:
-            raise FileError("library_line", file=path.name, line=number) from error
+            raise FileError(LIBRARY_LINE, file=path.name, line=number) from error
         for record in records:
             name, file = str(record.get("name")), str(document.get("file") or "")
             try:
@@ -104,7 +105,7 @@ def read_library(path: Path) -> tuple[list[Entry], list[Finding]]:
             except FileError:
                 shapeless = "signature" in record and record["signature"] is None
                 label = _label(file, name)
-                missing.append(finding("record_without_shape" if shapeless else "record_without_signature", name=label))
+                missing.append(finding(RECORD_WITHOUT_SHAPE if shapeless else RECORD_WITHOUT_SIGNATURE, name=label))
     return entries, missing
 
 
@@ -114,7 +115,7 @@ def _lines(path: Path) -> Iterator[bytes]:
         while line := file.readline(MAX_LINE_BYTES + 1):
             number += 1
             if len(line) > MAX_LINE_BYTES:
-                raise FileError("library_line_too_long", file=path.name, line=number, limit=MAX_LINE_BYTES)
+                raise FileError(LIBRARY_LINE_TOO_LONG, file=path.name, line=number, limit=MAX_LINE_BYTES)
             yield line
 
 

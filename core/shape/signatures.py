@@ -30,6 +30,7 @@ from ..numerics.arguments import check_type
 from ..numerics.arrays import PerBody
 from ..verdict.finding import FileError
 from . import flat_couplings
+from .findings import SIGNATURE_INCOMPLETE, SIGNATURE_UNRECOGNIZED
 from .zernike import (
     MAX_ORDER_BY_MOMENTS,
     Multiplets,
@@ -110,7 +111,7 @@ class Signature:
             result = cls(float(record["size"]), invariants, zernike, fourier, chirality, dimension=dimension)
             lengths = _lengths(dimension)
         except (KeyError, TypeError, ValueError, OverflowError) as error:
-            raise FileError("signature_unrecognized") from error
+            raise FileError(SIGNATURE_UNRECOGNIZED) from error
         is_complete = (
             (np.abs(np.concatenate(arrays)) < MAX_DESCRIPTOR).all()  # not where one is NaN
             and 1.0 / MAX_SIZE < result.size < MAX_SIZE
@@ -118,7 +119,7 @@ class Signature:
             and (len(result.invariants), len(result.chirality)) == lengths
         )
         if not is_complete:
-            raise FileError("signature_incomplete")
+            raise FileError(SIGNATURE_INCOMPLETE)
         return result
 
 

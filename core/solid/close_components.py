@@ -17,6 +17,7 @@ from ..mesh.surface import normals
 from ..numerics.graph import connected_components
 from ..verdict.finding import Finding, finding
 from .boundary_loops import distinct_vertex_pairs, find_loops, join_sides, side_ends
+from .findings import DUPLICATE_FACES_COUNTED, NON_MANIFOLD_COMPONENTS, ONE_SIDED_COMPONENTS, T_JUNCTIONS
 from .repaired_mesh import NO_INDICES, FoldedLoops, RepairedMesh, ZeroAreaLoops
 from .shared_walls import wall_links
 
@@ -81,7 +82,7 @@ def _without_walls(mesh: RepairedMesh, sides: NDArray[np.integer]) -> tuple[Find
     """The findings, without copies of faces that are the walls of two bodies. sides: at such walls."""
     walls, findings = np.unique(mesh.face[sides // 3]), []
     for item in mesh.findings:
-        if item.code.startswith("duplicate_faces_counted"):
+        if item.code.startswith(DUPLICATE_FACES_COUNTED):
             left = np.setdiff1d(np.asarray(item.elements), walls)
             item = replace(item, values={**item.values, "count": len(left)}, elements=left)
         if item.values.get("count") != 0:
@@ -115,7 +116,7 @@ def close_gaps(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     number = folded.number + len(np.unique(gaps.loop[~closed_already[gaps.sides]]))
     if number:
         sides = np.concatenate([gaps.sides, np.flatnonzero(closed_already)])
-        mesh = mesh.with_findings(finding("t_junctions", distinct_vertex_pairs(given, sides), count=number))
+        mesh = mesh.with_findings(finding(T_JUNCTIONS, distinct_vertex_pairs(given, sides), count=number))
     boundary = edges.first[(edges.count == 1) & ~_edges_along(mesh)]
     boundary = boundary[~closed_already[boundary]]
     if len(boundary):
@@ -151,11 +152,11 @@ def report_closedness(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     elements, findings = mesh.report.defective_elements, []
     count = int(np.count_nonzero(mesh.state.one_sided))
     if count:
-        findings.append(finding("one_sided_components", elements.inconsistent_edges, count=count, total=mesh.number))
+        findings.append(finding(ONE_SIDED_COMPONENTS, elements.inconsistent_edges, count=count, total=mesh.number))
     count = int(np.count_nonzero(mesh.open)) - count
     if count:
         edges = np.concatenate([elements.non_manifold_edges, elements.boundary_edges])
-        findings.append(finding("non_manifold_components", edges, count=count, total=mesh.number))
+        findings.append(finding(NON_MANIFOLD_COMPONENTS, edges, count=count, total=mesh.number))
     closed = not (mesh.open.any() or mesh.caps.any())
     return replace(mesh, findings=(*mesh.findings, *findings), report=replace(mesh.report, closed=closed))
 

@@ -22,8 +22,10 @@ from ..numerics.graph import connected_components, connected_neighbors
 from ..polyhedron import third_order
 from ..polyhedron.integration import polyhedron_moments
 from ..verdict.finding import MeasureError
+from ..verdict.findings import NO_FACES
 from ..verdict.health import MeshHealth
 from ..verdict.tolerances import MAX_COORDINATE, check_size, welding_tolerance
+from .findings import INVALID_FACES, NON_FINITE_VERTICES, OBJECT_TOO_LARGE
 from .repaired_mesh import RepairedMesh
 
 SUM_ROUNDING = 1e-13  # of a sum of numbers of one sign: by how much rounding may change it
@@ -91,10 +93,10 @@ def check_surface(surface: Surface) -> CheckedSurface:
     check_type("surface", surface, Surface)
     faces = [corners for corners in (surface.quads, surface.triangles) if len(corners)]
     if not faces:
-        raise MeasureError("no_faces")
+        raise MeasureError(NO_FACES)
     total = len(surface.points)
     if not all([indices_in_range(corners, total) for corners in faces]):
-        raise MeasureError("invalid_faces")
+        raise MeasureError(INVALID_FACES)
     used = np.zeros(total, bool)
     for column in (0, 2, 1, 3):  # opposite corners first: they reach most vertices
         for corners in faces:
@@ -120,9 +122,9 @@ def check_surface(surface: Surface) -> CheckedSurface:
         misplaced = np.flatnonzero(~np.isfinite(surface.points).all(axis=1))
         if len(misplaced):
             elements = misplaced if vertices is None else vertices[misplaced]
-            raise MeasureError("non_finite_vertices", elements=elements, count=len(misplaced), total=total)
+            raise MeasureError(NON_FINITE_VERTICES, elements=elements, count=len(misplaced), total=total)
     if not max(size, float(np.abs([low, high]).max())) < MAX_COORDINATE:
-        raise MeasureError("object_too_large")
+        raise MeasureError(OBJECT_TOO_LARGE)
     check_size(*(high - low).tolist())
     error = float(np.linalg.norm(surface.coordinate_error))
     return CheckedSurface(surface, vertices, size, error, tolerance=welding_tolerance(size, error))

@@ -17,6 +17,12 @@ from ..numerics.graph import connected_components
 from ..verdict.finding import Finding, finding
 from ..verdict.tolerances import NEGLIGIBLE
 from .boundary_loops import distinct_vertex_pairs
+from .findings import (
+    DUPLICATE_FACES_COUNTED,
+    DUPLICATE_FACES_COUNTED_SLIGHTLY,
+    DUPLICATE_FACES_IGNORED,
+    DUPLICATE_FACES_IGNORED_SLIGHTLY,
+)
 from .repaired_mesh import RepairedMesh
 
 
@@ -102,14 +108,14 @@ def _copies_findings(
         slight = area[ignored].sum() < NEGLIGIBLE * area.sum()
         findings.append(
             finding(
-                "duplicate_faces_ignored_slightly" if slight else "duplicate_faces_ignored", ignored, count=len(ignored)
+                DUPLICATE_FACES_IGNORED_SLIGHTLY if slight else DUPLICATE_FACES_IGNORED, ignored, count=len(ignored)
             )
         )
     if len(counted):
         slight = area[counted].sum() < NEGLIGIBLE * area.sum()
         findings.append(
             finding(
-                "duplicate_faces_counted_slightly" if slight else "duplicate_faces_counted", counted, count=len(counted)
+                DUPLICATE_FACES_COUNTED_SLIGHTLY if slight else DUPLICATE_FACES_COUNTED, counted, count=len(counted)
             )
         )
     return findings

@@ -16,11 +16,33 @@ from ..moments.moments import Moments
 from ..numerics.arrays import unique_pairs
 from ..polyhedron.integration import polyhedron_moments
 from ..verdict.finding import Finding, finding
+from ..verdict.findings import FLIPPED_FACES, SELF_INTERSECTION
 from ..verdict.health import NO_FACES, DefectiveElements, Intersection, MeshHealth
 from ..verdict.method import Verdict
 from ..verdict.tolerances import NEGLIGIBLE
 from .closed_parts import ClosedParts
 from .closedness import CheckedSurface, GivenIntegrals
+from .findings import (
+    CAVITIES_BREAK_THROUGH,
+    CAVITIES_SUBTRACTED,
+    COMPONENTS_NESTED,
+    COMPONENTS_OVERLAP,
+    FLAT_COMPONENTS,
+    FLAT_SURFACE,
+    FLIPPED_FACES_SLIGHTLY,
+    HOLES_CAPPED,
+    HOLES_CAPPED_SLIGHTLY,
+    INVERTED_COMPONENTS,
+    INVERTED_COMPONENTS_SLIGHTLY,
+    NON_PLANAR_FACES,
+    NON_PLANAR_FACES_SLIGHTLY,
+    OVERLAP_UNCHECKED,
+    SELF_INTERSECTING,
+    SELF_INTERSECTION_SLIGHTLY,
+    SELF_INTERSECTION_UNCHECKED,
+    VERTICES_WELDED,
+    VERTICES_WELDED_SLIGHTLY,
+)
 from .orientation import ComponentComparison, OrientedSolid
 from .repaired_mesh import RepairedMesh
 from .self_intersection import SelfIntersection
@@ -28,7 +50,7 @@ from .self_intersection import SelfIntersection
 MIN_REPORTED_AMBIGUITY = 1e-6  # of the volume: below, nobody needs to know
 
 # Codes about components that have a second one, where the components are too small to matter
-WITH_SLIGHT = ("cavities_break_through", "components_nested", "components_overlap", "flat_components")
+WITH_SLIGHT = (CAVITIES_BREAK_THROUGH, COMPONENTS_NESTED, COMPONENTS_OVERLAP, FLAT_COMPONENTS)
 
 
 @dataclass(frozen=True, eq=False)
@@ -171,7 +193,7 @@ def judge(
     findings += [_of_input(item, checked.vertices) for item in mesh.findings]
     if len(flipped):
         slight = _is_slight(mesh, np.isin(mesh.face, flipped), checked.size, volume.total)
-        findings.append(finding("flipped_faces_slightly" if slight else "flipped_faces", flipped, count=len(flipped)))
+        findings.append(finding(FLIPPED_FACES_SLIGHTLY if slight else FLIPPED_FACES, flipped, count=len(flipped)))
     if len(inverted):
         findings.append(_inverted_finding(mesh, inverted, checked.size, volume.total))
     if caps[:2].any():
@@ -180,7 +202,7 @@ def judge(
     if oriented.comparison is not None:
         findings += _component_findings(mesh, oriented.comparison, checked.size, volume.total)
     if self_intersecting:
-        findings.append(finding("self_intersecting"))
+        findings.append(finding(SELF_INTERSECTING))
     elif intersection is not None and verdict is not Verdict.OPEN:
         findings += _intersection_findings(intersection, volume.total)
     findings += shape_findings(oriented.is_solid, given.planarity, volume)
@@ -242,7 +264,7 @@ def _float32_step(surface: Surface) -> float:
 
 def _weld_finding(displacement: float, size: float, area: float, volume: float) -> Finding:
     slight = displacement * area < NEGLIGIBLE * abs(volume)
-    return finding("vertices_welded_slightly" if slight else "vertices_welded", share=float(displacement / size))
+    return finding(VERTICES_WELDED_SLIGHTLY if slight else VERTICES_WELDED, share=float(displacement / size))
 
 
 def _is_slight(mesh: RepairedMesh, rows: NDArray[np.bool_], size: float, volume: float) -> bool:
@@ -261,7 +283,7 @@ def _inverted_finding(mesh: RepairedMesh, inverted: NDArray[np.intp], size: floa
     which[inverted] = True
     faces = NO_FACES if which.all() else mesh.faces_of(which)
     slight = not which.all() and _is_slight(mesh, which[mesh.component], size, volume)
-    code = "inverted_components_slightly" if slight else "inverted_components"
+    code = INVERTED_COMPONENTS_SLIGHTLY if slight else INVERTED_COMPONENTS
     return finding(code, faces, count=len(inverted), total=int(mesh.number))
 
 
@@ -278,8 +300,8 @@ def cap_finding(
     """About capped holes. caps: (3,) flat ones, curved ones, and their area; share: of the surface's."""
     flat, curved = map(int, caps[:2])
     if caps[2] * size < NEGLIGIBLE * volume:  # all their moments together
-        return finding("holes_capped_slightly", edges, count=flat + curved, share=share)
-    return finding("holes_capped", edges, count=flat + curved, flat=flat, curved=curved, share=share)
+        return finding(HOLES_CAPPED_SLIGHTLY, edges, count=flat + curved, share=share)
+    return finding(HOLES_CAPPED, edges, count=flat + curved, flat=flat, curved=curved, share=share)
 
 
 def _component_findings(
@@ -291,19 +313,19 @@ def _component_findings(
     flat = ~solid & ~mesh.open if solid.any() else np.zeros(mesh.number, bool)
     findings = []
     for code, which, values in (
-        ("cavities_subtracted", comparison.cavities & ~comparison.breaking, {}),
-        ("cavities_break_through", comparison.breaking, breakthrough),
-        ("components_nested", comparison.nested, {}),
-        ("components_overlap", comparison.intersecting, {}),
-        ("flat_components", flat, {"total": int(mesh.number)}),
+        (CAVITIES_SUBTRACTED, comparison.cavities & ~comparison.breaking, {}),
+        (CAVITIES_BREAK_THROUGH, comparison.breaking, breakthrough),
+        (COMPONENTS_NESTED, comparison.nested, {}),
+        (COMPONENTS_OVERLAP, comparison.intersecting, {}),
+        (FLAT_COMPONENTS, flat, {"total": int(mesh.number)}),
     ):
         if which.any():
-            decided = _all_but_largest(mesh, which) if code == "components_overlap" else which
+            decided = _all_but_largest(mesh, which) if code == COMPONENTS_OVERLAP else which
             slight = code in WITH_SLIGHT and _is_slight(mesh, decided[mesh.component], size, volume)
             name = code + "_slightly" if slight else code
             findings.append(finding(name, mesh.faces_of(which), count=int(which.sum()), **values))
     if comparison.undecided_pairs:
-        findings.append(finding("overlap_unchecked", count=int(comparison.undecided_pairs)))
+        findings.append(finding(OVERLAP_UNCHECKED, count=int(comparison.undecided_pairs)))
     return findings
 
 
@@ -319,17 +341,17 @@ def _all_but_largest(mesh: RepairedMesh, which: NDArray[np.bool_]) -> NDArray[np
 def _intersection_findings(intersection: SelfIntersection, volume: float) -> list[Finding]:
     """About a component that goes through itself, or that was not looked at."""
     if intersection.state is Intersection.FOUND:
-        code = "self_intersection_slightly" if intersection.effect < NEGLIGIBLE else "self_intersection"
+        code = SELF_INTERSECTION_SLIGHTLY if intersection.effect < NEGLIGIBLE else SELF_INTERSECTION
         return [finding(code, share=intersection.volume / volume)]
-    return [finding("self_intersection_unchecked")] if intersection.state is Intersection.NOT_CHECKED else []
+    return [finding(SELF_INTERSECTION_UNCHECKED)] if intersection.state is Intersection.NOT_CHECKED else []
 
 
 def shape_findings(is_solid: bool, planarity: Planarity, volume: Moments) -> list[Finding]:
     """About a surface without a volume, and about faces whose diagonals make a difference."""
     if not is_solid:
-        return [finding("flat_surface")]
+        return [finding(FLAT_SURFACE)]
     total = volume.total
     if not planarity.volume_spread > MIN_REPORTED_AMBIGUITY * total > 0.0:
         return []
     share = float(planarity.volume_spread / total)
-    return [finding("non_planar_faces_slightly" if share < NEGLIGIBLE else "non_planar_faces", share=share)]
+    return [finding(NON_PLANAR_FACES_SLIGHTLY if share < NEGLIGIBLE else NON_PLANAR_FACES, share=share)]

@@ -29,6 +29,14 @@ from ..numerics.arrays import first_occurrence, sums_by_index
 from ..polyhedron.integration import polyhedron_moments
 from ..verdict.finding import MeasureError
 from ..wall.walls import first_positive_root
+from .findings import (
+    BALANCE_FOLDS_FACES,
+    BALANCE_NO_AREA,
+    BALANCE_NO_EFFECT,
+    BALANCE_SHORT,
+    BALANCE_SHORT_BY_LIMIT,
+    BALANCE_ZERO_VOLUME,
+)
 from .gradient import Gradient, area_gradient, volume_gradient
 
 MAX_NEWTON_STEPS = 100  # of Newton's method at most; it takes a few
@@ -116,24 +124,24 @@ def balance(
     area = fans.areas[movable]
     used = (area > 0.0) & (weights > 0.0)
     if not used.any():
-        raise MeasureError("balance_no_area")
+        raise MeasureError(BALANCE_NO_AREA)
     movable = movable[used]
     start = problem.evaluate(problem.start)
     if start is None:
-        raise MeasureError("balance_zero_volume")
+        raise MeasureError(BALANCE_ZERO_VOLUME)
     before, _, gradient = start
     step_directions = np.einsum("ri,nik->rnk", across, fans.center_gradient(before)[movable])
     step_directions *= (weights[used] / area[used])[:, None]
     if not _is_solvable(_center_jacobian(step_directions, np.zeros(len(across)), gradient[:, movable], np.inf)):
-        raise MeasureError("balance_no_effect")
+        raise MeasureError(BALANCE_NO_EFFECT)
     points, center, far = _newton_solve(problem, start, step_directions, movable, np.inf)
     left = far
     if far or np.linalg.norm(points - problem.start, axis=1).max() > limit:
         points, center, left = _newton_solve(problem, start, step_directions, movable, limit)
     if left and far:  # without a limit too: it is not the limit that stands against it
-        raise MeasureError("balance_short", distance=float(far))
+        raise MeasureError(BALANCE_SHORT, distance=float(far))
     if left:
-        raise MeasureError("balance_short_by_limit", limit=float(limit), distance=float(left))
+        raise MeasureError(BALANCE_SHORT_BY_LIMIT, limit=float(limit), distance=float(left))
     problem.check(points, movable)
     return BalanceResult(points, before, center)
 
@@ -255,7 +263,7 @@ class _Problem:
         error = 32.0 * U * np.array([long * long, 2.0 * long * turn_length, turn_length * turn_length]) * double
         folded = int(np.count_nonzero(first_positive_root(jacobian, error[:, solid]) <= 1.0))
         if folded:
-            raise MeasureError("balance_folds_faces", count=folded)
+            raise MeasureError(BALANCE_FOLDS_FACES, count=folded)
 
 
 class _Fans:

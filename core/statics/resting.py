@@ -24,6 +24,7 @@ from ..numerics.arguments import check_type, float_array
 from ..numerics.arrays import sums_by_index
 from ..numerics.graph import connected_components
 from ..verdict.finding import MeasureError
+from .findings import CENTER_OUTSIDE_HULL, NO_STABLE_POSE
 
 PLANE_RTOL = 1e-6  # of the body's extent: corners that far from a plane are on it, margins below are none
 ALIKE_COSINE = 0.5  # of normals: across the edge of a face they differ by more, mostly
@@ -114,7 +115,7 @@ def resting_poses(hull: ConvexHull, center: ArrayLike, tolerance: float = PLANE_
     least = max(tolerance * extent, 2.0 * hull.gap)
     faces = _faces(points, hull, least)
     if faces.heights.min() < -least or hull.is_flat and faces.margins.max() < -least:
-        raise MeasureError("center_outside_hull")
+        raise MeasureError(CENTER_OUTSIDE_HULL)
     shares = sums_by_index(faces.face, _solid_angles(points, hull.triangles), len(faces.heights)) / (4.0 * np.pi)
     # Of a face that the center lies in the solid angle is not certain: it is what the others leave.
     around = faces.heights <= 1e-9 * extent
@@ -129,7 +130,7 @@ def resting_poses(hull: ConvexHull, center: ArrayLike, tolerance: float = PLANE_
     shares = sums_by_index(ends, shares, len(rests))
     kept = np.flatnonzero(stable)
     if not len(kept):
-        raise MeasureError("no_stable_pose")
+        raise MeasureError(NO_STABLE_POSE)
     kept = kept[np.lexsort((faces.heights[kept], -np.round(shares[kept], 12)))]
     return RestingPoses(faces.normals[kept], shares[kept], faces.margins[kept], faces.heights[kept])
 

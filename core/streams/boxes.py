@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from ..mesh.surface import Surface
 from ..verdict.finding import FileError, finding
+from .findings import AT_TRIANGLE, AT_VERTEX, NON_FINITE_COORDINATES
 
 
 class BoxOfBlocks:
@@ -43,6 +44,6 @@ class BoxOfBlocks:
         finite."""
         if self._bad:
             is_triangle = self._place == "triangle"
-            place = finding("at_triangle" if is_triangle else "at_vertex", **{self._place: self._first})
-            raise FileError("non_finite_coordinates", count=self._bad, place=place.as_record())
+            place = finding(AT_TRIANGLE if is_triangle else AT_VERTEX, **{self._place: self._first})
+            raise FileError(NON_FINITE_COORDINATES, count=self._bad, place=place.as_record())
         return (self._low, self._high) if self._rows else (np.zeros(3), np.zeros(3))

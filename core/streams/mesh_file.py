@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from ..mesh.surface import Surface
 from ..verdict.finding import FileError
+from .findings import FILE_TYPE
 from .ply import PlyFile
 from .stl import StlFile
 
@@ -83,5 +84,5 @@ def open_mesh_file(path: str | Path) -> MeshFile:
     kinds = {".stl": StlFile, ".ply": PlyFile}
     kind = kinds.get(path.suffix.lower())
     if kind is None:
-        raise FileError("file_type", suffixes=" ".join(SUFFIXES))
+        raise FileError(FILE_TYPE, suffixes=" ".join(SUFFIXES))
     return kind(path)

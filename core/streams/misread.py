@@ -14,6 +14,7 @@ from typing import NoReturn
 
 from ..verdict.finding import FileError, Finding, finding
 from ..verdict.number_text import parse_number, parse_whole
+from .findings import FIELD_COUNT, FIELD_NOT_NUMBER, FIELD_NOT_WHOLE, LINE_MISREAD
 
 MAX_FLOAT32 = 3.4028235677973366e38  # larger numbers are infinite in float32
 MAX_TEXT = 60  # letters of a line that are shown
@@ -42,7 +43,7 @@ def find_number_fault(word: bytes, places_point: bool) -> Finding | None:
         is_number = not places_point and _NOT_FINITE.fullmatch(word) is not None
     else:
         is_number = not places_point or abs(value) < MAX_FLOAT32
-    return None if is_number else finding("field_not_number", text=shorten(word))
+    return None if is_number else finding(FIELD_NOT_NUMBER, text=shorten(word))
 
 
 def find_whole_fault(word: bytes) -> Finding | None:
@@ -50,13 +51,13 @@ def find_whole_fault(word: bytes) -> Finding | None:
     try:
         parse_whole(word.decode("utf-8", "replace"))
     except ValueError:
-        return finding("field_not_whole", text=shorten(word))
+        return finding(FIELD_NOT_WHOLE, text=shorten(word))
     return None
 
 
 def count_fault(words: list[bytes]) -> Finding:
     """Return the finding about a line with too few or too many fields."""
-    return finding("field_count", text=shorten(b" ".join(words)))
+    return finding(FIELD_COUNT, text=shorten(b" ".join(words)))
 
 
 def shorten(text: bytes) -> str:
@@ -67,4 +68,4 @@ def shorten(text: bytes) -> str:
 def refuse_line(data: Data, at: int, fault: Finding) -> NoReturn:
     """Raise the FileError about the line that holds a place."""
     line = 1 + sum(data[start : min(start + BLOCK, at)].count(b"\n") for start in range(0, at, BLOCK))
-    raise FileError("line_misread", line=line, cause=fault.as_record())
+    raise FileError(LINE_MISREAD, line=line, cause=fault.as_record())

@@ -12,6 +12,7 @@ import re
 import numpy as np
 
 from ..verdict.finding import Finding, finding
+from .findings import FIELD_NOT_VERTEX
 from .misread import (
     BLOCK,
     SHORT,
@@ -111,7 +112,7 @@ class _Rows:
         fault = find_whole_fault(word)
         is_index = self._is_face and one.name in INDICES
         if fault is None and is_index and not 0 <= int(word) < self._vertex_count:
-            return finding("field_not_vertex", text=shorten(word))
+            return finding(FIELD_NOT_VERTEX, text=shorten(word))
         return fault
 
 

@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from ..mesh.surface import Surface
 from ..verdict.finding import FileError
 from .boxes import BoxOfBlocks
+from .findings import STL_CUT_SHORT, STL_SIZE
 from .misread import map_file
 from .stl_text import check_stl_text
 
@@ -48,7 +49,7 @@ class StlFile:
         count = int.from_bytes(head[80:84], "little")
         self._binary = len(head) == HEAD and size == HEAD + RECORD * count
         if not self._binary and not head.lstrip().lower().startswith(b"solid"):
-            raise FileError("stl_size")
+            raise FileError(STL_SIZE)
         if not self._binary:
             check_stl_text(map_file(path))
         self.face_count = count if self._binary else size // TEXT_PER_TRIANGLE
@@ -92,7 +93,7 @@ class StlFile:
             for start in range(0, len(corners), TRIANGLES_PER_BLOCK):
                 yield corners[start : start + TRIANGLES_PER_BLOCK]
         if not re.search(rb"endsolid", waiting, re.IGNORECASE):
-            raise FileError("stl_cut_short")
+            raise FileError(STL_CUT_SHORT)
 
 
 def _parse(text: bytes) -> NDArray[np.float32]:

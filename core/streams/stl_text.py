@@ -12,6 +12,7 @@ import re
 from itertools import islice
 
 from ..verdict.finding import FileError, Finding, finding
+from .findings import FIELD_NOT_WORD, STL_CUT_SHORT
 from .misread import SHORT, SHORT_OR_NAN, Data, find_number_fault, refuse_line, shorten
 
 _FIRST_LINE = re.compile(rb"(?:\xef\xbb\xbf)?[ \t]*solid[^\n]*", re.IGNORECASE)
@@ -43,7 +44,7 @@ def check_stl_text(data: Data) -> None:
             if fault is not None:
                 refuse_line(data, word.start(), fault)
         if is_cut:
-            raise FileError("stl_cut_short")
+            raise FileError(STL_CUT_SHORT)
         at = words[-1].end()
 
 
@@ -52,7 +53,7 @@ def _find_fault(word: bytes, expected: str | bool, is_lower: bool) -> Finding | 
         return find_number_fault(word, expected)
     if expected.encode() in (word, word if is_lower and expected == "vertex" else word.lower()):
         return None
-    return finding("field_not_word", text=shorten(word), expected=expected)
+    return finding(FIELD_NOT_WORD, text=shorten(word), expected=expected)
 
 
 def _find_end(data: Data, at: int, facets: re.Pattern[bytes]) -> int:

@@ -20,9 +20,11 @@ from xml.parsers import expat
 import numpy as np
 from numpy.typing import NDArray
 
+from ..scans.findings import FILE_EXCEEDS_LIMIT
 from ..scans.limits import DEFAULT_LIMITS, Limits
 from ..verdict.finding import FileError, system_reason
 from ..verdict.number_text import SPACES, parse_number, parse_numbers, parse_whole
+from .findings import FILE_UNREADABLE, THREEMF_DAMAGED, THREEMF_EXTENSION, THREEMF_FIELD, THREEMF_INSTANCES
 
 MAX_INSTANCES = 100_000  # meshes that the build places
 MAX_TEXT = 60  # letters of a wrong field that are shown
@@ -79,11 +81,11 @@ def read_3mf(path: str, limits: Limits = DEFAULT_LIMITS) -> tuple[list[Placed], 
             package = _Package(archive, limits)
             return package.build()
     except (zipfile.BadZipFile, zlib.error, EOFError, NotImplementedError, RuntimeError, expat.ExpatError) as error:
-        raise FileError("threemf_damaged", error=str(error).rstrip(".") or type(error).__name__) from error
+        raise FileError(THREEMF_DAMAGED, error=str(error).rstrip(".") or type(error).__name__) from error
     except (KeyError, ValueError, IndexError, OverflowError) as error:
-        raise FileError("threemf_damaged", error="{}: {}".format(type(error).__name__, error)) from error
+        raise FileError(THREEMF_DAMAGED, error="{}: {}".format(type(error).__name__, error)) from error
     except OSError as error:
-        raise FileError("file_unreadable", error=system_reason(error)) from error
+        raise FileError(FILE_UNREADABLE, error=system_reason(error)) from error
 
 
 class _Package:
@@ -101,7 +103,7 @@ class _Package:
         limit = getattr(self._limits, name)
         if count > limit:
             values = {"name": name, "count": count, "limit": limit, "next": max(count, 2 * limit)}
-            raise FileError("file_exceeds_limit", file=posixpath.basename(self._archive.filename or ""), **values)
+            raise FileError(FILE_EXCEEDS_LIMIT, file=posixpath.basename(self._archive.filename or ""), **values)
 
     def pieces(self, part: str) -> Iterator[bytes]:
         """The bytes of a part."""
@@ -144,7 +146,7 @@ class _Package:
         if key in above:
             raise ValueError("an object is a component of itself")
         if len(placed) >= MAX_INSTANCES or len(above) > 100:
-            raise FileError("threemf_instances", limit=MAX_INSTANCES)
+            raise FileError(THREEMF_INSTANCES, limit=MAX_INSTANCES)
         found = self.model(part).objects[identifier]
         name = name or found.name
         if len(found.triangles):
@@ -165,7 +167,7 @@ class _Package:
 
 def _parser() -> expat.XMLParserType:
     def refuse(*_: object) -> None:
-        raise FileError("threemf_damaged", error="it has a document type, which 3MF forbids")
+        raise FileError(THREEMF_DAMAGED, error="it has a document type, which 3MF forbids")
 
     parser = expat.ParserCreate(namespace_separator=" ")
     parser.buffer_text = True
@@ -211,7 +213,7 @@ class _Model:
             _feed(parser, pieces)
         except ValueError as error:  # with the text of a field
             place = {"line": parser.CurrentLineNumber, "element": self._tag, "text": str(error)[:MAX_TEXT]}
-            raise FileError("threemf_field", **place) from error
+            raise FileError(THREEMF_FIELD, **place) from error
 
     def _start(self, name: str, values: dict[str, str]) -> None:
         space, _, tag = name.rpartition(" ")
@@ -236,7 +238,7 @@ class _Model:
                 raise ValueError(self.unit)
             for prefix in values.get("requiredextensions", "").split():
                 if not self._spaces.get(prefix, prefix).endswith(_KNOWN):
-                    raise FileError("threemf_extension", name=self._spaces.get(prefix, prefix))
+                    raise FileError(THREEMF_EXTENSION, name=self._spaces.get(prefix, prefix))
 
     def _reference(self, values: dict[str, str]) -> tuple[str, str, NDArray[np.float64]]:
         path = next((value for name, value in values.items() if name.endswith("production/2015/06 path")), self._part)

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What was noticed, decided or refused, as data; and the exceptions that carry a refusal.
 
-A finding is a code, the values that its sentence needs, and the elements that it is about. Its severity and its
-sentence belong to the code and stand in `core/verdict/messages.py`: no code reads a sentence.
+A finding is a code, the values that its sentence needs, and the elements that it is about. The severity and the
+sentence belong to the code (`Code`), which a package declares in its `findings.py`. Nothing parses a sentence.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
-from typing import Any, Protocol
+from typing import Any, Protocol, Self
 
 MAX_STORED_ELEMENTS = 8  # of a finding that is stored or is a value of another one: as many as a sentence names
 
@@ -37,6 +37,43 @@ class Severity(StrEnum):
     NOTE = "note"
     WARNING = "warning"
     ERROR = "error"
+
+
+class Code(str):
+    """The code of a finding, with its severity and its English sentence. Packages declare theirs in `findings.py`.
+
+    Attributes
+    ----------
+    severity : Severity
+    text : str
+        A `str.format` template over the finding's values (`core/verdict/sentences.py`); it is the key of translations.
+    plural : str or None
+        The template for a `count` other than 1.
+    """
+
+    severity: Severity
+    text: str
+    plural: str | None
+
+    def __new__(cls, code: str, severity: Severity, text: str, plural: str | None = None) -> Self:
+        self = super().__new__(cls, code)
+        self.severity, self.text, self.plural = severity, text, plural
+        return self
+
+
+def note(code: str, text: str, plural: str | None = None) -> Code:
+    """Declare a finding that does not question the numbers."""
+    return Code(code, Severity.NOTE, text, plural)
+
+
+def warning(code: str, text: str, plural: str | None = None) -> Code:
+    """Declare a finding that questions the numbers."""
+    return Code(code, Severity.WARNING, text, plural)
+
+
+def error(code: str, text: str, plural: str | None = None) -> Code:
+    """Declare a refusal."""
+    return Code(code, Severity.ERROR, text, plural)
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,7 +129,7 @@ class Finding:
         return hash((self.code, repr(sorted(self.values.items()))))
 
     def __str__(self) -> str:
-        from .messages import sentence  # that module needs this one
+        from .sentences import sentence  # that module needs this one
 
         return sentence(self)
 
@@ -150,8 +187,10 @@ def truncate_findings(findings: Sequence[Finding], limit: int) -> list[Finding]:
     list of Finding
         The first ones, and ``and_more`` where there are others.
     """
+    from .findings import AND_MORE  # that module needs this one
+
     shown, more = truncate(findings, limit)
-    return [*shown, finding("and_more", count=more)] if more else [*shown]
+    return [*shown, finding(AND_MORE, count=more)] if more else [*shown]
 
 
 class MeasureError(Exception):

@@ -10,6 +10,8 @@ from enum import StrEnum
 import numpy as np
 from numpy.typing import NDArray
 
+from .findings import FLIPPED_FACES, SELF_INTERSECTION
+
 NO_PAIRS = np.empty((0, 2), np.int64)
 NO_FACES = np.empty(0, np.int64)
 
@@ -78,6 +80,6 @@ class MeshHealth:
     def as_record(self) -> dict:
         """Plain values for JSON; of the faults only the flipped faces."""
         record = {entry.name: getattr(self, entry.name) for entry in fields(self) if entry.name != "defective_elements"}
-        record["self_intersection"] = str(self.self_intersection)
-        record["flipped_faces"] = self.defective_elements.flipped_faces.tolist()
+        record[SELF_INTERSECTION] = str(self.self_intersection)
+        record[FLIPPED_FACES] = self.defective_elements.flipped_faces.tolist()
         return record

@@ -10,8 +10,9 @@ from __future__ import annotations
 import traceback
 
 from .finding import Finding, MeasureError, finding
+from .findings import INTERNAL_ERROR, OUT_OF_MEMORY
 
-CODE = "internal_error"
+CODE = INTERNAL_ERROR
 PACKAGE = __name__.removesuffix("core.verdict.internal_error")
 
 
@@ -21,7 +22,7 @@ def finding_of(error: Exception) -> Finding:
     if isinstance(error, MeasureError):
         return error.finding
     if isinstance(error, MemoryError):
-        return finding("out_of_memory")
+        return finding(OUT_OF_MEMORY)
     traceback.print_exception(error)
     message = " ".join(str(error).split()).removesuffix(".") or "-"
     return finding(CODE, type=type(error).__name__, error=message, where=_where(error))

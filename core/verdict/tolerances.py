@@ -7,6 +7,7 @@ from __future__ import annotations
 from math import hypot
 
 from .finding import MeasureError
+from .findings import OBJECT_TOO_SMALL
 
 MAX_COORDINATE, MIN_SIZE = 1e50, 1e-60  # lengths whose sixth, and whose fifth, power is still a number
 FLAT_CAP_VOLUME_RTOL = 1e-7  # of diagonal times area: what capping a flat sheet of float32 points leaves
@@ -18,7 +19,7 @@ NEGLIGIBLE = 1e-4  # of mass, size and inertia: a decision that changes them by 
 def check_size(*sides: float) -> None:
     """Raise MeasureError if the diagonal of a box is so short, but not zero, that volumes in it are no numbers."""
     if 0.0 < hypot(*sides) < MIN_SIZE:
-        raise MeasureError("object_too_small")
+        raise MeasureError(OBJECT_TOO_SMALL)
 
 
 def welding_tolerance(size: float, error: float) -> float:

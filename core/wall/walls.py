@@ -34,6 +34,7 @@ from ..solid.nesting import classify_pairs, self_overlaps, surfaces_intersect
 from ..verdict.finding import MeasureError
 from ..verdict.tolerances import check_size
 from .directions import UNEVEN_RTOL, blocks, offset_directions
+from .findings import NO_FACE_AREA, WALL_INCONSISTENT_FACES, WALL_NON_MANIFOLD, WALL_PRECISION_LOST
 
 ORDER = 3
 COEFFICIENT_COUNT = ORDER + 3  # coefficients in s: degrees 0 to 5
@@ -274,7 +275,7 @@ def offset_solid(surface: Surface) -> OffsetSolid:
     solid = directions.has_normal
     lost, total = float(double[~solid].sum()), float(double.sum())
     if stored and lost > MAX_UNORIENTED_SHARE * total:
-        raise MeasureError("wall_precision_lost", share=lost / total)
+        raise MeasureError(WALL_PRECISION_LOST, share=lost / total)
     rest = np.flatnonzero(solid)
     outward, inward = (
         first_positive_root(jacobian[:, :, solid] * signs[:, None, None], jacobian_error[:, solid])
@@ -314,18 +315,18 @@ def _weld_equal(surface: Surface) -> tuple[NDArray[np.float64], NDArray[np.integ
     triangles = first[triangles.astype(np.intp)]
     triangles = triangles[(triangles != np.roll(triangles, 1, axis=1)).all(axis=1)]
     if not len(triangles):
-        raise MeasureError("no_face_area")
+        raise MeasureError(NO_FACE_AREA)
     used, number = np.unique(triangles, return_inverse=True)
     triangles = number.reshape(-1, 3)
     edges = find_edges(triangles)
     crowded = edges.count > 2
     if crowded.any():
         pairs = used[vertex_pairs(triangles, edges.first[crowded])]
-        raise MeasureError("wall_non_manifold", elements=pairs, count=len(pairs))
+        raise MeasureError(WALL_NON_MANIFOLD, elements=pairs, count=len(pairs))
     misoriented = (edges.count == 2) & (edges.signed_use_count(np.zeros(len(triangles), bool)) != 0.0)
     if misoriented.any():
         pairs = used[vertex_pairs(triangles, edges.first[misoriented])]
-        raise MeasureError("wall_inconsistent_faces", elements=pairs, count=len(pairs))
+        raise MeasureError(WALL_INCONSISTENT_FACES, elements=pairs, count=len(pairs))
     return surface.points[used].astype(np.float64), triangles
 
 

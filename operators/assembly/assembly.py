@@ -10,9 +10,11 @@ from ...blender.read.assembly import Root, is_assembly, members_of
 from ...blender.session.stored import assembly as stored_assembly
 from ...blender.write import properties, reports
 from ...core.verdict.finding import Finding, MeasureError, Severity, finding
-from ...core.verdict.messages import of_severity
+from ...core.verdict.sentences import of_severity
 from .. import selection
+from ..findings import CANCELED_MEASURING, NO_RESULTS_TO_REMOVE, PROGRESS_MEASURING, RESULTS_REMOVED
 from ..modal import MAX_OBJECTS_WITHOUT_REDRAW, ModalSteps, redraw
+from .findings import ASSEMBLY_MEASURED, MEMBERS_NOT_STORED, NO_ACTIVE_ASSEMBLY_EMPTY, NO_ACTIVE_COLLECTION
 
 TARGET = EnumProperty(
     name="Assembly",
@@ -29,11 +31,11 @@ def target_of(context: Context, target: str) -> Root:
     """Return the assembly that an operator works on. MeasureError where there is none."""
     if target == "COLLECTION":
         if context.collection is None:
-            raise MeasureError("no_active_collection")
+            raise MeasureError(NO_ACTIVE_COLLECTION)
         return context.collection
     obj = context.object
     if obj is None or not is_assembly(obj):
-        raise MeasureError("no_active_assembly_empty")
+        raise MeasureError(NO_ACTIVE_ASSEMBLY_EMPTY)
     return obj
 
 
@@ -53,8 +55,8 @@ class OBJECT_OT_body_moments_measure_assembly(ModalSteps, Operator):
     bl_idname = "object.body_moments_measure_assembly"
     bl_label = "Measure Assembly"
     bl_options = {"REGISTER", "UNDO"}
-    PROGRESS = finding("progress_measuring")
-    CANCELED = finding("canceled_measuring")
+    PROGRESS = finding(PROGRESS_MEASURING)
+    CANCELED = finding(CANCELED_MEASURING)
 
     target: TARGET
 
@@ -93,11 +95,11 @@ class OBJECT_OT_body_moments_measure_assembly(ModalSteps, Operator):
             return {"CANCELLED"}
         findings: list[Finding] = of_severity(assembly.measurement.findings, Severity.WARNING, Severity.ERROR)
         if failures:
-            findings.append(finding("members_not_stored", count=len(failures), names=[name for name, _ in failures]))
+            findings.append(finding(MEMBERS_NOT_STORED, count=len(failures), names=[name for name, _ in failures]))
         counted = sum(part.measurement is not None for part in assembly.root.walk())
         name, mass = assembly.measurement.name, assembly.measurement.mass_properties.mass
         selection.report(
-            self, finding("assembly_measured", assembly=name, count=counted, mass=mass), *reports.first(findings)
+            self, finding(ASSEMBLY_MEASURED, assembly=name, count=counted, mass=mass), *reports.first(findings)
         )
         redraw(context)
         return {"FINISHED"}
@@ -119,7 +121,7 @@ class OBJECT_OT_body_moments_clear_assembly(Operator):
         except MeasureError as error:
             selection.report(self, reports.refusal(error))
             return {"CANCELLED"}
-        selection.report(self, finding("results_removed", count=1) if cleared else finding("no_results_to_remove"))
+        selection.report(self, finding(RESULTS_REMOVED, count=1) if cleared else finding(NO_RESULTS_TO_REMOVE))
         redraw(context)
         return {"FINISHED"} if cleared else {"CANCELLED"}
 

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from ...blender.bodies.assembly.assembly import Assembly
 from ...blender.read.assembly import Root
 from ...blender.read.tracking import tracking_paused
+from ...blender.scene.findings import LINKED_OBJECT, LOCATION_CONSTRAINED
 from ...blender.scene.transforms import TransformChannels, require_editable, world
 from ...blender.session.stored import assembly as stored_assembly
 from ...blender.write import properties, reports
@@ -23,6 +24,14 @@ from ...core.verdict.finding import EditRefusedError, Finding, MeasureError, fin
 from ...core.verdict.method import Verdict
 from .. import selection
 from .assembly import TARGET, measured_assembly
+from .findings import (
+    ASSEMBLY_HAS_OPEN_MEMBERS,
+    ASSEMBLY_OFFSET_SET,
+    ASSEMBLY_ORIGIN_MOVED,
+    CHILDREN_WOULD_MOVE,
+    CURSOR_TO_ASSEMBLY,
+    EMPTY_AT_ASSEMBLY,
+)
 
 PLACE_RTOL = 4e-6  # what float32 matrices leave of places
 FRAME_OF = "principal_frame_of_assembly"  # ID property of an empty: the collection or empty whose frame it shows
@@ -42,7 +51,7 @@ class _SnapToAssembly:
                 part.measurement is not None and part.measurement.method.verdict == Verdict.OPEN
                 for part in assembly.root.walk()
             ):
-                raise EditRefusedError("assembly_has_open_members", subject=assembly.measurement.name)
+                raise EditRefusedError(ASSEMBLY_HAS_OPEN_MEMBERS, subject=assembly.measurement.name)
             findings = self._place(context, assembly)
         except MeasureError as error:
             selection.report(self, reports.refusal(error))
@@ -72,7 +81,7 @@ class VIEW3D_OT_body_moments_cursor_to_assembly(_SnapToAssembly, Operator):
         if self.rotate:
             cursor.rotation_mode = "QUATERNION"
             cursor.rotation_quaternion = Matrix(body.principal.axes).to_quaternion()
-        return [finding("cursor_to_assembly", assembly=assembly.measurement.name)]
+        return [finding(CURSOR_TO_ASSEMBLY, assembly=assembly.measurement.name)]
 
 
 class OBJECT_OT_body_moments_assembly_empty(_SnapToAssembly, Operator):
@@ -96,7 +105,7 @@ class OBJECT_OT_body_moments_assembly_empty(_SnapToAssembly, Operator):
         unit = shortest_decimal(context.scene.unit_settings.scale_length)
         empty.empty_display_size = max(float(body.radii_of_gyration.max()) / unit, 1e-3)
         empty.matrix_world = Matrix(frame)
-        return [finding("empty_at_assembly", assembly=root.name)]
+        return [finding(EMPTY_AT_ASSEMBLY, assembly=root.name)]
 
 
 class OBJECT_OT_body_moments_assembly_origin(_SnapToAssembly, Operator):
@@ -113,13 +122,13 @@ class OBJECT_OT_body_moments_assembly_origin(_SnapToAssembly, Operator):
         root, center = assembly.root.member.data, _center(context, assembly.measurement.mass_properties)
         if isinstance(root, bpy.types.Collection):
             if not root.is_editable:
-                raise EditRefusedError("linked_object", subject=root.name)
+                raise EditRefusedError(LINKED_OBJECT, subject=root.name)
             root.instance_offset = center
-            return [finding("assembly_offset_set", assembly=root.name)]
+            return [finding(ASSEMBLY_OFFSET_SET, assembly=root.name)]
         require_editable(root)
         _move_parent(context, root, center)
         _refresh(context, root)
-        return [finding("assembly_origin_moved", assembly=root.name)]
+        return [finding(ASSEMBLY_ORIGIN_MOVED, assembly=root.name)]
 
 
 def _move_parent(context: Context, empty: Object, center: NDArray) -> None:
@@ -143,9 +152,9 @@ def _move_parent(context: Context, empty: Object, center: NDArray) -> None:
             context.view_layer.update()
             moved = [child for child, place in places.items() if not _is_at(child, place, tolerance)]
             if np.abs(world(empty)[:3, 3] - center).max() > tolerance:
-                raise EditRefusedError("location_constrained", subject=empty.name)
+                raise EditRefusedError(LOCATION_CONSTRAINED, subject=empty.name)
             if moved:
-                raise EditRefusedError("children_would_move", subject=empty.name, names=[child.name for child in moved])
+                raise EditRefusedError(CHILDREN_WOULD_MOVE, subject=empty.name, names=[child.name for child in moved])
         except BaseException:
             for child, inverse in inverses.items():
                 child.matrix_parent_inverse = inverse

@@ -13,12 +13,15 @@ from bpy.types import Context, Event, Operator
 
 from ...blender.bodies.assembly.assembly import MemberBody
 from ...blender.bodies.assembly.given import properties_of
+from ...blender.bodies.findings import ASSEMBLY_MASS_GIVEN
 from ...blender.write import reports
 from ...blender.write.bill import BillRow, bill_csv
 from ...core.files.whole_file import whole_file
 from ...core.verdict.finding import FileError, MeasureError, finding, system_reason
 from .. import files, selection
+from ..findings import FILE_NOT_WRITTEN, NO_EXPORT_FILE
 from .assembly import TARGET, measured_assembly
+from .findings import BILL_WRITTEN
 
 
 def bill_rows(part: MemberBody, mass: float, level: int = 0, counted: bool = True) -> Iterator[BillRow]:
@@ -57,7 +60,7 @@ def bill_rows(part: MemberBody, mass: float, level: int = 0, counted: bool = Tru
             properties=properties_of(moments, np.eye(3)),
         )
     yield row
-    given = any(found.code == "assembly_mass_given" for found in part.findings)
+    given = any(found.code == ASSEMBLY_MASS_GIVEN for found in part.findings)
     for member in part.parts:
         yield from bill_rows(member, mass, level + 1, counted and not given)
 
@@ -84,18 +87,18 @@ class OBJECT_OT_body_moments_export_bill(Operator):
         try:
             assembly = measured_assembly(context, self.target)
             if not self.filepath:
-                raise FileError("no_export_file")
+                raise FileError(NO_EXPORT_FILE)
             path = Path(bpy.path.abspath(self.filepath))
             rows = list(bill_rows(assembly.root, assembly.measurement.mass_properties.mass))
             try:
                 with whole_file(path) as file:
                     file.write(bill_csv(rows).encode())
             except OSError as error:
-                raise FileError("file_not_written", error=system_reason(error)) from error
+                raise FileError(FILE_NOT_WRITTEN, error=system_reason(error)) from error
         except MeasureError as error:
             selection.report(self, reports.refusal(error))
             return {"CANCELLED"}
-        selection.report(self, finding("bill_written", count=len(rows) - 1, file=path.name))
+        selection.report(self, finding(BILL_WRITTEN, count=len(rows) - 1, file=path.name))
         return {"FINISHED"}
 
 

@@ -12,6 +12,7 @@ from bpy.types import Context, Menu, Operator
 from bpy_extras.io_utils import ImportHelper
 
 from ...blender.write import reports
+from ...command.findings import AUDIT_DONE, AUDIT_NOT_WRITTEN
 from ...core.files.whole_file import whole_file
 from ...core.robots.audit import Audit, Auditor
 from ...core.robots.read.descriptions import SUFFIXES, read_description
@@ -20,6 +21,8 @@ from ...core.robots.repair import repaired_copy
 from ...core.robots.write import audit_report
 from ...core.verdict.finding import FileError, Finding, MeasureError, Severity, finding, system_reason
 from .. import selection
+from ..findings import FILE_EXISTS
+from .findings import AUDIT_TEXT
 
 
 class IMPORT_SCENE_OT_body_moments_audit(Operator, ImportHelper):
@@ -66,7 +69,7 @@ class IMPORT_SCENE_OT_body_moments_audit(Operator, ImportHelper):
         text.cursor_set(0)
         levels = [found["severity"] for link in links for found in link["findings"]]
         counts = {str(level) + "s": levels.count(level) for level in Severity}
-        return [finding("audit_done", links=len(links), **counts), finding("audit_text", text=text.name)]
+        return [finding(AUDIT_DONE, links=len(links), **counts), finding(AUDIT_TEXT, text=text.name)]
 
     def _write_copy(self, path: Path, audit: Audit) -> str | None:
         repairs = [(found.link, found.repaired) for found in audit.links if found.repaired is not None]
@@ -74,7 +77,7 @@ class IMPORT_SCENE_OT_body_moments_audit(Operator, ImportHelper):
             return None
         target = path.with_name("{}_repaired{}".format(path.stem, path.suffix))
         if target.exists():
-            raise FileError("file_exists", file=target.name)
+            raise FileError(FILE_EXISTS, file=target.name)
         _write(target, repaired_copy(audit.description, repairs))
         return str(target)
 
@@ -84,7 +87,7 @@ def _write(path: Path, data: bytes) -> None:
         with whole_file(path) as file:
             file.write(data)
     except OSError as error:
-        raise FileError("audit_not_written", error=system_reason(error)) from error
+        raise FileError(AUDIT_NOT_WRITTEN, error=system_reason(error)) from error
 
 
 def _menu(menu: Menu, _context: Context) -> None:

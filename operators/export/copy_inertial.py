@@ -13,6 +13,7 @@ from ...core.robots.write.formats import robot_text
 from ...core.verdict.finding import MeasureError, finding
 from .. import selection
 from ..measure.copy import copy_text
+from .findings import ROBOT_COPIED
 
 FORMATS = (
     ("urdf", "URDF", "Tensor along the axes of the object"),
@@ -43,7 +44,7 @@ class OBJECT_OT_body_moments_copy_inertial(Operator):
             selection.report(self, reports.refusal(error))
             return {"CANCELLED"}
         text, _ = robot_text(made.robot, self.format, made.findings, inertial_only=True)
-        copy_text(self, context, text, finding("robot_copied", count=len(made.robot.links)))
+        copy_text(self, context, text, finding(ROBOT_COPIED, count=len(made.robot.links)))
         if made.findings:
             selection.report(self, *made.findings)
         return {"FINISHED"}

@@ -21,6 +21,7 @@ from ...core.robots.model import Inertial, Shape
 from ...core.robots.primitives import equal_inertia_shape
 from ...core.verdict.finding import EditRefusedError, finding
 from .. import selection
+from .findings import PRIMITIVE_HAS_PARENT, PRIMITIVES_ADDED
 
 KINDS = (
     ("BOX", "Box", "The box of the same mass, center and inertia"),
@@ -57,7 +58,7 @@ class OBJECT_OT_body_moments_equal_inertia(Operator):
 
         def measure(obj: Object) -> None:
             if self.rigid_body and (not obj.is_editable or obj.parent is not None):
-                raise EditRefusedError("primitive_has_parent")
+                raise EditRefusedError(PRIMITIVE_HAS_PARENT)
             if self.rigid_body:
                 require_rigid_world(context.scene)
             body = measure_object(obj, depsgraph).mass_properties
@@ -70,7 +71,7 @@ class OBJECT_OT_body_moments_equal_inertia(Operator):
             self._make_rigid(context, [(new, mass) for new, (_, _, mass) in zip(added, shapes)])
             for new, (obj, _, _) in zip(added, shapes):
                 obj.parent, obj.matrix_parent_inverse = new, new.matrix_world.inverted()
-        done = finding("primitives_added", count=len(added))
+        done = finding(PRIMITIVES_ADDED, count=len(added))
         return selection.summarize(self, len(added), len(objects), done, failures)
 
     def _add(self, context: Context, obj: Object, shape: Shape, mass: float, unit: float) -> Object:

@@ -21,14 +21,17 @@ from ...blender.session import robots as scenes
 from ...blender.session.robots import SceneLinks
 from ...blender.write import reports
 from ...core.files.whole_file import whole_file
+from ...core.robots.findings import ROBOT_SCALED
 from ...core.robots.write import gltf, usd
 from ...core.robots.write.formats import robot_text, with_geometry
 from ...core.robots.write.shapes import with_primitives
 from ...core.verdict.finding import EditRefusedError, FileError, Finding, MeasureError, finding, system_reason
-from ...core.verdict.messages import sentence
+from ...core.verdict.sentences import sentence
 from .. import selection
+from ..findings import POLL_OBJECT_MODE
 from ..modal import progress
 from .copy_inertial import OBJECT_OT_body_moments_copy_inertial
+from .findings import ROBOT_EXPORTED, ROBOT_GEOMETRY_NOT_WRITTEN, ROBOT_NAMES_ALIKE, ROBOT_NOT_WRITTEN, ROBOT_SHEARED
 
 LINKS = (
     ("OBJECT", "Objects", "Each object is a link; its parent holds it by a fixed joint"),
@@ -63,7 +66,7 @@ class RobotExport(ExportHelper):
     @classmethod
     def poll(cls, context: Context) -> bool:
         if context.mode != "OBJECT":
-            return reports.unavailable(cls, finding("poll_object_mode"))
+            return reports.unavailable(cls, finding(POLL_OBJECT_MODE))
         return True
 
     def execute(self, context: Context) -> set[str]:
@@ -74,7 +77,7 @@ class RobotExport(ExportHelper):
             selection.report(self, reports.refusal(error))
             return {"CANCELLED"}
         except OSError as error:
-            selection.report(self, finding("robot_not_written", error=system_reason(error)))
+            selection.report(self, finding(ROBOT_NOT_WRITTEN, error=system_reason(error)))
             return {"CANCELLED"}
         selection.report(self, *findings)
         return {"FINISHED"}
@@ -98,7 +101,7 @@ class RobotExport(ExportHelper):
         text, findings = robot_text(robot, self.FORMAT, [*made.findings, *bare], inertial_only=self.inertial_only)
         with whole_file(path) as file:
             file.write(self._encode(text, path))
-        return [finding("robot_exported", count=len(robot.links), file=path.name), *findings]
+        return [finding(ROBOT_EXPORTED, count=len(robot.links), file=path.name), *findings]
 
     def _encode(self, text: str, _path: Path) -> bytes:
         return text.encode("utf-8")
@@ -160,9 +163,9 @@ class GeometryExport(RobotExport):
         made = self._links(context, objects, path.stem)
         sheared = sheared_objects([obj for held in made.members.values() for obj in held])
         if sheared:
-            made.findings.append(finding("robot_sheared", count=len(sheared), links=sheared))
+            made.findings.append(finding(ROBOT_SHEARED, count=len(sheared), links=sheared))
         findings = self._export_over(context, made, path)
-        return [finding("robot_exported", count=len(made.robot.links), file=path.name), *findings]
+        return [finding(ROBOT_EXPORTED, count=len(made.robot.links), file=path.name), *findings]
 
     def _run_exporter(self, exporter: str, path: Path, options: dict) -> None:
         """Run Blender's own exporter on the same objects."""
@@ -170,9 +173,9 @@ class GeometryExport(RobotExport):
         try:
             result = getattr(getattr(bpy.ops, module), name)(filepath=str(path), collection=self.collection, **options)
         except (AttributeError, RuntimeError) as error:  # a Blender may be built without it
-            raise FileError("robot_geometry_not_written", error=" ".join(str(error).split())) from error
+            raise FileError(ROBOT_GEOMETRY_NOT_WRITTEN, error=" ".join(str(error).split())) from error
         if "FINISHED" not in result or not path.is_file():
-            raise FileError("robot_geometry_not_written", error=exporter)
+            raise FileError(ROBOT_GEOMETRY_NOT_WRITTEN, error=exporter)
 
 
 class EXPORT_SCENE_OT_body_moments_usd(GeometryExport, Operator):
@@ -189,14 +192,14 @@ class EXPORT_SCENE_OT_body_moments_usd(GeometryExport, Operator):
         paths = {label: usd_path(held[0], usd.identifier) for label, held in made.members.items()}
         alike = [label for label, prim in paths.items() if list(paths.values()).count(prim) > 1]
         if alike:
-            raise EditRefusedError("robot_names_alike", names=alike)
+            raise EditRefusedError(ROBOT_NAMES_ALIKE, names=alike)
         findings += usd.check(robot)
         geometry = path.with_name(path.stem + "_geometry.usdc")
         options = {"selected_objects_only": self.use_selection, "root_prim_path": "/" + USD_ROOT}
         self._run_exporter("wm.usd_export", geometry, options)
         scaled = [link.name for link in robot.roots if min(link.scale) < 0.0]
         if scaled:
-            findings.append(finding("robot_scaled", count=len(scaled), links=scaled))
+            findings.append(finding(ROBOT_SCALED, count=len(scaled), links=scaled))
         remarks = list(map(sentence, findings))
         text = usd.write_over(robot, paths, "./" + geometry.name, made.unit, remarks)
         with whole_file(path) as file:

@@ -29,7 +29,18 @@ from ...core.scans.formats import SUFFIXES, read_scan, sample_matrix, scan_suffi
 from ...core.scans.numpy_files import TYPES, read_raw
 from ...core.scans.positions import Positions, place_samples, read_all_positions
 from ...core.scans.scan import Scan
+from ...core.streams.findings import FILE_UNREADABLE
 from ...core.verdict.finding import FileError, Finding, MeasureError, finding, system_reason
+from ..findings import FILE_EXISTS, POLL_OBJECT_MODE
+from .findings import (
+    NO_IMPORT_FILE,
+    OPENVDB_MISSING,
+    SCAN_CT_NUMBERS,
+    SCAN_DRAWN_EVENLY,
+    SCAN_IMPORTED,
+    SCAN_NON_FINITE,
+    VOLUME_NOT_WRITTEN,
+)
 
 GRID_NAME = "density"
 SAMPLES_PER_SLAB = 1 << 22  # samples at a time
@@ -108,7 +119,7 @@ class OBJECT_OT_body_moments_import_scan(Operator, ImportHelper):
     @classmethod
     def poll(cls, context: Context) -> bool:
         if context.mode != "OBJECT":
-            return reports.unavailable(cls, finding("poll_object_mode"))
+            return reports.unavailable(cls, finding(POLL_OBJECT_MODE))
         return True
 
     def execute(self, context: Context) -> set[str]:
@@ -124,10 +135,10 @@ class OBJECT_OT_body_moments_import_scan(Operator, ImportHelper):
         """Make the object. What was done and what was decided."""
         module = openvdb()
         if module is None:
-            raise FileError("openvdb_missing")
+            raise FileError(OPENVDB_MISSING)
         path = Path(bpy.path.abspath(self.filepath))
         if path.is_dir():
-            raise FileError("no_import_file")
+            raise FileError(NO_IMPORT_FILE)
         target = path.with_name(path.name[: -len(scan_suffix(path))] + ".vdb")
         scan = self._scan(path)
         matrix, decided = sample_matrix(
@@ -140,20 +151,20 @@ class OBJECT_OT_body_moments_import_scan(Operator, ImportHelper):
             if row is not None:  # Blender's voxels are even: the first and the last are where they belong
                 matrix[:3, axis] *= row[-1] / (len(row) - 1)
         if target.exists() and not self.overwrite:
-            raise FileError("file_exists", file=target.name)
+            raise FileError(FILE_EXISTS, file=target.name)
         matrix[:3] /= shortest_decimal(context.scene.unit_settings.scale_length)
         try:
             low = _write(module, target, scan, matrix)
         except (OSError, RuntimeError) as error:  # OpenVDB's own errors are RuntimeErrors
-            raise FileError("volume_not_written", error=getattr(error, "strerror", None) or str(error)) from error
+            raise FileError(VOLUME_NOT_WRITTEN, error=getattr(error, "strerror", None) or str(error)) from error
         obj = _object(context, target)
         obj.body_moments.sample_positions = positions_text(positions)
-        findings = [finding("scan_imported", samples=list(scan.samples.shape), file=target.name), *decided]
+        findings = [finding(SCAN_IMPORTED, samples=list(scan.samples.shape), file=target.name), *decided]
         if files:
-            findings.append(finding("scan_drawn_evenly", axes=sorted(files)))
+            findings.append(finding(SCAN_DRAWN_EVENLY, axes=sorted(files)))
         if low < 0.0:
             obj.body_moments.values_from = "TABLE"
-            findings.append(finding("scan_ct_numbers"))
+            findings.append(finding(SCAN_CT_NUMBERS))
         return findings
 
     def _position_files(self) -> dict[str, str]:
@@ -167,14 +178,14 @@ class OBJECT_OT_body_moments_import_scan(Operator, ImportHelper):
                 return read_raw(path, self.raw_shape, self.raw_type, self.raw_big_endian, limits)
             return read_scan(path, limits)
         except OSError as error:
-            raise FileError("file_unreadable", error=system_reason(error)) from error
+            raise FileError(FILE_UNREADABLE, error=system_reason(error)) from error
 
 
 def _read_positions(files: dict[str, str], scan: Scan) -> Positions:
     try:
         return read_all_positions(files, scan.samples.shape)
     except OSError as error:
-        raise FileError("file_unreadable", error=system_reason(error)) from error
+        raise FileError(FILE_UNREADABLE, error=system_reason(error)) from error
 
 
 def _write(module: ModuleType, target: Path, scan: Scan, matrix: NDArray) -> float:
@@ -183,7 +194,7 @@ def _write(module: ModuleType, target: Path, scan: Scan, matrix: NDArray) -> flo
     least, exact = np.inf, True
     for _, slab in _slabs(scan):
         if not np.isfinite(slab.min()) or not np.isfinite(slab.max()):
-            raise FileError("scan_non_finite")
+            raise FileError(SCAN_NON_FINITE)
         least = min(least, float(slab.min()))
         exact = exact and np.array_equal(slab.astype(np.float32), slab)
     kind, grid_of = (np.float32, module.FloatGrid) if exact else (np.float64, module.DoubleGrid)

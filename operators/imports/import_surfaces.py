@@ -14,9 +14,14 @@ from bpy_extras.io_utils import ImportHelper
 from ...blender.scene.surface_objects import import_bodies
 from ...blender.settings.limits import scan_limits
 from ...blender.write import reports
+from ...blender.write.findings import REFUSED
+from ...command.findings import SURFACES_ROUNDED
 from ...core.cad.surface_file import SUFFIXES, read_surfaces
 from ...core.numerics.float32 import shortest_decimal
+from ...core.streams.findings import FILE_UNREADABLE
 from ...core.verdict.finding import FileError, Finding, MeasureError, finding, system_reason
+from ..findings import POLL_OBJECT_MODE
+from .findings import NO_SURFACE_FILE, NOT_IMPORTED, SURFACES_IMPORTED
 
 
 class OBJECT_OT_body_moments_import_surfaces(Operator, ImportHelper):
@@ -42,7 +47,7 @@ class OBJECT_OT_body_moments_import_surfaces(Operator, ImportHelper):
     @classmethod
     def poll(cls, context: Context) -> bool:
         if context.mode != "OBJECT":
-            return reports.unavailable(cls, finding("poll_object_mode"))
+            return reports.unavailable(cls, finding(POLL_OBJECT_MODE))
         return True
 
     def draw(self, _context: Context) -> None:
@@ -62,7 +67,7 @@ class OBJECT_OT_body_moments_import_surfaces(Operator, ImportHelper):
                 made += objects
                 findings += found
         if not made:
-            reports.report(self, *(findings or [finding("no_surface_file")]))
+            reports.report(self, *(findings or [finding(NO_SURFACE_FILE)]))
             return {"CANCELLED"}
         _select(context, made)
         for found in findings:  # a line for each; what was refused of one file does not undo the others
@@ -81,21 +86,21 @@ class OBJECT_OT_body_moments_import_surfaces(Operator, ImportHelper):
         try:
             file = read_surfaces(path, scan_limits())
         except OSError as error:
-            raise FileError("file_unreadable", error=system_reason(error)) from error
+            raise FileError(FILE_UNREADABLE, error=system_reason(error)) from error
         scale = shortest_decimal(context.scene.unit_settings.scale_length)
         unit = shortest_decimal(self.unit) if file.unit is None else file.unit
         made = import_bodies(file.bodies, context.collection, unit / scale)
         moved = max(share for _, share in made)
         patches = [patch for body in file.bodies for patch in body.patches]
         order = max(space.order for patch in patches for space in patch.spaces)
-        findings = [finding("surfaces_imported", count=len(patches), order=order, file=path.name)]
+        findings = [finding(SURFACES_IMPORTED, count=len(patches), order=order, file=path.name)]
         if moved:
-            findings.append(finding("surfaces_rounded", share=moved))
+            findings.append(finding(SURFACES_ROUNDED, share=moved))
         return [obj for obj, _ in made], [*findings, *file.refused, *file.notes]
 
 
 def _as_warning(found: Finding) -> Finding:
-    return finding("not_imported", cause=found.as_record()) if found.code == "refused" else found
+    return finding(NOT_IMPORTED, cause=found.as_record()) if found.code == REFUSED else found
 
 
 def _select(context: Context, made: list[Object]) -> None:

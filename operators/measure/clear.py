@@ -10,6 +10,7 @@ from ...blender.session.tracking import marks, staleness
 from ...blender.write import properties, section
 from ...core.verdict.finding import finding
 from .. import selection
+from ..findings import NO_RESULTS_TO_REMOVE, RESULTS_REMOVED
 
 
 class OBJECT_OT_body_moments_clear(Operator):
@@ -54,7 +55,7 @@ class OBJECT_OT_body_moments_clear(Operator):
 
         cleared, failures = selection.apply_to_all(objects, remove)
         staleness.mark_up_to_date(context, objects)
-        done = finding("results_removed", count=len(cleared)) if objects else finding("no_results_to_remove")
+        done = finding(RESULTS_REMOVED, count=len(cleared)) if objects else finding(NO_RESULTS_TO_REMOVE)
         return selection.summarize(self, len(cleared), len(objects), done, failures)
 
 

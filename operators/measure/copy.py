@@ -16,6 +16,7 @@ from ...blender.write.text_report import stored_document, text
 from ...blender.write.translations import localized
 from ...core.verdict.finding import Finding, finding
 from .. import selection
+from .findings import NO_VALUE_TO_COPY, POLL_MEASURE_SELECTED, REPORT_COPIED, VALUE_COPIED
 
 
 def copy_text(operator: Operator, context: Context, text: str, done: Finding) -> None:
@@ -43,9 +44,9 @@ class OBJECT_OT_body_moments_copy_value(Operator):
 
     def execute(self, context: Context) -> set[str]:
         if not self.value:
-            reports.report(self, finding("no_value_to_copy"))
+            reports.report(self, finding(NO_VALUE_TO_COPY))
             return {"CANCELLED"}
-        copy_text(self, context, self.value, finding("value_copied", value=self.value))
+        copy_text(self, context, self.value, finding(VALUE_COPIED, value=self.value))
         return {"FINISHED"}
 
 
@@ -54,7 +55,7 @@ def poll_stored(cls: type[Operator], context: Context) -> bool:
     if not selection.poll_selection(cls, context, any_mode=True):
         return False
     if not any(properties.is_stored(obj) for obj in context.view_layer.objects.selected):
-        return reports.unavailable(cls, finding("poll_measure_selected"))
+        return reports.unavailable(cls, finding(POLL_MEASURE_SELECTED))
     return True
 
 
@@ -86,7 +87,7 @@ class OBJECT_OT_body_moments_copy_report(Operator):
     def execute(self, context: Context) -> set[str]:
         document = selected_document(context)
         count = len(document["objects"]) + len(document["errors"])
-        copy_text(self, context, text(document), finding("report_copied", count=count))
+        copy_text(self, context, text(document), finding(REPORT_COPIED, count=count))
         return {"FINISHED"}
 
 

@@ -15,14 +15,24 @@ from bpy.types import Context, Event, Operator
 from ...blender.bodies.flat.flat_fourier import FlatTransform, flat_transform
 from ...blender.bodies.fourier import ObjectTransform, object_transform
 from ...blender.bodies.measure_object import THREADS
-from ...blender.read import measurable
+from ...blender.read.visibility import measurable
 from ...blender.settings.options import MeasureOptions
 from ...blender.write import reports, spectrum
+from ...command.findings import FOURIER_NOT_WRITTEN
 from ...core.fourier.wave_vectors import FrequencyGrid
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import FileError, MeasureError, finding, system_reason
 from .. import files
 from ..modal import ModalSteps
+from .findings import (
+    CANCELED_FOURIER,
+    FOURIER_FOLDER_MISSING,
+    FOURIER_PATH_MISSING,
+    FOURIER_WRITTEN,
+    PANEL_FOURIER_DEFAULT,
+    POLL_ACTIVE_SURFACE,
+    PROGRESS_FOURIER,
+)
 
 SUFFIX = ".npz"
 
@@ -87,7 +97,7 @@ class OBJECT_OT_body_moments_fourier(_Settings, Operator):
     @classmethod
     def poll(cls, context: Context) -> bool:
         if context.object is None or not measurable(context.object):
-            return reports.unavailable(cls, finding("poll_active_surface"))
+            return reports.unavailable(cls, finding(POLL_ACTIVE_SURFACE))
         return True
 
     def invoke(self, context: Context, event: Event) -> set[str]:
@@ -109,7 +119,7 @@ class OBJECT_OT_body_moments_fourier(_Settings, Operator):
         for name in ("of", "frame", "count", "largest"):
             column.prop(self, name)
         if not self.largest:
-            column.label(text=str(finding("panel_fourier_default")), icon="INFO")
+            column.label(text=str(finding(PANEL_FOURIER_DEFAULT)), icon="INFO")
 
     def execute(self, context: Context) -> set[str]:
         settings = {name: getattr(self, name) for name in ("filepath", "of", "frame", "count", "largest")}
@@ -127,8 +137,8 @@ class OBJECT_OT_body_moments_fourier_run(ModalSteps, _Settings, Operator):
     bl_idname = "object.body_moments_fourier_run"
     bl_label = "Fourier Transform"
     bl_options = {"UNDO", "INTERNAL"}
-    PROGRESS = finding("progress_fourier")
-    CANCELED = finding("canceled_fourier")
+    PROGRESS = finding(PROGRESS_FOURIER)
+    CANCELED = finding(CANCELED_FOURIER)
 
     poll = OBJECT_OT_body_moments_fourier.poll
 
@@ -157,9 +167,9 @@ class OBJECT_OT_body_moments_fourier_run(ModalSteps, _Settings, Operator):
         obj, depsgraph = context.object, context.evaluated_depsgraph_get()
         self._path = Path(bpy.path.abspath(bpy.path.ensure_ext(self.filepath, SUFFIX)))
         if not self.filepath:
-            raise FileError("fourier_path_missing")
+            raise FileError(FOURIER_PATH_MISSING)
         if not self._path.parent.is_dir():
-            raise FileError("fourier_folder_missing", folder=str(self._path.parent))
+            raise FileError(FOURIER_FOLDER_MISSING, folder=str(self._path.parent))
         self._dimension, frame = 2 if self.of == "FLAT" else 3, self.frame.lower()
         self._work: ObjectTransform | FlatTransform
         if self.of == "FLAT":
@@ -180,13 +190,13 @@ class OBJECT_OT_body_moments_fourier_run(ModalSteps, _Settings, Operator):
         try:
             spectrum.save(self._path, transform, self.frame.lower(), plane=self._work.arrays)
         except OSError as error:
-            raise FileError("fourier_not_written", error=system_reason(error)) from error
+            raise FileError(FOURIER_NOT_WRITTEN, error=system_reason(error)) from error
         name = "Fourier Transform of {:s}".format(self._work.name)
         image = spectrum.picture(name, transform.values, self.count, self._dimension)
         for area in context.screen.areas if context.screen else ():
             if area.type == "IMAGE_EDITOR":
                 area.spaces.active.image = image
-        done = finding("fourier_written", count=len(transform.q), file=self._path.name, image=image.name)
+        done = finding(FOURIER_WRITTEN, count=len(transform.q), file=self._path.name, image=image.name)
         reports.report(self, done, *reports.first(findings))
         return {"FINISHED"}
 

@@ -21,6 +21,14 @@ from ...core.files.whole_file import whole_file
 from ...core.measurement.page import to_html
 from ...core.verdict.finding import MeasureError, finding, system_reason
 from ..modal import ModalSteps
+from .findings import (
+    CANCELED_LIBRARY,
+    LIBRARY_FAILED,
+    LIBRARY_MEASURED,
+    LIBRARY_MEASURED_WITH_FAILURES,
+    LIBRARY_NOT_STARTED,
+    PROGRESS_LIBRARY,
+)
 
 RESULT, REPORT = "body_moments.jsonl", "body_moments.html"
 JOURNAL = RESULT + ".journal"
@@ -46,8 +54,8 @@ class OBJECT_OT_body_moments_measure_library(ModalSteps, Operator):
     bl_idname = "object.body_moments_measure_library"
     bl_label = "Measure Library"
     bl_options = {"REGISTER"}
-    PROGRESS = finding("progress_library")
-    CANCELED = finding("canceled_library")
+    PROGRESS = finding(PROGRESS_LIBRARY)
+    CANCELED = finding(CANCELED_LIBRARY)
 
     directory: StringProperty(name="Folder", description="Folder with the files to measure", subtype="DIR_PATH")
     filter_folder: BoolProperty(default=True, options={"HIDDEN"})
@@ -85,7 +93,7 @@ class OBJECT_OT_body_moments_measure_library(ModalSteps, Operator):
             reports.report(self, refusal.finding)
             return {"CANCELLED"}
         except OSError as error:
-            reports.report(self, finding("library_not_started", error=system_reason(error)))
+            reports.report(self, finding(LIBRARY_NOT_STARTED, error=system_reason(error)))
             return {"CANCELLED"}
         if bpy.app.background or context.window is None:
             return self.run_all_steps(context, count)
@@ -125,7 +133,7 @@ class OBJECT_OT_body_moments_measure_library(ModalSteps, Operator):
     def _finish(self, context: Context) -> set[str]:
         result = self._folder / RESULT
         if self._exit_code not in (0, 1, 70) or not result.exists():
-            reports.report(self, finding("library_failed", code=self._exit_code))
+            reports.report(self, finding(LIBRARY_FAILED, code=self._exit_code))
             return {"CANCELLED"}
         with Journal(result.with_name(JOURNAL)) as journal:
             paths = list(journal.entries)
@@ -133,7 +141,7 @@ class OBJECT_OT_body_moments_measure_library(ModalSteps, Operator):
             documents = _Documents(journal, paths)
             with whole_file(self._folder / REPORT) as file:
                 file.writelines(piece.encode("utf-8", "backslashreplace") for piece in to_html(documents))
-        code = "library_measured_with_failures" if failed else "library_measured"
+        code = LIBRARY_MEASURED_WITH_FAILURES if failed else LIBRARY_MEASURED
         reports.report(self, finding(code, count=len(paths), failed=failed, file=str(self._folder / REPORT)))
         return {"FINISHED"}
 

@@ -15,7 +15,9 @@ from ...core.files.whole_file import whole_file
 from ...core.measurement.documents import FORMATS
 from ...core.verdict.finding import FileError, MeasureError, finding, system_reason
 from .. import files, selection
+from ..findings import FILE_NOT_WRITTEN, NO_EXPORT_FILE
 from .copy import copy_text, poll_stored, selected_document
+from .findings import CSV_COPIED, NUMBERS_SAVED, NUMBERS_SUFFIX
 
 SUFFIXES = {".csv": "csv", ".json": "json", ".jsonl": "jsonl"}
 
@@ -34,7 +36,7 @@ class OBJECT_OT_body_moments_copy_csv(Operator):
     def execute(self, context: Context) -> set[str]:
         document = selected_document(context)
         copy_text(
-            self, context, "".join(FORMATS["csv"]([document])), finding("csv_copied", count=len(document["objects"]))
+            self, context, "".join(FORMATS["csv"]([document])), finding(CSV_COPIED, count=len(document["objects"]))
         )
         return {"FINISHED"}
 
@@ -63,21 +65,21 @@ class OBJECT_OT_body_moments_save_numbers(Operator):
     def execute(self, context: Context) -> set[str]:
         try:
             if not self.filepath:
-                raise FileError("no_export_file")
+                raise FileError(NO_EXPORT_FILE)
             path = Path(bpy.path.abspath(self.filepath))
             if path.suffix.lower() not in SUFFIXES:
-                raise FileError("numbers_suffix", file=path.name)
+                raise FileError(NUMBERS_SUFFIX, file=path.name)
             document = selected_document(context)
             try:
                 with whole_file(path) as file:
                     for piece in FORMATS[SUFFIXES[path.suffix.lower()]]([document]):
                         file.write(piece.encode())
             except OSError as error:
-                raise FileError("file_not_written", error=system_reason(error)) from error
+                raise FileError(FILE_NOT_WRITTEN, error=system_reason(error)) from error
         except MeasureError as error:
             selection.report(self, reports.refusal(error))
             return {"CANCELLED"}
-        selection.report(self, finding("numbers_saved", count=len(document["objects"]), file=path.name))
+        selection.report(self, finding(NUMBERS_SAVED, count=len(document["objects"]), file=path.name))
         return {"FINISHED"}
 
 

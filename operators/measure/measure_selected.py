@@ -19,8 +19,10 @@ from ...blender.write import reports
 from ...core.density.materials import BY_NAME
 from ...core.verdict import internal_error
 from ...core.verdict.finding import Finding, Severity, finding
-from ...core.verdict.messages import of_severity
+from ...core.verdict.sentences import of_severity
+from ..findings import CANCELED_MEASURING, POLL_SELECT_OBJECTS, PROGRESS_MEASURING
 from ..modal import MAX_OBJECTS_WITHOUT_REDRAW, ModalSteps, redraw
+from .findings import MEASURED_ONE, MEASURED_ONE_WITH_WARNINGS, MEASURED_SEVERAL, OBJECT_WARNINGS, WITH_WARNINGS
 
 AS_SET = "AS_SET"
 
@@ -31,8 +33,8 @@ class OBJECT_OT_body_moments_measure(ModalSteps, bpy.types.Operator):
     bl_idname = "object.body_moments_measure"
     bl_label = "Measure"
     bl_options = {"REGISTER", "UNDO"}
-    PROGRESS = finding("progress_measuring")
-    CANCELED = finding("canceled_measuring")
+    PROGRESS = finding(PROGRESS_MEASURING)
+    CANCELED = finding(CANCELED_MEASURING)
 
     # What can be changed after the fact, in the redo panel; the objects' settings are kept as they are by default.
     material: EnumProperty(
@@ -68,7 +70,7 @@ class OBJECT_OT_body_moments_measure(ModalSteps, bpy.types.Operator):
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         if not context.selected_objects:
-            return reports.unavailable(cls, finding("poll_select_objects"))
+            return reports.unavailable(cls, finding(POLL_SELECT_OBJECTS))
         return True
 
     def execute(self, context: bpy.types.Context) -> set[str]:
@@ -135,18 +137,18 @@ class OBJECT_OT_body_moments_measure(ModalSteps, bpy.types.Operator):
 
     def _report(self, stored: int) -> None:
         warnings = [
-            finding("object_warnings", object=obj.name_full, causes=[cause.as_record() for cause in causes])
+            finding(OBJECT_WARNINGS, object=obj.name_full, causes=[cause.as_record() for cause in causes])
             for obj, measured in self._results
             if (causes := of_severity(measured.findings, Severity.WARNING, Severity.ERROR))
         ]
         tried = stored + len(self._failures)
-        done = [finding("measured_several", count=stored, total=tried)] if tried > 1 else []
+        done = [finding(MEASURED_SEVERAL, count=stored, total=tried)] if tried > 1 else []
         if tried == stored == 1:
             name = self._results[0][0].name
-            done.append(finding("measured_one_with_warnings" if warnings else "measured_one", object=name))
+            done.append(finding(MEASURED_ONE_WITH_WARNINGS if warnings else MEASURED_ONE, object=name))
         elif warnings:
             names = [warning.values["object"] for warning in warnings]
-            done.append(finding("with_warnings", count=len(names), objects=names))
+            done.append(finding(WITH_WARNINGS, count=len(names), objects=names))
         outcome.remember(self.bl_label, [*self._failures, *warnings] if tried > 1 else [])
         reports.report(self, *done, *(reports.first(self._failures) if self._failures else ()))
 

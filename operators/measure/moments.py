@@ -10,8 +10,8 @@ from bpy.types import Context, Object, Operator
 
 from ...blender.bodies.flat.flat import area_findings, clearer_refusal, flat_region
 from ...blender.bodies.measure_object import THREADS, measure_object
-from ...blender.read import measurable
 from ...blender.read.fingerprint import matrix_hash, settings_hash
+from ...blender.read.visibility import measurable
 from ...blender.session.stored.moments import (
     ComputedMoments,
     FlatMoments,
@@ -27,13 +27,15 @@ from ...core.flat.regions import plane_positions
 from ...core.moments.moments import Measure
 from ...core.verdict.finding import Finding, MeasureError, finding
 from .. import selection
+from ..findings import POLL_ACTIVE_MEASURABLE
 from .copy import copy_text
+from .findings import MOMENTS_COMPUTED, MOMENTS_COPIED, POLL_COMPUTE_MOMENTS, WIRE_WITHOUT_MOMENTS
 
 
 def _active(cls: type[Operator], context: Context) -> Object | None:
     obj = context.object
     if obj is None or not measurable(obj):
-        reports.unavailable(cls, finding("poll_active_measurable"))
+        reports.unavailable(cls, finding(POLL_ACTIVE_MEASURABLE))
         return None
     return obj
 
@@ -63,11 +65,11 @@ class OBJECT_OT_body_moments_compute_moments(Operator):
             selection.report(self, reports.failure(obj.name, error))
             return {"CANCELLED"}
         if computed is None:
-            reports.report(self, finding("wire_without_moments", object=obj.name))
+            reports.report(self, finding(WIRE_WITHOUT_MOMENTS, object=obj.name))
             return {"CANCELLED"}
         cache_moments(obj, computed)
         count = len(plane_positions(order)) if computed.volume is None else len(computed.volume.raw)
-        done = finding("moments_computed", count=count, object=obj.name)
+        done = finding(MOMENTS_COMPUTED, count=count, object=obj.name)
         reports.report(self, done, *reports.first(findings))
         return {"FINISHED"}
 
@@ -126,7 +128,7 @@ class OBJECT_OT_body_moments_copy_moments(Operator):
         obj = _active(cls, context)
         if obj is None:
             return False
-        return computed_moments(obj) is not None or reports.unavailable(cls, finding("poll_compute_moments"))
+        return computed_moments(obj) is not None or reports.unavailable(cls, finding(POLL_COMPUTE_MOMENTS))
 
     def execute(self, context: Context) -> set[str]:
         settings, computed = context.scene.body_moments, computed_moments(context.object)
@@ -138,7 +140,7 @@ class OBJECT_OT_body_moments_copy_moments(Operator):
         except MeasureError as error:
             selection.report(self, reports.failure(computed.name, error))
             return {"CANCELLED"}
-        copy_text(self, context, text, finding("moments_copied", count=text.count("\n") - 2))
+        copy_text(self, context, text, finding(MOMENTS_COPIED, count=text.count("\n") - 2))
         return {"FINISHED"}
 
 

@@ -11,11 +11,13 @@ from bpy.types import Context, Object, Operator
 from ...blender.read.reference import ReferenceChoice
 from ...blender.session.stored import reference
 from ...blender.write import properties, reports
+from ...blender.write.findings import NO_STORED_RESULTS
 from ...core.inertia.reference import ReferredInertia
 from ...core.verdict.finding import MeasureError, QueryError, finding
 from .. import selection
 from ..modal import redraw
 from .copy import copy_text
+from .findings import AXIS_NEEDS_TWO_POINTS, POLL_MEASURE_SELECTED, REFERENCE_STORED, REPORT_COPIED
 
 POINTS = 2  # of an axis
 
@@ -39,7 +41,7 @@ class OBJECT_OT_body_moments_store_reference(Operator):
             properties.retrigger_drivers(obj)
 
         stored, failures = selection.apply_to_all(objects, store)
-        done = finding("reference_stored", count=len(stored)) if objects else finding("no_stored_results")
+        done = finding(REFERENCE_STORED, count=len(stored)) if objects else finding(NO_STORED_RESULTS)
         return selection.summarize(self, len(stored), len(objects), done, failures)
 
 
@@ -53,16 +55,16 @@ class OBJECT_OT_body_moments_copy_reference(Operator):
     @classmethod
     def poll(cls, context: Context) -> bool:
         if context.object is None or not properties.is_stored(context.object):
-            return reports.unavailable(cls, finding("poll_measure_selected"))
+            return reports.unavailable(cls, finding(POLL_MEASURE_SELECTED))
         return True
 
     def execute(self, context: Context) -> set[str]:
         result = reference.referred(context.object, context.scene)
         if not isinstance(result, ReferredInertia):
-            selection.report(self, result or finding("no_stored_results"))
+            selection.report(self, result or finding(NO_STORED_RESULTS))
             return {"CANCELLED"}
         text = _text(context.object.name, ReferenceChoice.of(context.scene.body_moments_reference), result)
-        copy_text(self, context, text, finding("report_copied", count=1))
+        copy_text(self, context, text, finding(REPORT_COPIED, count=1))
         return {"FINISHED"}
 
 
@@ -96,7 +98,7 @@ class OBJECT_OT_body_moments_axis_from_selection(Operator):
         try:
             points = _selected_points(context)
             if len(points) != POINTS:
-                raise QueryError("axis_needs_two_points", count=len(points))
+                raise QueryError(AXIS_NEEDS_TWO_POINTS, count=len(points))
         except MeasureError as error:
             selection.report(self, reports.refusal(error))
             return {"CANCELLED"}

@@ -18,9 +18,19 @@ from ...blender.write import section as record
 from ...core.flat.section import Section, measure_section
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import Finding, Severity, finding
-from ...core.verdict.messages import of_severity
+from ...core.verdict.sentences import of_severity
 from ..modal import redraw
 from .copy import copy_text
+from .findings import (
+    MEASURED_SECTION,
+    MEASURED_SECTION_WITH_WARNINGS,
+    MEASURED_SECTIONS,
+    POLL_MEASURE_SECTION,
+    POLL_SECTION,
+    SECTION_COPIED,
+    STALE_UNIT_SCALE,
+    WITH_WARNINGS,
+)
 
 
 def section_of(obj: Object, depsgraph: Depsgraph) -> tuple[Section, str, tuple[Finding, ...]]:
@@ -36,7 +46,7 @@ def section_of(obj: Object, depsgraph: Depsgraph) -> tuple[Section, str, tuple[F
 def stale_reason(obj: Object, scene: bpy.types.Scene, stored: record.StoredSection) -> str | None:
     """The code of why the stored section is out of date, None where it is not."""
     if stored.unit != shortest_decimal(scene.unit_settings.scale_length):
-        return "stale_unit_scale"
+        return STALE_UNIT_SCALE
     return staleness.section_stale_reason(obj)
 
 
@@ -54,7 +64,7 @@ class OBJECT_OT_body_moments_measure_section(Operator):
     @classmethod
     def poll(cls, context: Context) -> bool:
         if not _objects_with_sections(context):
-            return reports.unavailable(cls, finding("poll_section"))
+            return reports.unavailable(cls, finding(POLL_SECTION))
         return True
 
     def execute(self, context: Context) -> set[str]:
@@ -83,10 +93,10 @@ class OBJECT_OT_body_moments_measure_section(Operator):
         redraw(context)
         warned = [obj.name for obj, *_, found in sections if of_severity(found, Severity.WARNING, Severity.ERROR)]
         if len(sections) > 1:
-            done = [finding("measured_sections", count=len(sections))]
-            done += [finding("with_warnings", count=len(warned), objects=warned)] if warned else []
+            done = [finding(MEASURED_SECTIONS, count=len(sections))]
+            done += [finding(WITH_WARNINGS, count=len(warned), objects=warned)] if warned else []
         else:
-            code = "measured_section_with_warnings" if warned else "measured_section"
+            code = MEASURED_SECTION_WITH_WARNINGS if warned else MEASURED_SECTION
             done = [finding(code, object=obj.name) for obj, *_ in sections]
         outcome.remember(self.bl_label, failures)
         reports.report(self, *done, *reports.first(failures))
@@ -103,7 +113,7 @@ class OBJECT_OT_body_moments_copy_section(Operator):
     @classmethod
     def poll(cls, context: Context) -> bool:
         if context.object is None or record.stored(context.object) is None:
-            return reports.unavailable(cls, finding("poll_measure_section"))
+            return reports.unavailable(cls, finding(POLL_MEASURE_SECTION))
         return True
 
     def execute(self, context: Context) -> set[str]:
@@ -112,7 +122,7 @@ class OBJECT_OT_body_moments_copy_section(Operator):
         assert stored is not None
         code = stale_reason(obj, context.scene, stored)
         text = record.text(obj.name, stored, None if code is None else Finding(code))
-        copy_text(self, context, text, finding("section_copied", object=obj.name))
+        copy_text(self, context, text, finding(SECTION_COPIED, object=obj.name))
         return {"FINISHED"}
 
 

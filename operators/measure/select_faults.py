@@ -13,13 +13,17 @@ from bpy.props import EnumProperty
 from bpy.types import Context, Object, Operator
 
 from ...blender.bodies.measure_object import measure_object
+from ...blender.scene.findings import LINKED_OBJECT_DATA
 from ...blender.session.stored import density
 from ...blender.session.tracking import staleness
 from ...blender.write import properties, reports
 from ...core.measurement.measurement import Measurement
 from ...core.verdict.finding import EditRefusedError, finding
+from ...core.verdict.findings import FLIPPED_FACES
 from ...core.verdict.health import DefectiveElements
 from .. import selection
+from ..findings import POLL_OBJECT_MODE
+from .findings import MODIFIED_MESH, NO_DEFECTS, OBJECT_DEFECTS, POLL_SELECT_MESHES, WITH_DEFECTS
 
 DEFECTS = {field.name: "defect_" + field.name for field in fields(DefectiveElements)}
 # Modifiers that only move vertices: the faults' indices are those of the mesh itself.
@@ -68,7 +72,7 @@ class OBJECT_OT_body_moments_select_faults(Operator):
         description="Kinds of defects that are selected",
         options={"ENUM_FLAG"},
         items=(
-            ("flipped_faces", "Flipped Faces", "Faces that were measured as reversed"),
+            (FLIPPED_FACES, "Flipped Faces", "Faces that were measured as reversed"),
             ("boundary_edges", "Boundary Edges", "Edges of one face, around holes"),
             ("non_manifold_edges", "Non-Manifold Edges", "Edges of more than two faces"),
             ("inconsistent_edges", "Opposite Normals", "Edges whose two faces point to opposite sides"),
@@ -81,9 +85,9 @@ class OBJECT_OT_body_moments_select_faults(Operator):
     @classmethod
     def poll(cls, context: Context) -> bool:
         if context.mode not in {"OBJECT", "EDIT_MESH"}:
-            return reports.unavailable(cls, finding("poll_object_mode"))
+            return reports.unavailable(cls, finding(POLL_OBJECT_MODE))
         if not any(obj.type == "MESH" for obj in context.view_layer.objects.selected):
-            return reports.unavailable(cls, finding("poll_select_meshes"))
+            return reports.unavailable(cls, finding(POLL_SELECT_MESHES))
         return True
 
     def execute(self, context: Context) -> set[str]:
@@ -115,11 +119,11 @@ class OBJECT_OT_body_moments_select_faults(Operator):
         elif editing:
             bpy.ops.object.mode_set(mode="EDIT")
         staleness.mark_up_to_date(context, stored)
-        done = finding("no_defects", count=len(stored))
+        done = finding(NO_DEFECTS, count=len(stored))
         if faults:
-            done = finding("with_defects", count=len(faults), total=len(stored))
+            done = finding(WITH_DEFECTS, count=len(faults), total=len(stored))
         defects = [
-            finding("object_defects", object=obj.name, defects=_counts(measurements))
+            finding(OBJECT_DEFECTS, object=obj.name, defects=_counts(measurements))
             for obj, measurements in faults.items()
         ]
         return selection.summarize(self, len(stored), len(objects), done, failures, defects)
@@ -128,14 +132,14 @@ class OBJECT_OT_body_moments_select_faults(Operator):
 def require_editable_mesh(obj: Object) -> None:
     """Raises where what is measured is not what could be edited."""
     if not obj.data.is_editable:  # nor is it then of a linked object
-        raise EditRefusedError("linked_object_data")
+        raise EditRefusedError(LINKED_OBJECT_DATA)
     changing = [
         modifier.name
         for modifier in obj.modifiers
         if modifier.show_viewport and modifier.type not in DEFORMING_MODIFIERS
     ]
     if changing:
-        raise EditRefusedError("modified_mesh", modifiers=changing)
+        raise EditRefusedError(MODIFIED_MESH, modifiers=changing)
 
 
 def _defects_by_kind(measurement: Measurement) -> dict[str, np.ndarray]:

@@ -23,6 +23,7 @@ from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import MeasureError, finding
 from .. import selection
 from ..modal import redraw
+from .findings import RIG_CENTER_ADDED
 from .measure import poll_armature
 
 CENTER_OF = "center_of_mass_of"  # ID property of what is made: the armature object
@@ -51,7 +52,7 @@ class OBJECT_OT_body_moments_rig_center(Operator):
         except MeasureError as error:
             selection.report(self, reports.refusal(error))
             return {"CANCELLED"}
-        selection.report(self, finding("rig_center_added", armature=rig.armature.name))
+        selection.report(self, finding(RIG_CENTER_ADDED, armature=rig.armature.name))
         redraw(context)
         return {"FINISHED"}
 

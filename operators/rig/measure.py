@@ -5,19 +5,22 @@
 from bpy.types import Context, Operator
 
 from ...blender.bodies.rig import measure_rig
+from ...blender.read.findings import NO_ACTIVE_ARMATURE
 from ...blender.read.rig import require_armature
 from ...blender.session.stored import rig as stored_rig
 from ...blender.write import reports
 from ...core.verdict.finding import MeasureError, Severity, finding
-from ...core.verdict.messages import of_severity
+from ...core.verdict.sentences import of_severity
 from .. import selection
+from ..findings import NO_RESULTS_TO_REMOVE, RESULTS_REMOVED
 from ..modal import redraw
+from .findings import BONES_MEASURED
 
 
 def poll_armature(cls: type[Operator], context: Context) -> bool:
     """Whether the active object is an armature; says why not."""
     if context.object is None or context.object.type != "ARMATURE":
-        return reports.unavailable(cls, finding("no_active_armature"))
+        return reports.unavailable(cls, finding(NO_ACTIVE_ARMATURE))
     return True
 
 
@@ -43,7 +46,7 @@ class OBJECT_OT_body_moments_measure_bones(Operator):
         mass = rig.measurement.mass_properties.mass
         findings = of_severity(rig.measurement.findings, Severity.WARNING, Severity.ERROR)
         findings += [reports.failure(name, reason) for name, reason in failures]
-        done = finding("bones_measured", armature=rig.armature.name, count=count, mass=mass)
+        done = finding(BONES_MEASURED, armature=rig.armature.name, count=count, mass=mass)
         selection.report(self, done, *reports.first(findings))
         redraw(context)
         return {"FINISHED"}
@@ -66,7 +69,7 @@ class OBJECT_OT_body_moments_clear_bones(Operator):
         except MeasureError as error:
             selection.report(self, reports.refusal(error))
             return {"CANCELLED"}
-        selection.report(self, finding("results_removed", count=1) if cleared else finding("no_results_to_remove"))
+        selection.report(self, finding(RESULTS_REMOVED, count=1) if cleared else finding(NO_RESULTS_TO_REMOVE))
         redraw(context)
         return {"FINISHED"} if cleared else {"CANCELLED"}
 

@@ -9,6 +9,7 @@ import numpy as np
 from bpy.types import Bone, Context, Object, Operator, PoseBone
 from mathutils import Matrix
 
+from ...blender.bodies.findings import BONE_PARTS_IMPOSSIBLE
 from ...blender.bodies.rig import BonePart, Rig, measure_rig
 from ...blender.read.rig import require_armature
 from ...blender.read.tracking import tracking_paused
@@ -20,6 +21,7 @@ from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import EditRefusedError, MeasureError, finding
 from .. import selection
 from ..modal import redraw
+from .findings import PHYSICS_RIG_CREATED, PHYSICS_RIG_TOO_LIGHT
 from .measure import poll_armature
 
 RIG_OF = "physics_rig_of"  # ID property of what is made: the armature object
@@ -47,7 +49,7 @@ class OBJECT_OT_body_moments_physics_rig(Operator):
             parts = [part for part in rig.parts if part.measurement is not None]
             light = [part.name for part in parts if part.mass.total < MIN_MASS]
             if light:
-                raise EditRefusedError("physics_rig_too_light", subject=rig.armature.name, names=light, limit=MIN_MASS)
+                raise EditRefusedError(PHYSICS_RIG_TOO_LIGHT, subject=rig.armature.name, names=light, limit=MIN_MASS)
             require_rigid_world(context.scene, joints=True)
             with tracking_paused():
                 bodies, joints = _create(context, rig, parts)
@@ -55,8 +57,8 @@ class OBJECT_OT_body_moments_physics_rig(Operator):
             selection.report(self, reports.refusal(error))
             return {"CANCELLED"}
         missing = [part.name for part in rig.parts if part.measurement is None]
-        more = [finding("bone_parts_impossible", count=len(missing), names=missing)] if missing else []
-        selection.report(self, finding("physics_rig_created", count=bodies, joints=joints), *more)
+        more = [finding(BONE_PARTS_IMPOSSIBLE, count=len(missing), names=missing)] if missing else []
+        selection.report(self, finding(PHYSICS_RIG_CREATED, count=bodies, joints=joints), *more)
         redraw(context)
         return {"FINISHED"}
 

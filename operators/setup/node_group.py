@@ -16,11 +16,13 @@ import bpy
 from bpy.props import BoolProperty
 from bpy.types import Context, GeometryNodeTree, Node, NodeSocket, Object, Operator
 
-from ...blender.read import measurable
+from ...blender.read.visibility import measurable
 from ...blender.settings.density import object_density
 from ...blender.write import reports
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import finding
+from ..findings import POLL_OBJECT_MODE
+from .findings import NODE_GROUP_ADDED, NODE_MARKER_ADDED, NODE_MARKER_IS_OF_SOLID
 
 GROUP_NAME, MARKER_NAME = "Center of Mass", "Center of Mass Marker"
 KEY = "body_moments_nodes"  # ID property of our groups: the version of their nodes
@@ -49,7 +51,7 @@ class OBJECT_OT_body_moments_add_nodes(Operator):
     @classmethod
     def poll(cls, context: Context) -> bool:
         if context.mode != "OBJECT":
-            return reports.unavailable(cls, finding("poll_object_mode"))
+            return reports.unavailable(cls, finding(POLL_OBJECT_MODE))
         return True
 
     def execute(self, context: Context) -> set[str]:
@@ -57,13 +59,13 @@ class OBJECT_OT_body_moments_add_nodes(Operator):
         obj = context.object
         if self.marker and obj is not None and measurable(obj):
             made = _add_marker(context, obj, group)
-            found = [finding("node_marker_added", group=group.name, object=made.name)]
+            found = [finding(NODE_MARKER_ADDED, group=group.name, object=made.name)]
             settings = obj.body_moments
             if (settings.kind, settings.mass_from, settings.density_from) != ("SOLID", "DENSITY", "VALUE"):
-                found.append(finding("node_marker_is_of_solid"))
+                found.append(finding(NODE_MARKER_IS_OF_SOLID))
             reports.report(self, *found)
         else:
-            reports.report(self, finding("node_group_added", group=group.name))
+            reports.report(self, finding(NODE_GROUP_ADDED, group=group.name))
         return {"FINISHED"}
 
 

@@ -16,6 +16,17 @@ from ...blender.write import reports
 from ...core.density.materials import BY_NAME
 from ...core.verdict.finding import finding
 from .. import selection
+from ..findings import POLL_SELECT_OBJECTS
+from .findings import (
+    BLENDER_MATERIAL_SET,
+    LIBRARY_OVERRIDE_SETTINGS,
+    MATERIAL_NOT_LOCAL,
+    MATERIAL_SET,
+    MATERIAL_SET_ALREADY,
+    POLL_SELECT_OTHERS,
+    SETTINGS_COPIED,
+    SETTINGS_EQUAL,
+)
 
 PRESET_FOLDER = "body_moments"  # folder of the user's presets
 
@@ -48,7 +59,7 @@ class OBJECT_OT_body_moments_set_material(Operator):
     @classmethod
     def poll(cls, context: Context) -> bool:
         if not _targets(context):
-            return reports.unavailable(cls, finding("poll_select_objects"))
+            return reports.unavailable(cls, finding(POLL_SELECT_OBJECTS))
         return True
 
     def invoke(self, context: Context, _event) -> set[str]:
@@ -61,7 +72,7 @@ class OBJECT_OT_body_moments_set_material(Operator):
         objects = _targets(context)
 
         def set_density(obj: Object) -> bool:
-            require_storable_data(obj, "library_override_settings")
+            require_storable_data(obj, LIBRARY_OVERRIDE_SETTINGS)
             settings = obj.body_moments
             before = _density_of(settings)
             settings.mass_from = "DENSITY"
@@ -72,8 +83,8 @@ class OBJECT_OT_body_moments_set_material(Operator):
             return before != _density_of(settings)
 
         changed, failures = selection.apply_to_all(objects, set_density)
-        done = finding("material_set", count=len(changed), material=material.name)
-        idle = finding("material_set_already", material=material.name)
+        done = finding(MATERIAL_SET, count=len(changed), material=material.name)
+        idle = finding(MATERIAL_SET_ALREADY, material=material.name)
         return selection.summarize(self, len(changed), len(objects), done, failures, idle=idle)
 
 
@@ -107,12 +118,12 @@ class MATERIAL_OT_body_moments_set_density(Operator):
     def execute(self, _context: Context) -> set[str]:
         target = bpy.data.materials.get((self.target, None))
         if target is None:
-            reports.report(self, finding("material_not_local", material=self.target))
+            reports.report(self, finding(MATERIAL_NOT_LOCAL, material=self.target))
             return {"CANCELLED"}
         entry = BY_NAME[self.material]
         target.body_moments.density = entry.density
         target.body_moments.material = entry.name
-        reports.report(self, finding("blender_material_set", target=target.name, material=entry.name))
+        reports.report(self, finding(BLENDER_MATERIAL_SET, target=target.name, material=entry.name))
         return {"FINISHED"}
 
 
@@ -130,7 +141,7 @@ class OBJECT_OT_body_moments_copy_settings(Operator):
     def poll(cls, context: Context) -> bool:
         active = context.view_layer.objects.active
         if active is None or not any(obj != active for obj in context.view_layer.objects.selected):
-            return reports.unavailable(cls, finding("poll_select_others"))
+            return reports.unavailable(cls, finding(POLL_SELECT_OTHERS))
         return True
 
     def execute(self, context: Context) -> set[str]:
@@ -138,12 +149,12 @@ class OBJECT_OT_body_moments_copy_settings(Operator):
         objects = [obj for obj in context.view_layer.objects.selected if obj != active]
 
         def copy(obj: Object) -> bool:
-            require_storable_data(obj, "library_override_settings")
+            require_storable_data(obj, LIBRARY_OVERRIDE_SETTINGS)
             return copy_settings(active.body_moments, obj.body_moments)
 
         copied, failures = selection.apply_to_all(objects, copy)
-        done = finding("settings_copied", count=len(copied))
-        return selection.summarize(self, len(copied), len(objects), done, failures, idle=finding("settings_equal"))
+        done = finding(SETTINGS_COPIED, count=len(copied))
+        return selection.summarize(self, len(copied), len(objects), done, failures, idle=finding(SETTINGS_EQUAL))
 
 
 class OBJECT_OT_body_moments_preset_add(AddPresetBase, Operator):

@@ -11,18 +11,22 @@ from bpy.props import BoolProperty, FloatProperty, StringProperty
 from bpy.types import Context, Object, Operator
 
 from ...blender.bodies.measure_object import measure_object
-from ...blender.read import measurable
+from ...blender.read.visibility import measurable
 from ...blender.scene.transforms import require_storable_data
 from ...blender.session.stored import outcome
 from ...blender.settings.accepted import accepted_codes, set_accepted, with_acceptance
 from ...blender.settings.preferences import copy_defaults
 from ...blender.write import properties, reports
+from ...core.solid.findings import FLIPPED_FACES_SLIGHTLY, INVERTED_COMPONENTS, INVERTED_COMPONENTS_SLIGHTLY
 from ...core.verdict.finding import EditRefusedError, MeasureError, finding
+from ...core.verdict.findings import FLIPPED_FACES
 from .. import selection
+from ..findings import NOTHING_TO_DO, POLL_ACTIVE_MEASURABLE, POLL_ACTIVE_MESH, POLL_OBJECT_MODE
 from ..measure.select_faults import require_editable_mesh
+from .findings import FACES_REVERSED, LIBRARY_OVERRIDE_SETTINGS, NO_REVERSED_FACES
 
 # Findings whose elements are the faces that were reversed; without elements, all faces were
-REVERSED = ("flipped_faces", "flipped_faces_slightly", "inverted_components", "inverted_components_slightly")
+REVERSED = (FLIPPED_FACES, FLIPPED_FACES_SLIGHTLY, INVERTED_COMPONENTS, INVERTED_COMPONENTS_SLIGHTLY)
 MILLIMETER = 0.001
 
 
@@ -35,11 +39,11 @@ def measure_anew(context: Context, objects: list[Object]) -> None:
 def _poll_active(cls: type[Operator], context: Context, mesh: bool = False) -> bool:
     obj = context.object
     if obj is None or not measurable(obj):
-        return reports.unavailable(cls, finding("poll_active_measurable"))
+        return reports.unavailable(cls, finding(POLL_ACTIVE_MEASURABLE))
     if mesh and obj.type != "MESH":
-        return reports.unavailable(cls, finding("poll_active_mesh"))
+        return reports.unavailable(cls, finding(POLL_ACTIVE_MESH))
     if mesh and context.mode != "OBJECT":
-        return reports.unavailable(cls, finding("poll_object_mode"))
+        return reports.unavailable(cls, finding(POLL_OBJECT_MODE))
     return True
 
 
@@ -62,7 +66,7 @@ class OBJECT_OT_body_moments_count_as_union(Operator):
     def execute(self, context: Context) -> set[str]:
         obj = context.object
         try:
-            require_storable_data(obj, "library_override_settings")
+            require_storable_data(obj, LIBRARY_OVERRIDE_SETTINGS)
         except EditRefusedError as refusal:
             return _refuse(self, refusal.about(obj.name_full))
         obj.body_moments.overlap = "UNION"
@@ -93,7 +97,7 @@ class OBJECT_OT_body_moments_measure_as_shell(Operator):
     def execute(self, context: Context) -> set[str]:
         obj = context.object
         try:
-            require_storable_data(obj, "library_override_settings")
+            require_storable_data(obj, LIBRARY_OVERRIDE_SETTINGS)
         except EditRefusedError as refusal:
             return _refuse(self, refusal.about(obj.name_full))
         obj.body_moments.kind = "SHELL"
@@ -129,11 +133,11 @@ class OBJECT_OT_body_moments_recalculate_outside(Operator):
         whole = np.arange(len(obj.data.polygons) if any(not len(elements) for elements in found) else 0)
         faces = np.unique(np.concatenate([whole, *(np.asarray(elements, np.int64) for elements in found)]))
         if not len(faces):
-            reports.report(self, finding("nothing_to_do", cause=finding("no_reversed_faces").as_record()))
+            reports.report(self, finding(NOTHING_TO_DO, cause=finding(NO_REVERSED_FACES).as_record()))
             return {"CANCELLED"}
         _reverse(obj.data, faces)
         measure_anew(context, [obj])
-        reports.report(self, finding("faces_reversed", count=len(faces)))
+        reports.report(self, finding(FACES_REVERSED, count=len(faces)))
         return {"FINISHED"}
 
 
@@ -206,7 +210,7 @@ class OBJECT_OT_body_moments_accept(Operator):
     def execute(self, context: Context) -> set[str]:
         obj = context.object
         try:
-            require_storable_data(obj, "library_override_settings")
+            require_storable_data(obj, LIBRARY_OVERRIDE_SETTINGS)
         except EditRefusedError as refusal:
             return _refuse(self, refusal.about(obj.name_full))
         if not self.code or not set_accepted(obj, self.code, self.accepted):
@@ -226,7 +230,7 @@ class OBJECT_OT_body_moments_select_refused(Operator):
     @classmethod
     def poll(cls, context: Context) -> bool:
         if context.mode != "OBJECT":
-            return reports.unavailable(cls, finding("poll_object_mode"))
+            return reports.unavailable(cls, finding(POLL_OBJECT_MODE))
         return outcome.last() is not None
 
     def execute(self, context: Context) -> set[str]:

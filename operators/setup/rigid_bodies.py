@@ -21,10 +21,12 @@ from ...blender.read.tracking import tracking_paused
 from ...blender.scene import reframe
 from ...blender.scene.rigid_world import add_joint, add_rigid_bodies, remove_joint, require_rigid_world
 from ...blender.scene.transforms import require_storable_data
+from ...blender.session.findings import OPEN_OBJECT
 from ...blender.session.stored import assembly, results
 from ...blender.session.tracking import staleness
 from ...blender.settings.options import MeasureOptions
 from ...blender.write import properties, reports
+from ...blender.write.findings import REFUSED
 from ...blender.write.translations import localized
 from ...blender.write.units import Units
 from ...core.inertia.mass_properties import combine
@@ -33,10 +35,17 @@ from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import EditRefusedError, Finding, MeasureError, finding
 from ...core.verdict.method import Verdict
 from .. import selection
+from ..findings import (
+    LIBRARY_OVERRIDE_MASS,
+    RIGID_BODY_DISPLAY_SCALED,
+    RIGID_BODY_MASS_TOO_SMALL,
+    RIGID_BODY_NEEDS_MESH,
+)
 from ..modal import progress
 from ..snap import base as snapping
 from ..snap.origin import matrix_at_center
 from ..snap.principal_axes import matrix_along_axes
+from .findings import RIGID_BODIES_MADE
 
 SHOWN = 12  # bodies in the redo panel
 PROBE_DENSITY = 1e6  # with which Calculate Mass is asked: rigid bodies weigh no less than a gram
@@ -232,7 +241,7 @@ class OBJECT_OT_body_moments_rigid_bodies(Operator):
         self.comparison = "\n".join(lines)
         exact = sum(one.target.mass for one in measured.values())
         done = finding(
-            "rigid_bodies_made", count=len(measured), mass=float(exact), calculated=float(sum(blender.values()))
+            RIGID_BODIES_MADE, count=len(measured), mass=float(exact), calculated=float(sum(blender.values()))
         )
         findings = [
             one.target.finding.of_sources([obj.name])
@@ -241,7 +250,7 @@ class OBJECT_OT_body_moments_rigid_bodies(Operator):
         ]
         unit = shortest_decimal(context.scene.unit_settings.scale_length)
         if measured and unit != 1.0 and context.scene.unit_settings.system != "NONE":
-            findings.insert(0, finding("rigid_body_display_scaled", factor=unit**3))
+            findings.insert(0, finding(RIGID_BODY_DISPLAY_SCALED, factor=unit**3))
         return selection.summarize(self, len(measured), total, done, failures, findings)
 
 
@@ -272,7 +281,7 @@ def _measured(context: Context, body: Body, ask: Callable[[Object], MeasuredBody
         try:
             parts.append((part, _measured_part(part, ask)))
         except MeasureError as error:
-            raise EditRefusedError("refused", object=part.name_full, cause=error.finding.as_record()) from error
+            raise EditRefusedError(REFUSED, object=part.name_full, cause=error.finding.as_record()) from error
     measurements = [measured.measurement for _, measured in parts]
     properties = measurements[0].mass_properties
     if body.members:
@@ -280,7 +289,7 @@ def _measured(context: Context, body: Body, ask: Callable[[Object], MeasuredBody
         properties = combine(moments, preferred_axes=measurements[0].rotation)
     limit = bpy.types.RigidBodyObject.bl_rna.properties["mass"].hard_min
     if properties.mass < limit:
-        raise EditRefusedError("rigid_body_mass_too_small", mass=float(properties.mass), limit=limit)
+        raise EditRefusedError(RIGID_BODY_MASS_TOO_SMALL, mass=float(properties.mass), limit=limit)
     unit, principal = shortest_decimal(context.scene.unit_settings.scale_length), properties.principal
     target = snapping.SnapTarget(
         obj=body.obj,
@@ -299,12 +308,12 @@ def _measured(context: Context, body: Body, ask: Callable[[Object], MeasuredBody
 
 def _measured_part(part: Object, ask: Callable[[Object], MeasuredBody | Stacked]) -> MeasuredBody | Stacked:
     """An object of a body as it is now. EditRefusedError where it can be part of no rigid body."""
-    require_storable_data(part, "library_override_mass")
+    require_storable_data(part, LIBRARY_OVERRIDE_MASS)
     if part.type != "MESH":
-        raise EditRefusedError("rigid_body_needs_mesh")
+        raise EditRefusedError(RIGID_BODY_NEEDS_MESH)
     measured = ask(part)
     if measured.measurement.method.verdict == Verdict.OPEN:
-        raise EditRefusedError("open_object")
+        raise EditRefusedError(OPEN_OBJECT)
     return measured
 
 

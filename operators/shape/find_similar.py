@@ -21,7 +21,7 @@ from bpy.types import Context, Event, Object, Operator, PropertyGroup, Scene
 from ...blender.bodies.flat.flat_shape import FlatShape, body_or_flat, comparable_shape_of, distance_from
 from ...blender.bodies.shape.shape import register_surfaces, surface_shape_of
 from ...blender.bodies.shape.stack_signature import signed_in_turn
-from ...blender.read import measurable_objects
+from ...blender.read.visibility import measurable_objects
 from ...blender.session.stored import outcome
 from ...blender.write import reports
 from ...core.shape.library import UNDECIDED_HANDEDNESS, Entry, Similarity, classify, rank, read_library
@@ -29,7 +29,20 @@ from ...core.shape.registration import MAX_FIT_RTOL, RigidMatch
 from ...core.shape.signatures import Likeness, Signature, similarity
 from ...core.verdict.finding import FileError, Finding, MeasureError, finding, system_reason
 from .. import selection
+from ..findings import POLL_OBJECT_MODE
 from ..modal import ModalSteps, redraw
+from .findings import (
+    CANCELED_SEARCH,
+    LIBRARY_FILE_UNREADABLE,
+    NEAREST_SHAPE,
+    NONE_SIMILAR,
+    OBJECT_NOT_IN_VIEW_LAYER,
+    POLL_ACTIVE_WANTED,
+    PROGRESS_COMPARING,
+    RECORDS_LEFT_OUT,
+    SHAPE_COUNTS,
+    SHAPES_COMPARED,
+)
 
 DESCRIPTOR_ORDER = 12  # of the descriptors: more than separate parts, a fourth of the time that 20 takes
 MAX_LISTED_BODIES = 20
@@ -69,9 +82,9 @@ class _SearchMixin:
     @classmethod
     def poll(cls, context: Context) -> bool:
         if context.mode != "OBJECT":
-            return reports.unavailable(cls, finding("poll_object_mode"))
+            return reports.unavailable(cls, finding(POLL_OBJECT_MODE))
         if context.object is None:
-            return reports.unavailable(cls, finding("poll_active_wanted"))
+            return reports.unavailable(cls, finding(POLL_ACTIVE_WANTED))
         return True
 
     def measure_active(self, context: Context) -> Iterator[float]:
@@ -102,12 +115,12 @@ class _SearchMixin:
             for similarity in Similarity
             if counts[similarity] and similarity != Similarity.DIFFERENT
         ]
-        found = finding("shape_counts", counts=alike) if alike else finding("none_similar")
-        done = [finding("shapes_compared", count=len(rows)), found]
+        found = finding(SHAPE_COUNTS, counts=alike) if alike else finding(NONE_SIMILAR)
+        done = [finding(SHAPES_COMPARED, count=len(rows)), found]
         if rows:
             entry, likeness = rows[0]
             distance = likeness.distance(self.scaled, self.mirrored)
-            done.append(finding("nearest_shape", object=entry.name, distance=distance))
+            done.append(finding(NEAREST_SHAPE, object=entry.name, distance=distance))
         outcome.remember(self.bl_label, failures)
         reports.report(self, *done, *reports.first(failures))
         return {"FINISHED"}
@@ -122,8 +135,8 @@ class OBJECT_OT_body_moments_find_similar(ModalSteps, _SearchMixin, Operator):
         "Compare the shapes of all visible objects with the active object, in any pose, size and triangulation, and "
         "list copies, mirror images and similar shapes"
     )
-    PROGRESS = finding("progress_comparing")
-    CANCELED = finding("canceled_search")
+    PROGRESS = finding(PROGRESS_COMPARING)
+    CANCELED = finding(CANCELED_SEARCH)
 
     select: BoolProperty(
         name="Select Copies",
@@ -245,7 +258,7 @@ class OBJECT_OT_body_moments_find_in_library(_SearchMixin, Operator):
         ranked = rank(self.wanted, entries, self.scaled, self.mirrored)
         self.store_results(context, ranked, path.name)
         causes = [without.as_record() for without in reports.first(missing)]
-        return self.report_found(ranked, [finding("records_left_out", causes=causes)] if missing else [])
+        return self.report_found(ranked, [finding(RECORDS_LEFT_OUT, causes=causes)] if missing else [])
 
 
 class OBJECT_OT_body_moments_select_found(Operator):
@@ -260,7 +273,7 @@ class OBJECT_OT_body_moments_select_found(Operator):
     def execute(self, context: Context) -> set[str]:
         obj = next((candidate for candidate in context.view_layer.objects if candidate.name_full == self.name), None)
         if obj is None:
-            reports.report(self, finding("object_not_in_view_layer", object=self.name))
+            reports.report(self, finding(OBJECT_NOT_IN_VIEW_LAYER, object=self.name))
             return {"CANCELLED"}
         for candidate in context.view_layer.objects:
             candidate.select_set(candidate == obj)
@@ -272,7 +285,7 @@ def _read(path: Path) -> tuple[list[Entry], list[Finding]]:
     try:
         return read_library(path)
     except OSError as error:
-        raise FileError("library_file_unreadable", file=path.name, error=system_reason(error)) from error
+        raise FileError(LIBRARY_FILE_UNREADABLE, file=path.name, error=system_reason(error)) from error
 
 
 def _is_mirror_image(match: RigidMatch, size: float) -> bool | None:

@@ -31,7 +31,23 @@ from ...blender.write import reports
 from ...core.shape.symmetries import Symmetry
 from ...core.verdict.finding import Finding, finding
 from .. import selection
+from ..findings import NOTHING_MEASURABLE
 from ..modal import ModalSteps, redraw
+from .findings import (
+    CANCELED_SEARCH,
+    LIBRARY_OVERRIDE_SYMMETRY,
+    PROGRESS_SYMMETRY,
+    SYMMETRY_AXES,
+    SYMMETRY_FOUND,
+    SYMMETRY_FOUND_OF_DISPLAY_MESH,
+    SYMMETRY_INVERSION,
+    SYMMETRY_NONE,
+    SYMMETRY_PLANES,
+    SYMMETRY_REVOLUTION,
+    SYMMETRY_REVOLUTION_REVERSIBLE,
+    SYMMETRY_SEARCHED,
+    SYMMETRY_SPHERE,
+)
 
 MAX_STORED_ELEMENTS = 32  # elements of a symmetry that are stored; of a ball's or a fine prism's nobody reads more
 
@@ -78,8 +94,8 @@ class OBJECT_OT_body_moments_find_symmetry(ModalSteps, Operator):
         "allow and the surface, or of flat shapes the outline, confirms"
     )
     bl_options = {"REGISTER", "UNDO"}
-    PROGRESS = finding("progress_symmetry")
-    CANCELED = finding("canceled_search")
+    PROGRESS = finding(PROGRESS_SYMMETRY)
+    CANCELED = finding(CANCELED_SEARCH)
 
     tolerance: FloatProperty(
         name="Tolerance",
@@ -110,7 +126,7 @@ class OBJECT_OT_body_moments_find_symmetry(ModalSteps, Operator):
         self._failures: list[Finding] = []
 
         def find(obj: Object) -> Iterator[float]:
-            require_storable_data(obj, "library_override_symmetry")
+            require_storable_data(obj, LIBRARY_OVERRIDE_SYMMETRY)
             shape = comparable_shape_of(obj, context.evaluated_depsgraph_get())
             yield 0.3
             skin = distance_from(shape)
@@ -129,7 +145,7 @@ class OBJECT_OT_body_moments_find_symmetry(ModalSteps, Operator):
         )
         symmetries = [
             finding(
-                "symmetry_found_of_display_mesh" if shape.is_display_mesh else "symmetry_found",
+                SYMMETRY_FOUND_OF_DISPLAY_MESH if shape.is_display_mesh else SYMMETRY_FOUND,
                 object=obj.name,
                 group=found_symmetry.group,
                 description=[clause.as_record() for clause in describe(found_symmetry)],
@@ -139,7 +155,7 @@ class OBJECT_OT_body_moments_find_symmetry(ModalSteps, Operator):
         redraw(context)
         if self._failures or not symmetries:
             count = len(symmetries)
-            done = finding("symmetry_searched", count=count) if self._objects else finding("nothing_measurable")
+            done = finding(SYMMETRY_SEARCHED, count=count) if self._objects else finding(NOTHING_MEASURABLE)
             return selection.summarize(self, count, len(self._objects), done, self._failures, symmetries)
         reports.report(self, *reports.first(symmetries))
         return {"FINISHED"}
@@ -179,18 +195,18 @@ def _elements(found_symmetry: Symmetry) -> list[tuple[str, int, np.ndarray]]:
 def describe(found_symmetry: Symmetry) -> list[Finding]:
     """What a symmetry consists of."""
     if len(found_symmetry.revolution_axes) == 3:
-        return [finding("symmetry_sphere")]
+        return [finding(SYMMETRY_SPHERE)]
     if len(found_symmetry.revolution_axes) == 1:
         reversible = found_symmetry.group == "D∞h"
-        return [finding("symmetry_revolution_reversible" if reversible else "symmetry_revolution")]
+        return [finding(SYMMETRY_REVOLUTION_REVERSIBLE if reversible else SYMMETRY_REVOLUTION)]
     clauses = []
     if found_symmetry.axes:
-        clauses.append(finding("symmetry_axes", count=len(found_symmetry.axes), order=found_symmetry.axes[0][1]))
+        clauses.append(finding(SYMMETRY_AXES, count=len(found_symmetry.axes), order=found_symmetry.axes[0][1]))
     if found_symmetry.planes:
-        clauses.append(finding("symmetry_planes", count=len(found_symmetry.planes)))
+        clauses.append(finding(SYMMETRY_PLANES, count=len(found_symmetry.planes)))
     if found_symmetry.has_center and not clauses:
-        clauses.append(finding("symmetry_inversion"))
-    return clauses or [finding("symmetry_none")]
+        clauses.append(finding(SYMMETRY_INVERSION))
+    return clauses or [finding(SYMMETRY_NONE)]
 
 
 CLASSES = (BodyMomentsElement, BodyMomentsSymmetry, OBJECT_OT_body_moments_find_symmetry)

@@ -20,6 +20,18 @@ from ...core.verdict.finding import EditRefusedError, Finding, MeasureError, fin
 from .. import selection
 from ..modal import ModalSteps
 from ..snap import base as snapping
+from .findings import (
+    ACTIVE_IS_CHILD,
+    CANCELED_MATCH_POSE,
+    FLAT_AND_BODY,
+    FLAT_MIRROR_IMAGE,
+    MIRROR_IMAGE,
+    POLL_MATCH_SELECTION,
+    POSE_DISTANCE,
+    POSE_NOT_A_COPY,
+    POSES_MATCHED,
+    PROGRESS_COMPARING,
+)
 
 
 class OBJECT_OT_body_moments_match_pose(ModalSteps, Operator):
@@ -33,15 +45,15 @@ class OBJECT_OT_body_moments_match_pose(ModalSteps, Operator):
         "are left unchanged"
     )
     bl_options = {"REGISTER", "UNDO"}
-    PROGRESS = finding("progress_comparing")
-    CANCELED = finding("canceled_match_pose")
+    PROGRESS = finding(PROGRESS_COMPARING)
+    CANCELED = finding(CANCELED_MATCH_POSE)
 
     @classmethod
     def poll(cls, context: Context) -> bool:
         if not selection.poll_selection(cls, context):
             return False
         if context.object is None or not any(obj != context.object for obj in context.view_layer.objects.selected):
-            return reports.unavailable(cls, finding("poll_match_selection"))
+            return reports.unavailable(cls, finding(POLL_MATCH_SELECTION))
         return True
 
     def execute(self, context: Context) -> set[str]:
@@ -77,7 +89,7 @@ class OBJECT_OT_body_moments_match_pose(ModalSteps, Operator):
             _require_movable(context, obj)
             shape = comparable_shape_of(obj, context.evaluated_depsgraph_get(), isinstance(target, FlatShape))
             if type(shape) is not type(target):
-                raise EditRefusedError("flat_and_body")
+                raise EditRefusedError(FLAT_AND_BODY)
             yield 0.3
             source_skin = distance_from(shape)
             yield from (0.4 + 0.5 * share for share in source_skin.build())
@@ -102,12 +114,12 @@ class OBJECT_OT_body_moments_match_pose(ModalSteps, Operator):
                 continue
             distances.append(_distance(plan.obj.name, match, self._size))
         snapping.remeasure(context, moved)
-        done = finding("poses_matched", count=len(distances), object=context.object.name)
+        done = finding(POSES_MATCHED, count=len(distances), object=context.object.name)
         return selection.summarize(self, len(distances), len(self._others), done, self._failures, distances)
 
 
 def _distance(name: str, found: RigidMatch, size: float) -> Finding:
-    code = "pose_distance" if found.max_distance <= MAX_FIT_RTOL * size else "pose_not_a_copy"
+    code = POSE_DISTANCE if found.max_distance <= MAX_FIT_RTOL * size else POSE_NOT_A_COPY
     return finding(code, object=name, maximum=float(found.max_distance), mean=float(found.mean_distance))
 
 
@@ -115,7 +127,7 @@ def _require_movable(context: Context, obj: Object) -> None:
     """Raises where the object cannot be laid onto the active one."""
     reframe.check_movable(obj)
     if obj in selection.ancestors(context.object):
-        raise EditRefusedError("active_is_child")
+        raise EditRefusedError(ACTIVE_IS_CHILD)
 
 
 def _plan_move(
@@ -123,7 +135,7 @@ def _plan_move(
 ) -> tuple[reframe.Plan, RigidMatch]:
     """Where the object lies on the target, and how well."""
     if match.is_mirror_image:
-        raise EditRefusedError("flat_mirror_image" if isinstance(shape, FlatShape) else "mirror_image")
+        raise EditRefusedError(FLAT_MIRROR_IMAGE if isinstance(shape, FlatShape) else MIRROR_IMAGE)
     unit = shortest_decimal(context.scene.unit_settings.scale_length)
     matrix = world(obj)
     matrix[:3, :3] = match.rotation @ matrix[:3, :3]

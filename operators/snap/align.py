@@ -14,6 +14,7 @@ from ...blender.scene.transforms import world
 from ...core.verdict.finding import finding
 from .. import selection
 from . import base as snapping
+from .findings import ALIGNED_TO_WORLD, ALREADY_ALIGNED
 
 # Where principal axes 1, 2 and 3 go. An odd order would mirror the body, so there axis 3 points the
 # other way.
@@ -74,8 +75,8 @@ class OBJECT_OT_body_moments_align_to_world(Operator):
         # one after the other, for a child moves with its parent
         moved, failures = selection.apply_to_all(objects, lambda obj: self._align(context, obj, frame))
         snapping.remeasure(context, moved)
-        done = finding("aligned_to_world", count=len(moved))
-        return selection.summarize(self, len(moved), len(objects), done, failures, idle=finding("already_aligned"))
+        done = finding(ALIGNED_TO_WORLD, count=len(moved))
+        return selection.summarize(self, len(moved), len(objects), done, failures, idle=finding(ALREADY_ALIGNED))
 
     def _align(self, context: Context, obj: Object, frame: NDArray) -> bool:
         """Whether the object had to be moved."""

@@ -24,6 +24,7 @@ from ...blender.bodies.stacks.many import measure_many, measured_in_turn
 from ...blender.bodies.stacks.stack import Stacked
 from ...blender.read.tracking import tracking_paused
 from ...blender.scene import reframe
+from ...blender.session.findings import OPEN_OBJECT
 from ...blender.session.stored import assembly, results
 from ...blender.session.tracking import staleness
 from ...blender.settings.options import MeasureOptions
@@ -36,6 +37,7 @@ from ...core.verdict.finding import EditRefusedError, Finding, finding
 from ...core.verdict.method import Verdict
 from .. import selection
 from ..modal import progress
+from .findings import ALREADY_IN_PLACE
 
 STRICT_PROPERTY = BoolProperty(
     name="Zhang and Chen's Rule",
@@ -115,7 +117,7 @@ def snap_target(context: Context, obj: Object, strict: bool = False) -> SnapTarg
 def target_of(context: Context, obj: Object, measured: Measured | Stacked, strict: bool) -> SnapTarget:
     """What `snap_target` says of an object that was measured."""
     if measured.method.verdict == Verdict.OPEN:
-        raise EditRefusedError("open_object")
+        raise EditRefusedError(OPEN_OBJECT)
     unit = shortest_decimal(context.scene.unit_settings.scale_length)
     body = measured.mass_properties
     principal = body.principal
@@ -225,5 +227,5 @@ def reframe_selected(
     changed, failures = reframe_objects(context, objects, target_matrix, move_only, strict)
     findings = [found.of_sources([plan.obj.name]) for plan in changed for found in plan.findings]
     done = replace(done, values={"count": len(changed)})
-    idle = finding("already_in_place")
+    idle = finding(ALREADY_IN_PLACE)
     return selection.summarize(operator, len(changed), len(objects), done, failures, findings, idle)

@@ -8,11 +8,14 @@ from bpy.types import Context, Object, Operator, View3DCursor
 from mathutils import Matrix
 
 from ...blender.bodies.stacks.many import measured_in_turn
+from ...blender.session.findings import OPEN_OBJECT
 from ...core.inertia.mass_properties import combine
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import EditRefusedError, finding
 from ...core.verdict.method import Verdict
 from .. import selection
+from ..findings import NOTHING_MEASURABLE
+from .findings import CURSOR_MOVED
 
 
 class VIEW3D_OT_body_moments_cursor_to_center(Operator):
@@ -39,7 +42,7 @@ class VIEW3D_OT_body_moments_cursor_to_center(Operator):
         def add(obj: Object) -> None:
             measurement = measured(obj).measurement
             if measurement.method.verdict == Verdict.OPEN:
-                raise EditRefusedError("open_object")
+                raise EditRefusedError(OPEN_OBJECT)
             bodies.append((measurement.mass_moments, measurement.mass_properties))
 
         added, failures = selection.apply_to_all(objects, add)
@@ -53,7 +56,7 @@ class VIEW3D_OT_body_moments_cursor_to_center(Operator):
             if self.rotate:
                 _rotate_cursor(cursor, total.principal.axes)
                 findings = [total.principal.finding] if total.principal.finding is not None else []
-        done = finding("cursor_moved", count=len(added)) if objects else finding("nothing_measurable")
+        done = finding(CURSOR_MOVED, count=len(added)) if objects else finding(NOTHING_MEASURABLE)
         return selection.summarize(self, len(added), len(objects), done, failures, findings)
 
 

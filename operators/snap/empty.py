@@ -18,6 +18,13 @@ from ...core.verdict.finding import EditRefusedError, Finding, finding
 from .. import selection
 from ..modal import progress
 from . import base as snapping
+from .findings import (
+    EMPTIES_IN_PLACE,
+    EMPTIES_PLACED,
+    EMPTY_CONSTRAINED,
+    EMPTY_FOLLOWED,
+    SCALE_ZERO_AXIS_OF_PARENT_TARGET,
+)
 
 OBJECT_KEY = "principal_frame_of"  # ID property of such an empty: the object whose frame it shows
 RESTORED_PROPERTIES = ("parent", "parent_type", "parent_bone", "empty_display_size")
@@ -77,7 +84,7 @@ class OBJECT_OT_body_moments_add_empty(Operator):
             yield
             try:
                 if self.parent and abs(np.linalg.det(world(obj)[:3, :3])) == 0.0:
-                    raise EditRefusedError("scale_zero_axis_of_parent_target")
+                    raise EditRefusedError(SCALE_ZERO_AXIS_OF_PARENT_TARGET)
                 body = target_in_turn(obj)
                 step(next(measured))
                 yield  # all are measured before the scene changes
@@ -92,7 +99,7 @@ class OBJECT_OT_body_moments_add_empty(Operator):
             for several in independent_rounds((obj, {obj, *followers.get(existing.get(obj), ())}) for obj in objects):
                 target_in_turn = snapping.targets_in_turn(context, several)
                 run_change(context, run_together(map(add, several)))
-        done, idle = finding("empties_placed", count=len(placed)), finding("empties_in_place")
+        done, idle = finding(EMPTIES_PLACED, count=len(placed)), finding(EMPTIES_IN_PLACE)
         return selection.summarize(self, len(placed), len(objects), done, failures, findings, idle)
 
     def _place(
@@ -134,7 +141,7 @@ def _moved(
     """Move the empty to the body's frame; returns whether it was elsewhere. EditRefusedError where it cannot be
     there."""
     if _follows(body.obj, empty):
-        raise EditRefusedError("empty_followed", empty=empty.name)
+        raise EditRefusedError(EMPTY_FOLLOWED, empty=empty.name)
     if _is_there(empty, body) and empty.parent == parent:
         return False
     saved = TransformChannels(empty)
@@ -158,7 +165,7 @@ def _moved(
             yield
         held, follows = not _is_there(empty, body), (world(body.obj) != was).any()
         if held or follows:
-            raise EditRefusedError("empty_followed" if follows else "empty_constrained", empty=empty.name)
+            raise EditRefusedError(EMPTY_FOLLOWED if follows else EMPTY_CONSTRAINED, empty=empty.name)
     except BaseException:
         for name, value in before.items():
             setattr(empty, name, value)

@@ -15,6 +15,7 @@ from ...blender.write import reports
 from ...core.verdict.finding import MeasureError, finding
 from .. import selection
 from . import base as snapping
+from .findings import ORIENTATION_CREATED, ORIENTATION_NEEDS_VIEWPORT, POLL_ACTIVE_SELECTED
 
 
 class OBJECT_OT_body_moments_create_orientation(Operator):
@@ -38,7 +39,7 @@ class OBJECT_OT_body_moments_create_orientation(Operator):
     def poll(cls, context: Context) -> bool:
         obj = context.view_layer.objects.active
         if obj is None or not obj.select_get():
-            return reports.unavailable(cls, finding("poll_active_selected"))
+            return reports.unavailable(cls, finding(POLL_ACTIVE_SELECTED))
         return selection.poll_selection(cls, context)
 
     def execute(self, context: Context) -> set[str]:
@@ -50,7 +51,7 @@ class OBJECT_OT_body_moments_create_orientation(Operator):
             return {"CANCELLED"}
         place = _view_3d(context)
         if place is None:
-            reports.report(self, finding("orientation_needs_viewport"))
+            reports.report(self, finding(ORIENTATION_NEEDS_VIEWPORT))
             return {"CANCELLED"}
         name = self.name or "{:s} Principal".format(obj.name)
         slot = context.scene.transform_orientation_slots[0]
@@ -61,7 +62,7 @@ class OBJECT_OT_body_moments_create_orientation(Operator):
         if not self.use:
             slot.type = before
         free = [body.finding] if body.finding is not None else []
-        reports.report(self, finding("orientation_created", name=name), *free)
+        reports.report(self, finding(ORIENTATION_CREATED, name=name), *free)
         return {"FINISHED"}
 
 

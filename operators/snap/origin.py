@@ -12,6 +12,7 @@ from ...blender.scene.transforms import world
 from ...core.verdict.finding import finding
 from .. import selection
 from . import base as snapping
+from .findings import ORIGINS_MOVED
 
 
 class OBJECT_OT_body_moments_origin_to_center(Operator):
@@ -34,7 +35,7 @@ class OBJECT_OT_body_moments_origin_to_center(Operator):
             self,
             context,
             matrix_at_center,
-            finding("origins_moved"),
+            finding(ORIGINS_MOVED),
             move_only=True,
         )
 

@@ -14,6 +14,7 @@ from ...blender.scene.transforms import world
 from ...core.verdict.finding import finding
 from .. import selection
 from . import base as snapping
+from .findings import AXES_MADE_PRINCIPAL
 
 UNIT_SCALE = 1e-6  # by how much the products of an object's axes may differ from 1 and 0
 
@@ -40,7 +41,7 @@ class OBJECT_OT_body_moments_axes_to_principal(Operator):
             self,
             context,
             matrix_along_axes,
-            finding("axes_made_principal"),
+            finding(AXES_MADE_PRINCIPAL),
             move_only=False,
             strict=self.strict,
         )

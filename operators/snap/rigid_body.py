@@ -19,8 +19,17 @@ from ...blender.scene.transforms import require_storable_data, world
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import EditRefusedError, Finding, finding
 from .. import selection
+from ..findings import (
+    CANCELED_MEASURING,
+    LIBRARY_OVERRIDE_MASS,
+    PROGRESS_MEASURING,
+    RIGID_BODY_DISPLAY_SCALED,
+    RIGID_BODY_MASS_TOO_SMALL,
+    RIGID_BODY_NEEDS_MESH,
+)
 from ..modal import MAX_OBJECTS_WITHOUT_REDRAW, ModalSteps
 from . import base as snapping
+from .findings import NOT_A_RIGID_BODY, RIGID_BODY_CENTER_ELSEWHERE, RIGID_BODY_MASSES_EQUAL, RIGID_BODY_MASSES_SET
 from .principal_axes import matrix_along_axes
 
 
@@ -34,8 +43,8 @@ class OBJECT_OT_body_moments_set_rigid_body_mass(ModalSteps, Operator):
         "of mass; use Axes to Principal Axes as well"
     )
     bl_options = {"REGISTER", "UNDO"}
-    PROGRESS = finding("progress_measuring")
-    CANCELED = finding("canceled_measuring")
+    PROGRESS = finding(PROGRESS_MEASURING)
+    CANCELED = finding(CANCELED_MEASURING)
 
     add: BoolProperty(
         name="Add Rigid Bodies",
@@ -71,17 +80,17 @@ class OBJECT_OT_body_moments_set_rigid_body_mass(ModalSteps, Operator):
         target_in_turn = snapping.targets_in_turn(context, self._objects)
 
         def measure(obj: Object) -> None:
-            require_storable_data(obj, "library_override_mass")
+            require_storable_data(obj, LIBRARY_OVERRIDE_MASS)
             if obj.rigid_body is None and not self.add:
-                raise EditRefusedError("not_a_rigid_body")
+                raise EditRefusedError(NOT_A_RIGID_BODY)
             if obj.rigid_body is None and obj.type != "MESH":
-                raise EditRefusedError("rigid_body_needs_mesh")
+                raise EditRefusedError(RIGID_BODY_NEEDS_MESH)
             if obj.rigid_body is None:
                 require_rigid_world(context.scene)
             body = target_in_turn(obj)
             limit = bpy.types.RigidBodyObject.bl_rna.properties["mass"].hard_min
             if body.mass < limit:
-                raise EditRefusedError("rigid_body_mass_too_small", mass=float(body.mass), limit=limit)
+                raise EditRefusedError(RIGID_BODY_MASS_TOO_SMALL, mass=float(body.mass), limit=limit)
             self._bodies.append(body)
 
         self._steps = selection.iterate_objects(self._objects, measure, self._failures)
@@ -114,10 +123,10 @@ class OBJECT_OT_body_moments_set_rigid_body_mass(ModalSteps, Operator):
         count = len(changed)
         unit = shortest_decimal(context.scene.unit_settings.scale_length)
         if count and unit != 1.0 and context.scene.unit_settings.system != "NONE":
-            findings.append(finding("rigid_body_display_scaled", factor=unit**3))
+            findings.append(finding(RIGID_BODY_DISPLAY_SCALED, factor=unit**3))
         if elsewhere and count:
-            findings.append(finding("rigid_body_center_elsewhere", objects=elsewhere))
-        done, idle = finding("rigid_body_masses_set", count=count), finding("rigid_body_masses_equal")
+            findings.append(finding(RIGID_BODY_CENTER_ELSEWHERE, objects=elsewhere))
+        done, idle = finding(RIGID_BODY_MASSES_SET, count=count), finding(RIGID_BODY_MASSES_EQUAL)
         return selection.summarize(self, count, len(self._objects), done, failures, findings, idle)
 
 

@@ -21,7 +21,8 @@ from bpy.types import Context, Object, Operator
 from numpy.typing import NDArray
 
 from ...blender.bodies.measure_object import measure_object
-from ...blender.read import Part, read_object
+from ...blender.read.objects import read_object
+from ...blender.read.reading import Part
 from ...blender.read.tracking import tracking_paused
 from ...blender.scene.transforms import FLOAT32
 from ...blender.write import reports
@@ -33,7 +34,29 @@ from ...core.statics.balancing import BalanceResult, balance
 from ...core.verdict.finding import EditRefusedError, Finding, MeasureError, finding
 from ...core.verdict.method import Method, Verdict
 from .. import selection
+from ..findings import POLL_ACTIVE_MESH
 from . import base as snapping
+from .findings import (
+    BALANCE_GROUP_EMPTY,
+    BALANCE_INSTANCES,
+    BALANCE_LINKED_MESH,
+    BALANCE_MESH_SHARED,
+    BALANCE_MODIFIED,
+    BALANCE_MODIFIED_UNKNOWN,
+    BALANCE_NO_ACTIVE_GROUP,
+    BALANCE_NO_GROUP,
+    BALANCE_NO_SELECTION,
+    BALANCE_ONLY_ACTIVE,
+    BALANCE_SHAPE_KEYS,
+    BALANCE_TRIANGULATION_VARIES,
+    BALANCE_UNCLEAN,
+    BALANCE_VARYING_DENSITY,
+    BALANCE_WALL,
+    BALANCE_ZERO_SCALE,
+    BALANCED,
+    POLL_EDIT_VERTICES,
+    POLL_VERTICES_OR_GROUP,
+)
 
 MAX_ATTEMPTS = 6  # at a cut of faces that suits the shape that it leads to
 REACHED_RTOL = 1e-6  # of the body's size: what float32 coordinates leave of a center
@@ -97,11 +120,11 @@ class OBJECT_OT_body_moments_sculpt_balance(Operator):
     def poll(cls, context: Context) -> bool:
         obj = context.active_object
         if obj is None or obj.type != "MESH":
-            return reports.unavailable(cls, finding("poll_active_mesh"))
+            return reports.unavailable(cls, finding(POLL_ACTIVE_MESH))
         if context.mode not in {"OBJECT", "EDIT_MESH"}:
-            return reports.unavailable(cls, finding("poll_edit_vertices"))
+            return reports.unavailable(cls, finding(POLL_EDIT_VERTICES))
         if context.mode == "OBJECT" and not obj.vertex_groups:
-            return reports.unavailable(cls, finding("poll_vertices_or_group"))
+            return reports.unavailable(cls, finding(POLL_VERTICES_OR_GROUP))
         return True
 
     def draw(self, context: Context) -> None:
@@ -164,7 +187,7 @@ class _EditedMesh:
         self.movable = np.flatnonzero(selected)
         self.weights = np.ones(len(self.movable))
         if not len(self.movable):
-            raise EditRefusedError("balance_no_selection")
+            raise EditRefusedError(BALANCE_NO_SELECTION)
 
     def _vertices(self) -> bmesh.types.BMVertSeq:
         return bmesh.from_edit_mesh(self.obj.data).verts
@@ -188,9 +211,7 @@ class _GroupedMesh:
         group = obj.vertex_groups.get(name) if name else obj.vertex_groups.active
         if group is None:
             raise (
-                EditRefusedError("balance_no_group", group=name)
-                if name
-                else EditRefusedError("balance_no_active_group")
+                EditRefusedError(BALANCE_NO_GROUP, group=name) if name else EditRefusedError(BALANCE_NO_ACTIVE_GROUP)
             )
         self.mesh, self.is_changed = obj.data, False
         weights = np.zeros(len(self.mesh.vertices))
@@ -201,7 +222,7 @@ class _GroupedMesh:
         self.movable = np.flatnonzero(weights > 0.0)
         self.weights = weights[self.movable]
         if not len(self.movable):
-            raise EditRefusedError("balance_group_empty", group=group.name)
+            raise EditRefusedError(BALANCE_GROUP_EMPTY, group=group.name)
         self.start = np.empty(3 * len(weights), np.float32)
         self.mesh.attributes["position"].data.foreach_get("vector", self.start)
         self.start = self.start.reshape(-1, 3)
@@ -244,21 +265,21 @@ def _balance_mesh(
                 break
             surface = replace(_read_surface(context, obj, None).surface.transform(linear, offset), points=start.points)
         else:
-            raise EditRefusedError("balance_triangulation_varies")
+            raise EditRefusedError(BALANCE_TRIANGULATION_VARIES)
     moves = (points[mesh.movable].astype(np.float64) - mesh.start[mesh.movable]) @ linear.T
     number, largest = int(np.count_nonzero(moves.any(axis=1))), float(np.linalg.norm(moves, axis=1).max())
     centers = [
         np.where(np.abs(center) < ROUNDING * size, 0.0, center).tolist()
         for center in (before.mass_properties.center, after.mass_properties.center)
     ]
-    findings = [finding("balanced", count=number, distance=largest, start=centers[0], end=centers[1])]
+    findings = [finding(BALANCED, count=number, distance=largest, start=centers[0], end=centers[1])]
     if obj.data.users - obj.data.use_fake_user > 1:
-        findings.append(finding("balance_mesh_shared"))
+        findings.append(finding(BALANCE_MESH_SHARED))
     if any(
         candidate.type == "MESH" and candidate.data.is_editmode and candidate.data != obj.data
         for candidate in context.view_layer.objects
     ):
-        findings.append(finding("balance_only_active", object=obj.name))
+        findings.append(finding(BALANCE_ONLY_ACTIVE, object=obj.name))
     return findings
 
 
@@ -277,11 +298,11 @@ def _restored_on_error(context: Context, mesh: _EditedMesh | _GroupedMesh) -> It
 def _require_balanceable(obj: Object) -> None:
     """EditRefusedError where the mesh cannot be changed, or its change is not the object's."""
     if not obj.data.is_editable:
-        raise EditRefusedError("balance_linked_mesh")
+        raise EditRefusedError(BALANCE_LINKED_MESH)
     if obj.data.shape_keys is not None:
-        raise EditRefusedError("balance_shape_keys")
+        raise EditRefusedError(BALANCE_SHAPE_KEYS)
     if obj.body_moments.kind == "SHELL" and obj.body_moments.wall != "THIN":
-        raise EditRefusedError("balance_wall")
+        raise EditRefusedError(BALANCE_WALL)
 
 
 def _measure(context: Context, obj: Object) -> Measurement:
@@ -289,9 +310,9 @@ def _measure(context: Context, obj: Object) -> Measurement:
     vertices."""
     measurement = measure_object(obj, context.evaluated_depsgraph_get())
     if measurement.mass_moments[0].measure == Measure.MASS:
-        raise EditRefusedError("balance_varying_density")
+        raise EditRefusedError(BALANCE_VARYING_DENSITY)
     if measurement.kind == "solid" and (measurement.method != Method(Verdict.EXACT) or measurement.health.welded):
-        raise EditRefusedError("balance_unclean")
+        raise EditRefusedError(BALANCE_UNCLEAN)
     return measurement
 
 
@@ -300,15 +321,13 @@ def _read_surface(context: Context, obj: Object, mesh: _EditedMesh | _GroupedMes
     reading = read_object(obj, context.evaluated_depsgraph_get(), edges=False)
     part = reading.parts[0]
     if reading.all_singular:
-        raise EditRefusedError("balance_zero_scale")
+        raise EditRefusedError(BALANCE_ZERO_SCALE)
     if reading.instance_count > 1:
-        raise EditRefusedError("balance_instances")
+        raise EditRefusedError(BALANCE_INSTANCES)
     if mesh is not None and not np.array_equal(part.surface.points, mesh.start):
         shown = [modifier.name for modifier in obj.modifiers if modifier.show_viewport]
         raise (
-            EditRefusedError("balance_modified", modifiers=shown)
-            if shown
-            else EditRefusedError("balance_modified_unknown")
+            EditRefusedError(BALANCE_MODIFIED, modifiers=shown) if shown else EditRefusedError(BALANCE_MODIFIED_UNKNOWN)
         )
     return part
 

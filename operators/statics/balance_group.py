@@ -13,9 +13,9 @@ from bpy.types import Context, Depsgraph, Event, Object, Operator
 from numpy.typing import NDArray
 
 from ...blender.bodies.assembly.assembly import measure_assembly
-from ...blender.read import measurable
 from ...blender.read.assembly import Member, MemberKind, members_of, settings_of
 from ...blender.read.rig import is_skin_of
+from ...blender.read.visibility import measurable
 from ...blender.session.live.motion import Motion
 from ...blender.session.stored import balance_groups, stability
 from ...blender.settings.preferences import copy_defaults
@@ -26,6 +26,16 @@ from ...core.verdict import internal_error
 from ...core.verdict.finding import EditRefusedError, Finding, finding
 from .. import selection
 from ..modal import ModalSteps, redraw
+from .findings import (
+    BALANCE_GROUP_EMPTY_GROUP,
+    BALANCE_GROUP_INSIDE,
+    BALANCE_GROUP_MADE,
+    BALANCE_GROUP_WITHOUT_CONTACTS,
+    CANCELED_BALANCE,
+    NO_SUCH_COLLECTION,
+    POLL_OBJECT_OR_POSE_MODE,
+    PROGRESS_BALANCE,
+)
 
 REACH = 0.01  # of the contact objects' extent: what is that near to the ground touches it
 
@@ -40,8 +50,8 @@ class OBJECT_OT_body_moments_balance_group(ModalSteps, Operator):
         "armatures deform, over the frame range. Adds an empty with keys, and draws the path"
     )
     bl_options = {"REGISTER", "UNDO"}
-    PROGRESS = finding("progress_balance")
-    CANCELED = finding("canceled_balance")
+    PROGRESS = finding(PROGRESS_BALANCE)
+    CANCELED = finding(CANCELED_BALANCE)
     _assembly: bpy.types.Collection | None = None  # the collection, where its mass is given
     _is_interactive = False  # whether its dialog has just been confirmed; not in a script, nor from the redo panel
 
@@ -81,7 +91,7 @@ class OBJECT_OT_body_moments_balance_group(ModalSteps, Operator):
     @classmethod
     def poll(cls, context: Context) -> bool:
         if context.mode not in {"OBJECT", "POSE"}:
-            return reports.unavailable(cls, finding("poll_object_or_pose_mode"))
+            return reports.unavailable(cls, finding(POLL_OBJECT_OR_POSE_MODE))
         return True
 
     def draw(self, _context: Context) -> None:
@@ -124,7 +134,7 @@ class OBJECT_OT_body_moments_balance_group(ModalSteps, Operator):
             [obj for obj in self._collection(self.contacts).all_objects if measurable(obj)] if self.contacts else []
         )
         if self.contacts and not self._feet:
-            raise EditRefusedError("balance_group_without_contacts", collection=self.contacts)
+            raise EditRefusedError(BALANCE_GROUP_WITHOUT_CONTACTS, collection=self.contacts)
         scene = context.scene
         start, end = self.frame_start, self.frame_end
         if self.use_scene_range:
@@ -140,7 +150,7 @@ class OBJECT_OT_body_moments_balance_group(ModalSteps, Operator):
     def _collection(self, name: str) -> bpy.types.Collection:
         collection = bpy.data.collections.get(name)
         if collection is None:
-            raise EditRefusedError("no_such_collection", collection=name)
+            raise EditRefusedError(NO_SUCH_COLLECTION, collection=name)
         return collection
 
     def _members(self, context: Context) -> list[Object]:
@@ -160,7 +170,7 @@ class OBJECT_OT_body_moments_balance_group(ModalSteps, Operator):
             several = deformed_by(obj, layer) if obj.type == "ARMATURE" else [obj]
             members.update(dict.fromkeys(one for one in several if one in layer and measurable(one)))
         if not members:
-            raise EditRefusedError("balance_group_empty_group")
+            raise EditRefusedError(BALANCE_GROUP_EMPTY_GROUP)
         return sorted(members, key=lambda obj: obj.name_full)
 
     def _follow(self, context: Context, frames: range) -> Generator[int, None, None]:
@@ -221,10 +231,10 @@ class OBJECT_OT_body_moments_balance_group(ModalSteps, Operator):
         context.view_layer.update()
         redraw(context)
         findings = [
-            finding("balance_group_made", count=len(self._frames), objects_count=len(self._objects), empty=empty.name)
+            finding(BALANCE_GROUP_MADE, count=len(self._frames), objects_count=len(self._objects), empty=empty.name)
         ]
         if inside is not None:
-            findings.append(finding("balance_group_inside", count=int(inside.sum()), total=len(inside)))
+            findings.append(finding(BALANCE_GROUP_INSIDE, count=int(inside.sum()), total=len(inside)))
         selection.report(self, *findings)
         return {"FINISHED"}
 

@@ -15,10 +15,12 @@ from ...blender.session.stored import stability
 from ...blender.session.stored.shown import shown_body
 from ...blender.session.tracking import staleness
 from ...blender.write.translations import localized
+from ...core.statics.findings import NO_STABLE_POSE
 from ...core.statics.resting import RestingPoses
 from ...core.verdict.finding import EditRefusedError, Finding, finding
 from .. import selection
 from ..snap import base as snapping
+from .findings import ALREADY_ON_GROUND, LAID_ON_GROUND
 from .stability import check_stability
 
 
@@ -79,8 +81,8 @@ class OBJECT_OT_body_moments_rest_on_ground(Operator):
         # one after the other, for a child moves with its parent
         moved, failures = selection.apply_to_all(objects, lambda obj: self._lay(context, obj, findings))
         snapping.remeasure(context, moved)
-        done = finding("laid_on_ground", count=len(moved))
-        idle = finding("already_on_ground")
+        done = finding(LAID_ON_GROUND, count=len(moved))
+        idle = finding(ALREADY_ON_GROUND)
         return selection.summarize(self, len(moved), len(objects), done, failures, findings, idle)
 
     def _lay(self, context: Context, obj: Object, findings: list[Finding]) -> bool:
@@ -91,7 +93,7 @@ class OBJECT_OT_body_moments_rest_on_ground(Operator):
         staleness.mark_up_to_date(context, measured)
         poses, body = stability.poses(obj, context.scene), shown_body(obj, context.scene)
         if poses is None:  # its stored numbers are damaged
-            raise EditRefusedError("no_stable_pose")
+            raise EditRefusedError(NO_STABLE_POSE)
         if isinstance(poses, Finding):
             raise EditRefusedError(poses.code, **poses.values)
         assert body is not None  # of which the poses are

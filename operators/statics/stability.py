@@ -9,6 +9,7 @@ from bpy.types import Context, Object, Operator
 
 from ...blender.bodies.measure_object import measure_body
 from ...blender.bodies.mesh.hull import MAX_CORNERS
+from ...blender.session.findings import OPEN_OBJECT
 from ...blender.session.stored import results, stability
 from ...blender.session.tracking import staleness
 from ...blender.write import properties
@@ -16,6 +17,7 @@ from ...core.verdict.finding import EditRefusedError, Finding, finding
 from ...core.verdict.method import Verdict
 from .. import selection
 from ..modal import redraw
+from .findings import HULL_SIMPLIFIED, OBJECTS_TIP, STABILITY_COMPUTED
 
 
 class OBJECT_OT_body_moments_stability(Operator):
@@ -46,9 +48,9 @@ class OBJECT_OT_body_moments_stability(Operator):
         standing = [obj for obj in objects if _stands(obj, context)]
         falling = [obj.name for obj in objects if stability.is_known(obj) and obj not in standing]
         if falling:
-            findings.insert(0, finding("objects_tip", count=len(falling), names=falling))
+            findings.insert(0, finding(OBJECTS_TIP, count=len(falling), names=falling))
         redraw(context)
-        done = finding("stability_computed", count=len(standing), total=len(known))
+        done = finding(STABILITY_COMPUTED, count=len(standing), total=len(known))
         return selection.summarize(self, len(known), len(objects), done, failures, findings)
 
 
@@ -59,13 +61,13 @@ def check_stability(context: Context, obj: Object, measured: list[Object]) -> li
     if properties.numbers(obj) is None or staleness.stale_reason(obj, context.scene):
         result = measure_body(obj, depsgraph)
         if result.measurement.method.verdict == Verdict.OPEN:
-            raise EditRefusedError("open_object")
+            raise EditRefusedError(OPEN_OBJECT)
         results.store(obj, result, context.scene)
         measured.append(obj)
     hull = stability.compute(obj, depsgraph)
     extent = float(np.ptp(hull.points, axis=0).max())
     if len(hull.points) >= MAX_CORNERS:
-        return [finding("hull_simplified", object=obj.name, corners=len(hull.points), share=hull.gap / extent)]
+        return [finding(HULL_SIMPLIFIED, object=obj.name, corners=len(hull.points), share=hull.gap / extent)]
     return []
 
 

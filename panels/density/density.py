@@ -17,6 +17,7 @@ from ...blender.write.translations import CONTEXT
 from ...blender.write.units import Units
 from ...core.verdict.finding import finding
 from .. import rows
+from ..findings import PANEL_NO_MATERIAL_SLOTS, PANEL_OVERRIDE, PANEL_WALL_FOLDS, PANEL_WALL_LIMIT
 from ..places import in_both_places
 from ..settings import setting
 from . import grid
@@ -64,7 +65,7 @@ def material_row(layout: UILayout, context: Context, obj: Object) -> None:
 def _settings(layout: UILayout, context: Context, obj: Object) -> None:
     settings = obj.body_moments
     if obj.override_library is not None:
-        rows.message(layout, context, finding("panel_override"))
+        rows.message(layout, context, finding(PANEL_OVERRIDE))
     if obj.type == "VOLUME" and grid.settings_rows(layout, context, obj):
         return
     column = layout.column()
@@ -118,7 +119,7 @@ def _max_thickness(layout: UILayout, context: Context, obj: Object) -> None:
     folds = wall_slider.is_too_thick(obj)
     row = layout.row()
     row.alert = folds
-    rows.message(row, context, finding("panel_wall_folds" if folds else "panel_wall_limit", length=limit))
+    rows.message(row, context, finding(PANEL_WALL_FOLDS if folds else PANEL_WALL_LIMIT, length=limit))
 
 
 def _materials(layout: UILayout, context: Context, obj: Object) -> None:
@@ -129,7 +130,7 @@ def _materials(layout: UILayout, context: Context, obj: Object) -> None:
     for material in shown:
         materials.density_row(column, context.scene, material, material.name)
     if not shown:
-        rows.message(column, context, finding("panel_no_material_slots"))
+        rows.message(column, context, finding(PANEL_NO_MATERIAL_SLOTS))
     column = layout.column()
     column.use_property_split = True
     _uniform_density(column, context, settings, "Others")

@@ -21,6 +21,7 @@ from ...operators.setup.presets import (
     OBJECT_OT_body_moments_set_material,
 )
 from .. import rows
+from ..findings import PANEL_MATERIAL_DEFAULT
 
 
 class OBJECT_MT_body_moments_materials(Menu):
@@ -143,7 +144,7 @@ class MATERIAL_PT_body_moments(Panel):
         if material.body_moments.material:
             column.label(text=material.body_moments.material, icon="CHECKMARK", translate=False)
         elif not material.body_moments.density:
-            rows.message(column, context, finding("panel_material_default"))
+            rows.message(column, context, finding(PANEL_MATERIAL_DEFAULT))
 
 
 CLASSES = (

@@ -12,14 +12,15 @@ from ...blender.write import properties
 from ...blender.write.units import Units
 from ...core.verdict.finding import finding
 from .. import rows
+from ..findings import PANEL_EQUAL_MOMENTS_12, PANEL_EQUAL_MOMENTS_23, PANEL_EQUAL_MOMENTS_ALL
 from ..places import in_both_places
 from .numbers import PRINCIPAL_LABELS
 
 ERROR_OF_A_DIFFERENCE = 6.0  # of principal moments: each is off by at most 3 times what an entry of the tensor is
 EQUAL_MOMENTS = {  # by whether 1 and 2, and 2 and 3, are equal
-    (True, True): "panel_equal_moments_all",
-    (True, False): "panel_equal_moments_12",
-    (False, True): "panel_equal_moments_23",
+    (True, True): PANEL_EQUAL_MOMENTS_ALL,
+    (True, False): PANEL_EQUAL_MOMENTS_12,
+    (False, True): PANEL_EQUAL_MOMENTS_23,
 }
 
 

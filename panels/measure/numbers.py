@@ -12,6 +12,7 @@ from ...blender.write import properties
 from ...blender.write.units import Units
 from ...core.verdict.finding import finding
 from .. import rows
+from ..findings import PANEL_DENSITY_MEAN
 
 AXIS_LABELS = ("X", "Y", "Z")
 PRINCIPAL_LABELS = ("1", "2", "3")
@@ -34,7 +35,7 @@ def numbers(layout: UILayout, context: Context, units: Units, shown: properties.
     rows.quantities(column, units, entries)
     source = properties.density_from(context.object)
     if source:
-        rows.message(column, context, finding("panel_density_mean", cause=source), icon="BLANK1")
+        rows.message(column, context, finding(PANEL_DENSITY_MEAN, cause=source), icon="BLANK1")
     column = layout.column(align=True)
     obj = context.object
     is_posed = posed.stands_for_meshes(obj) and results.are_meshes_measured(obj, context.scene)

@@ -11,39 +11,63 @@ from dataclasses import replace
 
 from bpy.types import Context, UILayout
 
+from ...blender.bodies.findings import (
+    DUPLICATE_FACES_OF_SHELL,
+    FACES_REVERSED_BEFORE_UNION,
+    HOLES_CAPPED_BEFORE_UNION,
+    NO_VOLUME,
+)
 from ...blender.session.stored import outcome
 from ...blender.write.properties import StoredProperties
 from ...blender.write.translations import localized
 from ...blender.write.units import Units
+from ...core.inertia.findings import NEGATIVE_INERTIA
+from ...core.solid.findings import (
+    COMPONENTS_NESTED,
+    COMPONENTS_OVERLAP,
+    DUPLICATE_FACES_COUNTED,
+    DUPLICATE_FACES_IGNORED,
+    FLAT_COMPONENTS,
+    FLAT_SURFACE,
+    HOLES_CAPPED,
+    INVERTED_COMPONENTS,
+    NON_MANIFOLD_COMPONENTS,
+    ONE_SIDED_COMPONENTS,
+    SELF_INTERSECTING,
+    VERTICES_WELDED,
+)
 from ...core.verdict.finding import Finding, Severity, finding, truncate
-from ...core.verdict.messages import of_severity, severity
+from ...core.verdict.findings import AND_MORE, FLIPPED_FACES, SELF_INTERSECTION
+from ...core.verdict.sentences import of_severity, severity
+from ...operators.snap.findings import RIGID_BODY_CENTER_ELSEWHERE
 from .. import rows
+from ..findings import PANEL_UNIT_QUESTION
 
 UNION = ("object.body_moments_count_as_union", "MOD_BOOLEAN")
 OUTSIDE = ("object.body_moments_recalculate_outside", "NORMALS_FACE")
 DEFECTS = ("object.body_moments_select_faults", "ZOOM_SELECTED")
 SHELL = ("object.body_moments_measure_as_shell", "MOD_SOLIDIFY")
 REMEDIES = {
-    "components_nested": (UNION,),
-    "components_overlap": (UNION,),
-    "self_intersecting": (UNION,),
-    "self_intersection": (UNION,),
-    "flipped_faces": (OUTSIDE, DEFECTS),
-    "inverted_components": (OUTSIDE,),
-    "faces_reversed_before_union": (OUTSIDE,),
-    "holes_capped": (DEFECTS, SHELL),
-    "holes_capped_before_union": (DEFECTS,),
-    "duplicate_faces_ignored": (DEFECTS,),
-    "duplicate_faces_counted": (DEFECTS,),
-    "duplicate_faces_of_shell": (DEFECTS,),
-    "vertices_welded": (DEFECTS,),
-    "one_sided_components": (SHELL,),
-    "non_manifold_components": (DEFECTS, SHELL),
-    "flat_components": (SHELL,),
-    "flat_surface": (SHELL,),
-    "no_volume": (SHELL,),
-    "negative_inertia": (UNION, SHELL),
-    "rigid_body_center_elsewhere": (("object.body_moments_axes_to_principal", "EMPTY_AXIS"),),
+    COMPONENTS_NESTED: (UNION,),
+    COMPONENTS_OVERLAP: (UNION,),
+    SELF_INTERSECTING: (UNION,),
+    SELF_INTERSECTION: (UNION,),
+    FLIPPED_FACES: (OUTSIDE, DEFECTS),
+    INVERTED_COMPONENTS: (OUTSIDE,),
+    FACES_REVERSED_BEFORE_UNION: (OUTSIDE,),
+    HOLES_CAPPED: (DEFECTS, SHELL),
+    HOLES_CAPPED_BEFORE_UNION: (DEFECTS,),
+    DUPLICATE_FACES_IGNORED: (DEFECTS,),
+    DUPLICATE_FACES_COUNTED: (DEFECTS,),
+    DUPLICATE_FACES_OF_SHELL: (DEFECTS,),
+    VERTICES_WELDED: (DEFECTS,),
+    ONE_SIDED_COMPONENTS: (SHELL,),
+    NON_MANIFOLD_COMPONENTS: (DEFECTS, SHELL),
+    FLAT_COMPONENTS: (SHELL,),
+    FLAT_SURFACE: (SHELL,),
+    NO_VOLUME: (SHELL,),
+    NEGATIVE_INERTIA: (UNION, SHELL),
+    RIGID_BODY_CENTER_ELSEWHERE: (("object.body_moments_axes_to_principal", "EMPTY_AXIS"),),
 }
 MESH_ONLY = (OUTSIDE, DEFECTS)
 MAX_SHOWN = 8  # of what the last action refused
@@ -115,7 +139,7 @@ def last_action(layout: UILayout, context: Context) -> None:
         rows.message(column, context, refused, icon="NONE", boxed=True)
         remedies(column, context, refused)
     if more:
-        rows.message(column, context, finding("and_more", count=more), icon="NONE")
+        rows.message(column, context, finding(AND_MORE, count=more), icon="NONE")
     if len(last.objects) > 1 or last.objects and last.objects[0] != context.object.name_full:
         rows.button(box, context, "object.body_moments_select_refused", "RESTRICT_SELECT_OFF")
 
@@ -133,7 +157,7 @@ def unit_question(layout: UILayout, context: Context, shown: StoredProperties) -
     box = layout.box()
     units = replace(Units.of(scene.unit_settings), mass="TONNES", digits=QUESTION_DIGITS)
     texts = {"length": units.text("length", length), "mass": units.text("mass", shown.body.mass)}
-    question = finding("panel_unit_question", **texts)
+    question = finding(PANEL_UNIT_QUESTION, **texts)
     rows.message(box, context, question, icon="QUESTION", boxed=True)
     column = box.column(align=True)
     rows.button(column, context, "scene.body_moments_set_millimeters", "DRIVER_DISTANCE")

@@ -14,8 +14,9 @@ from ...blender.session.stored.trust import Trust
 from ...blender.write.translations import localized
 from ...blender.write.units import Units
 from ...core.verdict.finding import finding
-from ...core.verdict.messages import truncate_list
+from ...core.verdict.sentences import truncate_list
 from .. import rows
+from ..findings import PANEL_NOTHING_MEASURED
 from ..places import in_both_places
 from .numbers import AXIS_LABELS, PRINCIPAL_LABELS
 
@@ -109,7 +110,7 @@ def _total(layout: UILayout, context: Context, units: Units) -> None:
     total = results.total(context)
     column = layout.column(align=True)
     if not total.count:
-        rows.message(column, context, finding("panel_nothing_measured"))
+        rows.message(column, context, finding(PANEL_NOTHING_MEASURED))
         return
     rows.filled(column, "1 Object" if total.count == 1 else "{:d} Objects", total.count, icon="GROUP")
     for names, text in (

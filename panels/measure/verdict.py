@@ -8,15 +8,25 @@ from collections.abc import Sequence
 
 from bpy.types import Context, Object, UILayout
 
+from ...blender.session.findings import STALE_SETTINGS
 from ...blender.session.live import live
 from ...blender.session.stored import results, trust
 from ...blender.session.tracking import posed, staleness
 from ...blender.write import properties
+from ...blender.write.findings import WALL_MEASURED
 from ...blender.write.translations import localized
 from ...core.verdict.finding import Finding, finding
-from ...core.verdict.messages import METHODS, method_key
 from ...core.verdict.method import Method, Source
+from ...core.verdict.sentences import METHODS, method_key
 from .. import rows
+from ..findings import (
+    PANEL_LIVE,
+    PANEL_LIVE_BEHIND,
+    PANEL_LIVE_FIRST_ORDER,
+    PANEL_POSED,
+    PANEL_POSED_MISSING,
+    PANEL_POSED_STALE,
+)
 from . import remedies
 
 ICONS = {
@@ -33,9 +43,9 @@ ICONS = {
 SOURCES = {Source.NURBS: "NURBS: {:s}", Source.GRID: "Grid: {:s}"}  # of what was measured, before a verdict
 
 LIVE = {
-    live.Lag.NONE: "panel_live",
-    live.Lag.FIRST_ORDER: "panel_live_first_order",
-    live.Lag.BEHIND: "panel_live_behind",
+    live.Lag.NONE: PANEL_LIVE,
+    live.Lag.FIRST_ORDER: PANEL_LIVE_FIRST_ORDER,
+    live.Lag.BEHIND: PANEL_LIVE_BEHIND,
 }
 
 
@@ -67,7 +77,7 @@ def verdict(layout: UILayout, context: Context, obj: Object, measured: bool) -> 
     now = live.current_numbers(obj)
     if now is not None and now.measurement is not None:
         if live.is_stale(obj, context.scene):
-            rows.stale_row(column, context, "stale_settings")
+            rows.stale_row(column, context, STALE_SETTINGS)
             return
         code = LIVE[live.lag(obj)]
         rows.message(column, context, finding(code, milliseconds=1e3 * now.seconds), icon="REC")
@@ -80,14 +90,14 @@ def verdict(layout: UILayout, context: Context, obj: Object, measured: bool) -> 
 def _posed(column: UILayout, context: Context, armature: Object) -> None:
     """Which meshes an armature stands for, and which of them have no numbers, or none that hold."""
     meshes = posed.deformed_meshes(armature)
-    rows.message(column, context, finding("panel_posed", count=len(meshes)), icon="POSE_HLT")
+    rows.message(column, context, finding(PANEL_POSED, count=len(meshes)), icon="POSE_HLT")
     lacking = [mesh.name for mesh in meshes if results.in_world(mesh, context.scene) is None]
     stale = [
         mesh.name
         for mesh in meshes
         if mesh.name not in lacking and trust.trust(mesh, context.scene) == trust.Trust.OUT_OF_DATE
     ]
-    for code, names in (("panel_posed_missing", lacking), ("panel_posed_stale", stale)):
+    for code, names in ((PANEL_POSED_MISSING, lacking), (PANEL_POSED_STALE, stale)):
         if names:
             rows.message(column, context, finding(code, objects=names))
 
@@ -95,7 +105,7 @@ def _posed(column: UILayout, context: Context, armature: Object) -> None:
 def _headline(column: UILayout, context: Context, obj: Object) -> None:
     """What the method was, in two lines. A method of another version of the add-on speaks for itself."""
     method, findings = method_and_findings(obj)
-    key = method_key(method, any(found.code == "wall_measured" for found in findings))
+    key = method_key(method, any(found.code == WALL_MEASURED for found in findings))
     source = Source.POLYGONS if method is None or key == str(method) else method.source
     headline, explanation = METHODS.get(key, (properties.method_text(obj).title(), ""))
     title = localized(SOURCES.get(source, "{:s}")).format(localized(headline))

@@ -24,6 +24,7 @@ from ....core.numerics.rotations import rotation_matrix
 from ....core.verdict import internal_error
 from ....core.verdict.finding import Finding, MeasureError, ReadError, finding
 from ...read.assembly import Member, MemberKind, Root, members_of, settings_of
+from ...read.findings import BOOLEAN_OPERAND, HIDDEN_OBJECT_MEASURED, MEMBER_COUNTED_BEFORE, NOT_RENDERED
 from ...read.fingerprint import digest, fingerprint, matrix_hash
 from ...read.objects import locate
 from ...read.reading import to_si
@@ -31,6 +32,21 @@ from ...read.total_caveats import open_body_caveats
 from ...settings.density import unset_density
 from ...settings.given import GivenPart
 from ...settings.options import AS_SET, MeasureOptions
+from ..findings import (
+    ASSEMBLY_MASS_GIVEN,
+    ASSEMBLY_WITHOUT_MEMBERS,
+    DENSITY_FROM_MEMBERS,
+    GIVEN_CENTER_MISSING,
+    INSTANCE_STRETCHES_SHEETS,
+    INSTANCE_WITHOUT_SCALE,
+    MEMBERS_COUNTED_BEFORE,
+    MEMBERS_DENSITY_UNSET,
+    MEMBERS_EXCLUDED,
+    MEMBERS_HIDDEN,
+    MEMBERS_LEFT_OUT,
+    MEMBERS_MASS_GIVEN,
+    MEMBERS_NOT_MEASURED,
+)
 from ..measure_object import Measured
 from ..mesh.instances import merge_health
 from ..stacks.many import measure_many
@@ -164,7 +180,7 @@ def assembly_measurement(whole: MemberBody, depsgraph: Depsgraph, unit: float) -
     """Return the results of an assembly as one body. MeasureError where it has no mass."""
     data, mass = whole.member.data, whole.mass
     if mass is None:
-        raise ReadError("assembly_without_members", subject=data.name)
+        raise ReadError(ASSEMBLY_WITHOUT_MEMBERS, subject=data.name)
     rotation, location, place = np.eye(3), np.zeros(3), ""
     if isinstance(data, bpy.types.Object):
         at = locate(data, depsgraph)
@@ -185,7 +201,7 @@ def assembly_measurement(whole: MemberBody, depsgraph: Depsgraph, unit: float) -
             members_key(whole.member, _fingerprints(whole)).encode(), place, structure_hash(whole.member)
         ),
         findings=tuple(findings_of(whole, depsgraph.scene)),
-        density_from=DENSITY_FROM_MASS if given else finding("density_from_members"),
+        density_from=DENSITY_FROM_MASS if given else finding(DENSITY_FROM_MEMBERS),
         health=merge_health((measurement.health, 1, measurement.area) for measurement in measured)
         if measured
         else None,
@@ -225,32 +241,30 @@ def findings_of(whole: MemberBody, scene: bpy.types.Scene) -> Iterator[Finding]:
     members = list(whole.walk())
     refused = [part.member.name for part in members if part.refusal is not None]
     if refused:
-        yield finding("members_not_measured", count=len(refused), names=refused)
+        yield finding(MEMBERS_NOT_MEASURED, count=len(refused), names=refused)
     left_out: dict[str, list[str]] = {}
     for part in members:
         if part.member.left_out is not None:
-            left_out.setdefault(_LEFT_OUT.get(part.member.left_out.code, "members_excluded"), []).append(
-                part.member.name
-            )
+            left_out.setdefault(_LEFT_OUT.get(part.member.left_out.code, MEMBERS_EXCLUDED), []).append(part.member.name)
     for code, names in left_out.items():
         yield finding(code, count=len(names), names=names)
     objects = [(part.member, part.measurement) for part in members if part.measurement is not None]
-    hidden = [member.name for member, measured in objects if _has_code(measured.findings, "hidden_object_measured")]
+    hidden = [member.name for member, measured in objects if _has_code(measured.findings, HIDDEN_OBJECT_MEASURED)]
     if hidden:
-        yield finding("members_hidden", count=len(hidden), names=hidden)
+        yield finding(MEMBERS_HIDDEN, count=len(hidden), names=hidden)
     unset = [member.name for member, measured in objects if unset_density(member.data, measured, scene) is not None]
     if unset:
-        yield finding("members_density_unset", count=len(unset), names=unset)
+        yield finding(MEMBERS_DENSITY_UNSET, count=len(unset), names=unset)
     yield from open_body_caveats((member.name, measured.method) for member, measured in objects)
-    given = [part.member.name for part in members[1:] if _has_code(part.findings, "assembly_mass_given")]
+    given = [part.member.name for part in members[1:] if _has_code(part.findings, ASSEMBLY_MASS_GIVEN)]
     if given:
-        yield finding("members_mass_given", count=len(given), names=given)
+        yield finding(MEMBERS_MASS_GIVEN, count=len(given), names=given)
 
 
-_LEFT_OUT = {
-    "member_counted_before": "members_counted_before",
-    "boolean_operand": "members_left_out",
-    "not_rendered": "members_left_out",
+_LEFT_OUT: dict[str, str] = {
+    MEMBER_COUNTED_BEFORE: MEMBERS_COUNTED_BEFORE,
+    BOOLEAN_OPERAND: MEMBERS_LEFT_OUT,
+    NOT_RENDERED: MEMBERS_LEFT_OUT,
 }
 
 
@@ -321,8 +335,8 @@ def _with_given_mass(whole: MemberBody, unit: float) -> MemberBody:
     except MeasureError as error:
         return replace(whole, masses={}, refusal=error.finding)
     if whole.mass is None and given.center is None and isinstance(data, bpy.types.Collection):
-        findings.append(finding("given_center_missing"))
-    findings.insert(0, finding("assembly_mass_given", mass=mass))
+        findings.append(finding(GIVEN_CENTER_MISSING))
+    findings.insert(0, finding(ASSEMBLY_MASS_GIVEN, mass=mass))
     return replace(whole, masses={0: moments}, findings=tuple(findings))
 
 
@@ -339,10 +353,10 @@ def _instance_body(whole: MemberBody, results: Results, unit: float) -> MemberBo
     matrix[:3, :3] /= unit  # the members are in SI units already
     scale = abs(np.linalg.det(matrix[:3, :3]))
     if not scale > 0.0:
-        return replace(whole, masses={}, volume=0.0, area=0.0, refusal=finding("instance_without_scale"))
+        return replace(whole, masses={}, volume=0.0, area=0.0, refusal=finding(INSTANCE_WITHOUT_SCALE))
     sheared = _is_sheared(member)
     if sheared and not {0, 3}.issuperset(whole.masses):
-        return replace(whole, masses={}, volume=0.0, area=0.0, refusal=finding("instance_stretches_sheets"))
+        return replace(whole, masses={}, volume=0.0, area=0.0, refusal=finding(INSTANCE_STRETCHES_SHEETS))
     masses = {
         power: moments.transform(matrix) * (scale ** (power / 3.0) if power else 1.0)
         for power, moments in whole.masses.items()

@@ -15,6 +15,7 @@ from ....core.moments.moments import Measure, Moments, monomial_count
 from ....core.verdict.finding import Finding, finding
 from ....core.verdict.health import MeshHealth
 from ....core.verdict.method import Method, Verdict
+from ..findings import DENSITY_FROM_MEMBERS
 from .given import properties_of
 
 
@@ -32,7 +33,7 @@ def combined_measurement(
     fingerprint: str,
     findings: Sequence[Finding],
     method: Method = Method(Verdict.ASSEMBLY),  # noqa: B008 frozen
-    density_from: Finding = finding("density_from_members"),  # noqa: B008 frozen
+    density_from: Finding = finding(DENSITY_FROM_MEMBERS),  # noqa: B008 frozen
     health: MeshHealth | None = None,
 ) -> Measurement:
     """Return the results of bodies whose mass moments have been added.

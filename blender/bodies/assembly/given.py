@@ -13,6 +13,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from ....core.inertia.findings import AXES_ALL_FREE
 from ....core.inertia.mass_properties import MassProperties
 from ....core.inertia.principal_frames import PrincipalFrame
 from ....core.measurement.measurement import DENSITY_FROM_MASS, Measurement
@@ -22,12 +23,12 @@ from ....core.numerics.float32 import shortest_decimal
 from ....core.verdict.finding import Finding, ReadError, finding
 from ....core.verdict.health import MeshHealth
 from ....core.verdict.method import Method, Verdict
-from ...read import Reading
 from ...read.fingerprint import effective_hash, fingerprint, matrix_hash
 from ...read.objects import locate
-from ...read.reading import to_si
+from ...read.reading import Reading, to_si
 from ...settings.given import GivenPart, is_point_mass
 from ..body import Body
+from ..findings import CENTER_GIVEN, GIVEN_CENTER_OUTSIDE, GIVEN_INERTIA_IMPOSSIBLE, INERTIA_GIVEN, ZERO_MASS
 from ..measurement import extent
 from ..request import Request
 
@@ -65,7 +66,7 @@ def given_moments(
         Where no body can have the mass or the tensor.
     """
     if not mass > 0.0:
-        raise ReadError("zero_mass")
+        raise ReadError(ZERO_MASS)
     raw, rounding, inputs = np.zeros((3, COUNT))
     raw[0], center = mass, location
     if geometry is not None:
@@ -78,13 +79,13 @@ def given_moments(
     if given.center is not None:
         center = location + rotation @ given.center
         raw[1:4], rounding[1:4], inputs[1:4] = 0.0, 0.0, 0.0
-        findings.append(finding("center_given"))
+        findings.append(finding(CENTER_GIVEN))
     if given.inertia is not None:
         raw[4:], rounding[4:], inputs[4:] = 0.0, 0.0, 0.0
         second = rotation @ _second_moments(given.inertia) @ rotation.T
         raw[SECOND_MOMENT_INDEX] = (second + second.T) / 2.0
         rounding[4:10] = 16.0 * U * np.trace(given.inertia)
-        findings.append(finding("inertia_given"))
+        findings.append(finding(INERTIA_GIVEN))
     return Moments(raw, np.asarray(center, np.float64), Measure.MASS, rounding, inputs), findings
 
 
@@ -93,7 +94,7 @@ def _second_moments(inertia: NDArray) -> NDArray[np.float64]:
     second = np.trace(inertia) / 2.0 * np.eye(3) - inertia
     values, axes = np.linalg.eigh(second)
     if values[0] < -GIVEN_RTOL * np.trace(inertia) or not np.isfinite(values).all():
-        raise ReadError("given_inertia_impossible", moments=np.sort(np.linalg.eigvalsh(inertia)).tolist())
+        raise ReadError(GIVEN_INERTIA_IMPOSSIBLE, moments=np.sort(np.linalg.eigvalsh(inertia)).tolist())
     return (axes * np.maximum(values, 0.0)) @ axes.T
 
 
@@ -108,7 +109,7 @@ def with_given(body: Body, reading: Reading, request: Request) -> Body:
     location = np.asarray(reading.location, np.float64) * request.unit
     mass, findings = given_moments(request.options.mass, given, reading.rotation, location, geometry)
     if given.center is not None and _is_outside(mass.about, reading, request.unit):
-        findings.append(finding("given_center_outside"))
+        findings.append(finding(GIVEN_CENTER_OUTSIDE))
     key = body.density_key + GivenPart.of(request.obj.body_moments, 1.0).key
     return replace(body, mass=mass, density_key=key, findings=(*body.findings, *findings))
 
@@ -204,7 +205,7 @@ def properties_of(mass: Moments, preferred_axes: NDArray) -> MassProperties:
         center=central.about,
         inertia=np.zeros((3, 3)),
         principal=PrincipalFrame(
-            np.zeros(3), np.asarray(preferred_axes, np.float64), NO_AXES_FIXED, False, finding("axes_all_free")
+            np.zeros(3), np.asarray(preferred_axes, np.float64), NO_AXES_FIXED, False, finding(AXES_ALL_FREE)
         ),
         rounding_error={**bounds, "inertia": float(central.rounding_error[4:].sum())},
         input_error={"mass": 0.0, "center": 0.0, "inertia": float(central.input_error[4:].sum())},

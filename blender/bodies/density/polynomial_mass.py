@@ -25,10 +25,10 @@ from ....core.numerics.rotations import polar_rotation
 from ....core.polyhedron import polyhedron_moments
 from ....core.verdict.finding import Finding, ReadError, finding
 from ....core.verdict.method import Verdict
-from ...read import Reading
-from ...read.reading import to_si
+from ...read.reading import Reading, to_si
 from ...settings.density import DensityField
 from ..body import MeshBody
+from ..findings import DENSITY_NEGATIVE, DENSITY_OF_UNITED_INSTANCES, DENSITY_POSSIBLY_NEGATIVE, SHEARED_DENSITY_AXES
 from ..mesh.instances import group_by_similarity
 
 MAX_CHECKED_INSTANCES = 50  # different places whose points are looked at one by one
@@ -59,7 +59,7 @@ def polynomial_mass_result(
         else _solid_pieces(reading, body, density.in_world, unit)
     )
     if not density.in_world and any(polar_rotation(part.matrices)[1].any() for part in reading.parts):
-        findings.append(finding("sheared_density_axes"))
+        findings.append(finding(SHEARED_DENSITY_AXES))
     findings += _negative_density_note(density, pieces, shell)
     parts = []
     order += polynomial.degree
@@ -82,7 +82,7 @@ def _solid_pieces(reading: Reading, body: MeshBody, in_world: bool, unit: float)
     """What encloses the body, as it was repaired."""
     if body.method.verdict == Verdict.UNION:
         if reading.instance_count > 1 and not in_world:
-            raise ReadError("density_of_united_instances")
+            raise ReadError(DENSITY_OF_UNITED_INSTANCES)
         solid, matrices = body.solids[0]
         place = to_si(reading.parts[0].matrices, unit)
         yield _Piece(
@@ -146,6 +146,6 @@ def _negative_density_note(density: DensityField, pieces: list[_Piece], shell: b
             if worst is not None:
                 value, place = worst
                 point = [float(x) for x in place]
-                raise ReadError("density_negative", density=float(value), point=point, frame=density.frame)
+                raise ReadError(DENSITY_NEGATIVE, density=float(value), point=point, frame=density.frame)
             is_doubtful |= is_undecided
-    return [finding("density_possibly_negative")] if is_doubtful else []
+    return [finding(DENSITY_POSSIBLY_NEGATIVE)] if is_doubtful else []

@@ -27,11 +27,31 @@ from ....core.solid.measure import SolidIntegrals
 from ....core.verdict.finding import Finding, ReadError, finding, truncate_findings
 from ....core.verdict.method import Verdict
 from ....core.verdict.tolerances import NEGLIGIBLE
-from ...read import Reading
-from ...read.reading import attribute_to_source, to_si
+from ...read.reading import Reading, attribute_to_source, to_si
 from ...settings.density import DensityField, material_density
 from ...settings.digest import density_key
+from ...settings.findings import OBJECT_DENSITY_USED, OBJECT_DENSITY_USED_FOR_MATERIALS
 from ..body import MAX_MASS_MOMENT, MeshBody
+from ..findings import (
+    ATTRIBUTE_NEGATIVE,
+    ATTRIBUTE_NON_FINITE,
+    CAVITY_MATERIAL_IGNORED,
+    CAVITY_MATERIAL_IGNORED_SLIGHTLY,
+    DENSITY_ATTRIBUTE_OF_SOLID,
+    DENSITY_FROM_ATTRIBUTE,
+    DENSITY_FROM_MATERIALS,
+    DENSITY_MIXED_BY_AREA,
+    DENSITY_OF_MATERIAL,
+    DENSITY_OF_OTHERS,
+    DENSITY_VOLUME_OF_SHELL,
+    MASS_OVERFLOW,
+    MATERIAL_WITHOUT_DENSITY,
+    MATERIALS_OF_UNION,
+    MIXED_MATERIAL_COMPONENT,
+    MIXED_MATERIAL_COMPONENTS,
+    MIXED_MATERIALS_SLIGHTLY,
+    OVERLAPPING_DENSITIES,
+)
 from ..measurement import extent
 from ..mesh.instances import area_of_instances, findings_by_part
 from ..request import Request
@@ -64,7 +84,7 @@ def weigh(reading: Reading, body: MeshBody, request: Request) -> MeshBody:
     order = request.options.order
     if _field(request).kind == "volume":
         if request.options.kind == "shell":
-            raise ReadError("density_volume_of_shell")
+            raise ReadError(DENSITY_VOLUME_OF_SHELL)
         filled = filled_by_volume(body, request, KNOWN_ORDER)
         higher = filled_by_volume(body, request, order).mass if order is not None and order > KNOWN_ORDER else None
         return replace(filled, higher_mass=higher, density_key=density_key(request.obj, (), request.scene))
@@ -108,19 +128,19 @@ def _by_polynomial(reading: Reading, body: MeshBody, request: Request, order: in
     )
     mass = sum_moments(parts) * _thickness(request)
     if not np.abs(mass.raw).max() < MAX_MASS_MOMENT:
-        raise ReadError("mass_overflow")
+        raise ReadError(MASS_OVERFLOW)
     return _Weighed(mass, density.polynomial_source(), findings)
 
 
 def _by_attribute(reading: Reading, request: Request, order: int) -> _Weighed:
     attribute = _field(request).attribute or ""
     if request.options.kind != "shell":
-        raise ReadError("density_attribute_of_solid")
+        raise ReadError(DENSITY_ATTRIBUTE_OF_SOLID)
     parts = [
         _sheet_moments(reading, i, _vertex_density(reading, i, attribute), request, order, by_vertex=True)
         for i in range(len(reading.parts))
     ]
-    source = finding("density_from_attribute", attribute=attribute)
+    source = finding(DENSITY_FROM_ATTRIBUTE, attribute=attribute)
     total = sum_moments([moments for part in parts for moments in part])
     return _Weighed(to_mass_moments(total, _thickness(request)), source)
 
@@ -128,7 +148,7 @@ def _by_attribute(reading: Reading, request: Request, order: int) -> _Weighed:
 def _by_material(reading: Reading, body: MeshBody, request: Request, order: int) -> _Weighed:
     shell = request.options.kind == "shell"
     if body.method.verdict == Verdict.UNION:
-        raise ReadError("materials_of_union")
+        raise ReadError(MATERIALS_OF_UNION)
     face_densities = _FaceDensities(reading, request.options.density or 0.0)
     parts: list[Moments] = []
     by_part: list[tuple[str, list[Finding]]] = []
@@ -154,7 +174,7 @@ def _by_material(reading: Reading, body: MeshBody, request: Request, order: int)
     findings = [*face_densities.missing_note(), *findings_by_part(by_part, reading.name)]
     health = body.health
     if not shell and health.nested_components + health.overlapping_components and face_densities.has_several:
-        findings.append(finding("overlapping_densities"))
+        findings.append(finding(OVERLAPPING_DENSITIES))
     return _Weighed(
         to_mass_moments(sum_moments(parts), _thickness(request)),
         face_densities.source(mixed),
@@ -187,7 +207,7 @@ class _FaceDensities:
             met |= dict.fromkeys(slots[i] for i in np.unique(faces).tolist() if i >= 0 and slots[i] is not None)
         self.materials = sorted(met, key=lambda material: material.name_full)
         if self.faces_without_density and not default_density > 0.0:
-            raise ReadError("material_without_density", count=self.faces_without_density, total=self.faces)
+            raise ReadError(MATERIAL_WITHOUT_DENSITY, count=self.faces_without_density, total=self.faces)
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -204,21 +224,21 @@ class _FaceDensities:
         names = [material.name for material in self.materials if material_density(material) is None]
         values = {"count": self.faces_without_density, "total": self.faces, "density": self.default_density}
         if names:
-            yield finding("object_density_used_for_materials", **values, materials=names)
+            yield finding(OBJECT_DENSITY_USED_FOR_MATERIALS, **values, materials=names)
         else:
-            yield finding("object_density_used", **values)
+            yield finding(OBJECT_DENSITY_USED, **values)
 
     def source(self, by_area: bool) -> Finding:
         """Where the densities come from. by_area: whether components of several materials took their mean."""
         known = [(material.name, material_density(material)) for material in self.materials]
         known = [(name, value) for name, value in known if value is not None]
-        parts = [finding("density_of_material", material=name, density=value) for name, value in known]
+        parts = [finding(DENSITY_OF_MATERIAL, material=name, density=value) for name, value in known]
         parts = truncate_findings(parts, MAX_NAMED)
         if self.faces_without_density:
-            parts.append(finding("density_of_others", density=self.default_density))
+            parts.append(finding(DENSITY_OF_OTHERS, density=self.default_density))
         if by_area:
-            parts.append(finding("density_mixed_by_area"))
-        return finding("density_from_materials", materials=[part.as_record() for part in parts])
+            parts.append(finding(DENSITY_MIXED_BY_AREA))
+        return finding(DENSITY_FROM_MATERIALS, materials=[part.as_record() for part in parts])
 
     def with_names(self) -> Iterator[tuple[NDArray, NDArray]]:
         """The densities and the materials' names of the faces of each part."""
@@ -248,7 +268,7 @@ def _solid_moments(
         has_foreign_material = bool(foreign.any())
         is_slight = bool(part_density.most_by_area[foreign].sum() < negligible)
     if has_foreign_material:
-        findings.append(finding("cavity_material_ignored_slightly" if is_slight else "cavity_material_ignored"))
+        findings.append(finding(CAVITY_MATERIAL_IGNORED_SLIGHTLY if is_slight else CAVITY_MATERIAL_IGNORED))
     return moments, findings, mixed
 
 
@@ -272,13 +292,13 @@ def _mixed_parts_notes(
         return []
     first = np.sort(part_density.first_face[which])
     if part_density.range_by_area[which].sum() < negligible:
-        return [finding("mixed_materials_slightly", first, count=len(which), total=parts.number)]
+        return [finding(MIXED_MATERIALS_SLIGHTLY, first, count=len(which), total=parts.number)]
     if len(which) > 1:
-        return [finding("mixed_material_components", first, count=len(which), total=parts.number)]
+        return [finding(MIXED_MATERIAL_COMPONENTS, first, count=len(which), total=parts.number)]
     component = int(which[0])
     faces = np.unique(parts.face[(parts.part == component) & (parts.face >= 0)])
     materials, density = sorted(set(names[faces].tolist())), float(part_density.density[component])
-    return [finding("mixed_material_component", first, materials=materials, density=density)]
+    return [finding(MIXED_MATERIAL_COMPONENT, first, materials=materials, density=density)]
 
 
 def _vertex_density(reading: Reading, i: int, name: str) -> NDArray[np.float64]:
@@ -287,8 +307,8 @@ def _vertex_density(reading: Reading, i: int, name: str) -> NDArray[np.float64]:
     values = part.attributes.vertex_values
     used = np.unique(part.surface.all_triangles()[0])
     for wrong, code in (
-        (~np.isfinite(values[used]), "attribute_non_finite"),
-        (values[used] < 0.0, "attribute_negative"),
+        (~np.isfinite(values[used]), ATTRIBUTE_NON_FINITE),
+        (values[used] < 0.0, ATTRIBUTE_NEGATIVE),
     ):
         if wrong.any():
             found = finding(code, used[wrong], attribute=name, count=int(wrong.sum()))

@@ -20,6 +20,20 @@ from ...read.reading import attribute_to_source, to_si
 from ...read.tracking import tracking_paused
 from ...settings.grid import GridOptions
 from ..body import MAX_MASS_MOMENT, MeshBody
+from ..findings import (
+    DENSITY_FROM_GRID_OF,
+    DENSITY_GRID_ELSEWHERE,
+    DENSITY_GRID_EMPTY,
+    DENSITY_GRID_IS_LEVEL_SET,
+    DENSITY_GRID_TOO_FINE,
+    DENSITY_VOLUME_UNREADABLE,
+    GRID_DENSITY_OF,
+    MASS_OVERFLOW,
+    OBJECT_WITHOUT_GRID,
+    OPEN_SURFACE_OF_GRID,
+    OUTSIDE_GRID,
+    OUTSIDE_GRID_SLIGHTLY,
+)
 from ..request import Request
 
 MAX_OUTSIDE_SHARE = 1e-9  # of the volume: below this, rounding
@@ -38,15 +52,15 @@ def filled_by_volume(body: MeshBody, request: Request, order: int) -> MeshBody:
     try:
         with tracking_paused(), volume_reading(source, request.depsgraph, grid.grid) as volume:
             if volume is None:
-                raise ReadError("object_without_grid")
+                raise ReadError(OBJECT_WITHOUT_GRID)
             filled = voxel_filled_body(body, volume, grid, request.unit, name, order)
-            origin = finding("density_from_grid_of", grid=volume.grid, object=source.name)
+            origin = finding(DENSITY_FROM_GRID_OF, grid=volume.grid, object=source.name)
             return replace(filled, density_from=origin)
     except MeasureError as error:
         if error.subject == name:  # about both together
             raise
         raise ReadError(
-            "density_volume_unreadable", subject=name, object=source.name, cause=error.finding.as_record()
+            DENSITY_VOLUME_UNREADABLE, subject=name, object=source.name, cause=error.finding.as_record()
         ) from error
 
 
@@ -60,14 +74,14 @@ def voxel_filled_body(
     names = {"grid": reading.grid, "object": reading.name}
     options.needs_even_samples(reading.grid)
     if body.method.verdict == Verdict.OPEN:
-        raise ReadError("open_surface_of_grid", subject=name)
+        raise ReadError(OPEN_SURFACE_OF_GRID, subject=name)
     if reading.level_set:
-        raise ReadError("density_grid_is_level_set", subject=name, **names)
+        raise ReadError(DENSITY_GRID_IS_LEVEL_SET, subject=name, **names)
     shift = np.eye(4)
     shift[:3, 3] = reading.low - 0.5  # from corners of voxels, not from their centers
     matrix = to_si(reading.matrix[None], unit)[0] @ reading.to_object @ shift
     if min(reading.shape) < 1 or not abs(np.linalg.det(matrix[:3, :3])) > 0.0:
-        raise ReadError("density_grid_empty", subject=name, **names)
+        raise ReadError(DENSITY_GRID_EMPTY, subject=name, **names)
     inverse = np.linalg.inv(matrix)
     triangles = np.concatenate(
         [_corners(solid, inverse @ place) for solid, matrices in body.solids for place in matrices]
@@ -75,24 +89,24 @@ def voxel_filled_body(
     low = np.clip(np.floor(triangles.min(axis=(0, 1))), 0, np.array(reading.shape) - 1).astype(np.int64)
     high = np.clip(np.ceil(triangles.max(axis=(0, 1))), low + 1, reading.shape).astype(np.int64)
     if np.prod((high - low).astype(float)) > MAX_VOXELS:
-        raise ReadError("density_grid_too_fine", subject=name, **names, samples=(high - low).tolist())
+        raise ReadError(DENSITY_GRID_TOO_FINE, subject=name, **names, samples=(high - low).tolist())
     moments, volume = inside_moments(triangles - low, _box_densities(reading, options, low, high), order)
     volume *= abs(np.linalg.det(matrix[:3, :3]))
     shift[:3, 3] = low
     mass = replace(replace(moments, measure=Measure.VOLUME).transform(matrix @ shift), measure=Measure.MASS)
     mass = replace(mass, input_error=_input_error(body, mass))
     if not np.abs(mass.raw).max() < MAX_MASS_MOMENT:
-        raise ReadError("mass_overflow")
+        raise ReadError(MASS_OVERFLOW)
     if not mass.total > mass.rounding_error[0]:
-        raise ReadError("density_grid_elsewhere", subject=name, **names)
+        raise ReadError(DENSITY_GRID_ELSEWHERE, subject=name, **names)
     meaning = replace(options, spline_order=1).meaning()
     findings = [
-        finding("grid_density_of", **names, cause=meaning.as_record()),
+        finding(GRID_DENSITY_OF, **names, cause=meaning.as_record()),
         *options.empty_background_note(reading.background),
     ]
     outside = float(1.0 - volume / body.volume.total)
     if outside > MAX_OUTSIDE_SHARE:
-        findings.append(finding("outside_grid_slightly" if outside < NEGLIGIBLE else "outside_grid", share=outside))
+        findings.append(finding(OUTSIDE_GRID_SLIGHTLY if outside < NEGLIGIBLE else OUTSIDE_GRID, share=outside))
     return replace(
         body,
         mass=mass,

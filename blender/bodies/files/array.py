@@ -13,12 +13,23 @@ from numpy.typing import NDArray
 from ....core.measurement.measurement import Measurement
 from ....core.moments.exponents import KNOWN_ORDER
 from ....core.scans import Scan, read_scan, sample_matrix
+from ....core.scans.findings import SCAN_WITHOUT_SPACING
 from ....core.scans.limits import DEFAULT_LIMITS, Limits
 from ....core.scans.positions import Positions, place_samples, read_all_positions
 from ....core.verdict.finding import Finding, ReadError, finding
 from ...settings.grid import GridOptions
 from ...settings.options import MeasureOptions, ResolvedOptions
 from ..body import Body
+from ..findings import (
+    ARRAY_DENSITY,
+    ARRAY_NEGATIVE,
+    DENSITY_FROM_SAMPLES,
+    GIVEN_DENSITY_IGNORED,
+    GRID_AS_SHELL,
+    SAMPLES_POSITIONED,
+    THRESHOLD_POSITIONS,
+    THRESHOLD_TOO_LARGE,
+)
 from ..grids.grid import density_body
 from ..grids.threshold import MAX_SAMPLES, TRILINEAR, ThresholdGrid, threshold_grid_body
 from ..measurement import measurement_of
@@ -52,7 +63,7 @@ def measure_array(
     """The mass properties of the samples in a file. progress: called with how many samples have been read since the
     last time. Raises MeasureError."""
     if options.kind == "shell":
-        raise ReadError("grid_as_shell", subject=name)
+        raise ReadError(GRID_AS_SHELL, subject=name)
     with about_file(name):
         scan = read_scan(path, array.limits)
         matrix, findings = sample_matrix(scan, array.spacing, array.origin, array.unit_scale)
@@ -70,8 +81,8 @@ def measure_array(
 
 def _with_positions(findings: Iterable[Finding], files: Mapping[str, str]) -> tuple[Finding, ...]:
     """What was decided of the places of samples, where files say them: of all three, no spacing is missing."""
-    kept = [one for one in findings if len(files) < 3 or one.code != "scan_without_spacing"]
-    return (*kept, finding("samples_positioned", axes=sorted(files)))
+    kept = [one for one in findings if len(files) < 3 or one.code != SCAN_WITHOUT_SPACING]
+    return (*kept, finding(SAMPLES_POSITIONED, axes=sorted(files)))
 
 
 def _density_body(
@@ -85,16 +96,16 @@ def _density_body(
     progress: Callable[[int], None],
 ) -> Body:
     """All of the samples, as densities."""
-    grid = GridOptions(value_density=array.density_scale, spline_order=array.spline_order, negative="array_negative")
+    grid = GridOptions(value_density=array.density_scale, spline_order=array.spline_order, negative=ARRAY_NEGATIVE)
     shape = scan.samples.shape
-    findings += (finding("array_density", samples=list(shape), cause=grid.meaning().as_record()),)
+    findings += (finding(ARRAY_DENSITY, samples=list(shape), cause=grid.meaning().as_record()),)
     if options.density is not None:
-        findings += (finding("given_density_ignored"),)
+        findings += (finding(GIVEN_DENSITY_IGNORED),)
     scale = scan.slope, scan.intercept
     body = density_body(
         scan.samples, shape, matrix, grid, None, findings, *scale, progress, options.order or KNOWN_ORDER, positions
     )
-    return replace(body, density_from=finding("density_from_samples"))
+    return replace(body, density_from=finding(DENSITY_FROM_SAMPLES))
 
 
 def _threshold_body(
@@ -109,14 +120,14 @@ def _threshold_body(
 ) -> Body:
     """Where the samples are at least a threshold, of one density where one is given, else of their own."""
     if array.positions:
-        raise ReadError("threshold_positions")
+        raise ReadError(THRESHOLD_POSITIONS)
     filled = options.density is None
     spline_order = max(array.spline_order, TRILINEAR)
     grid = GridOptions(
         threshold=array.threshold, filled=filled, value_density=array.density_scale, spline_order=spline_order
     )
     if spline_order > TRILINEAR and scan.samples.size > MAX_SAMPLES:
-        raise ReadError("threshold_too_large", grid=name, samples=scan.samples.size)
+        raise ReadError(THRESHOLD_TOO_LARGE, grid=name, samples=scan.samples.size)
     slowest = np.argsort([-abs(stride) for stride in scan.samples.strides], kind="stable")  # read in the file's order
     turned = np.eye(4)
     turned[:3, :3] = np.eye(3)[:, slowest]
@@ -129,5 +140,5 @@ def _threshold_body(
     body = threshold_grid_body(
         ThresholdGrid(name, samples, matrix @ turned, None, values), grid, order=options.order or KNOWN_ORDER
     )
-    source = finding("density_from_samples") if filled else None
+    source = finding(DENSITY_FROM_SAMPLES) if filled else None
     return replace(body, findings=(*findings, *body.findings), density_from=source)

@@ -9,8 +9,9 @@ from contextlib import contextmanager
 
 import numpy as np
 
+from ....core.streams.findings import FILE_UNREADABLE
 from ....core.verdict.finding import MeasureError, ReadError, system_reason
-from ...read import Reading
+from ...read.reading import Reading
 
 
 def bare_reading(name: str, kind: str) -> Reading:
@@ -27,4 +28,4 @@ def about_file(name: str) -> Iterator[None]:
         error.about(name)
         raise
     except OSError as error:
-        raise ReadError("file_unreadable", subject=name, error=system_reason(error)) from error
+        raise ReadError(FILE_UNREADABLE, subject=name, error=system_reason(error)) from error

@@ -16,10 +16,12 @@ from ....core.moments.moments import Moments
 from ....core.streams import StreamIntegrals, measure_stream, open_mesh_file
 from ....core.streams.mesh_file import MeshFile
 from ....core.verdict.finding import Finding, ReadError, finding
+from ....core.verdict.findings import SELF_INTERSECTION
 from ....core.verdict.health import MeshHealth
 from ....core.verdict.method import Method, Verdict
 from ...settings.options import MeasureOptions, ResolvedOptions
 from ..body import Body
+from ..findings import MESH_STREAMED, NO_VOLUME, STREAMED_INSIDE_OUT, STREAMED_OPEN
 from ..measurement import measurement_of
 from ..request import Request
 from .bare_file import about_file, bare_reading
@@ -33,7 +35,7 @@ class StreamHealth(MeshHealth):
 
     def as_record(self) -> dict:
         """Plain values for JSON, None for what was not counted."""
-        return {"closed": self.closed, "welded": False, **dict.fromkeys(COUNTED), "self_intersection": "not_checked"}
+        return {"closed": self.closed, "welded": False, **dict.fromkeys(COUNTED), SELF_INTERSECTION: "not_checked"}
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,7 +105,7 @@ def measure_mesh_file(
             threads=options.threads,
         )
         if kind == "solid" and not volume.total > volume.rounding_error[0]:
-            raise ReadError("no_volume")
+            raise ReadError(NO_VOLUME)
         reading = bare_reading(name, "MESH")
         return measurement_of(reading, body, Request(used, 1.0))
 
@@ -123,9 +125,9 @@ def _in_meters(found: StreamIntegrals, unit: float) -> tuple[Moments, Moments]:
 
 def _findings(found: StreamIntegrals, kind: str) -> list[Finding]:
     """What was noticed, and what was not looked for."""
-    findings = [finding("mesh_streamed", count=found.face_count)]
+    findings = [finding(MESH_STREAMED, count=found.face_count)]
     if kind == "solid" and not found.closed:
-        findings.append(finding("streamed_open"))
+        findings.append(finding(STREAMED_OPEN))
     elif kind == "solid" and found.volume.total < 0.0:
-        findings.append(finding("streamed_inside_out"))
+        findings.append(finding(STREAMED_INSIDE_OUT))
     return findings

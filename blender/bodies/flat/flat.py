@@ -15,9 +15,11 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
+from ....core.flat.findings import SECTION_NOT_FLAT
 from ....core.flat.polygon import find_defects, orient_loops
 from ....core.flat.regions import plane_positions, region_moments
 from ....core.flat.section import Plane, fit_plane, projection_rounding, region
+from ....core.inertia.findings import MOMENTS_OVERFLOW, NO_CERTAIN_VOLUME
 from ....core.moments.exponents import monomials
 from ....core.moments.moments import Measure, Moments
 from ....core.numerics.float32 import shortest_decimal
@@ -26,13 +28,35 @@ from ....core.nurbs.curve_moments import plane_moments
 from ....core.nurbs.planar_regions import planar_region
 from ....core.verdict.finding import Finding, MeasureError, ReadError, finding
 from ....core.verdict.tolerances import NEGLIGIBLE
+from ...read.findings import (
+    FLAT_OF_TYPE,
+    NO_GEOMETRY,
+    SECTION_3D_CURVE,
+    SECTION_DRAWN_AS_POLYGONS,
+    SECTION_EXTRUDED,
+    SECTION_OFFSET,
+    SECTION_RENDER_RESOLUTION,
+)
 from ...read.section import SectionReading, read_outline_curves, read_section
+from ..findings import (
+    NO_VOLUME,
+    OUTLINES_CROSS,
+    OUTLINES_CROSS_AT,
+    SECTION_FACE_CROSSES_ITSELF,
+    SECTION_FACES_OVERLAP,
+    SECTION_FACES_REVERSED,
+    SECTION_FILL_WRONG,
+    SECTION_OVERLAP_UNCHECKED,
+    SECTION_PROJECTED,
+    SECTION_PROJECTED_SLIGHTLY,
+    SHAPE_OF_OPEN_SURFACE,
+)
 from ..wire import curves_in_world
 
 FILL_AREA_RTOL = 1e-4  # Blender's fill and the outlines differ by more than this share: the fill is wrong
 # why an object is no body, and why it is no flat shape either: the first of them is what its user has to hear
-NO_BODY = {"no_volume", "no_certain_volume", "no_geometry", "shape_of_open_surface"}
-NOT_FLAT = {"section_not_flat", "section_extruded", "section_3d_curve", "section_offset", "flat_of_type"}
+NO_BODY = {NO_VOLUME, NO_CERTAIN_VOLUME, NO_GEOMETRY, SHAPE_OF_OPEN_SURFACE}
+NOT_FLAT = {SECTION_NOT_FLAT, SECTION_EXTRUDED, SECTION_3D_CURVE, SECTION_OFFSET, FLAT_OF_TYPE}
 NORMAL = np.array([0.0, 0.0, 1.0])  # of the plane, in its own axes
 
 
@@ -104,7 +128,7 @@ class FlatRegion:
             else:
                 moments = region_moments(self.points, self.edges, order, rounded=self.rounded, stored=self.stored)
         if not np.isfinite([moments.raw, moments.rounding_error, moments.input_error]).all():
-            raise ReadError("moments_overflow", order=order)
+            raise ReadError(MOMENTS_OVERFLOW, order=order)
         return moments
 
     def foot(self, point: NDArray) -> NDArray[np.float64]:
@@ -152,7 +176,7 @@ def flat_region(
     if outlines is None:
         return found
     curves, stored = outlines
-    drawn = {"section_drawn_as_polygons", "section_render_resolution"}
+    drawn = {SECTION_DRAWN_AS_POLYGONS, SECTION_RENDER_RESOLUTION}
     kept = [one for one in found.findings if one.code not in drawn]
     return replace(found, curves=curves, stored=max(stored, found.stored), findings=tuple(kept))
 
@@ -172,18 +196,18 @@ def _region_of(reading: SectionReading, kind: str, unit: float) -> FlatRegion:
     else:
         edges, flipped = region(plane, points, reading.triangles, reading.faces, error)
         if flipped:
-            findings.append(finding("section_faces_reversed", count=flipped))
+            findings.append(finding(SECTION_FACES_REVERSED, count=flipped))
     defects = find_defects(flat, edges, error)
     if reading.loops is not None and defects.crossings:
-        raise ReadError("outlines_cross_at", count=defects.crossings)
+        raise ReadError(OUTLINES_CROSS_AT, count=defects.crossings)
     if reading.loops is not None and defects.overlapping:
-        raise ReadError("outlines_cross")
+        raise ReadError(OUTLINES_CROSS)
     if defects.negative:
-        raise ReadError("section_face_crosses_itself")
+        raise ReadError(SECTION_FACE_CROSSES_ITSELF)
     if defects.crossings or defects.overlapping:
-        findings.append(finding("section_faces_overlap"))
+        findings.append(finding(SECTION_FACES_OVERLAP))
     if defects.too_many_pairs:
-        findings.append(finding("section_overlap_unchecked"))
+        findings.append(finding(SECTION_OVERLAP_UNCHECKED))
     return FlatRegion(
         reading.name,
         kind,
@@ -208,11 +232,9 @@ def area_findings(found: FlatRegion, area: float) -> list[Finding]:
     off = found.plane.out_of_plane
     if off > 4.0 * found.stored:
         share = float(off / np.sqrt(area))
-        findings.append(
-            finding("section_projected_slightly" if share < NEGLIGIBLE else "section_projected", share=share)
-        )
+        findings.append(finding(SECTION_PROJECTED_SLIGHTLY if share < NEGLIGIBLE else SECTION_PROJECTED, share=share))
     if found.drawn_area is not None and abs(found.drawn_area - area) > FILL_AREA_RTOL * area:
-        findings.append(finding("section_fill_wrong", share=float(found.drawn_area / area)))
+        findings.append(finding(SECTION_FILL_WRONG, share=float(found.drawn_area / area)))
     return findings
 
 

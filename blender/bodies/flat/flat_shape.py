@@ -29,6 +29,7 @@ from ....core.shape.signatures import Signature
 from ....core.shape.symmetries import Symmetry
 from ....core.verdict.finding import MeasureError, ReadError
 from ...read.fingerprint import fingerprint, matrix_hash, settings_hash
+from ..findings import SHAPE_FAR_FROM_ORIGIN
 from ..shape.shape import EXACT_DISTANCE, SURFACE_SAMPLES, Shape, SurfaceDistance, surface_shape_of
 from .flat import NO_BODY, FlatRegion, clearer_refusal, flat_region
 
@@ -162,7 +163,7 @@ def flat_shape_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, unit: f
         error.about(obj.name)
         raise
     if np.finfo(np.float64).eps * np.abs(shape.center).max() > EXACT_DISTANCE * shape.size:
-        raise ReadError("shape_far_from_origin", subject=obj.name)
+        raise ReadError(SHAPE_FAR_FROM_ORIGIN, subject=obj.name)
     return shape
 
 

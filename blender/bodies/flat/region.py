@@ -17,8 +17,11 @@ from ....core.nurbs.planar_regions import planar_region
 from ....core.verdict.finding import MeasureError, finding
 from ....core.verdict.health import MeshHealth
 from ....core.verdict.method import Method, Source, Verdict
-from ...read import Reading, read_lines, shows_flat_region
+from ...read.objects import read_lines
+from ...read.reading import Reading
+from ...read.visibility import shows_flat_region
 from ..body import Body, extend_input_error
+from ..findings import CURVE_FILL_MEASURED, CURVE_NOT_FILLED
 from ..request import Request
 from ..wire import DEGREE, curves_in_world
 
@@ -71,14 +74,14 @@ def read(request: Request) -> RegionReading | None:
     reading = read_lines(obj, request.depsgraph)
     is_filled = obj.data.dimensions == "2D" and obj.data.fill_mode != "NONE"
     if not is_filled:
-        reading.findings.append(finding("curve_not_filled"))
+        reading.findings.append(finding(CURVE_NOT_FILLED))
     try:
         curves, stored = curves_in_world(reading.curves, reading.matrix, request.unit)
         boundary, normal = planar_region(curves, stored)
     except MeasureError as error:
         if not is_filled:
             raise
-        request.findings.append(finding("curve_fill_measured", cause=error.finding.as_record()))
+        request.findings.append(finding(CURVE_FILL_MEASURED, cause=error.finding.as_record()))
         return None
     common = {entry.name: getattr(reading, entry.name) for entry in fields(Reading)}
     return RegionReading(**common, boundary=tuple(boundary), normal=normal, stored=stored)

@@ -19,13 +19,25 @@ from ....core.scans.positions import AXES, EVEN, Positions
 from ....core.verdict.finding import Finding, ReadError, finding
 from ....core.verdict.health import MeshHealth
 from ....core.verdict.method import Method, Source, Verdict
-from ...read import Part, Reading
 from ...read.grids.volume import VolumeReading, volume_reading
-from ...read.reading import to_si
+from ...read.reading import Part, Reading, to_si
 from ...read.tracking import tracking_paused
 from ...settings.digest import density_key, grid_key
 from ...settings.grid import GridOptions
 from ..body import MAX_MASS_MOMENT, Body, MeshBody
+from ..findings import (
+    DENSITY_FROM_GRID,
+    GRID_AS_SHELL,
+    GRID_DENSITY,
+    GRID_EMPTY,
+    GRID_IS_LEVEL_SET,
+    GRID_IS_NOT_LEVEL_SET,
+    GRID_WITHOUT_SURFACE,
+    LEVEL_SET_EMPTY,
+    LEVEL_SET_MEASURED,
+    MASS_OVERFLOW,
+    SAMPLES_POSITIONED,
+)
 from ..mesh.mesh import mesh_body
 from ..request import Request
 from .threshold import threshold_grid, threshold_grid_body
@@ -104,7 +116,7 @@ def read(request: Request) -> VolumeReading | None:
         if reading is None:
             return None
         if request.options.kind != "solid":
-            raise ReadError("grid_as_shell")
+            raise ReadError(GRID_AS_SHELL)
         request.opened.push(opened.pop_all())
     return reading
 
@@ -115,7 +127,7 @@ def body(reading: VolumeReading, request: Request) -> Body:
     order = KNOWN_ORDER if options.order is None else options.order
     made = grid_body(reading, GridOptions.of(obj.body_moments, density), request.unit, options.threads, order)
     key = grid_key(obj, density) if obj.type == "VOLUME" else density_key(obj, (), request.scene)
-    source = None if made.mass is None else finding("density_from_grid", grid=reading.grid)
+    source = None if made.mass is None else finding(DENSITY_FROM_GRID, grid=reading.grid)
     return replace(made, density_from=source, density_key=key)
 
 
@@ -130,17 +142,15 @@ def grid_body(
     if options.solid:
         return _solid(reading, unit, threads)
     if reading.level_set:
-        raise ReadError("grid_is_level_set", grid=reading.grid)
+        raise ReadError(GRID_IS_LEVEL_SET, grid=reading.grid)
     positions = options.positions(reading.grid, reading.low, reading.shape)
     first = np.eye(4)
     first[:3, 3] = [low if row is None else 0.0 for low, row in zip(reading.low, positions)]
     shape = [count if row is None else len(row) for count, row in zip(reading.shape, positions)]
     matrix = to_si(reading.matrix[None], unit)[0] @ reading.to_object @ first
-    density = finding(
-        "grid_density", grid=reading.grid, samples=list(reading.shape), cause=options.meaning().as_record()
-    )
+    density = finding(GRID_DENSITY, grid=reading.grid, samples=list(reading.shape), cause=options.meaning().as_record())
     axes = [axis for axis, row in zip(AXES, positions) if row is not None]
-    findings = (density, finding("samples_positioned", axes=axes)) if axes else (density,)
+    findings = (density, finding(SAMPLES_POSITIONED, axes=axes)) if axes else (density,)
     return density_body(
         _whole_axes(reading, positions),
         shape,
@@ -184,7 +194,7 @@ def density_body(
     which the mass is wanted. positions: where samples stand along an axis, in place of 0, 1, 2, …
     """
     if min(shape) < 1:
-        raise ReadError("grid_empty")
+        raise ReadError(GRID_EMPTY)
     weigh = _Weights(options, background, slope, intercept)
 
     def densities(block: NDArray) -> NDArray[np.float64]:
@@ -196,11 +206,11 @@ def density_body(
     if order > KNOWN_ORDER:
         higher = grid_moments(samples, shape, matrix, options.spline_order, order, densities, positions)
     if not np.abs(mass.raw).max() < MAX_MASS_MOMENT:
-        raise ReadError("mass_overflow")
+        raise ReadError(MASS_OVERFLOW)
     if not mass.total > 0.0:
-        raise ReadError("grid_empty")
+        raise ReadError(GRID_EMPTY)
     volume = _occupied(samples, shape, matrix, weigh, 3, positions)
-    findings += (*options.empty_background_note(background), finding("grid_without_surface"))
+    findings += (*options.empty_background_note(background), finding(GRID_WITHOUT_SURFACE))
     return GridBody(
         volume,
         Moments(np.zeros(1), volume.about, Measure.AREA),
@@ -223,10 +233,10 @@ def density_body(
 def _solid(reading: VolumeReading, unit: float, threads: int) -> MeshBody:
     """What a level set bounds, by its polygons."""
     if reading.level_set is False:
-        raise ReadError("grid_is_not_level_set", grid=reading.grid)
+        raise ReadError(GRID_IS_NOT_LEVEL_SET, grid=reading.grid)
     surface = reading.polygons()
     if not len(surface.quads):
-        raise ReadError("level_set_empty", grid=reading.grid)
+        raise ReadError(LEVEL_SET_EMPTY, grid=reading.grid)
     shown = Reading(
         reading.name,
         reading.type,
@@ -236,6 +246,6 @@ def _solid(reading: VolumeReading, unit: float, threads: int) -> MeshBody:
         [Part(surface, reading.matrix[None])],
     )
     bounded = mesh_body(shown, unit, shell=False, union=False, threads=threads)
-    measured = finding("level_set_measured", grid=reading.grid, polygons=len(surface.quads))
+    measured = finding(LEVEL_SET_MEASURED, grid=reading.grid, polygons=len(surface.quads))
     method = Method(bounded.method.verdict, Source.GRID)
     return replace(bounded, method=method, findings=(measured, *bounded.findings))

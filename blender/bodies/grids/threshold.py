@@ -22,6 +22,17 @@ from ...read.grids.volume import VolumeReading
 from ...read.reading import to_si
 from ...settings.grid import GridOptions
 from ..body import MAX_MASS_MOMENT, Body
+from ..findings import (
+    DENSITY_FROM_GRID,
+    GRID_EMPTY,
+    GRID_IS_LEVEL_SET,
+    MASS_OVERFLOW,
+    THRESHOLD_CLIPPED,
+    THRESHOLD_MEASURED,
+    THRESHOLD_NEEDS_FACTOR,
+    THRESHOLD_NOT_REACHED,
+    THRESHOLD_TOO_LARGE,
+)
 
 MAX_SAMPLES = 1 << 29  # of the box that holds the grid
 PREVIEW_CELLS = 1 << 18  # of a grid that follows a slider
@@ -108,10 +119,10 @@ def threshold_grid(reading: VolumeReading, unit: float) -> ThresholdGrid:
         Where there are too many.
     """
     if reading.level_set:
-        raise ReadError("grid_is_level_set", grid=reading.grid)
+        raise ReadError(GRID_IS_LEVEL_SET, grid=reading.grid)
     samples = int(np.prod(reading.shape, dtype=np.float64))
     if samples > MAX_SAMPLES:
-        raise ReadError("threshold_too_large", grid=reading.grid, samples=samples)
+        raise ReadError(THRESHOLD_TOO_LARGE, grid=reading.grid, samples=samples)
     values = np.full(reading.shape, reading.background, np.float32)
     for (i, j, k), block in reading.blocks():
         if block.dtype.itemsize > 4:
@@ -134,15 +145,15 @@ def threshold_grid_body(
         Where there is none, or its density is not known.
     """
     if options.filled and options.table:
-        raise ReadError("threshold_needs_factor")
+        raise ReadError(THRESHOLD_NEEDS_FACTOR)
     above = grid.set_above(options, KNOWN_ORDER, preview)
     if not above.volume.total > 0.0:
-        raise ReadError("threshold_not_reached", grid=grid.name, threshold=options.threshold, largest=grid.largest())
+        raise ReadError(THRESHOLD_NOT_REACHED, grid=grid.name, threshold=options.threshold, largest=grid.largest())
     mass = None if above.mass is None else above.mass * options.value_density
     if mass is not None and not np.abs(mass.raw).max() < MAX_MASS_MOMENT:
-        raise ReadError("mass_overflow")
+        raise ReadError(MASS_OVERFLOW)
     if mass is not None and not mass.total > 0.0:
-        raise ReadError("grid_empty")
+        raise ReadError(GRID_EMPTY)
     higher = None
     if mass is not None and order > KNOWN_ORDER:
         weighed = grid.set_above(options, order).mass
@@ -155,7 +166,7 @@ def threshold_grid_body(
         _findings(grid, options, above),
         mass=mass,
         higher_mass=higher,
-        density_from=None if mass is None else finding("density_from_grid", grid=grid.name),
+        density_from=None if mass is None else finding(DENSITY_FROM_GRID, grid=grid.name),
         estimated=True,
         grid=grid,
         options=options,
@@ -163,5 +174,5 @@ def threshold_grid_body(
 
 
 def _findings(grid: ThresholdGrid, options: GridOptions, above: ThresholdBody) -> tuple[Finding, ...]:
-    measured = finding("threshold_measured", grid=grid.name, threshold=options.threshold, cells=above.cut_cells)
-    return (measured, finding("threshold_clipped", grid=grid.name)) if above.clipped else (measured,)
+    measured = finding(THRESHOLD_MEASURED, grid=grid.name, threshold=options.threshold, cells=above.cut_cells)
+    return (measured, finding(THRESHOLD_CLIPPED, grid=grid.name)) if above.clipped else (measured,)

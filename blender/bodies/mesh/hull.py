@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 from ....core.mesh.hulls import ConvexHull, convex_hull
 from ....core.mesh.surface import Surface
 from ....core.verdict.finding import EditRefusedError
-from ...read import read_object
+from ...read.findings import SCALE_ZERO_AXIS
+from ...read.objects import read_object
 
 HULL_RTOL = 1e-6  # of the extent: points that are outside by less are left out
 NOISE = 4.0  # half ulps of float32 coordinates by which flat faces may be uneven
@@ -38,7 +39,7 @@ def object_hull(obj: Object, depsgraph: Depsgraph) -> ConvexHull:
     """
     reading = read_object(obj, depsgraph, edges=False)
     if reading.is_singular:
-        raise EditRefusedError("scale_zero_axis")
+        raise EditRefusedError(SCALE_ZERO_AXIS)
     to_local = np.linalg.inv(reading.matrix)
     points, noise = [], 0.0
     for part in reading.parts:

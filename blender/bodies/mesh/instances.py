@@ -16,26 +16,36 @@ from ....core.moments.affine_maps import are_similarities, distinct_linear_parts
 from ....core.moments.images import sum_of_images
 from ....core.moments.moments import Moments
 from ....core.polyhedron.sheared_areas import area_of_images
+from ....core.solid.findings import COMPONENTS_NESTED, COMPONENTS_OVERLAP, OVERLAP_UNCHECKED
 from ....core.solid.instance_overlaps import PlaceComparison
 from ....core.solid.solid_verdict import SolidIntegrals
 from ....core.verdict.finding import Finding, finding
+from ....core.verdict.findings import SELF_INTERSECTION
 from ....core.verdict.health import DefectiveElements, Intersection, MeshHealth
-from ...read import Reading
+from ...read.reading import Reading
+from ..findings import (
+    ALL_INSTANCES_ZERO_SCALE,
+    COMPONENTS_NESTED_SLIGHTLY,
+    COMPONENTS_OVERLAP_SLIGHTLY,
+    INSTANCE_OVERLAP_UNCHECKED,
+    INSTANCES_ZERO_SCALE,
+    ZERO_SCALE,
+)
 
 
 def singular_reason(reading: Reading) -> Finding:
     """Why nothing of a singular reading encloses anything."""
-    return finding("zero_scale" if reading.is_singular else "all_instances_zero_scale")
+    return finding(ZERO_SCALE if reading.is_singular else ALL_INSTANCES_ZERO_SCALE)
 
 
 def singular_instances_message(count: int) -> Finding:
     """That so many instances enclose nothing."""
-    return finding("instances_zero_scale", count=count)
+    return finding(INSTANCES_ZERO_SCALE, count=count)
 
 
 def not_compared(reading: Reading) -> Finding:
     """That nobody looked for overlap between the instances."""
-    return finding("instance_overlap_unchecked", count=reading.instance_count)
+    return finding(INSTANCE_OVERLAP_UNCHECKED, count=reading.instance_count)
 
 
 def findings_by_part(parts: Iterable[tuple[str, Iterable[Finding]]], whole: str) -> list[Finding]:
@@ -64,8 +74,8 @@ def _identity(result: Finding) -> tuple[Finding, object]:
 def overlap_findings(reading: Reading, solids: Sequence[SolidIntegrals], comparison: PlaceComparison) -> list[Finding]:
     """What is reported of places that have something in common: faces as [face, source], each once."""
     findings = []
-    nested = "components_nested_slightly" if comparison.nested_slightly else "components_nested"
-    overlap = "components_overlap_slightly" if comparison.overlapping_slightly else "components_overlap"
+    nested = COMPONENTS_NESTED_SLIGHTLY if comparison.nested_slightly else COMPONENTS_NESTED
+    overlap = COMPONENTS_OVERLAP_SLIGHTLY if comparison.overlapping_slightly else COMPONENTS_OVERLAP
     for code, components in ((nested, comparison.nested), (overlap, comparison.overlapping)):
         if len(components):
             elements = []
@@ -75,7 +85,7 @@ def overlap_findings(reading: Reading, solids: Sequence[SolidIntegrals], compari
                 elements += [[face, name] for face in np.unique(parts.face[of_these]).tolist()]
             findings.append(finding(code, elements, count=len(components)))
     if comparison.undecided_pairs:
-        findings.append(finding("overlap_unchecked", count=comparison.undecided_pairs))
+        findings.append(finding(OVERLAP_UNCHECKED, count=comparison.undecided_pairs))
     return findings
 
 
@@ -151,7 +161,7 @@ def merge_health(healths: Iterable[tuple[MeshHealth, int, float]]) -> MeshHealth
         "defective_elements": DefectiveElements(),
         "closed": all(h.closed for h, *_ in healths),
         "welded": any(h.welded for h, *_ in healths),
-        "self_intersection": min((h.self_intersection for h, *_ in healths), key=list(Intersection).index),
+        SELF_INTERSECTION: min((h.self_intersection for h, *_ in healths), key=list(Intersection).index),
         "volume_spread": sum(h.volume_spread for h, *_ in healths),
         "cap_area_share": sum(h.cap_area_share * part_area for h, _, part_area in healths) / area
         if area > 0.0

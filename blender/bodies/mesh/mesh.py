@@ -14,17 +14,34 @@ from ....core.mesh.surface import Surface, join_surfaces, normals
 from ....core.moments.images import sum_of_images
 from ....core.moments.moments import Moments, sum_moments
 from ....core.polyhedron import polyhedron_moments
+from ....core.solid.findings import HOLES_CAPPED, NON_PLANAR_FACES
 from ....core.solid.instance_overlaps import compare_places
 from ....core.solid.measure import SolidIntegrals, measure_solid
 from ....core.verdict.finding import Finding, ReadError, finding
 from ....core.verdict.health import MeshHealth
 from ....core.verdict.method import Method, Verdict, least_trusted
 from ....core.verdict.tolerances import NEGLIGIBLE
-from ...read import Part, Reading, shows_flat_region
-from ...read.reading import to_si
+from ...read.findings import CURVES_DRAWN_AS_POLYGONS, SURFACE_DRAWN_AS_POLYGONS
+from ...read.reading import Part, Reading, to_si
 from ...read.union import union_surface
+from ...read.visibility import shows_flat_region
 from ..body import Body, MeshBody, triangle_count
 from ..density.varying_density import weigh
+from ..findings import (
+    CURVE_FILL_FOR_DENSITY,
+    DISPLAY_MESH_FOR_DENSITY,
+    DUPLICATE_FACES_OF_SHELL,
+    DUPLICATE_FACES_OF_SHELL_SLIGHTLY,
+    FACES_REVERSED_BEFORE_UNION,
+    FLAT_INSTANCE_SOURCES,
+    FLAT_INSTANCE_SOURCES_SLIGHTLY,
+    HOLES_CAPPED_BEFORE_UNION,
+    HOLES_CAPPED_BEFORE_UNION_SLIGHTLY,
+    NON_PLANAR_FACES_OF_DISPLAY_MESH,
+    OPEN_COMPONENTS_UNITED,
+    UNION_BY_BOOLEAN,
+    UNION_FAILED,
+)
 from ..request import Request
 from ..wall import find_walls
 from .instances import (
@@ -43,7 +60,7 @@ from .instances import (
 MEASURED_AS = frozenset({"solid", "shell"})
 
 MAX_COMPARED_TRIANGLES = 200_000  # triangles up to which instances are compared with each other
-DRAWN_CODES = ("surface_drawn_as_polygons", "curves_drawn_as_polygons")
+DRAWN_CODES = (SURFACE_DRAWN_AS_POLYGONS, CURVES_DRAWN_AS_POLYGONS)
 
 
 def read(request: Request) -> Reading | None:
@@ -53,9 +70,9 @@ def read(request: Request) -> Reading | None:
     if reading.has_patches:
         if density is None:
             return None
-        reading.findings.append(finding("display_mesh_for_density"))
+        reading.findings.append(finding(DISPLAY_MESH_FOR_DENSITY))
     elif density is not None and request.options.kind == "shell" and obj.type == "CURVE" and shows_flat_region(obj):
-        reading.findings.append(finding("curve_fill_for_density"))
+        reading.findings.append(finding(CURVE_FILL_FOR_DENSITY))
     return reading
 
 
@@ -123,7 +140,7 @@ def _sum_of_instances(reading: Reading, unit: float, shell: bool, threads: int) 
     if of_solids and len(of_solids) < len(verdicts):
         flat_area = sum([area for (_, _, area), verdict in zip(healths, verdicts) if verdict is None])
         slight = flat_area * unit * instances_size(reading) < NEGLIGIBLE * float(sum_moments(volumes).total)
-        code = "flat_instance_sources_slightly" if slight else "flat_instance_sources"
+        code = FLAT_INSTANCE_SOURCES_SLIGHTLY if slight else FLAT_INSTANCE_SOURCES
         findings.append(finding(code, count=verdicts.count(None), total=len(verdicts)))
     return MeshBody(
         sum_moments(volumes),
@@ -152,7 +169,7 @@ def _copies_of_shell(surface: Surface, copies: NDArray[np.integer]) -> Finding:
     triangles, faces = surface.all_triangles()
     area = np.linalg.norm(normals(surface.points.astype(np.float64), triangles), axis=1)
     slight = area[np.isin(faces, copies)].sum() < NEGLIGIBLE * area.sum()
-    code = "duplicate_faces_of_shell_slightly" if slight else "duplicate_faces_of_shell"
+    code = DUPLICATE_FACES_OF_SHELL_SLIGHTLY if slight else DUPLICATE_FACES_OF_SHELL
     return finding(code, copies, count=len(copies))
 
 
@@ -201,10 +218,8 @@ def _of_drawn(findings: Iterable[Finding], parts: Iterable[Part], drawn: set[str
     """How polygons are cut that stand for something round matters less than that they do."""
     if not drawn.issuperset([part.source_object_name for part in parts]):
         return list(findings)
-    of_display_mesh = "non_planar_faces_of_display_mesh"
-    return [
-        replace(result, code=of_display_mesh) if result.code == "non_planar_faces" else result for result in findings
-    ]
+    of_display_mesh = NON_PLANAR_FACES_OF_DISPLAY_MESH
+    return [replace(result, code=of_display_mesh) if result.code == NON_PLANAR_FACES else result for result in findings]
 
 
 def _boolean_union(reading: Reading, unit: float, threads: int) -> MeshBody:
@@ -220,16 +235,16 @@ def _boolean_union(reading: Reading, unit: float, threads: int) -> MeshBody:
     surface = union_surface(join_surfaces(repaired))
     solid = measure_solid(surface, threads=threads) if triangle_count(surface) else None
     if solid is None or solid.method == Verdict.OPEN:
-        raise ReadError("union_failed")
-    findings = [finding("union_by_boolean")]
+        raise ReadError(UNION_FAILED)
+    findings = [finding(UNION_BY_BOOLEAN)]
     verdict = before.method.verdict
     if verdict == Verdict.CAPPED:
-        slight = all(result.code != "holes_capped" for result in before.findings)
-        code = "holes_capped_before_union_slightly" if slight else "holes_capped_before_union"
+        slight = all(result.code != HOLES_CAPPED for result in before.findings)
+        code = HOLES_CAPPED_BEFORE_UNION_SLIGHTLY if slight else HOLES_CAPPED_BEFORE_UNION
         findings.append(finding(code, share=before.health.cap_area_share))
     elif verdict != Verdict.EXACT:
         reoriented = verdict == Verdict.REORIENTED
-        findings.append(finding("faces_reversed_before_union" if reoriented else "open_components_united"))
+        findings.append(finding(FACES_REVERSED_BEFORE_UNION if reoriented else OPEN_COMPONENTS_UNITED))
     return _single_surface_body(
         solid.volume,
         solid.area,

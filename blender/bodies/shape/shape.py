@@ -31,10 +31,18 @@ from ....core.shape.registration import Residual, RigidMatch, match
 from ....core.shape.signatures import Signature, signature
 from ....core.shape.symmetries import Symmetry, confirm, symmetry
 from ....core.shape.zernike import MAX_DESCRIPTOR_ERROR, MAX_ORDER_BY_MOMENTS, zernike_quadrature
+from ....core.solid.findings import OBJECT_TOO_LARGE
 from ....core.verdict.finding import ReadError
 from ....core.verdict.method import Source, Verdict
 from ...settings.options import MeasureOptions
 from ..body import Body, with_input_error
+from ..findings import (
+    SHAPE_FAR_FROM_ORIGIN,
+    SHAPE_OF_GRID,
+    SHAPE_OF_OPEN_SURFACE,
+    SHAPE_OF_WIRE_OR_WALL,
+    SIGNATURE_NEEDS_POLYGONS,
+)
 from ..measure_object import THREADS, Measured, measure_body
 
 # of the size: between them single precision mistakes the distances of thin triangles
@@ -84,7 +92,7 @@ class Shape:
             volume, area = self.body.moments(MAX_ORDER, self._sheets)
         found = volume if area is None else area
         if not np.isfinite([found.raw, found.rounding_error]).all():
-            raise ReadError("object_too_large")
+            raise ReadError(OBJECT_TOO_LARGE)
         known = self.body.area if self._sheets else self.body.volume
         return with_input_error(found, known).about_center()
 
@@ -208,7 +216,7 @@ def surface_shape(measured: Measured) -> Shape:
     """The shape of what was measured with SURFACE_OPTIONS, which has to have polygons."""
     shape = _shape_of_measured(measured, SURFACE_OPTIONS.threads)
     if not shape.has_surface:
-        raise NoShapeError("signature_needs_polygons", shape.measurement)
+        raise NoShapeError(SIGNATURE_NEEDS_POLYGONS, shape.measurement)
     return shape
 
 
@@ -222,14 +230,14 @@ def _shape_of_measured(measured: Measured, threads: int) -> Shape:
     """The shape of what was measured for it. Raises NoShapeError where it has none."""
     measurement, body = measured.measurement, measured.body
     if body.mass is not None and not body.has_surface:
-        raise NoShapeError("shape_of_grid", measurement)
+        raise NoShapeError(SHAPE_OF_GRID, measurement)
     if body.wall is not None or body.length is not None:
-        raise NoShapeError("shape_of_wire_or_wall", measurement)
+        raise NoShapeError(SHAPE_OF_WIRE_OR_WALL, measurement)
     if measurement.method.verdict == Verdict.OPEN:
-        raise NoShapeError("shape_of_open_surface", measurement)
+        raise NoShapeError(SHAPE_OF_OPEN_SURFACE, measurement)
     shape = Shape(measurement, body, threads)
     if np.finfo(np.float64).eps * np.abs(shape.center).max() > EXACT_DISTANCE * shape.size:
-        raise NoShapeError("shape_far_from_origin", measurement)
+        raise NoShapeError(SHAPE_FAR_FROM_ORIGIN, measurement)
     return shape
 
 

@@ -17,8 +17,10 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
+from ....core.density.findings import GRID_TRANSFORM_SINGULAR
 from ....core.mesh.surface import Surface
 from ....core.verdict.finding import ReadError
+from ..findings import GRID_NEEDS_OPENVDB, GRID_NOT_SAMPLED, GRID_TOO_LARGE_WITHOUT_OPENVDB, LEVEL_SET_NEEDS_OPENVDB
 from ..reading import float64_matrix
 
 VOXELS_PER_BLOCK = 1 << 21  # voxels that are sampled at a time
@@ -38,18 +40,18 @@ class SampledGrid:
 
     def __init__(self, obj, depsgraph, grid, bound_box) -> None:
         if grid.data_type not in KINDS or (bpy.app.version < (5, 0) and grid.data_type != "FLOAT"):
-            raise ReadError("grid_needs_openvdb", grid=grid.name)
+            raise ReadError(GRID_NEEDS_OPENVDB, grid=grid.name)
         self._obj, self._depsgraph, self._name = obj, depsgraph, grid.name
         self._kind, self._dtype = KINDS[grid.data_type]
         self.to_object = float64_matrix(grid.matrix_object)
         if not abs(np.linalg.det(self.to_object[:3, :3])) > 0.0:
-            raise ReadError("grid_transform_singular")
+            raise ReadError(GRID_TRANSFORM_SINGULAR)
         corners = np.array([[*corner] for corner in bound_box], np.float64)
         index = (corners - self.to_object[:3, 3]) @ np.linalg.inv(self.to_object[:3, :3]).T
         low, high = np.floor(index.min(axis=0)).astype(np.int64) - 1, np.ceil(index.max(axis=0)).astype(np.int64) + 1
         self.low, self.shape = low, high - low + 1
         if np.prod(self.shape.astype(float)) > MAX_VOXELS:
-            raise ReadError("grid_too_large_without_openvdb", grid=grid.name, samples=self.shape.tolist())
+            raise ReadError(GRID_TOO_LARGE_WITHOUT_OPENVDB, grid=grid.name, samples=self.shape.tolist())
         with self._sampler() as sample:
             self.background = float(sample(low - 2, (1, 1, 1))[0, 0, 0])
 
@@ -62,7 +64,7 @@ class SampledGrid:
                 yield (start, 0, 0), sample(self.low + (start, 0, 0), shape)
 
     def polygons(self) -> Surface:
-        raise ReadError("level_set_needs_openvdb")
+        raise ReadError(LEVEL_SET_NEEDS_OPENVDB)
 
     @contextmanager
     def _sampler(self) -> Iterator[Callable[[NDArray, tuple[int, int, int]], NDArray]]:
@@ -98,7 +100,7 @@ class SampledGrid:
                 values = np.zeros(count, self._dtype)
                 evaluated = probe.evaluated_get(layer.depsgraph).data
                 if "value" not in evaluated.attributes:
-                    raise ReadError("grid_not_sampled", grid=self._name)
+                    raise ReadError(GRID_NOT_SAMPLED, grid=self._name)
                 evaluated.attributes["value"].data.foreach_get("value", values)
                 return values.reshape(shape)
 

@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 
 from ....core.mesh.surface import Surface
 from ....core.verdict.finding import ReadError
+from ..findings import GRID_FAR_FROM_ORIGIN, GRID_FRUSTUM, GRID_TOO_SPARSE, GRID_UNREADABLE, GRID_VALUE_TYPE
 
 NODE_VOXELS = 128  # voxels along a side of the blocks that are read
 ROOT_VOXELS = 4096  # along a side of the largest nodes
@@ -52,14 +53,14 @@ class VdbGrid:
         try:
             self._grid = module.read(path, name)
         except (RuntimeError, KeyError, TypeError, OSError) as error:
-            raise ReadError("grid_unreadable", grid=name, error=str(error).rstrip(".")) from error
+            raise ReadError(GRID_UNREADABLE, grid=name, error=str(error).rstrip(".")) from error
         dtype = DTYPES.get(self._grid.valueTypeName)
         if dtype is None:
-            raise ReadError("grid_value_type", grid=name, type=self._grid.valueTypeName)
+            raise ReadError(GRID_VALUE_TYPE, grid=name, type=self._grid.valueTypeName)
         self._dtype = dtype
         transform = self._grid.transform
         if not transform.isLinear:
-            raise ReadError("grid_frustum", grid=name)
+            raise ReadError(GRID_FRUSTUM, grid=name)
         self.background = float(self._grid.background)
         self.level_set = self._grid.gridClass == "level set"
         corner = np.array(transform.indexToWorld((0, 0, 0)), np.float64)
@@ -74,9 +75,9 @@ class VdbGrid:
             low, high = np.zeros(3, np.int64), np.full(3, -1)
         self.low, self.shape = low, high - low + 1
         if np.prod(high // ROOT_VOXELS - low // ROOT_VOXELS + 1.0) > MAX_ROOTS:
-            raise ReadError("grid_too_sparse", grid=name, samples=self.shape.tolist())
+            raise ReadError(GRID_TOO_SPARSE, grid=name, samples=self.shape.tolist())
         if np.abs([low, high]).max() > MAX_INDEX:
-            raise ReadError("grid_far_from_origin", grid=name)
+            raise ReadError(GRID_FAR_FROM_ORIGIN, grid=name)
 
     def blocks(self) -> Iterator[tuple[tuple[int, int, int], NDArray]]:
         """The voxels that are there, as blocks, each with where it begins in the box."""

@@ -24,6 +24,21 @@ from ....core.numerics.float32 import shortest_decimal
 from ....core.numerics.rotations import rotation_matrix
 from ....core.verdict.finding import Finding, MeasureError, ReadError, finding
 from ..decisions import modifier_findings
+from ..findings import (
+    GRID_MISSING,
+    GRID_NAMES_REPEATED,
+    GRID_SIMPLIFIED,
+    GRID_TYPE,
+    GRIDS_LEFT_OUT,
+    HIDDEN_OBJECT_MEASURED,
+    INSTANCES_BESIDE_VOLUME,
+    NO_SCALAR_GRID,
+    NON_FINITE_TRANSFORM,
+    TEMPORARY_FOLDER_FULL,
+    VOLUME_FILE_MISSING,
+    VOLUME_FILE_UNREADABLE,
+    VOLUME_WITHOUT_GRIDS,
+)
 from ..reading import float64_matrix
 from ..visibility import hidden_reason, why_not_evaluated
 from .sample_grid import SampledGrid
@@ -75,15 +90,15 @@ def volume_reading(obj, depsgraph, grid: str = "") -> Iterator[VolumeReading | N
     evaluated = obj.evaluated_get(depsgraph)
     matrix = float64_matrix(evaluated.matrix_world)
     if not np.isfinite(matrix).all():
-        raise ReadError("non_finite_transform", subject=obj.name)
+        raise ReadError(NON_FINITE_TRANSFORM, subject=obj.name)
     findings: list[Finding] = []
     chosen = _choose_grid(obj, volume, grid, findings)
     hidden = hidden_reason(obj, depsgraph)
     if hidden:
-        findings.append(finding("hidden_object_measured", cause=hidden.as_record()))
+        findings.append(finding(HIDDEN_OBJECT_MEASURED, cause=hidden.as_record()))
     findings.extend(modifier_findings(obj, depsgraph.scene))
     if volume.geometry.instances_pointcloud() is not None:
-        findings.append(finding("instances_beside_volume"))
+        findings.append(finding(INSTANCES_BESIDE_VOLUME))
     try:
         with _open_grid(obj, volume, chosen, depsgraph, findings) as source:
             location, rotation, _ = evaluated.matrix_world.decompose()
@@ -127,12 +142,12 @@ def _volume(obj, depsgraph):
     folder = os.path.isdir(bpy.path.abspath(volume.filepath, library=obj.data.library))
     if not volume.grids.load() and not folder:
         error = volume.grids.error_message.rstrip(".")
-        reason = finding("volume_file_unreadable", error=error) if error else finding("volume_file_missing")
+        reason = finding(VOLUME_FILE_UNREADABLE, error=error) if error else finding(VOLUME_FILE_MISSING)
         raise ReadError(reason, subject=obj.name)
     if not len(volume.grids):
         if obj.type != "VOLUME" or geometry.instances_pointcloud() is not None:
             return None
-        raise ReadError("volume_without_grids", subject=obj.name)
+        raise ReadError(VOLUME_WITHOUT_GRIDS, subject=obj.name)
     return _OwnedVolume(geometry, volume)
 
 
@@ -148,20 +163,20 @@ def _choose_grid(obj, volume: _OwnedVolume, name: str, findings: list[Finding]):
     """The grid of that name, or the one that is meant most likely."""
     grids = {grid.name: grid for grid in volume.data.grids}
     if len(grids) < len(volume.data.grids):
-        findings.append(finding("grid_names_repeated"))
+        findings.append(finding(GRID_NAMES_REPEATED))
     if name:
         if name not in grids:
-            raise ReadError("grid_missing", subject=obj.name, grid=name, grids=list(grids))
+            raise ReadError(GRID_MISSING, subject=obj.name, grid=name, grids=list(grids))
         if grids[name].data_type not in SCALARS:
-            raise ReadError("grid_type", subject=obj.name, grid=name)
+            raise ReadError(GRID_TYPE, subject=obj.name, grid=name)
         return grids[name]
     scalars = {grid_name: grid for grid_name, grid in grids.items() if grid.data_type in SCALARS}
     if not scalars:
-        raise ReadError("no_scalar_grid", subject=obj.name, grids=list(grids))
+        raise ReadError(NO_SCALAR_GRID, subject=obj.name, grids=list(grids))
     chosen = scalars.get(PREFERRED) or next(iter(scalars.values()))
     if len(grids) > 1:
         left_out = [other for other in grids if other != chosen.name]
-        findings.append(finding("grids_left_out", grid=chosen.name, grids=left_out))
+        findings.append(finding(GRIDS_LEFT_OUT, grid=chosen.name, grids=left_out))
     return chosen
 
 
@@ -170,7 +185,7 @@ def _open_grid(obj, volume: _OwnedVolume, grid, depsgraph, findings: list[Findin
     path = None if openvdb() is None else _unchanged_file(obj, volume)
     render = depsgraph.scene.render
     if not path and render.use_simplify and render.simplify_volumes < 1.0:
-        findings.append(finding("grid_simplified", share=shortest_decimal(render.simplify_volumes)))
+        findings.append(finding(GRID_SIMPLIFIED, share=shortest_decimal(render.simplify_volumes)))
     if openvdb() is None:
         yield SampledGrid(obj, depsgraph, grid, obj.evaluated_get(depsgraph).bound_box)
         return
@@ -182,7 +197,7 @@ def _open_grid(obj, volume: _OwnedVolume, grid, depsgraph, findings: list[Findin
         try:
             volume.data.grids.save(filepath=path)
         except RuntimeError:
-            raise ReadError("temporary_folder_full") from None
+            raise ReadError(TEMPORARY_FOLDER_FULL) from None
         yield VdbGrid(path, grid.name)
 
 

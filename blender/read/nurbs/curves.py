@@ -16,7 +16,9 @@ from numpy.typing import NDArray
 from ....core.numerics.bspline import SplineSpace
 from ....core.nurbs.blender_knots import blender_space
 from ....core.nurbs.curve import Curve
+from ....core.nurbs.findings import NON_FINITE_CONTROL_POINTS
 from ....core.verdict.finding import Finding, ReadError, finding
+from ..findings import BEVEL_RANGE_IGNORED, CURVE_BEFORE_MODIFIERS, NO_CURVE, SPLINES_LEFT_OUT, UNKNOWN_KNOTS
 from ..visibility import evaluated_geometry
 from .deformation import deform, is_deformed, spline_modifiers
 from .splines import weighted_points
@@ -43,14 +45,14 @@ def read_curves(obj, depsgraph) -> tuple[list[Curve], list[Finding]]:
     else:
         curves = list(_spline_curves(evaluated, depsgraph))
         if spline_modifiers(obj)[1]:
-            findings.append(finding("curve_before_modifiers"))
+            findings.append(finding(CURVE_BEFORE_MODIFIERS))
         if (obj.data.bevel_factor_start, obj.data.bevel_factor_end) != (0.0, 1.0):
-            findings.append(finding("bevel_range_ignored"))
+            findings.append(finding(BEVEL_RANGE_IGNORED))
     usable = [curve for curve in curves if curve is not None]
     if len(usable) < len(curves):
-        findings.append(finding("splines_left_out", count=len(curves) - len(usable), total=len(curves)))
+        findings.append(finding(SPLINES_LEFT_OUT, count=len(curves) - len(usable), total=len(curves)))
     if not usable:
-        raise ReadError("no_curve", subject=obj.name)
+        raise ReadError(NO_CURVE, subject=obj.name)
     return usable, findings
 
 
@@ -65,7 +67,7 @@ def text_curves(obj, depsgraph) -> list[Curve]:
         obj.to_curve_clear()
     known = [curve for curve in curves if curve is not None]
     if not known or len(known) < len(curves):
-        raise ReadError("no_curve", subject=obj.name)
+        raise ReadError(NO_CURVE, subject=obj.name)
     return known
 
 
@@ -126,7 +128,7 @@ def _spline_curves(evaluated, depsgraph) -> Iterator[Curve | None]:
     for spline, row in zip(splines, control_points):
         weights = weighted_points(spline)[:, 3].astype(np.float64)  # of a Bézier spline none, nor needed
         if spline.type == "NURBS" and not _has_known_knots(spline, _curve(*_kind(spline), row, weights)):
-            raise ReadError("unknown_knots", subject=name)
+            raise ReadError(UNKNOWN_KNOTS, subject=name)
         yield _curve(*_kind(spline), points[start : start + len(row)], weights)
         start += len(row)
 
@@ -161,7 +163,7 @@ def _shown_curves(curves, name: str) -> Iterator[Curve | None]:
         of_curve = slice(curve.first_point_index, curve.first_point_index + curve.points_length)
         kind, points = TYPES[types[number]], positions[of_curve]
         if kind == "NURBS" and knots[number] == CUSTOM_KNOTS_MODE:
-            raise ReadError("unknown_knots", subject=name)
+            raise ReadError(UNKNOWN_KNOTS, subject=name)
         if kind == "CATMULL_ROM":
             arms = _catmull_rom(points, bool(cyclic[number]))
             kind, points = "BEZIER", np.stack([points - arms, points, points + arms], axis=1).reshape(-1, 3)
@@ -199,7 +201,7 @@ def _values(curves, name: str, item: str, shape: tuple[int, int], default: float
 
 def _require_finite(positions: NDArray, name: str) -> None:
     if not np.isfinite(positions).all():
-        raise ReadError("non_finite_control_points", subject=name)
+        raise ReadError(NON_FINITE_CONTROL_POINTS, subject=name)
 
 
 def _curve(

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....core.verdict.finding import ReadError
+from ..findings import SCALE_ZERO_AXIS
 from ..reading import float64_matrix
 
 # These move control points whatever their switch says (curve_get_tessellate_point in displist.cc); others only with
@@ -122,7 +123,7 @@ def _apply_hook(evaluated, modifier, points: NDArray, depsgraph) -> NDArray[np.f
     try:
         to_object = np.linalg.inv(float64_matrix(evaluated.matrix_world))
     except np.linalg.LinAlgError:
-        raise ReadError("scale_zero_axis", subject=evaluated.original.name) from None
+        raise ReadError(SCALE_ZERO_AXIS, subject=evaluated.original.name) from None
     matrix = to_object @ matrix @ float64_matrix(modifier.matrix_inverse)
     before = points[indices]
     share = np.full(len(indices), float(modifier.strength))

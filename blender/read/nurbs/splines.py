@@ -20,6 +20,7 @@ from ....core.numerics.bspline import SplineSpace
 from ....core.nurbs.blender_knots import blender_space, display_parameters, display_table
 from ....core.nurbs.patch import Patch
 from ....core.verdict.finding import ReadError, finding
+from ..findings import CONTROL_POINTS_RECOVERED, SPLINES_LEFT_OUT
 from ..reading import SplineReading
 from .deformation import deform, is_deformed, spline_modifiers
 
@@ -79,7 +80,7 @@ def spline_reading(evaluated, depsgraph, mesh) -> SplineReading | None:
     )
     findings = []
     if left_out:
-        findings.append(finding("splines_left_out", count=left_out, total=len(splines)))
+        findings.append(finding(SPLINES_LEFT_OUT, count=left_out, total=len(splines)))
     if mesh is not None:
         shown = np.empty(3 * len(mesh.vertices), np.float32)
         mesh.attributes["position"].data.foreach_get("vector", shown)
@@ -88,7 +89,7 @@ def spline_reading(evaluated, depsgraph, mesh) -> SplineReading | None:
             return None
         if proved is not patches:
             patches, stored = proved, stored + RECOVERY_RTOL * size
-            findings.append(finding("control_points_recovered"))
+            findings.append(finding(CONTROL_POINTS_RECOVERED))
     return SplineReading(tuple(patches), stored, tuple(findings))
 
 

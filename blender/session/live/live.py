@@ -38,8 +38,8 @@ from ...bodies.body import Body
 from ...bodies.measure_object import measure_body
 from ...bodies.measurement import measurement_of
 from ...bodies.request import Request
-from ...read import read_patches
 from ...read.fingerprint import has_transform, settings_hash, transform_key
+from ...read.objects import read_patches
 from ...read.reading import float64_matrix
 from ...settings.options import MeasureOptions
 from ...settings.preferences import preferences

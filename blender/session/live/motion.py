@@ -24,8 +24,9 @@ from ....core.verdict.finding import EditRefusedError
 from ....core.verdict.method import Method, Verdict
 from ...bodies.measure_object import measure_body
 from ...bodies.mesh.hull import object_hull
-from ...read import read_object
+from ...read.objects import read_object
 from ...read.reading import float64_matrix
+from ..findings import OPEN_OBJECT
 from ..tracking import updates
 
 MAX_SAMPLES = 200  # of a shape-key mix: with more keys each frame is measured
@@ -159,7 +160,7 @@ def _measured(
 ) -> tuple[float, NDArray[np.float64]]:
     measurement = measure_body(obj, depsgraph).measurement
     if measurement.method.verdict == Verdict.OPEN:
-        raise EditRefusedError("open_object", subject=obj.name)
+        raise EditRefusedError(OPEN_OBJECT, subject=obj.name)
     moments, factor = measurement.mass_moments
     followed.given_mass = _given_mass(obj)
     followed.moments = None

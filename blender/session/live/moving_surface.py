@@ -20,8 +20,8 @@ from ....core.verdict.finding import ReadError
 from ....core.verdict.method import Source, Verdict
 from ...bodies.body import MeshBody
 from ...bodies.measure_object import Measured
-from ...read import Reading
 from ...read.mesh import mesh_points
+from ...read.reading import Reading
 from ...read.visibility import evaluated_geometry
 
 FOLLOWED = {Verdict.EXACT, Verdict.CAPPED, Verdict.REORIENTED}

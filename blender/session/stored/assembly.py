@@ -20,13 +20,15 @@ from numpy.typing import NDArray
 from ....core.numerics.float32 import shortest_decimal
 from ....core.verdict import internal_error
 from ....core.verdict.finding import Finding, Severity
-from ....core.verdict.messages import of_severity
+from ....core.verdict.sentences import of_severity
 from ...bodies.assembly.assembly import Assembly, MemberBody, assembly_measurement, members_key, structure_hash
+from ...bodies.findings import ASSEMBLY_MASS_GIVEN
 from ...bodies.measure_object import Measured
 from ...bodies.stacks.stack import Stacked
 from ...read.assembly import Member, MemberKind, Root, is_assembly, members_of, settings_of
 from ...read.fingerprint import VERSION, digest, matrix_hash
 from ...write import properties
+from ..findings import STALE_FINGERPRINT, STALE_MEMBER, STALE_MEMBERS, STALE_TRANSFORM
 from ..tracking import handlers, marks, staleness
 from ..tracking.cache import SessionCache
 from . import reference, results
@@ -109,18 +111,18 @@ def _stale_reason(root: Root) -> str | None:
     mark = marks.parse(properties.fingerprint(root))
     depsgraph = bpy.context.view_layer.depsgraph
     if mark is None or mark.version != VERSION or depsgraph is None:
-        return "stale_fingerprint" if "body_mass" in root and mark is None else None
+        return STALE_FINGERPRINT if "body_mass" in root and mark is None else None
     member = members_of(root, depsgraph)
     if structure_hash(member) != mark.settings:
-        return "stale_members"
+        return STALE_MEMBERS
     objects = [one.data for one in member.walk() if one.kind == MemberKind.OBJECT and one.is_measured]
     stored = {obj: properties.fingerprint(obj) for obj in objects}
     if any(staleness.stale_reason(obj, depsgraph.scene) for obj in objects):
-        return "stale_member"
+        return STALE_MEMBER
     if digest(members_key(member, stored).encode()) != mark.geometry:
-        return "stale_member"
+        return STALE_MEMBER
     moved = isinstance(root, bpy.types.Object) and matrix_hash(root) != mark.transform
-    return "stale_transform" if moved else None
+    return STALE_TRANSFORM if moved else None
 
 
 @contextmanager
@@ -194,7 +196,7 @@ def _tree(part: MemberBody, depth: int, factor: float, counted: bool) -> Iterato
     below = sum([_own_mass(member) for member in part.parts], 0.0)
     if part.member.kind == MemberKind.INSTANCE and below > 0.0:
         factor *= _own_mass(part) / below
-    given = any(found.code == "assembly_mass_given" for found in part.findings)
+    given = any(found.code == ASSEMBLY_MASS_GIVEN for found in part.findings)
     for member in part.parts:
         yield from _tree(member, depth + 1, factor, counted and not given)
 

@@ -17,20 +17,22 @@ from bpy.types import Context, Object, PropertyGroup, Scene
 from ....core.measurement.measurement import Measurement
 from ....core.numerics.float32 import shortest_decimal
 from ....core.verdict.finding import EditRefusedError, Finding, finding
+from ...bodies.findings import INERTIA_GIVEN
 from ...read.fingerprint import VERSION, given_density, settings_hash, settings_hash_with
 from ...read.tracking import tracking_paused
 from ...settings import hooks
 from ...settings.density import default_density, unset_density
 from ...write import properties
+from ..findings import DENSITY_DEFAULT_KEPT, DENSITY_DEFAULTED, LINEAR_DENSITY_DEFAULT_KEPT, LINEAR_DENSITY_DEFAULTED
 from ..tracking import marks, staleness
 from . import reference
 
 DEFAULTS = {  # what is noted where nobody has set a density, by the setting
-    "density": finding("density_default_kept"),
-    "linear_density": finding("linear_density_default_kept"),
+    "density": finding(DENSITY_DEFAULT_KEPT),
+    "linear_density": finding(LINEAR_DENSITY_DEFAULT_KEPT),
 }
 OF_DEFAULT_DENSITY = frozenset(
-    {"density_defaulted", "linear_density_defaulted", *(note.code for note in DEFAULTS.values())}
+    {DENSITY_DEFAULTED, LINEAR_DENSITY_DEFAULTED, *(note.code for note in DEFAULTS.values())}
 )
 
 
@@ -70,7 +72,7 @@ def follow_density(obj: Object, scene: Scene) -> None:
     extent = properties.optional(obj, "body_length") or numbers[2][0]
     if not extent:
         return
-    if any(found.code == "inertia_given" for found in properties.findings(obj)):
+    if any(found.code == INERTIA_GIVEN for found in properties.findings(obj)):
         return  # which no mass multiplies
     mass = numbers[0][0]
     if mark.settings not in (

@@ -11,14 +11,15 @@ from bpy.types import Object
 from numpy.typing import NDArray
 
 from ....core.mesh.surface import Surface
+from ....core.verdict.findings import FLIPPED_FACES
 from ....core.verdict.health import DefectiveElements
 from ...bodies.measure_object import Measured
-from ...read import Reading
+from ...read.reading import Reading
 from ..tracking import updates
 from ..tracking.cache import SessionCache
 
 PAIRS = "boundary_edges", "non_manifold_edges", "inconsistent_edges"
-FACES = "flipped_faces", "duplicate_faces", "degenerate_faces"
+FACES = FLIPPED_FACES, "duplicate_faces", "degenerate_faces"
 MAX_DRAWN = 20000  # edges, and triangles, of an object
 
 

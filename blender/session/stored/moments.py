@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 
 from ....core.flat.regions import plane_positions
 from ....core.flat.section import Plane
+from ....core.inertia.findings import MOMENTS_OVERFLOW
 from ....core.inertia.reference import Reference
 from ....core.measurement.plain_text import visible
 from ....core.moments.complex_form import Invariant, flusser_invariants, hu_invariants
@@ -31,6 +32,16 @@ from ....core.verdict.finding import Finding, MeasureError, ReadError
 from ...read.fingerprint import matrix_hash, settings_hash
 from ...read.reference import ReferenceChoice
 from ...write.units import number
+from ..findings import (
+    INVARIANTS_OF_FLAT,
+    INVARIANTS_ORDER,
+    MASS_MOMENTS_UNKNOWN,
+    MOMENTS_OF_FLAT,
+    MOMENTS_OVERFLOW_AT_ORIGIN,
+    STALE_GEOMETRY,
+    STALE_SETTINGS,
+    STALE_TRANSFORM,
+)
 from ..tracking import updates
 from ..tracking.cache import SessionCache
 
@@ -131,10 +142,10 @@ def stale_reason(obj: Object, scene: Scene) -> str | None:
         return None
     matrix, settings, geometry = computed.key
     if settings != settings_hash(obj, scene):
-        return "stale_settings"
+        return STALE_SETTINGS
     if geometry != updates.last_change_of_geometry(obj):
-        return "stale_geometry"
-    return "stale_transform" if matrix != matrix_hash(obj) else None
+        return STALE_GEOMETRY
+    return STALE_TRANSFORM if matrix != matrix_hash(obj) else None
 
 
 def current_numbers(obj: Object, scene: Scene) -> Display:
@@ -209,14 +220,14 @@ def invariants(computed: ComputedMoments, of: str, order: int) -> list[Invariant
     """Hu's seven and, from fourth order on, Flusser's. MeasureError where the object is not flat, or the order is below
     3."""
     if of != "FLAT":
-        raise ReadError("invariants_of_flat")
+        raise ReadError(INVARIANTS_OF_FLAT)
     if order < HU_ORDER:
-        raise ReadError("invariants_order", order=HU_ORDER)
+        raise ReadError(INVARIANTS_ORDER, order=HU_ORDER)
     moments = normalize(_of(computed, of).truncate(order))
     with np.errstate(over="ignore", invalid="ignore"):
         found = [*hu_invariants(moments), *(one for one in flusser_invariants(moments) if one.degree > HU_ORDER)]
     if not np.isfinite([(abs(one.value), one.rounding_error, one.input_error) for one in found]).all():
-        raise ReadError("moments_overflow", order=order)
+        raise ReadError(MOMENTS_OVERFLOW, order=order)
     return found
 
 
@@ -235,7 +246,7 @@ def in_frame(
             moments = _of(computed, of).truncate(order)
             moments = moments.in_frame(reference.axes, reference.origin)
     if not np.isfinite([moments.raw, moments.rounding_error, moments.input_error]).all():
-        raise ReadError("moments_overflow_at_origin", order=order)
+        raise ReadError(MOMENTS_OVERFLOW_AT_ORIGIN, order=order)
     return moments
 
 
@@ -246,7 +257,7 @@ def _of(computed: ComputedMoments, of: str) -> Moments:
         if of == "FLAT":
             assert computed.not_flat is not None
             raise ReadError(computed.not_flat)
-        raise ReadError("mass_moments_unknown" if computed.volume else "moments_of_flat", order=computed.order)
+        raise ReadError(MASS_MOMENTS_UNKNOWN if computed.volume else MOMENTS_OF_FLAT, order=computed.order)
     return moments
 
 

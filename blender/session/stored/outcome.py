@@ -10,7 +10,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from ....core.verdict.finding import Finding, Severity
-from ....core.verdict.messages import of_severity
+from ....core.verdict.sentences import of_severity
 from ..tracking import handlers
 
 

@@ -19,6 +19,7 @@ from ....core.numerics.rotations import quaternion
 from ....core.verdict.finding import Finding, MeasureError, QueryError
 from ...read.reference import ReferenceChoice
 from ...write import properties
+from ...write.findings import NO_STORED_RESULTS
 from ..tracking import handlers, staleness
 from ..tracking.cache import SessionCache
 
@@ -67,7 +68,7 @@ def store(owner: Object | Collection, scene: Scene, choice: ReferenceChoice | No
     choice = choice or ReferenceChoice.of(scene.body_moments_reference)
     body = _stored_body(owner, scene)
     if body is None:
-        raise QueryError("no_stored_results", subject=owner.name)
+        raise QueryError(NO_STORED_RESULTS, subject=owner.name)
     properties.require_storable(owner)
     result = choice.resolve(owner, scene, body.center).refer(body)
     bounds = result.rounding_error, result.input_error

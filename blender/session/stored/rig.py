@@ -22,6 +22,7 @@ from ...read.rig import skinned_objects
 from ...read.tracking import tracking_paused
 from ...settings import hooks
 from ...write import properties
+from ..findings import STALE_FINGERPRINT, STALE_GEOMETRY, STALE_RIG
 from ..tracking import handlers, marks, staleness
 from ..tracking.cache import SessionCache
 
@@ -78,11 +79,11 @@ def stale_reason(armature: Object, scene: Scene) -> str | None:
 def _stale_reason(armature: Object, scene: Scene) -> str | None:
     mark = marks.parse(properties.fingerprint(armature))
     if mark is None or mark.version != VERSION:
-        return "stale_fingerprint" if "body_mass" in armature else None
+        return STALE_FINGERPRINT if "body_mass" in armature else None
     if mark.geometry == marks.EDITED or _edited.get(armature):
-        return "stale_geometry"
+        return STALE_GEOMETRY
     if mark.settings != rig_hash(armature, rig_objects(armature, scene.objects), scene):
-        return "stale_rig"
+        return STALE_RIG
     return None
 
 

@@ -9,9 +9,11 @@ from enum import StrEnum
 
 from bpy.types import Object, Scene
 
+from ....core.solid.findings import DUPLICATE_FACES_IGNORED, HOLES_CAPPED, INVERTED_COMPONENTS, VERTICES_WELDED
 from ....core.verdict.finding import Finding, Severity
-from ....core.verdict.messages import severity
+from ....core.verdict.findings import FLIPPED_FACES
 from ....core.verdict.method import Method, Verdict
+from ....core.verdict.sentences import severity
 from ...settings.preferences import default_density
 from ...write import properties
 from ..live import live
@@ -20,9 +22,7 @@ from ..tracking.cache import SessionCache
 
 REPAIRED = (Verdict.CAPPED, Verdict.REORIENTED)
 # Warnings that say how the surface was closed: those of a repaired body.
-REPAIRS = frozenset(
-    {"vertices_welded", "duplicate_faces_ignored", "flipped_faces", "inverted_components", "holes_capped"}
-)
+REPAIRS = frozenset({VERTICES_WELDED, DUPLICATE_FACES_IGNORED, FLIPPED_FACES, INVERTED_COMPONENTS, HOLES_CAPPED})
 BY_OTHERS = ("MATERIALS", "VOLUME")  # densities that change without an update of the object
 
 

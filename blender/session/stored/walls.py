@@ -19,7 +19,7 @@ from ...bodies.measure_object import Measured
 from ...bodies.measurement import measurement_of
 from ...bodies.request import Request
 from ...bodies.wall import WallBody, Walls
-from ...read import Reading
+from ...read.reading import Reading
 from ...settings import hooks
 from ...write import properties
 from ..tracking import marks, staleness

@@ -34,6 +34,7 @@ from ....core.verdict.method import Verdict
 from ...read.fingerprint import VERSION, has_transform, matrix_hash, scale_hash, settings_hash, shape_digest
 from ...read.tracking import tracking_paused
 from ...write import properties
+from ..findings import STALE_FINGERPRINT, STALE_GEOMETRY, STALE_SCALE, STALE_SETTINGS, STALE_TRANSFORM
 from . import handlers, marks, updates
 from .cache import SessionCache
 
@@ -174,14 +175,14 @@ def stale_reason(obj: Object, scene: Scene) -> str | None:
     """
     mark = marks.parse(properties.fingerprint(obj))
     if mark is None or mark.version != VERSION:
-        return "stale_fingerprint" if "body_mass" in obj else None
+        return STALE_FINGERPRINT if "body_mass" in obj else None
     if obj.get("body_method") == Verdict.ASSEMBLY and obj.type in reasons_by_type:
         return reasons_by_type[obj.type](obj)
     if mark.settings != settings_hash(obj, scene):
-        return "stale_settings"
+        return STALE_SETTINGS
     if _has_new_geometry(obj, mark):
-        return "stale_geometry"
-    return None if has_transform(obj, mark.transform) else "stale_transform"
+        return STALE_GEOMETRY
+    return None if has_transform(obj, mark.transform) else STALE_TRANSFORM
 
 
 def has_transform_of_results(obj: Object) -> bool:
@@ -207,8 +208,8 @@ def section_stale_reason(obj: Object) -> str | None:
     if mark is None:
         return None
     if _has_new_geometry(obj, mark):
-        return "stale_geometry"
-    return "stale_transform" if mark.transform != matrix_hash(obj) else None
+        return STALE_GEOMETRY
+    return STALE_TRANSFORM if mark.transform != matrix_hash(obj) else None
 
 
 def symmetry_stale_reason(obj: Object) -> str | None:
@@ -228,8 +229,8 @@ def symmetry_stale_reason(obj: Object) -> str | None:
     if mark is None:
         return None
     if _has_new_geometry(obj, mark):
-        return "stale_geometry"
-    return "stale_scale" if mark.transform != scale_hash(obj) else None
+        return STALE_GEOMETRY
+    return STALE_SCALE if mark.transform != scale_hash(obj) else None
 
 
 def _edited_marks(obj: Object) -> frozenset[str]:

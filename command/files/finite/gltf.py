@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from ....core.streams.misread import MAX_FLOAT32, Data, map_file
 from ....core.verdict.finding import FileError, finding
+from ...findings import AT_ACCESSOR, AT_MESH_VERTEX, AT_NODE, GLTF_BUFFER_MISSING, GLTF_BUFFER_SHORT
 from .numbers import MALFORMED, bad_in_table, refuse
 
 _GLTF_WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "MAT4": 16}
@@ -32,14 +33,14 @@ def check_gltf(data: Data, path: str) -> None:
         nodes = document.get("nodes", [])
         for number, node in enumerate(nodes):
             numbers = [one for key in _OF_NODES for one in node.get(key, ())]
-            refuse(_bad_numbers(numbers), finding("at_node", node=node.get("name") or str(number)))
+            refuse(_bad_numbers(numbers), finding(AT_NODE, node=node.get("name") or str(number)))
         for number, mesh in _placing_accessors(document).items():
             accessor = document["accessors"][number]
             count, first = _bad_in_accessor(buffers, accessor)
             if mesh is None:
-                place = finding("at_accessor", accessor=number, element=first)
+                place = finding(AT_ACCESSOR, accessor=number, element=first)
             else:
-                place = finding("at_mesh_vertex", mesh=mesh, vertex=first)
+                place = finding(AT_MESH_VERTEX, mesh=mesh, vertex=first)
             refuse(count + _bad_numbers([*accessor.get("min", ()), *accessor.get("max", ())]), place)
 
 
@@ -118,7 +119,7 @@ class Buffers:
         if uri is None:
             name = "BIN"
             if self.binary is None:
-                raise FileError("gltf_buffer_missing", buffer=name)
+                raise FileError(GLTF_BUFFER_MISSING, buffer=name)
             data, start = self.binary
         elif uri.startswith("data:"):
             name, data, start = "data:", base64.b64decode(uri.partition(",")[2]), 0
@@ -127,7 +128,7 @@ class Buffers:
             try:
                 data, start = map_file(os.path.join(self.folder, name)), 0
             except (OSError, ValueError) as error:  # ValueError: it is empty
-                raise FileError("gltf_buffer_missing", buffer=name) from error
+                raise FileError(GLTF_BUFFER_MISSING, buffer=name) from error
         if len(data) - start < size:
-            raise FileError("gltf_buffer_short", buffer=name, size=len(data) - start, expected=size)
+            raise FileError(GLTF_BUFFER_SHORT, buffer=name, size=len(data) - start, expected=size)
         return data, start

@@ -10,6 +10,7 @@ import zlib
 import numpy as np
 from numpy.typing import NDArray
 
+from ....core.streams.findings import NON_FINITE_COORDINATES
 from ....core.streams.misread import MAX_FLOAT32
 from ....core.verdict.finding import FileError, Finding
 
@@ -19,7 +20,7 @@ MALFORMED = (ValueError, KeyError, IndexError, TypeError, AttributeError, Recurs
 
 def refuse(count: int, place: Finding) -> None:
     if count:
-        raise FileError("non_finite_coordinates", count=count, place=place.as_record())
+        raise FileError(NON_FINITE_COORDINATES, count=count, place=place.as_record())
 
 
 def bad_in_table(rows: NDArray) -> tuple[int, int]:

@@ -9,7 +9,18 @@ import re
 import stat
 from pathlib import Path
 
+from ...scans.findings import FILE_MISSING, FILE_NOT_REGULAR
+from ...streams.findings import FILE_UNREADABLE
 from ...verdict.finding import FileError, system_reason
+from ..findings import (
+    DESCRIPTION_TOO_LARGE,
+    DESCRIPTION_UNKNOWN,
+    DESCRIPTION_WITHOUT_LINKS,
+    INCLUDE_TWICE,
+    INCLUDE_UNREADABLE,
+    USD_NOT_TEXT,
+    XML_INVALID,
+)
 from ..stated import Description
 from . import mjcf, sdf, urdf, usda
 from .limits import MAX_DESCRIPTION, MAX_LINKS
@@ -43,34 +54,34 @@ def read_description(path: Path, roots: Roots | None = None) -> Description:
     data = _bytes(path)
     description = usda.read(data) if data.startswith(b"#usda") else _xml(data, roots or Roots.of(path))
     if len(description.links) > MAX_LINKS:
-        raise FileError("description_too_large", limit=MAX_DESCRIPTION >> 20)
+        raise FileError(DESCRIPTION_TOO_LARGE, limit=MAX_DESCRIPTION >> 20)
     if not description.links:
-        raise FileError("description_without_links")
+        raise FileError(DESCRIPTION_WITHOUT_LINKS)
     return description
 
 
 def _bytes(path: Path) -> bytes:
     try:
         if not stat.S_ISREG(path.stat().st_mode):
-            raise FileError("file_not_regular")
+            raise FileError(FILE_NOT_REGULAR)
         with open(path, "rb") as file:
             data = file.read(MAX_DESCRIPTION + 1)
     except FileNotFoundError as error:
-        raise FileError("file_missing") from error
+        raise FileError(FILE_MISSING) from error
     except OSError as error:
-        raise FileError("file_unreadable", error=system_reason(error)) from error
+        raise FileError(FILE_UNREADABLE, error=system_reason(error)) from error
     if len(data) > MAX_DESCRIPTION:
-        raise FileError("description_too_large", limit=MAX_DESCRIPTION >> 20)
+        raise FileError(DESCRIPTION_TOO_LARGE, limit=MAX_DESCRIPTION >> 20)
     return data
 
 
 def _xml(data: bytes, roots: Roots) -> Description:
     if data.startswith((b"PXR-USDC", b"PK")):
-        raise FileError("usd_not_text")
+        raise FileError(USD_NOT_TEXT)
     data = _narrow(data)
     root = parse(data)
     if root.tag not in ROOTS:
-        raise FileError("description_unknown", tag=root.tag)
+        raise FileError(DESCRIPTION_UNKNOWN, tag=root.tag)
     if root.tag == "mujoco":
         _include(root, roots)
     return ROOTS[root.tag](root, data)
@@ -84,7 +95,7 @@ def _narrow(data: bytes) -> bytes:
     try:
         return _ENCODING.sub(r"\1", data.decode(wide)).encode()
     except UnicodeError as error:
-        raise FileError("xml_invalid", error=str(error)) from error
+        raise FileError(XML_INVALID, error=str(error)) from error
 
 
 def _include(root: Node, roots: Roots) -> None:
@@ -105,12 +116,12 @@ def _include(root: Node, roots: Roots) -> None:
                 path = roots.find(name)
                 data = _bytes(path)
             except FileError as error:
-                raise FileError("include_unreadable", name=name) from error
+                raise FileError(INCLUDE_UNREADABLE, name=name) from error
             left -= len(data)
             if left < 0:
-                raise FileError("description_too_large", limit=MAX_DESCRIPTION >> 20)
+                raise FileError(DESCRIPTION_TOO_LARGE, limit=MAX_DESCRIPTION >> 20)
             if path in included:  # as MuJoCo does; so it cannot go round in a circle
-                raise FileError("include_twice", name=name)
+                raise FileError(INCLUDE_TWICE, name=name)
             included.add(path)
             found = parse(data)
             for below in found.walk():

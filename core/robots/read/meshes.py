@@ -16,8 +16,10 @@ from numpy.typing import NDArray
 from ...cad.obj_text import check_obj_text
 from ...mesh.surface import Surface
 from ...numerics.rotations import rotation_matrix
+from ...streams.findings import LINE_MISREAD
 from ...streams.stl_text import check_stl_text
 from ...verdict.finding import FileError, system_reason
+from ..findings import MESH_DAMAGED, MESH_EMPTY, MESH_TOO_LARGE, MESH_UNREADABLE
 from .dae import read_dae
 from .limits import MAX_MESH, MAX_TRIANGLES
 from .usda import fan
@@ -43,26 +45,26 @@ def read_mesh(path: Path) -> tuple[Surface, NDArray[np.float64] | None]:
     """
     reader = READERS.get(path.suffix.lower())
     if reader is None:
-        raise FileError("mesh_unreadable", name=path.name, suffixes=" ".join(READERS))
+        raise FileError(MESH_UNREADABLE, name=path.name, suffixes=" ".join(READERS))
     try:
         with open(path, "rb") as file:
             data = file.read(MAX_MESH + 1)
     except OSError as error:
-        raise FileError("mesh_damaged", name=path.name, error=system_reason(error)) from error
+        raise FileError(MESH_DAMAGED, name=path.name, error=system_reason(error)) from error
     if len(data) > MAX_MESH:
-        raise FileError("mesh_too_large", name=path.name)
+        raise FileError(MESH_TOO_LARGE, name=path.name)
     try:
         points, triangles, *upright = reader(data)
     except FileError as error:
-        if error.finding.code != "line_misread":
+        if error.finding.code != LINE_MISREAD:
             raise
-        raise FileError("mesh_damaged", name=path.name, error=error.finding.as_record()) from error
+        raise FileError(MESH_DAMAGED, name=path.name, error=error.finding.as_record()) from error
     except _DAMAGE as error:
-        raise FileError("mesh_damaged", name=path.name, error=type(error).__name__) from error
+        raise FileError(MESH_DAMAGED, name=path.name, error=type(error).__name__) from error
     if not len(triangles) or len(triangles) > MAX_TRIANGLES:
-        raise FileError("mesh_too_large" if len(triangles) else "mesh_empty", name=path.name)
+        raise FileError(MESH_TOO_LARGE if len(triangles) else MESH_EMPTY, name=path.name)
     if triangles.min() < 0 or triangles.max() >= len(points) or not np.isfinite(points).all():
-        raise FileError("mesh_damaged", name=path.name, error="ValueError")
+        raise FileError(MESH_DAMAGED, name=path.name, error="ValueError")
     return Surface.from_triangles(points, triangles), upright[0] if upright else None
 
 

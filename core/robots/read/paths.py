@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ...verdict.finding import FileError
+from ..findings import MESH_MISSING, MESH_ON_NETWORK, MESH_OUTSIDE
 
 _SCHEME = re.compile(r"([A-Za-z][A-Za-z0-9+.-]+):(?://)?(.*)", re.DOTALL)  # of one letter are drives
 MAX_LEVELS = 4  # folders up to where a package may begin
@@ -46,7 +47,7 @@ class Roots:
         match = _SCHEME.fullmatch(name)
         scheme, rest = (match[1].lower(), match[2]) if match else ("", name)
         if scheme not in ("", "package", "model", "file"):
-            raise FileError("mesh_on_network", name=name)
+            raise FileError(MESH_ON_NETWORK, name=name)
         outside = False
         for path in self._candidates(scheme, rest):
             real = Path(os.path.realpath(path))
@@ -55,7 +56,7 @@ class Roots:
                 continue
             if real.is_file():
                 return real
-        raise FileError("mesh_outside" if outside else "mesh_missing", name=name)
+        raise FileError(MESH_OUTSIDE if outside else MESH_MISSING, name=name)
 
     def _candidates(self, scheme: str, rest: str) -> Iterator[Path]:
         """A package's name may be that of a root, of a folder in it, or of none."""

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from ...numerics.rotations import polar_rotation, rotation_matrix
 from ...verdict.finding import FileError, Finding, finding
 from ...verdict.number_text import parse_number
+from ..findings import DESCRIPTION_NUMBER, USDA_INVALID, XML_TOO_LARGE
 from ..model import Pose, Shape
 from ..stated import Description, StatedInertial, StatedLink, StatedShape
 from .limits import MAX_DEPTH, MAX_ELEMENTS
@@ -62,7 +63,7 @@ def _tokens(text: str) -> Iterator[tuple[str, int]]:
     while position < len(text):
         match = _TOKEN.match(text, position)
         if match is None:
-            raise FileError("usda_invalid", line=text[:position].count("\n") + 1)
+            raise FileError(USDA_INVALID, line=text[:position].count("\n") + 1)
         token = match.group()
         if not token[0].isspace() and token[0] != "#":
             yield token, position
@@ -99,7 +100,7 @@ class _Parser:
     def prim(self, depth: int) -> Prim:
         self.count += 1
         if depth > MAX_DEPTH or self.count > MAX_ELEMENTS:
-            raise FileError("xml_too_large", limit=MAX_ELEMENTS, depth=MAX_DEPTH)
+            raise FileError(XML_TOO_LARGE, limit=MAX_ELEMENTS, depth=MAX_DEPTH)
         self.take()  # the specifier
         words = []
         while self.peek() not in ("(", "{", ""):
@@ -150,12 +151,12 @@ def read(data: bytes) -> Description:
     try:
         text = data.decode("utf-8")
     except UnicodeDecodeError as error:
-        raise FileError("usda_invalid", line=1) from error
+        raise FileError(USDA_INVALID, line=1) from error
     try:
         return _description(text, data)
     except (IndexError, KeyError, ValueError, RecursionError) as error:
         place = text.find(str(error)) if isinstance(error, ValueError) else -1
-        raise FileError("usda_invalid", line=text.count("\n", 0, place if place >= 0 else None) + 1) from error
+        raise FileError(USDA_INVALID, line=text.count("\n", 0, place if place >= 0 else None) + 1) from error
 
 
 def _description(text: str, data: bytes) -> Description:
@@ -167,7 +168,7 @@ def _description(text: str, data: bytes) -> Description:
     roots = []
     while parser.index < len(parser.tokens):
         if parser.peek() not in _SPECIFIERS:
-            raise FileError("usda_invalid", line=text[: parser.tokens[parser.index][1]].count("\n") + 1)
+            raise FileError(USDA_INVALID, line=text[: parser.tokens[parser.index][1]].count("\n") + 1)
         roots.append(parser.prim(0))
     scales = {"length": _scale(metadata, "metersPerUnit", 0.01), "mass": _scale(metadata, "kilogramsPerUnit", 1.0)}
     links: list[StatedLink] = []
@@ -244,7 +245,7 @@ def _link(prim: Prim, matrix: NDArray, path: str, scales: Mapping[str, float], t
 
 def _unreadable(prim: Prim, error: Exception, text: str) -> Finding:
     line = text.count("\n", 0, max(text.find(str(error), prim.start, prim.end), prim.start)) + 1
-    return finding("description_number", text=str(error), element=prim.name, line=line)
+    return finding(DESCRIPTION_NUMBER, text=str(error), element=prim.name, line=line)
 
 
 def _inertial(prim: Prim, local: NDArray, scales: Mapping[str, float]) -> StatedInertial | None:

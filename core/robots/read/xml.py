@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from ...verdict.finding import FileError, Finding, finding
 from ...verdict.number_text import parse_numbers
+from ..findings import DESCRIPTION_NUMBER, XML_ENTITIES, XML_INVALID, XML_TOO_LARGE
 from .limits import MAX_DEPTH, MAX_ELEMENTS
 
 NOWHERE = -1  # in place of a position, of what another file states
@@ -77,12 +78,12 @@ class _Builder:
         self.parser.EntityDeclHandler = self._refuse
 
     def _refuse(self, *_: object) -> None:
-        raise FileError("xml_entities")
+        raise FileError(XML_ENTITIES)
 
     def _start(self, tag: str, attributes: dict[str, str]) -> None:
         self.count += 1
         if self.count > MAX_ELEMENTS or len(self.open) > MAX_DEPTH:
-            raise FileError("xml_too_large", limit=MAX_ELEMENTS, depth=MAX_DEPTH)
+            raise FileError(XML_TOO_LARGE, limit=MAX_ELEMENTS, depth=MAX_DEPTH)
         node = Node(tag, attributes, self.parser.CurrentByteIndex, self.parser.CurrentLineNumber)
         self.open[-1].children.append(node)
         self.open.append(node)
@@ -108,7 +109,7 @@ def parse(data: bytes) -> Node:
     try:
         builder.parser.Parse(data, True)
     except (expat.ExpatError, ValueError, LookupError) as error:
-        raise FileError("xml_invalid", error=" ".join(str(error).split())) from error
+        raise FileError(XML_INVALID, error=" ".join(str(error).split())) from error
     return builder.document.children[0]  # expat has seen that there is one
 
 
@@ -130,4 +131,4 @@ def unreadable(node: Node, error: Exception) -> Finding:
     text = str(error)
     holders = [one for one in node.walk() if any(text in (words, *words.split()) for words in one.texts())]
     holder = holders[0] if len(holders) == 1 else node
-    return finding("description_number", text=text, element=holder.tag, line=holder.line)
+    return finding(DESCRIPTION_NUMBER, text=text, element=holder.tag, line=holder.line)

@@ -15,7 +15,7 @@ from ...measurement.documents import table
 from ...measurement.plain_text import counted
 from ...measurement.record import plain
 from ...verdict.finding import Finding, Severity
-from ...verdict.messages import sentence, severity
+from ...verdict.sentences import sentence, severity
 from ..stated import Description, StatedInertial, StatedLink
 from .marker import AUDIT_COLUMNS as COLUMNS
 from .marker import AUDIT_PAGE

@@ -10,14 +10,15 @@ from types import ModuleType
 
 from ...mesh.surface import Surface
 from ...verdict.finding import Finding
-from ...verdict.messages import sentence
+from ...verdict.sentences import sentence
+from ..findings import MJCF_INERTIA_TOO_SMALL, USD_INERTIA_TOO_SMALL
 from ..model import Robot
 from . import gltf_robot, mjcf, sdf, urdf, usd
 from .shapes import with_meshes
 from .stl import write_meshes
 
 WRITERS: dict[str, ModuleType] = {"urdf": urdf, "sdf": sdf, "mjcf": mjcf, "usd": usd, "gltf": gltf_robot}
-OF_INERTIALS = {"mjcf_inertia_too_small", "usd_inertia_too_small"}  # all else is said of geometry and joints
+OF_INERTIALS = {MJCF_INERTIA_TOO_SMALL, USD_INERTIA_TOO_SMALL}  # all else is said of geometry and joints
 EMBEDDING = ("usd", "gltf")  # what holds meshes itself; the others name files of them
 
 

@@ -20,6 +20,7 @@ from numpy.typing import ArrayLike
 
 from ...numerics.rotations import quaternion
 from ...verdict.finding import FileError, Finding, finding
+from ..findings import GLTF_NODE_MISSING, GLTF_UNIT_SCALE, GLTF_UNREADABLE, ROBOT_SCALED
 from ..model import Inertial, Robot
 
 KHR, OMI = "KHR_physics_rigid_bodies", "OMI_physics_body"
@@ -92,11 +93,11 @@ def add_rigid_bodies(document: dict[str, Any], robot: Robot, meters_per_unit: fl
         written += 1
     if written:
         document["extensionsUsed"] = sorted({*document.get("extensionsUsed", []), KHR, OMI})
-    findings = [finding("gltf_node_missing", count=len(missing), links=missing)] if missing else []
+    findings = [finding(GLTF_NODE_MISSING, count=len(missing), links=missing)] if missing else []
     if scaled:
-        findings.append(finding("robot_scaled", count=len(scaled), links=scaled))
+        findings.append(finding(ROBOT_SCALED, count=len(scaled), links=scaled))
     if meters_per_unit != 1.0:
-        findings.append(finding("gltf_unit_scale", scale=meters_per_unit))
+        findings.append(finding(GLTF_UNIT_SCALE, scale=meters_per_unit))
         for scene in [scene for scene in document.get("scenes", []) if scene.get("nodes")]:
             nodes.append({"name": "Meters", "scale": [meters_per_unit] * 3, "children": scene["nodes"]})
             scene["nodes"] = [len(nodes) - 1]
@@ -110,7 +111,7 @@ def read_json(data: bytes) -> dict[str, Any]:
             return json.loads(data)
         return json.loads(next(chunk for kind, chunk in _chunks(data) if kind == _JSON))
     except (ValueError, struct.error, StopIteration) as error:
-        raise FileError("gltf_unreadable") from error
+        raise FileError(GLTF_UNREADABLE) from error
 
 
 def replace_json(data: bytes, document: dict[str, Any]) -> bytes:

@@ -11,6 +11,7 @@ from xml.etree.ElementTree import Element, SubElement
 
 from ...numerics.rotations import quaternion
 from ...verdict.finding import Finding, finding
+from ..findings import MJCF_INERTIA_TOO_SMALL, MJCF_MESH_TOO_LARGE
 from ..model import FreeAxis, Inertial, Joint, Link, Pose, Robot, Shape
 from .text import document, is_identity, number, numbers, unique_names, xml_text
 
@@ -28,11 +29,11 @@ def check(robot: Robot) -> list[Finding]:
     findings, small = [], [name for name, value in least.items() if value < LEAST]
     if small:
         smallest = min(least.values())
-        findings.append(finding("mjcf_inertia_too_small", count=len(small), links=small, least=smallest, limit=LEAST))
+        findings.append(finding(MJCF_INERTIA_TOO_SMALL, count=len(small), links=small, least=smallest, limit=LEAST))
     surfaces = [(link.name, shape.surface) for link in robot.links for shape in link.shapes]
     large = [name for name, one in surfaces if one is not None and len(one.all_triangles()[0]) > MOST_TRIANGLES]
     if large:
-        findings.append(finding("mjcf_mesh_too_large", count=len(large), links=large, limit=MOST_TRIANGLES))
+        findings.append(finding(MJCF_MESH_TOO_LARGE, count=len(large), links=large, limit=MOST_TRIANGLES))
     return findings
 
 

@@ -11,6 +11,7 @@ from xml.etree.ElementTree import Element, SubElement
 
 from ...numerics.rotations import quaternion
 from ...verdict.finding import Finding, finding
+from ..findings import SDF_LIMITS_LOST
 from ..model import Inertial, Joint, Link, Pose, Robot, Shape
 from .text import add_text, document, is_identity, number, numbers, unique_names, xml_text
 
@@ -21,7 +22,7 @@ _RESERVED = re.compile(r"__.*__|world", re.DOTALL)
 def check(robot: Robot) -> list[Finding]:
     """Return what the format cannot say."""
     lost = [joint.name for joint in robot.joints if _joint_type(joint) == "ball" and not joint.is_ball]
-    return [finding("sdf_limits_lost", count=len(lost), joints=lost)] if lost else []
+    return [finding(SDF_LIMITS_LOST, count=len(lost), joints=lost)] if lost else []
 
 
 def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = False) -> str:

@@ -10,6 +10,7 @@ from math import sqrt
 
 from ...mesh.surface import Surface
 from ...verdict.finding import Finding, finding
+from ..findings import ROBOT_ELLIPSOID_AS_BOX, ROBOT_LINKS_BARE
 from ..model import Robot, Shape
 from ..primitives import equal_inertia_shape
 
@@ -26,7 +27,7 @@ def box_of_ellipsoid(shape: Shape) -> Shape:
 def ellipsoids_as_boxes(robot: Robot) -> list[Finding]:
     """Return what a format without ellipsoids says of a robot that has some."""
     names = [link.name for link in robot.links if any(shape.kind == "ellipsoid" for shape in link.shapes)]
-    return [finding("robot_ellipsoid_as_box", count=len(names), links=names)] if names else []
+    return [finding(ROBOT_ELLIPSOID_AS_BOX, count=len(names), links=names)] if names else []
 
 
 def with_meshes(robot: Robot, surface_of: Callable[[str], Surface | None]) -> tuple[Robot, list[Finding]]:
@@ -49,7 +50,7 @@ def with_meshes(robot: Robot, surface_of: Callable[[str], Surface | None]) -> tu
         shown = surface is not None and len(surface.all_triangles()[0])
         links.append(replace(link, shapes=tuple(replace(shape, surface=surface) for shape in link.shapes if shown)))
         bare += [] if shown else [link.name]
-    findings = [finding("robot_links_bare", count=len(bare), links=bare)] if bare else []
+    findings = [finding(ROBOT_LINKS_BARE, count=len(bare), links=bare)] if bare else []
     return replace(robot, links=tuple(links)), findings
 
 

@@ -14,6 +14,7 @@ import numpy as np
 from ...files.whole_file import whole_file
 from ...mesh.surface import Surface
 from ...verdict.finding import finding
+from ..findings import RESULT_FOREIGN_FILE, USAGE_OVERWRITES_INPUT
 from ..model import Robot
 from .text import unique_names
 
@@ -103,8 +104,8 @@ def _check_replaceable(path: Path, read: Path | None, force: bool) -> None:
     if not path.is_file():
         return
     if read is not None and read.exists() and path.samefile(read):
-        raise FileExistsError(str(finding("usage_overwrites_input", option="output", path=str(path))))
+        raise FileExistsError(str(finding(USAGE_OVERWRITES_INPUT, option="output", path=str(path))))
     with open(path, "rb") as file:
         head = file.read(len(_MARKER))
     if head and head != _MARKER and not force:
-        raise FileExistsError(str(finding("result_foreign_file", path=str(path))))
+        raise FileExistsError(str(finding(RESULT_FOREIGN_FILE, path=str(path))))

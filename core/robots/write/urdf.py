@@ -13,6 +13,7 @@ from xml.etree.ElementTree import Element, SubElement
 import numpy as np
 
 from ...verdict.finding import Finding, finding
+from ..findings import ROBOT_BASE_ADDED, URDF_EFFORT_UNKNOWN
 from ..model import FreeAxis, Inertial, Pose, Robot, Shape
 from .shapes import box_of_ellipsoid, ellipsoids_as_boxes
 from .text import document, is_identity, number, numbers, roll_pitch_yaw, unique_names, xml_text
@@ -26,11 +27,11 @@ def check(robot: Robot) -> list[Finding]:
     """Return what the format cannot say."""
     findings = []
     if len(robot.roots) > 1:
-        findings.append(finding("robot_base_added", count=len(robot.roots), name=BASE))
+        findings.append(finding(ROBOT_BASE_ADDED, count=len(robot.roots), name=BASE))
     findings += ellipsoids_as_boxes(robot)
     limited = [joint.name for joint in robot.joints if any(free.is_limited for free in joint.free)]
     if limited:
-        findings.append(finding("urdf_effort_unknown", count=len(limited), joints=limited))
+        findings.append(finding(URDF_EFFORT_UNKNOWN, count=len(limited), joints=limited))
     return findings
 
 

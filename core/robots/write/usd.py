@@ -19,6 +19,7 @@ from numpy.typing import ArrayLike, NDArray
 from ...mesh.surface import Surface
 from ...numerics.rotations import along_x, quaternion
 from ...verdict.finding import Finding, finding
+from ..findings import USD_INERTIA_TOO_SMALL
 from ..model import Inertial, Joint, Pose, Robot, Shape
 from .marker import MARKER
 from .text import number, unique_names
@@ -35,7 +36,7 @@ def check(robot: Robot) -> list[Finding]:
     small = [
         link.name for link in robot.links if link.inertial is not None and not link.inertial.moments[0] * 0.5 > LEAST
     ]
-    return [finding("usd_inertia_too_small", count=len(small), links=small)] if small else []
+    return [finding(USD_INERTIA_TOO_SMALL, count=len(small), links=small)] if small else []
 
 
 def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = False) -> str:

@@ -20,7 +20,7 @@ from body_moments.core.robots.write import mjcf, sdf, urdf, usd
 from body_moments.core.robots.write.stl import to_stl
 from body_moments.core.robots.write.text import roll_pitch_yaw
 from body_moments.core.verdict.finding import FileError, Severity
-from body_moments.core.verdict.messages import severity
+from body_moments.core.verdict.sentences import severity
 
 from tests.blender.findings import refused
 from tests.close import close

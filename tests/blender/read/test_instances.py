@@ -9,7 +9,8 @@ import pytest
 
 bpy = pytest.importorskip("bpy")
 
-from body_moments.blender.read import measurable_objects, read_object
+from body_moments.blender.read.objects import read_object
+from body_moments.blender.read.visibility import measurable_objects
 
 from tests.blender.findings import refused, said
 from tests.blender.read_bodies import (

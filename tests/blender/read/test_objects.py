@@ -10,7 +10,8 @@ import pytest
 
 bpy = pytest.importorskip("bpy")
 
-from body_moments.blender.read import measurable, measurable_objects, read_object, read_patches
+from body_moments.blender.read.objects import read_object, read_patches
+from body_moments.blender.read.visibility import measurable, measurable_objects
 from body_moments.core.verdict.finding import MeasureError, finding
 from mathutils import Matrix
 

@@ -24,8 +24,8 @@ from body_moments.core.verdict.finding import (
     unique,
 )
 from body_moments.core.verdict.health import DefectiveElements, MeshHealth
-from body_moments.core.verdict.messages import MESSAGES, of_severity, sentence, severity, truncate_list
 from body_moments.core.verdict.method import Method, Source, Verdict, least_trusted
+from body_moments.core.verdict.sentences import MESSAGES, of_severity, sentence, severity, truncate_list
 
 ROOT = Path(__file__).resolve().parent.parent.parent.parent
 

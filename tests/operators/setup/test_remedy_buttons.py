@@ -114,7 +114,7 @@ def test_an_accepted_warning_is_a_note_here_in_records_and_when_measured_again()
 def test_errors_cannot_be_accepted_away():
     from body_moments.blender.settings.accepted import with_acceptance
     from body_moments.core.verdict.finding import Severity, finding
-    from body_moments.core.verdict.messages import severity
+    from body_moments.core.verdict.sentences import severity
 
     (marked,) = with_acceptance([finding("no_faces")], {"no_faces"})
     assert severity(marked) == Severity.ERROR

@@ -8,7 +8,7 @@ from itertools import pairwise
 import bpy
 import numpy as np
 import pytest
-from body_moments.blender.read import read_object
+from body_moments.blender.read.objects import read_object
 from body_moments.core.statics.balancing import balance as least_moves
 
 from tests.blender.objects import add

@@ -1,0 +1,17 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Findings of `blender/write`."""
+
+from ...core.verdict.finding import error, note, warning
+
+WALL_MEASURED = note(
+    "wall_measured", "The wall was measured with real thickness: {thickness:length}, {side:word}, mitered corners."
+)
+LINKED_RESULTS = error("linked_results", "Linked from another file. Make it local to store results.")
+OVERRIDE_RESULTS = error(
+    "override_results", "A library override, which would lose its results. Make it local to store results."
+)
+STALE_RESULTS = warning("stale_results", "Out of date: the object changed after it was measured. Measure it again.")
+NO_STORED_RESULTS = error("no_stored_results", "No stored results. Measure the object.")
+FAILURE = warning("failure", "{object}: {cause}")
+REFUSED = error("refused", "{object}: {cause}")

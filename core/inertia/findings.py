@@ -1,0 +1,49 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Findings of `core/inertia`."""
+
+from ..verdict.finding import error, note
+
+NO_CERTAIN_VOLUME = error(
+    "no_certain_volume", "The volume is zero within rounding. Check for vertices far away from the object."
+)
+MOMENTS_OVERFLOW = error(
+    "moments_overflow",
+    "Moments of order {order} exceed the range of numbers. Scale the object, or choose a lower order.",
+)
+NEGATIVE_INERTIA = error(
+    "negative_inertia",
+    "The surface intersects itself or cannot be closed, and regions count as negative. Set Overlaps to Count as "
+    "Union, repair the mesh, or set Kind to Shell.",
+)
+AXES_ALL_FREE = note("axes_all_free", "All principal moments are equal; the object's own axes are used.")
+AXES_2_3_FREE = note(
+    "axes_2_3_free", "Principal moments 2 and 3 are equal; the directions nearest to the object's axes are used."
+)
+AXES_1_2_FREE = note(
+    "axes_1_2_free", "Principal moments 1 and 2 are equal; the directions nearest to the object's axes are used."
+)
+AXES_AMBIGUOUS = note(
+    "axes_ambiguous", "The body is symmetric under half a turn; the directions nearest to the object's axes are used."
+)
+AXES_ALL_FREE_BY_SHAPE = note(
+    "axes_all_free_by_shape",
+    "All principal moments are equal; the shape's own axes nearest to the object's axes are used.",
+)
+AXES_2_3_FREE_BY_SHAPE = note(
+    "axes_2_3_free_by_shape",
+    "Principal moments 2 and 3 are equal; the shape's own directions nearest to the object's axes are used.",
+)
+AXES_1_2_FREE_BY_SHAPE = note(
+    "axes_1_2_free_by_shape",
+    "Principal moments 1 and 2 are equal; the shape's own directions nearest to the object's axes are used.",
+)
+STRICT_RULE_EQUAL_MOMENTS = error(
+    "strict_rule_equal_moments", "Zhang and Chen's rule is undefined for equal principal moments. Turn it off."
+)
+STRICT_RULE_NO_SKEWNESS = error(
+    "strict_rule_no_skewness", "Zhang and Chen's rule is undefined without skewness along axes 1 and 2. Turn it off."
+)
+AXIS_POINTS_COINCIDE = error(
+    "axis_points_coincide", "The two points of the axis are too near to each other. Move one of them."
+)

@@ -1,0 +1,90 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Findings of `core/nurbs`."""
+
+from ..verdict.finding import error, note, warning
+
+NON_FINITE_CONTROL_POINTS = error(
+    "non_finite_control_points",
+    "Some control points have no finite coordinates. Delete them, or fix the modifier or driver that moves them.",
+)
+NON_POSITIVE_WEIGHTS = error(
+    "non_positive_weights", "Some control points have weights that are not positive. Set their weights above zero."
+)
+CURVE_OPEN = error(
+    "curve_open", "A curve is open and bounds no region. Close it with Toggle Cyclic, or set Kind to Wire."
+)
+CURVES_NOT_COPLANAR = error(
+    "curves_not_coplanar",
+    "The curves are not in one plane and bound no flat region. Flatten them, or set Kind to Wire.",
+)
+CURVE_TOO_SMALL = error(
+    "curve_too_small",
+    "A curve is smaller than the rounding of its coordinates. Delete it, move it nearer to the origin, or set"
+    " Kind to "
+    "Wire.",
+)
+CURVES_CROSS = error(
+    "curves_cross", "The curves cross or touch, so the region is ambiguous. Separate them, or set Kind to Wire."
+)
+NO_PATCHES = error("no_patches", "No NURBS patches. Add a surface with enough points.")
+NO_EXTENT = error("no_extent", "All control points coincide. Move them apart.")
+DISCONTINUOUS_PATCH = error(
+    "discontinuous_patch",
+    "A patch can be discontinuous at a knot repeated as often as its order. Split the patch there.",
+)
+AREA_ERROR_ESTIMATE_LARGE = warning("area_error_estimate_large", "The estimated error of the area is above the target.")
+VOLUME_ERROR_ESTIMATE_LARGE = warning(
+    "volume_error_estimate_large", "The estimated error of the volume is above rounding, because of extreme weights."
+)
+FLIPPED_PATCHES = warning(
+    "flipped_patches",
+    "{count} patch faces against the others and was measured as reversed. Use Segments > Switch Direction.",
+    "{count} patches face against the others and were measured as reversed. Use Segments > Switch Direction.",
+)
+FLIPPED_PATCHES_SLIGHTLY = note(
+    "flipped_patches_slightly",
+    "{count} patch faces against the others and was measured as reversed.",
+    "{count} patches face against the others and were measured as reversed.",
+)
+AMBIGUOUS_PATCH_SIDES = warning(
+    "ambiguous_patch_sides",
+    "{count} patch side meets more than one other, so the orientation is a guess. Make all patches face outward.",
+    "{count} patch sides meet more than one other, so the orientation is a guess. Make all patches face outward.",
+)
+INVERTED_PATCH_COMPONENTS = warning(
+    "inverted_patch_components",
+    "Inside-out components measured as reversed: {count} of {total}. Use Segments > Switch Direction.",
+)
+INVERTED_PATCH_COMPONENTS_SLIGHTLY = note(
+    "inverted_patch_components_slightly", "Inside-out components measured as reversed: {count} of {total}."
+)
+OPEN_PATCH_SIDES = warning(
+    "open_patch_sides",
+    "Open patch sides form no loops to cap, or the surface is one-sided. Volume, center of mass and inertia "
+    "depend on "
+    "the reference point. Close the surface, or set Kind to Shell.",
+)
+FLAT_PATCH_HOLES_CAPPED = warning(
+    "flat_patch_holes_capped", "Flat holes capped exactly: {count} ({share:percent} of the area). Close the surface."
+)
+FLAT_PATCH_HOLES_CAPPED_SLIGHTLY = note(
+    "flat_patch_holes_capped_slightly", "Flat holes capped exactly: {count} ({share:percent} of the area)."
+)
+CURVED_PATCH_HOLES_CAPPED = warning(
+    "curved_patch_holes_capped",
+    "Non-planar holes capped by a cone: {count} ({out_of_plane:percent} of the size out of plane, "
+    "{share:percent} of "
+    "the area). Close the surface.",
+)
+CURVED_PATCH_HOLES_CAPPED_SLIGHTLY = note(
+    "curved_patch_holes_capped_slightly", "Non-planar holes capped by a cone: {count} ({share:percent} of the area)."
+)
+PATCH_BOUNDARY_CROSSES_ITSELF = warning(
+    "patch_boundary_crosses_itself",
+    "{count} boundary crosses itself; the region beyond the crossing counts as negative.",
+    "{count} boundaries cross themselves; the regions beyond the crossings count as negative.",
+)
+WALL_THICKER_THAN_CURVATURE = error(
+    "wall_thicker_than_curvature", "The wall is thicker than the radius of curvature of its surface. Reduce Thickness."
+)

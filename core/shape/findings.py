@@ -1,0 +1,18 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Findings of `core/shape`."""
+
+from ..verdict.finding import error
+
+LIBRARY_LINE_TOO_LONG = error(
+    "library_line_too_long", "{file}: line {line} has more than {limit} bytes. Write the library with --format jsonl."
+)
+LIBRARY_LINE = error(
+    "library_line", "{file}: line {line} is not a body_moments document. Write the library with --format jsonl."
+)
+RECORD_WITHOUT_SHAPE = error(
+    "record_without_shape", "{name}: no signature, as the body has no shape; see the findings of its record."
+)
+RECORD_WITHOUT_SIGNATURE = error("record_without_signature", "{name}: no signature. Measure with --signature.")
+SIGNATURE_UNRECOGNIZED = error("signature_unrecognized", "The signature was not written by --signature.")
+SIGNATURE_INCOMPLETE = error("signature_incomplete", "The signature is incomplete.")

@@ -1,0 +1,175 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Sentences of findings: their templates, filled.
+
+A template is a `str.format` template over the finding's values. `plural` is taken where the value `count` is not 1.
+Values stay numbers, strings, booleans and lists; only the table formats them:
+
+    {share:percent}      a fraction, as 12.3%                {samples:size}   integers, as 2 x 3 x 4
+    {thickness:length}   meters, as the scene shows them     {point:point}    three of these
+    {names}              a list, the first 8: “A”, “B”, and 3 more    {side:word}     a word of ours, to be translated
+    {cause}, {causes}    another finding, or several ({"code", "values"}): their messages
+    {elements}           what it is about (`Finding.elements`, of which there are `count`): 3, 5, 9, or 3 of “Cube”
+
+The optional value `sources` (names of the objects that a surface came from, where that is not the measured object
+itself) puts “A”, “B”: before any message. `accepted` says that a user has judged the finding: a warning is a note then.
+"""
+
+from __future__ import annotations
+
+import string
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import Any
+
+from .catalog import declared
+from .finding import MAX_STORED_ELEMENTS, Elements, Finding, Severity, truncate
+from .findings import AND_MORE
+from .method import Method, Verdict
+
+MAX_LISTED = MAX_STORED_ELEMENTS
+ACCEPTED = "Accepted: {}"  # before a finding that a user has judged, by its value `accepted`
+
+
+def _item(item: Any, translate: Callable[[str], str]) -> str:
+    """A number, “a name”, or a pair of them: 3 of “Cube”."""
+    if hasattr(item, "tolist"):
+        item = item.tolist()
+    if isinstance(item, (list, tuple)):
+        return translate("{} of {}").format(*[_item(part, translate) for part in item])
+    return "“{}”".format(item) if isinstance(item, str) else "{}".format(item)
+
+
+def truncate_list(items: Elements, count: int | None = None, translate: Callable[[str], str] = str) -> str:
+    """Write the first items of a list, names in quotation marks, and how many more there are.
+
+    Parameters
+    ----------
+    items : sequence
+        Names, numbers, or pairs of them.
+    count : int, optional
+        How many there are in all, where `items` are only the first of them.
+    translate : callable
+        Applied to the template of what is not an item.
+
+    Returns
+    -------
+    str
+        “A”, “B”, and 3 more.
+    """
+    shown, more = truncate(items, MAX_LISTED, count)
+    texts = [_item(item, translate) for item in shown]
+    if more:
+        texts.append(translate(AND_MORE.text).format(count=more))
+    return ", ".join(texts)
+
+
+class _Formatter(string.Formatter):
+    """`str.format` with the formats named above. lengths: what shows a length in meters, by default in meters."""
+
+    def __init__(self, translate: Callable[[str], str], lengths: Callable[[float], str] | None) -> None:
+        self.translate, self.lengths = translate, lengths or "{:.4g} m".format
+
+    def format_field(self, value: Any, format_spec: str) -> str:
+        if isinstance(value, Mapping):
+            return sentence(Finding.from_record(value), self.translate, self.lengths)
+        if value is None:  # what was not finite before it was stored
+            return self.translate("unknown")
+        if format_spec == "percent":
+            return "{:.3g}%".format(100.0 * value)
+        if format_spec == "length":
+            return self.lengths(value)
+        if format_spec == "word":
+            return self.translate(value)
+        if format_spec == "size":
+            return " x ".join("{:d}".format(number) for number in value)
+        if format_spec == "point":
+            return "({})".format(", ".join(self.lengths(number + 0.0) for number in value))
+        if isinstance(value, (list, tuple)):
+            if len(value) and isinstance(value[0], Mapping):
+                return self._joined([self.format_field(finding, "") for finding in value])
+            return truncate_list(value, translate=self.translate)
+        return super().format_field(value, format_spec)
+
+    @staticmethod
+    def _joined(texts: Sequence[str]) -> str:
+        """Sentences after one another, clauses with commas."""
+        return "".join(text + (" " if text.endswith(".") else ", ") for text in texts[:-1]) + "".join(texts[-1:])
+
+
+def sentence(
+    finding: Finding, translate: Callable[[str], str] = str, lengths: Callable[[float], str] | None = None
+) -> str:
+    """The sentence of a finding. translate: applied to each template before it is filled. lengths: what shows a length
+    in meters, by default in meters."""
+    entry, values = declared(finding.code), finding.values
+    template = entry.text if entry.plural is None or values.get("count") == 1 else entry.plural
+    elements = truncate_list(finding.elements, values.get("count"), translate)
+    text = _Formatter(translate, lengths).vformat(translate(template), (), {**values, "elements": elements})
+    sources = values.get("sources")
+    text = "{}: {}".format(truncate_list(sources, translate=translate), text) if sources else text
+    return translate(ACCEPTED).format(text) if values.get("accepted") else text
+
+
+def severity(finding: Finding) -> Severity:
+    """How much a finding matters, by its code; a warning that was accepted is a note."""
+    by_code = declared(finding.code).severity
+    return Severity.NOTE if by_code == Severity.WARNING and finding.values.get("accepted") else by_code
+
+
+def of_severity(findings: Iterable[Finding], *severities: Severity) -> list[Finding]:
+    """Those of the findings that have one of the severities."""
+    return [finding for finding in findings if severity(finding) in severities]
+
+
+# What an enum says in a panel or a report: method → headline, explanation. Not findings.
+METHODS = {
+    "exact": ("Exact", "The surface is closed"),
+    "grid exact": ("Exact, from a Grid", "Voxel values are taken as they are"),
+    "reoriented": ("Reoriented", "Closed after flipped faces were reversed"),
+    "capped": ("Capped", "The surface is open; its holes were capped"),
+    "open": ("Open", "Open or through itself: it bounds no certain volume"),
+    "shell": ("Shell", "The mass is in the surface"),
+    "wall": ("Wall", "The mass is in a wall of real thickness"),
+    "union": ("Union", "Overlapping components were united by Blender's exact Boolean, accurate to 7 digits"),
+    "wire": ("Wire", "The mass is along the curve"),
+    "given": ("Given", "The mass is given; there is no geometry"),
+    "assembly": ("Assembly", "The members as one body"),
+}
+
+
+def method_key(method: Method | None, walled: bool) -> str:
+    """Return the entry of METHODS that a method belongs to, "" for none. walled: whether a shell is a wall."""
+    if method is None:
+        return ""
+    if walled and method.verdict == Verdict.SHELL:
+        return "wall"
+    return str(method) if str(method) in METHODS else method.verdict.value
+
+
+# Counts of the health record, as the text report and Select Defects name them: one, several.
+HEALTH = {
+    "boundary_edges": ("boundary edge", "boundary edges"),
+    "non_manifold_edges": ("non-manifold edge", "non-manifold edges"),
+    "inconsistent_edges": ("edge with opposite normals", "edges with opposite normals"),
+    "inverted_components": ("inside-out component", "inside-out components"),
+    "nested_components": ("component inside another, counted twice", "components inside others, counted twice"),
+    "overlapping_components": ("overlapping component", "overlapping components"),
+    "cavities": ("cavity", "cavities"),
+    "duplicate_faces": ("duplicate face", "duplicate faces"),
+    "degenerate_faces": ("zero-area face", "zero-area faces"),
+    "non_planar_faces": ("non-planar face", "non-planar faces"),
+    "flipped_faces": ("flipped face", "flipped faces"),
+}
+# What a shape is to the one that it was compared with (an enum in core/shape).
+SIMILARITY = {
+    "copy": "copy",
+    "scaled_copy": "scaled copy",
+    "mirror": "mirror image",
+    "scaled_mirror": "scaled mirror image",
+    "copy_or_mirror": "copy or mirror image",
+    "scaled_copy_or_mirror": "scaled copy or mirror image",
+    "similar": "similar",
+    "different": "different",
+}
+# Sides of a wall, for {side}.
+SIDES = {"inward": "inward", "outward": "outward", "centered": "centered"}
