@@ -22,7 +22,7 @@ from functools import lru_cache
 from math import factorial
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from ..moments.moments import (
     FLOAT32_HALF_ULP,
@@ -62,16 +62,16 @@ def _block_size(order: int) -> int:
     return max(TRIANGLES_PER_BLOCK * 20 // monomial_count(order), MIN_TRIANGLES_PER_BLOCK)
 
 
-def solid_mass_moments(points: NDArray, triangles: NDArray, density: NDArray, like: Moments) -> Moments:
+def solid_mass_moments(points: ArrayLike, triangles: ArrayLike, density: ArrayLike, like: Moments) -> Moments:
     """Return ∫ ρ x^p y^q z^r dV of the parts that triangles bound, each part of one density.
 
     They are about the point of `like`.
 
     Parameters
     ----------
-    points : (n, 3) array
-    triangles : (t, 3) integer array
-    density : (t,) array
+    points : (n, 3) array_like
+    triangles : (t, 3) array_like of int
+    density : (t,) array_like
         That of the part which the triangle bounds, not negative.
     like : Moments
         The same parts' volume moments, whose order, point and coordinate error are taken.

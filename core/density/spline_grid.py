@@ -88,7 +88,7 @@ def density_moments(
     for axis in axes:
         check_type("axes", axis, SplineAxis)
     if len(axes) != 3:
-        raise ValueError("axes must be three, not {:d}".format(len(axes)))
+        raise ValueError("axes not three")
     if not callable(coefficients):
         coefficients = number_array("coefficients", coefficients, *(axis.count for axis in axes))
     about = np.array([axis.center for axis in axes])
@@ -161,7 +161,7 @@ def grid_moments(
         for count, row in zip(shape, positions)
     ]
     if [axis.count for axis in axes] != list(shape):
-        raise ValueError("positions must be as many as the samples of an axis")
+        raise ValueError("positions for other samples")
     inside = density_moments(samples, axes, order, value)
     return replace(replace(inside, measure=Measure.VOLUME).transform(matrix), measure=Measure.MASS)
 

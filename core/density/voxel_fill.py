@@ -30,7 +30,7 @@ PIECES_PER_BATCH = 1 << 17  # that are expected of the triangles taken at a time
 MAX_VOXELS = 1 << 27  # voxels of the box around the surface
 
 
-def inside_moments(triangles: ArrayLike, densities: NDArray, order: int = 3) -> tuple[Moments, float]:
+def inside_moments(triangles: ArrayLike, densities: ArrayLike, order: int = 3) -> tuple[Moments, float]:
     """Return the mass moments of what a surface encloses, filled with the density of a grid of voxels.
 
     They are about the middle of the bounding box within the grid, rounded to a corner of voxels.
@@ -40,7 +40,7 @@ def inside_moments(triangles: ArrayLike, densities: NDArray, order: int = 3) -> 
     triangles : (n, 3, 3) array_like
         Corners, counter-clockwise from outside, closed together, in the grid's coordinates: the voxel (i, j, k) is the
         cube from (i, j, k) to (i+1, j+1, k+1).
-    densities : (nx, ny, nz) array
+    densities : (nx, ny, nz) array_like
         There is nothing outside the grid.
     order : int
 

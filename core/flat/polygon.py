@@ -134,13 +134,13 @@ def directed_edges(loops: Sequence[ArrayLike]) -> NDArray[np.intp]:
     return np.concatenate(loop_edges).astype(np.intp) if loop_edges else np.empty((0, 2), np.intp)
 
 
-def orient_loops(points: NDArray, loops: Sequence[NDArray]) -> NDArray[np.intp]:
+def orient_loops(points: ArrayLike, loops: Sequence[ArrayLike]) -> NDArray[np.intp]:
     """Return the edges of loops of any direction, oriented so that what lies in an odd number of loops is inside.
 
     Parameters
     ----------
-    points : (n, 2) array
-    loops : sequence of (k,) integer arrays
+    points : (n, 2) array_like
+    loops : sequence of (k,) array_like of int
         Outlines, holes in those, islands in holes.
 
     Returns
@@ -205,15 +205,15 @@ def outline_areas(points: NDArray, edges: NDArray) -> NDArray[np.float64]:
     return sums[np.unique(outline)]
 
 
-def find_defects(points: NDArray, edges: NDArray, error: float = 0.0) -> OutlineDefects:
+def find_defects(points: ArrayLike, edges: ArrayLike, error: float = 0.0) -> OutlineDefects:
     """Find what makes it unclear which side of the edges is inside.
 
     Outlines may touch, at corners and along edges; edges so short that their ends touch have no sides.
 
     Parameters
     ----------
-    points : (n, 2) array
-    edges : (m, 2) integer array
+    points : (n, 2) array_like
+    edges : (m, 2) array_like of int
     error : float
         How far the points may be from where they were meant; what overlaps by no more touches.
 
@@ -231,10 +231,11 @@ def find_defects(points: NDArray, edges: NDArray, error: float = 0.0) -> Outline
     points, edges = edge_arrays(points, edges)
     if not len(edges):
         return OutlineDefects(0, False, False)
-    points = points - points[edges.ravel()].min(axis=0)
-    touch = TOUCH_RTOL * float(points[edges.ravel()].max()) + 4.0 * error
-    crossings, shared, lost = _crossing_pairs(points, edges, touch)
-    left, right = _side_windings(points, edges, touch)
+    corner = points[edges.ravel()].min(axis=0)
+    local = np.subtract(points, corner)
+    touch = TOUCH_RTOL * float(local[edges.ravel()].max()) + 4.0 * error
+    crossings, shared, lost = _crossing_pairs(local, edges, touch)
+    left, right = _side_windings(local, edges, touch)
     negative = bool((right < 0).any())
     return OutlineDefects(crossings, lost, negative or bool((left < right).any() or (left > 1).any()), negative, shared)
 

@@ -15,7 +15,7 @@ from dataclasses import dataclass, replace
 from math import atan2, pi
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from ..mesh.surface import normals
 from ..mesh.welding import first_at_equal_position
@@ -60,7 +60,7 @@ class Plane:
     out_of_plane: float
     x_axis_name: str
 
-    def project(self, points: NDArray) -> NDArray[np.float64]:
+    def project(self, points: ArrayLike) -> NDArray[np.float64]:
         """Return the (n, 2) coordinates of points along the plane's x and y axes."""
         x, y, z = (float_array("points", points, "n", 3) - self.origin).T
         return np.stack([x * a[0] + y * a[1] + z * a[2] for a in self.axes.T[:2]], axis=1)
@@ -159,26 +159,26 @@ def principal_angle(second: NDArray, noise: float) -> float:
 
 
 def fit_plane(
-    points: NDArray,
-    triangles: NDArray,
-    prefer: NDArray,
-    origin: NDArray,
+    points: ArrayLike,
+    triangles: ArrayLike,
+    prefer: ArrayLike,
+    origin: ArrayLike,
     error: float = 0.0,
-    facing: NDArray | None = None,
+    facing: ArrayLike | None = None,
 ) -> Plane:
     """Fit the plane of triangles that are flat.
 
     Parameters
     ----------
-    points : (n, 3) array
-    triangles : (m, 3) integer array
-    prefer : (3, 3) array
+    points : (n, 3) array_like
+    triangles : (m, 3) array_like of int
+    prefer : (3, 3) array_like
         Columns: axes that the plane's x is to be near to: the first, or where that is normal to the plane the second.
-    origin : (3,) array
+    origin : (3,) array_like
         A point whose foot on the plane becomes its origin.
     error : float
         How far the points may be from where they were meant.
-    facing : (3,) array, optional
+    facing : (3,) array_like, optional
         A direction that the normal is to agree with; by default most of the triangles' area.
 
     Returns
@@ -256,7 +256,9 @@ def projection_rounding(plane: Plane, points: NDArray, flat: NDArray) -> float:
     return 16.0 * U * float(np.abs(points).max() + np.abs(plane.origin).max() + np.abs(flat).max(initial=0.0))
 
 
-def measure_section(plane: Plane, points: NDArray, edges: NDArray, error: float = 0.0, shared: float = 0.0) -> Section:
+def measure_section(
+    plane: Plane, points: ArrayLike, edges: ArrayLike, error: float = 0.0, shared: float = 0.0
+) -> Section:
     """Measure the region to the left of directed edges.
 
     `find_defects` reports whether that is one region, and the length that edges share.
@@ -264,9 +266,9 @@ def measure_section(plane: Plane, points: NDArray, edges: NDArray, error: float 
     Parameters
     ----------
     plane : Plane
-    points : (n, 3) array
+    points : (n, 3) array_like
         Near the plane.
-    edges : (m, 2) integer array
+    edges : (m, 2) array_like of int
     error : float
         How far storing the points as float32 may have moved each of them.
     shared : float

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..moments.moments import U
-from ..numerics.arguments import float_array
+from ..numerics.arguments import check_filled, float_array
 from ..numerics.compensated import phase_factors
 from .spectrum import Spectrum
 from .transform import ROUNDING_FACTOR, ZERO_WAVE_NUMBER
@@ -57,8 +57,9 @@ def polygon_transform(loops: Sequence[ArrayLike], q: ArrayLike) -> Spectrum:
     [(1+0j), -0.63662j]
     """
     corners = [float_array("loops", loop, "n", 2, finite=True) for loop in loops]
-    if not corners or min(map(len, corners)) < 3:
-        raise ValueError("loops must have three points or more")
+    check_filled("loops", corners)
+    if min(map(len, corners)) < 3:
+        raise ValueError("loops below three points")
     points = np.concatenate(corners)
     starts = np.cumsum([0, *map(len, corners)])
     following = np.arange(1, len(points) + 1)

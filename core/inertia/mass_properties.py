@@ -66,7 +66,7 @@ class MassProperties:
         cls,
         moments: Moments,
         density: float = 1.0,
-        preferred_axes: NDArray | None = None,
+        preferred_axes: ArrayLike | None = None,
         refine: Callable[[], Moments] | None = None,
         higher: Callable[[], Moments | OwnMoments] | None = None,
     ) -> MassProperties:
@@ -187,7 +187,7 @@ class MassProperties:
         """(3,) sqrt(I/m) about the principal axes."""
         return np.sqrt(self.principal.moments / self.mass)
 
-    def in_frame(self, rotation: NDArray, origin: NDArray) -> MassProperties:
+    def in_frame(self, rotation: ArrayLike, origin: ArrayLike) -> MassProperties:
         """Return the same body in the frame whose axes are the columns of `rotation` and whose origin is `origin`.
         ValueError if that is no rotation.
         """
@@ -203,14 +203,14 @@ class MassProperties:
         )
 
 
-def combine(bodies: Sequence[tuple[Moments, float]], preferred_axes: NDArray | None = None) -> MassProperties:
+def combine(bodies: Sequence[tuple[Moments, float]], preferred_axes: ArrayLike | None = None) -> MassProperties:
     """Combine several bodies into one.
 
     Parameters
     ----------
     bodies : sequence of (Moments, float)
         Each body's moments and density.
-    preferred_axes : (3, 3) array, optional
+    preferred_axes : (3, 3) array_like, optional
         As for `principal_frame`.
 
     Returns

@@ -22,7 +22,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from ..moments.moments import Moments
 from ..numerics.arguments import check_type, float_array
@@ -102,7 +102,7 @@ class PrincipalFrame:
     finding: PerBody
     undetermined_axes: PerBody = ()
 
-    def rotate(self, rotation: NDArray) -> PrincipalFrame:
+    def rotate(self, rotation: ArrayLike) -> PrincipalFrame:
         """Return the same frame in coordinates new = rotation @ old."""
         return replace(self, axes=rotation_array("rotation", rotation) @ self.axes)
 
@@ -141,7 +141,7 @@ class OwnMoments:
 
 def principal_frame(
     moments: Moments,
-    preferred_axes: NDArray | None = None,
+    preferred_axes: ArrayLike | None = None,
     refine: Callable[[], Moments] | None = None,
     higher: Callable[[], Moments | OwnMoments] | None = None,
 ) -> PrincipalFrame:
@@ -151,7 +151,7 @@ def principal_frame(
     ----------
     moments : Moments
         To order 3 at least.
-    preferred_axes : (3, 3) array, optional
+    preferred_axes : (3, 3) array_like, optional
         A rotation whose columns are the axes to stay near to, where the body leaves a choice; by default the coordinate
         axes.
     refine : callable, optional
@@ -327,14 +327,14 @@ def _require_body(moments: Moments, fixed: ThirdMomentFrames) -> None:
         raise MeasureError(OBJECT_TOO_SMALL if is_lost else NEGATIVE_INERTIA)
 
 
-def nearest_frame(equivalent: EquivalentFrames, preferred_axes: NDArray) -> NDArray[np.float64]:
+def nearest_frame(equivalent: EquivalentFrames, preferred_axes: ArrayLike) -> NDArray[np.float64]:
     """Return, of the frames in which a body is the same, the one nearest to the preferred axes.
 
     Parameters
     ----------
     equivalent : EquivalentFrames
         As `equivalent_frames` returns them.
-    preferred_axes : (3, 3) array
+    preferred_axes : (3, 3) array_like
         A rotation, its axes as columns.
 
     Returns
@@ -412,13 +412,13 @@ def zhang_chen_frame(moments: Moments, refine: Callable[[], Moments] | None = No
     return PrincipalFrame(fixed.moments[0], axes, SYMMETRIES[0], True, None)
 
 
-def pose_matrix(center: NDArray, axes: NDArray) -> NDArray[np.float64]:
+def pose_matrix(center: ArrayLike, axes: ArrayLike) -> NDArray[np.float64]:
     """Return the matrix that brings the center to the origin and the axes along x, y and z.
 
     Parameters
     ----------
-    center : (3,) array
-    axes : (3, 3) array
+    center : (3,) array_like
+    axes : (3, 3) array_like
         A rotation, its axes as columns.
 
     Returns

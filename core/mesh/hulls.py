@@ -20,7 +20,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..numerics.arguments import float_array
+from ..numerics.arguments import check_filled, float_array
 from ..numerics.arrays import batches, segment_ranges
 from ..numerics.vectors import cross
 from ..verdict.finding import MeasureError
@@ -354,8 +354,7 @@ def convex_polygon(points: ArrayLike, tolerance: float = 0.0) -> NDArray[np.intp
     [0, 1, 3, 4]
     """
     points = float_array("points", points, "n", 2, finite=True)
-    if not len(points):
-        raise ValueError("points must not be empty")
+    check_filled("points", points)
     ends = np.lexsort((points[:, 1], points[:, 0]))[[0, -1]]
     least = tolerance * float(np.ptp(points, axis=0).max())
     if np.abs(points[ends[1]] - points[ends[0]]).max() <= least:

@@ -144,7 +144,7 @@ class Surface:
         )
 
     @classmethod
-    def from_triangles(cls, points: NDArray, triangles: NDArray) -> Surface:
+    def from_triangles(cls, points: ArrayLike, triangles: ArrayLike) -> Surface:
         """Make a surface of triangles.
 
         Parameters
@@ -177,13 +177,13 @@ class Surface:
         return np.concatenate([self.triangles, cut]), np.concatenate([faces, np.repeat(quad_faces, 2)])
 
 
-def normals(points: NDArray, triangles: NDArray[np.integer]) -> NDArray[np.float64]:
+def normals(points: ArrayLike, triangles: ArrayLike) -> NDArray[np.float64]:
     """Return the normals of triangles, each twice as long as its triangle's area.
 
     Parameters
     ----------
-    points : (n, 3) array
-    triangles : (m, 3) integer array
+    points : (n, 3) array_like
+    triangles : (m, 3) array_like of int
 
     Returns
     -------

@@ -11,20 +11,20 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from ..numerics.arguments import float_array, index_array
 
 TRIANGLES_PER_BLOCK = 1 << 15  # triangles at a time
 
 
-def winding_number(points: NDArray, triangles: NDArray, point: ArrayLike) -> float:
+def winding_number(points: ArrayLike, triangles: ArrayLike, point: ArrayLike) -> float:
     """Return how often triangles surround a point: the sum of their solid angles divided by 4 π.
 
     Parameters
     ----------
-    points : (n, 3) array
-    triangles : (m, 3) integer array
+    points : (n, 3) array_like
+    triangles : (m, 3) array_like of int
         Outward faces counter-clockwise; they need not close.
     point : (3,) array_like
 

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from ..numerics.arguments import check_type, float_array
 from .exponents import monomial_index
@@ -63,14 +63,14 @@ class Invariant:
     is_complex: bool = False
 
 
-def complex_moments(moments: Moments, bounds: NDArray | None = None) -> dict[tuple[int, int], ComplexBound]:
+def complex_moments(moments: Moments, bounds: ArrayLike | None = None) -> dict[tuple[int, int], ComplexBound]:
     """Return c_pq for p ≥ q of a plane shape.
 
     Parameters
     ----------
     moments : Moments
         Of a shape in the plane z = 0, about a point of it.
-    bounds : (K,) array, optional
+    bounds : (K,) array_like, optional
         Of their errors, by default those of rounding.
 
     Returns

@@ -50,7 +50,7 @@ def check_exponents(exponents: object, dimension: int, order: int) -> tuple[int,
     this order has them."""
     powers = tuple(exponents) if isinstance(exponents, (tuple, list, np.ndarray)) else ()
     if len(powers) != dimension or not all(isinstance(power, (int, np.integer)) for power in powers):
-        raise TypeError("moments have {:d} integer exponents, not {!r}".format(dimension, exponents))
+        raise TypeError("not {:d} integer exponents: {!r}".format(dimension, exponents))
     if min(powers) < 0 or sum(powers) > order:
         raise IndexError("no moment {} to order {:d}".format(tuple(map(int, powers)), order))
     return powers

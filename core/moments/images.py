@@ -9,7 +9,7 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..numerics.arguments import check_type, float_array
+from ..numerics.arguments import check_filled, check_type, float_array
 from .affine_maps import absolute_moments, to_trailing_axis, transform_by_horner
 from .exponents import monomial_count, monomials
 from .moments import Moments, U, image, measure_scale_factors
@@ -17,7 +17,7 @@ from .moments import Moments, U, image, measure_scale_factors
 MAPS_PER_BLOCK = 2048  # maps at a time at order 3, fewer at higher ones: their functionals stay in the cache
 
 
-def sum_of_images(moments: Moments, matrices: NDArray, about: ArrayLike | None = None) -> Moments:
+def sum_of_images(moments: Moments, matrices: ArrayLike, about: ArrayLike | None = None) -> Moments:
     """Add the images of one body under several affine maps: instances.
 
     They are about the mean of the images of `moments.about`, unless `about` says otherwise.
@@ -25,7 +25,7 @@ def sum_of_images(moments: Moments, matrices: NDArray, about: ArrayLike | None =
     Parameters
     ----------
     moments : Moments
-    matrices : (k, 4, 4) array
+    matrices : (k, 4, 4) array_like
         As for `Moments.transform`.
     about : (3,) array_like, optional
         The reference point.
@@ -48,8 +48,7 @@ def sum_of_images(moments: Moments, matrices: NDArray, about: ArrayLike | None =
     """
     check_type("moments", moments, Moments)
     matrices = float_array("matrices", matrices, "k", 4, 4, finite=True)
-    if not len(matrices):
-        raise ValueError("matrices must not be empty")
+    check_filled("matrices", matrices)
     linear, offsets = to_trailing_axis(matrices)
     point, order = moments.about[:, None], moments.order
     origins = linear[:, 0] * point[0] + linear[:, 1] * point[1] + linear[:, 2] * point[2] + offsets

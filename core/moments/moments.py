@@ -20,7 +20,7 @@ from typing import cast
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..numerics.arguments import check_type, float_array
+from ..numerics.arguments import check_filled, check_type, float_array, shape_error
 from ..numerics.arrays import PerBody
 from ..numerics.rotations import rotation_array
 from ..verdict.finding import MeasureError
@@ -105,10 +105,9 @@ class Moments:
     input_error: NDArray[np.float64] = cast("NDArray[np.float64]", None)
 
     def __post_init__(self) -> None:
-        raw = float_array("raw", self.raw, ..., "K")
+        raw = float_array("raw", self.raw, *(getattr(self.raw, "shape", ()) or (..., "K")))
         if raw.shape[-1] != monomial_count(order_from_count(raw.shape[-1])):
-            expected = "real numbers of shape (..., monomial_count(order))"
-            raise ValueError("raw must be {}, not {} of shape {}".format(expected, raw.dtype, raw.shape))
+            raise shape_error("raw", raw, (..., "monomial_count(order)"), "real numbers")
         about = float_array("about", self.about, *raw.shape[:-1], 3)
         bounds = {
             name: np.zeros_like(raw) if bound is None else float_array(name, bound, *raw.shape)
@@ -316,8 +315,7 @@ def sum_moments(parts: Sequence[Moments]) -> Moments:
     >>> both.total, both.center.tolist()
     (2.0, [1.0, 0.0, 0.0])
     """
-    if not len(parts):
-        raise ValueError("parts must not be empty")
+    check_filled("parts", parts)
     for part in parts:
         check_type("parts", part, Moments)
     first = parts[0]

@@ -49,7 +49,7 @@ def normalize(moments: Moments, by: str = "size") -> Moments:
     """
     check_type("moments", moments, Moments)
     if by not in ("size", "gyration"):
-        raise ValueError("by must be 'size' or 'gyration', not {!r}".format(by))
+        raise ValueError("by not 'size', 'gyration': {!r}".format(by))
     dimension = {Measure.VOLUME: 3, Measure.AREA: 2}.get(moments.measure)
     if by == "size" and dimension is None:
         raise ValueError("masses need 'gyration'")

@@ -10,6 +10,7 @@ In a shape a letter stands for any length, and a leading `...` for any leading a
 
 from __future__ import annotations
 
+from collections.abc import Sized
 from types import EllipsisType
 from typing import Any
 
@@ -31,29 +32,37 @@ def number_array(name: str, values: ArrayLike, *shape: Length, finite: bool = Fa
 
 def float_array(name: str, values: ArrayLike, *shape: Length, finite: bool = False) -> NDArray[np.float64]:
     """Return a parameter as an array of float64."""
+    if isinstance(values, np.ndarray) and values.dtype == np.float64 and values.shape == shape and not finite:
+        return values  # as the core itself passes them, without further calls
     return number_array(name, values, *shape, finite=finite).astype(np.float64, copy=False)
 
 
 def index_array(name: str, values: ArrayLike, *shape: Length, count: int | None = None) -> NDArray[np.integer]:
     """Return a parameter as an array of integers, from 0 to `count` - 1 if there is a count."""
     array = _array(name, values, shape, "iu", "integers")
-    if array.dtype.kind not in "iu":  # nothing has no type
+    if array.dtype.kind not in "iu":  # an empty list has no integers
         array = array.astype(np.intp)
     if count is not None and not indices_in_range(array, count):
-        raise ValueError("{} must be from 0 to {:d}: no such point".format(name, count - 1))
+        raise ValueError("{} beyond 0…{:d}: no such point".format(name, count - 1))
     return array
 
 
 def check_type(name: str, value: object, kind: type) -> None:
     """Raise TypeError if a parameter is not of a class."""
     if not isinstance(value, kind):
-        raise TypeError("{} must be of class {}, not {}".format(name, kind.__name__, type(value).__name__))
+        raise TypeError("{} must be a {}, not {}".format(name, kind.__name__, type(value).__name__))
 
 
 def check_order(name: str, value: object) -> None:
     """Raise ValueError if a parameter is not a natural number."""
     if not isinstance(value, (int, np.integer)) or value < 0:
-        raise ValueError("{} must be a natural number, not {!r}".format(name, value))
+        raise ValueError("{} not a natural number: {!r}".format(name, value))
+
+
+def check_filled(name: str, values: Sized) -> None:
+    """Raise ValueError if a parameter is empty."""
+    if not len(values):
+        raise ValueError("{} must not be empty".format(name))
 
 
 def _array(name: str, values: ArrayLike, shape: tuple[Length, ...], kinds: str, content: str) -> NDArray[Any]:
@@ -61,17 +70,17 @@ def _array(name: str, values: ArrayLike, shape: tuple[Length, ...], kinds: str, 
         array = np.asarray(values)
     except (TypeError, ValueError):  # rows of different lengths
         array = None
-    if array is not None and (array.dtype.kind in kinds or not array.size) and _fits(array.shape, shape):
-        return array
-    expected = ", ".join("..." if length is ... else str(length) for length in shape) + "," * (len(shape) == 1)
-    given = type(values).__name__ if array is None else "{} of shape {}".format(array.dtype, array.shape)
-    raise ValueError("{} must be {} of shape ({}), not {}".format(name, content, expected, given))
+    if array is not None and (array.dtype.kind in kinds or not array.size):
+        last = shape[1:] if shape[:1] == (...,) else shape
+        given = array.shape[max(array.ndim - len(last), 0) :] if last is not shape else array.shape
+        lengths = [length if isinstance(length, int) else own for length, own in zip(last, given)]
+        if len(given) == len(last) and lengths == [*given]:
+            return array
+    raise shape_error(name, values if array is None else array, shape, content)
 
 
-def _fits(given: tuple[int, ...], expected: tuple[Length, ...]) -> bool:
-    if expected and expected[0] is ...:
-        expected = expected[1:]
-        given = given[max(len(given) - len(expected), 0) :]
-    return len(given) == len(expected) and all(
-        not isinstance(length, int) or length == own for own, length in zip(given, expected)
-    )
+def shape_error(name: str, values: object, shape: tuple[Length, ...], content: str) -> ValueError:
+    """Return the error for a parameter of another shape or content."""
+    expected = ", ".join(["..." if length is ... else str(length) for length in shape]) + "," * (len(shape) == 1)
+    found = "{} {}".format(values.shape, values.dtype) if isinstance(values, np.ndarray) else type(values).__name__
+    return ValueError("{} must be ({}) {}, not {}".format(name, expected, content, found))

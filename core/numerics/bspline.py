@@ -116,7 +116,7 @@ class SplineSpace:
         """(s, order, order) what each acting control point weighs in each Bézier control point of a span."""
         return self.bezier_weights(self.spans, self.intervals)
 
-    def bezier_weights(self, spans: NDArray[np.integer], intervals: NDArray) -> NDArray[np.float64]:
+    def bezier_weights(self, spans: NDArray[np.integer], intervals: ArrayLike) -> NDArray[np.float64]:
         """(s, order, order) what each acting control point weighs in each Bézier control point of an interval (s, 2)
         within each span (s,).
 

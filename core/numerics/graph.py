@@ -12,7 +12,7 @@ in place of the lowest, a star could take as many rounds as it has links.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from .arguments import index_array
 
@@ -21,14 +21,14 @@ EDGES_PER_BLOCK = 3 << 16
 NODES_PER_BLOCK = 1 << 14  # in the cache with the paths that lead from them
 
 
-def connected_components(count: int, a: NDArray[np.integer], b: NDArray[np.integer]) -> tuple[NDArray[np.intp], int]:
+def connected_components(count: int, a: ArrayLike, b: ArrayLike) -> tuple[NDArray[np.intp], int]:
     """Number the connected components of a graph.
 
     Parameters
     ----------
     count : int
         Nodes.
-    a, b : (k,) integer arrays
+    a, b : (k,) array_like of int
         The two ends of each link.
 
     Returns

@@ -17,7 +17,7 @@ def rotation_array(name: str, values: ArrayLike) -> NDArray[np.float64]:
     rotation = float_array(name, values, ..., 3, 3, finite=True)
     off = np.abs(rotation.swapaxes(-1, -2) @ rotation - np.eye(3)).max(initial=0.0)
     if off > ROTATION_ATOL or (np.linalg.det(rotation) < 0.0).any():
-        raise ValueError("{} must be a rotation: orthonormal columns, determinant 1".format(name))
+        raise ValueError("{} must be a rotation".format(name))
     return rotation
 
 
@@ -49,12 +49,12 @@ def rotation_matrix(quaternion: ArrayLike) -> NDArray[np.float64]:
     return np.moveaxis(np.array(rows), (0, 1), (-2, -1))
 
 
-def quaternion(rotation: NDArray) -> NDArray[np.float64]:
+def quaternion(rotation: ArrayLike) -> NDArray[np.float64]:
     """Convert a rotation matrix to a unit quaternion.
 
     Parameters
     ----------
-    rotation : (..., 3, 3) array
+    rotation : (..., 3, 3) array_like
         Orthonormal, determinant 1.
 
     Returns

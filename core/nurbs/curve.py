@@ -102,7 +102,7 @@ class Curve:
         place = np.einsum("ni,id->nd", values, points) / bottom
         return (np.einsum("ni,id->nd", slopes, points) - place * slopes.sum(axis=1, keepdims=True)) / bottom
 
-    def transform(self, matrix: NDArray) -> Curve:
+    def transform(self, matrix: ArrayLike) -> Curve:
         """Return its image under an affine map (4, 4)."""
         matrix = float_array("matrix", matrix, 4, 4)
         return Curve(self.space, self.points @ matrix[:3, :3].T + matrix[:3, 3], self.weights)

@@ -10,7 +10,7 @@ product of matrices.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike
 
 from ..mesh.surface import Surface
 from ..moments.moments import Measure, Moments, U
@@ -20,13 +20,13 @@ PRODUCTS_PER_BLOCK = 1 << 17  # products of a map with a normal at a time
 SUM_ROUNDINGS = 128  # u: within a block numpy adds up in pairs of sums of at most 128 in 8 lanes
 
 
-def area_of_images(surface: Surface, linear: NDArray) -> Moments:
+def area_of_images(surface: Surface, linear: ArrayLike) -> Moments:
     """Return the total area of a surface's images under linear maps, which may stretch it unevenly.
 
     Parameters
     ----------
     surface : Surface
-    linear : (k, 3, 3) array
+    linear : (k, 3, 3) array_like
 
     Returns
     -------

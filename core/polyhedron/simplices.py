@@ -7,7 +7,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..numerics.arguments import float_array, index_array
+from ..numerics.arguments import check_filled, float_array, index_array
 
 
 def facets_of(points: ArrayLike, simplices: ArrayLike) -> tuple[NDArray[np.integer], NDArray[np.float64]]:
@@ -46,8 +46,7 @@ def simplex_arrays(
 ) -> tuple[NDArray[np.float64], NDArray[np.integer]]:
     """Return (m, n) points and (k, n + `more`) simplices as arrays."""
     points = float_array("points", points, "m", "n")
-    if not points.shape[1]:
-        raise ValueError("points must have coordinates, not shape {}".format(points.shape))
+    check_filled("points", points.T)
     return points, index_array("simplices", simplices, "k", points.shape[1] + more, count=len(points))
 
 

@@ -13,7 +13,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from ..mesh.surface import Surface
 from ..moments.moments import Moments
@@ -58,19 +58,19 @@ class BonePiece:
 
 
 def bone_pieces(
-    points: NDArray[np.floating],
-    triangles: NDArray[np.integer],
-    bone: NDArray[np.integer],
+    points: ArrayLike,
+    triangles: ArrayLike,
+    bone: ArrayLike,
     displacement: NDArray | None = None,
 ) -> list[BonePiece]:
     """Cut a closed surface into closed pieces.
 
     Parameters
     ----------
-    points : (n, 3) array
-    triangles : (t, 3) integer array
+    points : (n, 3) array_like
+    triangles : (t, 3) array_like of int
         Outward faces counter-clockwise.
-    bone : (t,) integer array
+    bone : (t,) array_like of int
         The bone of each, not negative.
     displacement : (3,) array, optional
         By how much storing the coordinates may have moved them.
@@ -106,16 +106,14 @@ def bone_pieces(
     return pieces
 
 
-def bones_of_caps(
-    triangles: NDArray[np.integer], is_cap: NDArray[np.bool_], bone: NDArray[np.integer]
-) -> NDArray[np.intp]:
+def bones_of_caps(triangles: ArrayLike, is_cap: ArrayLike, bone: ArrayLike) -> NDArray[np.intp]:
     """Give the triangles that close holes the bones of the faces beside them.
 
     Parameters
     ----------
-    triangles : (t, 3) integer array
-    is_cap : (t,) bool array
-    bone : (t,) integer array
+    triangles : (t, 3) array_like of int
+    is_cap : (t,) array_like of bool
+    bone : (t,) array_like of int
         That of each face; what stands at caps is not used.
 
     Returns

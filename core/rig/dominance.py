@@ -61,8 +61,8 @@ class VertexWeights:
 
 
 def dominant_bones(
-    faces: NDArray[np.integer],
-    corners: NDArray[np.integer],
+    faces: ArrayLike,
+    corners: ArrayLike,
     points: ArrayLike,
     weights: VertexWeights,
     bones: ArrayLike,
@@ -71,7 +71,7 @@ def dominant_bones(
 
     Parameters
     ----------
-    faces, corners : (c,) integer arrays
+    faces, corners : (c,) array_like of int
         Of each corner of the surface, the face, 0 to f - 1, and the vertex. A face without corners has no bone.
     points : (n, 3) array_like
         Positions of the vertices, in the coordinates of the bones.

@@ -20,7 +20,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from ..mesh.surface import Surface, normals
 from ..moments.moments import Moments, U
@@ -71,11 +71,11 @@ class BalanceResult:
 
 def balance(
     surface: Surface,
-    movable: NDArray[np.integer],
-    target: NDArray,
+    movable: ArrayLike,
+    target: ArrayLike,
     *,
-    across: NDArray | None = None,
-    weights: NDArray | None = None,
+    across: ArrayLike | None = None,
+    weights: ArrayLike | None = None,
     limit: float = np.inf,
     shell: bool = False,
 ) -> BalanceResult:
@@ -84,12 +84,12 @@ def balance(
     Parameters
     ----------
     surface : Surface
-    movable : (k,) integer array
+    movable : (k,) array_like of int
         The vertices that may move.
-    target : (3,) array
-    across : (r, 3) array, optional
+    target : (3,) array_like
+    across : (r, 3) array_like, optional
         Orthonormal rows: move the center along these directions only; by default all three.
-    weights : (k,) array, optional
+    weights : (k,) array_like, optional
         Above 0 to 1: how freely each vertex moves.
     limit : float
         How far a vertex may move.

@@ -21,7 +21,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from ..mesh.surface import Surface
 from ..moments.moments import SECOND_MOMENT_INDEX, Measure, U, monomial_count, monomial_index, monomials
@@ -91,14 +91,14 @@ class Gradient:
         return np.eye(3)[None, :, :, None] * trace[:, None, None] - second
 
 
-def volume_gradient(surface: Surface, about: NDArray, order: int = 2) -> Gradient:
+def volume_gradient(surface: Surface, about: ArrayLike, order: int = 2) -> Gradient:
     """Return the derivatives of the volume's moments by every vertex.
 
     Parameters
     ----------
     surface : Surface
         Closed and outward: of any other the result is the derivative of no volume.
-    about : (3,) array
+    about : (3,) array_like
         The fixed point that the moments are about.
     order : int
         1 or 2.
@@ -118,14 +118,14 @@ def volume_gradient(surface: Surface, about: NDArray, order: int = 2) -> Gradien
     return _gradient(surface, about, order, _volume_shares)
 
 
-def area_gradient(surface: Surface, about: NDArray, order: int = 2) -> Gradient:
+def area_gradient(surface: Surface, about: ArrayLike, order: int = 2) -> Gradient:
     """Return the derivatives of the area's moments by every vertex.
 
     Parameters
     ----------
     surface : Surface
         A triangle without area has no derivative; what its vertices could give it is left out.
-    about : (3,) array
+    about : (3,) array_like
         The fixed point that the moments are about.
     order : int
         1 or 2.
@@ -145,7 +145,7 @@ def area_gradient(surface: Surface, about: NDArray, order: int = 2) -> Gradient:
     return _gradient(surface, about, order, _area_shares)
 
 
-def _gradient(surface: Surface, about: NDArray, order: int, shares: Callable) -> Gradient:
+def _gradient(surface: Surface, about: ArrayLike, order: int, shares: Callable) -> Gradient:
     area, kinds = shares is _area_shares, monomial_count(order)
     check_type("surface", surface, Surface)
     about = float_array("about", about, 3)

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..mesh.hulls import convex_polygon
-from ..numerics.arguments import float_array
+from ..numerics.arguments import check_filled, float_array
 
 CONTACT_RTOL = 1e-6  # of the body's extent: points that high above the lowest one touch the ground
 ON_EDGE = 4.0 * float(np.finfo(np.float64).eps)  # of the corners' distances: what rounding makes of none
@@ -122,8 +122,7 @@ def find_support(
     2.0
     """
     points, center = float_array("points", points, "n", 3), float_array("center", center, 3)
-    if not len(points):
-        raise ValueError("points must not be empty")
+    check_filled("points", points)
     axes = ground_axes(down)
     local = (points - center) @ axes
     low = float(local[:, 2].min())

@@ -105,7 +105,7 @@ def test_the_panel_says_that_settings_of_an_override_are_not_kept(overridden):
 
 
 def test_the_density_of_a_linked_material_cannot_be_set_by_its_local_namesake(tmp_path):
-    from body_moments.panels.density.density.material_menus import density_row
+    from body_moments.panels.density.material_menus import density_row
 
     from tests.panels.drawing import Layout
 

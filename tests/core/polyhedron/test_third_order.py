@@ -283,7 +283,7 @@ def test_bounds_of_float32_points_scale_exactly_with_powers_of_two(path, about, 
             assert close(getattr(other, name), np.ldexp(getattr(one, name), powers), rel=1e-12), name
 
 
-@pytest.mark.parametrize("exponent", [-300, -140, -30, 30, 100])
+@pytest.mark.parametrize("exponent", [-190, -140, -30, 30, 100])
 def test_moments_scale_exactly_with_powers_of_two(exponent):
     points, quads = grid_torus(noise=0.05)
     triangles = Surface(points, quads=quads).all_triangles()[0]

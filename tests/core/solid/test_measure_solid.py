@@ -864,7 +864,7 @@ def test_indices_in_any_byte_order_name_their_points(kind):
 
 
 def test_complex_coordinates_are_refused():
-    with pytest.raises(ValueError, match="points must be real"):
+    with pytest.raises(ValueError, match="points must be .* real numbers, not .* complex128"):
         Surface.from_triangles(CUBE[0].astype(complex), CUBE[1])
 
 
