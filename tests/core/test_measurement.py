@@ -47,6 +47,6 @@ def test_of_a_varying_density_they_are_its_own():
     "changes",
     [{"density_from": finding("density_from_polynomial")}, {"length": 2.0}, {"volume_moments": VOLUME.truncate(3)}],
 )
-def test_what_is_not_known_to_an_order_is_none(changes):
+def test_missing_order_is_none(changes):
     assert measured(**changes).moments_of_mass(4) is None
     assert isinstance(measured(**changes).moments_of_mass(3), Moments)

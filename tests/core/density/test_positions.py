@@ -87,7 +87,7 @@ def exact_moments(samples, positions, spline_order, order):
 
 
 @pytest.mark.parametrize("spline_order", [1, 2, 3, 4, 5])
-def test_moments_are_those_of_rational_arithmetic_and_within_their_bounds(spline_order):
+def test_moments_match_rational_arithmetic_within_bounds(spline_order):
     samples = np.random.default_rng(spline_order).integers(0, 9, SHAPE).astype(float)
     order = 6
     found = grid_moments(samples, SHAPE, np.eye(4), spline_order, order, positions=POSITIONS).about_point(np.zeros(3))
@@ -130,7 +130,7 @@ def test_even_positions_are_the_uniform_grid(spline_order):
     )
 
 
-def test_a_density_linear_between_samples_is_met_by_trilinear_splines():
+def test_density_linear_between_samples_matches_trilinear_spline():
     """With order 2 the spline goes through the samples, however far apart they are."""
     rows = [np.cumsum(np.random.default_rng(axis).uniform(0.1, 2.0, 6)) for axis in range(3)]
     axis = SplineAxis.at_positions(rows[0], 2)

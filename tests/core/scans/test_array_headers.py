@@ -60,9 +60,7 @@ def test_arrays_of_each_version_are_read(tmp_path, version, form):
         (3, 10_001, False),
     ],
 )
-def test_a_header_of_more_than_ten_thousand_bytes_is_refused_before_it_is_read(
-    tmp_path, monkeypatch, form, version, length, is_asked
-):
+def test_header_beyond_ten_thousand_bytes_is_refused_unread(tmp_path, monkeypatch, form, version, length, is_asked):
     """NumPy reads all of it first."""
     asked = []
     for name in ("open_memmap", "read_array_header_1_0", "read_array_header_2_0"):

@@ -66,7 +66,7 @@ def test_nrrd_of_every_type(tmp_path, kind, order, encoding):
         "f8": ("double",),
     }.items(),
 )
-def test_nrrd_has_many_names_for_a_type_and_a_byte_order_for_all_but_bytes(tmp_path, dtype, names):
+def test_nrrd_type_names_are_known_and_need_a_byte_order(tmp_path, dtype, names):
     """All that the format's definition lists."""
     data = nrrd(values()).partition(b"\n\n")[0]
     for name in (*names, names[0].upper()):
@@ -176,7 +176,7 @@ def test_nrrd_places(tmp_path):
     "mins, origin",
     [("1 2 3 nan", [1, 2, 3]), ("nan 2 3", [0] * 3), ("1 2 inf", [0] * 3), ("1 -inf 3", [0] * 3), ("1 2", [0] * 3)],
 )
-def test_nrrd_begins_at_the_origin_where_one_of_its_axes_does_not_say_where(tmp_path, mins, origin):
+def test_nrrd_with_an_incomplete_axis_begins_at_the_origin(tmp_path, mins, origin):
     scan = read_scan(written(tmp_path / "a.nrrd", nrrd(values(), "spacings: 0.5 2 3", "axis mins: " + mins)))
     assert np.array_equal(
         scan.matrix, [[0.5, 0, 0, origin[0]], [0, 2, 0, origin[1]], [0, 0, 3, origin[2]], [0, 0, 0, 1]]
@@ -235,7 +235,7 @@ def test_arrays_that_are_no_densities(tmp_path, array, code):
     assert refusal(read_scan, tmp_path / "a.npy") == code
 
 
-def test_an_archive_of_python_objects_is_refused_and_runs_nothing(tmp_path):
+def test_archive_of_python_objects_is_refused_and_runs_nothing(tmp_path):
     class Maker:
         def __reduce__(self):
             return os.mkdir, (str(tmp_path / "made"),)
@@ -247,7 +247,7 @@ def test_an_archive_of_python_objects_is_refused_and_runs_nothing(tmp_path):
     assert not (tmp_path / "made").exists()
 
 
-def test_what_is_given_takes_the_headers_place(tmp_path):
+def test_given_placement_replaces_the_header(tmp_path):
     path = written(tmp_path / "a.nii", nifti(values(), spacing=(2, 2, 2)))
     matrix, findings = sample_matrix(read_scan(path), None, None, None)
     assert np.allclose(matrix, np.diag([0.002, 0.002, 0.002, 1]))
@@ -268,7 +268,7 @@ def test_what_is_given_takes_the_headers_place(tmp_path):
 
 
 @pytest.mark.parametrize("given", list(itertools.product((False, True), repeat=5)))
-def test_what_is_decided_of_a_place_is_said(given):
+def test_placement_decision_is_reported(given):
     """In every combination of what the file states and the user gives."""
     has_unit, is_placed, *asked = given
     own = np.array([[2.0, 0.5, 0.0, 7.0], [0.0, 3.0, 0.0, 8.0], [0.0, 0.0, 4.0, 9.0], [0.0, 0.0, 0.0, 1.0]])
@@ -345,7 +345,7 @@ def nifti_with(offset: int, form: str, *numbers) -> bytes:
         (nifti(values(), quaternion=(1, 1, 1, 0, 0, 0)), "nifti_rotation", {}),
     ],
 )
-def test_damaged_nifti_files_say_what_is_wrong(tmp_path, data, code, values_said):
+def test_damaged_nifti_file_is_refused_with_its_damage(tmp_path, data, code, values_said):
     with pytest.raises(FileError) as caught:
         read_scan(written(tmp_path / "a.nii", data))
     found = caught.value.finding
@@ -410,7 +410,7 @@ def nrrd_with(old: str, new: str) -> bytes:
         (nrrd(values(), "line skip: 9999"), "file_damaged", damage("damage_lines")),
     ],
 )
-def test_damaged_nrrd_files_say_what_is_wrong(tmp_path, data, code, values_said):
+def test_damaged_nrrd_file_is_refused_with_its_damage(tmp_path, data, code, values_said):
     with pytest.raises(FileError) as caught:
         read_scan(written(tmp_path / "a.nrrd", data))
     found = caught.value.finding
@@ -505,7 +505,7 @@ def test_damage_anywhere_gives_a_refusal_or_an_array(tmp_path, name):
     assert refused > 50
 
 
-def test_what_is_no_scan(tmp_path):
+def test_foreign_file_is_no_scan(tmp_path):
     assert [scan_suffix("A.B" + end.upper()) for end in SUFFIXES] == list(SUFFIXES)
     assert scan_suffix("a.blend") == ""
     assert refusal(read_scan, tmp_path / "a.blend") == "scan_file_type"

@@ -45,7 +45,7 @@ def test_a_cavity_within_its_wall_is_subtracted_with_a_note():
     assert only(result).elements.tolist() == list(range(12, 24))
 
 
-def test_how_deep_a_cavity_breaks_through_is_that_of_a_wall_that_reaches_into_it_too():
+def test_depth_of_a_cavity_includes_walls_reaching_into_it():
     """No vertex of the cavity is outside: the bottom of a groove reaches into it."""
     groove = np.array([[0, 0], [4, 0], [4, 4], [2.5, 4], [2, 1.5], [1.5, 4], [0, 4]], float)
     ring = np.arange(7)
@@ -61,7 +61,7 @@ def test_how_deep_a_cavity_breaks_through_is_that_of_a_wall_that_reaches_into_it
 
 
 @pytest.mark.parametrize("share, turned", [(0.3, True), (0.9, False)])
-def test_an_inward_component_less_than_half_in_another_is_inside_out(share, turned):
+def test_inward_part_less_than_half_inside_another_is_inverted(share, turned):
     part = inverted(box((1 - share, 0.1, 0.1), (2 - share, 0.9, 0.9)))
     result = measure_solid(surface(joined(WALL, part)))
     assert codes(result) == (["inverted_components", "components_overlap"] if turned else ["cavities_break_through"])

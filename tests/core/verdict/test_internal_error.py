@@ -18,7 +18,7 @@ def test_a_refusal_is_its_finding_and_too_little_memory_is_one(capsys):
 
 
 @pytest.mark.parametrize("text, said", [("of\n  two lines.", "of two lines"), ("", "-"), (".", "-")])
-def test_a_fault_outside_says_its_kind_and_message_and_prints_its_traceback(text, said, capsys):
+def test_foreign_fault_prints_its_kind_message_and_traceback(text, said, capsys):
     try:
         raise KeyboardError(text)
     except KeyboardError as error:
