@@ -65,7 +65,7 @@ def test_every_face_is_small_sorted_and_true(package):
     assert set(names) <= set(dir(FACES[package]))
 
 
-def test_a_name_is_there_when_it_is_first_used():
+def test_public_name_loads_on_first_use():
     core = FACES[""]
     for name in core.__all__:
         vars(core).pop(name, None)
@@ -144,7 +144,7 @@ def test_the_readme_example_uses_the_library_s_names_alone():
 
 
 def test_readme_example_runs_as_printed(capsys):
-    """A cube without a lid: the moments are those of the body that was measured, at every order."""
+    """A cube without a lid: the moments belong to the measured body at every order."""
     names = {}
     exec(compile(readme_example(), "README.md", "exec"), names)
     assert str(names["body"].method) == "capped"

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""IGES files of bodies with closed forms: units, transformations, subfigures, trims that trim nothing; what is refused,
-by name; files that are damaged on purpose."""
+"""IGES files of bodies with closed forms: units, transformations, subfigures and trims; refusals by name; damaged
+files."""
 
 import random
 
@@ -162,7 +162,7 @@ MIDDLE = ((S0 + S1) / 2, T0)
         [polyline(A, MIDDLE, B, degree=2), line(B, C), polyline(C, D, degree=1), line(D, A)],
     ],
 )
-def test_boundaries_that_trim_nothing(tmp_path, curves):
+def test_untrimming_boundary_is_ignored(tmp_path, curves):
     file = IgesFile()
     trimmed(file, curves)
     read = read_surfaces(file.write(tmp_path / "a.igs"))
@@ -193,7 +193,7 @@ NEAR = (S1 - 1e-5 * (S1 - S0), T0)
         [(100, [0.0, *INNER, *A, *A])],
     ],
 )
-def test_boundaries_that_trim_are_refused_by_name(tmp_path, curves):
+def test_trimming_boundary_is_refused_by_name(tmp_path, curves):
     file = IgesFile()
     trimmed(file, curves)
     cause = refusal(file.write(tmp_path / "a.igs")).values["causes"][0]
@@ -209,7 +209,7 @@ def test_a_hole_is_refused(tmp_path):
     assert refusal(file.write(tmp_path / "a.igs")).values["causes"][0]["code"] == "surface_trimmed"
 
 
-def test_a_part_of_the_domain_and_knots_that_are_not_clamped(tmp_path):
+def test_part_of_the_domain_and_unclamped_knots_are_read(tmp_path):
     s = SplineSpace((-1.0, 0.0, 0.5, 1.5, 2.0, 4.0, 5.0), 3, 4)
     t = clamped_space(6, (0.5,), 0.0, 2.0)
     patch = Patch((s, t), np.random.default_rng(2).uniform(-1, 1, (4, 7, 3)))
@@ -220,7 +220,7 @@ def test_a_part_of_the_domain_and_knots_that_are_not_clamped(tmp_path):
     assert np.abs(corners - patch.evaluate_grid([0.75, 2.0], [0.25, 2.0])).max() <= 1e-14
 
 
-def test_other_surfaces_are_refused_and_curves_left_out(tmp_path):
+def test_other_surface_types_are_refused_and_curves_left_out(tmp_path):
     file = IgesFile()
     file.surface(unrolled(sphere()))
     file.surface(unrolled(torus()), status="01000000")
@@ -263,7 +263,7 @@ def test_pointers_in_circles_end(tmp_path):
     assert {cause["code"] for cause in causes} == {"surface_recursive"}
 
 
-def test_subfigures_that_multiply_end(tmp_path):
+def test_multiplying_subfigures_end(tmp_path):
     file = IgesFile()
     below = file.surface(unrolled(sphere()), status="00010000")
     for _ in range(40):
@@ -307,7 +307,7 @@ def test_transformations_of_each_other_end(tmp_path, depth, kept):
 
 @pytest.mark.parametrize("count, kept", [(9999, True), (10_000, False)])
 def test_a_boundary_has_up_to_ten_thousand_pieces(tmp_path, count, kept):
-    """And is one itself; all but four stay where they are."""
+    """The curve is a boundary itself; all but four stay in place."""
     file = IgesFile()
     here, *sides = (file.add(*line(*ends), status="00010500") for ends in ((A, A), (A, B), (B, C), (C, D), (D, A)))
     curve = file.add(102, [count, *[here] * (count - 4), *sides], status="00010500")
@@ -315,7 +315,7 @@ def test_a_boundary_has_up_to_ten_thousand_pieces(tmp_path, count, kept):
 
 
 def is_kept(file, curve, tmp_path):
-    """Whether a surface is kept whose boundary this curve is."""
+    """Return True if the surface bounded by this curve is kept."""
     base = file.surface(unrolled(sphere()), status="00010000")
     file.add(144, [base, 1, 0, file.add(142, [0, base, curve, 0, 1], status="00010000")], label="TRIM")
     beside = unrolled(torus())
@@ -326,7 +326,8 @@ def is_kept(file, curve, tmp_path):
 
 
 def test_member_in_nested_groups_is_placed_from_inside_outward(tmp_path):
-    """Its own transformation, that of the subfigure, where and how large that is placed, and the placing's own one."""
+    """The surface's own transformation, the subfigure's, the place and scale of its instance, and the instance's own
+    transformation."""
     patch = Patch((clamped_space(2), clamped_space(2)), np.random.default_rng(4).uniform(-1.0, 1.0, (2, 2, 3)))
     own, inner, outer, last, first = np.tile(np.eye(4), (5, 1, 1))
     for seed, matrix in enumerate((own, inner, outer, last, first)):
@@ -378,7 +379,7 @@ def test_parameters_outside_their_directory_lines_are_damage(tmp_path, first, co
     assert refused(read) == {"surface_damaged": ["FAR"]} and len(read.bodies[0].patches) == 1
 
 
-def test_other_delimiters_line_ends_and_none(tmp_path):
+def test_other_delimiters_and_line_ends_are_read(tmp_path):
     file = IgesFile(2)
     file.delimiter, file.end = "/", "#"
     file.surface(unrolled(sphere()))
@@ -553,7 +554,7 @@ def test_parameters_without_an_end_are_damage(tmp_path):
     assert close(volume(read).total, BALL, 1e-14) and refused(read) == {"surface_damaged": ["PLAIN", "TEXT"]}
 
 
-def test_a_boundary_with_a_weight_that_is_not_positive_trims(tmp_path):
+def test_boundary_with_a_nonpositive_weight_trims(tmp_path):
     kind, fields = polyline(A, B, C, D, A)
     assert fields[13:18] == [1.0] * 5
     for weight in (0.5, 0.0, -1.0):

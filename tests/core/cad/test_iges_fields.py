@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Fields of IGES files that are blank, full, missing or of another kind; and those of .obj files that mean nothing."""
+"""Blank, full, missing and misplaced fields of IGES files, and meaningless fields of .obj files."""
 
 import numpy as np
 import pytest
@@ -40,7 +40,7 @@ def refusal(tmp_path, lines):
 
 
 @pytest.mark.parametrize("section", "GDP")
-def test_a_file_without_one_of_its_sections_is_none(tmp_path, section):
+def test_file_without_a_section_is_refused(tmp_path, section):
     assert refusal(tmp_path, [line for line in ball_lines() if line[72] != section]).code == "iges_unrecognized"
 
 
@@ -66,7 +66,7 @@ def test_parameters_of_another_entity_are_damage_despite_fit(tmp_path):
 
 
 def test_blank_fields_of_the_directory_are_zero(tmp_path):
-    """But for the type and where the parameters are."""
+    """All fields except for the type and the place of the parameters."""
     lines = ball_lines()
     first, second = (number for number, line in enumerate(lines) if line[72] == "D")
     lines[first] = lines[first][:16].ljust(72) + lines[first][72:]
@@ -104,7 +104,7 @@ def test_coordinate_not_a_number_is_damage_and_huge_is_too_far(tmp_path, word, c
 
 
 @pytest.mark.parametrize("degrees", [(0, 2), (2, 0), (-1, 2), (2, 3), (9, 9)])
-def test_degrees_that_fit_no_control_points_are_damage(tmp_path, degrees):
+def test_degrees_not_fitting_the_control_points_are_damage(tmp_path, degrees):
     fields = surface_fields(unrolled(sphere()))
     file = IgesFile()
     file.surface(unrolled(torus()))
@@ -114,7 +114,7 @@ def test_degrees_that_fit_no_control_points_are_damage(tmp_path, degrees):
 
 
 @pytest.mark.parametrize("last", [-1, -2, -9, 0])
-def test_numbers_of_control_points_that_are_none_are_damage(tmp_path, last):
+def test_impossible_control_point_count_is_damage(tmp_path, last):
     fields = surface_fields(unrolled(sphere()))
     file = IgesFile()
     file.surface(unrolled(torus()))

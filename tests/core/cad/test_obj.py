@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Free-form surfaces of .obj files: B-splines and Bézier patches, and what is refused."""
+"""Free-form surfaces of .obj files: B-splines, Bézier patches and refusals."""
 
 import random
 import time
@@ -70,7 +70,7 @@ def test_negative_numbers_textures_comments_and_faces_between(tmp_path):
     assert close(volume(read(tmp_path, "\n".join(lines)).bodies[0]).total, BALL, 1e-14)
 
 
-def test_without_rat_the_weights_mean_nothing(tmp_path):
+def test_weights_without_rat_are_ignored(tmp_path):
     patch = unrolled(sphere())
     found = read(tmp_path, obj_text([patch]).replace("rat ", ""))
     plain = measure_patches(bezier_patches(Patch(patch.spaces, patch.points), (None, None))).volume
@@ -131,7 +131,7 @@ def test_unsupported_statement_is_refused(tmp_path, old, new, code):
     assert cause(tmp_path, BALL_TEXT.replace(old, new, 1)) == code
 
 
-def test_a_seventh_order_and_weights_that_are_not_positive(tmp_path):
+def test_order_above_six_and_nonpositive_weights_are_refused(tmp_path):
     seventh = Patch((clamped_space(7), clamped_space(2)), np.random.default_rng(1).uniform(size=(7, 2, 3)))
     assert cause(tmp_path, obj_text([seventh])) == "surface_order"
     bad = [line.rsplit(" ", 1)[0] + " -1" if line.startswith("v ") else line for line in BALL_TEXT.splitlines()]
@@ -154,7 +154,7 @@ def test_surfaces_are_counted_and_refused_one_by_one(tmp_path):
 @pytest.mark.parametrize("kind", ["bspline", "bezier", "rat bspline"])
 @pytest.mark.parametrize("count", range(6))
 @pytest.mark.parametrize("u_knots, v_knots", [(2, 4), (3, 4), (2, 2), (1, 3), (0, 1), (6, 1), (4, 2)])
-def test_knots_that_fit_no_number_of_control_points_are_damage(tmp_path, kind, count, u_knots, v_knots):
+def test_knots_not_fitting_the_control_points_are_damage(tmp_path, kind, count, u_knots, v_knots):
     text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\ncstype {}\ndeg 1 1\nsurf 0 1 0 1 {}\nparm u {}\nparm v {}\nend\n"
     words = " ".join("1234123"[:count]), " ".join("0011223"[:u_knots]), " ".join("0011223"[:v_knots])
     if (kind, count, u_knots, v_knots) != ("bezier", 4, 2, 2):
@@ -162,7 +162,7 @@ def test_knots_that_fit_no_number_of_control_points_are_damage(tmp_path, kind, c
 
 
 @pytest.mark.parametrize("weight, is_kept", [("1e-29", True), ("1e-31", False)])
-def test_weights_that_float32_cannot_hold_are_refused(tmp_path, weight, is_kept):
+def test_weights_beyond_float32_are_refused(tmp_path, weight, is_kept):
     at = BALL_TEXT.index("\nv ", 20)
     line = BALL_TEXT[at + 1 :].partition("\n")[0]
     text = BALL_TEXT.replace(line, line.rpartition(" ")[0] + " " + weight, 1)

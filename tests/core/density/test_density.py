@@ -165,7 +165,7 @@ def test_one_changed_coefficient_matches_a_full_sum():
     check(live.moments, live.coefficients, axes)
 
 
-def test_a_block_changes_them_too():
+def test_changed_block_matches_a_full_sum():
     coefficients, axes = spline((2, 3, 4), 3)
     live = TrivariateSpline(coefficients, axes, 3)
     live.set_block((1, 2, 0), np.arange(12.0).reshape(2, 2, 3) / 4)
@@ -176,7 +176,7 @@ def test_a_block_changes_them_too():
     check(live.moments, coefficients, axes)
 
 
-def test_a_change_that_does_not_fit_changes_nothing():
+def test_misfit_change_leaves_coefficients():
     coefficients, axes = spline((2, 2, 2))
     live = TrivariateSpline(coefficients, axes)
     before = live.moments.raw
@@ -193,7 +193,7 @@ def test_a_change_that_does_not_fit_changes_nothing():
     assert np.array_equal(live.coefficients, coefficients)
 
 
-def test_values_that_are_not_finite_are_refused():
+def test_nonfinite_values_are_refused():
     for bad in (np.nan, np.inf, -np.inf):
         values = np.ones((3, 3, 3))
         values[1, 2, 0] = bad
@@ -201,7 +201,7 @@ def test_values_that_are_not_finite_are_refused():
             grid_moments(values, values.shape, np.eye(4))
 
 
-def test_shapes_and_transforms_that_do_not_fit_are_refused():
+def test_misfit_shapes_and_transforms_are_refused():
     axes = [SplineAxis.uniform(2)] * 3
     with pytest.raises(ValueError, match="2, 2, 3"):
         density_moments(np.ones((2, 2, 3)), axes)

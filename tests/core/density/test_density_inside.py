@@ -110,7 +110,7 @@ def test_a_uniform_density_is_the_solid():
     assert found.total == pytest.approx(2.5 * solid.total, rel=1e-12)
 
 
-def test_densities_add():
+def test_density_moments_add():
     triangles, one, two = blob(), random_densities((7, 7, 7)), random_densities((7, 7, 7), 1)
     first, second, both = (inside_moments(triangles, grid)[0] for grid in (one, two, one + two))
     assert both.raw == pytest.approx(first.raw + second.raw, rel=1e-11, abs=1e-9)
@@ -145,7 +145,7 @@ def test_inverted_surface_counts_negative_and_far_one_zero():
         assert np.abs(away.raw).max() <= away.rounding_error.max() + 1e-9
 
 
-def test_values_that_are_not_finite_are_refused():
+def test_nonfinite_values_are_refused():
     with refused("density_non_finite"):
         inside_moments(blob(), np.full((7, 7, 7), np.nan))
     with refused("density_non_finite"):

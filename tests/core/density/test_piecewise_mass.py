@@ -94,7 +94,7 @@ def test_a_density_constant_on_the_corners_is_one_on_the_faces():
     assert (np.abs(one.raw - plain.raw) <= one.rounding_error + plain.rounding_error).all()
 
 
-def test_a_square_sheet_with_a_density_that_rises_along_x():
+def test_square_sheet_with_linear_density_matches_closed_form():
     """ρ = x on the unit square: M = 1/2, centre (2/3, 1/2), I about it (1/24, 1/36, 5/72)."""
     part = bodies.grid(5)
     found = sheet(part, part[0][part[1], 0])
@@ -195,7 +195,7 @@ def test_caps_have_no_say_in_the_density_and_carry_it():
     assert mass.total == pytest.approx(500.0, rel=1e-14)
 
 
-def test_no_faces_have_no_moments_and_thin_ones_small_ones():
+def test_no_faces_have_no_moments():
     like = Moments(np.ones(10), np.zeros(3), "area", input_error=np.ones(10))
     for density in (np.zeros(0), np.zeros((0, 3))):
         found = sheet_mass_moments(CORNERS * 1.0, TRIANGLES[:0], density, like)
@@ -207,7 +207,7 @@ def test_no_faces_have_no_moments_and_thin_ones_small_ones():
 
 
 @pytest.mark.parametrize("turned", [False, True])
-def test_a_cavity_takes_away_the_material_that_it_is_cut_from(turned):
+def test_cavity_removes_the_material_around_it(turned):
     """A steel box with a painted hole, in which a ball of cork lies; turned inside out as a whole it is the same."""
     box, hole = bodies.box((0, 0, 0), (4, 4, 4)), bodies.inverted(bodies.box((1, 1, 1), (3, 3, 3)))
     cork = bodies.box((1.5, 1.5, 1.5), (2.5, 2.5, 2.5))
@@ -244,7 +244,7 @@ def test_a_cavity_takes_away_the_material_that_it_is_cut_from(turned):
         ),
     ],
 )
-def test_mended_bodies_have_parts_that_add_up_too(make):
+def test_parts_of_repaired_bodies_add_up(make):
     solid = measure_solid(make())
     parts = solid.parts()
     total = np.sum([one.raw for one in part_moments(parts, solid.volume)], axis=0)

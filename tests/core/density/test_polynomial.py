@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Polynomials that are typed: what is taken, what is refused and how, and bounds that hold."""
+"""Typed polynomials: accepted and refused texts, and bounds that hold."""
 
 from fractions import Fraction
 
@@ -127,7 +127,7 @@ def test_coefficients_come_back():
     st.tuples(SMALL, SMALL, SMALL),
     st.integers(0, 2**31),
 )
-def test_nothing_on_a_box_is_below_the_bound(coefficients, one, other, seed):
+def test_polynomial_on_a_box_stays_above_its_bound(coefficients, one, other, seed):
     typed = Polynomial.from_coefficients(coefficients)
     low, high = np.minimum(one, other), np.maximum(one, other)
     bound = typed.lower_bound(low, high)

@@ -242,7 +242,7 @@ def test_a_ball_with_a_radial_density_by_refinement():
     assert (np.array(wrong) > 0.0).all() and (ratio > 3.6).all() and (ratio < 4.1).all()
 
 
-def test_an_order_that_does_not_reach_is_refused():
+def test_insufficient_order_is_refused():
     with pytest.raises(ValueError, match="below"):
         polynomial_mass_of_images(moments_of(*prism(), 3), parse_polynomial("x**4"), np.eye(4)[None])
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Where a density is negative in a body, from both sides of what counts."""
+"""Negative densities in a body, on both sides of the limit."""
 
 import numpy as np
 import pytest
@@ -12,7 +12,7 @@ from tests.core import bodies, exact
 
 
 def found(text, body, solid=True):
-    """The value and the place, None where there is none; whether there may be one nevertheless."""
+    """The value and the place, or None, and a flag if a negative value remains possible."""
     points, triangles = (np.array(part) for part in body)
     unused = np.concatenate([points, [[-1e3, 1e3, 1e3]]])  # where any of these densities would be something else
     return find_negative_point(parse_polynomial(text), unused, triangles, solid)

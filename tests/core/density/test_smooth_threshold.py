@@ -75,7 +75,7 @@ def test_a_matrix_and_a_background_place_it():
 
 @pytest.mark.parametrize("order", [2, 3, 4])
 def test_the_background_goes_on_around_the_grid(order):
-    """As many values of it as the spline has there make the same body as the samples alone."""
+    """The spline's own number of values gives the same body as the samples alone."""
     samples = np.random.default_rng(order).uniform(1.0, 2.0, (3, 4, 3))
     margin = (order + 1) // 2
     found = smooth_threshold_body(samples, 0.5, order, order=1, background=-3.0)

@@ -107,7 +107,7 @@ def test_a_sampled_body_has_the_moments_of_its_interpolant(name):
 
 
 def test_noise_has_moments_of_its_interpolant_at_any_threshold():
-    """Cells of every kind: tunnels, saddles, axes along which nothing is monotone."""
+    """Cells of every kind: tunnels, saddles and axes without monotone values."""
     samples = RNG.normal(size=(4, 5, 3))
     for level in (-0.7, 0.0, 0.9):
         found = threshold_body(samples, level, order=2)
@@ -204,7 +204,7 @@ def test_turned_and_mirrored_samples_turn_and_mirror_the_body():
 
 
 def test_sheared_grid_has_area_and_moments_of_the_sheared_body():
-    """A plane's piece in the image of the grid, whose corners are known; a volume and a center under the map."""
+    """A plane's piece with known corners in the image of the grid; a volume and a center under the map."""
     matrix = np.array(
         [[0.02, 0.003, 0.0, 5.0], [0.0, -0.05, 0.01, 6.0], [0.004, 0.0, 0.003, -7.0], [0.0, 0.0, 0.0, 1.0]]
     )
@@ -237,7 +237,7 @@ def test_area_of_a_plane_piece_matches_its_corners_under_shear(along, across):
     assert close(found.area.center, corners.mean(axis=0), rel=1e-10)
 
 
-def test_beyond_the_grid_is_nothing_or_the_background():
+def test_grid_surroundings_are_empty_or_background():
     samples = np.full((2, 2, 2), 3.0)
     alone = threshold_body(samples, 1.0)
     assert close(alone.volume.total, 1.0, rel=1e-14) and alone.area.total == 0.0 and alone.clipped
@@ -258,7 +258,7 @@ def test_a_preview_is_near_and_claims_nothing():
     assert abs(preview.volume.total - exact.volume.total) > 0.0
 
 
-def test_nothing_inside_everything_inside_and_bad_samples():
+def test_empty_full_and_bad_samples_are_handled():
     samples = RNG.uniform(size=(3, 4, 5))
     assert threshold_body(samples, 2.0).volume.total == 0.0 and not threshold_body(samples, 2.0).clipped
     assert close(threshold_body(samples, -1.0).volume.total, 24.0, rel=1e-14)
@@ -290,8 +290,8 @@ def test_surface_area_is_exact_along_a_constant_axis(axis, level):
 
 
 @pytest.mark.parametrize("order", [0, 1, 2, 3, 4, 5])
-def test_parts_of_cells_that_lie_inside_are_integrated_exactly(order):
-    """A box whose density rises along all axes at once."""
+def test_inner_parts_of_cells_are_integrated_exactly(order):
+    """A box with a density that rises along all axes at once."""
     sums = threshold._Sums(order, True, False, np.eye(3))
     i, j, k = np.ogrid[:2, :2, :2]
     corners = (1.0 + i) * (2.0 - j) * (1.0 + 3.0 * k)
@@ -299,7 +299,7 @@ def test_parts_of_cells_that_lie_inside_are_integrated_exactly(order):
     sums._add_boxes(threshold.Cells(corners[None], origin[None], np.array([size])), 3.0)
 
     def mean(at, start, slope, power):
-        """Of (start + slope u) (at + size u)^power over u from 0 to 1."""
+        """Integrate (start + slope u) (at + size u)^power over u from 0 to 1."""
         line = np.polynomial.Polynomial([start, slope]) * np.polynomial.Polynomial([at, size]) ** power
         return line.integ()(1.0)
 

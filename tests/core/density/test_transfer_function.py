@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tables of what values stand for, and the units in which densities are shown."""
+"""Tables of densities for sample values, and the units of displayed densities."""
 
 import numpy as np
 import pytest
@@ -34,7 +34,7 @@ def test_pairs_are_parted_by_commas_semicolons_and_lines():
         ("0 1, 2 2, 1 3", "transfer_table_order", {}),
     ],
 )
-def test_other_texts_are_refused(text, code, values):
+def test_malformed_table_is_refused(text, code, values):
     with refused(code, **values):
         parse_table(text)
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Area moments of polygons against rational integration, and what makes a polygon ambiguous."""
+"""Area moments of polygons against rational integration, and defects that make a polygon ambiguous."""
 
 import math
 from dataclasses import replace
@@ -109,7 +109,7 @@ def test_loops_of_any_direction_nest_as_holes_and_islands(turned):
 
 
 @pytest.mark.parametrize("first", range(4))
-def test_outlines_that_cross_are_holes_of_none(first):
+def test_crossing_outlines_are_not_holes(first):
     """None is in the other, whichever of its edges begins in there."""
     low, high = rectangle(0, 0, 4, 4), rectangle(1, 1, 5, 5)
     for other in (high, [(-x, y) for x, y in low], [(x, -y) for x, y in high], [(-x, -y) for x, y in high]):
@@ -126,7 +126,7 @@ def test_outlines_touching_along_edges_and_corners_are_no_flaw():
     assert not found.crossings and not found.overlapping and not found.too_many_pairs
 
 
-def test_a_hole_that_touches_its_outline_from_within_is_a_hole():
+def test_hole_touching_its_outline_stays_a_hole():
     points, loops = shape(rectangle(0, 0, 4, 4), rectangle(0, 1, 2, 2))
     edges = orient_loops(points, loops)
     assert area_moments(points, edges, 0).raw[0] == 12
@@ -164,7 +164,7 @@ PENTAGRAM = [(math.cos(4 * math.pi * k / 5), math.sin(4 * math.pi * k / 5)) for 
     ],
 )
 @pytest.mark.parametrize("offset", [0.0, 1e5])
-def test_outlines_that_cross_are_found(outlines, crossings, offset):
+def test_crossing_outlines_are_found(outlines, crossings, offset):
     points, loops = shape(*outlines)
     assert find_defects(points + offset, directed_edges(loops)).crossings == crossings
 
@@ -188,8 +188,8 @@ def test_stacked_regions_without_crossings_are_found():
 
 @pytest.mark.parametrize("offset", [0.0, 1e3])
 @pytest.mark.parametrize("away", [0.0, 0.5])
-def test_points_that_are_there_twice_are_no_flaw(offset, away):
-    """As drawings that were imported have them; away: by how many float32 steps they are apart."""
+def test_repeated_points_are_no_flaw(offset, away):
+    """Imported drawings have such outlines; away: the distance in float32 steps."""
     rng = np.random.default_rng(3)
     for turn in rng.uniform(0.0, 7.0, 40):
         points = np.array([(math.cos(turn + k), math.sin(turn + k)) for k in range(6)]) + offset
@@ -218,7 +218,7 @@ def test_reversed_outline_counts_negative():
         ([rectangle(0, 0, 1, 1), rectangle(1, 1, 1, 1), rectangle(3, 0, 1, 1)], 0.0),
     ],
 )
-def test_the_length_that_outlines_share_is_known(outlines, shared, turn, offset):
+def test_shared_length_of_outlines_is_measured(outlines, shared, turn, offset):
     points, loops = shape(*outlines)
     points = points @ np.array([[math.cos(turn), math.sin(turn)], [-math.sin(turn), math.cos(turn)]]) + offset
     assert find_defects(points, orient_loops(points, loops)).shared_length == pytest.approx(shared, abs=1e-11)
@@ -270,8 +270,8 @@ def test_flaws_of_random_regions_match_winding_numbers(size):
 
 
 def exact_defects(points, edges):
-    """By whole numbers, of each pair of edges and on both sides of each edge; beside the number of pairs the length
-    that they share is that of floats."""
+    """Defects by whole numbers, for each pair of edges and both sides of each edge; the shared length alone is a
+    float."""
     crossings, shared = 0, 0.0
     edges = [edge for edge in edges.tolist() if (points[edge[0]] != points[edge[1]]).any()]
     for row, (a, b) in enumerate(edges):
@@ -314,7 +314,7 @@ def test_findings_of_random_regions_match_exact_arithmetic(scale, offset):
 
 
 @pytest.mark.parametrize("way", [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)])
-def test_edges_that_enclose_nothing_have_no_defects(way):
+def test_edges_without_area_have_no_defects(way):
     points = np.outer([0.0, 1.0, 3.0], way) + 5.0
     found = find_defects(points, np.array([[0, 1], [1, 2], [2, 0]]))
     assert not found.crossings and not found.too_many_pairs

@@ -48,7 +48,7 @@ def near(value, truth, offset=(0.0, 0.0), size=1.0):
 
 
 @pytest.mark.parametrize("offset", OFFSETS)
-def test_a_rectangle(offset):
+def test_rectangle_section_matches_closed_form(offset):
     section = measured(rectangle(0, 0, 3, 8), offset=offset)
     assert near(section.area, 24) and near(section.perimeter, 22)
     assert close(section.centroid, np.add((1.5, 4), offset), rel=1e-14)
@@ -62,7 +62,7 @@ def test_a_rectangle(offset):
 
 
 @pytest.mark.parametrize("offset", OFFSETS)
-def test_a_rectangle_with_a_hole_that_is_off_its_center(offset):
+def test_rectangle_with_eccentric_hole_matches_closed_form(offset):
     section = measured(rectangle(0, 0, 6, 10), rectangle(1, 1, 2, 3), offset=offset)
     area, x, y = 54.0, (60 * 3 - 6 * 2) / 54, (60 * 5 - 6 * 2.5) / 54
     truth = (
@@ -246,7 +246,7 @@ def test_a_section_without_edges_is_refused():
 @pytest.mark.parametrize(
     "outline", [[(0, 0), (1, 1), (3, 3)], [(0, 0), (0, 2), (2, 2), (2, 0)]], ids=["flat", "outside"]
 )
-def test_a_section_that_encloses_nothing_is_refused(outline):
+def test_section_enclosing_nothing_is_refused(outline):
     points = lifted(np.array(outline, float))
     with refused("section_encloses_nothing"):
         measure_section(LEVEL, points, directed_edges([range(len(outline))]))

@@ -84,7 +84,7 @@ def test_unreachable_tolerance_is_refused():
 
 
 @pytest.mark.parametrize("count, largest", [(1, 1.0), (0, 1.0), (8, 0.0), (8, -1.0), (8, np.nan), (8, np.inf)])
-def test_grids_that_are_none_are_refused(count, largest):
+def test_invalid_frequency_grid_is_refused(count, largest):
     with refused("frequency_count", "frequency_range"):
         FrequencyGrid(count, largest)
 

@@ -66,7 +66,7 @@ def test_float32_storage_bound_counts_every_copy():
     assert close(both.input_error, 2 * one.input_error, rel=1e-6) and one.input_error > 0.0
 
 
-def test_nothing_is_refused():
+def test_empty_instances_are_refused():
     empty = bodies.surface((PART[0], PART[1][:0]))
     with refused("no_faces"):
         BodyTransform([(empty, MAPS)], Q, "area", 1.0)
@@ -74,7 +74,7 @@ def test_nothing_is_refused():
 
 @pytest.mark.parametrize("place", [(2**19,) * 3, (2**19, 0, 0), (0, 0, -(2**19))])
 def test_the_shape_of_a_far_body_loses_no_digits(place):
-    """Half a million lengths away: only the place of what is turned there is off."""
+    """Half a million lengths away, only the place of the turned body is inexact."""
     turn, q = np.eye(4), np.random.default_rng(5).normal(size=(20, 3))
     turn[:3, :3] = bodies.rotation(7)
     near, far = (

@@ -14,7 +14,7 @@ SIZES = (1e-12, 1e-9, 1e-6, 1e-3, 0.1, 0.5, 1.5, 3.0, 5.0, 20.0, 100.0, 1000.0)
 
 
 def directions():
-    """Random, along an edge, across it, and near those."""
+    """Wave vectors at random, along an edge, across it and near these."""
     special = np.array([[0.6, 0.8], [1, 0], [0, 1], [0.5, 1], [1, -0.5]])
     return np.concatenate([special, special + 1e-9, special - 1e-5])
 
@@ -49,7 +49,7 @@ def test_a_rectangle_has_its_closed_form_at_zero_and_everywhere():
 
 @pytest.mark.parametrize("scale", [1e-3, 1.0, 1e3])
 def test_imaginary_part_near_zero_matches_first_moments(scale):
-    """Of two rectangles side by side, 3 by 1 and 1 by 2: an L whose center is not that of its box."""
+    """Two rectangles side by side, 3 by 1 and 1 by 2: an L with a center beside that of its box."""
     corners = np.array([[0.0, 0.0], [4.0, 0.0], [4.0, 2.0], [3.0, 2.0], [3.0, 1.0], [0.0, 1.0]]) - (5.0, 2.0)
     q = np.array([[1e-25, 0.0], [0.0, -1e-25], [2e-26, 3e-26]]) / scale
     found = polygon_transform([corners * scale], q).values / scale**2
@@ -81,7 +81,7 @@ def test_opposite_frequencies_are_conjugate_and_lists_split():
         [[[0, 0], [1, 0], [0, np.nan]]],
     ],
 )
-def test_loops_that_are_none_are_refused(loops):
+def test_invalid_loops_are_refused(loops):
     with pytest.raises(ValueError, match="loops|finite"):
         polygon_transform(loops, [[1.0, 2.0]])
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Spectra add, scale and take phases with their bounds, which are as large as they are said to be."""
+"""Spectra add, scale and take phases together with their bounds."""
 
 import numpy as np
 from body_moments.core.fourier.spectrum import Spectrum

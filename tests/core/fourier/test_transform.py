@@ -182,7 +182,7 @@ def test_tiny_and_huge_bodies_are_the_same_problem(power):
     assert np.array_equal(plain * scale**3, scaled)
 
 
-def test_points_that_no_face_uses_cost_no_digits():
+def test_unused_points_cost_no_digits():
     part = np.concatenate([BOX[0], [[1e9, 0, 0]]]), BOX[1]
     q = np.random.default_rng(3).normal(size=(30, 3)) * 5
     found = solid_transform(Surface(*part), q).values
@@ -239,7 +239,7 @@ def test_an_open_surface_is_refused_and_an_unwelded_one_is_not():
 
 
 @pytest.mark.parametrize("share, is_closed", [(0.5e-6, True), (2e-6, False)])
-def test_a_hole_of_a_millionth_of_the_area_is_none(share, is_closed):
+def test_hole_of_a_millionth_of_the_area_is_ignored(share, is_closed):
     """A needle along an edge of a unit cube is left out, whose normal is half along the wave that is looked at."""
     points, triangles = bodies.box()
     a, b, c = triangles[0].tolist()
@@ -272,7 +272,7 @@ def test_a_hole_of_a_millionth_of_the_area_is_none(share, is_closed):
         [[[0.0, 0.0, 0.0]]],
     ],
 )
-def test_wave_vectors_that_are_none_are_refused(q):
+def test_invalid_wave_vectors_are_refused(q):
     with refused("wave_vectors_shape", "wave_vectors_non_finite"):
         solid_transform(bodies.surface(BOX), q)
 
@@ -297,7 +297,7 @@ def test_steps_tell_how_much_is_done_and_can_be_left():
         left.close()
 
 
-def test_it_is_no_worse_than_libformfactor(truth):
+def test_transform_is_as_exact_as_libformfactor(truth):
     """BornAgain's form factors are libformfactor's: ∫ exp(+i q·r) over a tetrahedron that stands on its base. It is
     large, and in the environment of one Blender."""
     bornagain = pytest.importorskip("bornagain", reason="needs BornAgain")
@@ -313,7 +313,7 @@ def test_it_is_no_worse_than_libformfactor(truth):
         assert ours <= max(peer, 1e-15 * bodies.volume(part))
 
 
-def test_quads_that_name_no_point_are_refused():
+def test_quads_with_invalid_indices_are_refused():
     for index in (8, -1, 2**40):
         quads = bodies.SIDES.astype(np.int64)
         quads[3, 2] = index

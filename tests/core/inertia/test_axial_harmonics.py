@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What turns prisms of seven sides and more: harmonics in exact arithmetic, frames of turned copies, groups."""
+"""Axes of prisms with seven sides and more: harmonics in exact arithmetic, frames of turned copies, groups."""
 
 import math
 from dataclasses import replace
@@ -83,7 +83,7 @@ def test_harmonics_in_another_frame_match_a_direct_computation():
 
 
 def posed(part):
-    """The points where the body's own frame puts them, and the frames that are alike."""
+    """The points in the body's own frame, and the equivalent frames."""
     center = moments(part, 1).center
     alike = equivalent_frames(moments(part, 6))
     assert len(alike.revolution_axes) == 1
@@ -92,7 +92,7 @@ def posed(part):
 
 
 def apart(first, second):
-    """How far points are from the nearest of others at most."""
+    """Return the largest distance of a point from its nearest neighbor among others."""
     return np.linalg.norm(first[:, None] - second, axis=2).min(axis=1).max()
 
 
@@ -159,7 +159,7 @@ def test_sheets_have_harmonics_of_their_area():
     assert close(found.values[0, 0].real, 1.0, rel=1e-14)
 
 
-def test_an_axis_that_is_not_known_well_has_no_harmonics():
+def test_uncertain_axis_has_no_harmonics():
     """About one that leans a little the prism is the same by none of its turns."""
     part = shapes.prism(7)
     alike = equivalent_frames(moments(part, 6))

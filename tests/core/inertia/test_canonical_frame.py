@@ -99,7 +99,7 @@ def test_a_cube_turned_within_its_object_gets_its_own_axes():
 
 
 @pytest.mark.parametrize("noise", [1e-5, 1e-2, 0.2])
-def test_a_cube_has_its_own_axes_however_loosely_it_is_looked_at(noise):
+def test_cube_has_its_own_axes_at_any_noise(noise):
     turn = bodies.rotation(3)
     found = equivalent_frames(moments(bodies.moved(bodies.box((-1, -1, -1), (1, 1, 1)), turn), 6), noise)
     cosines = np.sort(np.abs(turn.T @ found.frames), axis=1)
@@ -148,7 +148,8 @@ def test_body_with_overflowing_moments_is_refused():
 @pytest.mark.parametrize("box", [(2, 2, 2), (3, 2, 1)], ids=["a cube", "a box"])
 @pytest.mark.parametrize("size, mass", [(-40.0, -100.0), (55.0, -100.0)])
 def test_moments_beyond_the_range_of_numbers_have_no_frames(box, size, mass):
-    """Of sixth order, by the powers of ten; those of second order, which are looked at before, are well within it."""
+    """Moments of sixth order by powers of ten; moments of second order are examined first and stay well within the
+    limit."""
     known = cloud((1.0, bodies.box(-np.array(box), box)[0]))
     found = replace(known, raw=known.raw * 10.0 ** (mass + size * monomials(6).sum(axis=1)))
     with refused("moments_overflow", order=6):
@@ -172,7 +173,7 @@ def test_the_image_in_a_point_has_odd_moments_of_the_other_sign():
     )
 
 
-def test_the_strict_rule_is_that_of_zhang_and_chen():
+def test_strict_rule_matches_zhang_and_chen():
     for seed in range(20):
         image = moments(bodies.moved(shapes.WEDGE, bodies.rotation(seed), (1, 2, 3)), 3)
         central = image.about_center()

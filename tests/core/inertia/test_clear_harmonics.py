@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which harmonic about an axis fixes the other axes: the first clear one, else the first that is more than noise."""
+"""The first clear harmonic about an axis fixes the other axes."""
 
 import numpy as np
 import pytest
@@ -14,7 +14,7 @@ from body_moments.core.moments.moments import Moments
 
 
 def moments_of(known):
-    """Of total one; {powers: value} along the coordinate axes, the others are zero."""
+    """Moments of total one; {powers: value} along the coordinate axes, the others are zero."""
     raw = np.zeros(84)
     raw[0] = 1.0
     for powers, value in known.items():

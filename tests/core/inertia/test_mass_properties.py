@@ -36,7 +36,7 @@ def test_l_prism_has_its_closed_form_and_product_sign():
 
 
 def test_its_bounds_are_python_s_own_numbers():
-    """For JSON, ID properties and whoever prints them."""
+    """The bounds go into JSON and ID properties."""
     body = MassProperties.from_moments(L_PRISM, 1.0)
     assert {type(value) for bound in (body.rounding_error, body.input_error) for value in bound.values()} == {float}
 
@@ -70,7 +70,7 @@ def test_a_frame_turns_center_tensor_and_axes_together():
     assert np.allclose(axes.T @ local.inertia @ axes, np.diag(local.principal.moments), atol=1e-14)
 
 
-def test_two_halves_are_the_whole():
+def test_combined_halves_match_the_whole():
     whole = MassProperties.from_moments(box((0, 0, 0), (2, 1, 3)), 500.0)
     halves = combine([(box((0, 0, 0), (1, 1, 3)), 500.0), (box((1, 0, 0), (2, 1, 3)), 500.0)])
     assert halves.mass == pytest.approx(whole.mass, rel=1e-14)
@@ -147,7 +147,7 @@ def test_the_bounds_hold_at_any_size(exponent):
     )
 
 
-def test_too_low_an_order_and_a_density_that_is_none_are_refused():
+def test_low_order_and_invalid_density_are_refused():
     with pytest.raises(ValueError, match="third order"):
         MassProperties.from_moments(box((0, 0, 0), (1, 1, 1)).truncate(2))
     for density in (-1.0, float("nan"), float("inf")):

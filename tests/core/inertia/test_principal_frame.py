@@ -64,7 +64,7 @@ def test_the_frame_turns_with_the_body(name):
 @pytest.mark.parametrize("place", [4, 7, 9])
 @pytest.mark.parametrize("size, code", [(1e-300, "negative_inertia"), (1e-310, "object_too_small")])
 def test_underflowing_second_moments_are_refused_as_too_small(place, size, code):
-    """Of any of them, whatever third moments there are."""
+    """The rule holds for any axes and any third moments."""
     raw = np.zeros(20)
     raw[[0, 10, 13, 19]], raw[place] = 1e-250, -size
     with refused(code):
@@ -72,8 +72,8 @@ def test_underflowing_second_moments_are_refused_as_too_small(place, size, code)
 
 
 @pytest.mark.parametrize("far", [[1, 0, 0], [0, 0, 1], [1, 2, 3]])
-def test_moments_that_no_body_has_are_refused(far):
-    """What lies far out counts with the opposite sign: along one axis, or along all of them."""
+def test_impossible_moments_are_refused(far):
+    """Distant mass counts with the opposite sign: along one axis, or along all of them."""
     far = 20.0 * np.array(far)
     parts = [box((-1, -1, -1), (1, 1, 1)), *(box(side * far - 0.5, side * far + 0.5) * -1.0 for side in (-1, 1))]
     with refused("negative_inertia"):

@@ -133,7 +133,7 @@ def test_inertia_and_its_bounds_scale_with_length_and_mass(length, mass):
 
 
 def test_doubtful_moments_move_center_and_tensor_within_bounds():
-    """About the moments' own point, where nothing is shifted: with the worst signs, and (tr D) 1 + D of errors D."""
+    """About the moments' own point nothing is shifted: errors with the worst signs, and (tr D) 1 + D for errors D."""
     raw = np.array([4.0, 1.0, -2.0, 3.0, 9.0, 0.5, -0.25, 8.0, 0.125, 7.0])
     off = np.array([0.5, 0.25, 0.5, 0.125, *[0.0625] * 6])
     for name in ("input_error", "rounding_error"):

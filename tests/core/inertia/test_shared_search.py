@@ -4,6 +4,7 @@
 
 import numpy as np
 import pytest
+from body_moments.core.inertia import shared_search
 from body_moments.core.inertia.canonical_frame import canonical_frames
 from body_moments.core.inertia.shared_search import shared_frames
 from body_moments.core.inertia.third_moment_frames import third_moment_frames
@@ -34,7 +35,7 @@ def parts():
 
 
 def same_frames(found, expected):
-    """Whether each of some frames is one of the others."""
+    """Return True if the two sets of frames are equal up to their order."""
     gaps = np.abs(found[:, None] - expected[None]).max(axis=(2, 3))
     return len(found) == len(expected) and gaps.min(axis=1).max() < 1e-9 and gaps.min(axis=0).max() < 1e-9
 
@@ -51,6 +52,16 @@ def test_shared_frames_match_frames_of_single_bodies(name, noise):
         assert shared.revolution_axes == alone.revolution_axes
         if alone.revolution_axes != (0, 1, 2):
             assert same_frames(shared.frames, alone.frames), (name, body)
+
+
+def test_frames_are_independent_of_earlier_measurements():
+    stack = copies(shapes.SYMMETRIC["cube"][0], 6, noise=1e-7)
+    fixed = third_moment_frames(stack)
+    together = shared_frames(stack, fixed, np.arange(6))
+    for i in range(6):
+        shared_search._search.cache_clear()
+        alone = shared_frames(stack.at([i]), fixed, np.array([i]))[0]
+        assert np.abs(alone.frames - together[i].frames).max() < 1e-14
 
 
 @pytest.mark.parametrize("scale", [1e-40, 1e60])

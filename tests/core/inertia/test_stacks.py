@@ -54,7 +54,7 @@ def test_stacked_moments_match_single_bodies():
         close(images.center[i], sum_of_images(part, matrices[i : i + 1]).center, 1e-14)
 
 
-def test_a_stack_that_is_no_similarity_has_no_areas():
+def test_stretched_stack_has_no_areas():
     area = stack_moments([found.truncate(0) for found in SIXTH.values()])
     matrices = placed(len(PARTS))
     matrices[3, 0, :3] *= 2.0
@@ -93,7 +93,7 @@ def test_stacked_frames_match_single_bodies():
 
 
 def test_one_body_or_some_are_taken_out_of_a_stack():
-    """Of one the numbers are Python's own."""
+    """A single body yields Python's own numbers."""
     parts = stack_moments([SIXTH[name].truncate(3) for name in ("wedge", "box", "cube")])
     stack = MassProperties.of_stack(
         parts, np.array([2.0, 3.0, 5.0]), np.tile(np.eye(3), (3, 1, 1)), third_moment_frames(parts)

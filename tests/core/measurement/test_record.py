@@ -1,8 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Records: what a measurement becomes in JSON, JSON lines and CSV. The bodies are boxes with closed
-forms.
-"""
+"""Records of measurements in JSON, JSON lines and CSV. The bodies are boxes with closed forms."""
 
 import csv
 import io
@@ -135,7 +133,7 @@ def test_refusal_in_a_record_is_a_warning_told_once():
     assert entry["findings"][0]["severity"] == "error" and len(entry["warnings"]) == 2 and entry["notes"] == []
 
 
-def test_at_most_a_thousand_elements_are_listed():
+def test_element_lists_are_limited_to_a_thousand():
     pairs = [[np.int32(face), "Cube"] for face in range(1200)]
     (told,) = record.described([finding("duplicate_faces_ignored", pairs, count=1200)])["findings"]
     assert told["elements"] == [[face, "Cube"] for face in range(1000)]
@@ -219,7 +217,7 @@ def test_the_total_of_nothing_has_no_center():
     assert total["center_of_mass"] is None and total["inertia"] is None and total["principal_axes"] is None
 
 
-def test_the_total_says_that_it_stays_in_the_world_frame():
+def test_total_states_the_world_frame():
     assert "frame" not in one_document(box())["total"]
     assert one_document(box(), frame="object")["total"]["frame"] == "world"
 
@@ -310,13 +308,13 @@ def test_csv_of_nothing_is_a_header():
     assert text.count("\n") == 1 and text.startswith("file,frame,name,type,kind,method,density,mass,volume,area,")
 
 
-def test_csv_has_a_column_for_each_moment_that_was_asked_for():
+def test_csv_has_a_column_for_each_requested_moment():
     table = rows("".join(documents.to_csv([one_document(box(), order=2)])))
     assert close(float(table[0]["volume_moment_2_0_0"]), 2.0, rel=1e-14)
     assert "volume_moment_3_0_0" not in table[0]
 
 
-def test_csv_leaves_out_nothing_that_json_tells():
+def test_csv_holds_every_value_of_json():
     shell = replace(box(), kind="shell", thickness=0.25)
     wire = replace(box("w"), kind="wire", length=2.0)
     document = one_document(shell, wire, order=1)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Whether faces close, by a sum over their sides: as sorting the edges tells, in any order and in any pieces."""
+"""Closedness by a sum over sides, compared with sorted edges, in any order and in any pieces."""
 
 import numpy as np
 import pytest
@@ -69,7 +69,7 @@ def test_quads_close_with_triangles_and_without():
     assert closes(Surface(points, quads[:1, [0, 1, 2, 0, 2, 3]].reshape(-1, 3), quads[1:]))
 
 
-def test_minus_zero_is_zero_and_float32_is_the_number_it_is():
+def test_minus_zero_closes_and_float32_keeps_its_value():
     points, triangles = box((-1, 0, 0), (0, 1, 1))
     apart = soup((points, triangles))
     apart[0][::2] = np.where(apart[0][::2] == 0.0, -0.0, apart[0][::2])

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which boxes meet, and pairs in pieces, against comparing each with each."""
+"""Overlapping boxes, compared with a search over all pairs."""
 
 import numpy as np
 import pytest
@@ -41,7 +41,7 @@ def test_boxes_sharing_a_side_do_not_meet():
 @pytest.mark.parametrize("margin", [0.0, 0.25, 0.5])
 @pytest.mark.parametrize("turn", range(3))
 def test_pairs_overlap_by_more_than_the_margin_along_every_axis(margin, turn):
-    """On a lattice of quarters, where many overlap by just that; all are told as long as there are not too many."""
+    """On a lattice of quarters many boxes overlap by exactly the margin."""
     rng = np.random.default_rng(turn)
     low = np.roll(rng.integers(0, 16, (60, 3)) * (0.25, 0.25, 0.5), turn, axis=1)
     high = low + 0.25 * rng.integers(1, 9, (60, 3))

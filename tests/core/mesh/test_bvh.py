@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Winding numbers by rays: of a box, and where they are not sure; how deep triangles go through each other."""
+"""Winding numbers of a box by rays, and the depth of piercing triangles."""
 
 import numpy as np
 import pytest
@@ -21,7 +21,7 @@ def tree_of(points, triangles):
 @pytest.mark.parametrize("flip", [False, True])
 @pytest.mark.parametrize("share", [2.0, 1.1, 0.9, 0.1, -0.1, -0.9, -1.1, -2.0])
 def test_place_is_sure_if_the_surface_is_beyond_the_tolerance(share, flip):
-    """Of faces above and below it, on both sides; other places are sure all the same."""
+    """Places beside faces above and below; other places are sure in any case."""
     points, triangles = bodies.box((1.0, 2.0, 3.0), (2.0, 4.0, 6.0))
     tree = tree_of(points, triangles[:, ::-1] if flip else triangles)
     faces = np.array([[1.3, 2.9, 6.0], [1.8, 3.4, 3.0], [1.3, 3.1, 6.0]])
@@ -91,7 +91,7 @@ def test_triangles_without_an_area_are_gone_through_by_nothing():
     assert not found.any() and not unfinished.any()
 
 
-def test_far_from_the_origin_volumes_are_as_exact_as_near():
+def test_distant_volumes_are_as_exact_as_near_ones():
     parts = [bodies.moved(bodies.sphere(1), size * bodies.rotation(size), (1e9, -2e9, 3e9)) for size in (2, 5)]
     points, triangles = bodies.joined(*parts)
     order = np.random.default_rng(0).permutation(len(triangles))

@@ -47,7 +47,7 @@ def require_closed(hull):
 
 
 def highest_outside(hull, points):
-    """How far a point is outside, of the extent; of faces that are no slivers."""
+    """Return the largest distance of a point outside the hull as a share of the extent, without slivers."""
     a, b, c = (hull.points[hull.triangles[:, k]] for k in range(3))
     normal = np.cross(b - a, c - a)
     length = np.linalg.norm(normal, axis=1)

@@ -85,7 +85,7 @@ def test_stars_paths_and_cliques_match_union_find(seed):
 
 
 def test_hub_after_its_leaves_costs_no_more_time():
-    """Where each round joined one leaf more, this would take hours."""
+    """If each round joined one more leaf, this would take hours."""
     leaves = np.arange(1_000_000)
     label, number = connected_components(len(leaves) + 1, *star(len(leaves), leaves))
     assert number == 1 and not label.any()
@@ -127,7 +127,7 @@ def test_edges_match_a_dictionary():
 
 
 def mixed_mesh():
-    """A cube whose top is a fan of four triangles and whose bottom and front are pentagons that share a bent edge."""
+    """A cube: its top a fan of four triangles, its bottom and front pentagons with a common bent edge."""
     points = np.concatenate([CORNERS, [[0.5, 0.5, 1.0], [0.5, 0.0, 0.0]]])
     faces = [
         [0, 2, 3, 1, 9],
@@ -182,7 +182,7 @@ def test_hole_or_flipped_face_or_copy_spoils_the_proof():
 
 @holds(10)
 @given(seed=seeds)
-def test_orientation_turns_the_faces_that_were_flipped(seed):
+def test_orientation_turns_flipped_faces(seed):
     rng = np.random.default_rng(seed)
     triangles = sphere(3)[1]
     flipped = rng.random(len(triangles)) < rng.uniform(0.0, 0.45)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the sums show of the faces, against each face looked at by itself."""
+"""Degenerate and uneven faces, found by sums and compared with single faces."""
 
 from dataclasses import replace
 from fractions import Fraction

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Lines through bodies: they meet triangles where they say, slip through nowhere, and see each body as if alone."""
+"""Lines through bodies: crossings at the expected places, none lost, independent of other bodies."""
 
 import numpy as np
 import pytest

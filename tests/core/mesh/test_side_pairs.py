@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Bare arrays are proved closed by pairing the sides of their faces: what is not closed and consistent never is."""
+"""Bare arrays are proved closed by pairing the sides of their faces, compared with a dictionary of sides."""
 
 from collections import defaultdict
 
@@ -40,7 +40,7 @@ def shuffled(part):
 
 
 def across_by_search(faces):
-    """The faces across, by a dictionary of sides; None where an edge has not two sides in opposite directions."""
+    """Return the faces across by a dictionary of sides, or None if an edge lacks two sides in opposite directions."""
     at = defaultdict(list)
     for face, corners in enumerate(faces.tolist()):
         for start, stop in zip(corners, [*corners[1:], corners[0]]):

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Points that are near to each other are found, and those alone."""
+"""Welding of near points and of faces on the same vertices."""
 
 import numpy as np
 import pytest

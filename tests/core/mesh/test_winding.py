@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Solid angles of open surfaces, which have a closed form for a rectangle."""
+"""Solid angles of open surfaces, compared with the closed form of a rectangle."""
 
 import math
 

@@ -53,7 +53,7 @@ def test_a_symmetric_tensor_holds_each_moment_of_its_degree(degree):
 
 @pytest.mark.parametrize("offset, size", [(1e60, 1e200), (-1e60, 1e200), (1e200, 1.0)])
 def test_overflowing_image_has_no_information(offset, size):
-    """Who measures looks for that; numpy would warn on the console."""
+    """The caller checks the result; numpy would warn on the console."""
     values = np.append(size, np.full(monomial_count(4) - 1, -size))
     with np.errstate(all="raise"):
         assert not np.isfinite(apply_translation(values, 4, np.full(3, offset))).all()

@@ -34,7 +34,7 @@ def images(matrices):
 
 
 def shares(found: Moments, truths) -> np.ndarray:
-    """How much of each bound is used."""
+    """Return the used share of each bound."""
     off = np.abs(found.raw - sum(truth.raw for truth in truths))
     return off / (found.input_error + found.rounding_error + sum(truth.rounding_error for truth in truths))
 

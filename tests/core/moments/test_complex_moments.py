@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Complex moments and what is made of them, against sums over a few points of the plane."""
+"""Complex moments and their invariants, against sums over a few points of the plane."""
 
 from itertools import product
 

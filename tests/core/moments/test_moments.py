@@ -374,7 +374,7 @@ def test_iteration_over_moments_yields_their_exponents():
 
 
 def test_dense_moments_of_a_box_are_products():
-    """As of an image: array[p, q, r] = Σ x^p y^q z^r, zero where p + q + r exceeds the order."""
+    """The array of an image: array[p, q, r] = Σ x^p y^q z^r, zero if p + q + r exceeds the order."""
     raw = np.array(box_moments((0, 0, 0), (1, 2, 3), 4), float)
     dense = Moments(raw, np.zeros(3)).to_dense()
     powers = [np.array([side ** (n + 1) / (n + 1) for n in range(5)]) for side in (1.0, 2.0, 3.0)]
@@ -406,7 +406,7 @@ def test_moments_do_not_add_to_numbers():
         np.full((3, 3), np.nan),
     ],
 )
-def test_frames_that_are_no_rotation_are_refused(matrix):
+def test_frames_other_than_rotations_are_refused(matrix):
     moments = Moments(np.array([1.0, *np.zeros(3), 1.0, 0.0, 0.0, 2.0, 0.0, 4.0, *np.zeros(10)]), np.zeros(3))
     properties = MassProperties.from_moments(moments)
     for turn in (
@@ -428,7 +428,7 @@ def test_float32_rotations_are_frames():
 
 
 @pytest.mark.parametrize("measure", ["volume", "area", "length"])
-def test_images_too_small_for_their_size_are_refused(measure):
+def test_vanishing_images_are_refused(measure):
     moments = Moments(np.ones(4), np.zeros(3), measure)
     tiny = np.diag([1e-200, 1e-200, 1e-200, 1.0])
     with refused("object_too_small"):
@@ -444,7 +444,7 @@ def test_flattening_maps_leave_no_volume():
         assert Moments(np.ones(4), np.zeros(3)).transform(flat).total == 0.0
 
 
-def test_no_bodies_have_no_sum():
+def test_sum_of_no_bodies_is_refused():
     with pytest.raises(ValueError, match="parts must not be empty"):
         sum_moments([])
 
@@ -460,7 +460,7 @@ def test_different_measures_do_not_add():
 
 
 @pytest.mark.parametrize("matrix", [np.eye(3), np.full((4, 4), np.nan), np.eye(4)[None], np.zeros((0, 4, 4))])
-def test_maps_that_are_none_are_refused(matrix):
+def test_invalid_maps_are_refused(matrix):
     body = Moments(np.ones(20), np.zeros(3))
     with pytest.raises(ValueError, match="matrix must be"):
         body.transform(matrix)
@@ -470,7 +470,7 @@ def test_maps_that_are_none_are_refused(matrix):
 
 
 @pytest.mark.parametrize("point", [(1, 2), (1, 2, np.nan), (np.inf, 0, 0)])
-def test_points_that_are_none_are_refused(point):
+def test_invalid_points_are_refused(point):
     with pytest.raises(ValueError, match="point must be"):
         Moments(np.ones(20), np.zeros(3)).about_point(point)
 
@@ -491,7 +491,7 @@ def test_bounds_of_sums_of_images_say_something(size, count):
 
 
 @pytest.mark.parametrize("by, order", [("size", 0), ("gyration", 1)])
-def test_without_a_center_or_an_extent_nothing_is_normalized(by, order):
+def test_moments_without_center_or_extent_are_not_normalized(by, order):
     body = floats(box_moments((-1, -1, -1), (1, 1, 1)))
     with refused("normalization_undefined"):
         normalize(body.truncate(order), by)

@@ -62,7 +62,7 @@ def test_a_cyclic_direction_ends_as_it_begins():
         ((0, 1, 1, 2), 2, 2, "empty domain"),
     ],
 )
-def test_knots_that_make_no_space_are_refused(knots, order, count, reason):
+def test_impossible_knots_are_refused(knots, order, count, reason):
     with pytest.raises(ValueError, match=reason):
         SplineSpace(tuple(float(knot) for knot in knots), order, count)
 
@@ -87,7 +87,7 @@ def test_curves_jump_at_inner_knots_of_full_multiplicity(knots, order, jumps):
 
 @pytest.mark.parametrize("space", SPACES)
 def test_span_in_bezier_form_is_unchanged(space):
-    """By Bernstein's polynomials."""
+    """Evaluate by Bernstein's polynomials."""
     degree, share = space.order - 1, np.linspace(0.0, 1.0, 9)  # eighths, which round nothing
     bernstein = np.stack([comb(degree, b) * share**b * (1 - share) ** (degree - b) for b in range(degree + 1)], axis=1)
     for span, (low, high), weights in zip(space.spans, space.intervals, space.bezier_extraction):

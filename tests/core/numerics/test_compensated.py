@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Sums and products with what they round off, against rational numbers."""
+"""Sums and products with their rounding errors, against rational numbers."""
 
 from fractions import Fraction
 

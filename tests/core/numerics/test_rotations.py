@@ -49,7 +49,7 @@ def test_own_axes_match_drawn_axes_or_nearest_under_shear(rotation, seed):
 
 @pytest.mark.parametrize("pair", [(0, 1), (0, 2), (1, 2)])
 @pytest.mark.parametrize("cosine, shears", [(0.9e-5, False), (-0.9e-5, False), (1.1e-5, True), (-1.1e-5, True)])
-def test_axes_that_float32_may_have_moved_are_at_right_angles(pair, cosine, shears):
+def test_axes_from_float32_are_at_right_angles(pair, cosine, shears):
     matrix = np.eye(4)
     matrix[pair] = cosine
     assert polar_rotation(matrix[None])[1].tolist() == [shears]
@@ -57,7 +57,7 @@ def test_axes_that_float32_may_have_moved_are_at_right_angles(pair, cosine, shea
 
 @holds(30)
 @given(rotation=rotations())
-def test_a_rotation_that_takes_x_to_an_axis(rotation):
+def test_rotation_onto_an_axis_is_exact(rotation):
     for axis in rotation:
         found = along_x(axis)
         assert np.array_equal(found[:, 0], axis) and np.linalg.det(found) > 0.0

@@ -59,7 +59,7 @@ def test_the_length_of_a_parabola_is_its_closed_form():
     assert abs(moments.total - exact) <= moments.rounding_error[0] <= 1e-11
 
 
-def test_a_wire_with_a_cusp_has_an_estimate_that_holds():
+def test_length_estimate_of_a_cusp_holds():
     cusp = Curve(clamped_space(4), [(0, 0, 0), (1, 1, 0), (0, 1, 0), (1, 0, 0)])  # symmetric, its speed zero half-way
     moments = length_moments([cusp], 0)
     t = (np.arange(2_000_000) + 0.5) / 2_000_000
@@ -136,7 +136,7 @@ def test_a_reversed_curve_is_the_same_run_backwards():
         ([ring(), ring(1.0, (0.5, 0.0, 0.0))], "curves_cross"),
     ],
 )
-def test_curves_that_bound_no_region_are_refused(curves, code):
+def test_curves_bounding_no_region_are_refused(curves, code):
     with refused(code):
         planar_region(curves)
 
@@ -167,7 +167,7 @@ def test_heavy_and_light_weights_are_measured_to_rounding(weight):
 
 
 def test_length_estimate_of_reversing_lines_holds():
-    """Also where they turn closer to an end than any point of a rule: against the sums of what lies between turns."""
+    """Turns closer to an end than any point of a rule, against the sums between the turns."""
     rng = np.random.default_rng(1)
     for _ in range(60):
         order = int(rng.integers(3, 6))
@@ -189,7 +189,7 @@ def test_length_estimate_of_reversing_lines_holds():
 
 
 @pytest.mark.parametrize("ratio", [1.0, 0.25, 4.0])
-def test_two_turns_between_the_points_of_all_rules_are_found(ratio):
+def test_turns_between_rule_points_are_found(ratio):
     """x' = (t - 0.5)² - h², negative for a moment: rules without a point there agree upon a wrong length. Weights that
     each are so many times the one before make the same curve by other parameters."""
     for h in (0.1, 0.01, 1e-3):
@@ -202,8 +202,8 @@ def test_two_turns_between_the_points_of_all_rules_are_found(ratio):
 
 
 @pytest.mark.parametrize("weight", [1e12, 1e16, 1e20, 1e30, 1e38])
-def test_an_arc_that_a_weight_draws_to_its_corner_is_not_lost(weight):
-    """What is near the two sides of the corner is seen, or counts as error."""
+def test_arc_drawn_to_its_corner_by_a_weight_is_measured(weight):
+    """Points near the two sides of the corner are seen, or count as error."""
     weights = ring().weights.copy()
     weights[1] = weight
     corner = Curve(ROUND, ring().points, weights)
@@ -223,7 +223,7 @@ def test_rings_with_crossing_samples_are_told_apart(gap, turn):
 
 @pytest.mark.parametrize("turn", [1, -1])
 def test_a_narrow_bend_does_not_run_through_itself(turn):
-    """Of many short chords on one side and few long ones on the other: the middles of both cross."""
+    """Many short chords on one side and few long ones on the other: the middles of both cross."""
     inner = [(2.0 - k / 4.0, abs(4.0 - k)) for k in range(9)]
     for tip, crosses in ((-0.3, False), (0.5, True)):
         loop = np.array([(0.0, 3.7), (1.0, tip), (2.0, 3.7), *inner])[::turn]

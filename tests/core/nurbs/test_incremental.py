@@ -102,7 +102,7 @@ def test_tensors_and_tables_agree_on_a_closed_body():
 
 
 @pytest.mark.parametrize("patch", [torus(), sphere(), tube()])
-def test_a_followed_body_is_that_of_measuring_anew(patch):
+def test_followed_body_matches_a_new_measurement(patch):
     rng = np.random.default_rng(7)
     body = TrackedSolid([patch])
     points = patch.points.copy()
@@ -124,7 +124,7 @@ def test_a_followed_body_is_that_of_measuring_anew(patch):
     assert kept >= 8
 
 
-def test_a_followed_body_that_opens_is_capped():
+def test_opening_followed_body_is_capped():
     ball = sphere()
     body = TrackedSolid([ball])
     points = ball.points.copy()
@@ -136,7 +136,7 @@ def test_a_followed_body_that_opens_is_capped():
 
 
 def assert_same(body, anew):
-    """What a followed body is, and what is said of it, is what measuring anew tells."""
+    """Compare a followed body and its findings with a new measurement."""
     found = body.measure
     assert (found.method, codes(found)) == (anew.method, codes(anew))
     for name in (
@@ -160,7 +160,7 @@ def moved(patch, scale=1.0, by=(0.0, 0.0, 0.0)):
 
 
 def bent(patch):
-    """A tube whose second rim leaves its plane."""
+    """A tube with a second rim that leaves its plane."""
     points = patch.points.copy()
     points[::2, 1, 2] += 0.3
     return Patch(patch.spaces, points, patch.weights)
@@ -223,7 +223,7 @@ def test_weights_for_a_polynomial_patch_are_refused():
 
 
 def plates(weights=None):
-    """A box of six sides, one of which faces against the others."""
+    """A box of six sides; one side faces against the others."""
     spaces = clamped_space(2), clamped_space(2)
     nets = [
         np.array([[corners[0], corners[3]], [corners[1], corners[2]]])
@@ -269,7 +269,7 @@ def test_followed_storage_bound_matches_a_new_measurement(stored):
     assert body.measure.health.closed == (stored > 0.0)
 
 
-def test_weights_that_tables_cannot_follow_are_measured_anew():
+def test_changed_weights_are_measured_anew():
     ring = torus()
     body = TrackedSolid([ring])
     weights = ring.weights.copy()
@@ -303,7 +303,7 @@ def test_the_estimate_of_a_followed_rational_body_holds(spread):
     assert kept or spread > 0.5
 
 
-def test_arrays_that_are_written_to_again_change_no_patch():
+def test_rewritten_input_arrays_change_no_patch():
     """Else the body that is followed would see no difference, and a patch whose weights were steady would stay so."""
     spaces = clamped_space(2), clamped_space(2)
     nets = [

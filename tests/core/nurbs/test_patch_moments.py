@@ -33,8 +33,9 @@ def random_patch(rng, spaces, weights=None):
 
 
 def z_flux_difference(patch, exponents):
-    """What the flux of the cone from the origin over the rim adds to the z-flux of the patch: the radial flux is the
-    patch's alone, and both are one for a closed body, so the rim's cones are measured exactly as patches too."""
+    """Return the flux of the cone from the origin over the rim that completes the z-flux of the patch. The radial
+    flux belongs to the patch alone, and both agree for a closed body; the rim's cones are measured exactly as
+    patches too."""
     total = flux_moment(patch, exponents)
     for axis, end, forward in ((1, 0, True), (0, 1, True), (1, 1, False), (0, 0, False)):
         curve = patch.side(axis, end)
@@ -119,7 +120,7 @@ def test_a_turned_patch_has_the_opposite_flux():
 
 
 def fixed_flux(cells, points, order):
-    """By one rule of so many points along each direction."""
+    """Integrate by one rule of this many points along each direction."""
     (s, along, across), weights = cells.evaluate(((points,), (points,)))
     density = (s * np.cross(along, across, axis=0)).sum(axis=0)
     return sum_over_points(weighted_monomials(s, density, order), weights)[0].sum(axis=1)
@@ -209,14 +210,14 @@ def test_a_sheet_thicker_than_its_radius_is_refused():
 
 
 @pytest.mark.parametrize("bad", [0.0, -1.0, np.nan, np.inf])
-def test_weights_that_are_not_positive_are_refused(bad):
+def test_nonpositive_weights_are_refused(bad):
     weights = np.ones((3, 3))
     weights[1, 1] = bad
     with refused("non_positive_weights"):
         Patch((clamped_space(3), clamped_space(3)), np.zeros((3, 3, 3)), weights)
 
 
-def test_points_that_are_not_finite_are_refused():
+def test_nonfinite_points_are_refused():
     points = np.zeros((3, 3, 3))
     points[0, 0, 0] = np.nan
     with refused("non_finite_control_points"):
@@ -226,7 +227,7 @@ def test_points_that_are_not_finite_are_refused():
 @pytest.mark.parametrize("far", [2.0**7, 2.0**14, 2.0**20])
 @pytest.mark.parametrize("weighted", [False, True])
 def test_patch_far_from_the_point_is_exact_within_its_bound(weighted, far):
-    """Its tangents must not be differences of what is as large as the distance, nor its rules disagree by it."""
+    """Neither the tangents nor the agreement of rules may suffer from the distance."""
     rng = np.random.default_rng(1)
     shape = (6, 5)
     points = rng.integers(-(2**20), 2**20, (*shape, 3)) / 2.0**20  # with the distance added still exact
@@ -340,7 +341,7 @@ def test_the_slope_of_the_area_is_the_same_far_away(rational):
 @pytest.mark.parametrize("swapped", [False, True])
 @pytest.mark.parametrize("last, counts", [(-2.0, True), (-1e-8, True), (-1e-10, False), (2.0, False)])
 def test_area_between_points_of_a_turning_patch_counts(swapped, last, counts, size):
-    """Of three cells the second one turns over along one direction, between two points; at a pole all is rounding."""
+    """The second of three cells turns over along one direction, between two points; at a pole all is rounding."""
     counts_along = (5, 3)
     nodes, weights = zip(*(gauss_legendre_with_ends(points) for points in counts_along))
     height = np.ones((7, 3, 5))

@@ -1,7 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Sheets of real thickness along patches: how far storing control points may have moved their moments, and whether all
-of them are precise."""
+"""Sheets of real thickness along patches: bounds of storage errors, and convergence."""
 
 import numpy as np
 import pytest
@@ -60,7 +59,7 @@ def test_storage_error_stays_within_a_tight_bound(name, place):
     [(0.0, 0.5, 19.0 / 24.0), (-0.3, 0.1, 0.4), (-0.5, -0.25, 0.25), (0.25, 0.5, 1.421875 / 3.0)],
 )
 def test_sheet_grows_with_its_area_by_its_thickness(inner, outer, thickness):
-    """Of a ball's surface, on whose outside a sheet has more volume than its area by how thick it is."""
+    """On the outside of a ball a sheet has more volume than its area times its thickness."""
     sheet, area, _ = measure_sheet([sphere()], inner, outer, stored=STORED)
     assert close(sheet.input_error, thickness * area.input_error, rel=1e-9)
 

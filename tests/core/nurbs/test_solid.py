@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What patches bound: whether they close, which way they face, what caps them, and what is said about it."""
+"""Bodies bounded by patches: closedness, orientation, caps and findings."""
 
 from math import prod
 
@@ -80,7 +80,7 @@ def test_ball_cylinder_and_box_match_closed_forms_to_order_six():
         assert block[p, q, r] == pytest.approx(truth, rel=1e-12)
 
 
-def test_a_patch_that_is_inside_out_is_turned_and_said():
+def test_inverted_patch_is_turned_and_reported():
     found = measure_patches([sphere().reverse_orientation()])
     assert found.method == "reoriented" and found.health.inverted_components == 1
     assert only(found) == Finding("inverted_patch_components", {"count": 1, "total": 1})
@@ -125,8 +125,8 @@ def test_the_cap_of_a_flat_rim_is_exact_whatever_the_rims_shape():
 
 @pytest.mark.parametrize("shift", [0.0, 0.1])
 @pytest.mark.parametrize("crossing", [True, False])
-def test_rims_that_cross_themselves_are_told(crossing, shift):
-    """A prism over a lying eight, which crosses itself in a corner or beside it, and over two lobes that touch."""
+def test_self_crossing_rims_are_reported(crossing, shift):
+    """A prism over a lying eight that crosses itself in a corner or beside it, and over two touching lobes."""
     t = np.linspace(0.0, 2.0 * np.pi, 33) + shift
     x = np.sin(t) * (1.0 + 0.5 * (np.sin(t) > 0.0))
     y = np.sin(t) * np.cos(t) if crossing else np.abs(np.sin(t)) * np.cos(t)
@@ -140,7 +140,7 @@ def test_rims_that_cross_themselves_are_told(crossing, shift):
 
 
 def test_rim_crossing_itself_without_area_is_closed():
-    """From a circle to a lying eight, whose two lobes cancel each other."""
+    """A tube from a circle to a lying eight with two lobes that cancel each other."""
     t = np.linspace(0.0, 2.0 * np.pi, 33)
     space = SplineSpace((0.0, *map(float, range(33)), 32.0), 2, 33)
     rims = [np.stack([np.cos(t), np.sin(t), 0.0 * t], axis=1), np.stack([np.sin(t), np.sin(2.0 * t), 1.0 + 0.0 * t], 1)]
@@ -150,7 +150,7 @@ def test_rim_crossing_itself_without_area_is_closed():
 
 @pytest.mark.parametrize("turn", [1, -1])
 def test_holes_of_other_parts_are_found_beside_incomplete_loops(turn):
-    """A Möbius band's, of which both begin at one corner and end at the other."""
+    """Holes of a Möbius band; both begin at one corner and end at the other."""
     found = find_topology([band_of_one_side(), tube().transform(np.diag([0.5, 0.5, 0.5, 1.0]))][::turn], 1e-6)
     assert found.open_sides == 4 and len(found.loops) == 2
     assert found.unclosable.tolist() == [True, False][::turn]
@@ -178,7 +178,7 @@ def test_sides_coincide_whatever_their_parameters_are():
 
 @pytest.mark.parametrize("turn", [0.0, 0.3, 1.0, np.pi / 4.0, 3.0])
 def test_round_sides_coincide_wherever_they_begin(turn):
-    """A tube with lids in the form of cones, which begin and end elsewhere around it."""
+    """A tube with conical lids that begin and end elsewhere around it."""
     wall = tube()
     out = np.array([wall.points[:, k, :2] for k in range(2)])
     c, s = np.cos(turn), np.sin(turn)
@@ -210,7 +210,7 @@ def test_patches_facing_against_the_rest_are_turned_and_counted(turned, sides):
 
 @pytest.mark.parametrize("turned", range(6))
 def test_a_part_faces_as_most_of_its_patches_do(turned):
-    """A cavity of which any one patch faces outward is a cavity."""
+    """A cavity stays one if any of its patches faces outward."""
     cavity = [patch.reverse_orientation() for patch in box((0.5, 0.25, 0.125), (5.25, -2.5, 2.75))]
     cavity[turned] = cavity[turned].reverse_orientation()
     found = measure_patches([*box(), *cavity])
@@ -239,7 +239,7 @@ def test_a_box_without_a_face_is_capped_exactly():
     assert abs(found.volume.total - 6.0) <= 1e-13
 
 
-def test_two_short_sides_along_a_long_one_leave_no_hole():
+def test_short_sides_along_a_long_one_leave_no_hole():
     """A T-junction between patches: the open sides run there and back."""
     patches = box(size=(1.0, 1.0, 1.0), offset=(3.0, 1.0, 0.0))
     a, b, c, d = patches[0].points[0, 0], patches[0].points[1, 0], patches[0].points[1, 1], patches[0].points[0, 1]
@@ -296,7 +296,7 @@ def test_touching_bodies_are_told_apart_for_any_facing(name):
 
 
 def band_of_one_side():
-    """A Möbius band, which closes upon itself the wrong way round."""
+    """A Möbius band closes upon itself the wrong way round."""
     turns = np.linspace(0.0, 2.0 * np.pi, 17)
     arm = np.stack([np.cos(turns) * np.cos(turns / 2), np.sin(turns) * np.cos(turns / 2), np.sin(turns / 2)], axis=1)
     middle = np.stack([3.0 * np.cos(turns), 3.0 * np.sin(turns), 0.0 * turns], axis=1)
@@ -305,7 +305,7 @@ def band_of_one_side():
 
 
 def test_cavities_larger_than_the_body_leave_no_negative_volume():
-    """Two that overlap each other, of which each is as large as can be: as of meshes."""
+    """Two bodies of the largest possible overlap, as for meshes."""
     holes = [turned(box((9.0, 9.0, 9.0), (at, at, at))) for at in (0.25, 0.5)]
     found = measure_patches(box((10.0, 10.0, 10.0), (0.0, 0.0, 0.0)) + sum(holes, []))
     assert codes(found) == ["cavities_subtracted", "components_overlap"]
@@ -316,14 +316,14 @@ def test_cavities_larger_than_the_body_leave_no_negative_volume():
 
 
 @pytest.mark.parametrize("size", [1e-3, 1.0, 1e3])
-def test_the_share_of_caps_is_that_of_the_area_at_any_size(size):
+def test_cap_share_is_the_share_of_area_at_any_size(size):
     found = measure_patches([tube().transform(np.diag([size, size, size, 1.0]))])
     assert abs(found.health.cap_area_share - 0.5) <= 1e-6
     assert found.area.total == pytest.approx(4.0 * np.pi * size**2, rel=1e-12)
 
 
 def bottle_of_one_side():
-    """A Klein bottle, which has no boundary: a figure of eight that turns by half on its way."""
+    """A Klein bottle has no boundary: a figure of eight that turns by half on its way."""
     u, v = np.linspace(0.0, 2.0 * np.pi, 17)[:, None], np.linspace(0.0, 2.0 * np.pi, 17)
     along, across = np.sin(v), np.sin(2.0 * v)
     away = 3.0 + np.cos(u / 2.0) * along - np.sin(u / 2.0) * across
@@ -405,7 +405,7 @@ def test_a_sheet_has_volume_of_its_own():
     assert abs(sheet.about_center()[0, 0, 2] - 6.0 * 0.5**3 / 12.0) <= 1e-14
 
 
-def test_stored_float32_is_a_bound():
+def test_float32_storage_is_in_the_volume_bound():
     ball = sphere().transform(np.diag([1.0, 2.0, 3.0, 1.0]))
     stored = 2.0**-24 * 6.0
     exact = measure_patches([ball], stored=stored).volume
@@ -433,7 +433,7 @@ def test_float32_bound_holds_for_caps_larger_than_the_body():
 @pytest.mark.parametrize(
     "patch", [flat([(5, 0, 0), (6, 0, 0), (6, 1, 0), (5, 1, 0)], (3, 4), ((0.5,), ())), sphere(), torus(), tube()]
 )
-def test_stored_float32_is_a_bound_of_the_area_too(patch):
+def test_float32_storage_is_in_the_area_bound(patch):
     stored = 1e-6
     exact = measure_patches([patch], stored=stored).area
     arms = patch.points - patch.points.mean(axis=(0, 1))
@@ -479,7 +479,7 @@ def test_creases_within_patches_and_between_them_are_found(patches, degrees):
         assert np.degrees(sharpest_crease(own, find_topology(own, 1e-12))) == pytest.approx(degrees, abs=1e-6)
 
 
-def test_a_flat_part_beside_a_body_is_left_out_and_said():
+def test_flat_part_beside_a_body_is_left_out_and_reported():
     found = measure_patches([sphere(), flat([(5, 0, 0), (6, 0, 0), (6, 1, 0), (5, 1, 0)])])
     assert abs(found.volume.total / BALL - 1.0) <= 1e-14
     assert only(found) == Finding("flat_components", {"count": 1, "total": 2})
@@ -490,7 +490,7 @@ def test_all_points_in_one_place_are_refused():
         measure_patches([Patch((clamped_space(2), clamped_space(2)), np.ones((2, 2, 3)))])
 
 
-def test_knots_that_may_tear_a_patch_are_refused():
+def test_tearing_knots_are_refused():
     """Two strips of one patch, apart: their inner sides are no sides of the patch, and would not be seen to be open."""
     space = SplineSpace((0.0, 0.0, 1.0, 1.0, 2.0, 2.0), 2, 4)
     with refused("discontinuous_patch"):
@@ -511,15 +511,15 @@ def test_float32_storage_error_comes_near_its_bound():
         assert least <= change <= 1.0, change
 
 
-def test_nothing_is_no_body():
+def test_empty_surface_list_is_refused():
     with refused("no_patches"):
         measure_patches([])
 
 
 @pytest.mark.parametrize("size", [2.0**-10, 1.0, 2.0**10])
 @pytest.mark.parametrize("depth", [1e-3, 0.05])
-def test_a_cavity_that_breaks_through_counts_as_it_is_given(depth, size):
-    """Of 0.8 by 0.8 by 0.9, which reaches so far out of a unit box."""
+def test_cavity_breaking_through_counts_as_given(depth, size):
+    """A box of 0.8 by 0.8 by 0.9 that reaches this far out of a unit box."""
     cavity = turned(box((0.8 * size, 0.8 * size, 0.9 * size), (0.1 * size, 0.1 * size, -depth * size)))
     found = measure_patches([*box((size, size, size), (0.0, 0.0, 0.0)), *cavity])
     finding = only(found)
@@ -529,7 +529,7 @@ def test_a_cavity_that_breaks_through_counts_as_it_is_given(depth, size):
 
 
 def test_gaps_along_seams_are_in_the_bound():
-    """A box one of whose sides is lifted by a millionth of its size, within what counts as touching."""
+    """A box with one side lifted by a millionth of its size, within the touching tolerance."""
     patches, gap = box((1.0, 1.0, 1.0), (0.0, 0.0, 0.0)), 1e-6
     lift = np.eye(4)
     lift[2, 3] = gap

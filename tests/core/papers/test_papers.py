@@ -262,7 +262,7 @@ def test_zhang_chen_triangles_match_plain_integration_exactly(turned):
     assert zhang_chen.mesh_moments(points, edges, rows) == truth
 
 
-def test_the_tetrahedron_has_the_moments_that_the_papers_print():
+def test_tetrahedron_has_the_printed_moments():
     a, b, c = (F(1), F(2), F(3)), (F(-2), F(5), F(1)), (F(4), F(-1), F(7))
     zero = (F(0),) * 3
     volume = zhang_chen.signed_volume([zero, a, b, c], [(1, 2, 3)])
@@ -279,7 +279,7 @@ def test_the_tetrahedron_has_the_moments_that_the_papers_print():
 
 @pytest.mark.parametrize("counts, order", [((18, 7), 0), ((19, 2), 1), ((19, 1), 2)])
 def test_tensors_of_more_than_two_million_entries_are_refused(counts, order):
-    """Before anything is computed: what would hold 126³, 38⁴ or 19⁵."""
+    """Refused before any computation: tensors of 126³, 38⁴ or 19⁵ entries."""
     spaces = tuple(SimpleNamespace(count=count) for count in counts)
     with pytest.raises(ValueError, match="entries"):
         phi(spaces, order)

@@ -38,7 +38,7 @@ def path(request, monkeypatch):
 
 
 def octahedron(level=2, noise=0.0, seed=0):
-    """A star-shaped body whose triangles cross no coordinate plane, its box centred on the origin."""
+    """A star-shaped body without triangles across a coordinate plane, its box centered on the origin."""
     points = [(1, 0, 0), (0, 1, 0), (0, 0, 1), (-1, 0, 0), (0, -1, 0), (0, 0, -1)]
     faces = [(0, 1, 2), (1, 3, 2), (3, 4, 2), (4, 0, 2), (1, 0, 5), (3, 1, 5), (4, 3, 5), (0, 4, 5)]
     for _ in range(level):
@@ -95,7 +95,7 @@ def test_body_10000_diameters_away_is_right_about_its_center():
 
 @pytest.mark.parametrize("exact_scale", [2.0**40, 2.0**-20])
 def test_body_beyond_the_range_of_powers_is_bounded_as_at_home(exact_scale):
-    """By what it extends, not by where it is."""
+    """The bound depends on the extent, not on the place."""
     points, triangles = octahedron(2)
     size = min(1.0, exact_scale)
     here, there = (
@@ -108,7 +108,7 @@ def test_body_beyond_the_range_of_powers_is_bounded_as_at_home(exact_scale):
 @pytest.mark.parametrize("order", [3, 5])
 @pytest.mark.parametrize("cut", range(7))
 def test_triangles_and_quads_may_be_as_many_as_they_like(path, order, cut):
-    """Of a box, so many of whose sides are cut in two."""
+    """A box with this many sides cut in two."""
     points = np.array(exact.box((0, 0, 0), (2, 3, 5)), float)
     halves = np.array(exact.fan(exact.BOX_QUADS[:cut]), int).reshape(-1, 3)
     body, told = Surface(points, halves, np.array(exact.BOX_QUADS[cut:], int).reshape(-1, 4)), []
@@ -118,8 +118,8 @@ def test_triangles_and_quads_may_be_as_many_as_they_like(path, order, cut):
 
 
 @pytest.mark.parametrize("order", [3, 5])
-def test_quads_that_come_one_before_the_other_are_quads(path, order):
-    """Two of them then share what halves of one quad would share."""
+def test_quads_in_reversed_order_are_recognized(path, order):
+    """Two triangles then share the edge that halves of one quad would share."""
     points, quads = grid_torus(12, 8, noise=0.05)
     backward = quads.reshape(12, 8, 4)[::-1].transpose(1, 0, 2).reshape(-1, 4)
     found, plain = (
@@ -140,7 +140,7 @@ def test_rounding_of_additions_is_recovered():
 
 @pytest.mark.parametrize("order", [2, 6])
 def test_pieces_of_other_storage_precision_have_own_bounds(order):
-    """One as float64, and two as float32, of which one is far away."""
+    """One piece as float64 and two as float32, one of these far away."""
     points, faces = octahedron()
     pieces = [
         Surface(points, faces),
@@ -260,7 +260,7 @@ def test_mirroring_changes_signs_of_odd_moments_only():
     assert np.abs(mirrored.raw - plain.raw * (-1.0) ** monomials(9)[:, 0]).max() < 1e-14 * np.abs(plain.raw).max()
 
 
-def test_nothing_has_moments_of_zero():
+def test_empty_surface_has_zero_moments():
     for order in (2, 5):
         for nothing in (Surface(np.zeros((0, 3))), [], iter(())):
             volume, area = polyhedron_moments(nothing, order, area_order=order)
@@ -300,7 +300,7 @@ def test_overflowing_moments_are_refused():
 
 
 def test_moments_may_be_a_thousand_powers_of_two_large():
-    """At order 17, of 20 factors, the reach may have 50 of them; in a stream 48 more than what it was said to be."""
+    """At order 17, with 20 factors, the reach may have 50 of them; in a stream 48 more than stated."""
     points, faces = octahedron()
     points *= 0.75
     for exponent, is_measured in ((50, True), (51, False)):
@@ -359,7 +359,7 @@ def test_a_stream_is_never_in_memory_as_a_whole():
 
 
 def grid_torus_strip(n, m, start, count):
-    """Some of the rings of quads of `grid_torus(n, m)`."""
+    """Yield some of the rings of quads of `grid_torus(n, m)`."""
     u, v = np.meshgrid(
         (start + np.arange(count + 1)) % n * (2 * np.pi / n), np.arange(m) * (2 * np.pi / m), indexing="ij"
     )

@@ -73,7 +73,7 @@ def torus_surface(p, q, r, major=1.0, minor=0.4):
 
 
 def slice_volume(p, q, r, radius=1.0, low=-0.5, high=0.75):
-    """Of a ball between two planes."""
+    """Return the moments of a ball between two planes."""
     if p % 2 or q % 2:
         return 0.0
     m = (p + q + 2) // 2

@@ -10,7 +10,7 @@ from tests.close import close
 
 
 def torus(count, noise, seed=0):
-    """Of quads that are not flat, some of which are cut the other way."""
+    """Quads that are not flat; some of them are cut the other way."""
     i, j = np.meshgrid(np.arange(count), np.arange(count), indexing="ij")
     u, v = 2.0 * np.pi * i / count, 2.0 * np.pi * j / count
     points = np.stack([(2.0 + np.cos(v)) * np.cos(u), (2.0 + np.cos(v)) * np.sin(u), np.sin(v)], axis=-1)

@@ -173,7 +173,7 @@ def test_open_boundaries_are_refused_unless_allowed(n):
 
 
 @pytest.mark.parametrize(("n", "size"), [(2, 1e-160), (3, 1e-108), (3, 1e-200), (6, 1e-60)])
-def test_bodies_too_small_for_their_size_are_refused(n, size):
+def test_vanishing_bodies_are_refused(n, size):
     points, facets, signs = unit_simplex(n)
     with refused("object_too_small"):
         enclosed_moments(points * size, facets, 0, signs=signs)
@@ -199,7 +199,7 @@ def test_size_costs_no_digits(size):
         assert abs(float(Fraction(value) / truth) - 1.0) < 1e-14
 
 
-def test_an_order_that_leaves_the_range_of_floats_is_refused():
+def test_overflowing_order_is_refused():
     points, facets, _ = cube(2)
     with refused("moments_overflow", order=6):
         enclosed_moments(points * 1e60, facets, 6)
@@ -264,7 +264,7 @@ def test_each_simplex_has_a_sign():
             enclosed_moments(points, facets, 2, signs=signs)
 
 
-def test_nothing_encloses_nothing():
+def test_empty_boundary_encloses_nothing():
     for simplices in (np.zeros((0, 3), int), np.zeros((0, 3))):
         found = enclosed_moments(np.zeros((0, 3)), simplices, 2)
         assert not found.raw.any() and (found.rounding_error > 0.0).all() and found.rounding_error.max() < 1e-300
@@ -277,7 +277,7 @@ def test_a_body_far_away_is_bounded_as_at_home():
     assert np.array_equal(here.raw, there.raw) and np.array_equal(here.rounding_error, there.rounding_error)
 
 
-def test_points_that_no_simplex_has_may_be_anywhere():
+def test_unused_points_may_be_nonfinite():
     points, facets, _ = cube(3)
     more = np.concatenate([points, np.full((1, 3), np.nan)])
     assert np.array_equal(enclosed_moments(more, facets, 3).raw, enclosed_moments(points, facets, 3).raw)

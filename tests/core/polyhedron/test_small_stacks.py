@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Small bodies in a stack: their moments are those of each alone to the bit, to any order within their bounds."""
+"""Moments of small bodies in a stack, compared with single bodies and rational arithmetic."""
 
 from fractions import Fraction
 

@@ -262,7 +262,7 @@ def test_relative_errors_stay_below_1e_14_far_from_the_origin(factor):
 @pytest.mark.parametrize("area_order", [None, 0, 3])
 @pytest.mark.parametrize("about", [None, (0.25, -0.5, 0.125)])
 def test_float32_bounds_scale_exactly_with_powers_of_two(path, about, area_order, exponent):
-    """Also where they would leave the range of numbers, unscaled."""
+    """Bounds hold even if they would leave the range of numbers unscaled."""
     points, quads = grid_torus(noise=0.05)
     points = (np.round(points * 2.0**16) / 2.0**16).astype(np.float32)
     if about is None:
@@ -346,7 +346,7 @@ def test_empty_surfaces_have_no_moments(shell):
 
 
 @pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf])
-def test_coordinates_that_are_not_finite_are_refused(bad):
+def test_nonfinite_coordinates_are_refused(bad):
     points, quads = grid_torus()
     points[5, 1] = bad
     with pytest.raises(ValueError, match="finite"):
@@ -354,7 +354,7 @@ def test_coordinates_that_are_not_finite_are_refused(bad):
 
 
 @pytest.mark.parametrize("index", [-1, 96])
-def test_indices_that_name_no_point_are_refused(index):
+def test_invalid_indices_are_refused(index):
     points, quads = grid_torus()
     quads[17, 2] = index
     with pytest.raises(ValueError, match="vertex"):
@@ -417,7 +417,7 @@ def test_quads_underflowing_the_rule_are_decided_in_float32(scale):
 
 
 def cut_alike(points, quads):
-    """Whether the kernel cuts each quad by itself as it is drawn."""
+    """Return True if the kernel cuts each quad by itself as drawn."""
     loop = blocks.BlockAccumulator(points, np.zeros(3), area=True, area_moments=False, exact=False)
     for quad in quads:
         loop.add_faces(quad[:, None], quads=True)
@@ -444,7 +444,7 @@ def test_corners_beyond_float32_are_cut_without_a_warning():
 
 
 def test_quads_on_the_edge_of_the_rule_are_decided_in_float32(path):
-    """Arrow heads whose normals are at right angles to within rounding: float64 alone would often decide otherwise."""
+    """Arrow heads with normals at right angles to within rounding: float64 alone would often decide otherwise."""
     rng = np.random.default_rng(3)
     count = 300
     a, c = np.array([0.0, 0.0, 0.0]), np.array([1.0, 0.0, 0.0])

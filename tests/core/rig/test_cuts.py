@@ -33,7 +33,7 @@ def is_closed(surface):
     return not any(sides.values())
 
 
-def test_of_no_triangles_there_are_no_pieces():
+def test_empty_mesh_has_no_pieces():
     assert bone_pieces(np.eye(3), np.zeros((0, 3), int), np.zeros(0, int)) == []
 
 
@@ -128,8 +128,8 @@ def test_caps_go_with_the_faces_beside_them():
     assert (bones_of_caps(triangles, foot, given) == bone).all()
 
 
-def test_a_cut_is_closed_to_its_centroid_wherever_it_is():
-    """Of two cones that meet in a ring of many edges, whose middles are far larger than what they differ by."""
+def test_cut_is_closed_to_its_centroid_at_any_place():
+    """Two cones that meet in a ring of many edges, far from the origin compared with their size."""
     count, shift = 1 << 14, np.array([2.0**30, -(2.0**31), 2.0**29])
     angle = 2.0 * np.pi / count * np.arange(count)
     ring = np.stack([np.cos(angle), np.sin(angle), 0.0 * angle], axis=1)

@@ -74,7 +74,7 @@ def test_face_goes_to_the_heaviest_bone_or_else_the_nearest(skin):
     assert found(*skin) == truth(*skin)
 
 
-def test_weights_that_float32_tells_apart_tie_and_others_do_not():
+def test_weights_tie_within_float32_precision():
     points, bones = [(0, 0, 0), (1, 0, 0), (0, 1, 0)], [((0, 0, 9), (0, 0, 8)), ((0, 0, 1), (0, 0, 2))]
     for more, bone in ((2e-6, 1), (5e-5, 0)):  # the first bone has more weight, the second is near
         weights = {(vertex, 0): 1.0 + more for vertex in range(3)} | {(vertex, 1): 1.0 for vertex in range(3)}

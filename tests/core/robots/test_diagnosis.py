@@ -34,7 +34,7 @@ def of_inertia(inertia, center=CENTER):
 
 
 def along(rotation, stated_rotation, **more):
-    """The truth along other axes, which the file states otherwise."""
+    """The truth along other axes, stated in another way by the file."""
     return StatedInertial(MASS, CENTER, rotation.T @ INERTIA @ rotation, stated_rotation, **more)
 
 
@@ -46,7 +46,7 @@ def with_products(signs, tensor):
 
 
 def mistakes():
-    """Code, values, and what a file states."""
+    """The code, the values, and the numbers of a file."""
     for factor in (1e-3, 1e3):
         yield "mass_unit", {"factor": factor}, replace(TRUTH, mass=MASS / factor)
     for factor in INERTIA_UNITS:
@@ -138,7 +138,7 @@ def test_a_mesh_in_another_unit_shows_in_the_density(size):
         *((density, "density", None) for density in (0.0999, 30_010.0, 99_900.0, 12_010_000.0)),
     ],
 )
-def test_a_density_that_nothing_has_is_told(density, code, factor):
+def test_impossible_density_is_reported(density, code, factor):
     found = diagnose(TRUTH, [of_density(density)])
     if code is None:
         assert found is None
@@ -152,7 +152,7 @@ def test_a_density_that_nothing_has_is_told(density, code, factor):
         assert close(found.repaired.inertia, INERTIA * factor, 1e-14) and (found.repaired.center == CENTER).all()
 
 
-def test_a_mass_in_another_unit_needs_a_density_that_nothing_has():
+def test_mass_unit_is_blamed_only_for_impossible_density():
     for density, code in (
         (10.01, "mass_unit"),
         (9.99, "inertia_unit"),
@@ -177,7 +177,7 @@ def test_decimals_of_the_file_stay_decimals():
 
 @pytest.mark.parametrize("value", [9.0, 0.029])
 def test_a_number_of_a_file_keeps_its_decimals_in_another_unit(value):
-    """A thousandth of it is what a thousand goes into it, and not the product with 0.001, which rounds twice."""
+    """A thousandth is a division by a thousand, not a product with 0.001, which rounds twice."""
     for factor, truth in (
         (1e-3, value / 1000.0),
         (1e-2, value / 100.0),

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What no body has is found, from both sides of each limit; what a body has is never complained of."""
+"""Impossible inertias are found on both sides of each limit; possible ones raise no complaint."""
 
 import numpy as np
 import pytest
@@ -31,7 +31,7 @@ def test_box_distance_covers_faces_edges_and_corners(size, sides):
 
 
 @pytest.mark.parametrize("wrong", [np.nan, np.inf])
-def test_numbers_that_are_none_come_first(wrong):
+def test_invalid_numbers_are_reported_first(wrong):
     assert codes(wrong, (0, 0, 0), (1, 1, 1)) == codes(1.0, (0, wrong, 0), (1, 1, 1)) == ["inertial_not_finite"]
     if np.isnan(wrong):
         assert codes(-1.0, (0, 0, 0), (1, 1, wrong)) == ["inertial_not_finite"]
@@ -63,7 +63,7 @@ def test_masses_and_moments_must_meet_positivity_and_triangle(scale):
 
 @pytest.mark.parametrize("seed", range(3))
 @pytest.mark.parametrize("scale", [1e-9, 1.0, 1e9])
-def test_a_moment_that_is_zero_to_rounding_is_called_zero(seed, scale):
+def test_moment_within_rounding_is_called_zero(seed, scale):
     for moment, near in ((0.0, 0.0), (-1e-13, 0.1)):
         tensor = scale * np.diag([moment, 1.0, 1.0])
         (found,) = impossible(StatedInertial(1.0, np.zeros(3), tensor, bodies.rotation(seed)), None)
@@ -141,8 +141,8 @@ def test_impossible_inertia_is_reported_with_numbers():
 
 @pytest.mark.parametrize("size", [1e-3, 1.0, 1e3])
 @pytest.mark.parametrize("share", [1e-2, 1e-9, 1e-10, 1e-11])
-def test_next_to_a_corner_the_distance_is_that_from_it(size, share):
-    """But for what is rounding of the size."""
+def test_distance_beside_a_corner_is_measured_from_it(size, share):
+    """Equal up to rounding of the size."""
     hull = Hull(size * (CUBE - 1.0))  # a corner at the origin
     away = hull.size * share
     assert close(hull.distance(np.full(3, away / 3.0**0.5)), away, 1e-9)

@@ -17,7 +17,7 @@ LENGTH_BYTES = {1: 2, 2: 4, 3: 4}
 
 
 def array(version: int, length: int | None = None) -> bytes:
-    """Of a header of so many bytes, or as many as it needs."""
+    """Return an array file with a header of this many bytes, or of the needed length."""
     stream = io.BytesIO()
     np.lib.format.write_array(stream, VALUES, (version, 0))
     data = stream.getvalue()

@@ -29,7 +29,7 @@ PAYLOAD = VALUES.tobytes(order="F")
 
 
 class Unseekable(io.BytesIO):
-    """What zipfile writes with data descriptors."""
+    """Write as zipfile does with data descriptors."""
 
     def seekable(self):
         return False
@@ -90,7 +90,7 @@ class Files:
         assert self.whole is not None
 
     def numbers(self, data: bytes):
-        """All that decides the mass, or None where the file is refused."""
+        """Return all values that decide the mass, or None if the file is refused."""
         self.target.write_bytes(data)
         try:
             scan = read_scan(self.path)
@@ -175,7 +175,7 @@ def test_a_whole_stream_of_another_length_is_refused(tmp_path, change, code):
 
 
 def damage_of(path) -> str:
-    """The code of what is wrong with a damaged file."""
+    """Return the code of the refusal of a damaged file."""
     with pytest.raises(FileError) as refused:
         read_scan(path)
     assert refused.value.finding.code == "file_damaged"
@@ -224,8 +224,8 @@ def test_unpacked_file_cut_short_misses_its_end(tmp_path):
 
 
 @pytest.mark.parametrize("more, code", [(0, "damage_too_short"), (1, "damage_too_small")])
-def test_a_file_is_too_small_for_more_than_gzip_can_pack_in_it(tmp_path, more, code):
-    """A byte holds 1032 at most, which is the longest match in two bits."""
+def test_file_too_small_for_its_samples_is_refused(tmp_path, more, code):
+    """A byte holds 1032 bytes at most, the longest match in two bits."""
     path = written(tmp_path / "a.gz", gzip.compress(b"few"))
     count = 1032 * path.stat().st_size + more
     with pytest.raises(FileError) as refused:

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a scan's file may make its reader do: limits, time in proportion to the bytes, and files in its folder only."""
+"""Resources that a scan file may claim: limits, linear time, and files in its own folder only."""
 
 import gzip
 import io
@@ -90,7 +90,7 @@ def test_a_file_at_a_limit_is_read_and_one_beyond_is_refused(tmp_path, name, fil
     assert np.array_equal(read_scan(path, replace(Limits(), **{name: values["next"]})).samples, VALUES)
 
 
-def test_raw_samples_of_a_shape_that_is_given_are_limited_too(tmp_path):
+def test_raw_samples_of_a_given_shape_are_limited(tmp_path):
     path = written(tmp_path / "a", VALUES.tobytes())
     assert read_raw(path, (3, 4, 5), "uint16", limits=Limits(samples=60)).samples.size == 60
     with pytest.raises(FileError) as refused:
@@ -104,7 +104,7 @@ def test_raised_limit_holds_for_samples_without_header(tmp_path):
     assert read_scan(path, Limits(samples=2049 << 22)).samples.shape == (2049, 2048, 2048)
 
 
-def test_small_files_that_ask_for_terabytes_are_refused_at_once(tmp_path):
+def test_small_files_claiming_terabytes_are_refused_at_once(tmp_path):
     raw = sparse(tmp_path / "a_4096x4096x4096_uint8.raw", 1 << 36)
     header = struct.pack("<I", (1 << 32) - 9)
     bomb = b"\x93NUMPY\2\0" + header
@@ -152,7 +152,7 @@ FORMS = {"arrays": "a.npz"}
 
 @pytest.mark.parametrize("name", HOSTILE)
 def test_the_time_to_read_is_proportional_to_the_bytes(tmp_path, name):
-    """A hundred times the bytes may take three hundred times as long; what is quadratic takes ten thousand times."""
+    """A hundred times the bytes may take three hundred times as long; quadratic work takes ten thousand times."""
     limits = Limits(entries=10**6, header_bytes=1 << 30)
     paths = [written(tmp_path / (str(n) + FORMS.get(name, "a.nrrd")), HOSTILE[name](n)) for n in (10_000, 1_000_000)]
 
@@ -189,7 +189,7 @@ def test_vectors_of_directions(tmp_path, text):
         "(",
     ],
 )
-def test_directions_that_are_none_are_refused(tmp_path, text):
+def test_invalid_directions_are_refused(tmp_path, text):
     found = refusal(written(tmp_path / "a.nrrd", nrrd(VALUES, "space directions: " + text)))
     assert found.code == "nrrd_vector" and len(str(found)) < 200
 
@@ -220,7 +220,7 @@ def test_limits_are_given_by_a_text(text, limits):
         "allow_outside=1",
     ],
 )
-def test_a_text_that_gives_no_limits_is_refused(text):
+def test_malformed_limits_are_refused(text):
     with pytest.raises(MeasureError) as refused:
         Limits.parse(text)
     assert text in str(refused.value) and "samples" in str(refused.value)

@@ -13,7 +13,7 @@ from tests.core.bodies import rotation
 
 
 def radial(n, m, r):
-    """R_nm by Prata and Rusch's recursion, which does not know its coefficients."""
+    """Return R_nm by Prata and Rusch's recursion, independent of the product's coefficients."""
     if m > n or n < 0:
         return np.zeros_like(r)
     if n == 0:

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Libraries of signatures: what is a copy, what is as alike, and how long a line may be."""
+"""Libraries of signatures: limits of the length of a line."""
 
 import os
 
@@ -9,7 +9,7 @@ from body_moments.core.shape.library import read_library
 from body_moments.core.verdict.finding import FileError
 
 
-def test_a_line_of_more_than_256_mebibytes_is_none_of_a_library(tmp_path):
+def test_line_beyond_256_mebibytes_is_refused(tmp_path):
     path = tmp_path / "a.jsonl"
     path.touch()
     os.truncate(path, 2**28 + 1)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which way a body is laid onto another one, with few points looked at where they tell enough."""
+"""Registration of a body onto another one by rotations and reflections."""
 
 import numpy as np
 import pytest

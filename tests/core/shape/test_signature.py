@@ -68,7 +68,7 @@ def test_stacked_signatures_match_single_ones(shell):
 
 
 @pytest.mark.parametrize("scale", [1e-5, 3.0, 1e5])
-def test_size_is_told_apart_from_shape(scale):
+def test_size_is_separate_from_shape(scale):
     first, other = signed(shapes.WEDGE), signed((shapes.WEDGE[0] * scale, shapes.WEDGE[1]))
     likeness = similarity(first, other)
     assert likeness.shape < 1e-9 and likeness.distance(any_size=True) < 1e-8
@@ -93,7 +93,7 @@ def test_a_mirror_image_differs_in_its_hand_alone():
         assert likeness.distance() > 1e-4 and likeness.distance(any_hand=True) < 1e-9
 
 
-def test_bodies_that_are_their_own_mirror_images_have_no_hand():
+def test_mirror_symmetric_bodies_have_no_hand():
     for name, (part, group) in shapes.SYMMETRIC.items():
         if group not in ("D4",):
             found = signed(bodies.moved(part, bodies.rotation(1)), 6)
@@ -127,7 +127,7 @@ def test_handedness_within_noise_is_not_told():
 
 
 @pytest.mark.parametrize("size, mirrored", [(0.9e-11, False), (1.1e-11, True)])
-def test_a_chirality_that_is_rounding_is_no_hand(size, mirrored):
+def test_chirality_within_rounding_is_no_hand(size, mirrored):
     one = signed(shapes.WEDGE, 6)
     tiny = one.chirality / np.linalg.norm(one.chirality) * size
     assert similarity(replace(one, chirality=tiny), replace(one, chirality=-tiny)).is_mirror_image is mirrored
@@ -144,7 +144,7 @@ def test_different_shapes_are_far_apart_and_noisy_copies_near():
         assert min(distances, key=distances.get) == name
 
 
-def test_orders_that_one_lacks_are_left_out():
+def test_orders_missing_in_one_signature_are_left_out():
     short, long = signed(shapes.WEDGE, 8), signed(shapes.WEDGE, 20)
     assert len(short.zernike) == 25 and len(long.zernike) == 121
     assert similarity(short, long).distance() < 1e-9
@@ -244,7 +244,7 @@ def test_library_has_entries_and_findings_for_failed_bodies(tmp_path):
 @pytest.mark.parametrize(
     "line", [b"{", b"[]", b'{"objects": 3}', b'{"objects": [3]}', b'{"objects": [{"name": "\xff"}]}']
 )
-def test_a_line_that_is_no_document_is_refused_by_its_number(line, tmp_path):
+def test_malformed_line_is_refused_by_its_number(line, tmp_path):
     path = tmp_path / "parts.jsonl"
     path.write_bytes(b'{"objects": []}\n' + line)
     with refused("library_line", file="parts.jsonl", line=2):

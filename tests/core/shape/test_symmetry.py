@@ -152,7 +152,7 @@ def test_axes_to_order_128_are_looked_for(sides, group):
     "axis", [None, [1, 0, 0], [0, 1, 0], [0, 0, 1], np.full(3, 3.0**-0.5)], ids=["a ball", "x", "y", "z", "diagonal"]
 )
 def test_apparent_ball_is_one_if_turns_about_several_axes_fit(axis):
-    """Others are egg-shaped along an axis, about which every turn keeps them: r = 1 + c³ / 1000, by the cosine c."""
+    """Other bodies are egg-shaped along an axis and symmetric about it: r = 1 + c³ / 1000 with the cosine c."""
     points = np.random.default_rng(0).normal(size=(200, 3))
     points /= np.linalg.norm(points, axis=1)[:, None]
     axis = np.zeros(3) if axis is None else np.array(axis)
@@ -239,8 +239,7 @@ def test_flat_moments_hold_for_turns_and_mirrors(mirrored):
 @pytest.mark.parametrize("sides", [1, 2, 3, 4, 5, 6, 7])
 @pytest.mark.parametrize("seed", [None, 2])
 def test_turns_about_an_axis_match_the_corners(sides, seed):
-    """A rim of pairs of corners, each pair of a large and a small one, above one another: turns alone, and what turns
-    them over."""
+    """A rim of pairs of corners above one another, each of a large and a small corner: turns alone, and half turns."""
     turn = np.eye(3) if seed is None else bodies.rotation(seed)
     angle = 2.0 * np.pi / sides * np.arange(sides)
     rim = [

@@ -76,7 +76,7 @@ def test_a_point_shows_the_addition_theorem():
             assert close((np.abs(one) ** 2).sum(), wanted, rel=1e-10)
 
 
-def test_three_points_couple_to_the_scalar_that_they_span():
+def test_three_points_couple_to_their_spanned_scalar():
     """(1 1 1) of three vectors is their determinant, by a known factor, and changes its sign in a mirror."""
     vectors = np.random.default_rng(1).normal(size=(3, 3))
     ones = [harmonic_moments(np.prod(v ** monomials(1), axis=1), 1)[1, 1] for v in vectors]
@@ -123,7 +123,7 @@ def test_the_power_of_a_ball_is_known():
 
 
 def test_high_frequency_power_matches_exact_bessel_functions():
-    """Of Ω_00 alone: 4π/√3 (j_1(q)/q)², and of Ω_20 alone the same of √7 j_3(q)/q."""
+    """For Ω_00 alone 4π/√3 (j_1(q)/q)², and for Ω_20 alone the same with √7 j_3(q)/q."""
     q = np.array([40.0, 150.5, 400.25])
     sine, cosine = np.sin(q), np.cos(q)
     j1, j3 = (sine / q - cosine) / q, ((15.0 / q**3 - 6.0 / q) * sine - (15.0 / q**2 - 1.0) * cosine) / q

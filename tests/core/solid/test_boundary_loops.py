@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Rims as loops: how they are joined, and what is known of their caps."""
+"""Loops of rim edges and the geometry of their caps."""
 
 import numpy as np
 import pytest
@@ -89,7 +89,7 @@ def test_edges_running_back_along_an_edge_enclose_no_area():
     assert np.count_nonzero(mixed) == 8 and not follows[mixed].any() and follows[~mixed].all()
 
 
-def test_two_holes_that_meet_in_a_vertex_lose_no_side():
+def test_holes_meeting_in_a_vertex_lose_no_side():
     points = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [-1, 0, 0], [-1, -1, 0], [0, -1, 0]]
     loops = loops_of(points, [(0, 1), (1, 2), (2, 3), (3, 0), (0, 4), (4, 5), (5, 6), (6, 0)])
     assert loops.complete.all()

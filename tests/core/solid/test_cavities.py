@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Cavities: reported, and measured as they are given where they break through their walls."""
+"""Cavities are reported, and measured as given if they break through their walls."""
 
 import numpy as np
 import pytest
@@ -22,7 +22,7 @@ def hollow(depth, turned=False):
 @pytest.mark.parametrize("turned", [False, True])
 @pytest.mark.parametrize("scale", [1e-6, 1.0, 1e6])
 @pytest.mark.parametrize("depth", [1e-5, 1e-3, 0.05])
-def test_a_cavity_that_breaks_through_counts_as_it_is_given(depth, scale, turned):
+def test_cavity_breaking_through_counts_as_given(depth, scale, turned):
     points, triangles = moved(hollow(depth, turned), scale * rotation(3), (2 * scale, -scale, scale))
     rng = np.random.default_rng(int(-np.log10(depth)))
     triangles = triangles[np.concatenate([rng.permutation(12), 12 + rng.permutation(12)])]
@@ -67,7 +67,7 @@ def test_inward_part_less_than_half_inside_another_is_inverted(share, turned):
     assert codes(result) == (["inverted_components", "components_overlap"] if turned else ["cavities_break_through"])
 
 
-def test_many_cavities_that_break_through_are_measured_together():
+def test_many_cavities_breaking_through_are_measured():
     cavities = [inverted(moved(sphere(1), 0.3 * np.eye(3), (x, y, 0.25))) for x in range(12) for y in range(12)]
     plate = box((-0.5, -0.5, 0), (11.5, 11.5, 2))
     result = measure_solid(surface(joined(plate, *cavities)))

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What lines measure of what counts more than once, or less than not at all: crossings made by hand."""
+"""Excess volume along lines with crossings made by hand."""
 
 import numpy as np
 import pytest
@@ -57,7 +57,7 @@ def test_repeated_body_is_measured_part_by_part(turned, parts, apart, seed):
     assert close(found.second_moment[0], second, rel=1e-12)
 
 
-def test_lines_that_meet_nothing_say_nothing():
+def test_lines_meeting_nothing_are_ignored():
     grids = LineGrids.over_boxes(np.zeros((2, 3)), np.ones((2, 3)), np.array([64, 64]))
     none = np.empty(0, np.intp)
     found = measure_excess(

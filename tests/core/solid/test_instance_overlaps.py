@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What solids have in common that stand in several places, mirrored and stretched: boxes, of which it is known."""
+"""Overlaps of instanced solids, mirrored and stretched: boxes with known answers."""
 
 import numpy as np
 import pytest
@@ -53,7 +53,7 @@ def test_part_in_a_cavity_is_in_no_material(way):
 
 @pytest.mark.parametrize("way", [np.eye(3), MIRROR])
 @pytest.mark.parametrize("shift, overlap", [(0.99, True), (1.01, False)])
-def test_two_that_share_a_part_overlap_each_once_in_every_place(way, shift, overlap):
+def test_instances_sharing_a_part_overlap_once_each(way, shift, overlap):
     found = compared(
         (joined(cube(0.25, (0.0, 5.0, 0.0)), cube(0.5)), places(way, (way, (30.0, 0.0, 0.0)))),
         (cube(0.5), places((way, (shift, 0.25, 0.0)), (way, (30.0 - shift, -0.25, 0.0)))),
@@ -79,7 +79,7 @@ def test_own_parts_and_open_parts_are_not_compared():
 
 
 def test_plates_without_a_thickness_go_through_nothing():
-    """Where they stand askew, their boxes are as thick as others."""
+    """Boxes of tilted plates are as thick as others."""
     plates = [rotation(seed) @ np.diag([1.0, 1.0, height]) for seed in (1, 2) for height in (1e-18, 1e-3)]
     for first in plates[:2]:
         for second in plates[2:]:

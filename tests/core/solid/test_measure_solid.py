@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The verdict and the measures that follow from it, on bodies whose true answers are known in closed form."""
+"""Verdicts and measures of bodies with answers in closed form."""
 
 import json
 from dataclasses import replace
@@ -58,7 +58,7 @@ def check_unit_cube(result, centre, method):
 
 
 def marked(health):
-    """The entries that are not zero, without the faults and what is known of the part going through itself."""
+    """Return the entries that are not zero, without the faults and the self-intersection."""
     return {
         key: value
         for key, value in health.as_record().items()
@@ -181,7 +181,7 @@ def test_a_two_sided_body_is_the_body_and_does_not_cancel_itself(layers, apart):
         ),
     ],
 )
-def test_boxes_in_boxes(parts, volume, moment, method, expected):
+def test_nested_boxes_count_as_given(parts, volume, moment, method, expected):
     result = verdict(joined(*parts))
     assert close(result.volume.total, volume, rel=1e-14)
     np.testing.assert_allclose(inertia(result.volume), moment, rtol=1e-13)
@@ -244,7 +244,7 @@ def test_boxes_welded_along_a_face_or_an_edge_are_closed():
 )
 @pytest.mark.parametrize("turn", range(3))
 def test_copied_face_with_mostly_odd_edges_is_left_out(others, is_left_out, turn):
-    """Of others that stand on its edges like the pages of a book; where none do, it does not matter."""
+    """Other faces stand on its edges like the pages of a book; without any, the copy does not matter."""
     corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], float)
     points, faces = [*corners], [[0, 1, 2]]
     for edge, count in enumerate(np.roll(others, turn)):
@@ -267,7 +267,7 @@ def test_two_sided_sheet_has_no_copies_except_for_its_area(numbered):
 
 @pytest.mark.parametrize("turn", [lambda part: part, inverted])
 def test_copied_faces_are_named_without_the_walls_of_two_bodies(turn):
-    """Two boxes welded along a face, of which one may be inside out, and a fin on an edge of one, twice."""
+    """Two boxes welded along a face, perhaps one of them inverted, and a fin on an edge, twice."""
     points, triangles = welded(joined(CUBE, turn(box((1, 0, 0), (2, 1, 1)))))
     low, high = (int(np.flatnonzero((points == [0.0, 0.0, z]).all(axis=1))[0]) for z in (0.0, 1.0))
     fin = [[low, high, len(points)]]
@@ -401,7 +401,7 @@ def test_concave_hole_has_its_true_share_of_the_area():
     assert close(result.health.cap_area_share, 3 / 16 / (6 - 3 / 16), rel=1e-12)
 
 
-def test_two_holes_that_meet_in_a_vertex_are_capped():
+def test_holes_meeting_in_a_vertex_are_capped():
     points, triangles = moved(grid(4), None, (0, 0, 1))
     holes = [2 * (4 * i + i) + k for i in (1, 2) for k in (0, 1)]
     result = verdict(joined(without(CUBE, *TOP), (points, np.delete(triangles, holes, axis=0))))
@@ -529,7 +529,7 @@ def prism(heights):
     return points, [list(range(n))[::-1], list(range(n, 2 * n)), *sides]
 
 
-def test_polygons_have_a_spread_too():
+def test_spread_of_polygons_is_reported():
     assert measure_solid(mesh(*prism([1.0] * 6))).health.volume_spread == 0.0
     raised = measure_solid(mesh(*prism([1, 1, 1, 1.3, 1, 1])))
     assert raised.health.non_planar_faces == 1
@@ -720,7 +720,7 @@ def test_vanishing_and_overflowing_moments_are_refused_alike():
 
 @pytest.mark.parametrize("seed", range(5))
 def test_change_by_welding_is_bounded(seed):
-    """Which of several vertices the others are welded onto depends on their order only."""
+    """The target of welding depends on the order of the vertices only."""
     rng = np.random.default_rng(seed)
     points, triangles = soup(moved(sphere(2), rotation(seed), (1, 2, 3)))
     points = points + rng.uniform(-3e-7, 3e-7, points.shape)
@@ -776,7 +776,7 @@ def letter(outline, height=0.5):
 
 
 @pytest.mark.parametrize("apart", [False, True])
-def test_an_outline_that_turns_back_on_itself_closes(apart):
+def test_outline_turning_back_on_itself_closes(apart):
     part = letter(OUTLINE)
     if apart:  # walls with vertices of their own, welded at the same places
         points, triangles = part

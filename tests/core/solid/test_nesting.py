@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How shells lie to each other: boxes and spheres whose answer is known, and brute force."""
+"""Relations of shells: boxes and spheres with known answers, and brute force."""
 
 import numpy as np
 import pytest
@@ -130,7 +130,7 @@ def test_winding_numbers_match_the_bodies(spin):
         ("three deep", [box((-k, -k, -k), (k, k, k)) for k in (3, 1, 2)], {(1, 0), (1, 2), (2, 0)}, set()),
     ],
 )
-def test_known_pairs(name, parts, inside, crossing, spin):
+def test_known_pairs_are_related_as_built(name, parts, inside, crossing, spin):
     if spin is not None:
         parts = [moved(part, rotation(spin) * 0.7, (5, -3, 2)) for part in parts]
         # As Blender stores them: what touched now misses or enters by an ulp.
@@ -236,7 +236,7 @@ def test_a_copy_is_one_though_its_volume_is_rounded_otherwise(scale):
 
 
 def test_a_part_without_extent_beside_others_is_no_trouble():
-    """Its box has no size by which to order what is in it."""
+    """Its box has no size for ordering its contents."""
     points, triangles = joined(OUTER, INNER, (np.zeros((3, 3)), np.array([[0, 1, 2]])))
     shells = sort_components(points, triangles, np.repeat([0, 1, 2], [12, 12, 1]), 3)
     assert len(Bvh(points, shells, np.ones(3, bool)).ids.T) == 25
@@ -263,7 +263,7 @@ def test_the_order_of_components_changes_nothing(seed):
 
 
 def test_rod_in_a_drilled_hole_breaks_through_nothing():
-    """Both are cavities as they are given; what is in a hole is none."""
+    """Both are cavities as given; a rod in a hole is none."""
     block, hole = box(high=(4, 4, 4)), inverted(box((1, 1, -1), (3, 3, 5)))
     rod = inverted(box((1.5, 1.5, -0.5), (2.5, 2.5, 4.5)))
     points, triangles = joined(block, hole, rod)

@@ -29,7 +29,7 @@ def test_repaired_body_has_moments_to_any_order(part, order):
     assert body.moments(order)[0].about.tolist() == body.volume.about.tolist()
 
 
-def test_the_area_is_that_of_the_faces_that_were_given():
+def test_area_counts_only_the_given_faces():
     for part, area in ((HIGH, 22.0), (without(HIGH, *TOP), 20.0), (joined(HIGH, moved(HIGH, offset=(9, 0, 0))), 44.0)):
         body = measure_solid(surface(part))
         found = body.moments(2, area_order=4)[1]
@@ -45,7 +45,7 @@ def test_a_flat_body_has_no_moments():
 
 @pytest.mark.parametrize("order", [3, 6])
 def test_nearly_flat_body_has_no_moments_within_bounds(order):
-    """Its volume is 10^-15, which is less than what rounding may leave of a closed sheet of its size."""
+    """Its volume is 10^-15, less than the rounding error of a closed sheet of its size."""
     body = measure_solid(surface(box((0, 0, 0), (1, 1, 1e-14))))
     volume = body.moments(order)[0]
     for found in (body.volume, volume):

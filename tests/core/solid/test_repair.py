@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The stages of measuring a solid, each on what the one before hands on, and the steps of a repair."""
+"""Stages of measuring a solid and steps of its repair."""
 
 import numpy as np
 import pytest
@@ -41,7 +41,7 @@ def staged(part, dtype=np.float64):
 
 @pytest.mark.parametrize("is_open", [False, True])
 def test_diagonal_along_an_edge_is_no_edge_of_a_mesh_with_edges(is_open):
-    """Two tents on one floor, whose ridge is its diagonal, perhaps without a wall."""
+    """Two tents on one floor with its diagonal as their ridge, perhaps without a wall."""
     points = np.array([[0, 0, 0], [2, 0, 0], [2, 2, 0], [0, 2, 0], [1.5, 0.5, 1], [0.5, 1.5, 1]], float)
     faces = [[0, 3, 2, 1], [1, 2, 4], [2, 0, 4], [2, 3, 5], [3, 0, 5], [0, 2, 5], [0, 1, 4]]
     tents = mesh(points, faces[: len(faces) - is_open])
@@ -64,7 +64,7 @@ def test_face_naming_a_vertex_twice_hides_no_crack(place):
 
 @pytest.mark.parametrize("of", ["triangles", "quads"])
 def test_faces_of_one_kind_without_edges_prove_themselves_closed(of):
-    """In arrays, from no mesh: their sides have to be found first."""
+    """Bare arrays: their sides have to be found first."""
     faces = CUBE[1] if of == "triangles" else SIDES
     points = np.concatenate([CUBE[0], CUBE[0] + 3.0])
     for number in (1, 2):

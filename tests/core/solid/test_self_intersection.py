@@ -50,7 +50,7 @@ def bar(turn, sections=90, sides=12, radius=0.2):
 
 
 def pushed(far, level=2):
-    """A ball of which one vertex is pushed through the other side."""
+    """A ball with one vertex pushed through the other side."""
     points, triangles = sphere(level)
     points[0] *= -far
     return points, triangles
@@ -112,8 +112,8 @@ def hourglass(heavy):
 )
 @pytest.mark.parametrize("first", [False, True])
 @pytest.mark.parametrize("turn, others", [(0, 0), (0, 2), (2, 0), (2, 2)])
-def test_one_triangle_that_looks_away_leaves_a_body_unproved(tip, height, agree, first, turn, others):
-    """A cube of which a corner leans over a side next to it: whichever face that is, and whichever half of a quad."""
+def test_one_reversed_triangle_leaves_a_body_unproved(tip, height, agree, first, turn, others):
+    """A cube with a corner that leans over a side next to it, for each face and each half of a quad."""
     points = 2.0 * CORNERS - 1.0
     points[4, 2], points[7] = height, tip
     quads = np.array([[5, 7, 6, 4], [0, 2, 3, 1], [0, 1, 5, 4], [6, 7, 3, 2], [0, 4, 6, 2], [3, 7, 5, 1]])
@@ -172,7 +172,7 @@ def test_a_vertex_pushed_through_the_other_side_is_found(far, share):
         assert only(result).code == "self_intersection" and close(only(result).values["share"], share, rel=0.5)
 
 
-def test_a_region_that_hardly_counts_is_a_note():
+def test_negligible_region_is_a_note():
     """Two ends of a long bar that just meet."""
     part = bar(1.0 + 2e-6, 400)
     result = measure_solid(surface(moved(part, rotation(1))))
@@ -209,7 +209,7 @@ def test_ordinary_bodies_raise_no_alarm(part, dtype):
 
 
 def test_each_component_is_looked_at_by_itself():
-    """What two components have in common is reported as that, and none of them goes through itself."""
+    """Overlaps of two components are reported as such, and none of them goes through itself."""
     result = measure_solid(surface(joined(torus(), moved(torus(), offset=(0.4, 0, 0)))))
     assert codes(result) == ["components_overlap"] and result.health.self_intersection is Intersection.NOT_FOUND
     result = measure_solid(

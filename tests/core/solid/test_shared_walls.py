@@ -70,8 +70,8 @@ def test_a_wall_of_one_layer_is_open_as_ever():
     assert result.method == "open" and codes(result) == ["non_manifold_components"]
 
 
-def test_a_body_that_meets_itself_at_a_wall_is_closed():
-    """A ring of eight cubes but for one, whose ends are two layers of one wall, of one body."""
+def test_body_meeting_itself_at_a_wall_is_closed():
+    """A ring of seven of eight cubes; its ends are two layers of one wall, of one body."""
     places = [(0, 0), (1, 0), (2, 0), (2, 1), (2, 2), (1, 2), (0, 2), (0, 1)]
     cubes = [quads([((x, y, 0), False)]) for x, y in places]
     points = np.concatenate([cube.points for cube in cubes])

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What changes mass, size and inertia by less than a ten-thousandth is a note, by a code of its own."""
+"""Findings that change mass, size and inertia by less than a ten-thousandth are notes."""
 
 import numpy as np
 import pytest
@@ -37,13 +37,13 @@ def codes(part, scale=1.0, shift=(0.0, 0.0, 0.0)):
         ("inverted_components", lambda side: joined(cube(2.0), inverted(cube(side, (1.0 + side, 0.0, 0.0))))),
     ],
 )
-def test_components_too_small_to_matter_are_a_note(code, body, scale, shift):
+def test_negligible_components_are_a_note(code, body, scale, shift):
     assert code in codes(body(1.1 * LIMIT), scale, shift)
     found = codes(body(0.9 * LIMIT), scale, shift)
     assert code + "_slightly" in found and code not in found
 
 
-def test_so_are_flipped_faces():
+def test_negligible_flipped_faces_are_a_note():
     for side, code in ((2.2 * LIMIT, "flipped_faces"), (0.9 * LIMIT, "flipped_faces_slightly")):
         points, triangles = joined(cube(2.0), cube(side, (3.0, 0.0, 0.0)))
         triangles = triangles.copy()
@@ -52,7 +52,7 @@ def test_so_are_flipped_faces():
         assert code in found and not {"flipped_faces", "flipped_faces_slightly"} - {code} & found
 
 
-def test_a_body_that_is_inside_out_as_a_whole_is_never_too_small():
+def test_inverted_body_is_never_negligible():
     assert codes(inverted(cube(1e-9))) == {"inverted_components"}
 
 
@@ -61,7 +61,7 @@ def test_a_body_that_is_inside_out_as_a_whole_is_never_too_small():
     "height, code", [(0.25, "non_planar_faces"), (8e-4, "non_planar_faces"), (4e-4, "non_planar_faces_slightly")]
 )
 def test_spread_of_diagonals_is_a_share_of_the_volume(size, height, code):
-    """A cube of which one corner is raised: the diagonals of its side differ by a pyramid of a sixth of that."""
+    """A cube with one raised corner: the diagonals of its side differ by a pyramid of a sixth of that."""
     points = np.array(CORNERS, float)
     raised = (points == [1.0, 1.0, 1.0]).all(axis=1)
     assert raised.sum() == 1

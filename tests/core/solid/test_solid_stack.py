@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Small solids measured together are those measured alone, to the bit, however they are broken."""
+"""Small solids measured together, compared with single measurements, however they are broken."""
 
 import numpy as np
 import pytest
@@ -195,7 +195,7 @@ def test_a_diagonal_along_an_edge_is_left_to_be_repaired():
 
 @pytest.mark.parametrize("way", [1, -1])
 def test_bodies_needing_scaled_sums_are_measured_alone(way):
-    """From a hundred powers of two on, of what its points are from the middle of its box."""
+    """Sizes from a hundred powers of two on."""
     near, far = 2.0 ** (100 * way) * (1.0 - way * 2.0**-20), 2.0 ** (100 * way) * (1.0 + way * 2.0**-20)
     surfaces = [mesh((2.0 * CORNERS - 1.0) * size, SIDES, np.float32) for size in (1.0, far, near)]
     stack = measure_stack(surfaces)

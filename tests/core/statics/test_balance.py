@@ -97,8 +97,8 @@ def test_limit_holds_for_every_vertex_and_the_point_is_reached(shell):
 
 @pytest.mark.parametrize("count", [1, 2, 3])
 @pytest.mark.parametrize("spare", [1.001, 1.05, 1.5])
-def test_a_limit_that_the_least_moves_keep_changes_nothing(shell, count, spare):
-    """Newton's steps that went past it found no way back: what could be reached was refused."""
+def test_limit_above_the_least_moves_changes_nothing(shell, count, spare):
+    """Newton's steps past the solution found no way back, so that reachable points were refused."""
     part = bodies.moved(bodies.sphere(1), bodies.rotation(3) @ np.diag([1.0, 2.0, 0.5]))
     random = np.random.default_rng(count)
     for _ in range(8):
@@ -115,7 +115,7 @@ def test_a_limit_that_the_least_moves_keep_changes_nothing(shell, count, spare):
         assert np.abs(held.points - free.points).max() <= 1e-13
 
 
-def test_a_body_that_is_inside_out_is_moved_as_it_is_outside_in(shell):
+def test_inverted_body_is_moved_like_its_reverse(shell):
     part = bodies.moved(bodies.torus(9, 7), SHEAR)
     target = center(*part, shell) + [0.02, 0.01, 0.0]
     found, other = (
@@ -134,7 +134,7 @@ def test_willing_vertices_move_more():
     assert lengths[part[0][:, 0] > 0.5].mean() > 5 * lengths[part[0][:, 0] < -0.5].mean()
 
 
-def test_a_point_that_is_too_far_is_refused():
+def test_unreachable_point_is_refused():
     part = bodies.sphere(2)
     with refused("balance_folds_faces", "balance_short"):
         balance(bodies.surface(part), upper(part, 0.9), (5.0, 0.0, 0.0), across=HORIZONTAL)
@@ -171,7 +171,7 @@ def test_one_vertex_cannot_move_the_center_every_way():
         balance(bodies.surface(part), np.array([8, 9]), (0.6, 0.5, 0.5))
 
 
-def test_no_vertex_of_a_face_is_no_selection():
+def test_selection_without_faces_is_refused():
     points, triangles = bodies.sphere(1)
     points = np.concatenate([points, [[3.0, 0.0, 0.0]]])
     with refused("balance_no_area"):
@@ -216,7 +216,7 @@ def test_moves_are_independent_of_face_diagonals(shell, sides):
     assert np.abs(fans.areas - fans.areas[turned]).max() < 1e-14
 
 
-def test_a_face_that_is_not_convex_pulls_as_it_is(shell):
+def test_concave_face_pulls_by_its_true_area(shell):
     outline = np.array([[0, 0], [2, 0], [2, 1], [1, 0.2], [0, 1]], float)
     points = np.concatenate([np.column_stack([outline, np.full(5, z)]) for z in (0.0, 1.0)])
     faces = [[0, 4, 3, 2, 1], [5, 6, 7, 8, 9]] + [[i, (i + 1) % 5, (i + 1) % 5 + 5, i + 5] for i in range(5)]

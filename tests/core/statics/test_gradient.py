@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Derivatives of moments by vertices: identities, rational arithmetic, and differences of what is measured."""
+"""Derivatives of moments by vertices: identities, rational arithmetic, and differences of measurements."""
 
 from fractions import Fraction
 
@@ -139,7 +139,7 @@ def test_center_and_inertia_follow_with_nothing_more(kind):
     assert np.abs((one.inertia - other.inertia) / (2 * h) - rate).max() < 1e-8 * np.abs(rate).max()
 
 
-def test_far_away_the_derivatives_are_the_same():
+def test_distant_derivatives_match_near_ones():
     near = dyadic(bodies.sphere(2))
     far = bodies.moved(near, offset=(1024.0, -4096.0, 8192.0))
     one = volume_gradient(bodies.surface(near), np.zeros(3))
@@ -179,7 +179,7 @@ def test_a_triangle_without_area_and_a_loose_vertex_give_nothing():
         assert np.isfinite(other.error()).all()
 
 
-def test_of_no_points_there_are_no_derivatives():
+def test_empty_surface_has_no_derivatives():
     for derive in KINDS.values():
         nothing = derive(bodies.surface((np.zeros((0, 3)), np.zeros((0, 3), int))), np.zeros(3))
         assert len(nothing.by_vertex) == len(nothing.error()) == 0

@@ -49,7 +49,7 @@ def test_a_uniform_growth_is_a_cube_of_its_value():
     assert np.abs(centers - center).max() <= 1e-13 * 8.0
 
 
-def test_a_mix_that_is_flat_or_inside_out_has_no_volume():
+def test_flat_or_inverted_mix_has_no_volume():
     """A body that shrinks to its center, and on."""
     surface, _ = body()
     whole, _ = polyhedron_moments(surface, 1)

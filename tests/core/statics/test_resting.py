@@ -41,14 +41,14 @@ UPRIGHT, ORIGIN = np.eye(3), np.zeros(3)
 
 
 def poses_of(points, center, matrix=UPRIGHT, offset=ORIGIN):
-    """In the body's own unit and axes, wherever it is."""
+    """Poses in the body's own unit and axes, at any place."""
     size = abs(np.linalg.det(matrix)) ** (1.0 / 3.0)
     poses = resting_poses(convex_hull(points @ matrix.T + offset), matrix @ center + offset)
     return poses.normals @ matrix / size, poses.shares, poses.margins / size, poses.heights / size
 
 
 def facing(normals, direction):
-    """Which pose rests on the face to this direction."""
+    """Return the pose that rests on the face to this direction."""
     along = normals @ (np.asarray(direction, float) / np.linalg.norm(direction))
     place = int(along.argmax())
     assert abs(along[place] - 1.0) < 1e-9
@@ -189,7 +189,7 @@ def test_a_center_outside_the_hull_is_refused():
 
 
 def test_a_square_plate_rests_on_both_sides_equally():
-    """Its center is on a diagonal, from which triangles have no certain solid angle."""
+    """Its center is on a diagonal, so that triangles have no certain solid angle."""
     plate = np.array([(x, y, 0.0) for x in (-1.0, 1.0) for y in (-1.0, 1.0)])
     poses = resting_poses(convex_hull(plate), np.zeros(3))
     assert poses.shares.tolist() == [0.5, 0.5] and poses.margins.tolist() == [1.0, 1.0]
@@ -199,7 +199,7 @@ def test_a_square_plate_rests_on_both_sides_equally():
 
 
 def test_a_center_above_an_edge_is_not_stable():
-    """A cube whose center of mass is in its top face: from the sides it tips onto that."""
+    """A cube with its center of mass in its top face: from the sides it tips onto that."""
     normals, shares, margins, _ = poses_of(box(1, 1, 1), np.array([0.5, 0.5, 1.0]))
     assert len(shares) == 2
     bottom = atan(1.0 / (2.0 * sqrt(1.0 + 1.0 + 4.0))) / pi
@@ -227,7 +227,7 @@ def test_noise_on_edges_changes_no_face():
 
 
 @pytest.mark.parametrize("axis", range(3))
-def test_a_body_that_was_flattened_has_no_stable_pose(axis):
+def test_flattened_body_has_no_stable_pose(axis):
     cube = convex_hull(list(product((-1.0, 1.0), repeat=3)))
     with refused("no_stable_pose"):
         resting_poses(cube.transform(np.diag(np.arange(3) != axis).astype(float)), [0.0, 0.0, 0.0])

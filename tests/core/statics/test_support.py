@@ -36,7 +36,7 @@ def test_corners_go_counter_clockwise_seen_from_above():
 
 
 def test_a_wedge_tips_over_its_edge():
-    """A leaning prism whose center is beyond its base by 1/4."""
+    """A leaning prism with its center beyond its base by 1/4."""
     wedge = np.array([(x, y, z) for y in (0.0, 1.0) for x, z in ((0.0, 0.0), (1.0, 0.0), (2.5, 2.0), (1.5, 2.0))])
     center = np.array([1.25, 0.5, 1.0])
     support = find_support(wedge, center)
@@ -123,7 +123,7 @@ def test_body_above_a_line_falls_across_it(size, shares):
     assert support.direction[2] == 0.0
 
 
-def test_the_margin_of_a_disc_is_that_of_its_polygon():
+def test_margin_of_a_disc_matches_its_polygon():
     count = 2000
     angles = 2.0 * pi / count * np.arange(count)
     rim = np.stack([np.cos(angles), np.sin(angles), np.zeros(count)], axis=1)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Meshes that are read in blocks have the moments that they have in memory, and whether they close is known."""
+"""Moments and closedness of meshes read in blocks, compared with meshes in memory."""
 
 from io import BytesIO
 
@@ -158,7 +158,7 @@ def test_body_far_beyond_its_first_faces_is_read_again(tmp_path, small_blocks, p
 
 
 @pytest.mark.parametrize("order", ["<", ">", ""])
-def test_a_ply_that_is_cut_short_or_damaged_is_refused(tmp_path, small_blocks, order):
+def test_truncated_or_damaged_ply_is_refused(tmp_path, small_blocks, order):
     part = moved(sphere(1))
     whole = ply(*part, order, extra=True)
     body = len(whole) - len(ply(*part, order, extra=True).partition(b"end_header\n")[2])
@@ -178,7 +178,7 @@ def test_a_ply_that_is_cut_short_or_damaged_is_refused(tmp_path, small_blocks, o
 
 
 @pytest.mark.parametrize("cut", [1, 10, 49, 50, 500])
-def test_an_stl_that_is_cut_short_is_refused(tmp_path, small_blocks, cut):
+def test_truncated_stl_is_refused(tmp_path, small_blocks, cut):
     part = moved(sphere(1))
     with refused("stl_size"):
         measured(tmp_path, "a.stl", stl(part)[:-cut])
@@ -207,7 +207,7 @@ def test_an_stl_that_is_cut_short_is_refused(tmp_path, small_blocks, cut):
         (b"endfacet", b"endfacets"),
     ],
 )
-def test_a_text_that_is_no_stl_is_refused(tmp_path, small_blocks, old, new):
+def test_text_other_than_stl_is_refused(tmp_path, small_blocks, old, new):
     """Whichever of its words is another, in the last facet or in all of them."""
     text = stl_text(moved(sphere(1)))
     at = text.rindex(old)
@@ -216,8 +216,8 @@ def test_a_text_that_is_no_stl_is_refused(tmp_path, small_blocks, old, new):
             measured(tmp_path, "a.stl", other)
 
 
-def test_no_number_of_a_text_has_an_underscore(tmp_path):
-    """Which Python would read."""
+def test_numbers_with_underscores_are_refused(tmp_path):
+    """Python would read these numbers."""
     text = stl_text(moved(sphere(1)))
     at = text.rindex(b".")
     with refused("line_misread"):
@@ -366,7 +366,7 @@ def test_coordinates_beyond_float32(tmp_path, order):
 
 @pytest.mark.parametrize("size", [1e-13, 6e12])
 def test_a_body_of_any_size_has_moments_of_twentieth_order(tmp_path, size):
-    """Of its own scale: as numbers of meters they would be too small or too large on the way."""
+    """Moments are computed at the body's own scale; in meters they would under- or overflow on the way."""
     points, faces = box((-1, -1, -1), (1, 1, 1))
     found = measured(tmp_path, "a.ply", ply(points * size, faces, kind="f8"), 20)
     for powers in ((0, 0, 0), (20, 0, 0), (4, 6, 10)):
@@ -381,7 +381,7 @@ def test_moments_beyond_all_numbers_are_refused(tmp_path):
 
 
 @pytest.mark.parametrize("order", [3, 5, 20])
-def test_a_body_that_is_a_point_has_no_volume(tmp_path, order):
+def test_collapsed_body_has_no_volume(tmp_path, order):
     found = measured(tmp_path, "a.stl", stl((np.full((3, 3), 0.1), np.array([[0, 1, 2]]))), order, order)
     assert found.volume.total == 0.0 == found.area.total
 
@@ -412,7 +412,7 @@ POINTS = "element vertex 4", "property float x", "property float y", "property f
         header(*POINTS, "element face", FACES.splitlines()[1]),
     ],
 )
-def test_a_header_that_makes_no_sense_is_refused_as_such(tmp_path, data):
+def test_senseless_header_is_refused(tmp_path, data):
     with refused("file_damaged", file="a.ply", cause={"code": "damage_ply_header", "values": {}}):
         measured(tmp_path, "a.ply", data + TETRAHEDRON.encode())
 
@@ -431,7 +431,7 @@ def test_damage_in_a_ply_is_named(tmp_path, old, new, code, values):
         measured(tmp_path, "a.ply", whole.replace(old, new).encode("latin-1"))
 
 
-def test_other_files_are_refused(tmp_path):
+def test_files_of_other_types_are_refused(tmp_path):
     (tmp_path / "a.obj").write_bytes(b"")
     with refused("file_type", suffixes=".stl .ply"):
         open_mesh_file(tmp_path / "a.obj")

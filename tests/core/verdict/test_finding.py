@@ -96,7 +96,7 @@ def test_stored_finding_names_the_same_elements():
     assert "3 of “Cube”" in sentence(of_source) and "elements" not in finding("no_faces").as_record()
 
 
-def test_a_number_that_json_cannot_hold_is_unknown():
+def test_nonfinite_finding_value_is_unknown():
     assert "unknown of the area" in sentence(finding("holes_capped_slightly", count=1, share=None))
 
 
@@ -117,7 +117,7 @@ def test_template_has_only_placeholders_known_to_the_formatter():
 
 @functools.cache
 def calls_that_make() -> list[tuple[str, ast.Call]]:
-    """Where the source makes findings and refusals."""
+    """Yield the places of the source that create findings and refusals."""
     makers = {"finding", "Finding", "MeasureError", "ReadError", "EditRefusedError", "FileError", "QueryError"}
     makers |= {"SurfaceRefusedError", "NoShapeError", "_damaged"}
     return [
@@ -139,14 +139,14 @@ def codes_of(call: ast.Call) -> list[str]:
     return [constant.value for constant in constants if isinstance(constant.value, str)]
 
 
-def test_every_code_that_is_made_has_a_message():
+def test_every_created_code_has_a_message():
     assert not {code: place for place, call in calls_that_make() for code in codes_of(call) if code not in MESSAGES}
 
 
 FILLED_IN_LATER = {"axes_made_principal": {"count"}, "origins_moved": {"count"}}
 
 
-def test_every_value_that_a_message_needs_is_given():
+def test_every_placeholder_of_a_message_is_given():
     missing = []
     for place, call in calls_that_make():
         given = {"elements", *(keyword.arg for keyword in call.keywords)}

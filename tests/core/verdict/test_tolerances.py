@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What counts as nothing, from both sides, in bodies that are measured."""
+"""Limits of size and of negligible differences, on both sides."""
 
 import numpy as np
 import pytest

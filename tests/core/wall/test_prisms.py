@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What bounds the errors of walls: prism by prism, along the boundary and as a whole, against closed forms."""
+"""Jacobians of wall prisms and their first roots, in rational arithmetic."""
 
 from fractions import Fraction
 from math import isqrt
@@ -12,7 +12,7 @@ from body_moments.core.wall.walls import first_positive_root
 
 
 def exact_root(a, b, c, error=(0, 0, 0)):
-    """The first positive root of a + b s + c s² less an error, in fractions to 60 digits; None where there is none."""
+    """Return the first positive root of a + b s + c s² less an error, in fractions to 60 digits, or None."""
     a, b, c = (Fraction(float(x)) - Fraction(float(e)) for x, e in zip((a, b, c), error))
     if a <= 0:
         return Fraction(0)
@@ -44,7 +44,7 @@ def test_a_prism_is_good_up_to_the_first_root_and_no_farther(scale, unit):
             assert truth * (1 - Fraction(near)) <= Fraction(value) <= truth
 
 
-def test_a_double_root_is_one_however_it_is_rounded():
+def test_double_root_is_found_at_any_rounding():
     rng = np.random.default_rng(3)
     twice = rng.uniform(0.1, 10.0, 200)
     columns = np.array([np.ones(200), -2.0 / twice, 1.0 / twice**2])

@@ -78,7 +78,7 @@ def test_storing_points_as_float32_is_in_the_bounds():
 
 
 def product(*polynomials):
-    """Of polynomials in u and w: {(i, j): coefficient}."""
+    """Multiply polynomials in u and w: {(i, j): coefficient}."""
     result = {(0, 0): Fraction(1)}
     for one in polynomials:
         before, result = result, {}
@@ -117,7 +117,7 @@ def test_strips_far_beyond_their_size_are_within_bounds(size):
 
 
 @pytest.mark.parametrize("order", range(4))
-def test_to_third_order_they_are_the_wall_s_own(order):
+def test_third_order_matches_the_wall_moments(order):
     points, triangles = box((-1, -1, -1), (1, 1, 1))
     wall = offset_solid(Surface(points, triangles))
     found, own = wall_moments(wall, 0.25, 0.0, order), wall.moments(0.25, 0.0)

@@ -33,7 +33,7 @@ def wall(part, side, thickness, **more):
 
 
 def exact_difference(part, vectors, low, high, about):
-    """The 20 moments of what is between a closed surface moved by `low` and by `high`, as Fractions."""
+    """Return the 20 moments between a closed surface moved by `low` and by `high`, as Fractions."""
 
     def moved(s):
         points = [
@@ -117,7 +117,7 @@ def test_every_moment_is_a_difference_of_two_closed_bodies(part, side):
     assert (body.rounding_error[:10] <= 1e-9 * scale[:10]).all()
 
 
-def test_far_away_only_the_coordinates_themselves_lose_digits():
+def test_distant_wall_loses_only_coordinate_digits():
     near, far = cube(), bodies.moved(cube(), offset=(1024.0, -2048.0, 4096.0))
     one, other = (wall(part, "inward", 0.125) for part in (near, far))
     assert np.abs(one.raw - other.raw).max() <= 1e-14
@@ -135,14 +135,14 @@ def test_directions_move_every_plane_of_a_tilted_box_by_one():
     assert found.tangential_error[0].max() < 1e-13
 
 
-def test_the_bound_holds_for_the_directions_too():
+def test_bound_holds_for_directions():
     turn = bodies.rotation(7)
     part = bodies.moved(cube(), turn)
     body = wall(part, "inward", 0.1)
     assert abs(body.total - (1 - 0.8**3)) <= body.rounding_error[0] <= 1e-12
 
 
-def test_storing_as_float32_changes_no_more_than_is_said():
+def test_float32_storage_stays_within_the_bound():
     part = bodies.moved(bodies.sphere(2), SHEAR, (3.0, -2.0, 5.0))
     single = part[0].astype(np.float32).astype(float)
     given = offset_solid(bodies.surface((single, part[1]), np.float32)).moments(0.05, 0.0)
@@ -302,7 +302,7 @@ def test_surface_without_sides_is_refused_with_the_remedy(part, code):
         ((SQUARE, np.array([[0, 1, 2], [0, 3, 2]])), "wall_inconsistent_faces", [[[0, 0, 0], [1, 1, 0]]]),
     ],
 )
-def test_edges_that_make_no_wall_are_named_by_the_vertices_given(part, code, edges):
+def test_unusable_edges_are_named_by_given_vertices(part, code, edges):
     points, triangles = part
     given = np.concatenate([np.full((3, 3), 9.0), points])
     with pytest.raises(MeasureError) as caught:
@@ -356,7 +356,7 @@ def test_wall_of_a_pyramid_is_a_difference_of_similar_pyramids():
 )
 @pytest.mark.parametrize("side", ["inward", "centered"])
 @pytest.mark.parametrize("t", [1e-4, 0.05])
-def test_no_float32_rounding_changes_more_than_is_said(part, side, t):
+def test_any_float32_rounding_stays_within_the_bound(part, side, t):
     rng = np.random.default_rng(5)
     single = part[0].astype(np.float32)
     given = offset_solid(bodies.surface((single, part[1]), np.float32)).moments(*split_thickness(side, t))
@@ -369,7 +369,7 @@ def test_no_float32_rounding_changes_more_than_is_said(part, side, t):
 
 
 def fine_box(n, size=(1.0, 1.0, 1.0)):
-    """A box whose sides are cut in n x n quads."""
+    """A box with sides cut in n x n quads."""
     faces = [
         (np.eye(3), (0, 0, 1)),
         (np.diag([1, -1, -1]), (0, 1, 0)),
@@ -392,7 +392,7 @@ def test_a_finely_cut_cube_has_the_wall_of_a_cube(n, t):
     assert np.abs(bodies.inertia(body) - (1 - (1 - 2 * t) ** 5) / 6).max() <= 1e-14
 
 
-def test_a_finely_cut_box_of_float32_that_is_turned_has_it_too():
+def test_turned_fine_float32_box_has_the_wall_of_a_box():
     points, triangles = bodies.moved(fine_box(16, (1.0, 2.0, 3.0)), bodies.rotation(3), (5.0, 7.0, -3.0))
     found = offset_solid(bodies.surface((points.astype(np.float32), triangles), np.float32))
     assert found.inward > 0.49
@@ -415,7 +415,7 @@ CAP = [(0, 1, 4, 5), (1, 2, 3, 4), (0, 5, 6, 11), (6, 7, 10, 11), (7, 8, 9, 10)]
 
 
 def clamp():
-    """A C whose jaws face each other over a gap of 0.2, each as wide and high as the other."""
+    """A C with jaws that face each other over a gap of 0.2, each as wide and high as the other."""
     points = np.array([(x, y, z) for z in (0.0, 1.0) for x, y in JAWS])
     quads = [row[::-1] for row in CAP] + [tuple(i + 12 for i in row) for row in CAP]
     quads += [(i, (i + 1) % 12, (i + 1) % 12 + 12, i + 12) for i in range(12)]
@@ -456,7 +456,7 @@ def test_float32_bound_grows_with_the_reach_of_a_wall():
 
 
 @pytest.mark.parametrize("angle", [1e-3, 1e-2])
-def test_a_crease_that_float32_still_shows_is_offset_as_one(angle):
+def test_faint_float32_crease_is_offset_as_a_crease(angle):
     points, triangles = bodies.grid(6)
     points[:, 2] = angle * np.maximum(points[:, 0] - np.unique(points[:, 0])[2], 0.0)
     found = offset_solid(bodies.surface((points, triangles), dtype=np.float32))
