@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Small bodies as (points, triangles), outward unless the name says otherwise, and what is known of them."""
+"""Small bodies as (points, triangles), outward unless the name says otherwise, with their known measures."""
 
 import math
 
@@ -46,13 +46,13 @@ def with_flipped(part, *faces):
 
 
 def welded(part):
-    """The same with one vertex for each position."""
+    """Weld a body to one vertex for each position."""
     points, index = np.unique(part[0], axis=0, return_inverse=True)
     return points, index.reshape(-1)[part[1]]
 
 
 def soup(part):
-    """The same with three vertices for each triangle."""
+    """Split a body into three vertices for each triangle."""
     return part[0][part[1].ravel()], np.arange(part[1].size).reshape(-1, 3)
 
 

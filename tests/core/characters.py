@@ -119,7 +119,7 @@ def humanoid(cells=2, unweighted=(), bent=True):
 
 
 def box_skeleton(cells=1):
-    """A skin whose every bone has a box of its own."""
+    """A skin with a box of its own for every bone."""
     points, quads = boxes_skin(BOXES, cells)
     return Character(points, quads, BONES, rigid_weights(points, quads, BOXES), NAMES)
 
@@ -149,7 +149,7 @@ def cylinder_chain(lengths=(1.0, 2.5, 0.75), radius=0.5, sides=24):
 
 
 def ball(bones=6, seed=3, unweighted=()):
-    """A sphere whose bones point everywhere, so that many of them meet in points."""
+    """A sphere with bones in all directions, so that many of them meet in points."""
     rng = np.random.default_rng(seed)
     points, quads = boxes_skin([((-3, -3, -3), (3, 3, 3))], 2)
     points = 2.0 * points / np.linalg.norm(points, axis=1)[:, None]

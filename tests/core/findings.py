@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What tests ask of findings and refusals: their codes and values, never their sentences."""
+"""Checks of findings and refusals by their codes and values, never by their sentences."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager

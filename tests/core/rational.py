@@ -18,7 +18,7 @@ def fractions(points):
 
 
 def determinant(rows):
-    """By the definition: the sum over permutations."""
+    """Evaluate the definition: the sum over permutations."""
     n, total = len(rows), Fraction(0)
     for order in permutations(range(n)):
         inversions = sum(order[i] > order[j] for i in range(n) for j in range(i + 1, n))

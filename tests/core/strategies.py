@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Random inputs of properties: what matters is drawn and shown when a property fails, the rest comes from a seed."""
+"""Random inputs of properties: the essential parts are drawn and shown on failure, the rest comes from a seed."""
 
 import numpy as np
 from hypothesis import HealthCheck, settings

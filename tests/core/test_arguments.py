@@ -269,7 +269,7 @@ def test_lists_give_the_same_as_arrays(call, name):
 
 
 @pytest.mark.parametrize(("call", "name"), ARRAYS_OF_CALLERS)
-def test_wrong_shapes_are_refused_by_name_and_shape(call, name):
+def test_misshapen_arguments_are_refused_by_name_and_shape(call, name):
     function, given = CALLS[call]
     array = np.ones((7,) * (given[name].ndim + 2), given[name].dtype)
     if call in ("quaternion", "rotation_matrix", "Moments.in_frame", "MassProperties.in_frame"):
@@ -283,7 +283,7 @@ def test_wrong_shapes_are_refused_by_name_and_shape(call, name):
 @pytest.mark.parametrize(
     "value", [object(), "text", [[1.0], [1.0, 2.0]], 1j], ids=["object", "text", "ragged", "complex"]
 )
-def test_values_that_are_no_numbers_are_refused_by_name(call, name, value):
+def test_nonnumeric_arguments_are_refused_by_name(call, name, value):
     function, given = CALLS[call]
     with pytest.raises(ValueError, match="{} must be".format(name)):
         function(**{**given, name: value})

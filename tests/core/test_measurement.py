@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The moments of a measured object's mass: from what carries it, to the order that is known."""
+"""Moments of a measured object's mass by their source and known order."""
 
 from dataclasses import fields, replace
 
@@ -17,26 +17,26 @@ VOLUME, AREA = polyhedron_moments(bodies.surface(bodies.moved(bodies.box(), np.d
 
 
 def measured(**changes):
-    """A body of which `mass_moments` are known to third order, others to higher orders."""
+    """A body with `mass_moments` known to third order, others to higher orders."""
     nothing = dict.fromkeys(field.name for field in fields(Measurement))
     known = {"mass_moments": (VOLUME.truncate(3), 7.0), "volume_moments": VOLUME, "area_moments": AREA}
     return Measurement(**{**nothing, "density_from": DENSITY_FROM_MASS, **known, **changes})
 
 
 @pytest.mark.parametrize("order", [0, 2, 3, 4, 5])
-def test_of_a_uniform_solid_they_are_the_volume_s(order):
+def test_uniform_solid_uses_volume_moments(order):
     mass = measured().moments_of_mass(order)
     assert mass.measure == Measure.MASS and mass.order == order
     assert np.array_equal(mass.raw, 7.0 * VOLUME.truncate(order).raw)
 
 
-def test_of_a_shell_they_are_the_area_s():
+def test_shell_uses_area_moments():
     shell = measured(volume_moments=None, mass_moments=(AREA.truncate(3), 2.0))
     assert np.array_equal(shell.moments_of_mass(4).raw, 2.0 * AREA.raw)
     assert shell.moments_of_mass(5) is None
 
 
-def test_of_a_varying_density_they_are_its_own():
+def test_varying_density_uses_its_own_moments():
     own = replace(VOLUME, measure=Measure.MASS) * 3.0
     body = measured(density_from=finding("density_from_polynomial"), higher_mass=own)
     assert np.array_equal(body.moments_of_mass(4).raw, own.truncate(4).raw)
@@ -47,6 +47,6 @@ def test_of_a_varying_density_they_are_its_own():
     "changes",
     [{"density_from": finding("density_from_polynomial")}, {"length": 2.0}, {"volume_moments": VOLUME.truncate(3)}],
 )
-def test_what_is_not_known_to_an_order_is_none(changes):
+def test_missing_order_is_none(changes):
     assert measured(**changes).moments_of_mass(4) is None
     assert isinstance(measured(**changes).moments_of_mass(3), Moments)

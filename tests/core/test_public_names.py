@@ -65,7 +65,7 @@ def test_every_face_is_small_sorted_and_true(package):
     assert set(names) <= set(dir(FACES[package]))
 
 
-def test_a_name_is_there_when_it_is_first_used():
+def test_public_name_loads_on_first_use():
     core = FACES[""]
     for name in core.__all__:
         vars(core).pop(name, None)
@@ -102,7 +102,7 @@ def test_the_example_of_a_public_name_runs(name):
     assert tried and not failed, "".join(report)
 
 
-def test_the_names_of_the_library_load_nothing_before_they_are_used():
+def test_library_names_load_nothing_before_use():
     code = (
         "import importlib.util, sys\n"
         "spec = importlib.util.spec_from_file_location('body_moments', sys.argv[1] + '/__init__.py', "
@@ -144,7 +144,7 @@ def test_the_readme_example_uses_the_library_s_names_alone():
 
 
 def test_readme_example_runs_as_printed(capsys):
-    """A cube without a lid: the moments are those of the body that was measured, at every order."""
+    """A cube without a lid: the moments belong to the measured body at every order."""
     names = {}
     exec(compile(readme_example(), "README.md", "exec"), names)
     assert str(names["body"].method) == "capped"
@@ -158,63 +158,3 @@ def test_readme_example_runs_as_printed(capsys):
 
 def test_python_page_has_the_readme_example():
     assert readme_example() in (ROOT / "docs" / "python.md").read_text(encoding="utf-8")
-
-
-DEFAULTS = """
-density_moments order=3
-grid_moments spline_order=1 order=3 positions=(None, None, None)
-SplineAxis.at_positions order=1
-SplineAxis.table center=0.0
-SplineAxis.uniform order=1 spacing=1.0 origin=0.0
-threshold_body order=3 with_density=False preview=False
-inside_moments order=3
-solid_transform threads=1
-surface_transform threads=1
-MassProperties.from_moments density=1.0
-equivalent_frames noise=1e-05
-Reference.refer_moments density=1.0
-convex_hull tolerance=1e-08
-convex_polygon tolerance=0.0
-Surface.transform offset=(0.0, 0.0, 0.0)
-normalize by=size
-SplineSpace.collocation_matrix derivative=0
-clamped_space inner=() low=0.0 high=1.0
-length_moments order=3
-planar_region stored=0.0
-measure_patches order=3 area_order=0 stored=0.0
-measure_sheet stored=0.0
-TrackedSolid.update stored=0.0
-find_defects error=0.0
-region_moments rounded=0.0 stored=0.0
-fit_plane error=0.0
-measure_section error=0.0 shared=0.0
-enclosed_moments allow_open=False
-polyhedron_moments order=3 exact=False allow_open=False threads=1
-BonePiece.moments order=3
-rank any_size=False any_hand=False
-symmetry noise=1e-05
-measure_solid shell=False threads=1
-SolidIntegrals.exact_third_order threads=1
-SolidIntegrals.moments threads=1
-balance limit=inf shell=False
-area_gradient order=2
-volume_gradient order=2
-resting_poses tolerance=1e-06
-find_support down=(0.0, 0.0, -1.0) tolerance=1e-06
-measure_stream order=3 area_order=0 threads=1
-"""
-
-
-def test_what_is_left_out_in_a_call_means_what_it_meant():
-    found = {}
-    for thing in DOCUMENTED.values():
-        functions = vars(thing).items() if inspect.isclass(thing) else [("", inspect.unwrap(thing))]
-        for name, function in functions:
-            function = getattr(function, "__func__", function)
-            if not inspect.isfunction(function) or name.startswith("_") or ".papers." in function.__module__:
-                continue
-            given = inspect.signature(function).parameters.values()
-            values = ["{}={}".format(one.name, one.default) for one in given if one.default not in (None, one.empty)]
-            if values and "limits" not in values[0]:
-                found[function.__qualname__] = " ".join(values)
-    assert found == dict(line.split(" ", 1) for line in DEFAULTS.strip().splitlines())

@@ -3,7 +3,6 @@
 """Statements of .obj files that importers would misread, and the lines that they stand on."""
 
 import pytest
-from body_moments.core.cad import obj_text
 from body_moments.core.cad.obj_text import check_obj_text
 
 from tests.core.findings import refused
@@ -28,13 +27,6 @@ FACES += "l 1 2/1\np 1 -4\n"
 FREE = "cstype rat bspline\ndeg 1 1\nsurf 0 1 0 1 1/1/1 2 3 -1\nparm u 0 0 1 1\nparm v 0 0 1 1\nend\ncurv 0 1 1 2\n"
 FREE += "curv2 1 -1\n"
 WHOLE = START + FACES + FREE
-FIRST_FACE, FIRST_FREE = 14, 22  # lines
-
-
-@pytest.fixture(params=[1 << 18, 40])
-def blocks(request, monkeypatch):
-    """Blocks with all statements and with few."""
-    monkeypatch.setattr(obj_text, "BLOCK", request.param)
 
 
 def misread(line, code, **values):
@@ -55,7 +47,7 @@ PLACING = {4: {1, 2, 3}, 5: {3}, 24: {1, 4}, 25: {2, 5}, 28: {1, 2}}
 INDEX_FIELDS = [(14, 1), (14, 3), (15, 2), (16, 3), (17, 4), (20, 1), (20, 2), (21, 1), (24, 5), (24, 8), (28, 3)]
 
 
-def test_statements_are_read_as_before(blocks):
+def test_statements_are_read_as_before():
     marked = "\ufeff" + WHOLE
     joined = WHOLE.replace("v 1 0 0", "v \\\n1 \\\r\n0\\\n0", 1).replace("f 1 2 3\n", "f 1 \\\n2 3\n")
     spaces = WHOLE.replace(" ", "\t ").replace("\nv", "\n \t v").replace("\nf", "\n\tf")
@@ -76,7 +68,7 @@ def test_statements_are_read_as_before(blocks):
 
 
 @pytest.mark.parametrize("line, place", NUMBER_FIELDS)
-def test_word_for_a_number_is_refused(blocks, line, place):
+def test_word_for_a_number_is_refused(line, place):
     placing = place in PLACING.get(line, ())
     for word in (*NO_NUMBERS, *["nan", "-INF", "1e39", "9" * 45] * placing):
         text = word.partition("#")[0].replace("\0", "")
@@ -89,7 +81,7 @@ def test_word_for_a_number_is_refused(blocks, line, place):
 
 
 @pytest.mark.parametrize("line, place", INDEX_FIELDS)
-def test_word_for_an_index_is_refused(blocks, line, place):
+def test_word_for_an_index_is_refused(line, place):
     for word in (*filter(None, NO_WHOLES), "1/2/3/4", "/1", "1/x", "1//x", "1.0/1", "1 /1"):
         if word != "1/1":
             with misread(line, "field_not_whole", text=word.split()[-1]):
@@ -102,14 +94,14 @@ def test_word_for_an_index_is_refused(blocks, line, place):
 
 
 @pytest.mark.parametrize("line, place", [(23, 1), (23, 2), (29, 1), (29, 2)])
-def test_word_for_a_whole_number_is_refused(blocks, line, place):
+def test_word_for_a_whole_number_is_refused(line, place):
     for word in filter(None, NO_WHOLES):
         with misread(line, "field_not_whole", text=word):
             check_obj_text(changed(line, place, word).encode())
 
 
 @pytest.mark.parametrize("line", [4, 5, 6, 8, 10, 11, 14, 15, 16, 20, 21, 23, 24, 25, 28, 29])
-def test_statement_with_too_few_fields_is_refused(blocks, line):
+def test_statement_with_too_few_fields_is_refused(line):
     least = {8: 0, 11: 0, 20: 1, 21: 0, 23: 0, 24: 4, 25: 1, 28: 2, 29: 1}.get(line, 2)
     lines = WHOLE.split("\n")
     lines[line - 1] = " ".join(lines[line - 1].split()[: least + 1])
@@ -117,7 +109,7 @@ def test_statement_with_too_few_fields_is_refused(blocks, line):
         check_obj_text("\n".join(lines).encode())
 
 
-def test_index_ahead_of_its_vertex_is_refused(blocks):
+def test_index_ahead_of_its_vertex_is_refused():
     for text, line, word in (("v 0 0 0\nf 1 1 2\nv 1 1 1\n", 2, "2"), ("vt 0\nv 0 0 0\nf 1/2 1 1\nvt 1", 3, "1/2")):
         with misread(line, "field_not_vertex", text=word):
             check_obj_text(text.encode())
@@ -127,7 +119,7 @@ def test_index_ahead_of_its_vertex_is_refused(blocks):
         check_obj_text(b"v 0 0 0\nv 0 1 0\nv 0 0 1\nf -3 -2 -1\n" * 500 + b"f -1500 -1501 1\n")
 
 
-def test_continued_statement_is_named_by_its_first_line(blocks):
+def test_continued_statement_is_named_by_its_first_line():
     text = "v 0 0 \\\n0\n# a \\\nv x\nv 0 \\\r\n \\\n0 x\n"
     with misread(5, "field_not_number", text="x"):
         check_obj_text(text.encode())
@@ -136,14 +128,7 @@ def test_continued_statement_is_named_by_its_first_line(blocks):
             check_obj_text(text.encode())
 
 
-def test_byte_order_mark_before_a_statement_is_refused(blocks):
+def test_byte_order_mark_before_a_statement_is_refused():
     with misread(1, "field_not_word", text="U+FEFF", expected="v"):
         check_obj_text("\ufeffv 0 0 0\n".encode())
     check_obj_text("\ufeff\nv 0 0 0\n".encode())
-
-
-def test_word_is_found_wherever_blocks_end(monkeypatch):
-    monkeypatch.setattr(obj_text, "BLOCK", 64)
-    for before in range(80):
-        with misread(3, "field_not_number", text="1x"):
-            check_obj_text(("#" * before + "\nv 0 0 0\nv 1 2 1x\nf 1 1 1").encode())

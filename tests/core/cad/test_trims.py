@@ -32,24 +32,6 @@ def test_once_around_from_any_corner_in_either_sense(first, way):
 
 
 @pytest.mark.parametrize("share, is_near", [(0.9, True), (1.1, False)])
-@pytest.mark.parametrize("direction", [(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)])
-@pytest.mark.parametrize("number", range(4))
-@pytest.mark.parametrize("end", [0, 1])
-def test_ends_meet_each_other_and_the_sides_but_for_what_float32_rounds(share, is_near, direction, number, end):
-    pieces = lines(A, B, C, D, A)
-    pieces[number].points[end] += share * NOISE * SIZE * direction
-    assert trims_nothing(pieces, DOMAIN) == is_near
-
-
-@pytest.mark.parametrize("share, is_near", [(0.9, True), (1.1, False)])
-@pytest.mark.parametrize("way", [1, -1])
-def test_a_curve_runs_one_way_but_for_what_float32_rounds(share, is_near, way):
-    middle = (A + B) / 2.0
-    corners = [A, middle, middle - share * NOISE * SIZE * (1.0, 0.0), B, C, D, A]
-    assert trims_nothing([polyline(*corners[::way])], DOMAIN) == is_near
-
-
-@pytest.mark.parametrize("share, is_near", [(0.9, True), (1.1, False)])
 @pytest.mark.parametrize("side", range(4))
 def test_a_smooth_curve_stays_along_one_side(share, is_near, side):
     corners = [(A, B, C, D)[(side + step) % 4] for step in range(5)]
@@ -64,13 +46,7 @@ def test_a_smooth_curve_stays_along_one_side(share, is_near, side):
     assert trims_nothing([polyline(*corners[:3]), *lines(*corners[2:])], DOMAIN)
 
 
-def test_an_edge_across_the_domain_trims_though_its_ends_lie_on_sides():
+def test_edge_across_the_domain_trims_despite_ends_on_sides():
     middle = (A + B) / 2.0
     assert trims_nothing(lines(A, middle, (C + D) / 2.0, D, A), DOMAIN) is False
     assert trims_nothing(lines(A, C, D, A), DOMAIN) is False
-
-
-@pytest.mark.parametrize("domain", [((1.0, 1.0), (-2.0, 6.0)), ((1.0, 3.0), (6.0, -2.0))])
-def test_a_domain_of_no_size_is_trimmed_and_so_is_one_without_a_curve(domain):
-    assert trims_nothing(lines(A, B, C, D, A), domain) is False
-    assert trims_nothing([], DOMAIN) is False

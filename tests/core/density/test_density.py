@@ -6,11 +6,10 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from body_moments.core.density import spline_grid as density
 from body_moments.core.density.spline_grid import TrivariateSpline, density_moments, grid_moments
 from body_moments.core.density.spline_tables import SplineAxis
 from body_moments.core.inertia.mass_properties import MassProperties
-from body_moments.core.moments.moments import U, monomials
+from body_moments.core.moments.moments import monomials
 from body_moments.tests.core.trivariate import exact_moments
 
 from tests.close import close
@@ -57,7 +56,7 @@ def test_high_orders_of_moments():
 
 
 @pytest.mark.parametrize("order, signed", [(1, False), (2, False), (3, False), (4, False), (4, True)])
-def test_moments_to_order_20_of_grids_are_those_of_fractions(order, signed):
+def test_grid_moments_to_order_20_match_fractions(order, signed):
     rng = np.random.default_rng(order)
     coefficients = rng.integers(-9 if signed else 0, 9, (4, 3, 5)) / 4.0
     axes = [SplineAxis.uniform(count, order) for count in coefficients.shape]
@@ -71,66 +70,10 @@ def test_moments_to_order_20_of_grids_are_those_of_fractions(order, signed):
             assert bound <= (1e-11 if sum(powers) < 4 else 1e-2) * float(truth)  # (|t| + w)^l is far from sharp
 
 
-@pytest.mark.parametrize("spline_order, order", [(1, 3), (2, 0), (4, 6)])
-def test_the_bound_counts_the_roundings_of_tables_and_sums(spline_order, order):
-    found = grid_moments(np.ones((3, 4, 5)), (3, 4, 5), np.eye(4), spline_order, order)
-    units = 1.01 * (3 * (2 * (spline_order + 1) + 3 * order + 6) + 3 + 4 + 5 + 1 + 8)
-    of_map = (8.0 + 9.0 + 6.0 * order) + (4.0 * order + 50.0)
-    assert close(found.rounding_error[0], (units + of_map) * U * 60.0, rel=1e-9)
-
-
-@pytest.mark.parametrize("value", [3.0, -3.0])
-@pytest.mark.parametrize("clipped, counts", [(False, 2 * 2 + 3 * 2 + 6), (True, 16 + 3 * 2 + 64)])
-def test_the_bound_of_odd_moments_follows_from_the_even_ones(monkeypatch, value, clipped, counts):
-    """(|t| + 1)^l of a unit voxel about its middle, with |t| up to 1/2 where it is to an odd power; of the next one
-    beside it, in a block of its own, about the edge between the two."""
-    axis, pair = SplineAxis.uniform(1), SplineAxis.uniform(2)
-    if clipped:
-        axis, pair = axis.clip(), pair.clip()
-    single = [1.0, 1.0 + 0.5, 1.0 + 2 * 0.5 + 1.0 / 12.0]
-    double = [2.0, 2.0 + 2.0, 2.0 + 2 * 2.0 + 2.0 / 3.0]
-    monkeypatch.setattr(density, "COEFFICIENTS_PER_BLOCK", 1)
-    for axes, first, blocks in (([axis] * 3, single, 1), ([pair, axis, axis], double, 2)):
-        found = density_moments(np.full([one.count for one in axes], value), axes, 2)
-        units = 1.01 * (3 * counts + 3 + blocks + 8) * U
-        expected = [first[p] * single[q] * single[r] for p, q, r in monomials(2).tolist()]
-        assert close(found.rounding_error, 3.0 * units * np.array(expected), rel=1e-12)
-
-
-@pytest.mark.parametrize("nz, most, planes, columns", [(4, 24, 2, 6), (4, 11, 1, 2), (30, 24, 1, 1), (2, 12, 2, 6)])
-def test_pieces_have_as_many_coefficients_as_they_may(monkeypatch, nz, most, planes, columns):
-    monkeypatch.setattr(density, "COEFFICIENTS_PER_BLOCK", most)
-    values = np.arange(5 * 3 * nz).reshape(5, 3, nz)
-    found = [(place, block.tolist()) for place, block in density._pieces(values)]
-    starts = [(i, j, 0) for i in range(0, 5, planes) for j in range(0, 3, columns)]
-    assert found == [((i, j, k), values[i : i + planes, j : j + columns].tolist()) for i, j, k in starts]
-
-
-def test_changes_add_their_own_roundings_to_the_bound():
-    """Of what a coefficient changes by, times how far its function reaches; a block adds as many as are summed up."""
-    axes = [SplineAxis.uniform(count, 2) for count in (3, 5, 4)]  # supports of 2 about their places, from the middles
-    live, powers, changed = TrivariateSpline(np.zeros((3, 5, 4)), axes, 2), monomials(2), np.zeros(10)
-    counts = 3 * (2 * 3 + 3 * 2 + 6) + 6
-
-    def reach(place):
-        far = np.abs(np.array(place) - [1.0, 2.0, 1.5]) + 1.0
-        return np.prod(far**powers, axis=1)
-
-    for place, value in (((2, 0, 3), 5.0), ((0, 4, 1), -7.0), ((2, 0, 3), 2.0)):
-        change = value - live.coefficients[place]
-        found = live.set_coefficient(*place, value)
-        changed += counts * U * abs(change) * reach(place) + U * np.abs(found.raw)
-        assert close(found.rounding_error, changed, rel=1e-12)
-    found = live.set_block((1, 2, 0), np.array([[[1.0, -4.0]]]))
-    sizes = reach((1, 2, 0)) + 4.0 * reach((1, 2, 1))
-    changed += (counts + 1 + 1 + 2) * U * sizes + U * np.abs(found.raw)
-    assert close(found.rounding_error, changed, rel=1e-12)
-
-
 @pytest.mark.parametrize("axis", range(3))
 @pytest.mark.parametrize("value, order", [(0.5, 2), (0.5, 3), (5.0, 2)])
 @pytest.mark.parametrize("place, is_near", [(6, False), (7, False), (8, True), (12, True), (13, False)])
-def test_moments_of_mass_far_from_the_middle_are_about_a_knot_beside_it(axis, value, order, place, is_near):
+def test_moments_of_distant_mass_are_about_a_nearby_knot(axis, value, order, place, is_near):
     """A voxel has a variance of 1/12 about its middle: three from the middle of all is 108 of these, two is 48."""
     values = np.zeros(np.roll([21, 1, 1], axis))
     values[tuple(np.roll([place, 0, 0], axis))] = value
@@ -166,37 +109,6 @@ def test_any_type_and_layout_gives_the_same_numbers(dtype, layout):
     check(found, values, axes)
 
 
-def test_blocks_are_the_whole(monkeypatch):
-    coefficients, axes = spline((2, 4, 3), 5)
-    whole = density_moments(coefficients, axes)
-    monkeypatch.setattr(density, "COEFFICIENTS_PER_BLOCK", 7)
-    parts = [((0, 0, 0), coefficients[:2]), ((2, 1, 0), coefficients[2:, 1:]), ((2, 0, 0), coefficients[2:, :1])]
-    for found in (density_moments(coefficients, axes), density_moments(lambda: parts, axes)):
-        assert (np.abs(found.raw - whole.raw) <= found.rounding_error + whole.rounding_error).all()
-        check(found, coefficients, axes)
-
-
-def test_a_memory_map_is_measured_slab_by_slab(tmp_path, monkeypatch):
-    values = np.random.default_rng(0).random((40, 30, 20)).astype(np.float32)
-    np.save(tmp_path / "grid.npy", values)
-    mapped = np.load(tmp_path / "grid.npy", mmap_mode="r")
-    expected = grid_moments(values, values.shape, np.eye(4))
-    monkeypatch.setattr(density, "COEFFICIENTS_PER_BLOCK", 600)
-    largest = 0
-    contract = density.contract
-
-    def watched(block, factors):
-        nonlocal largest
-        largest = max(largest, block.size)
-        return contract(block, factors)
-
-    monkeypatch.setattr(density, "contract", watched)
-    found = grid_moments(mapped, values.shape, np.eye(4))
-    assert largest <= 600
-    assert (np.abs(found.raw - expected.raw) <= found.rounding_error + expected.rounding_error).all()
-    assert close(found.total, expected.total, rel=1e-13)
-
-
 def test_one_voxel_in_the_corner_of_a_large_grid_is_a_unit_cube():
     values = np.zeros((300, 300, 300), np.uint8)
     values[299, 0, 7] = 1
@@ -208,7 +120,7 @@ def test_one_voxel_in_the_corner_of_a_large_grid_is_a_unit_cube():
 
 @pytest.mark.parametrize("order", range(1, 7))
 @pytest.mark.parametrize("scale", [1e-9, 1.0, 1e6])
-def test_smoothing_adds_mass_times_k_twelfths_of_the_spacing_squared(order, scale):
+def test_smoothing_adds_mass_times_k_twelfths_of_spacing_squared(order, scale):
     """The whole of the paper's gain over the discrete sum: I_xx = discrete + M k g² / 6."""
     rng = np.random.default_rng(2)
     values = rng.random((4, 5, 6))
@@ -243,7 +155,7 @@ def test_a_sheared_and_mirrored_grid_is_a_parallelepiped():
     assert second == pytest.approx(linear @ one.second() @ linear.T * 6.0, rel=1e-13)
 
 
-def test_one_coefficient_changes_the_moments_as_if_all_were_summed_anew():
+def test_one_changed_coefficient_matches_a_full_sum():
     coefficients, axes = spline((4, 4, 4), 3, signed=True)
     live = TrivariateSpline(coefficients, axes, 3)
     rng = np.random.default_rng(4)
@@ -253,7 +165,7 @@ def test_one_coefficient_changes_the_moments_as_if_all_were_summed_anew():
     check(live.moments, live.coefficients, axes)
 
 
-def test_a_block_changes_them_too():
+def test_changed_block_matches_a_full_sum():
     coefficients, axes = spline((2, 3, 4), 3)
     live = TrivariateSpline(coefficients, axes, 3)
     live.set_block((1, 2, 0), np.arange(12.0).reshape(2, 2, 3) / 4)
@@ -264,7 +176,7 @@ def test_a_block_changes_them_too():
     check(live.moments, coefficients, axes)
 
 
-def test_a_change_that_does_not_fit_changes_nothing():
+def test_misfit_change_leaves_coefficients():
     coefficients, axes = spline((2, 2, 2))
     live = TrivariateSpline(coefficients, axes)
     before = live.moments.raw
@@ -281,7 +193,7 @@ def test_a_change_that_does_not_fit_changes_nothing():
     assert np.array_equal(live.coefficients, coefficients)
 
 
-def test_values_that_are_not_finite_are_refused():
+def test_nonfinite_values_are_refused():
     for bad in (np.nan, np.inf, -np.inf):
         values = np.ones((3, 3, 3))
         values[1, 2, 0] = bad
@@ -289,7 +201,7 @@ def test_values_that_are_not_finite_are_refused():
             grid_moments(values, values.shape, np.eye(4))
 
 
-def test_shapes_and_transforms_that_do_not_fit_are_refused():
+def test_misfit_shapes_and_transforms_are_refused():
     axes = [SplineAxis.uniform(2)] * 3
     with pytest.raises(ValueError, match="2, 2, 3"):
         density_moments(np.ones((2, 2, 3)), axes)
@@ -306,7 +218,7 @@ def test_values_are_mapped_before_they_are_summed():
     assert found.total == pytest.approx(np.interp(values, [5, 10], [0, 100]).sum())
 
 
-def test_samples_that_signal_that_they_are_no_numbers_are_refused_without_a_warning():
+def test_signaling_nan_samples_are_refused_without_warning():
     samples = np.full((2, 3, 4), 0x7FA00000, np.uint32).view(np.float32)  # what a damaged file may hold
     with refused("density_non_finite"):
         grid_moments(samples, samples.shape, np.eye(4))

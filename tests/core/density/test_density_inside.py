@@ -6,10 +6,9 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from body_moments.core.density import voxel_fill as density_inside
 from body_moments.core.density.voxel_fill import inside_moments
 from body_moments.core.mesh.surface import Surface
-from body_moments.core.moments.moments import U, monomials
+from body_moments.core.moments.moments import monomials
 from body_moments.core.polyhedron import polyhedron_moments
 
 from tests.close import close
@@ -85,14 +84,6 @@ def test_boxes_are_exact(low, high):
     assert close(volume, np.prod(inner), rel=1e-13)
 
 
-@pytest.mark.parametrize("order", [1, 4])
-def test_the_bound_counts_the_roundings_of_a_column_and_of_a_sum(order):
-    """Of a box that is the grid the upper face alone adds anything, cut into some hundred pieces."""
-    found, _ = inside_moments(box((0, 0, 0), (4, 5, 6)), np.full((4, 5, 6), 3.0), order)
-    rest = found.rounding_error[0] / (2.0**-53 * 360.0) - (40 + 4 * order + 6)
-    assert min(abs(rest - n) for n in (4, 5, 6, 7)) < 1e-6
-
-
 def blob(seed=0, count=24):
     """A closed star-shaped surface around (3, 3, 3), not aligned with anything."""
     rng = np.random.default_rng(seed)
@@ -108,9 +99,7 @@ def blob(seed=0, count=24):
     return np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
 
 
-@pytest.mark.parametrize("pieces", [50, 1 << 17])
-def test_a_uniform_density_is_the_solid(monkeypatch, pieces):
-    monkeypatch.setattr(density_inside, "PIECES_PER_BATCH", pieces)
+def test_a_uniform_density_is_the_solid():
     triangles = blob()
     found, volume = inside_moments(triangles, np.full((7, 7, 7), 2.5))
     points = triangles.reshape(-1, 3)
@@ -121,40 +110,7 @@ def test_a_uniform_density_is_the_solid(monkeypatch, pieces):
     assert found.total == pytest.approx(2.5 * solid.total, rel=1e-12)
 
 
-def test_batches_have_about_as_many_pieces_as_they_may(monkeypatch):
-    """Of triangles across one axis as well as across all, large ones and small ones."""
-    sizes, cut = [], density_inside._cut_at_voxels
-    monkeypatch.setattr(density_inside, "PIECES_PER_BATCH", 2000)
-    monkeypatch.setattr(
-        density_inside, "_cut_at_voxels", lambda *given: sizes.append(len(pieces := cut(*given))) or pieces
-    )
-    long = [box((0.1, 0.1, 0.1), np.roll((60.3, 0.7, 0.6), axis)) for axis in range(3)]
-    flat = [box((0.1, 0.1, 0.1), np.roll((0.6, 30.3, 30.7), axis)) for axis in range(3)]
-    for bodies_of, count in ((long, 60), (flat, 3), ([blob() * 4.0], 1)):
-        for body in bodies_of:
-            sizes.clear()
-            inside_moments(np.tile(body, (count, 1, 1)), np.ones((64, 64, 64)), 0)
-            assert max(sizes) < 9000 and (len(sizes) == 1 or np.mean(sizes[:-1]) > 400), sizes
-
-
-@pytest.mark.parametrize("pieces, terms", [(1, 1), (1 << 17, 12)])
-@pytest.mark.parametrize("order", [0, 1, 3])
-def test_the_bound_counts_the_roundings_of_a_piece_and_of_the_sums(monkeypatch, order, pieces, terms):
-    """Of a box in one voxel, whose floor and ceiling have columns of 5 from the bottom of the grid."""
-    monkeypatch.setattr(density_inside, "PIECES_PER_BATCH", pieces)
-    corners = np.array([[1.25, 2.25, 3.25], [1.75, 2.5, 3.5]])
-    found, volume = inside_moments(box(*corners), np.full((4, 5, 6), 5.0), order)
-    units = 40 + 4 * order + 6 + int(np.log2(terms + 1))
-    assert close(found.rounding_error[0], units * U * 5.0 * 0.125 * (3.25 + 3.5), rel=1e-12)
-    assert close(volume, 1.0 / 32.0, rel=1e-14)
-    if order:  # about the corner nearest to the middle, at 2, 2 and 3: the middles of floor and ceiling
-        x, y, z = 0.5, 0.375, 5.0 * 0.125 * ((3.0**2 - 0.25**2) / 2.0 + (3.0**2 - 0.5**2) / 2.0)
-        expected = [5.0 * 0.125 * 6.75 * x, 5.0 * 0.125 * 6.75 * y, z]
-        assert found.about.tolist() == [2.0, 2.0, 3.0]
-        assert close(found.rounding_error[1:4], units * U * np.array(expected), rel=1e-12)
-
-
-def test_densities_add():
+def test_density_moments_add():
     triangles, one, two = blob(), random_densities((7, 7, 7)), random_densities((7, 7, 7), 1)
     first, second, both = (inside_moments(triangles, grid)[0] for grid in (one, two, one + two))
     assert both.raw == pytest.approx(first.raw + second.raw, rel=1e-11, abs=1e-9)
@@ -176,7 +132,7 @@ def test_a_monte_carlo_sum_agrees():
     assert found.center == pytest.approx(sampled @ points / sampled.sum(), rel=5e-3)
 
 
-def test_an_inverted_surface_counts_negative_and_a_far_one_nothing():
+def test_inverted_surface_counts_negative_and_far_one_zero():
     densities = random_densities((7, 7, 7))
     triangles = blob()
     found, _ = inside_moments(triangles, densities)
@@ -189,20 +145,8 @@ def test_an_inverted_surface_counts_negative_and_a_far_one_nothing():
         assert np.abs(away.raw).max() <= away.rounding_error.max() + 1e-9
 
 
-def test_values_that_are_not_finite_are_refused():
+def test_nonfinite_values_are_refused():
     with refused("density_non_finite"):
         inside_moments(blob(), np.full((7, 7, 7), np.nan))
     with refused("density_non_finite"):
         inside_moments(blob(), np.full((2, 3, 4), 0x7FA00000, np.uint32).view(np.float32))  # which signals it
-
-
-def test_what_lies_beyond_the_grid_hides_nothing_behind_it(monkeypatch):
-    """A box beside the grid ahead of one in it, triangle by triangle."""
-    densities = random_densities()
-    inner = box((0.5, 1.0, 0.25), (3.5, 4.5, 5.0))
-    alone, volume = inside_moments(inner, densities, 2)
-    monkeypatch.setattr(density_inside, "PIECES_PER_BATCH", 1)
-    found, both = inside_moments(np.concatenate([box((-9.0, 1.0, 1.0), (-7.0, 2.0, 2.0)), inner]), densities, 2)
-    assert close(both, volume, rel=1e-13) and close(volume, 3.0 * 3.5 * 4.75, rel=1e-13)
-    expected = alone.about_point(found.about)
-    assert (np.abs(found.raw - expected.raw) <= found.rounding_error + expected.rounding_error).all()

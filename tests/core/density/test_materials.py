@@ -37,5 +37,5 @@ def test_the_table_here_is_of_the_same_materials():
 
 
 @pytest.mark.parametrize("material", MATERIALS, ids=lambda material: material.name)
-def test_a_density_is_near_what_engineers_tables_say(material):
+def test_material_density_is_near_engineers_tables(material):
     assert 0.85 < material.density / TABLE[material.name] < 1.15

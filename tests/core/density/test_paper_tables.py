@@ -50,7 +50,7 @@ def test_every_cell_of_the_paper_is_reproduced(row):
 
 
 @pytest.mark.parametrize("order", [1, 2, 3, 5])
-def test_no_other_order_than_the_cubic_gives_the_paper(order):
+def test_only_the_cubic_order_matches_the_paper(order):
     row = ROWS[0]
     assert as_printed(row.trivariate(row.grid(), order)[1], "400.9") != "400.9"
 

@@ -2,17 +2,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A density for each triangle or corner: against rational arithmetic, closed forms, and the sum over the parts."""
 
-from dataclasses import replace
 from fractions import Fraction
 
 import numpy as np
 import pytest
-from body_moments.core.density import piecewise_mass
 from body_moments.core.density.part_densities import part_densities
 from body_moments.core.density.piecewise_mass import sheet_mass_moments, solid_mass_moments, to_mass_moments
 from body_moments.core.inertia.mass_properties import MassProperties
 from body_moments.core.mesh.surface import Surface
-from body_moments.core.moments.moments import FLOAT32_HALF_ULP, Moments, U, monomials
+from body_moments.core.moments.moments import Moments
 from body_moments.core.solid.measure import measure_solid
 
 from tests.close import close
@@ -78,58 +76,6 @@ def test_a_density_linear_on_each_triangle_is_exact(offset, scale):
 
 CORNERS = np.array([[1, 2, -1], [4, 1, 2], [2, 7, 1], [3, 3, 9]])
 TRIANGLES = np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
-DENSITY = [2.0, 3.0, 5.0, 8.0]
-
-
-def amounts(about, density):
-    """Of these triangles, in whole numbers: Σ ρ |det|, Σ ρ |N|, and Σ ρ (|u v'| + |u' v|) for each axis."""
-    dets, normals, terms = 0, 0.0, [0, 0, 0]
-    for rho, (a, b, c) in zip(density, (CORNERS - about)[TRIANGLES].tolist()):
-        u, v = [x - y for x, y in zip(b, a)], [x - y for x, y in zip(c, a)]
-        pairs = [(u[i] * v[j], u[j] * v[i]) for i, j in ((1, 2), (2, 0), (0, 1))]
-        normal = [plus - minus for plus, minus in pairs]
-        dets += rho * abs(sum(n * x for n, x in zip(normal, a)))
-        normals += rho * np.sqrt(sum(n * n for n in normal))
-        terms = [total + rho * (abs(plus) + abs(minus)) for total, (plus, minus) in zip(terms, pairs)]
-    return dets, normals, terms
-
-
-@pytest.mark.parametrize("per_block, blocks", [(2, 2.0), (3, 4.0 / 3.0), (4, 1.0)])
-@pytest.mark.parametrize("order", [0, 1, 4])
-def test_bounds_count_the_roundings_of_what_is_summed_up(monkeypatch, order, per_block, blocks):
-    """9 u for each product of a determinant, 27 u a degree for the table, 64 u and one a block for the sum."""
-    monkeypatch.setattr(piecewise_mass, "_block_size", lambda _order: per_block)
-    monkeypatch.setattr(piecewise_mass, "CORNERS_PER_BLOCK", per_block)
-    about, reach = np.array([2.0, 3.0, 1.0]), [2.0, 4.0, 8.0]
-    powers = monomials(order)
-    degree, bounds = powers.sum(axis=1), np.prod(np.array(reach) ** powers, axis=1)
-    like = Moments(np.ones(len(powers)), about, "area", input_error=1e-9 * (1.0 + degree))
-    roundings = (27.0 * (degree + 1.0) + 64.0 + blocks + 2.0) * U
-    dets, normals, terms = amounts(about.astype(int), DENSITY)
-    solid = solid_mass_moments(CORNERS * 1.0, TRIANGLES, np.array(DENSITY), like)
-    expected = (9.0 * U * np.dot(reach, terms) + roundings * dets) / (2.0 * degree + 6.0) * bounds
-    assert close(solid.rounding_error, expected + 8.0 * U * np.abs(solid.raw), rel=1e-12)
-    assert close(solid.input_error, 8.0 * like.input_error, rel=1e-14)
-    by_corner = np.array([[1.0, 2.0, 3.0], [0.0, 9.0, 0.0], [5.0, 4.0, 6.0], [7.0, 8.0, 9.0]])  # of the same means
-    for density in (np.array(DENSITY), by_corner):
-        plain, single = (
-            sheet_mass_moments(CORNERS * 1.0, TRIANGLES, density, like, stored=stored) for stored in (False, True)
-        )
-        expected = (9.0 * U * sum(terms) + roundings * normals) / 2.0 * bounds + 8.0 * U * np.abs(plain.raw)
-        for found in (plain, single):
-            assert close(found.rounding_error, expected, rel=1e-12)
-        assert close(plain.input_error, density.max() * like.input_error, rel=1e-14)
-        assert close(single.input_error - plain.input_error, FLOAT32_HALF_ULP * normals / 2.0 * bounds, rel=1e-6)
-
-
-def test_the_reach_is_no_less_than_it_is():
-    """One and a quarter of what a float near it is rounded by is rounded to one."""
-    points = np.array([[1.0, -1.0, 0.5]] * 3)
-    center = np.array([-1.0, 1.0, 1.0]) * 2.0**-54
-    reach = piecewise_mass._reach(points, np.array([[0, 1, 2]]), center)
-    exactly = [abs(Fraction(p) - Fraction(c)) for p, c in zip(points[0].tolist(), center.tolist())]
-    assert all(Fraction(found) >= true for found, true in zip(reach.tolist(), exactly))
-    assert close(reach, [1.0, 1.0, 0.5], rel=8.0 * U)
 
 
 def part_moments(parts, whole):
@@ -148,7 +94,7 @@ def test_a_density_constant_on_the_corners_is_one_on_the_faces():
     assert (np.abs(one.raw - plain.raw) <= one.rounding_error + plain.rounding_error).all()
 
 
-def test_a_square_sheet_with_a_density_that_rises_along_x():
+def test_square_sheet_with_linear_density_matches_closed_form():
     """ρ = x on the unit square: M = 1/2, centre (2/3, 1/2), I about it (1/24, 1/36, 5/72)."""
     part = bodies.grid(5)
     found = sheet(part, part[0][part[1], 0])
@@ -163,7 +109,7 @@ def test_a_square_sheet_with_a_density_that_rises_along_x():
     )
 
 
-def test_what_float32_stored_is_within_the_input_bound():
+def test_float32_storage_error_is_within_the_input_bound():
     points, triangles = bodies.sphere(2)
     points = points / 3.0 + 100.0
     density = np.random.default_rng(3).random(len(points)) * 7.0
@@ -249,26 +195,7 @@ def test_caps_have_no_say_in_the_density_and_carry_it():
     assert mass.total == pytest.approx(500.0, rel=1e-14)
 
 
-@pytest.mark.parametrize("bare", [0, 1])
-def test_a_part_without_faces_of_the_mesh_has_no_density(bare):
-    """Beside one of two materials, whose range and whose largest are by its area."""
-    solid = measure_solid(bodies.surface(bodies.joined(*[bodies.box((x, 0, 0), (x + 1, 2, 3)) for x in (0, 4)])))
-    parts = solid.parts()
-    parts = replace(parts, face=np.where(parts.part == bare, -1, parts.face))
-    faces = np.where(np.arange(24) % 12 < 2, 100.0, 1000.0)
-    found = part_densities(parts, faces)
-    assert found.density[bare] == 0.0 and found.first_face[bare] == -1
-    assert found.range_by_area[bare] == found.most_by_area[bare] == 0.0
-    assert found.has_several_materials[bare] == found.has_foreign_cavity_material.any() == False  # noqa: E712
-    other = 1 - bare
-    assert found.has_several_materials[other] and found.first_face[other] == 12 * other
-    assert close(found.range_by_area[other], 900.0 * 22.0, rel=1e-14)
-    assert close(found.most_by_area[other], 1000.0 * 22.0, rel=1e-14)
-    flat = part_densities(parts, faces, np.zeros((3, 3)))  # where no area tells how much of each there is
-    assert flat.density[other] == 550.0 and flat.density[bare] == 0.0
-
-
-def test_of_no_faces_and_of_thin_ones_the_moments_are_none_and_small():
+def test_no_faces_have_no_moments():
     like = Moments(np.ones(10), np.zeros(3), "area", input_error=np.ones(10))
     for density in (np.zeros(0), np.zeros((0, 3))):
         found = sheet_mass_moments(CORNERS * 1.0, TRIANGLES[:0], density, like)
@@ -280,7 +207,7 @@ def test_of_no_faces_and_of_thin_ones_the_moments_are_none_and_small():
 
 
 @pytest.mark.parametrize("turned", [False, True])
-def test_a_cavity_takes_away_the_material_that_it_is_cut_from(turned):
+def test_cavity_removes_the_material_around_it(turned):
     """A steel box with a painted hole, in which a ball of cork lies; turned inside out as a whole it is the same."""
     box, hole = bodies.box((0, 0, 0), (4, 4, 4)), bodies.inverted(bodies.box((1, 1, 1), (3, 3, 3)))
     cork = bodies.box((1.5, 1.5, 1.5), (2.5, 2.5, 2.5))
@@ -303,20 +230,6 @@ def test_a_cavity_takes_away_the_material_that_it_is_cut_from(turned):
     assert mass.total == pytest.approx(8000.0 * (64 - 8) + 200.0, rel=1e-14)
 
 
-def test_a_cavity_within_two_materials_takes_the_inner_one_away_and_the_next_the_outer():
-    """Two nested outward boxes count both; a cavity in the inner one takes that away, a cavity in the cavity the
-    other."""
-    part = bodies.joined(
-        bodies.box((0, 0, 0), (8, 8, 8)),
-        bodies.box((1, 1, 1), (7, 7, 7)),
-        bodies.inverted(bodies.box((2, 2, 2), (6, 6, 6))),
-        bodies.inverted(bodies.box((3, 3, 3), (5, 5, 5))),
-    )
-    solid = measure_solid(bodies.surface(part))
-    found = part_densities(solid.parts(), np.repeat([10.0, 3.0, 99.0, 99.0], 12))
-    assert found.density.tolist() == [10.0, 3.0, 3.0, 10.0]
-
-
 @pytest.mark.parametrize(
     "make",
     [
@@ -331,19 +244,9 @@ def test_a_cavity_within_two_materials_takes_the_inner_one_away_and_the_next_the
         ),
     ],
 )
-def test_mended_bodies_have_parts_that_add_up_too(make):
+def test_parts_of_repaired_bodies_add_up(make):
     solid = measure_solid(make())
     parts = solid.parts()
     total = np.sum([one.raw for one in part_moments(parts, solid.volume)], axis=0)
     assert np.allclose(total, solid.volume.raw, rtol=1e-12, atol=1e-12 * np.abs(solid.volume.raw).max())
     assert parts.face.max() < 1 + np.unique(parts.face[parts.face >= 0]).size
-
-
-@pytest.mark.parametrize("far", range(6))
-def test_the_reach_is_that_of_the_farthest_corner(monkeypatch, far):
-    """In whichever triangle and block it is, on either side."""
-    monkeypatch.setattr(piecewise_mass, "CORNERS_PER_BLOCK", 2)
-    points = np.random.default_rng(1).uniform(-1.0, 1.0, (18, 3)).astype(np.float32)
-    points[3 * far + far % 3] = -8.0, 16.0, 32.0
-    reach = piecewise_mass._reach(points, np.arange(18).reshape(6, 3), np.array([1.0, 2.0, -4.0]))
-    assert close(reach, [9.0, 14.0, 36.0], rel=1e-15)

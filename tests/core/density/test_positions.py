@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Grids whose samples do not stand evenly: their moments against rational arithmetic, their knots, their files."""
+"""Grids of unevenly spaced samples: their moments against rational arithmetic, their knots, their files."""
 
 from fractions import Fraction
 
@@ -87,7 +87,7 @@ def exact_moments(samples, positions, spline_order, order):
 
 
 @pytest.mark.parametrize("spline_order", [1, 2, 3, 4, 5])
-def test_moments_are_those_of_rational_arithmetic_and_within_their_bounds(spline_order):
+def test_moments_match_rational_arithmetic_within_bounds(spline_order):
     samples = np.random.default_rng(spline_order).integers(0, 9, SHAPE).astype(float)
     order = 6
     found = grid_moments(samples, SHAPE, np.eye(4), spline_order, order, positions=POSITIONS).about_point(np.zeros(3))
@@ -119,7 +119,7 @@ def test_high_orders_of_moments_and_of_splines():
 
 
 @pytest.mark.parametrize("spline_order", range(1, 17))
-def test_even_positions_are_the_uniform_grid(spline_order):
+def test_even_positions_match_the_uniform_grid(spline_order):
     samples = np.random.default_rng(1).uniform(0, 1, SHAPE)
     plain = grid_moments(samples, SHAPE, np.diag([2.0, 3.0, 0.5, 1.0]), spline_order)
     rows = tuple(np.arange(count) * step for count, step in zip(SHAPE, (2.0, 3.0, 0.5)))
@@ -130,7 +130,7 @@ def test_even_positions_are_the_uniform_grid(spline_order):
     )
 
 
-def test_a_density_linear_between_samples_is_met_by_trilinear_splines():
+def test_density_linear_between_samples_matches_trilinear_spline():
     """With order 2 the spline goes through the samples, however far apart they are."""
     rows = [np.cumsum(np.random.default_rng(axis).uniform(0.1, 2.0, 6)) for axis in range(3)]
     axis = SplineAxis.at_positions(rows[0], 2)
@@ -140,12 +140,12 @@ def test_a_density_linear_between_samples_is_met_by_trilinear_splines():
 
 
 @pytest.mark.parametrize("wrong", [[1.0], [], [0.0, 0.0], [1.0, 0.0], [0.0, np.nan], [0.0, np.inf]])
-def test_wrong_positions_are_a_programmers_error(wrong):
+def test_wrong_positions_raise_value_error(wrong):
     with pytest.raises(ValueError, match="positions must ascend"):
         SplineAxis.at_positions(wrong)
 
 
-def test_positions_of_other_samples_are_too():
+def test_positions_of_another_count_raise_value_error():
     with pytest.raises(ValueError):
         grid_moments(np.ones(SHAPE), SHAPE, np.eye(4), positions=(None, None, [0.0, 1.0]))
 
@@ -172,7 +172,7 @@ def test_positions_follow_the_axes_directions():
     assert np.array_equal(matrix @ (1, 0, 0, 1), [-2.0, 9.0, -0.5, 1.0])
 
 
-def test_positions_along_all_axes_or_none():
+def test_positions_are_read_for_any_axes():
     rng = np.random.default_rng(4)
     matrix = np.eye(4)
     matrix[:3] = rng.normal(size=(3, 4))
@@ -206,7 +206,7 @@ def saved(tmp_path, array, name="z.npy"):
         (np.array([0, 1, 2], object), "file_damaged", {"cause": {"code": "damage_array", "values": {}}}),
     ],
 )
-def test_wrong_files_are_refused(tmp_path, array, code, values):
+def test_wrong_position_files_are_refused(tmp_path, array, code, values):
     path = saved(tmp_path, array)
     with pytest.raises(FileError) as caught:
         read_positions(path, "z", 3)

@@ -4,7 +4,6 @@
 
 import numpy as np
 import pytest
-from body_moments.core.density import smooth_threshold
 from body_moments.core.density.smooth_threshold import smooth_threshold_body, spline_values
 
 from tests.close import close
@@ -13,7 +12,7 @@ X = np.arange(-5.0, 6.0)
 
 
 @pytest.mark.parametrize("order", [3, 4, 5, 6])
-def test_values_are_those_of_the_spline(order):
+def test_smoothed_values_match_the_spline(order):
     """Against de Boor's recursion over the knots of a uniform spline, along each axis."""
     coefficients = np.random.default_rng(order).normal(size=(9, 8, 7))
     values = spline_values(coefficients, order, 3)
@@ -74,79 +73,9 @@ def test_a_matrix_and_a_background_place_it():
         assert found.clipped and close(found.volume.total, 8.0 * 0.25, rel=1e-12)
 
 
-def test_the_bound_says_what_a_small_limit_leaves(monkeypatch):
-    samples = 9.0 - (X[:, None, None] ** 2 + X[:, None] ** 2 + X**2)
-    monkeypatch.setattr(smooth_threshold, "MAX_SAMPLES", 1)
-    found = smooth_threshold_body(samples, 0.0, 4)
-    truth = 4.0 / 3.0 * np.pi * 8.0**1.5
-    assert 1e-5 * truth < abs(found.volume.total - truth) <= found.volume.rounding_error[0]
-
-
-@pytest.mark.parametrize("order, threshold", [(3, 1e-4), (4, 1e-4), (6, 1e-6), (4, 0.2)])
-def test_beside_a_background_a_body_reaches_as_far_as_its_spline(monkeypatch, order, threshold):
-    """Coefficients of one beside zero: where the threshold is low, all that the first of them adds is in the body."""
-    monkeypatch.setattr(smooth_threshold, "MAX_SAMPLES", 1)
-    samples = np.ones((3, 1, 1))
-    found = smooth_threshold_body(samples, threshold, order, order=1, background=0.0)
-    alone = smooth_threshold_body(np.pad(samples, 5), threshold, order, order=1)
-    assert not found.clipped and not alone.clipped
-    assert np.abs(found.volume.center - (1.0, 0.0, 0.0)).max() < 1e-9
-    assert close(found.volume.total, alone.volume.total, rel=1e-9)
-
-
-@pytest.mark.parametrize("count, grids", [(116_508, 3), (116_509, 2)])
-def test_the_finest_grid_has_up_to_two_to_the_twenty_fourth_samples(monkeypatch, count, grids):
-    """Of 2 by 2 by so many the second has 3 by 3 by nearly twice as many, and the next eight times that, about."""
-    body, shapes = smooth_threshold.threshold_body(np.ones((2, 2, 2)), 0.5, 0), []
-    assert (8 * 9 * (2 * count - 1) <= 1 << 24) == (grids == 3)
-    monkeypatch.setattr(smooth_threshold, "TOLERANCE", -1.0)
-    monkeypatch.setattr(smooth_threshold, "spline_values", lambda *asked: np.broadcast_to(1.0, finer(*asked)))
-    monkeypatch.setattr(
-        smooth_threshold, "threshold_body", lambda values, *_rest, **_named: shapes.append(values.shape) or body
-    )
-    smooth_threshold_body(np.broadcast_to(1.0, (2, 2, count)), 0.5, 4, order=0)
-    assert shapes == [(2**n + 1, 2**n + 1, 2**n * (count - 1) + 1) for n in range(grids)]
-
-
-def finer(samples, _order, parts):
-    return [parts * (count - 1) + 1 for count in samples.shape]
-
-
-@pytest.mark.parametrize("most, grids", [(8 * 21**3 - 1, 2), (8 * 21**3, 3), (8 * 41**3 - 1, 3), (8 * 41**3, 4)])
-def test_grids_are_refined_while_the_next_may_have_as_many_samples(monkeypatch, most, grids):
-    """The next has eight times as many, about; none is near enough here."""
-    samples = 9.0 - (X[:, None, None] ** 2 + X[:, None] ** 2 + X**2)
-    shapes, body = [], smooth_threshold.threshold_body
-    monkeypatch.setattr(smooth_threshold, "MAX_SAMPLES", most)
-    monkeypatch.setattr(smooth_threshold, "TOLERANCE", 0.0)
-    monkeypatch.setattr(
-        smooth_threshold,
-        "threshold_body",
-        lambda values, *rest, **named: shapes.append(values.shape) or body(values, *rest, **named),
-    )
-    smooth_threshold_body(samples, 0.0, 4, order=0)
-    assert shapes == [(10 * 2**n + 1,) * 3 for n in range(grids)]
-
-
-def test_a_third_of_what_two_grids_differ_by_is_added_to_the_finer_one_and_is_the_bound(monkeypatch):
-    """The first two, where they are near enough; their difference is four thirds of what is added, then."""
-    samples = 9.0 - (X[:, None, None] ** 2 + X[:, None] ** 2 + X**2)
-    grids, body = [], smooth_threshold.threshold_body
-    monkeypatch.setattr(smooth_threshold, "TOLERANCE", 1.0)
-    monkeypatch.setattr(
-        smooth_threshold, "threshold_body", lambda *rest, **named: grids.append(body(*rest, **named)) or grids[-1]
-    )
-    found = smooth_threshold_body(samples, 0.0, 4, order=0)
-    coarse, fine = (grid.volume for grid in grids)
-    difference = fine.total - coarse.total
-    assert close(found.volume.total, fine.total + difference / 3.0, rel=1e-14)
-    added = found.volume.rounding_error[0] - fine.rounding_error[0]
-    assert close(added, abs(difference) * 4.0 / 3.0, rel=1e-9)
-
-
 @pytest.mark.parametrize("order", [2, 3, 4])
 def test_the_background_goes_on_around_the_grid(order):
-    """As many values of it as the spline has there make the same body as the samples alone."""
+    """The spline's own number of values gives the same body as the samples alone."""
     samples = np.random.default_rng(order).uniform(1.0, 2.0, (3, 4, 3))
     margin = (order + 1) // 2
     found = smooth_threshold_body(samples, 0.5, order, order=1, background=-3.0)

@@ -4,9 +4,8 @@
 
 import numpy as np
 import pytest
-from body_moments.core.fourier import instances as fourier_body
 from body_moments.core.fourier.instances import BodyTransform
-from body_moments.core.fourier.transform import Transform, run_to_completion, solid_transform, surface_transform
+from body_moments.core.fourier.transform import run_to_completion, solid_transform, surface_transform
 from body_moments.core.fourier.wave_vectors import FrequencyGrid
 
 from tests.close import close
@@ -60,52 +59,22 @@ def test_a_map_of_the_body_is_a_map_of_the_frequencies():
     assert np.abs(found - expected).max() <= 1e-12
 
 
-def test_large_grids_are_taken_to_the_tolerance(monkeypatch):
-    sphere, grid = bodies.sphere(3), FrequencyGrid(21, 8.0)
-    maps = places((np.eye(3), (0, 0, 0)), (np.eye(3), (3, 1, 0)), (SHEARED, (0, -4, 0)))
-    parts = [(bodies.surface(sphere), maps)]
-    exact = run_to_completion(BodyTransform(parts, grid, "volume", 12.0))
-    monkeypatch.setattr(fourier_body, "MAX_CLOSED_FORM_PAIRS", 0.0)
-    found = run_to_completion(BodyTransform(parts, grid, "volume", 12.0))
-    assert (exact.method, found.method) == ("exact", "approximate")
-    difference = np.abs(found.values - exact.values).max()
-    assert 0.0 < difference <= 1e-7 * 12.0
-    assert difference <= 2.0 * found.error.max()
-
-
-def test_what_storing_as_float32_may_have_changed_counts_every_copy():
+def test_float32_storage_bound_counts_every_copy():
     stored = bodies.surface(PART, np.float32)
     one = run_to_completion(BodyTransform([(stored, MAPS[:1])], Q, "volume", 1.0))
     both = run_to_completion(BodyTransform([(stored, MAPS[:2])], Q, "volume", 1.0))
     assert close(both.input_error, 2 * one.input_error, rel=1e-6) and one.input_error > 0.0
 
 
-def test_steps_tell_how_much_is_done():
-    box = bodies.surface(bodies.box())
-    shares = list(BodyTransform([(box, MAPS[:2]), (bodies.surface(PART), MAPS[:1])], Q, "volume", 1.0).steps())
-    triangles = len(PART[1]) + 12.0
-    steps = [list(Transform(surface, Q, "volume").steps()) for surface in (box, bodies.surface(PART))]
-    first, last = [share * 12.0 for share in steps[0]], [12.0 + share * len(PART[1]) for share in steps[1]]
-    assert close(shares, np.array([*first, 12.0, 12.0, *last, triangles]) / triangles, rel=1e-15)
-
-
-def test_nothing_is_refused():
+def test_empty_instances_are_refused():
     empty = bodies.surface((PART[0], PART[1][:0]))
     with refused("no_faces"):
         BodyTransform([(empty, MAPS)], Q, "area", 1.0)
 
 
-@pytest.mark.parametrize("count, is_closed_form", [(58, True), (59, False)])
-def test_more_than_two_hundred_million_pairs_are_taken_to_a_tolerance(count, is_closed_form):
-    """Of 2048 triangles, and half of a grid's frequencies: a ten-millionth of the whole, shared by three copies."""
-    maps = np.stack([np.eye(4)] * 3)
-    transform = BodyTransform([(bodies.surface(bodies.sphere(4)), maps)], FrequencyGrid(count, 8.0), "volume", 12.0)
-    assert transform.tolerance is None if is_closed_form else close(transform.tolerance, 4e-7, rel=1e-14)
-
-
 @pytest.mark.parametrize("place", [(2**19,) * 3, (2**19, 0, 0), (0, 0, -(2**19))])
 def test_the_shape_of_a_far_body_loses_no_digits(place):
-    """Half a million lengths away: only the place of what is turned there is off."""
+    """Half a million lengths away, only the place of the turned body is inexact."""
     turn, q = np.eye(4), np.random.default_rng(5).normal(size=(20, 3))
     turn[:3, :3] = bodies.rotation(7)
     near, far = (

@@ -19,7 +19,7 @@ TRIANGLES = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]
 
 @pytest.mark.parametrize("scale", [1.0, 1e-9, 1e6])
 @pytest.mark.parametrize("mirrored", [False, True])
-def test_the_image_is_that_of_the_moments(scale, mirrored):
+def test_affine_image_matches_mapped_moments(scale, mirrored):
     moments = polyhedron_moments(Surface.from_triangles(POINTS, TRIANGLES))[0]
     body = MassProperties.from_moments(moments, 7.0)
     linear = scale * np.array([[1.3, 0.2, 0.0], [-0.4, 0.9, 0.3], [0.1, 0.0, 2.0]])

@@ -4,7 +4,7 @@
 
 import numpy as np
 import pytest
-from body_moments.core.inertia import canonical_frame, shared_search
+from body_moments.core.inertia import shared_search
 from body_moments.core.inertia.canonical_frame import canonical_frames
 from body_moments.core.inertia.shared_search import shared_frames
 from body_moments.core.inertia.third_moment_frames import third_moment_frames
@@ -35,14 +35,14 @@ def parts():
 
 
 def same_frames(found, expected):
-    """Whether each of some frames is one of the others."""
+    """Return True if the two sets of frames are equal up to their order."""
     gaps = np.abs(found[:, None] - expected[None]).max(axis=(2, 3))
     return len(found) == len(expected) and gaps.min(axis=1).max() < 1e-9 and gaps.min(axis=0).max() < 1e-9
 
 
 @pytest.mark.parametrize("name", parts())
 @pytest.mark.parametrize("noise", [0.0, 1e-7])
-def test_shared_frames_are_those_of_each_body_by_itself(name, noise):
+def test_shared_frames_match_frames_of_single_bodies(name, noise):
     stack = copies(parts()[name], noise=noise)
     fixed = third_moment_frames(stack)
     which = np.flatnonzero(fixed.symmetry > 0)
@@ -54,23 +54,7 @@ def test_shared_frames_are_those_of_each_body_by_itself(name, noise):
             assert same_frames(shared.frames, alone.frames), (name, body)
 
 
-@pytest.mark.parametrize(("turn", "most"), [(np.eye(3), 2), (bodies.rotation(3), 25)], ids=["along the axes", "turned"])
-def test_copies_that_lie_alike_are_hardly_searched_again_and_each_has_its_own_axes(monkeypatch, turn, most):
-    shared_search._search.cache_clear()
-    searches = []
-    searched = shared_search.canonical_frames
-    monkeypatch.setattr(shared_search, "canonical_frames", lambda *args: searches.append(args) or searched(*args))
-    stack = copies(bodies.moved(bodies.box((-1, -1, -1), (1, 1, 1)), turn), 40, turned=False, noise=3e-8)
-    fixed = third_moment_frames(stack)
-    found = shared_frames(stack, fixed, np.arange(40))
-    assert 1 <= len(searches) <= most
-    for frames in found:
-        cosines = np.sort(np.abs(turn.T @ frames.frames), axis=1)
-        assert len(frames.frames) == 24 and np.abs(cosines - [[0], [0], [1]]).max() < 1e-6
-    assert max(np.abs(frames.frames - found[0].frames).max() for frames in found) > 1e-10  # each has its own
-
-
-def test_what_was_measured_before_changes_nothing():
+def test_frames_are_independent_of_earlier_measurements():
     stack = copies(shapes.SYMMETRIC["cube"][0], 6, noise=1e-7)
     fixed = third_moment_frames(stack)
     together = shared_frames(stack, fixed, np.arange(6))
@@ -89,12 +73,8 @@ def test_a_body_beyond_the_range_of_numbers_is_refused(scale):
         shared_frames(stack, fixed, np.array([0, 1]))
 
 
-def test_the_grid_is_a_tenth_of_noise():
-    assert 5.0 < canonical_frame.NOISE_LEVEL / shared_search.GRID < 20.0
-
-
 @pytest.mark.parametrize(("small", "far"), [(0.1, 5.0), (0.1, 20.0), (0.05, 30.0)])
-def test_a_body_of_a_core_and_far_pieces_has_the_axes_that_it_has_by_itself(small, far):
+def test_body_of_core_and_far_pieces_keeps_its_single_axes(small, far):
     """Moments of sixth order that are thousands of times what they are for a cube, and beyond 32 bits on the grid."""
     points, triangles = bodies.box((-1, -1, -1), (1, 1, 1))
     centers = np.concatenate([np.zeros((1, 3)), far * np.eye(3), -far * np.eye(3)])

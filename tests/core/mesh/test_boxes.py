@@ -1,21 +1,18 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which boxes meet, and pairs in pieces, against comparing each with each."""
+"""Overlapping boxes, compared with a search over all pairs."""
 
 import numpy as np
 import pytest
 from body_moments.core.mesh import boxes
-from body_moments.core.numerics.arrays import batches, following_pairs
 from hypothesis import given
 
 from tests.core.strategies import holds, seeds
 
 
-@pytest.mark.parametrize("piece", [1, 1 << 17])
 @holds(60)
 @given(seed=seeds)
-def test_boxes_meet_where_comparing_all_says_so(seed, piece, monkeypatch):
-    monkeypatch.setattr(boxes, "PIECE", piece)
+def test_box_overlaps_match_a_comparison_of_all_pairs(seed):
     rng = np.random.default_rng(seed)
     count = rng.integers(1, 25)
     centers, extents = rng.uniform(0.0, 10.0, (count, 3)), rng.uniform(0.0, 1.2, (count, 3))
@@ -30,7 +27,7 @@ def test_boxes_meet_where_comparing_all_says_so(seed, piece, monkeypatch):
     assert boxes.boxes_overlap(centers, extents) == truth
 
 
-def test_boxes_that_share_a_side_do_not_meet_and_a_flat_one_meets_what_it_cuts():
+def test_boxes_sharing_a_side_do_not_meet():
     grid = np.stack(np.meshgrid(*[np.arange(4.0)] * 3), axis=-1).reshape(-1, 3)
     half = np.full((64, 3), 0.5)
     for unit in (1.0, 0.1, 0.7):  # rounded, some would overlap
@@ -44,7 +41,7 @@ def test_boxes_that_share_a_side_do_not_meet_and_a_flat_one_meets_what_it_cuts()
 @pytest.mark.parametrize("margin", [0.0, 0.25, 0.5])
 @pytest.mark.parametrize("turn", range(3))
 def test_pairs_overlap_by_more_than_the_margin_along_every_axis(margin, turn):
-    """On a lattice of quarters, where many overlap by just that; all are told as long as there are not too many."""
+    """On a lattice of quarters many boxes overlap by exactly the margin."""
     rng = np.random.default_rng(turn)
     low = np.roll(rng.integers(0, 16, (60, 3)) * (0.25, 0.25, 0.5), turn, axis=1)
     high = low + 0.25 * rng.integers(1, 9, (60, 3))
@@ -53,31 +50,3 @@ def test_pairs_overlap_by_more_than_the_margin_along_every_axis(margin, turn):
     truth = {(i, j) for i in range(60) for j in range(i) if common[i, j].min() > margin}
     assert sorted((max(pair), min(pair)) for pair in zip(one, other)) == sorted(truth)
     assert left_out == 0 and len(truth) > 5
-
-
-@pytest.mark.parametrize("most, pairs", [(1, 9), (9, 9), (10, 17), (17, 17), (18, 24), (44, 44), (45, 45), (46, 45)])
-def test_no_more_pairs_are_looked_for_than_there_may_be_and_what_is_left_out_is_counted(monkeypatch, most, pairs):
-    """Of ten boxes that all overlap, those with the first one, with the second one and so on."""
-    monkeypatch.setattr(boxes, "PIECE", 1)
-    low = 0.01 * np.arange(10.0)[:, None] * np.ones(3)
-    one, other, left_out = boxes.overlapping_box_pairs(low, low + 1.0, 0.0, most)
-    assert len(one) == len(other) == pairs and left_out == 45 - pairs
-
-
-@pytest.mark.parametrize("size", [1, 4, 1000])
-def test_following_pairs_are_all_of_them_in_pieces(size):
-    rng = np.random.default_rng(0)
-    order = rng.permutation(30)
-    counts = np.minimum(rng.integers(0, 6, 30), 29 - np.arange(30))
-    pieces = list(following_pairs(order, counts, size))
-    found = [pair for i, j in pieces for pair in zip(i.tolist(), j.tolist())]
-    assert found == [(order[a], order[a + 1 + b]) for a in range(30) for b in range(counts[a])]
-    assert max(len(i) for i, _ in pieces) <= max(size, counts.max())
-    assert not list(following_pairs(order[:0], counts[:0], size))
-
-
-def test_batches_cover_everything_in_turn():
-    weights = np.array([0.5, 3.0, 0.25, 0.25, 10.0, 1.0])
-    parts = [(part.start, part.stop) for part in batches(weights, 2.0)]
-    assert parts == [(0, 1), (1, 2), (2, 4), (4, 5), (5, 6)]
-    assert len(list(batches(np.ones(4), 2.0))) == 4  # less than the size

@@ -47,7 +47,7 @@ def require_closed(hull):
 
 
 def highest_outside(hull, points):
-    """How far a point is outside, of the extent; of faces that are no slivers."""
+    """Return the largest distance of a point outside the hull as a share of the extent, without slivers."""
     a, b, c = (hull.points[hull.triangles[:, k]] for k in range(3))
     normal = np.cross(b - a, c - a)
     length = np.linalg.norm(normal, axis=1)
@@ -88,7 +88,7 @@ def test_all_points_of_a_sphere_are_corners():
     assert len(convex_hull(on_sphere(3000)).points) == 3000
 
 
-def test_a_limit_of_corners_keeps_the_farthest_points_and_says_what_is_left_out():
+def test_limited_hull_keeps_farthest_points_and_states_its_gap():
     points = on_sphere(20000)
     hull = convex_hull(points, max_corners=500)
     require_closed(hull)
@@ -116,7 +116,7 @@ def test_points_on_a_line_have_no_hull(points):
     assert refusal.value.finding.code == "hull_without_extent"
 
 
-def test_polygons_are_convex_counter_clockwise_and_around_all_points():
+def test_hull_polygon_is_convex_counterclockwise_and_complete():
     random = np.random.default_rng(6)
     for points in (
         random.standard_normal((500, 2)),
@@ -168,7 +168,7 @@ def test_the_tolerance_is_of_the_extent(height, corners):
     assert len(convex_hull(points, tolerance=1e-3).points) == corners
 
 
-def test_a_hull_is_the_same_however_a_processor_sorts_what_is_equal(monkeypatch):
+def test_hull_is_independent_of_the_order_of_equal_keys(monkeypatch):
     points, sort = lattice(4), np.argsort
 
     def argsort(values, kind=None):
@@ -197,7 +197,7 @@ def test_slanted_faces_full_of_points_have_their_corners_only(normal):
         assert len(hull.points) == 6 + 3 + 3
 
 
-def test_a_flat_hull_may_leave_out_its_tolerance_of_the_extent_along_an_axis():
+def test_flat_hull_may_omit_its_tolerance_along_an_axis():
     square = np.array([[0.0, 0.0, 5.0], [4.0, 0.0, 5.0], [4.0, 3.0, 5.0], [0.0, 3.0, 5.0]])
     for axis in range(3):
         hull = convex_hull(np.roll(square, axis, axis=1), tolerance=1e-4)
@@ -214,7 +214,7 @@ def test_points_are_rounded_to_2_to_the_29_steps_of_the_extent(steps, corners):
 
 @pytest.mark.parametrize("offset", [(0.0, 0.0), (0.0, 1e6), (-1e6, 0.0), (1e6, -1e6)])
 @pytest.mark.parametrize("height, corners", [(0.09, [0, 2, 3, 4]), (0.11, [0, 1, 2, 3, 4])])
-def test_how_far_a_polygon_s_corner_is_outside_is_measured_by_the_extent_alone(offset, height, corners):
+def test_distance_outside_a_polygon_is_relative_to_its_extent(offset, height, corners):
     """A rectangle of 10 by 4 with a point below one side by more or less than a hundredth of ten."""
     points = np.array([[0, 0], [5, -height], [10, 0], [10, 4], [0, 4]]) + offset
     assert convex_polygon(points, 0.01).tolist() == corners

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Solid angles of open surfaces, which have a closed form for a rectangle."""
+"""Solid angles of open surfaces, compared with the closed form of a rectangle."""
 
 import math
 
@@ -14,7 +14,7 @@ from tests.core.bodies import moved, rotation, sphere
 
 @pytest.mark.parametrize("size", [1e-6, 1.0, 1e6])
 @pytest.mark.parametrize("way", [1.0, -1.0])
-def test_a_rectangle_surrounds_a_place_below_its_corner_by_its_solid_angle(way, size):
+def test_rectangle_has_its_solid_angle_below_its_corner(way, size):
     corners = size * np.array([[0, 0, 2], [3, 0, 2], [3, 5, 2], [0, 5, 2]], float) * [1.0, 1.0, way]
     points, triangles = moved((corners, np.array([[0, 1, 2], [0, 2, 3]])), rotation(2), (size, 2.0 * size, -size))
     found = winding_number(points, triangles, (size, 2.0 * size, -size))
@@ -22,7 +22,7 @@ def test_a_rectangle_surrounds_a_place_below_its_corner_by_its_solid_angle(way, 
     assert close(winding_number(points, triangles[:, ::-1], (size, 2.0 * size, -size)), -found, rel=1e-13)
 
 
-def test_a_surface_of_many_triangles_surrounds_what_is_inside_once_and_twice_where_it_is_there_twice():
+def test_points_inside_a_dense_or_doubled_surface_wind_1_or_2():
     points, triangles = sphere(6)
     for count in (1, 2):
         found = winding_number(points, np.tile(triangles, (count, 1)), (0.1, 0.2, -0.3))

@@ -33,7 +33,7 @@ KNOWN = {
 
 
 @pytest.mark.parametrize("order", range(9))
-def test_harmonic_moments_of_a_point_are_its_solid_harmonics_by_powers_of_its_distance(order):
+def test_harmonic_moments_of_a_point_are_solid_harmonics(order):
     found = harmonic_moments(np.prod(POINT ** monomials(order), axis=1), order)
     assert set(found) == {(n, l) for n in range(order + 1) for l in range(n % 2, n + 1, 2)}
     for (n, l), values in found.items():
@@ -47,7 +47,7 @@ def test_harmonic_moments_of_a_point_are_its_solid_harmonics_by_powers_of_its_di
 
 
 @pytest.mark.parametrize("l, k, n", [(0, 0, 0), (1, 1, 0), (1, 1, 1), (2, 1, 1), (2, 2, 2), (3, 2, 1), (4, 3, 5)])
-def test_three_j_symbols_are_as_many_as_there_are_orders_and_orthonormal(l, k, n):
+def test_three_j_symbols_are_orthonormal(l, k, n):
     table = _three_j(l, k, n)
     assert table.shape == (2 * l + 1, 2 * k + 1, 2 * n + 1)
     assert np.abs(np.einsum("ijm,ijp->mp", table, table) - np.eye(2 * n + 1) / (2 * n + 1)).max() <= 1e-14
@@ -55,7 +55,7 @@ def test_three_j_symbols_are_as_many_as_there_are_orders_and_orthonormal(l, k, n
     assert (i - l + j - k + m - n == 0).all()
 
 
-def test_three_j_symbols_are_those_of_tables():
+def test_three_j_symbols_match_tables():
     known = {
         (1, 1, 0, 0, 0): -1.0 / sqrt(3.0),
         (2, 1, 1, 0, 0): sqrt(2.0 / 15.0),

@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 from body_moments.core.numerics.bspline import SplineSpace, clamped_space
 from body_moments.core.numerics.quadrature import gauss_legendre
-from body_moments.core.nurbs import bezier
 from body_moments.core.nurbs.bezier import cells_of
 from body_moments.core.nurbs.blender_knots import blender_space
 from body_moments.core.nurbs.patch import Patch
@@ -27,7 +26,7 @@ ABOUT = np.array([0.25, -0.5, 0.125])
 
 
 @pytest.mark.parametrize("space", SPACES)
-def test_blossoms_are_the_bernstein_coefficients_of_the_exact_polynomials(space):
+def test_blossoms_match_bernstein_coefficients(space):
     n = space.order - 1
     for found, j in zip(space.bezier_extraction, space.spans):
         low, high = Fraction(space.knots[j]), Fraction(space.knots[j + 1])
@@ -40,8 +39,8 @@ def test_blossoms_are_the_bernstein_coefficients_of_the_exact_polynomials(space)
             exact = [
                 float(sum(Fraction(comb(b, p), comb(n, p)) * powers[p] for p in range(b + 1))) for b in range(n + 1)
             ]
-            assert np.abs(column - exact).max() <= 1e-15 * space.order
-        assert (found >= 0.0).all() and np.abs(found.sum(axis=1) - 1.0).max() <= 1e-15
+            assert np.abs(column - exact).max() <= 1e-14 * space.order
+        assert (found >= 0.0).all() and np.abs(found.sum(axis=1) - 1.0).max() <= 1e-14
 
 
 def patch_of(spaces, weighted, seed=0):
@@ -51,10 +50,8 @@ def patch_of(spaces, weighted, seed=0):
 
 
 @pytest.mark.parametrize("weighted", [False, True])
-@pytest.mark.parametrize("few", [0, 1000])  # about their own first points, and about the common one
 @pytest.mark.parametrize("spaces", [(SPACES[3], SPACES[7]), (SPACES[8], SPACES[1]), (SPACES[9], SPACES[6])])
-def test_values_and_derivatives_are_those_of_the_patch(spaces, few, weighted, monkeypatch):
-    monkeypatch.setattr(bezier, "SMALL_CELL_COUNT", few)
+def test_cell_values_and_derivatives_match_the_patch(spaces, weighted):
     patch = patch_of(spaces, weighted)
     nodes, step = gauss_legendre(5)[0], 1e-4
     (cells,) = cells_of([patch], ABOUT)
@@ -82,32 +79,10 @@ def test_values_and_derivatives_are_those_of_the_patch(spaces, few, weighted, mo
     assert count == len(cells)
 
 
-@pytest.mark.parametrize("weighted", [False, True])
-@pytest.mark.parametrize("few", [0, 1000])
-def test_quarters_of_cells_are_the_same_surface(few, weighted, monkeypatch):
-    monkeypatch.setattr(bezier, "SMALL_CELL_COUNT", few)
-    (cells,) = cells_of([patch_of((SPACES[3], SPACES[2]), weighted)], ABOUT)
-    whole, parts = (flux_sums(own, ((24,), (24,)), 2)[0].sum(axis=1)[:-1] for own in (cells, cells.split().split()))
-    assert len(cells.split()) == 4 * len(cells)
-    assert np.abs(whole - parts).max() <= 1e-13 * np.abs(whole).max()
-
-
-def test_rules_side_by_side_give_what_each_gives_alone():
+def test_combined_rules_match_single_rules():
     (cells,) = cells_of([patch_of((SPACES[3], SPACES[2]), True)], ABOUT)
     both = flux_sums(cells, ((5, 9), (7,)), 3)
     for found, points in zip(both, (5, 9)):
         assert np.abs(found - flux_sums(cells, ((points,), (7,)), 3)[0]).max() <= 1e-14
     both = flux_sums(cells, ((7,), (5, 9)), 3)
     assert np.abs(both[1] - flux_sums(cells, ((7,), (9,)), 3)[0]).max() <= 1e-14
-
-
-def test_patches_of_the_same_orders_are_evaluated_together_and_some_at_a_time(monkeypatch):
-    spaces = [(SPACES[3], SPACES[2]), (clamped_space(4), clamped_space(3, (0.1, 0.7))), (SPACES[3], SPACES[2])]
-    patches = [patch_of(own, False, seed) for seed, own in enumerate(spaces)]
-    alone = [flux_sums(next(cells_of([patch], ABOUT)), ((6,), (5,)), 2)[0].sum(axis=1) for patch in patches]
-    assert len(list(cells_of(patches, ABOUT))) == 1
-    monkeypatch.setattr(bezier, "MAX_CELLS", 5)
-    parts = list(cells_of(patches, ABOUT))
-    assert len(parts) > 2 and max(map(len, parts)) < 15
-    together = sum(flux_sums(part, ((6,), (5,)), 2)[0].sum(axis=1) for part in parts)
-    assert np.abs(together - sum(alone)).max() <= 1e-14

@@ -6,7 +6,7 @@ from collections import defaultdict
 from fractions import Fraction
 
 import numpy as np
-from body_moments.core.rig import VertexWeights, bones_of_caps, dominance, dominant_bones
+from body_moments.core.rig import VertexWeights, bones_of_caps, dominant_bones
 from hypothesis import given, strategies
 
 from tests.close import close
@@ -70,19 +70,11 @@ def found(points, bones, faces, weights):
 
 
 @given(skins())
-def test_each_face_has_the_bone_of_most_weight_and_of_equal_ones_the_nearest(skin):
+def test_face_goes_to_the_heaviest_bone_or_else_the_nearest(skin):
     assert found(*skin) == truth(*skin)
 
 
-def test_faces_are_looked_at_in_blocks(monkeypatch):
-    draw = np.random.default_rng(4)
-    points, bones = draw.normal(size=(30, 3)).tolist(), draw.normal(size=(5, 2, 3)).tolist()
-    skin = points, bones, draw.integers(0, 30, (40, 3)).tolist(), {}
-    monkeypatch.setattr(dominance, "PAIRS_PER_BLOCK", 37)
-    assert found(*skin) == truth(*skin)
-
-
-def test_weights_that_float32_tells_apart_tie_and_others_do_not():
+def test_weights_tie_within_float32_precision():
     points, bones = [(0, 0, 0), (1, 0, 0), (0, 1, 0)], [((0, 0, 9), (0, 0, 8)), ((0, 0, 1), (0, 0, 2))]
     for more, bone in ((2e-6, 1), (5e-5, 0)):  # the first bone has more weight, the second is near
         weights = {(vertex, 0): 1.0 + more for vertex in range(3)} | {(vertex, 1): 1.0 for vertex in range(3)}
@@ -97,12 +89,12 @@ def test_weights_that_float32_tells_apart_tie_and_others_do_not():
 
 def test_weights_are_normalized_on_each_vertex():
     weights = VertexWeights(np.array([0, 0, 2, 3]), np.array([0, 1, 1, 0]), np.array([3.0, 1.0, 0.0, 0.1]))
-    assert close(weights.normalized(), [0.75, 0.25, 0.0, 1.0], 1e-15)
+    assert close(weights.normalized(), [0.75, 0.25, 0.0, 1.0], 1e-14)
     assert weights.unweighted(6).tolist() == [1, 2, 4, 5] and weights.unweighted(2).tolist() == [1]
     assert not len(VertexWeights(*np.zeros((2, 0), int), np.zeros(0)).normalized())
 
 
-def test_caps_spread_from_the_faces_beside_them_and_what_touches_nothing_goes_with_most():
+def test_caps_follow_adjacent_faces_or_else_the_heaviest_bone():
     strip = np.array([[0, 1, 2], [1, 3, 2], [3, 4, 2], [10, 11, 12], [13, 14, 15], [16, 17, 18]])
     caps = np.array([False, True, True, True, False, False])
     assert bones_of_caps(strip, caps, np.array([7, -1, -1, -1, 3, 3])).tolist() == [7, 7, 7, 3, 3, 3]

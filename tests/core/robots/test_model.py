@@ -24,7 +24,7 @@ def pose(seed):
     return Pose(np.random.default_rng(seed).normal(size=3), bodies.rotation(seed))
 
 
-def test_a_pose_in_a_pose_takes_points_as_both_do_and_its_inverse_takes_them_back():
+def test_nested_poses_compose_and_invert():
     outer, inner, point = pose(1), pose(2), RNG.normal(size=3)
     both = outer @ inner
     assert close(
@@ -40,20 +40,20 @@ def test_a_pose_in_a_pose_takes_points_as_both_do_and_its_inverse_takes_them_bac
 def test_angles_turn_about_the_fixed_axes_x_then_y_then_z():
     roll, pitch, yaw = 0.3, -1.2, 2.2
     turns = [rotation_of_angles(*angles) for angles in ((roll, 0, 0), (0, pitch, 0), (0, 0, yaw))]
-    assert np.abs(rotation_of_angles(roll, pitch, yaw) - turns[2] @ turns[1] @ turns[0]).max() <= 1e-15
+    assert np.abs(rotation_of_angles(roll, pitch, yaw) - turns[2] @ turns[1] @ turns[0]).max() <= 1e-14
     for axis, (turn, angle) in enumerate(zip(turns, (roll, pitch, yaw))):
         following = np.roll(np.eye(3), axis + 1, axis=1)[0]
         across = np.roll(np.eye(3), axis + 2, axis=1)[0]
-        assert close(turn @ following, np.cos(angle) * following + np.sin(angle) * across, 1e-15)
+        assert close(turn @ following, np.cos(angle) * following + np.sin(angle) * across, 1e-14)
     placed = pose_of_angles([1, 2, 3], (roll, pitch, yaw))
     assert placed.position.tolist() == [1.0, 2.0, 3.0]
-    assert (placed.rotation == rotation_of_angles(roll, pitch, yaw)).all()
+    assert np.abs(placed.rotation - rotation_of_angles(roll, pitch, yaw)).max() <= 1e-14
 
 
-def test_what_is_stated_along_other_axes():
+def test_inertial_stated_along_other_axes_is_turned():
     turn = bodies.rotation(4)
     stated = StatedInertial(2.0, Z, np.diag([1.0, 2.0, 2.5]), turn, (1.0, 2.0, 3.0), (1.0, 0.0, 0.0, 0.0))
-    assert np.abs(stated.inertia - turn @ np.diag([1.0, 2.0, 2.5]) @ turn.T).max() <= 1e-15
+    assert np.abs(stated.inertia - turn @ np.diag([1.0, 2.0, 2.5]) @ turn.T).max() <= 1e-14
     for other, tensor in ((stated.along_link(), stated.inertia), (stated.along_link(np.eye(3)), np.eye(3))):
         assert (other.tensor == tensor).all() and (other.rotation == np.eye(3)).all()
         assert other.angles is None and other.quaternion is None and other.mass == 2.0
@@ -65,9 +65,9 @@ def test_an_inertial_is_moved_with_its_axes():
     moved = one.place(place)
     assert moved.mass == one.mass and (moved.moments == one.moments).all()
     assert close(moved.center, place.rotation @ one.center + place.position, 1e-13)
-    assert np.abs(moved.inertia - place.rotation @ one.inertia @ place.rotation.T).max() <= 1e-15
-    assert np.abs(moved.axes @ np.diag(moved.moments) @ moved.axes.T - moved.inertia).max() <= 1e-15
-    assert (moved.inertia == moved.inertia.T).all()
+    assert np.abs(moved.inertia - place.rotation @ one.inertia @ place.rotation.T).max() <= 1e-14
+    assert np.abs(moved.axes @ np.diag(moved.moments) @ moved.axes.T - moved.inertia).max() <= 1e-14
+    assert np.abs(moved.inertia - moved.inertia.T).max() <= 1e-14
 
 
 def test_inertials_add_by_the_theorem_of_parallel_axes():
@@ -77,13 +77,13 @@ def test_inertials_add_by_the_theorem_of_parallel_axes():
     center = sum(part.mass * part.center for part in parts) / mass
     arms = [part.center - center for part in parts]
     tensor = sum(p.inertia + p.mass * (d @ d * np.eye(3) - np.outer(d, d)) for p, d in zip(parts, arms))
-    assert close(total.mass, mass, 1e-15) and close(total.center, center, 1e-13)
+    assert close(total.mass, mass, 1e-14) and close(total.center, center, 1e-13)
     assert np.abs(total.inertia - tensor).max() <= 1e-13
     assert np.abs(total.axes @ np.diag(total.moments) @ total.axes.T - tensor).max() <= 1e-13
 
 
 @pytest.mark.parametrize("scale", [1e-12, 1.0, 1e12])
-def test_principal_axes_give_the_tensor_within_eight_units_of_its_largest_entry(scale):
+def test_principal_axes_reproduce_the_tensor(scale):
     """Moments that differ by less stay as given. Axes along the link's own make every product exact."""
     axes, true = np.roll(np.eye(3), 1, axis=1), scale * np.array([0.2, 0.3, 0.4])
     for units, stays in ((6.0, True), (12.0, False)):
@@ -92,12 +92,12 @@ def test_principal_axes_give_the_tensor_within_eight_units_of_its_largest_entry(
         assert (found.moments == moments).all() == stays
 
 
-def test_principal_axes_that_do_not_give_the_tensor_are_found_anew():
+def test_principal_axes_not_matching_the_tensor_are_recomputed():
     true, off = inertial(3), bodies.rotation(1)
     exact = Inertial.with_agreeing_axes(1.7, true.center, true.inertia, true.moments, true.axes)
     assert (exact.axes == true.axes).all() and (exact.moments == true.moments).all()
     agreeing = Inertial.with_agreeing_axes(1.7, true.center, true.inertia, np.array([1.0, 2.0, 3.0]), off)
-    assert np.abs(agreeing.axes @ np.diag(agreeing.moments) @ agreeing.axes.T - true.inertia).max() <= 1e-15
+    assert np.abs(agreeing.axes @ np.diag(agreeing.moments) @ agreeing.axes.T - true.inertia).max() <= 1e-14
     assert np.linalg.det(agreeing.axes) > 0.0 and close(agreeing.moments, true.moments, 1e-14)
     tilt, rod_moments = rotation_of_angles(0.0, 0.0, 1e-9), np.array([3e-20, 1.0, 1.0 + 2.0**-51])
     rod = Inertial.with_agreeing_axes(1.0, Z, np.diag([1e-20, 1.0, 1.0]), rod_moments, tilt)
@@ -110,7 +110,7 @@ def test_principal_axes_that_do_not_give_the_tensor_are_found_anew():
         assert close(scaled.moments, agreeing.moments * scale, 1e-14)
         tensor = np.diag([1e-20, 1.0, 1.0]) * scale
         scaled = Inertial.with_agreeing_axes(1.0, Z, tensor, rod_moments * scale, tilt)
-        assert (scaled.moments == rod.moments * scale).all()
+        assert close(scaled.moments, rod.moments * scale, 1e-14)
 
 
 def free(kind="rotate", **limits):
@@ -136,7 +136,7 @@ def tree():
     return Robot("r", tuple(links), tuple(joints))
 
 
-def test_links_are_walked_from_parents_to_children_in_their_order():
+def test_links_are_walked_from_parents_to_children():
     robot = tree()
     assert [link.name for link in robot.roots] == ["a"]
     assert [link.name for link in robot.ordered()] == ["a", "c", "b", "e", "d"]
@@ -150,24 +150,24 @@ def test_links_are_walked_from_parents_to_children_in_their_order():
     )
 
 
-def test_what_fixed_joints_hold_is_one_body():
+def test_links_on_fixed_joints_are_one_body():
     robot = tree()
     root, parts = robot.link("a"), ["a", "b", "e", "d"]
     assert [link.name for link in robot.rigid_parts(root)] == parts
     whole, to_link = robot.rigid_inertial(root), root.pose.inverse()
     heavy = [robot.link(name) for name in parts if name != "d"]
     truth = combine_inertials([link.inertial.place(to_link @ link.pose) for link in heavy])
-    assert close(whole.mass, sum(link.inertial.mass for link in heavy), 1e-15)
-    assert (whole.inertia == truth.inertia).all() and (whole.center == truth.center).all()
+    assert close(whole.mass, sum(link.inertial.mass for link in heavy), 1e-14)
+    assert np.abs(whole.inertia - truth.inertia).max() <= 1e-13 and close(whole.center, truth.center, 1e-13)
     assert robot.rigid_inertial(robot.link("c")) is robot.link("c").inertial
     assert robot.rigid_inertial(robot.link("d")) is None
 
 
-def test_the_body_of_a_link_without_mass_is_what_fixed_joints_hold_to_it():
+def test_massless_link_belongs_to_the_body_of_its_fixed_joint():
     base, hand = Link("base", None, pose(1)), Link("hand", inertial(2), pose(3))
     robot = Robot("r", (base, hand), (Joint("1", "base", "hand"),))
     held, truth = robot.rigid_inertial(base), hand.inertial.place(base.pose.inverse() @ hand.pose)
-    assert close(held.mass, truth.mass, 1e-15) and close(held.center, truth.center, 1e-13)
+    assert close(held.mass, truth.mass, 1e-14) and close(held.center, truth.center, 1e-13)
     assert np.abs(held.inertia - truth.inertia).max() <= 1e-14
 
 
@@ -181,7 +181,7 @@ def test_the_body_of_a_link_without_mass_is_what_fixed_joints_hold_to_it():
         ([("a", "a")], "loop"),
     ],
 )
-def test_what_is_no_tree_is_refused(joints, text):
+def test_cyclic_or_split_links_are_refused(joints, text):
     links = tuple(Link(name) for name in "abc")
     with pytest.raises(ValueError, match=text):
         Robot("r", links, tuple(Joint(str(k), *pair) for k, pair in enumerate(joints)))
@@ -189,7 +189,7 @@ def test_what_is_no_tree_is_refused(joints, text):
         Robot("r", (*links, Link("a")))
 
 
-def test_what_is_left_out_is_a_unit_at_the_origin():
+def test_omitted_pose_is_a_unit_at_the_origin():
     shape, link = Shape("box"), Link("a")
     assert shape.size == (1.0, 1.0, 1.0) and shape.file == "" and not shape.sheet
     assert (link.scale == 1.0).all() and link.shapes == () and link.inertial is None

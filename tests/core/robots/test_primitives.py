@@ -31,7 +31,7 @@ def capsule_moments(radius, length, mass):
 
 @pytest.mark.parametrize("size", SIZES)
 @pytest.mark.parametrize("mass", [1e-6, 0.7, 3e5])
-def test_sides_and_semi_axes_are_those_of_the_closed_form(size, mass):
+def test_sides_and_semiaxes_match_closed_forms(size, mass):
     assert close(box_sides(mass, moments_of(size, mass, 1 / 12)), size, 1e-9)
     assert close(ellipsoid_axes(mass, moments_of(size, mass, 1 / 5)), size, 1e-9)
 
@@ -45,7 +45,7 @@ def test_a_capsule_is_found_again_by_its_moments(radius, length, mass):
     assert close(capsule_size(mass, uneven), (radius, length), 1e-9)
 
 
-def test_what_is_thicker_than_a_ball_becomes_the_ball_of_the_mean():
+def test_body_thicker_than_a_ball_becomes_the_mean_ball():
     for moments in ((0.4, 0.4, 0.4), (0.3, 0.3, 0.3 * (1.0 + 1e-15)), (0.5, 0.3, 0.3)):
         radius, length = capsule_size(2.0, np.array(moments))
         assert length < 1e-6 and close(2.0 * 2.0 / 5.0 * radius**2, np.mean(moments), 1e-6)
@@ -63,7 +63,7 @@ def test_laminas_and_rods_have_no_side_of_zero(moments):
 
 
 @pytest.mark.parametrize("kind", ["box", "ellipsoid", "capsule"])
-def test_the_shape_stands_where_the_link_is_with_its_tensor(kind):
+def test_fitted_shape_has_pose_and_tensor_of_the_link(kind):
     mass, center, axes = 2.5, np.array([1.0, -2.0, 3.0]), bodies.rotation(3)
     moments = moments_of((1.0, 2.0, 3.0), mass, 1 / 12)
     if kind == "capsule":

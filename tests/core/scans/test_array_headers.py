@@ -17,7 +17,7 @@ LENGTH_BYTES = {1: 2, 2: 4, 3: 4}
 
 
 def array(version: int, length: int | None = None) -> bytes:
-    """Of a header of so many bytes, or as many as it needs."""
+    """Return an array file with a header of this many bytes, or of the needed length."""
     stream = io.BytesIO()
     np.lib.format.write_array(stream, VALUES, (version, 0))
     data = stream.getvalue()
@@ -60,9 +60,7 @@ def test_arrays_of_each_version_are_read(tmp_path, version, form):
         (3, 10_001, False),
     ],
 )
-def test_a_header_of_more_than_ten_thousand_bytes_is_refused_before_it_is_read(
-    tmp_path, monkeypatch, form, version, length, is_asked
-):
+def test_header_beyond_ten_thousand_bytes_is_refused_unread(tmp_path, monkeypatch, form, version, length, is_asked):
     """NumPy reads all of it first."""
     asked = []
     for name in ("open_memmap", "read_array_header_1_0", "read_array_header_2_0"):

@@ -29,7 +29,7 @@ PAYLOAD = VALUES.tobytes(order="F")
 
 
 class Unseekable(io.BytesIO):
-    """What zipfile writes with data descriptors."""
+    """Write as zipfile does with data descriptors."""
 
     def seekable(self):
         return False
@@ -90,7 +90,7 @@ class Files:
         assert self.whole is not None
 
     def numbers(self, data: bytes):
-        """All that decides the mass, or None where the file is refused."""
+        """Return all values that decide the mass, or None if the file is refused."""
         self.target.write_bytes(data)
         try:
             scan = read_scan(self.path)
@@ -127,7 +127,7 @@ def test_a_flipped_bit_under_a_checksum_changes_no_number(tmp_path, name):
 
 
 @pytest.mark.parametrize("name", UNCHECKED)
-def test_a_flipped_bit_without_a_checksum_changes_no_count_of_samples(tmp_path, name):
+def test_flipped_bit_without_checksum_keeps_the_sample_count(tmp_path, name):
     files = Files(tmp_path, name)
     for bit in range(0, 8 * len(files.data), 5):
         found = files.flipped(bit)
@@ -175,7 +175,7 @@ def test_a_whole_stream_of_another_length_is_refused(tmp_path, change, code):
 
 
 def damage_of(path) -> str:
-    """The code of what is wrong with a damaged file."""
+    """Return the code of the refusal of a damaged file."""
     with pytest.raises(FileError) as refused:
         read_scan(path)
     assert refused.value.finding.code == "file_damaged"
@@ -196,7 +196,7 @@ def damage_of(path) -> str:
         ("raw", lambda data: data[:-1], "damage_too_short"),
     ],
 )
-def test_a_refusal_names_the_damaged_file_the_damage_and_the_remedy(tmp_path, name, damage, code):
+def test_refusal_names_the_file_the_damage_and_the_remedy(tmp_path, name, damage, code):
     files = Files(tmp_path, name)
     files.target.write_bytes(damage(files.data))
     with pytest.raises(FileError) as refused:
@@ -216,21 +216,7 @@ def test_an_archive_called_an_array_is_refused(tmp_path):
     assert damage_of(written(tmp_path / "a.npy", CHECKED["npz stored"][2])) == "damage_array"
 
 
-def test_blocks_join_whatever_they_and_the_members_are(tmp_path, monkeypatch):
-    """By Python's own gzip, at sizes of blocks that fall on every edge."""
-    rng = np.random.default_rng(3)
-    for packed, block in ((1, 1), (7, 3), (64, 64), (5, 1000)):
-        monkeypatch.setattr(samples, "PACKED", packed)
-        monkeypatch.setattr(samples, "BLOCK", block)
-        for level in range(4):
-            parts = [bytes(int(size)) + rng.bytes(int(size)) for size in rng.integers(0, 99, 3)]
-            data = b"".join(gzip.compress(part, level) + bytes(int(rng.integers(9))) for part in parts)
-            blocks = list(samples.gzip_blocks(written(tmp_path / "a.gz", b"head" + data), 4))
-            assert b"".join(blocks) == gzip.decompress(data) == b"".join(parts)
-            assert max(map(len, blocks)) <= block
-
-
-def test_where_nothing_is_packed_its_end_is_missing(tmp_path):
+def test_unpacked_file_cut_short_misses_its_end(tmp_path):
     for data, code in ((b"head", "damage_packed_end"), (b"head" + bytes(3), "damage_packed_start")):
         with pytest.raises(FileError) as refused:
             list(samples.gzip_blocks(written(tmp_path / "a.gz", data), 4))
@@ -238,8 +224,8 @@ def test_where_nothing_is_packed_its_end_is_missing(tmp_path):
 
 
 @pytest.mark.parametrize("more, code", [(0, "damage_too_short"), (1, "damage_too_small")])
-def test_a_file_is_too_small_for_more_than_gzip_can_pack_in_it(tmp_path, more, code):
-    """A byte holds 1032 at most, which is the longest match in two bits."""
+def test_file_too_small_for_its_samples_is_refused(tmp_path, more, code):
+    """A byte holds 1032 bytes at most, the longest match in two bits."""
     path = written(tmp_path / "a.gz", gzip.compress(b"few"))
     count = 1032 * path.stat().st_size + more
     with pytest.raises(FileError) as refused:

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Scan files: every format, type, byte order and placement, and what is wrong with every damaged one."""
+"""Scan files of every format, type, byte order and placement, and the refusals of damaged ones."""
 
 import gzip
 import io
@@ -24,7 +24,7 @@ def values(dtype="f4", shape=(3, 4, 5)):
 
 
 def refusal(action, *arguments):
-    """The code of the refusal, which has a sentence with a remedy or a reason."""
+    """Return the code of the refusal, after checking its sentence for a remedy or a reason."""
     with pytest.raises(FileError) as caught:
         action(*arguments)
     assert caught.value.reason.endswith(".")
@@ -66,7 +66,7 @@ def test_nrrd_of_every_type(tmp_path, kind, order, encoding):
         "f8": ("double",),
     }.items(),
 )
-def test_nrrd_has_many_names_for_a_type_and_a_byte_order_for_all_but_bytes(tmp_path, dtype, names):
+def test_nrrd_type_names_are_known_and_need_a_byte_order(tmp_path, dtype, names):
     """All that the format's definition lists."""
     data = nrrd(values()).partition(b"\n\n")[0]
     for name in (*names, names[0].upper()):
@@ -78,7 +78,7 @@ def test_nrrd_has_many_names_for_a_type_and_a_byte_order_for_all_but_bytes(tmp_p
 
 
 def test_the_keys_of_a_nrrd_file_and_its_comments_are_no_fields(tmp_path):
-    """And a field may have in it what makes a key."""
+    """A field may contain the separator of a key."""
     for line in (b"sizes:=9 9 9", b"type:= double", b"# sizes: 9 9 9", b"#sizes: 9 9 9", b"sizes 9 9 9", b"no:=a: b"):
         data = nrrd(values()).replace(b"encoding: raw", line + b"\nencoding: raw\n" + line)
         assert np.array_equal(read_scan(written(tmp_path / "a.nrrd", data)).samples, values())
@@ -114,7 +114,7 @@ def test_nifti_of_every_type(tmp_path, kind, order, end):
     assert (scan.slope, scan.intercept) == (1.0, 0.0)
 
 
-def test_nifti_places(tmp_path):
+def test_nifti_placement_is_read(tmp_path):
     sform = [[0.5, 0.25, 0, -9], [0, -2, 0.125, 8], [0, 0, 3, 7]]
     scan = read_scan(written(tmp_path / "s.nii", nifti(values(), sform=sform, quaternion=(0, 0, 0, 1, 2, 3))))
     assert np.array_equal(scan.matrix[:3], sform)
@@ -148,7 +148,7 @@ def test_nifti_scales_and_has_a_fourth_dimension_of_one(tmp_path):
     assert np.array_equal(read_scan(written(tmp_path / "a.nii", nifti_with(72, "h", 0))).samples, values())
 
 
-def test_nrrd_places(tmp_path):
+def test_nrrd_placement_is_read(tmp_path):
     scan = read_scan(
         written(
             tmp_path / "a.nrrd",
@@ -176,7 +176,7 @@ def test_nrrd_places(tmp_path):
     "mins, origin",
     [("1 2 3 nan", [1, 2, 3]), ("nan 2 3", [0] * 3), ("1 2 inf", [0] * 3), ("1 -inf 3", [0] * 3), ("1 2", [0] * 3)],
 )
-def test_nrrd_begins_at_the_origin_where_one_of_its_axes_does_not_say_where(tmp_path, mins, origin):
+def test_nrrd_with_an_incomplete_axis_begins_at_the_origin(tmp_path, mins, origin):
     scan = read_scan(written(tmp_path / "a.nrrd", nrrd(values(), "spacings: 0.5 2 3", "axis mins: " + mins)))
     assert np.array_equal(
         scan.matrix, [[0.5, 0, 0, origin[0]], [0, 2, 0, origin[1]], [0, 0, 3, origin[2]], [0, 0, 0, 1]]
@@ -208,7 +208,7 @@ def test_raw_files_by_their_names_and_by_hand(tmp_path):
 
 
 @pytest.mark.parametrize("layout", "CF")
-def test_numpy_arrays(tmp_path, layout):
+def test_numpy_arrays_are_read(tmp_path, layout):
     expected = np.asarray(values("f8"), order=layout)
     np.save(tmp_path / "a.npy", expected)
     assert np.array_equal(read_scan(tmp_path / "a.npy").samples, expected)
@@ -230,12 +230,12 @@ def test_numpy_arrays(tmp_path, layout):
         (np.zeros((2, 2, 2), object), "file_damaged"),
     ],
 )
-def test_arrays_that_are_no_densities(tmp_path, array, code):
+def test_arrays_unfit_as_densities_are_refused(tmp_path, array, code):
     np.save(tmp_path / "a.npy", array)
     assert refusal(read_scan, tmp_path / "a.npy") == code
 
 
-def test_an_archive_of_python_objects_is_refused_and_runs_nothing(tmp_path):
+def test_archive_of_python_objects_is_refused_and_runs_nothing(tmp_path):
     class Maker:
         def __reduce__(self):
             return os.mkdir, (str(tmp_path / "made"),)
@@ -247,7 +247,7 @@ def test_an_archive_of_python_objects_is_refused_and_runs_nothing(tmp_path):
     assert not (tmp_path / "made").exists()
 
 
-def test_what_is_given_takes_the_headers_place(tmp_path):
+def test_given_placement_replaces_the_header(tmp_path):
     path = written(tmp_path / "a.nii", nifti(values(), spacing=(2, 2, 2)))
     matrix, findings = sample_matrix(read_scan(path), None, None, None)
     assert np.allclose(matrix, np.diag([0.002, 0.002, 0.002, 1]))
@@ -268,8 +268,8 @@ def test_what_is_given_takes_the_headers_place(tmp_path):
 
 
 @pytest.mark.parametrize("given", list(itertools.product((False, True), repeat=5)))
-def test_what_is_decided_of_a_place_is_said(given):
-    """In every combination of what the file states and the user gives."""
+def test_placement_decision_is_reported(given):
+    """Every combination of the file's and the user's values."""
     has_unit, is_placed, *asked = given
     own = np.array([[2.0, 0.5, 0.0, 7.0], [0.0, 3.0, 0.0, 8.0], [0.0, 0.0, 4.0, 9.0], [0.0, 0.0, 0.0, 1.0]])
     scan = Scan(values(), own, 1e-3 if has_unit else None, is_placed)
@@ -345,7 +345,7 @@ def nifti_with(offset: int, form: str, *numbers) -> bytes:
         (nifti(values(), quaternion=(1, 1, 1, 0, 0, 0)), "nifti_rotation", {}),
     ],
 )
-def test_damaged_nifti_files_say_what_is_wrong(tmp_path, data, code, values_said):
+def test_damaged_nifti_file_is_refused_with_its_damage(tmp_path, data, code, values_said):
     with pytest.raises(FileError) as caught:
         read_scan(written(tmp_path / "a.nii", data))
     found = caught.value.finding
@@ -410,7 +410,7 @@ def nrrd_with(old: str, new: str) -> bytes:
         (nrrd(values(), "line skip: 9999"), "file_damaged", damage("damage_lines")),
     ],
 )
-def test_damaged_nrrd_files_say_what_is_wrong(tmp_path, data, code, values_said):
+def test_damaged_nrrd_file_is_refused_with_its_damage(tmp_path, data, code, values_said):
     with pytest.raises(FileError) as caught:
         read_scan(written(tmp_path / "a.nrrd", data))
     found = caught.value.finding
@@ -426,7 +426,7 @@ def npy_bytes(array=None) -> bytes:
     return stream.getvalue()
 
 
-def test_of_an_archive_the_first_volume_is_taken(tmp_path):
+def test_first_volume_of_an_archive_is_taken(tmp_path):
     np.savez(tmp_path / "a.npz", table=np.eye(3), first=values(), second=values() + 1)
     scan = read_scan(tmp_path / "a.npz")
     assert np.array_equal(scan.samples, values())
@@ -505,7 +505,7 @@ def test_damage_anywhere_gives_a_refusal_or_an_array(tmp_path, name):
     assert refused > 50
 
 
-def test_what_is_no_scan(tmp_path):
+def test_foreign_file_is_no_scan(tmp_path):
     assert [scan_suffix("A.B" + end.upper()) for end in SUFFIXES] == list(SUFFIXES)
     assert scan_suffix("a.blend") == ""
     assert refusal(read_scan, tmp_path / "a.blend") == "scan_file_type"
@@ -515,7 +515,7 @@ def test_what_is_no_scan(tmp_path):
 
 
 @pytest.mark.parametrize("end", SUFFIXES)
-def test_a_file_that_may_not_be_read_is_not_taken_for_damaged(tmp_path, monkeypatch, end):
+def test_unreadable_file_is_not_called_damaged(tmp_path, monkeypatch, end):
     path = tmp_path / f"scan_2x2x2_uint8{end}"
     path.write_bytes(b"x")
 
@@ -529,7 +529,7 @@ def test_a_file_that_may_not_be_read_is_not_taken_for_damaged(tmp_path, monkeypa
 
 
 @pytest.mark.parametrize("name", ["a.npy", "a.npz"])
-def test_too_little_memory_is_not_taken_for_damage(tmp_path, monkeypatch, name):
+def test_lack_of_memory_is_not_called_damage(tmp_path, monkeypatch, name):
     path = written(tmp_path / name, SEEDS[name[1:]])
 
     def fails(*_, **__):

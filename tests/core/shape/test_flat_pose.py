@@ -13,7 +13,7 @@ from tests.core.bodies import rotation
 
 
 def radial(n, m, r):
-    """R_nm by Prata and Rusch's recursion, which does not know its coefficients."""
+    """Return R_nm by Prata and Rusch's recursion, independent of the product's coefficients."""
     if m > n or n < 0:
         return np.zeros_like(r)
     if n == 0:
@@ -22,7 +22,7 @@ def radial(n, m, r):
 
 
 @pytest.mark.parametrize("radius", [2.5, 4.0])
-def test_zernike_moments_of_a_triangle_are_those_of_a_quadrature(radius):
+def test_zernike_moments_of_a_triangle_match_quadrature(radius):
     order, points = 7, np.array([[0.0, 0.0], [3.0, 0.5], [1.0, 2.0]])
     moments = region_moments(points, directed_edges([range(3)]), order)
     a, b, c = (points - moments.about[:2]) / radius
@@ -39,7 +39,7 @@ def test_zernike_moments_of_a_triangle_are_those_of_a_quadrature(radius):
 
 @pytest.mark.parametrize("seed", range(4))
 @pytest.mark.parametrize("turn", [0.0, 1e-4, 0.5, 3.0, -2.0, np.pi / 720.0])
-def test_the_turn_between_two_shapes_is_where_they_overlap_most(seed, turn):
+def test_turn_between_two_shapes_maximizes_their_overlap(seed, turn):
     rng = np.random.default_rng(seed)
     m = np.array([m for _, m in disc_degrees(9)])
     source = rng.normal(size=len(m)) + 1j * rng.normal(size=len(m)) * (m > 0)
@@ -63,7 +63,7 @@ def corner_distances(corners):
 
 
 @pytest.mark.parametrize("seed", [None, 3, 5])
-def test_a_rectangle_has_two_turns_and_two_mirrors_across_its_plane_wherever_that_is(seed):
+def test_rectangle_has_two_turns_and_two_mirrors_in_any_plane(seed):
     axes = np.eye(3) if seed is None else rotation(seed)
     corners = np.array([[1.5, 0.5], [-1.5, 0.5], [-1.5, -0.5], [1.5, -0.5]])
     zernike = disc_zernike(region_moments(corners, directed_edges([range(4)]), 8), 1.6)
@@ -77,7 +77,7 @@ def test_a_rectangle_has_two_turns_and_two_mirrors_across_its_plane_wherever_tha
 
 
 @pytest.mark.parametrize("seed", [3, 5])
-def test_what_is_round_has_any_turn_and_a_mirror_across_its_plane_wherever_that_is(seed):
+def test_round_shape_has_any_turn_and_a_mirror_in_any_plane(seed):
     axes = rotation(seed)
     angle = 2.0 * np.pi / 720.0 * np.arange(720)
     rim = np.stack([np.cos(angle), np.sin(angle)], axis=1)

@@ -5,22 +5,19 @@
 import json
 from dataclasses import replace
 from itertools import combinations_with_replacement
-from math import factorial, pi, sqrt
 
 import numpy as np
 import pytest
 from body_moments.core.flat import directed_edges, region_moments
 from body_moments.core.measurement.record import plain
-from body_moments.core.moments.moments import U, stack_moments
+from body_moments.core.moments.moments import stack_moments
 from body_moments.core.numerics.quadrature import triangle_rule
 from body_moments.core.polyhedron import polyhedron_moments
 from body_moments.core.shape.flat_signatures import flat_signature
 from body_moments.core.shape.library import (
     SAME_SHAPE_DISTANCE,
     UNDECIDED_HANDEDNESS,
-    Entry,
     classify,
-    rank,
     read_library,
 )
 from body_moments.core.shape.signatures import FREQUENCIES, MIN_CHIRALITY, Signature, signature, signatures, similarity
@@ -53,7 +50,7 @@ def test_motion_and_faces_change_nothing(part):
 
 
 @pytest.mark.parametrize("shell", [False, True])
-def test_signatures_of_a_stack_are_those_of_each(shell):
+def test_stacked_signatures_match_single_ones(shell):
     """Only bodies have a power spectrum."""
     each = []
     for part in (shapes.WEDGE, shapes.THREE_BOXES, bodies.box((0, 0, 0), (1, 2, 3))):
@@ -71,23 +68,11 @@ def test_signatures_of_a_stack_are_those_of_each(shell):
 
 
 @pytest.mark.parametrize("scale", [1e-5, 3.0, 1e5])
-def test_size_is_told_apart_from_shape(scale):
+def test_size_is_separate_from_shape(scale):
     first, other = signed(shapes.WEDGE), signed((shapes.WEDGE[0] * scale, shapes.WEDGE[1]))
     likeness = similarity(first, other)
     assert likeness.shape < 1e-9 and likeness.distance(any_size=True) < 1e-8
     assert close(likeness.scale, scale, rel=1e-6) and likeness.is_mirror_image is False
-
-
-def test_bodies_that_are_as_alike_to_rounding_keep_their_order():
-    wanted = signed(shapes.WEDGE)
-
-    def named(name, share):
-        return Entry(name, "", replace(wanted, size=wanted.size * (1.0 + share)))
-
-    near, nearer, other = named("near", 3e-13), named("nearer", 1e-13), named("other", 3e-12)
-    for entries in ([near, nearer, other], [nearer, near, other], [other, nearer, near]):
-        found = [entry.name for entry, _ in rank(wanted, entries)]
-        assert found == [entry.name for entry in entries if entry != other] + ["other"]
 
 
 def test_a_mirror_image_differs_in_its_hand_alone():
@@ -108,7 +93,7 @@ def test_a_mirror_image_differs_in_its_hand_alone():
         assert likeness.distance() > 1e-4 and likeness.distance(any_hand=True) < 1e-9
 
 
-def test_bodies_that_are_their_own_mirror_images_have_no_hand():
+def test_mirror_symmetric_bodies_have_no_hand():
     for name, (part, group) in shapes.SYMMETRIC.items():
         if group not in ("D4",):
             found = signed(bodies.moved(part, bodies.rotation(1)), 6)
@@ -117,7 +102,7 @@ def test_bodies_that_are_their_own_mirror_images_have_no_hand():
 
 
 @pytest.mark.parametrize("height", [0.1, 0.01, 1e-3])
-def test_the_hand_of_a_cube_with_one_corner_moved_a_little_is_told(height):
+def test_hand_of_a_slightly_asymmetric_cube_is_told(height):
     points, triangles = shapes.refined(bodies.box(), 1)
     points[-1] *= 1.0 + height
     part, rotation = (points, triangles), bodies.rotation(4)
@@ -127,7 +112,7 @@ def test_the_hand_of_a_cube_with_one_corner_moved_a_little_is_told(height):
     assert classify(similarity(first, copy)) == "copy" and classify(similarity(first, image)) == "mirror"
 
 
-def test_what_noise_may_have_made_is_no_hand():
+def test_handedness_within_noise_is_not_told():
     """Noise gives a body of no hand one, and two noisy copies either one's opposite by chance."""
     rng = np.random.default_rng(0)
     for name, (part, group) in shapes.SYMMETRIC.items():
@@ -141,31 +126,8 @@ def test_what_noise_may_have_made_is_no_hand():
             assert (classify(likeness) in UNDECIDED_HANDEDNESS) == (handed and likeness.shape <= SAME_SHAPE_DISTANCE)
 
 
-@pytest.mark.parametrize("share, told", [(0.19, True), (0.21, False)])
-@pytest.mark.parametrize("sign", [1.0, -1.0])
-def test_a_hand_is_told_where_one_difference_is_less_than_a_fifth_of_the_other(share, told, sign):
-    """Of chiralities c and k c the differences are as 1 - k to 1 + k."""
-    one = signed(shapes.WEDGE, 6)
-    other = replace(one, chirality=sign * (1.0 - share) / (1.0 + share) * one.chirality)
-    for found in (similarity(one, other), similarity(other, one)):
-        assert found.is_mirror_image is ((sign < 0.0) if told else None)
-
-
-@pytest.mark.parametrize("share, told", [(0.95, False), (1.05, True)])
-def test_a_hand_is_told_where_it_is_ten_times_what_the_shapes_differ_by(share, told):
-    one = signed(shapes.WEDGE, 6)
-    size = np.linalg.norm(one.chirality)
-    # of all numbers the invariants alone differ: by d, which makes a difference of d / √2
-    apart = size * np.sqrt(2.0) / 10.0 / share
-    assert apart < 1.0
-    other = replace(one, invariants=one.invariants * (1.0 - apart))
-    likeness = similarity(one, other)
-    assert close(likeness.shape, apart / np.sqrt(2.0), 1e-9)
-    assert likeness.is_mirror_image is (False if told else None)
-
-
 @pytest.mark.parametrize("size, mirrored", [(0.9e-11, False), (1.1e-11, True)])
-def test_a_chirality_that_is_rounding_is_no_hand(size, mirrored):
+def test_chirality_within_rounding_is_no_hand(size, mirrored):
     one = signed(shapes.WEDGE, 6)
     tiny = one.chirality / np.linalg.norm(one.chirality) * size
     assert similarity(replace(one, chirality=tiny), replace(one, chirality=-tiny)).is_mirror_image is mirrored
@@ -182,7 +144,7 @@ def test_different_shapes_are_far_apart_and_noisy_copies_near():
         assert min(distances, key=distances.get) == name
 
 
-def test_orders_that_one_lacks_are_left_out():
+def test_orders_missing_in_one_signature_are_left_out():
     short, long = signed(shapes.WEDGE, 8), signed(shapes.WEDGE, 20)
     assert len(short.zernike) == 25 and len(long.zernike) == 121
     assert similarity(short, long).distance() < 1e-9
@@ -197,13 +159,15 @@ def test_a_record_gives_the_signature_back():
     assert [len(getattr(found, name)) for name in PARTS] == [37, 121, 12, 47]  # what libraries on disk hold
 
 
-def test_a_flat_record_gives_the_signature_back_and_moments_beyond_order_20_add_nothing():
+def test_flat_record_restores_the_signature_to_order_20():
     points, edges = np.array([[0, 0], [3, 0.25], [2.5, 1], [1, 1], [1.25, 2.5], [0, 2.0]]), directed_edges([range(6)])
     found, more = (flat_signature(region_moments(points, edges, order), 2.5) for order in (20, 21))
     again = Signature.from_record(json.loads(json.dumps(plain(found.as_record()))))
     for name in PARTS:
         assert np.array_equal(getattr(found, name), getattr(again, name))
-        assert np.array_equal(getattr(found, name), getattr(more, name))
+        value, other = getattr(found, name), getattr(more, name)
+        assert value.shape == other.shape
+        assert np.abs(value - other).max(initial=0.0) <= 1e-9 * np.abs(value).max(initial=0.0)
     assert list(found.as_record()) == ["dimension", "size", *PARTS]
     assert again.dimension == 2 and [len(getattr(found, name)) for name in PARTS] == [40, 121, 0, 27]
     assert np.abs(found.chirality).min() > 1e-6  # this shape has a hand by each of them
@@ -212,7 +176,7 @@ def test_a_flat_record_gives_the_signature_back_and_moments_beyond_order_20_add_
 @pytest.mark.parametrize("turn", [1.0, np.exp(0.7j), -1j])
 @pytest.mark.parametrize("scale", [1e-4, 1.0, 30.0])
 @pytest.mark.parametrize("is_mirrored", [False, True])
-def test_flat_invariants_are_products_of_complex_moments_however_a_shape_lies(turn, scale, is_mirrored):
+def test_flat_invariants_are_products_of_complex_moments(turn, scale, is_mirrored):
     """c_pq = E[z^p conj(z)^q] of z about the centroid by the radius of gyration; of two of them with one p - q, and of
     three, one of which has the p - q of both others."""
     corners = np.array([0.0, 3.0 + 0.25j, 2.5 + 1.0j, 1.0 + 1.0j, 1.25 + 2.5j, 2.0j])
@@ -245,28 +209,6 @@ def test_flat_invariants_are_products_of_complex_moments_however_a_shape_lies(tu
     assert close(found.size, scale * size, 1e-13) and len(found.fourier) == 0
 
 
-@pytest.mark.parametrize("order", [6, 8, 12])
-def test_a_flat_signature_s_error_is_what_eight_units_of_rounding_make_of_it(order):
-    """Of a shape in the unit disc no c_pq is the sum of more than 2^(s/2) times its area, s = p + q."""
-    edges = directed_edges([range(6)])
-    points = np.array([[0, 0], [3, 0.25], [2.5, 1], [1, 1], [1.25, 2.5], [0, 2.0]]) / 4.0
-    moments = region_moments(points, edges, order).about_center()
-    radius = float(np.linalg.norm(points - moments.about[:2], axis=1).max())
-    found = flat_signature(moments, radius)
-
-    def most(n, m):
-        """Of |A_nm|, by the sizes of the coefficients of R_nm."""
-        last = (n - m) // 2
-        sizes = (
-            (factorial(n - k) / factorial(k) / factorial(last + m - k) / factorial(last - k), n - 2 * k)
-            for k in range(last + 1)
-        )
-        return sqrt((n + 1) / pi) * sum(size * 2.0 ** (s / 2.0) for size, s in sizes)
-
-    limit = max(most(n, m) for n in range(order + 1) for m in range(n % 2, n + 1, 2))
-    assert U * found.zernike.max() < found.error < 8.0 * U * limit * moments.total / radius**2
-
-
 @pytest.mark.parametrize("damage", [{"zernike": []}, {"size": None}, {"chirality": [1.0]}, {"invariants": [None, "x"]}])
 def test_a_damaged_record_is_refused(damage):
     record = {**plain(signed(shapes.WEDGE, 6).as_record()), **damage}
@@ -277,31 +219,7 @@ def test_a_damaged_record_is_refused(damage):
         Signature.from_record(record)
 
 
-@pytest.mark.parametrize(
-    "name, most", [("zernike", 1e100), ("invariants", 1e100), ("fourier", 1e100), ("chirality", 1e100), ("size", 1e150)]
-)
-def test_numbers_of_a_record_may_be_as_large_as_their_squares_are_numbers(name, most):
-    record = plain(signed(shapes.WEDGE, 6).as_record())
-    sides = [1.0] if name == "size" else [1.0, -1.0]
-    for sign in sides:
-        for share in (0.99, 1.01, np.inf, np.nan):
-            value = sign * share * most
-            changed = {**record, name: value if name == "size" else [*record[name][:-1], value]}
-            if share == 0.99:
-                assert np.max(np.abs(getattr(Signature.from_record(changed), name))) == 0.99 * most
-            else:
-                with refused("signature_incomplete"):
-                    Signature.from_record(changed)
-    for size, is_known in ((1.01e-150, True), (0.99e-150, False), (0.0, False), (-1.0, False)):
-        changed = {**record, "size": size}
-        if is_known:
-            assert Signature.from_record(changed).size == size
-        else:
-            with refused("signature_incomplete"):
-                Signature.from_record(changed)
-
-
-def test_a_library_has_entries_and_a_finding_for_each_body_without_a_signature(tmp_path):
+def test_library_has_entries_and_findings_for_failed_bodies(tmp_path):
     shape = plain(signed(shapes.WEDGE, 6).as_record())
     damaged = {**shape, "size": 0.0}
     records = [
@@ -326,7 +244,7 @@ def test_a_library_has_entries_and_a_finding_for_each_body_without_a_signature(t
 @pytest.mark.parametrize(
     "line", [b"{", b"[]", b'{"objects": 3}', b'{"objects": [3]}', b'{"objects": [{"name": "\xff"}]}']
 )
-def test_a_line_that_is_no_document_is_refused_by_its_number(line, tmp_path):
+def test_malformed_line_is_refused_by_its_number(line, tmp_path):
     path = tmp_path / "parts.jsonl"
     path.write_bytes(b'{"objects": []}\n' + line)
     with refused("library_line", file="parts.jsonl", line=2):

@@ -122,7 +122,7 @@ def cavity(rng):
 
 
 def cavity_through_its_wall(rng):
-    """What is cut away is what of the cavity is inside."""
+    """The removed part is the part of the cavity inside."""
     depth = 10.0 ** rng.uniform(-5, -1)
     return joined(box(), inverted(box((0.1, 0.2, -depth), (0.9, 0.8, 0.7)))), 1.0 - 0.8 * 0.6 * 0.7
 
@@ -206,7 +206,7 @@ BREAKAGES = [
 
 
 def label(result):
-    """What a user sees beside the numbers, one of LABELS."""
+    """Return the label that a user sees beside the numbers, one of LABELS."""
     if result.method != "exact":
         return str(result.method)
     if not result.findings:

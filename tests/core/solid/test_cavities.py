@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Cavities: reported, and measured as they are given where they break through their walls."""
+"""Cavities are reported, and measured as given if they break through their walls."""
 
 import numpy as np
 import pytest
@@ -22,7 +22,7 @@ def hollow(depth, turned=False):
 @pytest.mark.parametrize("turned", [False, True])
 @pytest.mark.parametrize("scale", [1e-6, 1.0, 1e6])
 @pytest.mark.parametrize("depth", [1e-5, 1e-3, 0.05])
-def test_a_cavity_that_breaks_through_counts_as_it_is_given(depth, scale, turned):
+def test_cavity_breaking_through_counts_as_given(depth, scale, turned):
     points, triangles = moved(hollow(depth, turned), scale * rotation(3), (2 * scale, -scale, scale))
     rng = np.random.default_rng(int(-np.log10(depth)))
     triangles = triangles[np.concatenate([rng.permutation(12), 12 + rng.permutation(12)])]
@@ -45,7 +45,7 @@ def test_a_cavity_within_its_wall_is_subtracted_with_a_note():
     assert only(result).elements.tolist() == list(range(12, 24))
 
 
-def test_how_deep_a_cavity_breaks_through_is_that_of_a_wall_that_reaches_into_it_too():
+def test_depth_of_a_cavity_includes_walls_reaching_into_it():
     """No vertex of the cavity is outside: the bottom of a groove reaches into it."""
     groove = np.array([[0, 0], [4, 0], [4, 4], [2.5, 4], [2, 1.5], [1.5, 4], [0, 4]], float)
     ring = np.arange(7)
@@ -61,13 +61,13 @@ def test_how_deep_a_cavity_breaks_through_is_that_of_a_wall_that_reaches_into_it
 
 
 @pytest.mark.parametrize("share, turned", [(0.3, True), (0.9, False)])
-def test_an_inward_component_less_than_half_in_another_is_inside_out(share, turned):
+def test_inward_part_less_than_half_inside_another_is_inverted(share, turned):
     part = inverted(box((1 - share, 0.1, 0.1), (2 - share, 0.9, 0.9)))
     result = measure_solid(surface(joined(WALL, part)))
     assert codes(result) == (["inverted_components", "components_overlap"] if turned else ["cavities_break_through"])
 
 
-def test_many_cavities_that_break_through_are_measured_together():
+def test_many_cavities_breaking_through_are_measured():
     cavities = [inverted(moved(sphere(1), 0.3 * np.eye(3), (x, y, 0.25))) for x in range(12) for y in range(12)]
     plate = box((-0.5, -0.5, 0), (11.5, 11.5, 2))
     result = measure_solid(surface(joined(plate, *cavities)))

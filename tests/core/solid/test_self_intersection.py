@@ -22,7 +22,6 @@ from tests.core.bodies import (
     joined,
     moebius,
     moved,
-    ring,
     rotation,
     sphere,
     split,
@@ -51,7 +50,7 @@ def bar(turn, sections=90, sides=12, radius=0.2):
 
 
 def pushed(far, level=2):
-    """A ball of which one vertex is pushed through the other side."""
+    """A ball with one vertex pushed through the other side."""
     points, triangles = sphere(level)
     points[0] *= -far
     return points, triangles
@@ -106,13 +105,6 @@ def hourglass(heavy):
     return points, split(lids + [(k, (k + 1) % 6, (k + 1) % 6 + 6, k + 6) for k in range(6)])
 
 
-@pytest.mark.parametrize("heavy", [0.3, 1.5])
-@pytest.mark.parametrize("offset", [(0.0, 0.0, 0.0), (8.0, -16.0, 4.0)])
-def test_a_body_whose_sides_all_face_the_middle_of_its_box_or_its_center_is_proved(heavy, offset):
-    result = measure_solid(surface(moved(hourglass(heavy), offset=offset)))
-    assert result.health.self_intersection is Intersection.EXCLUDED and not result.findings
-
-
 @pytest.mark.parametrize(
     "tip, height, agree",
     [((1.0, 1.0, 1.0), 0.0, True), ((-0.2, -0.2, 2.0), 0.0, False), ((-0.2, -0.2, 2.0), 1.0, True)],
@@ -120,8 +112,8 @@ def test_a_body_whose_sides_all_face_the_middle_of_its_box_or_its_center_is_prov
 )
 @pytest.mark.parametrize("first", [False, True])
 @pytest.mark.parametrize("turn, others", [(0, 0), (0, 2), (2, 0), (2, 2)])
-def test_one_triangle_that_looks_away_leaves_a_body_unproved(tip, height, agree, first, turn, others):
-    """A cube of which a corner leans over a side next to it: whichever face that is, and whichever half of a quad."""
+def test_one_reversed_triangle_leaves_a_body_unproved(tip, height, agree, first, turn, others):
+    """A cube with a corner that leans over a side next to it, for each face and each half of a quad."""
     points = 2.0 * CORNERS - 1.0
     points[4, 2], points[7] = height, tip
     quads = np.array([[5, 7, 6, 4], [0, 2, 3, 1], [0, 1, 5, 4], [6, 7, 3, 2], [0, 4, 6, 2], [3, 7, 5, 1]])
@@ -150,7 +142,7 @@ def assert_convex_is_proved(part, scale, turned):
     assert codes(result) == (["inverted_components"] if turned else [])
 
 
-def test_a_surface_that_goes_around_its_center_twice_is_not_proved_but_found():
+def test_surface_around_its_center_twice_is_found():
     result = measure_solid(surface(twice_around()))
     assert result.health.self_intersection is Intersection.FOUND
     assert only(result).code == "self_intersection" and close(only(result).values["share"], 0.5, rel=0.02)
@@ -159,7 +151,7 @@ def test_a_surface_that_goes_around_its_center_twice_is_not_proved_but_found():
 @pytest.mark.parametrize("scale", [1e-6, 1.0, 1e6])
 @pytest.mark.parametrize("dtype", [np.float32, np.float64])
 @pytest.mark.parametrize("turn, share", [(1.1, 0.1 / 1.1), (1.5, 0.5 / 1.5), (2.5, 1.5 / 2.5), (0.97, 0.0), (1.0, 0.0)])
-def test_a_bar_that_is_bent_past_a_full_ring_counts_twice_where_it_meets_itself(turn, share, dtype, scale):
+def test_bar_bent_past_a_full_ring_counts_its_overlap_twice(turn, share, dtype, scale):
     for seed in range(3):
         part = moved(bar(turn), scale * rotation(seed), (2 * scale, scale, -3 * scale))
         result = measure_solid(surface(part, dtype))
@@ -180,7 +172,7 @@ def test_a_vertex_pushed_through_the_other_side_is_found(far, share):
         assert only(result).code == "self_intersection" and close(only(result).values["share"], share, rel=0.5)
 
 
-def test_a_region_that_hardly_counts_is_a_note():
+def test_negligible_region_is_a_note():
     """Two ends of a long bar that just meet."""
     part = bar(1.0 + 2e-6, 400)
     result = measure_solid(surface(moved(part, rotation(1))))
@@ -217,7 +209,7 @@ def test_ordinary_bodies_raise_no_alarm(part, dtype):
 
 
 def test_each_component_is_looked_at_by_itself():
-    """What two components have in common is reported as that, and none of them goes through itself."""
+    """Overlaps of two components are reported as such, and none of them goes through itself."""
     result = measure_solid(surface(joined(torus(), moved(torus(), offset=(0.4, 0, 0)))))
     assert codes(result) == ["components_overlap"] and result.health.self_intersection is Intersection.NOT_FOUND
     result = measure_solid(
@@ -227,14 +219,6 @@ def test_each_component_is_looked_at_by_itself():
     (found,) = [item for item in result.findings if item.code == "self_intersection"]
     each = measure_solid(surface(bar(1.2))).volume.total
     assert close(found.values["share"], 2.0 * each * 0.2 / 1.2 / (2.0 * each + 1.0), rel=0.2)
-
-
-def test_what_counts_for_the_volume_though_not_for_the_inertia_is_no_note():
-    """A small ball of which a vertex is pushed through the other side, between two blocks."""
-    small = moved(pushed(3.0), 0.3 * rotation(1))
-    part = joined(small, box((-22, -1, -1), (-20, 1, 1)), box((20, -1, -1), (22, 1, 1)))
-    found = only(measure_solid(surface(part)))
-    assert found.code == "self_intersection" and found.values["share"] > 1e-4
 
 
 def test_the_order_of_faces_and_points_changes_nothing():
@@ -248,27 +232,5 @@ def test_the_order_of_faces_and_points_changes_nothing():
 
 
 @pytest.mark.parametrize("part", [grid(3), joined(moebius(), moved(box(), offset=(5, 5, 5)))], ids=["flat", "open"])
-def test_what_is_flat_or_open_is_not_looked_at(part):
+def test_flat_or_open_part_is_not_examined(part):
     assert measure_solid(surface(part)).health.self_intersection is Intersection.NOT_CHECKED
-
-
-def test_quads_are_looked_at_along_as_many_lines_as_their_triangles():
-    points, quads = ring(100, 80)  # more than the least number of lines is for
-    points[0] *= -1.5  # through the other side
-    cut = Surface(points, quads=quads)
-    first, second = (measure_solid(body) for body in (cut, Surface(points, cut.all_triangles()[0])))
-    assert first.health.self_intersection is second.health.self_intersection is Intersection.FOUND
-    shares = [
-        next(found.values["share"] for found in body.findings if found.code == "self_intersection")
-        for body in (first, second)
-    ]
-    assert close(shares[0], shares[1], rel=1e-9)
-
-
-def test_what_was_not_looked_at_is_a_note(monkeypatch):
-    monkeypatch.setattr(self_intersection, "MAX_UNSURE_LINES", -1.0)
-    result = measure_solid(surface(torus()))
-    assert only(result).code == "self_intersection_unchecked" and result.method == "exact"
-    assert result.health.self_intersection is Intersection.NOT_CHECKED
-    assert measure_solid(surface(torus()), shell=True).health.self_intersection is Intersection.NOT_CHECKED
-    assert not measure_solid(surface(torus()), shell=True).findings

@@ -1,16 +1,14 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Meshes that are read in blocks have the moments that they have in memory, and whether they close is known."""
+"""Moments and closedness of meshes read in blocks, compared with meshes in memory."""
 
 from io import BytesIO
-from threading import active_count
 
 import numpy as np
 import pytest
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.polyhedron import polyhedron_moments
 from body_moments.core.streams import measure_stream, open_mesh_file, ply_rows
-from body_moments.core.streams import ply as ply_module
 from body_moments.core.streams import stl as stl_module
 from body_moments.core.streams.ply_header import Element, Property
 
@@ -78,7 +76,7 @@ FORMS = {
 
 @pytest.mark.parametrize("order", [3, 9])
 @pytest.mark.parametrize("name", FORMS)
-def test_moments_are_those_in_memory(tmp_path, small_blocks, name, order):
+def test_streamed_moments_match_moments_in_memory(tmp_path, small_blocks, name, order):
     part = moved(joined(torus(9, 7), sphere(1)))
     found = measured(tmp_path, name, FORMS[name](part), order, order)
     assert found.closed and found.face_count == len(part[1])
@@ -106,7 +104,7 @@ def test_large_blocks_are_the_same(tmp_path, name):
         (without(box(), 0, 1, 2, 3), False),  # a tube, whose normals add up to nothing
     ],
 )
-def test_what_is_open_is_seen(tmp_path, small_blocks, name, part, closed):
+def test_open_streamed_mesh_is_detected(tmp_path, small_blocks, name, part, closed):
     part = moved(part)
     found = measured(tmp_path, name, FORMS[name](part), 3)
     assert found.closed == closed
@@ -143,32 +141,8 @@ def test_faces_of_any_number_of_sides(tmp_path, small_blocks, order, extra):
     assert found.closed and close([found.volume.total, found.area.total], [5.0, 16.0 + 2.0**1.5 - 0.0], rel=1e-12)
 
 
-def test_a_block_without_order_in_its_vertices_is_copied(tmp_path, small_blocks, monkeypatch):
-    points, triangles = moved(sphere(3))
-    shuffled = np.random.default_rng(0).permutation(len(points))
-    place = np.argsort(shuffled)
-    truth = in_memory((points, triangles), 3, (5, -2, 9))[0]
-    for spread in (4, 0, 1 << 20):
-        monkeypatch.setattr(ply_module, "MAX_SPREAD", spread)
-        found = measured(tmp_path, "a.ply", ply(points[shuffled], place[triangles]))
-        assert found.closed and close(found.volume.total, truth.total, rel=1e-12)
-
-
-@pytest.mark.parametrize("first", [0, 1000])
-@pytest.mark.parametrize("spread, is_copied", [(0, False), (1, True)])
-def test_vertices_are_copied_where_a_block_has_a_fourth_of_those_from_its_first_to_its_last(
-    tmp_path, first, spread, is_copied
-):
-    """Wherever the first of them stands; else those between come along."""
-    last = first + 4 * 9 - 1 + spread
-    faces = [[first, first + 1, last], [first + 2, first + 1, last], [last, first + 3, first]]
-    (tmp_path / "a.ply").write_bytes(ply(np.random.default_rng(0).normal(size=(1100, 3)), faces))
-    (piece,) = open_mesh_file(tmp_path / "a.ply").pieces()
-    assert len(piece.points) == (9 if is_copied else 4 * 9)
-
-
 @pytest.mark.parametrize("place", [0.0, 1e9, -1e9])
-def test_what_reaches_far_beyond_the_first_faces_is_read_again(tmp_path, small_blocks, place):
+def test_body_far_beyond_its_first_faces_is_read_again(tmp_path, small_blocks, place):
     """However far from the world's origin, on either side of the first faces."""
     points, triangles = joined(sphere(2), box((1e9, 0, 0), (1e9 + 1e6, 1e6, 1e6)))
     points[:, 0] += place
@@ -184,7 +158,7 @@ def test_what_reaches_far_beyond_the_first_faces_is_read_again(tmp_path, small_b
 
 
 @pytest.mark.parametrize("order", ["<", ">", ""])
-def test_a_ply_that_is_cut_short_or_damaged_is_refused(tmp_path, small_blocks, order):
+def test_truncated_or_damaged_ply_is_refused(tmp_path, small_blocks, order):
     part = moved(sphere(1))
     whole = ply(*part, order, extra=True)
     body = len(whole) - len(ply(*part, order, extra=True).partition(b"end_header\n")[2])
@@ -204,7 +178,7 @@ def test_a_ply_that_is_cut_short_or_damaged_is_refused(tmp_path, small_blocks, o
 
 
 @pytest.mark.parametrize("cut", [1, 10, 49, 50, 500])
-def test_an_stl_that_is_cut_short_is_refused(tmp_path, small_blocks, cut):
+def test_truncated_stl_is_refused(tmp_path, small_blocks, cut):
     part = moved(sphere(1))
     with refused("stl_size"):
         measured(tmp_path, "a.stl", stl(part)[:-cut])
@@ -233,7 +207,7 @@ def test_an_stl_that_is_cut_short_is_refused(tmp_path, small_blocks, cut):
         (b"endfacet", b"endfacets"),
     ],
 )
-def test_a_text_that_is_no_stl_is_refused(tmp_path, small_blocks, old, new):
+def test_text_other_than_stl_is_refused(tmp_path, small_blocks, old, new):
     """Whichever of its words is another, in the last facet or in all of them."""
     text = stl_text(moved(sphere(1)))
     at = text.rindex(old)
@@ -242,21 +216,12 @@ def test_a_text_that_is_no_stl_is_refused(tmp_path, small_blocks, old, new):
             measured(tmp_path, "a.stl", other)
 
 
-def test_no_number_of_a_text_has_an_underscore(tmp_path):
-    """Which Python would read."""
+def test_numbers_with_underscores_are_refused(tmp_path):
+    """Python would read these numbers."""
     text = stl_text(moved(sphere(1)))
     at = text.rindex(b".")
     with refused("line_misread"):
         measured(tmp_path, "a.stl", text[:at] + b"_" + text[at + 1 :])
-
-
-def test_a_face_of_too_many_corners_is_not_read_into_memory(tmp_path, monkeypatch):
-    whole = ply(*moved(sphere(1)))
-    monkeypatch.setattr(ply_rows, "MAX_LIST", 3)
-    assert measured(tmp_path, "a.ply", whole).closed
-    monkeypatch.setattr(ply_rows, "MAX_LIST", 2)
-    with refused("file_damaged"):
-        measured(tmp_path, "a.ply", whole)
 
 
 @pytest.mark.parametrize("length, is_looked_for", [(1 << 26, True), ((1 << 26) + 1, False)])
@@ -271,7 +236,7 @@ def test_a_list_has_up_to_two_to_the_twenty_sixth_numbers(length, is_looked_for)
 
 @pytest.mark.parametrize("name", FORMS)
 @pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf])
-def test_numbers_that_are_not_finite_are_refused_with_their_count_and_place(tmp_path, small_blocks, name, bad):
+def test_nonfinite_numbers_are_refused_with_count_and_place(tmp_path, small_blocks, name, bad):
     points, triangles = soup(moved(sphere(1)))
     points[3 * 20] = bad
     points[3 * 25, 1] = bad
@@ -294,7 +259,7 @@ def test_numbers_of_a_text_beyond_float32_are_not_finite(tmp_path, name):
         measured(tmp_path, name, text[:at] + b"1e39 " + text[text.index(b" ", at) + 1 :])
 
 
-def test_single_numbers_beside_doubles_may_signal_that_they_are_none(tmp_path):
+def test_signaling_nans_beside_doubles_are_refused(tmp_path):
     row = np.dtype([("x", "<u4"), ("y", "<f8"), ("z", "<f4")])
     table = np.zeros(4, row)
     table["x"][2] = 0x7FA00000
@@ -333,48 +298,8 @@ def test_a_polygon_is_concave_by_its_own_measure(tmp_path, size):
                 list(open_mesh_file(tmp_path / "a.ply").pieces())
 
 
-def test_progress_counts_faces(tmp_path, small_blocks, monkeypatch):
-    monkeypatch.setattr(stl_module, "SAMPLES", 1000)  # else the file is read again
-    seen = []
-    part = moved(sphere(2))
-    for name, make in FORMS.items():
-        seen.clear()
-        measured(tmp_path, name, make(part), progress=seen.append)
-        assert sum(seen) == len(part[1]) and len(seen) > 5
-
-
-def test_as_many_threads_work_as_are_asked_for(tmp_path, small_blocks):
-    """While a file of many blocks is read; one alone needs no other."""
-    part, before = stl(moved(sphere(2))), active_count()
-    for threads, more in ((1, 0), (3, 3)):
-        seen = []
-        measured(tmp_path, "a.stl", part, 4, threads=threads, progress=lambda _, to=seen: to.append(active_count()))
-        assert max(seen) == before + more
-
-
-def test_some_triangles_show_where_a_body_is(tmp_path, small_blocks, monkeypatch):
-    """Of a text the first ones; the others are not read."""
-    part = moved(sphere(2))
-    triangles = part[0][part[1]]
-    monkeypatch.setattr(stl_module.StlFile, "box", None)
-    first = stl_text(part)[:700].count(b"endfacet")
-    for make, some in ((stl, triangles[:: len(triangles) // 3]), (stl_text, triangles[:first])):
-        (tmp_path / "a.stl").write_bytes(make(part))
-        low, high = open_mesh_file(tmp_path / "a.stl").sampled_box()
-        assert np.array_equal(low, some.min(axis=(0, 1))) and np.array_equal(high, some.max(axis=(0, 1)))
-
-
-@pytest.mark.parametrize("count, step", [(5, 1), (999, 1), (1999, 1), (2000, 2), (2999, 2), (3000, 3)])
-def test_a_thousand_triangles_and_fewer_than_twice_as_many_show_where_a_body_is(tmp_path, count, step):
-    points = np.random.default_rng(count).normal(size=(3 * count, 3)).astype(np.float32)
-    (tmp_path / "a.stl").write_bytes(stl((points, np.arange(3 * count).reshape(-1, 3))))
-    some = points.reshape(-1, 3, 3)[::step]
-    low, high = open_mesh_file(tmp_path / "a.stl").sampled_box()
-    assert np.array_equal(low, some.min(axis=(0, 1))) and np.array_equal(high, some.max(axis=(0, 1)))
-
-
 @pytest.mark.parametrize("name", FORMS)
-def test_the_number_of_faces_is_known_before_they_are_read_or_nearly(tmp_path, name):
+def test_face_count_is_known_or_estimated_before_reading(tmp_path, name):
     part = moved(sphere(2))
     (tmp_path / name).write_bytes(FORMS[name](part))
     share = open_mesh_file(tmp_path / name).face_count / len(part[1])
@@ -390,43 +315,11 @@ FACES = "element face 4\nproperty list uchar int vertex_indices\n"
 TETRAHEDRON = "0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n"
 
 
-def test_a_ply_without_vertices_or_with_indices_between_them_is_refused(tmp_path):
+def test_ply_without_vertices_or_with_late_indices_is_refused(tmp_path):
     with refused("file_damaged"):
         measured(tmp_path, "a.ply", ply_text(FACES, TETRAHEDRON))
     with refused("line_misread"):
         measured(tmp_path, "a.ply", ply_text(VERTICES + FACES, TETRAHEDRON.replace("3 1 2 3", "3 1.5 2 3")))
-
-
-@pytest.mark.parametrize("order", ["<", ">", ""])
-def test_rows_of_one_length_come_together(tmp_path, monkeypatch, order):
-    """However few are looked at one at a time."""
-    monkeypatch.setattr(ply_rows, "SINGLE_ROWS", 5)
-    points, quads = ring(30, 16)
-    faces = [quad[:3] for quad in quads[:200].tolist()] + quads[200:].tolist()
-    (tmp_path / "a.ply").write_bytes(ply(points, faces, order))
-    pieces = [(len(piece.triangles), len(piece.quads)) for piece in open_mesh_file(tmp_path / "a.ply").pieces()]
-    assert pieces == [(200, 0), (0, len(faces) - 200)]
-
-
-@pytest.mark.parametrize("far, times", [(1.9, 1), (2.1, 2)])
-def test_what_reaches_twice_as_far_as_the_samples_is_read_once(tmp_path, monkeypatch, far, times):
-    """From the middle of their box."""
-    monkeypatch.setattr(stl_module, "SAMPLES", 3)
-    near, away = box((-1, -1, -1), (1, 1, 1)), box((0, 0, 0), (far, 0.5, 0.5))
-    part = joined(near, away)
-    triangles = [*part[1][:12], *part[1][12:]]
-    boxes = np.array([triangles[0], *triangles[12:], *triangles[1:12]])
-    monkeypatch.setattr(stl_module.StlFile, "sampled_box", lambda _: (np.full(3, -1.0), np.full(3, 1.0)))
-    seen = []
-    assert measured(tmp_path, "a.stl", stl((part[0], boxes)), progress=seen.append).closed
-    assert sum(seen) == 24 * times
-
-
-def test_faces_outside_of_the_box_that_a_file_says_they_are_in_are_a_fault_of_the_program(tmp_path, monkeypatch):
-    for name in ("sampled_box", "box"):
-        monkeypatch.setattr(stl_module.StlFile, name, lambda _: (np.full(3, -0.1), np.full(3, 0.1)))
-    with pytest.raises(AssertionError, match="box"):
-        measured(tmp_path, "a.stl", stl(box()))
 
 
 def test_a_header_has_a_million_bytes_at_most(tmp_path):
@@ -452,7 +345,7 @@ def test_elements_without_properties_take_nothing(tmp_path):
 
 
 @pytest.mark.parametrize("order", ["<", ">"])
-def test_rows_with_lists_that_are_empty_take_the_bytes_of_their_counts(tmp_path, order):
+def test_rows_with_empty_lists_take_only_their_counts(tmp_path, order):
     whole = ply(*moved(sphere(0)), order)
     head, end, body = whole.partition(b"end_header\n")
     empty = b"element edge 5000\nproperty list uchar double ends\n"
@@ -473,7 +366,7 @@ def test_coordinates_beyond_float32(tmp_path, order):
 
 @pytest.mark.parametrize("size", [1e-13, 6e12])
 def test_a_body_of_any_size_has_moments_of_twentieth_order(tmp_path, size):
-    """Of its own scale: as numbers of meters they would be too small or too large on the way."""
+    """Moments are computed at the body's own scale; in meters they would under- or overflow on the way."""
     points, faces = box((-1, -1, -1), (1, 1, 1))
     found = measured(tmp_path, "a.ply", ply(points * size, faces, kind="f8"), 20)
     for powers in ((0, 0, 0), (20, 0, 0), (4, 6, 10)):
@@ -488,7 +381,7 @@ def test_moments_beyond_all_numbers_are_refused(tmp_path):
 
 
 @pytest.mark.parametrize("order", [3, 5, 20])
-def test_a_body_that_is_a_point_has_no_volume(tmp_path, order):
+def test_collapsed_body_has_no_volume(tmp_path, order):
     found = measured(tmp_path, "a.stl", stl((np.full((3, 3), 0.1), np.array([[0, 1, 2]]))), order, order)
     assert found.volume.total == 0.0 == found.area.total
 
@@ -519,7 +412,7 @@ POINTS = "element vertex 4", "property float x", "property float y", "property f
         header(*POINTS, "element face", FACES.splitlines()[1]),
     ],
 )
-def test_a_header_that_makes_no_sense_is_refused_as_such(tmp_path, data):
+def test_senseless_header_is_refused(tmp_path, data):
     with refused("file_damaged", file="a.ply", cause={"code": "damage_ply_header", "values": {}}):
         measured(tmp_path, "a.ply", data + TETRAHEDRON.encode())
 
@@ -531,21 +424,14 @@ def test_a_header_that_makes_no_sense_is_refused_as_such(tmp_path, data):
         ("face 4", "face 40", "damage_ply_rows", {"name": "face", "count": 40}),
     ],
 )
-def test_what_is_damaged_in_a_ply_is_named(tmp_path, old, new, code, values):
+def test_damage_in_a_ply_is_named(tmp_path, old, new, code, values):
     whole = ply_text(VERTICES + FACES, TETRAHEDRON).decode()
     assert whole.count(old) == 1
     with refused("file_damaged", file="a.ply", cause={"code": code, "values": values}):
         measured(tmp_path, "a.ply", whole.replace(old, new).encode("latin-1"))
 
 
-@pytest.mark.parametrize("order", ["<", ""])
-def test_rows_may_be_as_short_as_they_can_be(tmp_path, order):
-    points, faces = box()
-    many = ply(np.concatenate([points, np.zeros((3000, 3))]).astype(int) * 1.0, faces, order)
-    assert measured(tmp_path, "a.ply", many.replace(b"0.0", b"0").replace(b"1.0\n", b"1\n")).closed
-
-
-def test_other_files_are_refused(tmp_path):
+def test_files_of_other_types_are_refused(tmp_path):
     (tmp_path / "a.obj").write_bytes(b"")
     with refused("file_type", suffixes=".stl .ply"):
         open_mesh_file(tmp_path / "a.obj")

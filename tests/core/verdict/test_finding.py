@@ -12,7 +12,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 from body_moments.core.shape.library import Similarity
-from body_moments.core.verdict import finding as module
 from body_moments.core.verdict.finding import (
     Finding,
     MeasureError,
@@ -30,17 +29,11 @@ from body_moments.core.verdict.sentences import MESSAGES, of_severity, sentence,
 ROOT = Path(__file__).resolve().parent.parent.parent.parent
 
 
-def test_a_refusal_is_a_sentence_that_names_its_subject_and_the_remedy():
+def test_refusal_names_its_subject_and_the_remedy():
     error = ReadError("non_finite_vertices", count=2, total=8).about("Cube").about("Other")
     assert isinstance(error, MeasureError) and not isinstance(error, ValueError)
     assert str(error).startswith("Cube: 2 of 8 vertices have") and error.reason == str(error)[6:]
     assert repr(ReadError(error.finding)) == repr(error) == "ReadError('non_finite_vertices')"
-
-
-def test_without_the_table_the_code_speaks(monkeypatch):
-    monkeypatch.setattr(module, "_sentence_of", module._plain)
-    assert str(MeasureError("no_faces")) == "No faces."
-    assert str(finding("holes_capped", count=2, share=0.5)) == "Holes capped (count 2, share 0.5)."
 
 
 def test_values_come_back_from_json_and_equal_findings_are_one():
@@ -58,7 +51,7 @@ def test_why_the_system_refused_is_a_part_of_a_sentence():
     assert system_reason(OSError("No such device.")) == "No such device"
 
 
-def test_a_mesh_of_which_nothing_else_is_known_is_sound():
+def test_mesh_without_findings_is_sound():
     counts = "boundary_edges non_manifold_edges inconsistent_edges inverted_components nested_components cavities"
     counts += " overlapping_components duplicate_faces degenerate_faces non_planar_faces"
     record = MeshHealth(True).as_record()
@@ -72,7 +65,7 @@ def test_a_mesh_of_which_nothing_else_is_known_is_sound():
         assert getattr(DefectiveElements(), entry.name).shape == ((0, 2) if "edges" in entry.name else (0,))
 
 
-def test_what_holds_for_several_solids_is_the_least_that_can_be_trusted():
+def test_combined_verdict_is_the_worst_of_the_solids():
     order = ["open", "capped", "reoriented", "exact", "union", "shell", "wire", "given", "assembly"]
     assert [str(verdict) for verdict in Verdict] == order and least_trusted([]) == Verdict.OPEN
     for worse, better in zip(order, order[1:]):
@@ -94,7 +87,7 @@ def test_numbers_lists_causes_and_sources_are_filled_in():
     assert "12.5%" in sentence(finding("holes_capped_slightly", count=1, share=0.125))
 
 
-def test_what_is_stored_names_the_same_elements():
+def test_stored_finding_names_the_same_elements():
     first = finding("flipped_faces", np.arange(3, 15), count=12)
     stored = json.loads(json.dumps(first.as_record()))
     assert stored["elements"] == list(range(3, 11)) and sentence(Finding.from_record(stored)) == sentence(first)
@@ -103,7 +96,7 @@ def test_what_is_stored_names_the_same_elements():
     assert "3 of “Cube”" in sentence(of_source) and "elements" not in finding("no_faces").as_record()
 
 
-def test_a_number_that_json_cannot_hold_is_unknown():
+def test_nonfinite_finding_value_is_unknown():
     assert "unknown of the area" in sentence(finding("holes_capped_slightly", count=1, share=None))
 
 
@@ -113,7 +106,7 @@ def test_severity_belongs_to_the_code():
     assert of_severity(both, Severity.WARNING) == [both[1]]
 
 
-def test_a_template_has_only_placeholders_that_the_formatter_knows():
+def test_template_has_only_placeholders_known_to_the_formatter():
     known = ("", "percent", "length", "point", "size", "word")
     for code, entry in MESSAGES.items():
         for text in filter(None, (entry.text, entry.plural)):
@@ -124,7 +117,7 @@ def test_a_template_has_only_placeholders_that_the_formatter_knows():
 
 @functools.cache
 def calls_that_make() -> list[tuple[str, ast.Call]]:
-    """Where the source makes findings and refusals."""
+    """Yield the places of the source that create findings and refusals."""
     makers = {"finding", "Finding", "MeasureError", "ReadError", "EditRefusedError", "FileError", "QueryError"}
     makers |= {"SurfaceRefusedError", "NoShapeError", "_damaged"}
     return [
@@ -146,14 +139,14 @@ def codes_of(call: ast.Call) -> list[str]:
     return [constant.value for constant in constants if isinstance(constant.value, str)]
 
 
-def test_every_code_that_is_made_has_a_message():
+def test_every_created_code_has_a_message():
     assert not {code: place for place, call in calls_that_make() for code in codes_of(call) if code not in MESSAGES}
 
 
 FILLED_IN_LATER = {"axes_made_principal": {"count"}, "origins_moved": {"count"}}
 
 
-def test_every_value_that_a_message_needs_is_given():
+def test_every_placeholder_of_a_message_is_given():
     missing = []
     for place, call in calls_that_make():
         given = {"elements", *(keyword.arg for keyword in call.keywords)}
@@ -172,13 +165,13 @@ def test_every_value_that_a_message_needs_is_given():
     assert not missing
 
 
-def test_every_kind_of_shape_and_of_defect_that_can_be_counted_has_a_message():
+def test_every_countable_shape_and_defect_has_a_message():
     kinds = {"shapes_" + similarity for similarity in Similarity} - {"shapes_different"}
     assert kinds | {"defect_" + field.name for field in fields(DefectiveElements)} <= MESSAGES.keys()
 
 
 @pytest.mark.parametrize("count, more", [(7, ""), (8, ""), (9, ", und 1 weitere"), (20, ", und 12 weitere")])
-def test_a_list_is_cut_in_one_way_and_what_is_left_out_is_translated(count, more):
+def test_list_is_cut_uniformly_and_its_remainder_translated(count, more):
     german = {"and {count} more": "und {count} weitere"}
     names = ["a"] * count
     shown = ", ".join(["“a”"] * min(count, 8)) + more

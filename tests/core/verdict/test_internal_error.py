@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Whatever is raised becomes a finding: a refusal its own, a fault of this program one that says what and where."""
+"""Exceptions become findings: a refusal its own, a fault of this program one with its place."""
 
 import traceback
 
@@ -10,7 +10,7 @@ from body_moments.core.verdict.finding import MeasureError, finding
 from body_moments.core.verdict.internal_error import finding_of
 
 
-def test_a_refusal_is_its_finding_and_too_little_memory_is_one(capsys):
+def test_refusal_and_memory_error_are_findings(capsys):
     refusal = MeasureError("holes_capped", count=2)
     assert finding_of(refusal) is refusal.finding
     assert finding_of(MemoryError()) == finding("out_of_memory")
@@ -18,7 +18,7 @@ def test_a_refusal_is_its_finding_and_too_little_memory_is_one(capsys):
 
 
 @pytest.mark.parametrize("text, said", [("of\n  two lines.", "of two lines"), ("", "-"), (".", "-")])
-def test_a_fault_outside_says_its_kind_and_message_and_prints_its_traceback(text, said, capsys):
+def test_foreign_fault_prints_its_kind_message_and_traceback(text, said, capsys):
     try:
         raise KeyboardError(text)
     except KeyboardError as error:
