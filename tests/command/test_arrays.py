@@ -108,7 +108,7 @@ def damaged(file: str, code: str) -> str:
         (nrrd(box(), encoding="gzip")[:-1] + b"!", (), damaged("a.nrrd", "damage_unpacked_length")),
     ],
 )
-def test_what_cannot_be_measured_is_an_error_and_no_crash(tmp_path, data, options, reason):
+def test_unmeasurable_array_is_an_error(tmp_path, data, options, reason):
     code, document = run(tmp_path, written(tmp_path / "a.nrrd", data), *options)
     assert code == 1
     (error,) = document["errors"]
@@ -153,7 +153,7 @@ def test_a_scene_with_a_cloud_goes_through_every_option(tmp_path):
     assert "Fourier" in document["errors"][0]["reason"]
 
 
-def test_uneven_slices_are_measured_where_they_stand(tmp_path):
+def test_uneven_slices_are_measured_in_place(tmp_path):
     samples = np.random.default_rng(3).integers(1, 9, (4, 2, 6)).astype("f4")
     z = np.array([10.0, 10.5, 12.0, 12.25, 15.0, 16.0])
     np.save(tmp_path / "scan.npy", samples)
@@ -214,7 +214,7 @@ def ball(n=12, dtype="f4"):
 
 @pytest.mark.parametrize("order", ["C", "F"])
 @pytest.mark.parametrize("spline", ["1", "4"])
-def test_a_threshold_takes_an_array_for_the_body_where_it_is_reached(tmp_path, order, spline):
+def test_threshold_turns_array_into_a_body(tmp_path, order, spline):
     values = ball() + np.linspace(0, 3, 12, dtype="f4")[:, None, None]
     np.save(tmp_path / "b.npy", np.asarray(values, order=order))
     words = [tmp_path / "b.npy", "--threshold", "0.5", "--spacing", "0.1,0.2,0.3", "--origin", "-1,2,5"]
@@ -247,7 +247,7 @@ def test_a_threshold_takes_an_array_for_the_body_where_it_is_reached(tmp_path, o
     assert {"scan_without_spacing", "threshold_measured"} <= {*codes(document["objects"][0])}
 
 
-def test_a_threshold_is_of_the_values_that_the_header_gives_samples(tmp_path):
+def test_threshold_applies_to_scaled_header_values(tmp_path):
     stored = (ball() * 10).astype("i2")
     path = written(tmp_path / "a.nii", nifti(stored, spacing=(2, 2, 2), slope=-0.5))
     truth = threshold_body(-0.5 * stored, -3.0)
@@ -261,7 +261,7 @@ def test_a_threshold_is_of_the_values_that_the_header_gives_samples(tmp_path):
     assert batch.main(in_process("measure", path, "--threshold", "nan"), channel=2, file_needed=True) == 2
 
 
-def test_a_threshold_is_for_volume_objects_too_and_said_to_be_unused_by_others(tmp_path):
+def test_threshold_measures_volumes_and_warns_for_meshes(tmp_path):
     import bpy
 
     from tests.blender.grids import vdb_grid, volume_object

@@ -43,7 +43,7 @@ def test_a_report_lists_links_with_findings_and_the_repair(tmp_path):
     assert answer(description(tmp_path / "s.urdf", RIGHT))[1] == 0
 
 
-def test_several_files_are_a_list_and_one_that_cannot_be_read_is_among_them(tmp_path):
+def test_several_files_are_a_list_with_unreadable_ones(tmp_path):
     good, bad = description(tmp_path / "a.urdf", RIGHT), tmp_path / "b.urdf"
     bad.write_text("<robot", encoding="utf-8")
     text, faults, _ = answer(good, bad)

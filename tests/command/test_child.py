@@ -47,7 +47,7 @@ def test_a_child_that_is_told_nothing_ends():
     assert line.answers == []
 
 
-def test_a_child_says_what_is_wrong_with_what_it_was_told(tmp_path, capfd):
+def test_child_reports_a_wrong_order(tmp_path, capfd):
     (tmp_path / "q.npy").write_bytes(b"1 2 3")
     line = Line(setup("--fourier", tmp_path / "f.npz", "--q", tmp_path / "q.npy"), {"measure": "a.stl"})
     child.serve(line)
@@ -88,7 +88,7 @@ class Descriptors:
 @pytest.mark.parametrize("err", [True, False])
 @pytest.mark.parametrize("out", [True, False])
 @pytest.mark.parametrize("given", [True, False])
-def test_nobody_else_writes_where_the_result_goes_whatever_is_closed(monkeypatch, given, out, err):
+def test_closed_streams_keep_the_result_clean(monkeypatch, given, out, err):
     system, stream = Descriptors(**{"in": given, "out": out, "err": err}), sys.stderr
     monkeypatch.setattr(output, "os", system)
     flushed = []

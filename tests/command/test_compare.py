@@ -75,7 +75,7 @@ def numbers_of_flat(entry):
 
 
 @pytest.mark.parametrize("kind", ["objects", "flat"])
-def test_each_number_may_differ_by_the_bounds_of_both_and_the_tolerance(kind):
+def test_numbers_may_differ_by_both_bounds_and_the_tolerance(kind):
     if kind == "objects":
         add_box("Box", (1.0, 2.0, 3.0)).rotation_euler = (0.3, 0.4, 0.5)
         first = document("--order", "2", "--surface-moments")
@@ -112,7 +112,7 @@ def test_each_number_may_differ_by_the_bounds_of_both_and_the_tolerance(kind):
                 assert lines[-1] == "1 bodies compared, {} differences beyond what is allowed".format(int(failed))
 
 
-def test_where_no_bound_is_known_nothing_may_differ():
+def test_numbers_without_bounds_may_not_differ():
     add_box("Box")
     first = document("--order", "2")
     entry = first["objects"][0]

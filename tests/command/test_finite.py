@@ -102,7 +102,7 @@ def rows_of(order):
 
 
 @pytest.mark.parametrize("order", ["<", ">"])
-def test_a_binary_ply_is_read_in_its_order_of_bytes_behind_whatever_comes_first(tmp_path, order):
+def test_binary_ply_is_read_in_its_byte_order(tmp_path, order):
     lines, rows = rows_of(order)
     kind = {"<": "binary_little_endian", ">": "binary_big_endian"}[order]
     lists = struct.pack(order + "B2fB1f", 2, math.nan, math.nan, 1, math.nan)
@@ -182,7 +182,7 @@ def test_a_gltf_with_a_position_that_is_not_finite_is_refused(tmp_path, gltf):
     said(path, 1, "at_mesh_vertex", mesh=name, vertex=5)
 
 
-def test_numbers_in_the_text_of_a_gltf_are_looked_at_and_so_is_what_overrides_positions(tmp_path, gltf):
+def test_gltf_text_numbers_and_overrides_are_checked(tmp_path, gltf):
     text, binary = gltf
     path = tmp_path / "box.gltf"
     accessor, start = position(text)
@@ -212,7 +212,7 @@ def test_numbers_in_the_text_of_a_gltf_are_looked_at_and_so_is_what_overrides_po
     assert checked(path).values["count"] == 1
 
 
-def test_a_skin_without_matrices_hides_no_position_and_one_with_them_no_name(tmp_path, gltf):
+def test_gltf_skin_hides_no_position_and_no_name(tmp_path, gltf):
     text, binary = gltf
     path = tmp_path / "box.gltf"
     accessor, start = position(text)
@@ -225,7 +225,7 @@ def test_a_skin_without_matrices_hides_no_position_and_one_with_them_no_name(tmp
         said(path, 1, "at_mesh_vertex", mesh=name, vertex=5)
 
 
-def test_whatever_places_points_in_a_gltf_is_looked_at_and_nothing_else(tmp_path):
+def test_gltf_checks_cover_only_placed_points(tmp_path):
     numbers = np.zeros((6, 4), "<f4")
     numbers[:, 3] = math.nan  # between the rows
     numbers[4, 1] = math.inf
@@ -271,7 +271,7 @@ def test_all_numbers_of_a_gltfs_elements_are_looked_at(tmp_path, kind, width):
     said(tmp_path / "t.gltf", 1, "at_accessor", accessor=0, element=1)
 
 
-def test_a_gltf_whose_buffer_is_missing_or_cut_short_names_it(tmp_path, gltf):
+def test_gltf_error_names_its_missing_or_short_buffer(tmp_path, gltf):
     text, binary = gltf
     (tmp_path / "box.bin").write_bytes(binary[:50])
     expected = sentence("gltf_buffer_short", buffer="box.bin", size=50, expected=len(binary))
@@ -346,7 +346,7 @@ def test_an_fbx_of_blender_is_looked_at(tmp_path):
 
 
 @pytest.mark.parametrize("suffix", [".stl", ".obj", ".ply", ".glb", ".gltf", ".fbx"])
-def test_what_blender_exports_is_measured_and_noise_is_left_to_blender(tmp_path, suffix):
+def test_blender_exports_pass_the_check_and_noise_too(tmp_path, suffix):
     path = tmp_path / f"part{suffix}"
     files.box_file(path)
     assert document(path)["errors"] == []

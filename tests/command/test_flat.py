@@ -69,7 +69,7 @@ def test_a_flat_shape_has_a_record_of_its_own_beside_the_bodies():
         (("--about", "world", "--frame", "object"), (5, 6)),
     ],
 )
-def test_area_moments_are_about_the_foot_of_the_point_within_their_bounds(words, corner):
+def test_area_moments_about_a_point_are_within_bounds(words, corner):
     sheet(RECTANGLE, location=(5, 6, 7))
     entry = shape("--order", "5", *words)
     moments = entry["moments"]
@@ -84,7 +84,7 @@ def test_area_moments_are_about_the_foot_of_the_point_within_their_bounds(words,
         assert moments["error"]["area"][key] <= 1e-11 * (np.abs(corner).max() + 3.0) ** (p + q + 2)
 
 
-def test_letters_of_a_library_are_found_again_and_mirrored_ones_told_apart(tmp_path):
+def test_library_finds_letters_and_tells_mirrored_ones_apart(tmp_path):
     text("R", "R")
     text("R", "Large", location=(4, 5, 6), rotation=(1, 2, 3), scale=(3, 3, 3), resolution=4)
     text("R", "Mirrored", scale=(-1, 1, 1))
@@ -125,7 +125,7 @@ def test_the_transform_of_a_flat_shape_is_in_its_plane(tmp_path, frame):
         assert close(found["F"][12].real, 6.0, rel=1e-6)
 
 
-def test_wave_vectors_of_three_numbers_are_refused_for_a_flat_shape(tmp_path):
+def test_flat_shape_refuses_spatial_wave_vectors(tmp_path):
     sheet(RECTANGLE)
     np.save(tmp_path / "q.npy", np.zeros((2, 3)))
     with pytest.raises(SystemExit):
@@ -164,7 +164,7 @@ def test_the_table_has_rows_for_flat_shapes():
     assert close(float(columns["area_moment_2_0"]), 2 * 9.0, rel=1e-6)
 
 
-def test_summary_and_report_have_flat_shapes_and_a_pose_is_refused(tmp_path, capfd):
+def test_summary_and_report_hold_flat_shapes(tmp_path, capfd):
     sheet(RECTANGLE, "Sheet <b>")
     add_box()
     found = document("--flat", "--pose", "--density", "1000")
@@ -179,7 +179,7 @@ def test_summary_and_report_have_flat_shapes_and_a_pose_is_refused(tmp_path, cap
     assert page.count("Sheet &lt;b&gt;") == 2 and "has no pose" in page
 
 
-def test_the_operator_writes_a_file_and_a_picture_of_a_flat_shape(tmp_path):
+def test_operator_writes_transform_and_picture_of_a_flat_shape(tmp_path):
     text("R", "Letter")
     path = str(tmp_path / "letter.npz")
     assert bpy.ops.object.body_moments_fourier(filepath=path, of="FLAT", count=32) == {"FINISHED"}
@@ -234,7 +234,7 @@ def exact_moments(points):
 
 
 @pytest.mark.parametrize("far, least", [(0.0, 1e-3), (300.0, 1e-6)])
-def test_centroid_and_second_moments_are_within_bounds_that_are_not_wide(far, least):
+def test_centroid_and_second_moments_have_tight_bounds(far, least):
     """Of polygons whose coordinates are float32, against fractions."""
     rng, worst = np.random.default_rng(5), dict.fromkeys(("area", "centroid", "second_moments"), 0.0)
     for _ in range(12):

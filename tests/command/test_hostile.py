@@ -110,7 +110,7 @@ def changed(document, name, value):
     return json.dumps(found).encode()
 
 
-def test_malformed_libraries_are_wrong_usage_and_odd_records_are_left_out(main, library):
+def test_malformed_library_is_wrong_usage(main, library):
     whole = library.read_bytes()
     document = json.loads(whole)
     for damaged in (
@@ -172,7 +172,7 @@ def test_no_random_damage_of_options_files_is_our_fault(main, library, tmp_path)
     assert codes <= {0, 1, 2} and {0, 2} < codes | {1}
 
 
-def test_a_range_without_files_does_not_measure_what_is_open(main, tmp_path):
+def test_empty_range_does_not_measure_the_open_scene(main, tmp_path):
     files.add_box()
     (tmp_path / "a.stl").write_text("")
     code, out, _ = main("measure", tmp_path / "a.stl", "--range", "1:2")
@@ -212,7 +212,7 @@ def test_too_little_memory_is_no_fault_of_ours(main, monkeypatch):
         '{"images": [{"uri": "loop"}]}',
     ],
 )
-def test_what_a_damaged_file_refers_to_is_nothing(tmp_path, monkeypatch, text):
+def test_damaged_file_has_no_references(tmp_path, monkeypatch, text):
     path = tmp_path / "part.gltf"
     path.write_text(text)
     (tmp_path / "loop").symlink_to(tmp_path / "loop")

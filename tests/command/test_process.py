@@ -56,7 +56,7 @@ def test_nothing_but_the_document_is_on_the_standard_output(folder, name):
     assert found["objects"][0]["volume"] == pytest.approx(6.0, rel=1e-6)
 
 
-def test_a_closed_standard_output_is_told_and_does_not_matter_where_there_is_an_output_file(folder, tmp_path):
+def test_closed_standard_output_matters_only_without_output_file(folder, tmp_path):
     def closed(*words):
         shell = ("sh", "-c", 'exec "$@" >&-', "sh")
         return process(*shell, sys.executable, SCRIPT, "measure", folder / "part.glb", *words)
@@ -112,7 +112,7 @@ def test_a_device_is_written_to_and_not_replaced(folder):
 
 
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="not on this system: devices")
-def test_a_fourier_transform_is_written_to_a_pipe_and_does_not_replace_it(folder, tmp_path):
+def test_fourier_transform_is_written_into_a_pipe(folder, tmp_path):
     pipe = tmp_path / "pipe"
     os.mkfifo(pipe)
     reader = os.open(pipe, os.O_RDONLY | os.O_NONBLOCK)
@@ -154,7 +154,7 @@ def test_a_program_that_has_imported_bpy_may_run_the_script(folder):
     assert ended.returncode == 0 and json.loads(document)["file"] == "part.stl"
 
 
-def test_without_bpy_the_script_says_what_is_missing(folder):
+def test_script_without_bpy_names_the_missing_module(folder):
     ended = process(sys.executable, "-S", SCRIPT, "measure", folder / "part.stl")
     assert ended.returncode == 2 and ended.stdout == b"" and b"'bpy'" in ended.stderr
 

@@ -41,7 +41,7 @@ def ask(tmp_path, *words):
     return code, path.read_text(encoding="utf-8")
 
 
-def test_copies_have_one_pose_and_the_matrix_lays_them_on_each_other():
+def test_copies_have_one_pose_and_its_matrix_aligns_them():
     a = add(mesh_body(), "A", location=(1, 2, 3), rotation=(0.3, 0.4, 0.5))
     b = add(mesh_body(), "B", location=(-5, 2, 8), rotation=(1.3, 2.4, -0.5))
     poses = [entry["pose"] for entry in document("--pose")["objects"]]
@@ -55,7 +55,7 @@ def test_copies_have_one_pose_and_the_matrix_lays_them_on_each_other():
 
 
 @pytest.mark.parametrize("sides, group, order", [(6, "D6h", 6), (8, "D8h", 30), (12, "D12h", 30), (32, "D∞h", 30)])
-def test_turned_copies_of_a_prism_have_one_pose_and_its_own_group(sides, group, order):
+def test_turned_prisms_have_one_pose_and_symmetry_group(sides, group, order):
     turns = (0.0, 0.0, 0.0), (0.0, 0.0, 0.2), (1.3, 2.4, -0.5)
     for turn in turns:
         bpy.ops.mesh.primitive_cylinder_add(vertices=sides, depth=3.0, location=(1, 2, 3), rotation=turn)
@@ -98,7 +98,7 @@ def test_prisms_of_several_sides_on_one_axis_have_one_pose_alone(twist, group):
 
 
 @pytest.mark.parametrize("frame", ["world", "object"])
-def test_the_pose_is_of_the_world_and_agrees_with_the_principal_axes(frame):
+def test_world_pose_agrees_with_the_principal_axes(frame):
     add_box()
     entry = document("--pose", "--frame", frame)["objects"][0]
     assert entry["pose"]["symmetry"] == "D2h" and entry["pose"]["unique"] is False
@@ -129,7 +129,7 @@ def test_an_open_surface_is_measured_but_has_no_pose():
     assert "shape_of_open_surface" in codes(entry)
 
 
-def test_a_pose_whose_moments_exceed_the_range_of_numbers_is_refused_and_the_mass_is_not():
+def test_overflowing_pose_is_refused_and_the_mass_is_not():
     add_box().scale = (1e35, 1e35, 1e35)
     bpy.context.view_layer.update()
     for words in (["--pose"], ["--pose", "--order", "4"]):
@@ -170,7 +170,7 @@ def test_similar_tells_copies_mirror_images_and_sizes(tmp_path):
     assert text.splitlines()[1].split()[-1] == "Copy" and " copy " in text and len(text.splitlines()) == 2
 
 
-def test_the_library_is_what_was_written(tmp_path):
+def test_library_reads_back_written_records(tmp_path):
     add_box("Box")
     path, _ = shape_file(tmp_path)
     (entry,), faults = read_library(path)
@@ -226,7 +226,7 @@ def test_bodies_of_one_name_are_told_apart_by_their_files(tmp_path):
     assert ask(tmp_path, *paths, "--to", "c.blend:Box")[0] == 2
 
 
-def test_a_nurbs_surface_has_the_signature_of_its_display_mesh_and_a_wire_has_none():
+def test_nurbs_signature_is_of_display_mesh_and_wire_has_none():
     bpy.ops.surface.primitive_nurbs_surface_sphere_add(location=(1, 2, 3))
     ball = document("--pose", "--signature")["objects"][0]
     assert ball["method"].startswith("NURBS") and ball["pose"]["unique"] is False and ball["signature"]
@@ -238,7 +238,7 @@ def test_a_nurbs_surface_has_the_signature_of_its_display_mesh_and_a_wire_has_no
     assert entry["method"] == "wire" and entry["pose"] is None
 
 
-def test_what_has_no_shape_is_not_asked_to_be_measured_with_what_it_was(tmp_path, capsys):
+def test_record_without_signature_is_refused(tmp_path, capsys):
     add_box("Box")
     path, _ = shape_file(tmp_path)
     library = json.loads(path.read_text(encoding="utf-8"))

@@ -196,7 +196,7 @@ def test_each_end_of_a_child_is_a_record(tmp_path, main, fake):
         ("fat", "memory", ("--memory-mb", "100"), sentence("file_took_memory", megabytes=100.0)),
     ],
 )
-def test_what_takes_too_long_or_too_much_is_ended(name, status, words, reason, tmp_path, main, monkeypatch):
+def test_child_over_its_time_or_memory_is_ended(name, status, words, reason, tmp_path, main, monkeypatch):
     """One at a time: what takes too much may take long, too, where memory is slow. What is late may clean up first."""
     monkeypatch.setattr(processes, "_GRACE", 10.0)  # as much as a busy machine may need
     code, documents, said, journal = main(tmp_path / name, tmp_path / "ok", *words, "--jobs", "1")
@@ -210,7 +210,7 @@ def test_what_takes_too_long_or_too_much_is_ended(name, status, words, reason, t
     assert said[-1] == "body_moments: 2 files in 0 s: 1 {:s}, 1 ok".format(status)
 
 
-def test_what_is_recorded_is_not_measured_again(tmp_path, main, fake):
+def test_recorded_file_is_not_measured_again(tmp_path, main, fake):
     (tmp_path / "samples").mkdir()
     paths = [tmp_path / "samples" / name for name in ("ok 1", "bad", "refers", "crash", "ok 2")]
     for path in paths:
@@ -262,7 +262,7 @@ def test_a_run_that_is_interrupted_says_how_far_it_is(tmp_path, main, fake):
         assert said[-1] == "body_moments: {}".format(sentence("interrupted_resumable", done=2, total=3))
 
 
-def test_what_has_ended_a_child_waits_for_a_fresh_one(tmp_path, fake):
+def test_file_that_ended_a_child_waits_for_a_fresh_one(tmp_path, fake):
     with Pool(fake.command, 2, {"options": {"object": ["slow"]}}, Limits(60.0), tmp_path / "work") as found:
         found.add(["crash", *("ok {}".format(number) for number in range(6))])
         outcomes = []
@@ -273,7 +273,7 @@ def test_what_has_ended_a_child_waits_for_a_fresh_one(tmp_path, fake):
     assert first != second and [one["path"] for one in fake("path") if one["pid"] == second] == ["crash"]
 
 
-def test_what_a_target_replaces_is_not_read_by_way_of_a_file(tmp_path, main):
+def test_replaced_target_is_not_read_through_a_file(tmp_path, main):
     (tmp_path / "out" / "result").write_text("a novel")
     (tmp_path / "ok").write_text("")
     (tmp_path / "ok.samples").symlink_to(tmp_path / "out" / "result")
@@ -373,7 +373,7 @@ line.answer({{"over": True}})
 
 
 @pytest.mark.parametrize("by_signal", [True, False])
-def test_a_child_answers_what_it_is_sent_and_ends_with_its_supervisor(by_signal):
+def test_child_answers_orders_and_ends_with_its_supervisor(by_signal):
     watched, kept = os.pipe()
     words = [sys.executable, "-S", "-c", LINE.format(lifeline.__file__, by_signal), str(watched)]
 
@@ -465,7 +465,7 @@ def test_a_disk_that_is_full_is_said_and_the_older_result_stays(tmp_path, main, 
         b"[" * 100_000,
     ],
 )
-def test_what_is_no_list_of_files_is_wrong_usage(tmp_path, fake, capsys, lines):
+def test_malformed_list_of_files_is_wrong_usage(tmp_path, fake, capsys, lines):
     listed = tmp_path / "list"
     listed.write_bytes(lines)
     assert batch.main(["measure", "--manifest", str(listed)], channel=-1) == 2
@@ -489,7 +489,7 @@ def test_the_names_in_a_list_are_meant_from_its_folder(tmp_path, monkeypatch):
     assert refused.value.finding == finding("manifest_unreadable", file=str(missing), error="No such file or directory")
 
 
-def test_what_a_child_is_asked_to_end_by_is_heard_first(monkeypatch):
+def test_request_to_end_a_child_is_heard_first(monkeypatch):
     """It may clean up, for a moment; one that does not listen is ended all the same, with all that it has started."""
     monkeypatch.setattr(processes, "_GRACE", 2.0)  # as much as a busy machine may need
     code = "import signal, sys, time; signal.signal(signal.SIGTERM, {}); print(flush=True); time.sleep(600)"

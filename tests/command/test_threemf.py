@@ -174,7 +174,7 @@ def test_limits_of_the_archive(tmp_path):
     assert refused.value.finding.code == "threemf_instances"
 
 
-def test_a_package_without_relations_has_its_model_at_the_usual_place(tmp_path):
+def test_package_without_relations_has_its_model_in_place(tmp_path):
     foreign = '<x:object xmlns:x="http://example.org/x" id="1"/><x:vertex xmlns:x="http://example.org/x" x="a"/>'
     with zipfile.ZipFile(tmp_path / "a.3mf", "w") as archive:
         archive.writestr("3D/3dmodel.model", model(ONE + foreign, ITEM, 'unit="meter"'))

@@ -110,7 +110,7 @@ def test_a_change_of_one_record_is_found(reference, change):
     assert list(within(before, after, EVALUATED)) and list(differences(before, after))
 
 
-def test_a_change_of_what_is_stored_refused_or_there_is_found(reference):
+def test_changed_property_or_refusal_is_found(reference):
     stored, refused = "properties/closed/Slanted beam far in its mesh", "named/refused.blend errors"
     for key, new in (
         (stored, {**reference[stored], "body_method": "open"}),

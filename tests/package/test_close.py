@@ -15,7 +15,7 @@ def test_only_the_relative_tolerance_counts(size):
     assert not close(truth * [1.0, 1 + 1.1e-9], truth, rel=1e-9)
 
 
-def test_zero_and_what_is_no_number_are_met_by_nothing_near():
+def test_zero_and_nan_are_close_to_nothing_else():
     assert close([0.0, 1.0], [0.0, 1.0], rel=0.0)
     assert not close(1e-300, 0.0, rel=0.5) and not close(0.0, 1e-300, rel=0.5)
     for value in (np.nan, np.inf):

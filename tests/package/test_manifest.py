@@ -78,7 +78,7 @@ def test_the_validator_refuses_a_manifest_that_is_wrong(littered, tmp_path):
     assert "tagline" in done.stdout
 
 
-def test_the_manifest_says_what_the_platform_asks_for(manifest):
+def test_manifest_meets_the_platform_requirements(manifest):
     assert manifest["id"] == "body_moments"
     assert manifest["type"] == "add-on"
     assert "blender" not in manifest["name"].lower()

@@ -36,11 +36,11 @@ def parsed(*words: str) -> str:
     ],
     ids=" ".join,
 )
-def test_options_reach_what_is_called(words, expected):
+def test_options_reach_the_called_program(words, expected):
     assert parsed(*words) == expected
 
 
-def test_blenders_reports_do_not_stand_between_the_rows_of_the_benchmark(tmp_path):
+def test_benchmark_rows_contain_no_blender_reports(tmp_path):
     """Neither where the output is a pipe, whose buffer is written late, nor before or after."""
     code = """\
 import importlib.util, os, sys

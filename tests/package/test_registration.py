@@ -62,7 +62,7 @@ def test_nothing_of_ours_is_there_while_it_is_not_registered(before):
     assert {kind: named(entries) for kind, entries in before.items() if named(entries)} == {}
 
 
-def test_unregistering_removes_everything_and_registering_again_works(before):
+def test_unregistering_removes_everything_and_can_be_repeated(before):
     body_moments.register()
     first = footprint()
     body_moments.unregister()
@@ -105,7 +105,7 @@ def test_a_failure_half_way_rises_and_leaves_nothing_registered(before, monkeypa
     assert footprint() == before
 
 
-def test_every_operator_says_what_it_does(before):
+def test_every_operator_has_a_description(before):
     body_moments.register()
     try:
         operators = [
@@ -125,7 +125,7 @@ def test_every_operator_says_what_it_does(before):
         body_moments.unregister()
 
 
-def test_every_property_says_what_it_is(before):
+def test_every_property_has_a_description(before):
     body_moments.register()
     try:
         for name in ours(before):

@@ -64,7 +64,7 @@ def imported(node: ast.AST) -> list[str]:
     return [node.module.partition(".")[0]] if isinstance(node, ast.ImportFrom) and node.level == 0 else []
 
 
-def test_only_what_blender_brings_is_imported():
+def test_only_packages_of_blender_are_imported():
     assert_none(
         [
             "{} imports {}".format(place, package)
@@ -121,7 +121,7 @@ def test_only_the_script_part_of_batch_knows_its_own_place():
             assert ast.unparse(top.test) == "__name__ == '__main__'"
 
 
-def test_no_module_beside_batch_hides_one_that_python_or_blender_imports():
+def test_no_module_beside_batch_hides_another():
     """`python operators/batch.py` puts the folder operators/ before everything else."""
     names = {path.stem for path in (ROOT / "operators").iterdir()} - {"__init__", "__pycache__"}
     hidden = names & (set(sys.stdlib_module_names) | BLENDER | {"numpy"})
