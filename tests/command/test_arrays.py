@@ -55,18 +55,6 @@ def test_a_box_of_voxels_has_the_inertia_of_a_box(tmp_path):
     assert document["total"]["mass"] == pytest.approx(12.0)
 
 
-def test_cubic_splines_reproduce_the_paper(tmp_path):
-    from tests.paper_tables import ROWS
-
-    row = ROWS[0]
-    np.save(tmp_path / "ball.npy", row.grid())
-    spacing = ",".join([str(row.spacing)] * 3)
-    _, document = run(tmp_path, tmp_path / "ball.npy", "--spacing", spacing, "--spline-order", "4")
-    entry = document["objects"][0]
-    assert entry["mass"] == pytest.approx(111.296875, rel=1e-13)
-    assert np.diag(entry["inertia"]) == pytest.approx([400.942057291666667] * 3, rel=1e-12)
-
-
 def test_scans_bring_their_own_units_and_places(tmp_path):
     files = [
         written(tmp_path / "a.nii", nifti(box("i2"), spacing=(2, 2, 2), slope=3.0)),
@@ -176,16 +164,6 @@ def test_uneven_slices_are_measured_in_place(tmp_path):
     hats = np.diff(np.concatenate([[9.5], z, [17.0]]))
     weights = samples.sum(axis=(0, 1)) * 6.0 * (hats[1:] + hats[:-1]) / 2
     assert close(millimeters["mass"], weights.sum() * 1e-9, 1e-13)
-
-
-def test_all_axes_with_positions_need_no_spacing(tmp_path):
-    np.save(tmp_path / "box.npy", box())
-    words = []
-    for axis, count in zip("xyz", (4, 2, 6)):
-        np.save(tmp_path / f"{axis}.npy", np.arange(count) * 0.5)
-        words += ["--positions", f"{axis}={tmp_path / axis}.npy"]
-    (entry,) = run(tmp_path, tmp_path / "box.npy", *words)[1]["objects"]
-    assert close(entry["mass"], 6.0, 1e-13) and "scan_without_spacing" not in codes(entry)
 
 
 @pytest.mark.parametrize(

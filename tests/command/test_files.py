@@ -303,25 +303,6 @@ def test_a_cache_that_is_gone_is_an_error(tmp_path, kind):
     assert document(files.save(tmp_path / "part.blend"))["errors"] == []
 
 
-def failing(_path, *_):
-    raise OSError(5, "Input/output error")
-
-
-@pytest.mark.parametrize(
-    ("name", "reader"),
-    [
-        ("part.stl", "files.finite.stl_obj.check_stl_text"),
-        ("part.igs", "files.import_surfaces.read_surfaces"),
-        ("part.obj", "files.import_surfaces.has_surfaces"),
-        ("part.3mf", "files.import_3mf.read_3mf"),
-    ],
-)
-def test_disk_failure_during_reading_is_an_error(tmp_path, monkeypatch, name, reader):
-    files.write_text(tmp_path / name, files.stl_text() if name == "part.stl" else "x")
-    monkeypatch.setattr("body_moments.command." + reader, failing)
-    assert reason(tmp_path / name) == sentence("file_unreadable", error="Input/output error")
-
-
 @pytest.mark.skipif(not Path("/proc/self/mem").exists(), reason="not on this system: /proc")
 def test_a_file_that_cannot_be_read_is_an_error(tmp_path):
     """Address 0 of a process: a regular file of which nothing can be read."""
@@ -376,18 +357,6 @@ def test_a_file_of_a_newer_blender_that_opens_has_a_warning(tmp_path):
     path.write_bytes(new + path.read_bytes()[17:])
     found = files.values(measured(path), "file_newer_version")
     assert found == {"version": "{}.{}".format(major, minor + 1), "blender": bpy.app.version_string}
-
-
-@needs_usd
-def test_usdz_with_overlapping_files_is_damaged(tmp_path):
-    """Of one entry in the directory two, with the same bytes."""
-    path = tmp_path / "part.usdz"
-    data = Path(files.box_file(path)).read_bytes()
-    begin, end = data.index(b"PK\1\2"), data.index(b"PK\5\6")
-    entry, last = data[begin:end], bytearray(data[end:])
-    struct.pack_into("<HHI", last, 8, 2, 2, 2 * len(entry))
-    path.write_bytes(data[:begin] + entry + entry + last)
-    assert "overlapping entries" in reason(path)
 
 
 @pytest.mark.filterwarnings("ignore:Overlapped entries")  # by newer Pythons

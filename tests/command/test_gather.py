@@ -74,16 +74,6 @@ def test_summary_counts_files_by_status(main, tmp_path):
     assert main("merge", path, "--output", tmp_path / "b", "--force")[0] == 0
 
 
-def test_of_two_results_about_one_file_the_later_counts(main, tmp_path):
-    files.add_box("Box")
-    good = {**document(), "file": "b.stl"}
-    paths = result(tmp_path / "a", failed("a.stl"), failed("b.stl")), result(tmp_path / "b", good, failed("c.stl"))
-    _, out, _ = main("merge", *paths)
-    assert [(one["file"], one["status"]) for one in map(json.loads, out.splitlines())] == [
-        *(("a.stl", "crashed"), ("b.stl", "ok"), ("c.stl", "crashed")),
-    ]
-
-
 def test_results_within_their_bounds_are_the_same(main, tmp_path):
     box = files.add_box("Box")
     first = result(tmp_path / "a", document("--pose"))

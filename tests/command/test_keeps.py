@@ -213,69 +213,6 @@ def test_force_keeps_libraries_of_the_open_file(tmp_path, main, no_measuring):
     assert (tmp_path / library).read_bytes() == kept
 
 
-def test_inputs_of_a_run_include_their_references(tmp_path):
-    """Behind one that is streamed too, there or not, in a circle; not of a copy that the open file holds itself."""
-    part, library = companion("blend", tmp_path)
-    stl = files.box_file(tmp_path / "part.stl")
-    known = {tmp_path / part, tmp_path / library, Path(stl)}
-    assert {*inputs.files_read([stl, str(tmp_path / part), str(tmp_path / "none.blend")])} == known
-    (tmp_path / "first.usda").write_text("@second.usda@ @first.usda@ @gone.bin@ @gone@ @other@")
-    (tmp_path / "second.usda").write_text("@first.usda@ @third@")
-    for name in ("third", "other"):
-        (tmp_path / name).touch()
-    found = sorted(path.name for path in inputs.references(str(tmp_path / "first.usda"), False))
-    assert found == ["gone.bin", "other", "second.usda", "third"]
-    files.empty_scene()
-    for name in ("inside", "outside"):
-        image = bpy.data.images.new(name, 1, 1)
-        image.filepath_raw, image.file_format = str(tmp_path / (name + ".png")), "PNG"
-        image.save()
-        image.use_fake_user, image.source = True, "FILE"
-    bpy.data.images["inside"].pack()
-    path = files.save(tmp_path / "open.blend")
-    bpy.ops.wm.open_mainfile(filepath=path)
-    assert [*inputs.references(path, True)] == [tmp_path / "outside.png"] and [*inputs.references(path, False)] == []
-    assert {one.name for one in inputs.files_read([])} == {"inside.png", "outside.png"}
-
-
-def test_names_in_text_files_resolve_beside_them(tmp_path):
-    """In both forms of a glTF, whatever else its lists hold; of a library of materials its name may hold spaces."""
-
-    def named(name, data):
-        (tmp_path / name).write_bytes(data)
-        return [path.relative_to(tmp_path).as_posix() for path in inputs._named_in(tmp_path / name, inputs._NAMES)]
-
-    entries = [5, {"byteLength": 3}, {"uri": 7}, {"uri": "data:text/plain,x"}, {"uri": "a%20b.bin"}]
-    document = {"buffers": entries, "images": [{"uri": "c/d.png"}], "meshes": [{"uri": "no.bin"}]}
-    for content, expected in (
-        (document, ["a b.bin", "c/d.png"]),
-        ({**document, "buffers": {"uri": "x"}}, ["c/d.png"]),
-        ([{"buffers": entries}], []),
-    ):
-        text = json.dumps(content).encode()
-        text += b" " * (-len(text) % 4)
-        head = b"glTF" + b"".join(number.to_bytes(4, "little") for number in (2, 28 + len(text) + 4, len(text)))
-        binary = (4).to_bytes(4, "little") + b"BIN\0" + b"\xff{}["
-        assert named("a.gltf", text) == named("a.glb", head + b"JSON" + text + binary) == expected
-    assert named("a.obj", b"o x\n  mtllib my a.mtl \nmtllib b.mtl\nusemtl no.mtl\n") == [
-        *("my a.mtl", "my", "a.mtl", "b.mtl", "b.mtl"),
-    ]
-    header = b"NRRD0004\ntype: uint8\ndimension: 3\nsizes: 2 2 2\nencoding: raw\ndata file: s.raw\n"
-    assert named("a.nhdr", header + b"# a remark\n" * (1 << 17) + b"\n") == ["s.raw"]  # longer than a scan's may be
-
-
-def test_names_in_a_large_binary_layer_are_found(tmp_path):
-    """Words that repeat each other, as LZ4 packs them, in several blocks."""
-    plain = b"".join(b"word_%d\0" % number for number in range(3)) + b"a" * 300 + b"\0shape.usda\0"
-    head = b"word_0\0word_"  # the next word: one literal, and a match that reaches back seven bytes
-    block = bytes([0xC1]) + head + bytes([5, 0]) + b"\x10" + b"1"
-    assert inputs._lz4(block) == b"word_0\0word_word_1"
-    run = bytes([0x1F]) + b"a" + bytes([1, 0, 255, 299 - 19 - 255]) + bytes([0xC0]) + b"\0shape.usda\0"
-    first = bytes([0xF0, len(plain[:21]) - 15]) + plain[:21]
-    packed = bytes([2]) + b"".join(len(one).to_bytes(4, "little") + one for one in (first, run))
-    assert inputs._unpacked(packed) == plain
-
-
 @pytest.mark.parametrize("force", [(), ("--force",)])
 @pytest.mark.parametrize("option", ["--output", "--fourier"])
 def test_file_appearing_meanwhile_and_result_are_both_kept(tmp_path, main, monkeypatch, option, force):

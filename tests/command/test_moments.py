@@ -133,22 +133,6 @@ def test_high_orders_of_united_shells_count_overlap_once():
     assert each[0, 0, 0] == pytest.approx(2.0)
 
 
-def test_high_orders_of_shell_weigh_its_thin_volume():
-    files.add_box(center=(0, 0, 0), size=(2, 2, 2))
-    volume, surface = moments_of("--order", "6", "--kind", "shell", "--thickness", "0.01")
-    for powers, value in surface.items():
-        exact = box_surface_moment(powers, (-1, -1, -1), (1, 1, 1))
-        assert value == pytest.approx(exact, rel=1e-12, abs=1e-13)
-        assert volume[powers] == pytest.approx(0.01 * exact, rel=1e-12, abs=1e-15)
-
-
-def test_asking_for_high_orders_changes_nothing_else():
-    files.add_box()
-    plain, more = measured(), measured("--order", "10", "--surface-moments")
-    more.pop("moments")
-    assert more == plain
-
-
 def test_a_thick_wall_has_moments_to_any_order():
     box = files.add_box(size=(1, 1, 1), center=(0, 0, 0))
     box.body_moments.wall = "INWARD"
@@ -164,12 +148,6 @@ def test_a_thick_wall_has_moments_to_any_order():
             assert abs(moments["volume"][key] - exact) <= bound + 1e-13 * exact and bound < 1e-9 * exact
             assert close(moments["mass"][key], 1000.0 * moments["volume"][key], rel=1e-14)
     assert close(moments["surface"]["0,0,0"], 6.0, rel=1e-13)
-
-
-def test_body_without_mass_is_refused_once():
-    files.add_box(size=(1, 1, 0))
-    found = files.document("--order", "4")
-    assert found["objects"] == [] and len(found["errors"]) == 1
 
 
 def test_overflowing_moments_are_an_error_beside_the_mass():

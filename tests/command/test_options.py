@@ -220,14 +220,6 @@ def test_a_driver_or_a_script_that_did_not_run_is_a_finding(tmp_path):
     assert measured(simple, "--density", "1")["findings"] == []
 
 
-def test_only_the_named_objects_are_measured():
-    for name in ("a", "b", "c"):
-        files.add_box(name)
-    found = document("--object", "c", "--object=a", "--object", "c")
-    assert names(found) == ["a", "c"] and found["errors"] == []
-    assert found["total"]["mass"] == pytest.approx(12000.0)
-
-
 def test_a_name_that_is_not_there_or_has_no_geometry_is_an_error():
     files.add_box("a")
     bpy.ops.object.camera_add()
@@ -290,14 +282,6 @@ def test_density_and_mass_override_the_objects_settings():
     assert measured("--density", "1.5")["mass"] == pytest.approx(9.0)
     given = measured("--mass", "3")
     assert given["mass"] == pytest.approx(3.0) and given["density"] == pytest.approx(0.5)
-
-
-def test_a_mass_is_that_of_each_object():
-    files.add_box("a")
-    files.add_box("b", size=(2, 2, 2))
-    found = document("--mass", "5")
-    assert [entry["mass"] for entry in found["objects"]] == pytest.approx([5.0, 5.0])
-    assert found["total"]["mass"] == pytest.approx(10.0)
 
 
 def test_settings_stored_in_a_blend_file_are_used(tmp_path):
@@ -387,14 +371,6 @@ def test_surface_moments_weigh_the_area():
     assert measured("--surface-moments", "--kind", "shell")["moments"]["surface"]["0,0,0"] == pytest.approx(24.0)
 
 
-def test_surface_moments_of_scaled_solid_are_exact():
-    box = files.add_box(center=(0, 0, 0), size=(1, 1, 1))
-    box.scale = (1, 2, 3)
-    surface = measured("--surface-moments")["moments"]["surface"]
-    assert surface["0,0,0"] == pytest.approx(22.0)
-    assert surface["0,0,2"] == pytest.approx(2 * 2 * 2.25 + (2 * 2 + 2 * 1) * 27 / 12)
-
-
 def test_the_rows_of_a_table_hold_the_moments(tmp_path, standard_output):
     files.add_box()
     path = tmp_path / "moments.csv"
@@ -419,21 +395,6 @@ def test_wrong_usage_ends_with_2_and_a_sentence(words, capfd, standard_output):
     assert batch.main(words) == 2
     printed = capfd.readouterr()
     assert printed.out == "" and "error: " in printed.err
-
-
-@pytest.mark.parametrize("option", ["--output", "--fourier"])
-def test_no_result_is_written_over_the_file_that_is_measured(tmp_path, capfd, standard_output, option):
-    path = files.box_file(tmp_path / "part.blend")
-    link = tmp_path / "link"
-    link.symlink_to(path)
-    kept = (tmp_path / "part.blend").read_bytes()
-    waves = ("--grid", "4", "--qmax", "1") if option == "--fourier" else ()
-    for target in (path, link):
-        assert batch.main(["measure", path, option, str(target), *waves]) == 2
-    bpy.ops.wm.open_mainfile(filepath=path)
-    assert batch.main(["measure", option, path, *waves]) == 2
-    assert (tmp_path / "part.blend").read_bytes() == kept
-    assert "is a file that is read" in capfd.readouterr().err
 
 
 def test_no_result_is_written_over_the_wave_vectors(tmp_path, capfd, standard_output):

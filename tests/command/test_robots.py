@@ -316,23 +316,6 @@ def test_collections_and_bones_are_links_too(tmp_path):
     assert refused("measure", "--format", "urdf", "--links", "bone", "--density", "1")
 
 
-def test_a_scan_and_a_mesh_in_blocks_are_links_of_their_own(tmp_path):
-    samples, mesh = tmp_path / "scan.npy", tmp_path / "tetrahedron.stl"
-    np.save(samples, np.full((3, 3, 3), 2.0))
-    points = np.array([(0.0, 0, 0), (3.0, 0, 0), (0, 4.0, 0), (0, 0, 5.0)])
-    lines = ["solid"]
-    for face in ((0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)):
-        lines += ["facet normal 0 0 0", "outer loop", *("vertex {} {} {}".format(*points[i]) for i in face)]
-        lines += ["endloop", "endfacet"]
-    mesh.write_text("\n".join([*lines, "endsolid"]), encoding="ascii")
-    for path, mass, center in ((samples, 54.0, (1, 1, 1)), (mesh, 10.0 * 7.0, (0.75, 1, 1.25))):
-        words = ["measure", "--format", "urdf", "--stream", "always", str(path)]
-        (link,) = ElementTree.fromstring(text(*words, *["--density=7"] * (path == mesh))).iter("link")
-        assert link.get("name") == path.stem and close(float(link.find("inertial/mass").get("value")), mass, 1e-12)
-        assert close(numbers(link.find("inertial/origin").get("xyz")), np.array(center), 1e-12)
-        assert link.find("visual") is None
-
-
 def test_a_robot_without_links_is_an_error():
     arm()
     line = Run(parsed("measure", "--format", "urdf", "--links", "bone"))

@@ -41,12 +41,6 @@ def test_results_are_in_the_file_when_it_is_opened_again(tmp_path):
     assert [file.name for file in tmp_path.iterdir()] == ["part.blend"]
 
 
-def test_writing_twice_gives_the_same_numbers(tmp_path):
-    path = files.box_file(tmp_path / "part.blend")
-    first, second = measured(path, "--write"), measured(path, "--write")
-    assert first == second
-
-
 @pytest.mark.parametrize("compress", [False, True])
 def test_the_file_stays_compressed_or_not(tmp_path, compress):
     path = tmp_path / "part.blend"
@@ -281,16 +275,6 @@ def test_second_writer_waits_and_adds_its_results(tmp_path, holder):
     assert objects["First"]["body_mass"] == 7.0 and "body_mass" in objects[files.BOX_NAME]
 
 
-def test_second_writer_of_the_open_file_overwrites_nothing(tmp_path, holder):
-    path, later = tmp_path / "part.blend", tmp_path / "later.blend"
-    files.box_file(path)
-    bpy.ops.wm.open_mainfile(filepath=str(path))
-    later.write_bytes(path.read_bytes() + b"more")
-    kept = later.read_bytes()
-    holder(path, 0.5, lambda: os.replace(later, path))
-    assert len(document("--write")["errors"]) == 1 and path.read_bytes() == kept
-
-
 def test_writer_after_too_long_a_wait_is_refused(tmp_path, holder, monkeypatch):
     path = tmp_path / "part.blend"
     files.box_file(path)
@@ -422,26 +406,6 @@ def test_a_file_that_may_not_be_written_stays(tmp_path, monkeypatch):
     monkeypatch.setattr(os, "access", lambda one, mode: str(one) != str(path) and real(one, mode))
     assert error_of(document(path, "--write")) == files.sentence("file_read_only")
     assert path.read_bytes() == before and [*tmp_path.iterdir()] == [path]
-
-
-def test_an_open_file_that_is_gone_does_not_come_back(tmp_path):
-    path = tmp_path / "part.blend"
-    bpy.ops.wm.open_mainfile(filepath=files.box_file(path))
-    path.unlink()
-    assert error_of(run("--write").documents[0]) == files.sentence("file_vanished") and [*tmp_path.iterdir()] == []
-
-
-def test_a_file_that_cannot_be_locked_is_measured_and_stays(tmp_path, monkeypatch):
-    path = tmp_path / "part.blend"
-    files.box_file(path)
-    before = path.read_bytes()
-
-    def fail(*_):
-        raise OSError(5, "Input/output error")
-
-    monkeypatch.setattr(file_lock, "_lock", fail)
-    assert error_of(document(path, "--write")) == files.sentence("file_not_saved", error="Input/output error")
-    assert path.read_bytes() == before and path in tmp_path.iterdir()
 
 
 def test_failed_copy_is_an_error_and_the_file_stays(tmp_path, monkeypatch):

@@ -66,15 +66,6 @@ def test_simplices_report_about_boundary_and_openness(tmp_path):
     assert record["closed"] is False and [one["code"] for one in record["findings"]] == ["simplex_open"]
 
 
-def test_an_archive_unpacks_to_no_more_than_the_limit(tmp_path, capfd, monkeypatch):
-    path = tmp_path / "a.npz"
-    np.savez_compressed(path, points=np.zeros((1000, 2)), simplices=[[0, 1, 2]])
-    for limit, code in ((16128, 0), (16127, 1)):  # with the header of 128 bytes
-        monkeypatch.setenv("BODY_MOMENTS_LIMITS", "unpacked_bytes={}".format(limit))
-        assert batch.main(["simplex", str(path)], channel=1) == code, limit
-    assert "unpacked_bytes" in capfd.readouterr().err
-
-
 def test_wrong_files_and_options_are_said(tmp_path, capfd):
     points = np.eye(3, 2)
     for arrays in (

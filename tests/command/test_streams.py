@@ -160,14 +160,6 @@ def test_damaged_and_empty_files_are_errors(tmp_path):
     assert run(tmp_path, flat, "--stream", "always")[0] == 1
 
 
-def test_a_result_replaces_an_older_one(tmp_path):
-    path = written(tmp_path)
-    out = tmp_path / "out.json"
-    for _ in range(2):
-        words = in_process("measure", "--stream", "always", "--output", out, path)
-        assert batch.main(words, channel=2, file_needed=True) == 0
-
-
 def test_a_thousand_meters_from_the_origin(tmp_path):
     points, triangles = sphere(3)
     far = (points + 1000.0).astype(np.float32), triangles
@@ -189,19 +181,6 @@ def test_five_million_triangles_are_measured_in_little_memory(tmp_path):
     assert entry["health"]["closed"] and entry["method"] == "exact"
     assert abs(entry["volume"] - volume) <= entry["error_bound"]["volume"] + 1e-12 * volume
     assert entry["error_bound"]["volume"] < 1e-10 * volume
-
-
-@pytest.mark.parametrize("size", [2.0**-30, 2.0**60])
-def test_a_mesh_has_a_volume_whatever_its_size(tmp_path, size):
-    points, triangles = part()
-    path, found = tmp_path / "part.stl", []
-    for factor in (1.0, size):
-        path.write_bytes(stl((points * np.float32(factor), triangles)))
-        found.append(stream_bodies.measure_mesh_file(str(path), "part", MeasureOptions()))
-    corners = points.astype(float)[triangles]
-    assert close(found[0].volume, abs(np.linalg.det(corners - points[0]).sum()) / 6.0, rel=1e-12)
-    assert close(found[0].mass_properties.mass, 1000.0 * found[0].volume, rel=1e-14)
-    assert close(found[1].volume, size**3 * found[0].volume, rel=1e-12)
 
 
 def test_sheet_may_enclose_nothing(tmp_path):

@@ -86,14 +86,6 @@ def test_hanging_or_huge_file_is_a_record(tmp_path):
         assert json.loads((tmp_path / "out.json.old").read_text())["status"] == "timeout"
 
 
-def test_files_of_other_versions_have_a_status_of_their_own(tmp_path):
-    path = tmp_path / "future.blend"
-    files.box_file(path)
-    path.write_bytes(b"BLENDER17-99v0999" + path.read_bytes()[17:])
-    found = files.document(path)
-    assert found["status"] == "unsupported_version" and "9.99" in found["errors"][0]["reason"] or "99.0" in str(found)
-
-
 def test_folders_manifests_and_ranges_name_the_same_files(scans, tmp_path):
     (tmp_path / "in").mkdir()
     link = tmp_path / "in" / "round"
@@ -263,19 +255,6 @@ def test_kills_lose_nothing_and_leave_nothing():
 def test_hostile_files_have_one_record_each():
     """More of them, and on every format, in `project.py soak`."""
     assert "files" in hostile.run(0.0, 1, fuzzed=40)
-
-
-def test_wrong_settings_are_wrong_usage_before_anything_is_moved(scans, tmp_path):
-    out = tmp_path / "out.json"
-    scan = next(scans.iterdir())
-    assert script("measure", scan, "--output", out).returncode == 0
-    before = out.read_bytes()
-    for words in (("--material", "Cheese"), ("--polynomial", "1 +"), ("--density-from", "volume"), ("--jobs", "0")):
-        ended = script("measure", scan, "--output", out, *words)
-        assert ended.returncode == 2 and ended.stderr.count(b"error: ") == 1, words
-    assert [path.name for path in tmp_path.iterdir()] == ["out.json"] and out.read_bytes() == before
-    assert script("measure", "--jobs", "2", "--no-supervisor", scan).returncode == 2
-    assert script("measure", scan, "--range", "3:1").returncode == 2
 
 
 @in_blender

@@ -279,25 +279,3 @@ def test_shapes_are_read_as_they_were_meant(chain):
     assert [found.code for found in urdf.check(robot)] == ["robot_ellipsoid_as_box"]
     stage, _ = stage_of(usd.write(robot))
     assert sum(prim.HasAPI(UsdPhysics.CollisionAPI) for prim in stage.Traverse()) == 5
-
-
-def test_inertials_alone_are_text_of_the_same_numbers(chain):
-    for name, whole in (("urdf", urdf), ("sdf", sdf), ("mjcf", mjcf)):
-        root = ElementTree.fromstring(robot_text(chain, name, inertial_only=True)[0])
-        everything = ElementTree.fromstring(whole.write(chain))
-        assert not [element for tag in ("joint", "visual", "geom", "freejoint") for element in root.iter(tag)]
-        mine, theirs = ([ElementTree.tostring(i) for i in tree.iter("inertial")] for tree in (root, everything))
-        assert [b" ".join(text.split()) for text in mine] == [b" ".join(text.split()) for text in theirs]
-
-
-def test_a_tree_of_links_is_checked():
-    links = (Link("a"), Link("b"))
-    for joints in (
-        (Joint("j", "a", "b"), Joint("k", "b", "a")),
-        (Joint("j", "a", "b"), Joint("k", "a", "b")),
-        (Joint("j", "a", "c"),),
-    ):
-        with pytest.raises(ValueError):
-            Robot("bad", links, joints)
-    with pytest.raises(ValueError):
-        Robot("bad", (Link("a"), Link("a")))

@@ -13,7 +13,7 @@ import pytest
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.numerics.rotations import rotation_matrix
 from body_moments.core.robots.model import Joint, Link, Pose, Robot, Shape
-from body_moments.core.robots.primitives import capsule_size, equal_inertia_shape
+from body_moments.core.robots.primitives import equal_inertia_shape
 from body_moments.core.robots.write import gltf, mjcf, usd
 from body_moments.core.robots.write.formats import robot_text
 from body_moments.core.robots.write.marker import is_ours
@@ -21,7 +21,7 @@ from body_moments.core.robots.write.shapes import with_meshes, with_primitives
 from body_moments.core.robots.write.stl import to_stl
 from pxr import Sdf, Usd, UsdGeom, UsdPhysics
 
-from tests.robots.links import ball, bodies, inertial, rotation, shaped, shapes
+from tests.robots.links import bodies, inertial, rotation, shaped, shapes
 
 VECTOR = {"type": "array", "items": {"type": "number"}, "minItems": 3, "maxItems": 3}
 MOTION = {
@@ -159,12 +159,6 @@ def test_primitives_have_the_inertia_of_mujoco(kind):
             continue
         axes = rotation_matrix(found.iquat)
         assert near((axes * found.inertia) @ axes.T, true.inertia, 1e-12)
-
-
-def test_a_ball_is_a_capsule_without_length():
-    body = inertial(*ball(24))
-    radius, length = capsule_size(body.mass, np.full(3, body.moments.mean()))
-    assert length == 0.0 and abs(radius - 1.0) < 0.02
 
 
 NUMBER, INDEX = {"type": "number"}, {"type": "integer", "minimum": 0}
@@ -315,10 +309,3 @@ def test_meshes_are_embedded_in_single_file_formats():
     assert near(shown[faces], true[triangles], 1e-6)
     for name in ("usd", "gltf"):
         assert "Mesh" not in robot_text(bare, name)[0] and '"mesh"' not in robot_text(bare, name)[0]
-
-
-def test_inertials_alone_in_gltf():
-    text, _ = robot_text(bodies(3, chain=True), "gltf", inertial_only=True)
-    document = json.loads(text)
-    assert "extensions" not in document and len(document["nodes"]) == 3
-    assert all({*node} == {"name", "extensions"} for node in document["nodes"])
