@@ -20,7 +20,6 @@ import statistics
 import sys
 import tempfile
 import time
-import tracemalloc
 from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
@@ -52,8 +51,6 @@ from body_moments.core.mesh.surface import Surface
 from body_moments.core.papers.sheynin_tuzikov_2001 import triangle_moments as explicit_moments
 from body_moments.core.polyhedron import integration
 from body_moments.core.solid.measure import measure_solid
-from body_moments.core.statics.gradient import area_gradient, volume_gradient
-from body_moments.core.wall.walls import offset_solid
 
 polyhedron_moments = partial(integration.polyhedron_moments, allow_open=True)  # as a measurement calls it
 
@@ -223,62 +220,6 @@ def verdicts(side: int, rounds: int) -> None:
         rows["trimesh watertight and mass_properties"] = watertight
     title = "{:,} triangles in bare arrays: is it closed, and what is it".format(len(triangles))
     table(title, interleaved(rows, rounds), ["integral, 1 thread"], len(triangles))
-
-
-def walls_and_derivatives(side: int, rounds: int) -> None:
-    """What a wall and the derivatives cost beside a solid, and a new thickness beside measuring again."""
-    points, quads = torus(side, side, 0.0, lopsided=True)
-    surface = Surface(points, halves(quads, paired=False))
-    swept, center = offset_solid(surface), np.zeros(3)
-    rows = {
-        "solid to third order": lambda: polyhedron_moments(surface, area_order=0),
-        "wall as polynomials": lambda: offset_solid(surface),
-        "another thickness": lambda: swept.moments(1e-3, 0.0),
-        "derivatives of volume moments": lambda: volume_gradient(surface, center),
-        "derivatives of area moments": lambda: area_gradient(surface, center),
-    }
-    table(
-        "{:,} triangles: walls and derivatives".format(2 * len(quads)),
-        interleaved(rows, rounds),
-        ["solid to third order"],
-        2 * len(quads),
-    )
-
-
-def memory(side: int) -> None:
-    """What measuring takes beside the arrays that it is given."""
-    points, quads = torus(side, side, 0.05)
-    triangles = halves(quads, paired=False)
-    print(
-        "\nextra memory, {:,} triangles (16 bytes a triangle + 8 MB are {:.1f} MB)".format(
-            len(triangles), (16 * len(triangles) + 8e6) / 1e6
-        )
-    )
-    for threads in (1, 2):
-        tracemalloc.start()
-        measure_arrays(points, triangles, threads)
-        peak = tracemalloc.get_traced_memory()[1]
-        tracemalloc.stop()
-        print("    {:<40s}{:>10.1f} MB".format("{:d} thread{:s}".format(threads, "s" * (threads > 1)), peak / 1e6))
-
-
-def latency(rounds: int) -> None:
-    """What measuring a small body takes."""
-    points, quads = torus(10, 15, 0.05)
-    triangles = halves(quads, paired=True)
-    rows = {
-        "ours: moments": lambda: polyhedron_moments(Surface(points, triangles))[0],
-        "ours: with frame": lambda: measure_arrays(points, triangles),
-    }
-    if trimesh := optional("trimesh"):
-        rows["trimesh mass_properties"] = lambda: trimesh.triangles.mass_properties(points[triangles])
-    print("\n{:d} triangles".format(len(triangles)))
-    for name, values in interleaved(rows, 100 * rounds).items():
-        print(
-            "    {:<40s}{:>10.0f} us median{:>10.0f} us least".format(
-                name, statistics.median(values) * 1e6, min(values) * 1e6
-            )
-        )
 
 
 MULTIPLES = {4: 6, 6: 15, 10: 60, 16: 260, 20: 480}  # of the kernel for low orders that each order may cost
@@ -771,55 +712,6 @@ def densities(rounds: int) -> None:
     )
 
 
-def volumes(rounds: int) -> None:
-    """Voxels read from Volume objects, by each of the two ways."""
-    import bpy
-    from body_moments.blender.read.grids import volume as reader
-    from body_moments.blender.read.grids.vdb import openvdb
-
-    module = openvdb()
-    if module is None:
-        print("\nThere is no openvdb module here: reading volumes was not measured.")
-        return
-    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
-    grid = module.FloatGrid()
-    grid.copyFromArray(np.random.default_rng(0).random((128, 128, 128), dtype=np.float32))
-    grid.name = "density"
-    with tempfile.TemporaryDirectory() as folder:
-        path = os.path.join(folder, "cloud.vdb")
-        module.write(path, grid)
-        volume = bpy.data.volumes.new("Cloud")
-        volume.filepath = path
-        obj = bpy.data.objects.new("Cloud", volume)
-        bpy.context.scene.collection.objects.link(obj)
-        bpy.context.view_layer.update()
-        depsgraph = bpy.context.evaluated_depsgraph_get()
-
-        def read(unchanged: bool = True, module: bool = True) -> None:
-            kept = reader._unchanged_file, reader.openvdb
-            if not unchanged:
-                reader._unchanged_file = lambda *_: ""
-            if not module:
-                reader.openvdb = lambda: None
-            try:
-                with reader.volume_reading(obj, depsgraph) as reading:
-                    for _ in reading.blocks():
-                        pass
-            finally:
-                reader._unchanged_file, reader.openvdb = kept
-
-        rows = {
-            "from its file": read,
-            "as if a modifier had made it": lambda: read(unchanged=False),
-            "by nodes, without openvdb": lambda: read(module=False),
-        }
-        table(
-            "{:,} voxels read from a Volume object, Blender {:s}".format(128**3, bpy.app.version_string),
-            interleaved(rows, rounds),
-            [],
-        )
-
-
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--quick", action="store_true", help="a tenth of the faces, fewer rounds")
@@ -837,9 +729,6 @@ def main() -> None:
     )
     arrays(side, rounds)
     verdicts(side, rounds)
-    walls_and_derivatives(side // 4, rounds)
-    memory(side)
-    latency(rounds)
     splines(3 if quick else rounds)
     densities(rounds)
     fourier(quick)
@@ -858,7 +747,6 @@ def main() -> None:
         parts.many(300 if quick else 1000, rounds)
         blender(side, rounds)
         instances(1000 if quick else 10_000, rounds)
-        volumes(rounds)
         sys.modules["body_moments"].unregister()
 
 

@@ -149,5 +149,5 @@ def test_values_are_taken_or_refused_with_their_reason(option, capsys):
         (["a", "--positions=x=p", "--positions=y=p", "--positions=x=q"], "usage_positions_twice", {"axes": [*"xyx"]}),
     ],
 )  # fmt: skip
-def test_what_does_not_go_together_is_refused(words, code, values, capsys):
+def test_contradicting_options_are_refused(words, code, values, capsys):
     assert refused(capsys, "measure", *words) == sentence(code, **values)

@@ -30,7 +30,7 @@ def document(*arguments):
     return found
 
 
-def test_assemblies_and_bones_that_were_measured_are_in_the_document(tmp_path):
+def test_document_holds_assemblies_and_bones(tmp_path):
     assembly_of_boxes()
     character()
     plain = document(saved(tmp_path))
@@ -65,7 +65,7 @@ def test_results_are_stored_on_collections_and_pose_bones(tmp_path):
     assert "body_mass" in bpy.data.objects["Rig"].pose.bones["head"]
 
 
-def test_an_assembly_that_has_no_mass_is_an_error_and_ends_nothing(tmp_path):
+def test_assembly_without_mass_is_an_error(tmp_path):
     assembly_of_boxes()
     nothing = collection("Nothing")
     nothing.body_moments.mass_from, nothing.body_moments.mass = "MASS", 0.0
@@ -73,7 +73,7 @@ def test_an_assembly_that_has_no_mass_is_an_error_and_ends_nothing(tmp_path):
     assert [error["name"] for error in found["errors"]] == ["Nothing"] and len(found["objects"]) == 2
 
 
-def test_assemblies_that_are_assets_are_measured_where_metadata_are_asked_for_and_then_once(tmp_path):
+def test_asset_assemblies_are_measured_once_for_metadata(tmp_path):
     assembly_of_boxes()
     robot, lamps = bpy.data.collections["Robot"], collection("Lamps")
     lamps.objects.link(bpy.data.objects.new("Lamp", bpy.data.lights.new("Lamp", "POINT")))
@@ -94,7 +94,7 @@ def test_assemblies_that_are_assets_are_measured_where_metadata_are_asked_for_an
         assert close(bpy.data.collections["Robot"].asset_data["body_mass"], entry["mass"], 1e-14)
 
 
-def test_what_is_in_the_metadata_of_an_asset_is_in_its_own_frame(tmp_path):
+def test_asset_metadata_is_in_the_asset_frame(tmp_path):
     """And the file itself is saved where that is asked for, and where there is something to save."""
     box = files.add_box("Box", center=(0, 0, 0))
     box.location, box.rotation_euler = (1.0, 2.0, 3.0), (0.3, 0.2, 0.1)

@@ -31,7 +31,7 @@ def handlers():
         signal.signal(number, handler)
 
 
-def test_ctrl_c_raises_though_it_would_only_be_noted_and_is_known_afterward():
+def test_ctrl_c_raises_and_is_remembered():
     noted = []
     signal.signal(signal.SIGINT, lambda *_: noted.append(1))
     with interruptible():
@@ -48,7 +48,7 @@ def test_ctrl_c_raises_though_it_would_only_be_noted_and_is_known_afterward():
         check_interruption()  # the next one begins anew
 
 
-def test_what_is_ignored_stays_so():
+def test_ignored_signals_stay_ignored():
     for number in STOPPING:
         signal.signal(number, signal.SIG_IGN)
     with interruptible(), stopped_by_signals():
@@ -58,7 +58,7 @@ def test_what_is_ignored_stays_so():
 
 
 @pytest.mark.parametrize("number", STOPPING)
-def test_the_first_signal_stops_and_no_other_disturbs_what_cleans_up(number):
+def test_second_signal_does_not_disturb_the_cleanup(number):
     before = {one: signal.signal(one, lambda *_: None) for one in STOPPING}
     own = {one: signal.getsignal(one) for one in STOPPING}
     with pytest.raises(KeyboardInterrupt), stopped_by_signals():
@@ -71,7 +71,7 @@ def test_the_first_signal_stops_and_no_other_disturbs_what_cleans_up(number):
 
 
 @pytest.mark.skipif(not os.path.exists("/dev/full"), reason="not on this system: /dev/full")
-def test_a_result_that_cannot_be_written_is_no_success_of_any_command(tmp_path, capsys):
+def test_unwritable_result_fails_every_command(tmp_path, capsys):
     """Each gives 0 where there is room; a fault of the program is one all the same."""
     add_box("Other"), add_box("Box")
     result = tmp_path / "a.jsonl"

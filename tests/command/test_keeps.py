@@ -76,7 +76,7 @@ def foreign():
 
 @pytest.mark.parametrize("content", [pytest.param(content, id=name) for name, content in foreign()])
 @pytest.mark.parametrize("option", ["--output", "--fourier"])
-def test_what_is_no_result_is_kept_and_nothing_is_measured_first(tmp_path, main, no_measuring, option, content):
+def test_foreign_file_is_kept_before_measuring(tmp_path, main, no_measuring, option, content):
     part = files.box_file(tmp_path / "part.stl")
     target = tmp_path / "target"
     target.write_bytes(content)
@@ -85,7 +85,7 @@ def test_what_is_no_result_is_kept_and_nothing_is_measured_first(tmp_path, main,
     assert target.read_bytes() == content
 
 
-def test_arrays_of_others_are_kept_and_a_table_is_no_place_for_arrays(tmp_path, main, no_measuring):
+def test_foreign_arrays_are_kept(tmp_path, main, no_measuring):
     part = files.box_file(tmp_path / "part.stl")
     target = tmp_path / "target.npz"
     np.savez(target, q=1, F=2, error=3, input=4, method=5, frame=6, mine=7)
@@ -97,7 +97,7 @@ def test_arrays_of_others_are_kept_and_a_table_is_no_place_for_arrays(tmp_path, 
     assert main(part, "--output", target)[0] == 2 and target.read_bytes() == kept
 
 
-def test_what_is_no_result_is_replaced_with_force(tmp_path, main):
+def test_force_replaces_a_foreign_file(tmp_path, main):
     part = files.box_file(tmp_path / "part.stl")
     target, arrays = tmp_path / "out.json", tmp_path / "out.npz"
     target.write_text("old")
@@ -106,7 +106,7 @@ def test_what_is_no_result_is_replaced_with_force(tmp_path, main):
     assert code == 0 and json.loads(target.read_text())["objects"] and np.load(arrays)["F"].shape == (8,)
 
 
-def test_older_results_of_all_formats_are_replaced_and_keep_their_mode(tmp_path, main):
+def test_older_results_are_replaced_and_keep_their_mode(tmp_path, main):
     part = files.box_file(tmp_path / "part.stl")
     target, arrays = tmp_path / "out", tmp_path / "out.npz"
     target.touch()  # as mktemp does
@@ -188,7 +188,7 @@ def companion(kind, folder):
 
 @pytest.mark.parametrize("option", ["--output", "--fourier"])
 @pytest.mark.parametrize("kind", ["nrrd", "gltf", "gltf image", "obj", "obj image", "blend", "tiles", "usda", "usdc"])
-def test_what_is_read_with_a_file_is_kept_even_with_force(tmp_path, main, no_measuring, kind, option):
+def test_force_keeps_files_read_with_the_input(tmp_path, main, no_measuring, kind, option):
     if "usd" in kind and not bpy.app.usd.supported:
         pytest.skip("this Blender is built without USD")
     part, other = companion(kind, tmp_path)
@@ -204,7 +204,7 @@ def test_what_is_read_with_a_file_is_kept_even_with_force(tmp_path, main, no_mea
     assert path.read_bytes() == kept
 
 
-def test_what_the_open_file_links_to_is_kept_even_with_force(tmp_path, main, no_measuring):
+def test_force_keeps_libraries_of_the_open_file(tmp_path, main, no_measuring):
     part, library = companion("blend", tmp_path)
     bpy.ops.wm.open_mainfile(filepath=str(tmp_path / part))
     kept = (tmp_path / library).read_bytes()
@@ -213,72 +213,9 @@ def test_what_the_open_file_links_to_is_kept_even_with_force(tmp_path, main, no_
     assert (tmp_path / library).read_bytes() == kept
 
 
-def test_all_files_of_a_run_are_known_with_what_they_refer_to(tmp_path):
-    """Behind one that is streamed too, there or not, in a circle; not of a copy that the open file holds itself."""
-    part, library = companion("blend", tmp_path)
-    stl = files.box_file(tmp_path / "part.stl")
-    known = {tmp_path / part, tmp_path / library, Path(stl)}
-    assert {*inputs.files_read([stl, str(tmp_path / part), str(tmp_path / "none.blend")])} == known
-    (tmp_path / "first.usda").write_text("@second.usda@ @first.usda@ @gone.bin@ @gone@ @other@")
-    (tmp_path / "second.usda").write_text("@first.usda@ @third@")
-    for name in ("third", "other"):
-        (tmp_path / name).touch()
-    found = sorted(path.name for path in inputs.references(str(tmp_path / "first.usda"), False))
-    assert found == ["gone.bin", "other", "second.usda", "third"]
-    files.empty_scene()
-    for name in ("inside", "outside"):
-        image = bpy.data.images.new(name, 1, 1)
-        image.filepath_raw, image.file_format = str(tmp_path / (name + ".png")), "PNG"
-        image.save()
-        image.use_fake_user, image.source = True, "FILE"
-    bpy.data.images["inside"].pack()
-    path = files.save(tmp_path / "open.blend")
-    bpy.ops.wm.open_mainfile(filepath=path)
-    assert [*inputs.references(path, True)] == [tmp_path / "outside.png"] and [*inputs.references(path, False)] == []
-    assert {one.name for one in inputs.files_read([])} == {"inside.png", "outside.png"}
-
-
-def test_names_in_files_of_text_are_those_of_files_beside_them(tmp_path):
-    """In both forms of a glTF, whatever else its lists hold; of a library of materials its name may hold spaces."""
-
-    def named(name, data):
-        (tmp_path / name).write_bytes(data)
-        return [path.relative_to(tmp_path).as_posix() for path in inputs._named_in(tmp_path / name, inputs._NAMES)]
-
-    entries = [5, {"byteLength": 3}, {"uri": 7}, {"uri": "data:text/plain,x"}, {"uri": "a%20b.bin"}]
-    document = {"buffers": entries, "images": [{"uri": "c/d.png"}], "meshes": [{"uri": "no.bin"}]}
-    for content, expected in (
-        (document, ["a b.bin", "c/d.png"]),
-        ({**document, "buffers": {"uri": "x"}}, ["c/d.png"]),
-        ([{"buffers": entries}], []),
-    ):
-        text = json.dumps(content).encode()
-        text += b" " * (-len(text) % 4)
-        head = b"glTF" + b"".join(number.to_bytes(4, "little") for number in (2, 28 + len(text) + 4, len(text)))
-        binary = (4).to_bytes(4, "little") + b"BIN\0" + b"\xff{}["
-        assert named("a.gltf", text) == named("a.glb", head + b"JSON" + text + binary) == expected
-    assert named("a.obj", b"o x\n  mtllib my a.mtl \nmtllib b.mtl\nusemtl no.mtl\n") == [
-        *("my a.mtl", "my", "a.mtl", "b.mtl", "b.mtl"),
-    ]
-    header = b"NRRD0004\ntype: uint8\ndimension: 3\nsizes: 2 2 2\nencoding: raw\ndata file: s.raw\n"
-    assert named("a.nhdr", header + b"# a remark\n" * (1 << 17) + b"\n") == ["s.raw"]  # longer than a scan's may be
-
-
-def test_names_in_a_large_binary_layer_are_found(tmp_path):
-    """Words that repeat each other, as LZ4 packs them, in several blocks."""
-    plain = b"".join(b"word_%d\0" % number for number in range(3)) + b"a" * 300 + b"\0shape.usda\0"
-    head = b"word_0\0word_"  # the next word: one literal, and a match that reaches back seven bytes
-    block = bytes([0xC1]) + head + bytes([5, 0]) + b"\x10" + b"1"
-    assert inputs._lz4(block) == b"word_0\0word_word_1"
-    run = bytes([0x1F]) + b"a" + bytes([1, 0, 255, 299 - 19 - 255]) + bytes([0xC0]) + b"\0shape.usda\0"
-    first = bytes([0xF0, len(plain[:21]) - 15]) + plain[:21]
-    packed = bytes([2]) + b"".join(len(one).to_bytes(4, "little") + one for one in (first, run))
-    assert inputs._unpacked(packed) == plain
-
-
 @pytest.mark.parametrize("force", [(), ("--force",)])
 @pytest.mark.parametrize("option", ["--output", "--fourier"])
-def test_a_file_that_appears_meanwhile_is_kept_and_so_is_the_result(tmp_path, main, monkeypatch, option, force):
+def test_file_appearing_meanwhile_and_result_are_both_kept(tmp_path, main, monkeypatch, option, force):
     part = files.box_file(tmp_path / "part.stl")
     target = tmp_path / "out.npz"
     real = measuring.measure_object
@@ -297,7 +234,7 @@ def test_a_file_that_appears_meanwhile_is_kept_and_so_is_the_result(tmp_path, ma
 
 
 @pytest.mark.skipif(not Path("/dev/stdout").exists(), reason="not on this system: devices")
-def test_the_standard_output_goes_where_it_is_sent_whatever_is_there(tmp_path):
+def test_standard_output_follows_its_redirection(tmp_path):
     from tests.command.test_process import script
 
     part = files.box_file(tmp_path / "part.stl")
@@ -347,7 +284,7 @@ def test_a_damaged_binary_layer_refers_to_nothing(tmp_path, data):
     assert [*inputs.references(str(tmp_path / "part.usdc"), False)] == []
 
 
-def test_what_cannot_be_read_is_not_replaced(tmp_path, main, no_measuring, monkeypatch):
+def test_unreadable_file_is_not_replaced(tmp_path, main, no_measuring, monkeypatch):
     """Whether it is a result cannot be known."""
     part, target = files.box_file(tmp_path / "part.stl"), tmp_path / "out"
     target.write_text("mine")
@@ -362,7 +299,7 @@ def test_what_cannot_be_read_is_not_replaced(tmp_path, main, no_measuring, monke
         assert code == 2 and said.endswith("error: {}\n".format(expected)) and target.read_text() == "mine"
 
 
-def test_where_there_are_no_locks_a_file_is_written_all_the_same(tmp_path, monkeypatch):
+def test_file_is_written_without_lock_support(tmp_path, monkeypatch):
     """And what the system refuses otherwise is an error. No descriptor stays open."""
     opened = len(os.listdir("/proc/self/fd")) if Path("/proc/self/fd").exists() else None
 

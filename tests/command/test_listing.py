@@ -13,7 +13,7 @@ FILES = "a.stl", "b.NRRD", "c_2x3x4_uint8.raw", "d.nii.gz", "e.body_moments.blen
 OTHERS = "a.txt", "b", "c.raw", "d.gz", "e.body_moments.blend", ".f.stl", ".g/h.stl", "f/stl"
 
 
-def test_folders_are_what_can_be_measured_in_them_and_files_are_themselves(tmp_path):
+def test_folders_list_their_measurable_files(tmp_path):
     for name in (*FILES, *OTHERS):
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / name).write_bytes(b"")

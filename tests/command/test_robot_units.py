@@ -85,7 +85,7 @@ def test_child_links_hang_at_their_places_in_meters(tmp_path, unit):
 
 
 @pytest.mark.parametrize("option", [("--material", "Aluminum"), ("--kind", "shell", "--thickness", "0.001")])
-def test_collections_weigh_what_the_options_say(tmp_path, option):
+def test_collections_follow_the_density_options(tmp_path, option):
     path = box_stl(tmp_path)
     (link,) = exported(tmp_path, "urdf", "--links", "collection", "--unit-scale", "0.001", *option, path).values()
     assert close(link.mass, document(*option, "--unit-scale", "0.001", path)["total"]["mass"], 1e-12)

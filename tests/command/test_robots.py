@@ -79,7 +79,7 @@ def numbers(words):
 
 
 @pytest.mark.parametrize("unit", UNITS)
-def test_urdf_has_the_records_numbers_along_the_axes_of_its_links(unit):
+def test_urdf_has_the_record_numbers_along_link_axes(unit):
     upper, forearm, tool = arm(unit)
     root = ElementTree.fromstring(text("measure", "--format", "urdf"))
     records = {entry["name"]: entry for entry in document("--frame", "object")["objects"]}
@@ -142,7 +142,7 @@ def check(record, mass, center, tensor):
     assert np.abs(tensor - truth).max() < 1e-14 * np.abs(truth).max()
 
 
-def test_without_a_parent_that_is_measured_the_next_one_above_is_taken():
+def test_unmeasured_parent_passes_link_to_its_own_parent():
     upper, forearm, tool = arm()
     between = add(None, "Between")
     between.parent, tool.parent = forearm, between
@@ -161,7 +161,7 @@ def test_inertials_alone_name_no_mesh(tmp_path):
     assert [path.name for path in tmp_path.iterdir()] == ["robot.urdf"]
 
 
-def test_meshes_are_written_beside_the_file_along_the_axes_of_their_links(tmp_path):
+def test_meshes_are_written_along_link_axes(tmp_path):
     arm(0.001)
     path = tmp_path / "robot.urdf"
     text("measure", "--format", "urdf", "--output", str(path))
@@ -316,23 +316,6 @@ def test_collections_and_bones_are_links_too(tmp_path):
     assert refused("measure", "--format", "urdf", "--links", "bone", "--density", "1")
 
 
-def test_a_scan_and_a_mesh_in_blocks_are_links_of_their_own(tmp_path):
-    samples, mesh = tmp_path / "scan.npy", tmp_path / "tetrahedron.stl"
-    np.save(samples, np.full((3, 3, 3), 2.0))
-    points = np.array([(0.0, 0, 0), (3.0, 0, 0), (0, 4.0, 0), (0, 0, 5.0)])
-    lines = ["solid"]
-    for face in ((0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)):
-        lines += ["facet normal 0 0 0", "outer loop", *("vertex {} {} {}".format(*points[i]) for i in face)]
-        lines += ["endloop", "endfacet"]
-    mesh.write_text("\n".join([*lines, "endsolid"]), encoding="ascii")
-    for path, mass, center in ((samples, 54.0, (1, 1, 1)), (mesh, 10.0 * 7.0, (0.75, 1, 1.25))):
-        words = ["measure", "--format", "urdf", "--stream", "always", str(path)]
-        (link,) = ElementTree.fromstring(text(*words, *["--density=7"] * (path == mesh))).iter("link")
-        assert link.get("name") == path.stem and close(float(link.find("inertial/mass").get("value")), mass, 1e-12)
-        assert close(numbers(link.find("inertial/origin").get("xyz")), np.array(center), 1e-12)
-        assert link.find("visual") is None
-
-
 def test_a_robot_without_links_is_an_error():
     arm()
     line = Run(parsed("measure", "--format", "urdf", "--links", "bone"))
@@ -341,7 +324,7 @@ def test_a_robot_without_links_is_an_error():
     assert line.errors == 1 and entry == {"name": None, "reason": str(finding("robot_without_bones"))}
 
 
-def test_meshes_that_cannot_be_written_are_an_error_beside_the_robot(tmp_path):
+def test_unwritable_meshes_are_an_error_beside_the_robot(tmp_path):
     """As where their folder's name is taken."""
     arm()
     (tmp_path / "meshes").write_text("mine")

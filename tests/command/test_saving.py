@@ -41,12 +41,6 @@ def test_results_are_in_the_file_when_it_is_opened_again(tmp_path):
     assert [file.name for file in tmp_path.iterdir()] == ["part.blend"]
 
 
-def test_writing_twice_gives_the_same_numbers(tmp_path):
-    path = files.box_file(tmp_path / "part.blend")
-    first, second = measured(path, "--write"), measured(path, "--write")
-    assert first == second
-
-
 @pytest.mark.parametrize("compress", [False, True])
 def test_the_file_stays_compressed_or_not(tmp_path, compress):
     path = tmp_path / "part.blend"
@@ -70,7 +64,7 @@ def test_settings_workspaces_and_other_scenes_are_still_there(tmp_path):
     assert "My Workspace" in bpy.data.workspaces and "Second" in bpy.data.scenes
 
 
-def test_what_is_written_is_not_out_of_date_when_the_file_is_opened(tmp_path):
+def test_written_results_are_current_after_opening(tmp_path):
     """The options that the numbers came from are written as settings with them."""
     from body_moments.blender.session.tracking import staleness
 
@@ -154,7 +148,7 @@ def test_a_scene_that_was_never_saved_cannot_be_written():
     assert "body_mass" not in bpy.data.objects[files.BOX_NAME]
 
 
-def test_the_open_file_is_saved_where_it_is(tmp_path):
+def test_open_file_is_saved_in_place(tmp_path):
     path = files.box_file(tmp_path / "part.blend")
     bpy.ops.wm.open_mainfile(filepath=path)
     measured("--write")
@@ -162,7 +156,7 @@ def test_the_open_file_is_saved_where_it_is(tmp_path):
     assert "body_mass" in reopened(path)[files.BOX_NAME]
 
 
-def test_what_is_measured_does_not_depend_on_what_was_stored_before_it(tmp_path):
+def test_stored_results_do_not_influence_measurement(tmp_path):
     path = tmp_path / "driven.blend"
     files.add_box("A", (0, 0, 0), (1, 1, 1))
     driven = files.add_box("B", (0, 0, 0), (1, 1, 1))
@@ -177,7 +171,7 @@ def test_what_is_measured_does_not_depend_on_what_was_stored_before_it(tmp_path)
     assert [entry["volume"] for entry in found["objects"]] == pytest.approx([1.0, 1.0])
 
 
-def test_a_linked_object_keeps_its_record_and_its_refusal_is_an_error(tmp_path):
+def test_linked_object_keeps_its_record_but_is_not_written(tmp_path):
     library = files.box_file(tmp_path / "library.blend")
     files.empty_scene()
     files.add_box("Local")
@@ -222,7 +216,7 @@ def edited(path):
 
 @pytest.mark.parametrize("opened", [False, True], ids=["named", "open"])
 @pytest.mark.parametrize("change", [replaced, edited])
-def test_what_was_saved_meanwhile_is_kept(tmp_path, monkeypatch, change, opened):
+def test_changes_saved_meanwhile_are_kept(tmp_path, monkeypatch, change, opened):
     path = tmp_path / "part.blend"
     files.box_file(path)
     if opened:
@@ -269,7 +263,7 @@ def holder():
         thread.join()
 
 
-def test_a_second_writer_waits_and_adds_to_what_the_first_one_saved(tmp_path, holder):
+def test_second_writer_waits_and_adds_its_results(tmp_path, holder):
     path, later = tmp_path / "part.blend", tmp_path / "later.blend"
     files.box_file(path)
     files.add_box("First")["body_mass"] = 7.0
@@ -281,17 +275,7 @@ def test_a_second_writer_waits_and_adds_to_what_the_first_one_saved(tmp_path, ho
     assert objects["First"]["body_mass"] == 7.0 and "body_mass" in objects[files.BOX_NAME]
 
 
-def test_a_second_writer_of_the_open_file_saves_nothing_over_the_first_one(tmp_path, holder):
-    path, later = tmp_path / "part.blend", tmp_path / "later.blend"
-    files.box_file(path)
-    bpy.ops.wm.open_mainfile(filepath=str(path))
-    later.write_bytes(path.read_bytes() + b"more")
-    kept = later.read_bytes()
-    holder(path, 0.5, lambda: os.replace(later, path))
-    assert len(document("--write")["errors"]) == 1 and path.read_bytes() == kept
-
-
-def test_a_writer_that_waited_too_long_is_refused_and_removes_nothing_of_the_other(tmp_path, holder, monkeypatch):
+def test_writer_after_too_long_a_wait_is_refused(tmp_path, holder, monkeypatch):
     path = tmp_path / "part.blend"
     files.box_file(path)
     kept = path.read_bytes()
@@ -318,7 +302,7 @@ def test_two_processes_write_one_file_and_both_results_are_in_it(tmp_path):
     assert [file.name for file in tmp_path.iterdir()] == ["part.blend"]
 
 
-def test_what_killed_processes_left_is_removed_and_nothing_else(tmp_path):
+def test_leftovers_of_killed_processes_are_removed(tmp_path):
     path = tmp_path / "part.blend"
     files.box_file(path)
     for name in (".part.blend.1.partial", ".part.blend.22.partial@", ".part.blend.body_moments.lock"):
@@ -365,7 +349,7 @@ def test_a_process_that_is_ended_while_it_saves(tmp_path, number):
 
 
 @pytest.mark.skipif(os.name == "nt", reason="not on this system: owners and modes")
-def test_the_file_keeps_its_owner_and_its_mode_and_is_on_the_disk_first(tmp_path, monkeypatch):
+def test_saved_file_keeps_owner_and_mode(tmp_path, monkeypatch):
     path = tmp_path / "part.blend"
     files.box_file(path)
     path.chmod(0o640)
@@ -384,7 +368,7 @@ def test_the_file_keeps_its_owner_and_its_mode_and_is_on_the_disk_first(tmp_path
     assert after.st_ino != before.st_ino and modes[0] == 0o640 and len(modes) == 2  # the file, then its folder
 
 
-def test_a_second_name_of_the_file_is_reported_to_keep_the_old_content(tmp_path, capsys):
+def test_hard_link_is_reported_to_keep_the_old_content(tmp_path, capsys):
     path, other = tmp_path / "part.blend", tmp_path / "other.blend"
     files.box_file(path)
     os.link(path, other)
@@ -396,7 +380,7 @@ def test_a_second_name_of_the_file_is_reported_to_keep_the_old_content(tmp_path,
 
 
 @in_blender
-def test_a_file_that_was_saved_while_blender_started_is_not_overwritten(tmp_path):
+def test_file_saved_during_start_is_not_overwritten(tmp_path):
     path = tmp_path / "part.blend"
     files.box_file(path)
     start = (BLENDER, "--factory-startup", "-b", path)
@@ -424,27 +408,7 @@ def test_a_file_that_may_not_be_written_stays(tmp_path, monkeypatch):
     assert path.read_bytes() == before and [*tmp_path.iterdir()] == [path]
 
 
-def test_an_open_file_that_is_gone_does_not_come_back(tmp_path):
-    path = tmp_path / "part.blend"
-    bpy.ops.wm.open_mainfile(filepath=files.box_file(path))
-    path.unlink()
-    assert error_of(run("--write").documents[0]) == files.sentence("file_vanished") and [*tmp_path.iterdir()] == []
-
-
-def test_a_file_that_cannot_be_locked_is_measured_and_stays(tmp_path, monkeypatch):
-    path = tmp_path / "part.blend"
-    files.box_file(path)
-    before = path.read_bytes()
-
-    def fail(*_):
-        raise OSError(5, "Input/output error")
-
-    monkeypatch.setattr(file_lock, "_lock", fail)
-    assert error_of(document(path, "--write")) == files.sentence("file_not_saved", error="Input/output error")
-    assert path.read_bytes() == before and path in tmp_path.iterdir()
-
-
-def test_a_copy_that_cannot_be_saved_is_an_error_and_the_file_stays(tmp_path, monkeypatch):
+def test_failed_copy_is_an_error_and_the_file_stays(tmp_path, monkeypatch):
     path = tmp_path / "part.blend"
     files.empty_scene()
     files.add_box().asset_mark()
@@ -462,7 +426,7 @@ def test_a_copy_that_cannot_be_saved_is_an_error_and_the_file_stays(tmp_path, mo
 
 
 @pytest.mark.skipif(os.name == "nt", reason="not on this system: modes")
-def test_nobody_else_can_read_the_file_before_it_has_the_mode_of_the_other(tmp_path):
+def test_temporary_file_is_unreadable_to_others(tmp_path):
     path, masks = tmp_path / "part.blend", []
     files.box_file(path)
 

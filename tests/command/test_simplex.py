@@ -53,7 +53,7 @@ def test_moments_of_a_corner_in_n_dimensions_are_fractions(tmp_path, capfd, dime
         assert record["error"][key] < 1e-10 * float(truth)
 
 
-def test_about_boundary_and_what_is_open(tmp_path):
+def test_simplices_report_about_boundary_and_openness(tmp_path):
     square = np.array([[1, 1], [3, 1], [3, 3], [1, 3]], float)
     np.savez(tmp_path / "a.npz", points=square, simplices=[[0, 1], [1, 2], [2, 3], [3, 0]])
     code, record = answered(tmp_path / "a.npz", "--about", "2,2", "--boundary")
@@ -64,15 +64,6 @@ def test_about_boundary_and_what_is_open(tmp_path):
     np.savez(tmp_path / "a.npz", points=square, simplices=[[0, 1], [1, 2], [2, 3]])
     record = answered(tmp_path / "a.npz")[1]
     assert record["closed"] is False and [one["code"] for one in record["findings"]] == ["simplex_open"]
-
-
-def test_an_archive_unpacks_to_no_more_than_the_limit(tmp_path, capfd, monkeypatch):
-    path = tmp_path / "a.npz"
-    np.savez_compressed(path, points=np.zeros((1000, 2)), simplices=[[0, 1, 2]])
-    for limit, code in ((16128, 0), (16127, 1)):  # with the header of 128 bytes
-        monkeypatch.setenv("BODY_MOMENTS_LIMITS", "unpacked_bytes={}".format(limit))
-        assert batch.main(["simplex", str(path)], channel=1) == code, limit
-    assert "unpacked_bytes" in capfd.readouterr().err
 
 
 def test_wrong_files_and_options_are_said(tmp_path, capfd):
@@ -112,7 +103,7 @@ def test_wrong_files_and_options_are_said(tmp_path, capfd):
         assert batch.main(["simplex", *([str(tmp_path / "a.npz")] if words else []), *words], channel=1) == 2
 
 
-def test_moments_whose_bounds_are_beyond_the_range_of_numbers_are_refused(tmp_path, capfd):
+def test_overflowing_moment_bounds_are_refused(tmp_path, capfd):
     """Those of odd order about the middle of a square are zero, however large it is."""
     square = np.array([[1, 1], [-1, 1], [-1, -1], [1, -1]])
     for scale, order, code in ((1e106, 1, 0), (1e109, 1, 1), (1e109, 0, 0), (1e160, 0, 1)):
@@ -122,7 +113,7 @@ def test_moments_whose_bounds_are_beyond_the_range_of_numbers_are_refused(tmp_pa
         assert bool(said.out) == (not code) and (sentence("moments_overflow", order=order) in said.err) == bool(code)
 
 
-def test_the_boundary_of_full_simplices_is_what_is_outside(tmp_path):
+def test_boundary_of_full_simplices_is_the_outside(tmp_path):
     square = np.array([[0, 0], [1, 0], [1, 1], [0, 1]], float)
     for simplices in ([[0, 1, 2], [0, 2, 3]], [[0, 1, 2], [0, 3, 2]]):
         np.savez(tmp_path / "a.npz", points=square, simplices=simplices)

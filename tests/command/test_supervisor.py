@@ -16,10 +16,9 @@ from pathlib import Path
 import pytest
 
 pytest.importorskip("bpy")
-from body_moments.command.supervisor import lifeline, listing, processes
-from body_moments.command.supervisor.journal import Entry, Journal, is_journal, state
+from body_moments.command.supervisor import lifeline, processes
+from body_moments.command.supervisor.journal import Journal, state
 from body_moments.command.supervisor.pool import Limits, Pool
-from body_moments.core.verdict.finding import QueryError, finding
 from body_moments.operators import batch
 
 from tests.blender.batch_files import sentence
@@ -196,7 +195,7 @@ def test_each_end_of_a_child_is_a_record(tmp_path, main, fake):
         ("fat", "memory", ("--memory-mb", "100"), sentence("file_took_memory", megabytes=100.0)),
     ],
 )
-def test_what_takes_too_long_or_too_much_is_ended(name, status, words, reason, tmp_path, main, monkeypatch):
+def test_child_over_its_time_or_memory_is_ended(name, status, words, reason, tmp_path, main, monkeypatch):
     """One at a time: what takes too much may take long, too, where memory is slow. What is late may clean up first."""
     monkeypatch.setattr(processes, "_GRACE", 10.0)  # as much as a busy machine may need
     code, documents, said, journal = main(tmp_path / name, tmp_path / "ok", *words, "--jobs", "1")
@@ -210,7 +209,7 @@ def test_what_takes_too_long_or_too_much_is_ended(name, status, words, reason, t
     assert said[-1] == "body_moments: 2 files in 0 s: 1 {:s}, 1 ok".format(status)
 
 
-def test_what_is_recorded_is_not_measured_again(tmp_path, main, fake):
+def test_recorded_file_is_not_measured_again(tmp_path, main, fake):
     (tmp_path / "samples").mkdir()
     paths = [tmp_path / "samples" / name for name in ("ok 1", "bad", "refers", "crash", "ok 2")]
     for path in paths:
@@ -262,7 +261,7 @@ def test_a_run_that_is_interrupted_says_how_far_it_is(tmp_path, main, fake):
         assert said[-1] == "body_moments: {}".format(sentence("interrupted_resumable", done=2, total=3))
 
 
-def test_what_has_ended_a_child_waits_for_a_fresh_one(tmp_path, fake):
+def test_file_that_ended_a_child_waits_for_a_fresh_one(tmp_path, fake):
     with Pool(fake.command, 2, {"options": {"object": ["slow"]}}, Limits(60.0), tmp_path / "work") as found:
         found.add(["crash", *("ok {}".format(number) for number in range(6))])
         outcomes = []
@@ -271,62 +270,6 @@ def test_what_has_ended_a_child_waits_for_a_fresh_one(tmp_path, fake):
     assert sorted((one.status, one.how) for one in outcomes) == [("answered", "")] * 6 + [("crashed", "SIGSEGV")]
     first, second = [one["pid"] for one in fake("path") if one["path"] == "crash"]
     assert first != second and [one["path"] for one in fake("path") if one["pid"] == second] == ["crash"]
-
-
-def test_what_a_target_replaces_is_not_read_by_way_of_a_file(tmp_path, main):
-    (tmp_path / "out" / "result").write_text("a novel")
-    (tmp_path / "ok").write_text("")
-    (tmp_path / "ok.samples").symlink_to(tmp_path / "out" / "result")
-    target = tmp_path / "out" / "result"
-    code, _, said, _ = main(tmp_path / "ok", "--force", reads=False)
-    assert code == 2 and sentence("usage_overwrites_dependency", option="output", path=str(target)) in said[-1]
-    (tmp_path / "ok.samples").unlink()
-    assert main(tmp_path / "ok", "--force")[0] == 0 and "novel" not in target.read_text()
-
-
-def test_a_journal_is_known_and_damaged_lines_count_as_none(tmp_path):
-    path = tmp_path / "journal"
-    limits = {"seconds": 2.0, "memory": None}
-    with Journal(path) as journal:
-        for number in range(4):
-            key = {"path": "f {}".format(number), "size": number}
-            journal.append(key, "ok", 1, 0.1234567, limits, b' {"n": 1}\n', {"r": state("none")} if number else None)
-    lines = path.read_bytes().splitlines(keepends=True)
-    assert json.loads(lines[1])["seconds"] == 0.123457 and is_journal(path)
-    wrong = [
-        lines[0].replace(b"journal/1", b"journal/2"),
-        lines[1].replace(b'"document": {"n": 1}', b'"document": 1'),
-        lines[2].replace(b'"path": "f 2"', b'"path": 2'),
-        lines[3].replace(b'"attempts": 1', b'"attempts": "x"'),
-        b"[" * 100_000 + b"\n",
-        b"{}\n",
-        lines[3][:-2],
-    ]
-    path.write_bytes(lines[0] + b"".join(wrong))
-    with Journal(path) as journal:
-        assert list(journal.entries) == ["f 0"] and journal.document("f 0") == {"n": 1}
-        entry = journal.entries["f 0"]
-        assert (entry.key, entry.status, entry.attempts, entry.seconds) == (
-            {"path": "f 0", "size": 0},
-            "ok",
-            1,
-            0.123457,
-        )
-        assert (entry.limits, entry.refers, entry.offset, entry.length) == (limits, False, 0, len(lines[0]))
-        journal.append({"path": "g"}, "ok", 1, 0.0, limits, b"{}", {"none": state("none")})
-        assert journal.is_current("g") and journal.is_current("f 0")
-        journal.append({"path": "g"}, "ok", 1, 0.0, limits, b"{}", {"none": {"size": 1, "mtime_ns": None}})
-        assert not journal.is_current("g") and journal.entries["g"].refers
-    with Journal(path) as journal:
-        assert list(journal.entries) == ["f 0", "g"]
-    for text in (b"a novel", lines[0].replace(b"journal/1", b"journal/10")):
-        path.write_bytes(text)
-        assert not is_journal(path)
-    path.write_text("")
-    assert is_journal(path)
-    (tmp_path / "link").symlink_to(path)
-    with pytest.raises(OSError):
-        Journal(tmp_path / "link")
 
 
 def test_a_line_behind_a_torn_one_is_whole(tmp_path):
@@ -341,73 +284,6 @@ def test_a_line_behind_a_torn_one_is_whole(tmp_path):
         assert len(lines) == 2 + bool(rest) and all(line.endswith(b"\n") for line in lines)
         with Journal(path) as journal:
             assert [*journal.entries] == ["a", "b"] and journal.document("b") == {"n": "b"}
-
-
-@pytest.mark.parametrize("status", ["ok", "error", "crashed", "timeout", "memory"])
-def test_a_higher_limit_alone_is_a_reason_to_try_again(status):
-    key = {"path": "a", "size": 1}
-    name = {"timeout": "seconds", "memory": "memory"}.get(status)
-    for before, now, higher in ((2.0, 2.0, False), (2.0, 2.5, True), (2.0, 1.5, False), (2.0, None, True)) + (
-        *((None, None, False), (None, 2.0, False)),
-    ):
-        for limit in ("seconds", "memory"):
-            limits, other = {"seconds": 5.0, "memory": 5.0, limit: before}, {"seconds": 5.0, "memory": 5.0, limit: now}
-            entry = Entry(key, status, 1, 0.0, limits, False, 0, 1)
-            assert entry.serves(key, other) == (not (higher and limit == name)), (limit, before, now)
-            assert not entry.serves({**key, "size": 2}, other)
-
-
-LINE = """
-import importlib.util, sys, time
-spec = importlib.util.spec_from_file_location("lifeline", {!r})
-lifeline = importlib.util.module_from_spec(spec)
-spec.loader.exec_module(lifeline)
-lifeline.BY_SIGNAL, lifeline._LATE = {}, 0.2
-line = lifeline.Lifeline(1, int(sys.argv[1]))
-for message in line.messages():
-    with line.limited(message["seconds"]):
-        time.sleep(message["work"])
-    line.answer(message, b"data" * message["many"])
-line.answer({{"over": True}})
-"""
-
-
-@pytest.mark.parametrize("by_signal", [True, False])
-def test_a_child_answers_what_it_is_sent_and_ends_with_its_supervisor(by_signal):
-    watched, kept = os.pipe()
-    words = [sys.executable, "-S", "-c", LINE.format(lifeline.__file__, by_signal), str(watched)]
-
-    def child():
-        return subprocess.Popen(
-            words, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE, pass_fds=[watched]
-        )
-
-    messages = [{"seconds": 60, "work": 0, "many": many} for many in (0, 3, 100_000)]
-    answers = b"".join(
-        b"\x1e" + json.dumps({**one, **({"bytes": 4 * one["many"]} if one["many"] else {})}).encode() + b"\n"
-        + b"data" * one["many"] for one in messages
-    )  # fmt: skip
-    first = child()
-    out, _ = first.communicate("".join(json.dumps(one) + "\n" for one in messages).encode(), timeout=60)
-    # where a thread listens, the end of the messages is that of the process, whatever it is doing
-    assert out == answers + b'\x1e{"over": true}\n' if by_signal else (answers + b"\x1e").startswith(out[:20])
-    assert first.returncode == 0
-    second = child()
-    second.stdin.write(json.dumps({"seconds": 0.1, "work": 600, "many": 0}).encode() + b"\n")
-    second.stdin.flush()
-    assert second.wait(60) == 1 and b"Timeout" in second.stderr.read()  # after that time, and a moment
-    third = child()
-    third.stdin.write(json.dumps({"seconds": 600, "work": 600, "many": 0}).encode() + b"\n")
-    third.stdin.flush()
-    os.close(watched)
-    os.close(kept)
-    if by_signal:
-        assert third.wait(60) in (0, -signal.SIGIO)
-    third.stdin.close()
-    assert third.wait(60) in (0, -signal.SIGIO)
-    for one in (first, second, third):
-        for stream in (one.stdin, one.stdout, one.stderr):
-            stream.close()
 
 
 def test_a_run_ends_with_the_window_that_has_started_it():
@@ -465,60 +341,9 @@ def test_a_disk_that_is_full_is_said_and_the_older_result_stays(tmp_path, main, 
         b"[" * 100_000,
     ],
 )
-def test_what_is_no_list_of_files_is_wrong_usage(tmp_path, fake, capsys, lines):
+def test_malformed_list_of_files_is_wrong_usage(tmp_path, fake, capsys, lines):
     listed = tmp_path / "list"
     listed.write_bytes(lines)
     assert batch.main(["measure", "--manifest", str(listed)], channel=-1) == 2
     assert capsys.readouterr().err.endswith("error: {}\n".format(sentence("manifest_malformed", file=str(listed))))
     assert not (tmp_path / "log").exists()
-
-
-def test_the_names_in_a_list_are_meant_from_its_folder(tmp_path, monkeypatch):
-    names = ["a.stl", "b/ü\n\udcff.stl", str(tmp_path / "c.stl")]
-    (tmp_path / "in").mkdir()
-    listed = tmp_path / "in" / "list"
-    listed.write_text("".join(listing.write_lines(names)) + "\n")
-    assert listing.read(listed) == [str(tmp_path / "in" / name) for name in names[:2]] + names[2:]
-    monkeypatch.chdir(tmp_path)
-    assert listing.read(Path("in/list")) == ["in/" + name for name in names[:2]] + names[2:]
-    monkeypatch.chdir(tmp_path / "in")
-    assert listing.read(Path("list")) == names
-    missing = tmp_path / "none"
-    with pytest.raises(QueryError) as refused:
-        listing.read(missing)
-    assert refused.value.finding == finding("manifest_unreadable", file=str(missing), error="No such file or directory")
-
-
-def test_what_a_child_is_asked_to_end_by_is_heard_first(monkeypatch):
-    """It may clean up, for a moment; one that does not listen is ended all the same, with all that it has started."""
-    monkeypatch.setattr(processes, "_GRACE", 2.0)  # as much as a busy machine may need
-    code = "import signal, sys, time; signal.signal(signal.SIGTERM, {}); print(flush=True); time.sleep(600)"
-    heard, deaf = "lambda *_: sys.exit(7)", "signal.SIG_IGN"
-    for gently, ends in ((True, [7, -signal.SIGKILL]), (False, [-signal.SIGKILL] * 2)):
-        started = [
-            subprocess.Popen(
-                [sys.executable, "-S", "-c", code.format(one)], stdout=subprocess.PIPE, start_new_session=True
-            )
-            for one in (heard, deaf)
-        ]
-        for one in started:
-            one.stdout.readline()
-        begun = time.monotonic()
-        processes.kill(started, gently=gently)
-        took = time.monotonic() - begun
-        assert [one.returncode for one in started] == ends and (took >= processes._GRACE) == gently
-        processes.kill(started, gently=True)  # what has ended is not signaled again
-        for one in started:
-            one.stdout.close()
-
-
-def test_the_folder_of_a_run_is_new_and_gone_in_the_end(tmp_path):
-    """Also one that somebody else has removed meanwhile."""
-    work = tmp_path / "new" / "work"
-    with Pool(["nothing"], 1, {}, Limits(60.0), work):
-        assert work.is_dir()
-        with pytest.raises(FileExistsError), Pool(["nothing"], 1, {}, Limits(60.0), work):
-            pass
-    assert not work.exists()
-    with Pool(["nothing"], 1, {}, Limits(60.0), work):
-        work.rmdir()

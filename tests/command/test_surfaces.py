@@ -37,7 +37,7 @@ def test_microinches_and_kilometers(tmp_path):
         assert close(entry["volume"], DONUT * meters**3, 4e-7)
 
 
-def test_what_is_refused_is_an_error_and_the_rest_is_measured(tmp_path):
+def test_refused_entity_is_an_error_beside_other_records(tmp_path):
     file = IgesFile()
     file.surface(unrolled(sphere()))
     file.add(120, [1, 3, 0.0, 1.0], label="VASE")

@@ -4,7 +4,8 @@
 
 `collect` returns one flat table, key -> entry, as JSON holds it. Keys: "RUN/FILE/OBJECT" for a record,
 "RUN/FILE total" and "RUN/FILE errors" for a document, "properties/SCENE/OBJECT" for what operators stored,
-"fourier/NAME" for a transform. Sentences are left out: they may change. Of findings that is kept which does not round.
+"fourier/NAME" for a transform. Sentences and severities are left out: they may change. Findings keep their codes,
+counts and texts, but no values that round.
 """
 
 from __future__ import annotations
@@ -153,8 +154,9 @@ def _without_sentences(value):
 
 
 def _finding(found: dict) -> str:
-    """How severe it is, its code, how many elements it names, and its values that are texts or whole numbers."""
-    words = [found["severity"], found["code"], "of {:d}".format(len(found.get("elements", ())))]
+    """Return the code of a finding, its number of elements, and its values that are texts or whole numbers."""
+    elements = len(found.get("elements", ()))
+    words = [found["code"], *(["{:d}".format(elements)] if elements else [])]
     words += ["{}={}".format(name, one) for name, one in found["values"].items() if isinstance(one, (str, int))]
     return " ".join(words)
 

@@ -136,7 +136,7 @@ def test_no_module_imports_itself_by_a_detour():
     assert not found, "\n".join(" -> ".join(cycle) for cycle in found)
 
 
-def test_every_folder_says_what_it_holds():
+def test_every_folder_describes_its_contents():
     for module, path in MODULES.items():
         if module[-1] == "__init__":
             assert ast.get_docstring(ast.parse(path.read_text(encoding="utf-8"))), path

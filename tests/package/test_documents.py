@@ -4,15 +4,11 @@
 
 import ast
 import re
-import struct
-import zlib
 from pathlib import Path
 
-import numpy as np
 import pytest
 
 from tests.package.test_architecture import ORDER
-from tests.window import png
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 DOCUMENTS = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
@@ -44,37 +40,9 @@ def test_every_place_that_a_document_names_exists(document):
     assert not unknown
 
 
-def test_the_architecture_names_its_functions():
-    named = [place for place in places(ROOT / "docs" / "architecture.md") if place[1]]
-    assert len(named) > 30
-
-
 def test_the_architecture_draws_the_imports_that_are_tested():
     text = (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8")
     rows = [", ".join(row) for wing in ORDER.values() for row in wing]
     drawn = re.search(r"    core  .*?(?=\n\n    command)", text, re.S).group()
     lines = [re.sub(r"^    (core|blender)?\s+", "", line) for line in drawn.splitlines() if line.strip()]
     assert lines == rows
-
-
-def test_the_animated_picture_moves_and_is_small():
-    """An animated PNG (tests/window/record_live.py): viewers that know no animation show its first frame."""
-    data = (ROOT / "tests" / "window" / "pictures" / "live.png").read_bytes()
-    frames, plays = struct.unpack(">II", data[data.index(b"acTL") + 4 :][:8])
-    assert frames >= 10 and plays == 0 and len(data) < 1.5e6
-    assert data.count(b"fcTL") == frames and data.count(b"fdAT") == frames - 1
-
-
-def test_frames_are_written_as_they_are(tmp_path):
-    first = np.zeros((6, 9, 3), np.uint8)
-    second = first.copy()
-    second[2:4, 5:7] = (248, 16, 96)
-    png.write_animation(tmp_path / "two.png", [first, second, second], [0.5, 0.1, 1.0])
-    data = (tmp_path / "two.png").read_bytes()
-    control = data[data.index(b"fcTL", data.index(b"fdAT") - 60) + 4 :]
-    assert struct.unpack(">IIIIIHH", control[:24]) == (1, 2, 2, 5, 2, 100, 1000)  # what changed, and where
-    start = data.index(b"fdAT") + 4
-    (length,) = struct.unpack(">I", data[start - 8 : start - 4])
-    rows = np.frombuffer(zlib.decompress(data[start + 4 : start + length]), np.uint8).reshape(2, 3)
-    palette = np.frombuffer(data[data.index(b"PLTE") + 4 :][:6], np.uint8).reshape(-1, 3)
-    assert not rows[:, 0].any() and (palette[rows[:, 1:]] == (248, 16, 96)).all()

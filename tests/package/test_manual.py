@@ -14,7 +14,6 @@ bpy = pytest.importorskip("bpy")
 from body_moments.panels import manual as shown
 
 ROOT = Path(__file__).resolve().parent.parent.parent
-LINES_OF_README = 150
 
 
 class Page(HTMLParser):
@@ -54,7 +53,7 @@ def test_every_link_leads_somewhere_and_none_leaves_the_manual(folder):
     assert not broken, "\n".join(broken)
 
 
-def test_a_link_that_is_broken_or_leads_elsewhere_fails_the_build():
+def test_broken_or_outward_link_fails_the_build():
     readme = ROOT / "README.md"
     for link in ("docs/nothing.md", "https://example.org/"):
         with pytest.raises(ValueError, match=re.escape(link)):
@@ -65,10 +64,6 @@ def test_the_readme_of_the_zip_leads_into_the_manual(folder):
     links = re.findall(r"\]\(([^)]+)\)", manual.readme())
     assert len(links) > 20
     assert all((folder.parent / link.partition("#")[0]).is_file() for link in links)
-
-
-def test_the_readme_is_short():
-    assert len((ROOT / "README.md").read_text(encoding="utf-8").splitlines()) <= LINES_OF_README
 
 
 def test_every_page_of_buttons_and_settings_exists(folder):

@@ -36,26 +36,5 @@ def parsed(*words: str) -> str:
     ],
     ids=" ".join,
 )
-def test_options_reach_what_is_called(words, expected):
+def test_options_reach_the_called_program(words, expected):
     assert parsed(*words) == expected
-
-
-def test_blenders_reports_do_not_stand_between_the_rows_of_the_benchmark(tmp_path):
-    """Neither where the output is a pipe, whose buffer is written late, nor before or after."""
-    code = """\
-import importlib.util, os, sys
-spec = importlib.util.spec_from_file_location("benchmark", sys.argv[1])
-benchmark = importlib.util.module_from_spec(spec)
-spec.loader.exec_module(benchmark)
-import ctypes
-print("before")
-benchmark.hide_reports()
-print("row 1")
-ctypes.CDLL(None).puts(b"Info: Measured") if os.name != "nt" else os.write(1, b"Info: Measured")
-os.write(1, b"Info: Measured")
-sys.stdout.write("Info: Measured 1 of 1 objects\\n")
-print("row 2")
-"""
-    command = [sys.executable, "-c", code, str(TESTS / "benchmark.py")]
-    done = subprocess.run(command, capture_output=True, encoding="utf-8", check=True, cwd=tmp_path)
-    assert done.stdout.split("\n") == ["before", "row 1", "row 2", ""]

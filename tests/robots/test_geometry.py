@@ -13,7 +13,7 @@ import pytest
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.numerics.rotations import rotation_matrix
 from body_moments.core.robots.model import Joint, Link, Pose, Robot, Shape
-from body_moments.core.robots.primitives import capsule_size, equal_inertia_shape
+from body_moments.core.robots.primitives import equal_inertia_shape
 from body_moments.core.robots.write import gltf, mjcf, usd
 from body_moments.core.robots.write.formats import robot_text
 from body_moments.core.robots.write.marker import is_ours
@@ -21,7 +21,7 @@ from body_moments.core.robots.write.shapes import with_meshes, with_primitives
 from body_moments.core.robots.write.stl import to_stl
 from pxr import Sdf, Usd, UsdGeom, UsdPhysics
 
-from tests.robots.links import ball, bodies, inertial, rotation, shaped, shapes
+from tests.robots.links import bodies, inertial, rotation, shaped, shapes
 
 VECTOR = {"type": "array", "items": {"type": "number"}, "minItems": 3, "maxItems": 3}
 MOTION = {
@@ -66,7 +66,7 @@ def near(found, truth, rel=1e-14):
     return np.abs(found - truth).max() <= rel * np.abs(truth).max()
 
 
-def test_mujoco_loads_the_meshes_and_keeps_what_was_measured():
+def test_mujoco_loads_meshes_and_keeps_measured_inertia():
     """Flat ones too, which bound nothing."""
     rng = np.random.default_rng(3)
     points, triangles = shaped(rng, "sheared")
@@ -89,7 +89,7 @@ def test_mujoco_loads_the_meshes_and_keeps_what_was_measured():
 
 
 @pytest.mark.parametrize("unit", [1.0, 0.001])
-def test_a_layer_of_masses_composes_with_the_geometry_that_it_names(unit):
+def test_usd_layer_of_masses_composes_with_its_geometry(unit):
     rng = np.random.default_rng(4)
     scale = np.array([2.0, 0.5, 3.0])
     pose = Pose(rng.normal(size=3), rotation(rng))
@@ -117,7 +117,7 @@ def test_a_layer_of_masses_composes_with_the_geometry_that_it_names(unit):
     assert near(body.mass, together)
 
 
-def test_gltf_motions_are_what_their_schemas_allow_and_give_the_body_back():
+def test_gltf_motions_are_valid_and_give_the_body_back():
     robot = bodies(60)
     document = {"nodes": [{"name": link.name} for link in robot.links]}
     assert gltf.add_rigid_bodies(document, robot, 1.0) == []
@@ -136,7 +136,7 @@ def test_gltf_motions_are_what_their_schemas_allow_and_give_the_body_back():
 
 
 @pytest.mark.parametrize("kind", ["box", "ellipsoid", "capsule"])
-def test_primitives_have_the_inertia_that_mujoco_computes_for_them(kind):
+def test_primitives_have_the_inertia_of_mujoco(kind):
     """With the density that gives them the mass; a capsule keeps the least moment and the mean of the others."""
     robot = bodies(60)
     links = [link for link in robot.links if link.inertial.moments[0] > 1e-4 * link.inertial.moments[2]]
@@ -159,12 +159,6 @@ def test_primitives_have_the_inertia_that_mujoco_computes_for_them(kind):
             continue
         axes = rotation_matrix(found.iquat)
         assert near((axes * found.inertia) @ axes.T, true.inertia, 1e-12)
-
-
-def test_a_ball_is_a_capsule_without_length():
-    body = inertial(*ball(24))
-    radius, length = capsule_size(body.mass, np.full(3, body.moments.mean()))
-    assert length == 0.0 and abs(radius - 1.0) < 0.02
 
 
 NUMBER, INDEX = {"type": "number"}, {"type": "integer", "minimum": 0}
@@ -232,7 +226,7 @@ def placed(document):
     return places
 
 
-def test_a_robot_in_gltf_is_what_the_schemas_allow_and_stands_where_it_did():
+def test_gltf_robot_is_valid_and_stands_in_place():
     chain = bodies(24, chain=True)
     dressed = Link("dressed", chain.links[0].inertial, Pose(), shapes(chain.links[1].pose))
     robot = Robot("arm", (*chain.links, dressed), chain.joints)
@@ -285,7 +279,7 @@ def check_joint(document, places, by_name, joint):
             assert (ends if along[axis] > 0 else (-ends[1], -ends[0])) == (free.lower, free.upper)
 
 
-def test_meshes_stand_in_what_can_hold_them():
+def test_meshes_are_embedded_in_single_file_formats():
     rng = np.random.default_rng(3)
     points, triangles = shaped(rng, "sheared")
     pose = Pose(rng.normal(size=3), rotation(rng))
@@ -315,10 +309,3 @@ def test_meshes_stand_in_what_can_hold_them():
     assert near(shown[faces], true[triangles], 1e-6)
     for name in ("usd", "gltf"):
         assert "Mesh" not in robot_text(bare, name)[0] and '"mesh"' not in robot_text(bare, name)[0]
-
-
-def test_inertials_alone_in_gltf():
-    text, _ = robot_text(bodies(3, chain=True), "gltf", inertial_only=True)
-    document = json.loads(text)
-    assert "extensions" not in document and len(document["nodes"]) == 3
-    assert all({*node} == {"name", "extensions"} for node in document["nodes"])

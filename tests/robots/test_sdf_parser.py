@@ -59,7 +59,7 @@ def test_gazebo_takes_joints_and_shapes(parse):
         assert np.abs(np.array(words[-3:], np.float64) - link.pose.position).max() <= 1e-13
 
 
-def test_gazebo_refuses_what_is_impossible(parse):
+def test_gazebo_refuses_impossible_inertia(parse):
     """So that the tests above could fail."""
     true = bodies(1).links[0].inertial
     wrong = Inertial(true.mass, true.center, true.inertia, np.array([1.0, 1.0, 3.0]), true.axes)

@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Files as they are written by default, with their meshes, opened by the programs that read them."""
 
-import json
-
 import mujoco
 import numpy as np
 import pytest
@@ -11,10 +9,7 @@ from body_moments.core.mesh.surface import Surface
 from body_moments.core.robots.model import FreeAxis, Joint, Link, Pose, Robot, Shape
 from body_moments.core.robots.write import mjcf
 from body_moments.core.robots.write.formats import robot_text, with_geometry
-from pxr import Usd, UsdGeom, UsdPhysics
-from urdf_parser_py.urdf import URDF
 
-from tests.close import close
 from tests.core.bodies import box
 from tests.robots.links import inertial, rotation, shaped
 
@@ -49,10 +44,6 @@ def written(folder, name, suffix):
     return robot, path
 
 
-def extent(points):
-    return points.max(axis=0) - points.min(axis=0)
-
-
 @pytest.mark.parametrize(("name", "suffix"), [("mjcf", ".xml"), ("urdf", ".urdf")])
 def test_mujoco_opens_files_with_their_meshes(tmp_path, name, suffix):
     """Without the flat mesh in URDF, which cannot say that it does not collide."""
@@ -67,35 +58,6 @@ def test_mujoco_opens_files_with_their_meshes(tmp_path, name, suffix):
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
     assert np.isfinite(data.qacc).all()
-
-
-def test_usd_opens_a_layer_with_its_meshes(tmp_path):
-    robot, path = written(tmp_path, "usd", ".usda")
-    stage = Usd.Stage.Open(str(path))
-    meshes = [UsdGeom.Mesh(prim) for prim in stage.Traverse() if prim.IsA(UsdGeom.Mesh)]
-    shown = [np.array(mesh.GetPointsAttr().Get(), float) for mesh in meshes]
-    true = [shape.surface.points for link in robot.links for shape in link.shapes]
-    assert UsdGeom.GetStageMetersPerUnit(stage) == 1.0
-    assert close([extent(points) for points in shown], [extent(points) for points in true], 1e-6)
-    bodies = [prim for prim in stage.Traverse() if prim.HasAPI(UsdPhysics.RigidBodyAPI)]
-    assert len(bodies) == len(robot.links) and [*tmp_path.iterdir()] == [path]
-
-
-def test_urdf_names_the_meshes_that_are_there(tmp_path):
-    robot, path = written(tmp_path, "urdf", ".urdf")
-    links = URDF.from_xml_string(path.read_bytes()).links
-    files = [link.collision.geometry.filename for link in links if link.collision is not None]
-    assert files == [shape.file for link in robot.links for shape in link.shapes] and len({*files}) == 3
-    assert {*tmp_path.rglob("*.stl")} == {tmp_path / file for file in files}
-
-
-def test_gltf_holds_its_meshes(tmp_path):
-    robot, path = written(tmp_path, "gltf", ".gltf")
-    document = json.loads(path.read_text(encoding="utf-8"))
-    positions = [mesh["primitives"][0]["attributes"]["POSITION"] for mesh in document["meshes"]]
-    shown = [np.subtract(document["accessors"][i]["max"], document["accessors"][i]["min"]) for i in positions]
-    true = [extent(shape.surface.points)[[0, 2, 1]] for link in robot.links for shape in link.shapes]
-    assert close(shown, np.array(true), 1e-6) and [*tmp_path.iterdir()] == [path]
 
 
 @pytest.mark.parametrize("count", [mjcf.MOST_TRIANGLES, mjcf.MOST_TRIANGLES + 2])

@@ -51,7 +51,7 @@ def test_nothing_but_the_record_is_on_the_output(run_blender, cube_file):
     assert [line for line in lines[record + 1 :] if line != "Blender quit"] == []
 
 
-def test_a_missing_file_is_an_error_of_its_own_and_the_others_are_measured(run_blender, cube_file, tmp_path):
+def test_missing_file_is_an_error_beside_other_records(run_blender, cube_file, tmp_path):
     output = tmp_path / "out.json"
     done = run_blender(*COMMAND, "--output", output, tmp_path / "missing.blend", cube_file, check=False)
     assert done.returncode == 1
@@ -61,7 +61,7 @@ def test_a_missing_file_is_an_error_of_its_own_and_the_others_are_measured(run_b
     assert len(measured["objects"]) == 1
 
 
-def test_a_file_that_blender_could_not_open_is_not_taken_for_the_start_up_scene(run_blender, tmp_path):
+def test_unopened_file_is_not_taken_for_the_startup_scene(run_blender, tmp_path):
     output = tmp_path / "out.json"
     missing = tmp_path / "missing.blend"
     done = run_blender("--background", missing, *COMMAND[1:], "--output", output, check=False)

@@ -89,7 +89,7 @@ def test_a_print_part_takes_three_clicks_in_millimeters(window):
     window.picture("operators-three-clicks")
 
 
-def test_and_four_where_the_unit_is_asked_for(window):
+def test_print_part_with_another_unit_takes_four_clicks(window):
     clicks = number_of_clicks(window, 1.0)
     window.press("scene.body_moments_set_millimeters")
     window.wait("bpy.context.scene.unit_settings.length_unit == 'MILLIMETERS'")
@@ -113,7 +113,7 @@ def test_the_rows_of_the_panel_are_the_stored_numbers(window):
     assert heading == center
 
 
-def test_each_remedy_does_what_it_says(window):
+def test_each_remedy_works_as_labeled(window):
     window.press("object.body_moments_recalculate_outside")
     window.wait(f"'flipped_faces' not in {PART}['body_findings']")
     window.press("object.body_moments_accept")

@@ -22,7 +22,7 @@ def test_esc_ends_it_and_leaves_nothing(window, tmp_path):
     assert window.get(IMAGES) == [] and list(tmp_path.iterdir()) == []
 
 
-def test_left_alone_it_writes_the_file_and_shows_slices_in_the_image_editor(window, tmp_path):
+def test_transform_writes_a_file_and_shows_slices(window, tmp_path):
     path = tmp_path / "ring.npz"
     window.ask("[a for a in window.screen.areas if a.type == 'PROPERTIES'][0].type = 'IMAGE_EDITOR'")
     window.ask(START.format(str(path)))

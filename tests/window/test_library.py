@@ -49,7 +49,7 @@ def start(window, folder):
     window.wait("len(bpy.context.window_manager.windows) == 1")
 
 
-def test_esc_ends_it_and_leaves_what_was_measured_for_resuming(window, tmp_path):
+def test_esc_keeps_measured_files_for_resuming(window, tmp_path):
     library(tmp_path, slow=True)
     start(window, tmp_path)
     journal = tmp_path / "body_moments.jsonl.journal"

@@ -19,7 +19,7 @@ VOLUME = f"getattr({LIVE}, 'measurement', None) and {LIVE}.measurement.volume"
 TORUS = 2.0 * math.pi**2 * 0.75 * 0.0625 * (1.0 - 1.9e-7)
 
 
-def test_live_numbers_follow_a_drag_an_escape_an_undo_and_an_animation(window):
+def test_live_numbers_follow_drag_escape_undo_and_animation(window):
     def follows(factor):
         window.wait(f"abs(({VOLUME} or 0.0) / {TORUS * factor} - 1.0) <= 1e-6")
 

@@ -68,7 +68,7 @@ def test_the_disc_is_at_the_projected_center_on_every_background(window, light):
     assert is_near(center_color(window, f"overlay-{'light' if light else 'dark'}"), EXACT)
 
 
-def test_what_is_in_front_of_the_disc_shows_through_its_white_quadrants(window):
+def test_front_objects_show_through_the_white_quadrants(window):
     assert white_pixels_of_disc(window, "overlay-hidden") == 0
 
 

@@ -18,7 +18,7 @@ def test_the_sidebar_has_the_tab(window):
     window.picture("1-tab")
 
 
-def test_the_measure_button_measures_what_is_selected(window):
+def test_measure_button_measures_the_selection(window):
     assert window.get(f"'body_volume' in {CUBE}") is False
     window.press("object.body_moments_measure")
     window.wait(f"'body_volume' in {CUBE}")
@@ -59,7 +59,7 @@ def test_moving_the_object_keeps_its_numbers_up_to_date(window):
     assert window.ask(f"import sys\nresult = {STALE}") is None
 
 
-def test_the_origin_goes_to_the_center_of_mass_and_the_body_stays(window):
+def test_origin_moves_to_the_center_of_mass_and_body_stays(window):
     corners = f"sorted(list({CUBE}.matrix_world @ v.co) for v in {CUBE}.data.vertices)"
     window.ask(
         "from mathutils import Matrix\n"

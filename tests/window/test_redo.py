@@ -33,7 +33,7 @@ CLICKED = {
 
 
 @pytest.mark.parametrize("operator", CLICKED)
-def test_a_click_in_the_redo_panel_does_the_action_again_and_one_undo_takes_it_back(window, operator):
+def test_redo_panel_repeats_the_action_and_undo_takes_it_back(window, operator):
     row, before, looked_at, acted, clicked = CLICKED[operator]
     update = "\nbpy.context.view_layer.update()\nbpy.ops.ed.undo_push(message='Start')"
     window.ask(BRICK + before + update)

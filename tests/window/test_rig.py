@@ -70,7 +70,7 @@ def window(run_blender, tmp_path_factory):
         yield opened
 
 
-def test_bones_are_measured_by_a_press_and_drawn_where_they_are_posed(window):
+def test_bones_are_measured_and_drawn_in_their_pose(window):
     window.press("object.body_moments_measure_bones")
     window.wait(f"'body_mass' in {BONES}['bone 0']")
     masses = window.get(f"[bone['body_mass'] for bone in {BONES}]")

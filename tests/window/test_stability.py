@@ -26,7 +26,7 @@ KEYS = (
 EMPTIES = "[obj.name for obj in bpy.context.scene.objects if 'body_balance_group' in obj]"
 
 
-def test_the_stability_of_a_leaning_box_is_computed_by_its_button(window):
+def test_button_computes_stability_of_a_leaning_box(window):
     window.ask(OPEN + f"{CUBE}.scale.z = 2.0\n{CUBE}.rotation_euler.x = 0.5\nbpy.context.view_layer.update()")
     window.open_tab("Moments")
     window.press("object.body_moments_stability")
@@ -38,7 +38,7 @@ def test_the_stability_of_a_leaning_box_is_computed_by_its_button(window):
     window.picture("stability-tips")
 
 
-def test_it_is_laid_on_the_ground_by_its_button_and_one_undo_brings_it_back(window):
+def test_button_lays_body_on_the_ground_and_undo_restores_it(window):
     before = window.get(f"list(map(list, {CUBE}.matrix_world))")
     window.press("object.body_moments_rest_on_ground")
     window.wait(f"{CUBE}.location.z < 1.5")

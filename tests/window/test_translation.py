@@ -29,7 +29,7 @@ def german(window):
     window.ask("bpy.context.preferences.view.language = 'en_US'")
 
 
-def test_the_panel_is_german_and_what_is_stored_english(german):
+def test_panel_is_german_and_stored_text_english(german):
     german.ask(OPEN_BOX)
     german.open_tab("Moments")
     german.press("object.body_moments_measure")

@@ -97,7 +97,7 @@ def without_addon(run_blender, tmp_path_factory):
     return json.loads(line.removeprefix("SEEN "))
 
 
-def test_the_group_follows_modifiers_and_animation_without_the_addon(without_addon):
+def test_group_follows_animation_without_the_addon(without_addon):
     for frame, count, y, center, volume, mass, matrix in without_addon:
         assert np.array_equal(matrix, np.eye(4))
         height = 1.0 + 2.0 * (frame - 1) / 10.0
