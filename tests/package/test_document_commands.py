@@ -160,6 +160,12 @@ def test_project_commands_have_known_words(document):
             assert parsed(*command.split()[2:]), command
 
 
+@pytest.mark.parametrize("workflow", sorted((ROOT / ".github" / "workflows").glob("*.yml")), ids=lambda path: path.name)
+def test_project_commands_of_workflow_have_known_words(workflow):
+    for words in re.findall(r"python3? tests/project\.py (.*)", workflow.read_text(encoding="utf-8")):
+        assert parsed(*words.split()), words
+
+
 @pytest.mark.skipif(os.name == "nt", reason="needs a shell of POSIX")
 def test_corner_of_the_hypercube_has_the_printed_moments(made, tmp_path):
     folder = tmp_path / "checkout"
