@@ -5,6 +5,7 @@
     python3 tests/project.py demo         measure a real body: a report, a record and a picture
     python3 tests/project.py test         pass the tests, on every Blender there is
     python3 tests/project.py test solid   pass those of one subject on one Blender, in seconds
+    python3 tests/project.py test core/solid   pass those of one folder of the core, with numpy alone
     python3 tests/project.py build        build the extension's zip into dist/
     python3 tests/project.py benchmark    times and ratios against trimesh and libigl
     python3 tests/project.py tables       the tables of Soldea, Elber and Rivlin beside ours
@@ -49,7 +50,7 @@ BLENDERS = {"4.5": "3.11", "5.2": "3.13"}
 # group of tests -> minutes on one of two idle cores; the window's takes both, after all the others
 GROUPS = {
     **{"core": 4, "blender": 3, "command": 3, "operators": 2, "panels": 1},
-    **{"corpus": 2, "package": 1, "robots": 1, "window": 15},
+    **{"corpus": 2, "package": 2, "robots": 1, "window": 15},
 }
 SUBJECT_GROUPS = ("core", "blender", "command", "operators", "panels")  # where `test SUBJECT` looks
 SILENCE_LIMIT = 1800  # seconds without a line of output after which a run of pytest has hung: no file takes 2 minutes
@@ -286,6 +287,11 @@ def prepare_consumers(version: str) -> Path:
     return prepare("robots", find_python(wanted), wanted, ["requirements-robots.txt"])
 
 
+def prepare_core() -> Path:
+    """Return the Python of the environment for the tests of the core: numpy and no Blender, on the running version."""
+    return prepare("core", sys.executable, RUNNING, ["requirements-core.txt"])
+
+
 def any_blender() -> str:
     """The version of a Blender module that can be had: the running Python's, else the newest."""
     for version in sorted(BLENDERS, key=lambda key: (BLENDERS[key] == RUNNING, key), reverse=True):
@@ -419,8 +425,21 @@ def subjects() -> dict[str, dict[str, list[Path]]]:
     return result
 
 
+def test_folder(name: str, extra: list[str]) -> int:
+    """Pass the tests of one folder, given by its path: those of the core with numpy alone, others on one Blender."""
+    folder = TESTS / name.strip("/").removeprefix("tests/")
+    group = folder.relative_to(TESTS).parts[0]
+    if group not in SUBJECT_GROUPS or not folder.is_dir():
+        raise Failed(f"{name} is no folder of code with tests: try core/solid or blender/read.")
+    version = f"Python {RUNNING}" if group == "core" else any_blender()
+    python = prepare_core() if group == "core" else prepare_blender(version)
+    return finish([run_tests(Runner(), python, version, group, extra, [folder])])
+
+
 def test_subject(subject: str, extra: list[str]) -> int:
     """Pass the tests of one subject on one Blender: those that need no Blender beside those that do."""
+    if "/" in subject:
+        return test_folder(subject, extra)
     known = subjects()
     if subject not in known:
         folders = {path.name for group in SUBJECT_GROUPS for path in (TESTS / group).rglob("*/") if path.is_dir()}
@@ -563,7 +582,7 @@ def parse(words: list[str]) -> argparse.Namespace:
         command.set_defaults(function=function)
         if function is test:
             command.add_argument(
-                "subject", nargs="?", help="solid, nurbs, density, ...: its tests on one Blender alone"
+                "subject", nargs="?", help="solid, nurbs, ...: its tests on one Blender; core/solid: with numpy alone"
             )
             command.add_argument("--only", action="append", choices=GROUPS, help="repeatable")
             command.add_argument("-k", metavar="WORDS", help="tests with such names, as in pytest")

@@ -33,6 +33,7 @@ def parsed(*words: str) -> str:
         (["soak", "kills", "--seed", "3"], "soak ['kills', '--seed', '3'] None None"),
         (["test", "solid", "-k", "cube"], "test [] solid cube"),
         (["test", "solid", "--", "-x", "--lf"], "test ['-x', '--lf'] solid None"),
+        (["test", "core/solid"], "test [] core/solid None"),
     ],
     ids=" ".join,
 )
