@@ -27,7 +27,7 @@ from ...core.verdict.method import Verdict
 from ...core.verdict.tolerances import NEGLIGIBLE
 from ...core.wall import OffsetSolid, offset_solid, split_thickness, wall_moments
 from ..read.reading import Reading
-from ..write.findings import WALL_MEASURED
+from ...core.wall.findings import WALL_MEASURED
 from .body import Body, MeshBody
 from .findings import (
     INSTANCE_WALLS_UNCHECKED,

@@ -4,9 +4,6 @@
 
 from ...core.verdict.finding import error, note, warning
 
-WALL_MEASURED = note(
-    "wall_measured", "The wall was measured with real thickness: {thickness:length}, {side:word}, mitered corners."
-)
 LINKED_RESULTS = error("linked_results", "Linked from another file. Make it local to store results.")
 OVERRIDE_RESULTS = error(
     "override_results", "A library override, which would lose its results. Make it local to store results."

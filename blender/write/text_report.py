@@ -23,7 +23,8 @@ from ...core.verdict.finding import Finding, MeasureError, ReadError, finding
 from ...core.verdict.method import Method, Verdict
 from ...core.verdict.sentences import HEALTH, METHODS, method_key
 from . import properties
-from .findings import NO_STORED_RESULTS, STALE_RESULTS, WALL_MEASURED
+from ...core.wall.findings import WALL_MEASURED
+from .findings import NO_STORED_RESULTS, STALE_RESULTS
 from .units import rounded_up
 
 BOUNDS = {"volume": "m³", "area": "m²", "center_of_mass": "m", "inertia": "kg·m²"}

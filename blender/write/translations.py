@@ -1,54 +1,60 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Other languages, by Blender's own mechanism: what is shown is looked up as it stands in the source, and then filled.
+"""Other languages, by Blender's own mechanism: the text in the source is looked up, and then filled.
 
 Blender itself looks up labels, tooltips and texts without placeholders. Everything with placeholders goes through
 `localized` or `localized_sentence`, and is drawn with `translate=False`. Stored texts and records stay English.
 
-A language is a module with TEXTS, by the English text, and MESSAGES, by the code of a message.
+The translations are `locale/*.po`, by the English text. Only the file of the interface's language is read.
 """
 
 from __future__ import annotations
 
+import sys
 from functools import partial
-from types import ModuleType
+from pathlib import Path
 from typing import Any
 
 import bpy
+from bpy.app.handlers import persistent
 
-from ...core.verdict.catalog import declared
 from ...core.verdict.finding import Finding
 from ...core.verdict.sentences import sentence
-from . import german
+from .po import read_po
 from .units import Units
 
 ADDON_ID = __name__.removesuffix(".blender.write.translations")
-LANGUAGES = {"de_DE": german}
+FOLDER = Path(sys.modules[ADDON_ID].__path__[0]) / "locale"
 # Words that mean something else in Blender's own translations, such as Frame and Order, are looked up under this.
 CONTEXT = "Body Moments"
 
 
-def dictionary() -> dict[str, dict[tuple[str, str], str]]:
-    """All translations, as Blender takes them: locale → (context, English text) → text. Names of operators have a
-    context of their own, so that every text stands under each."""
+def read_translations(locale: str) -> dict[tuple[str, str], str]:
+    """Return (context, English text) → translation, empty if no file is named like the locale or its language.
+
+    Names of operators have a context of their own, so that a text without context stands under each.
+    """
     contexts = bpy.app.translations.contexts
+    everywhere = (contexts.default, contexts.operator_default, CONTEXT)
+    paths = [FOLDER / f"{name}.po" for name in (locale, locale.partition("_")[0])]
     return {
-        locale: {
-            (context, english): text
-            for english, text in _translated(language).items()
-            for context in (contexts.default, contexts.operator_default, CONTEXT)
-        }
-        for locale, language in LANGUAGES.items()
+        (context, english): translation
+        for path in [path for path in paths if path.is_file()][:1]
+        for own_context, english, translation in read_po(path)
+        for context in ([own_context] if own_context else everywhere)
     }
 
 
-def _translated(language: ModuleType) -> dict[str, str]:
-    """English text → text in a language."""
-    texts = dict(language.TEXTS)
-    for code, translated in language.MESSAGES.items():
-        entry = declared(code)
-        texts |= zip(filter(None, (entry.text, entry.plural)), translated, strict=True)
-    return texts
+@persistent
+def register_language(*_: Any) -> None:
+    """Give Blender the translations into the interface's language, if there are any.
+
+    Those of an earlier language may stay, for Blender keeps them apart by locale.
+    """
+    locale = bpy.app.translations.locale
+    if translations := read_translations(locale):
+        bpy.app.translations.unregister(ADDON_ID)
+        bpy.app.translations.register(ADDON_ID, {locale: translations})
 
 
 def localized(text: str) -> str:
@@ -62,8 +68,12 @@ def localized_sentence(finding: Finding, unit_settings: Any) -> str:
 
 
 def register() -> None:
-    bpy.app.translations.register(ADDON_ID, dictionary())
+    register_language()
+    bpy.app.handlers.translation_update_post.append(register_language)
 
 
 def unregister() -> None:
+    handlers = bpy.app.handlers.translation_update_post
+    if register_language in handlers:  # scripts and other add-ons may empty these lists
+        handlers.remove(register_language)
     bpy.app.translations.unregister(ADDON_ID)

@@ -7,7 +7,7 @@ from __future__ import annotations
 from functools import cache
 from importlib import import_module
 
-from .finding import Code, Severity
+from .finding import Code
 
 ROOT = __name__.removesuffix(".core.verdict.catalog")
 # The packages that declare findings, each in a module `findings` that imports `core.verdict` alone.
@@ -53,11 +53,12 @@ PACKAGES = (
 
 @cache
 def declared(code: str) -> Code:
-    """Return the declaration of a code; a code of another version is a note that says its own name."""
+    """Return the declaration of a code. KeyError if no package declares it: it may be of another version."""
     if isinstance(code, Code):
         return code
     for package in PACKAGES:
-        value = getattr(import_module(".".join((ROOT, package, "findings"))), code.upper(), None)
+        module = import_module(".".join((ROOT, package, "findings")))
+        value = getattr(module, str(code).upper(), None)
         if isinstance(value, Code):
             return value
-    return Code(code, Severity.NOTE, code.replace("_", " ").replace("{", "{{").replace("}", "}}").capitalize() + ".")
+    raise KeyError(code)

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Findings of `core/wall`."""
 
-from ..verdict.finding import error
+from ..verdict.finding import error, note
 
 NO_FACE_AREA = error("no_face_area", "All faces have zero area. Move their vertices apart, or select another object.")
 WALL_NON_MANIFOLD = error(
@@ -20,4 +20,7 @@ WALL_PRECISION_LOST = error(
     "{share:percent} of the area is in faces too small, so far from the origin, to have a direction in "
     "float32. Model "
     "nearer to the origin, or set Wall to Thin.",
+)
+WALL_MEASURED = note(
+    "wall_measured", "The wall was measured with real thickness: {thickness:length}, {side:word}, mitered corners."
 )

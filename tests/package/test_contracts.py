@@ -9,8 +9,9 @@ from pathlib import Path
 
 import bpy
 import pytest
-from body_moments.core.verdict import messages
 from body_moments.operators import batch
+
+from tests.core.findings import declarations
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 COMMANDS = ("measure", "similar", "audit", "simplex", "manifest", "merge", "to-csv", "summary", "compare", "report")
@@ -52,7 +53,7 @@ def test_public_names_are_as_reviewed(kept, help_of):
         for command in COMMANDS
         for option in re.findall(r"--[a-z][a-z0-9-]*", help_of(command))
     ]
-    codes = ["finding {}".format(code) for code in messages.MESSAGES]
+    codes = ["finding {}".format(code) for code in declarations()]
     kept("contracts.txt", "\n".join(sorted({*operators(), *stored_keys(), *options, *codes})))
 
 

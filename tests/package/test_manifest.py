@@ -86,14 +86,14 @@ def test_the_zip_holds_the_add_on_and_nothing_else(archive):
     top = {"__init__.py", "blender_manifest.toml", "LICENSE", "README.md"}
     expected = {
         path.relative_to(ROOT).as_posix()
-        for part in WINGS
+        for part in (*WINGS, "locale")
         for path in (ROOT / part).rglob("*")
         if path.is_file() and path.suffix != ".pyc"
     }
     manual = {name for name in names if name.startswith("manual/")}
     assert names - manual == top | expected
     assert {PurePosixPath(name).suffix for name in manual} == {".html", ".png", ".json", ".cff"}
-    assert {PurePosixPath(name).suffix for name in expected} == {".py"}
+    assert {PurePosixPath(name).suffix for name in expected} == {".py", ".po"}
 
 
 def test_the_licence_is_the_whole_gpl_3():

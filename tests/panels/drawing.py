@@ -160,7 +160,7 @@ def copied(record, unit):
 def findings_of(obj, severity=None):
     """The codes that are stored, all or of one severity."""
     from body_moments.blender.write import properties
-    from body_moments.core.verdict import messages
+    from body_moments.core.verdict import sentences
 
     found = properties.findings(obj)
-    return [one.code for one in (found if severity is None else messages.of_severity(found, severity))]
+    return [one.code for one in (found if severity is None else sentences.of_severity(found, severity))]

@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A Blender set to German shows the panel in German, and stores English."""
 
+import json
+
 import pytest
 
 PACKAGE = "bl_ext.user_default.body_moments"
@@ -16,6 +18,25 @@ faces = [tuple(face.vertices) for face in cube.data.polygons]
 mesh.from_pydata([tuple(vertex.co) for vertex in cube.data.vertices], [], faces[1:])
 cube.data = mesh
 cube.name = "Mass"
+"""
+
+# Prints a text in each language, and how many files of translations were opened before.
+SWITCH = """
+import addon_utils, bpy, json, sys
+opened = []
+sys.addaudithook(lambda event, arguments: event == "open" and str(arguments[0]).endswith(".po") and opened.append(1))
+def show(step):
+    print(json.dumps([step, bpy.app.translations.pgettext_iface("Capped", "Body Moments"), len(opened)]))
+addon_utils.disable("{package}")
+addon_utils.enable("{package}")
+show(bpy.context.preferences.view.language)
+for locale in ("fr_FR", "de_DE", "en_US", "de_DE"):
+    bpy.context.preferences.view.language = locale
+    show(locale)
+addon_utils.disable("{package}")
+show("disabled")
+addon_utils.enable("{package}")
+show("enabled")
 """
 
 
@@ -44,12 +65,17 @@ def test_panel_is_german_and_stored_text_english(german):
     assert "Traceback" not in german.output()
 
 
-def test_other_languages_and_a_disabled_add_on_leave_english(german):
-    german.ask("bpy.context.preferences.view.language = 'fr_FR'")
-    assert german.get(f"{LOOK_UP}('Capped')") == "Capped"
-    german.ask("bpy.context.preferences.view.language = 'de_DE'")
-    german.ask(f"import addon_utils\naddon_utils.disable('{PACKAGE}')")
-    look_up = "bpy.app.translations.pgettext_iface('Capped', 'Body Moments')"
-    assert german.get(look_up) == "Capped"
-    german.ask(f"import addon_utils\naddon_utils.enable('{PACKAGE}')")
-    assert german.get(look_up) == "Mit Deckeln"
+def test_language_change_reads_a_file_and_disabling_leaves_english(run_blender, tmp_path):
+    script = tmp_path / "languages.py"
+    script.write_text(SWITCH.format(package=PACKAGE), encoding="utf-8")
+    done = run_blender("--background", "--python-exit-code", "1", "--python", script)
+    shown = [json.loads(line) for line in done.stdout.splitlines() if line.startswith("[")]
+    assert shown == [
+        ["en_US", "Capped", 0],
+        ["fr_FR", "Capped", 0],
+        ["de_DE", "Mit Deckeln", 1],
+        ["en_US", "Capped", 1],
+        ["de_DE", "Mit Deckeln", 2],
+        ["disabled", "Capped", 2],
+        ["enabled", "Mit Deckeln", 3],
+    ]

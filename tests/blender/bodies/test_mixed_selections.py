@@ -12,7 +12,7 @@ import pytest
 bpy = pytest.importorskip("bpy")
 from body_moments.blender.session.stored import outcome, results
 from body_moments.blender.write import properties
-from body_moments.core.verdict import messages
+from body_moments.core.verdict import sentences
 from body_moments.core.verdict.finding import Severity
 
 from tests.blender.bodies.test_many import KINDS, stored_on
@@ -109,7 +109,7 @@ def warned(findings):
 
 
 def stored_warnings(obj):
-    found = messages.of_severity(properties.findings(obj), Severity.WARNING, Severity.ERROR)
+    found = sentences.of_severity(properties.findings(obj), Severity.WARNING, Severity.ERROR)
     return [one.as_record() for one in found]
 
 

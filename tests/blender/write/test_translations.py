@@ -1,64 +1,94 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Translation: what is shown is looked up before it is filled, and what is stored is English.
+"""Translation: texts are looked up before they are filled, and results are stored in English.
 
-The bpy module has no languages of its own, so a dictionary stands for Blender's look-up here; tests/window has the real
-one.
+The bpy module has no languages of its own, so that a stand-in looks up here; tests/window has the real one.
 """
 
 import json
-import string
+from pathlib import Path
 from types import SimpleNamespace
 
 import bpy
 import pytest
 from body_moments.blender.write import translations
-from body_moments.core.verdict import messages
 
 from tests.blender.objects import add, mesh_body
 from tests.panels.drawing import labels, shown
 
 
-def placeholders(text):
-    """Names and formats of what is filled in."""
-    return sorted(field[1:4] for field in string.Formatter().parse(text) if field[1] is not None)
+class Languages:
+    """The translations of a Blender that has languages: what add-ons registered, by locale, context and text."""
+
+    contexts = bpy.app.translations.contexts
+
+    def __init__(self):
+        self.locale, self.registered = "en_US", {}
+
+    def register(self, module, texts):
+        assert module not in self.registered
+        self.registered[module] = texts
+
+    def unregister(self, module):
+        self.registered.pop(module, None)
+
+    def pgettext_iface(self, text, context="*"):
+        texts = self.registered.get(translations.ADDON_ID, {}).get(self.locale, {})
+        return texts.get((context, text), text)
+
+    def speak(self, locale):
+        """Change the language, and let Blender call its handlers."""
+        self.locale = locale
+        view = bpy.context.preferences.view
+        view.use_translate_interface = view.use_translate_interface
 
 
-@pytest.mark.parametrize("locale", translations.LANGUAGES)
-def test_a_translation_has_the_placeholders_of_the_english_text(locale):
-    language = translations.LANGUAGES[locale]
-    assert len(language.MESSAGES) >= 30
-    for code, translated in language.MESSAGES.items():
-        entry = messages.MESSAGES[code]
-        english = [text for text in (entry.text, entry.plural) if text]
-        assert len(english) == len(translated), code
-        for before, after in zip(english, translated):
-            assert placeholders(before) == placeholders(after), code
-            assert before.endswith(".") == after.endswith("."), code
-    for before, after in language.TEXTS.items():
-        assert placeholders(before) == placeholders(after), before
+@pytest.fixture
+def languages(registered, monkeypatch):
+    stand_in = Languages()
+    monkeypatch.setattr(translations, "bpy", SimpleNamespace(app=SimpleNamespace(translations=stand_in)))
+    return stand_in
 
 
-def test_blender_gets_every_text_under_every_context_in_which_it_looks():
-    german = translations.dictionary()["de_DE"]
+@pytest.mark.usefixtures("registered")
+def test_every_text_has_every_context_of_a_lookup():
+    german = translations.read_translations("de_DE")
     assert german["*", "Principal Axes"] == german["Operator", "Principal Axes"] == "Hauptträgheitsachsen"
     contexts = {context for context, _ in german}
     for group in bpy.types.PropertyGroup.__subclasses__():
         if group.__name__.startswith("BodyMoments"):
             assert {prop.translation_context for prop in group.bl_rna.properties} <= contexts
-    assert german["*", messages.MESSAGES["t_junctions"].plural].startswith("{count} Spalte")
 
 
-@pytest.fixture
-def german(monkeypatch):
-    """Look-ups as a German Blender answers them, by our dictionary alone."""
-    texts = translations.dictionary()["de_DE"]
-    look_up = SimpleNamespace(pgettext_iface=lambda text, context="*": texts.get((context, text), text))
-    monkeypatch.setattr(translations, "bpy", SimpleNamespace(app=SimpleNamespace(translations=look_up)))
+def test_context_of_a_file_keeps_its_text_to_itself(tmp_path, monkeypatch):
+    text = 'msgid "Order"\nmsgstr "Ordnung"\n\nmsgctxt "Operator"\nmsgid "Order"\nmsgstr "Ordnen"\n'
+    (tmp_path / "pt_BR.po").write_text(text, encoding="utf-8")
+    monkeypatch.setattr(translations, "FOLDER", tmp_path)
+    texts = translations.read_translations("pt_BR")
+    assert texts == {("*", "Order"): "Ordnung", ("Operator", "Order"): "Ordnen", ("Body Moments", "Order"): "Ordnung"}
+    assert not translations.read_translations("pt_PT")
 
 
-@pytest.mark.usefixtures("scene", "german")
-def test_the_panel_speaks_german_and_what_is_stored_english():
+def test_language_change_shows_german_and_back(languages):
+    languages.speak("de_DE")
+    assert translations.localized("Capped") == "Mit Deckeln"
+    assert translations.localized("No such text") == "No such text"
+    languages.speak("fr_FR")
+    assert translations.localized("Capped") == "Capped"
+    languages.speak("de_AT")
+    assert translations.localized("Capped") == "Mit Deckeln"
+
+
+@pytest.mark.parametrize("locale", ["", "C", "en_US", "fr_FR"])
+def test_other_languages_read_no_file(languages, locale, monkeypatch):
+    monkeypatch.setattr(Path, "read_text", lambda *_args, **_options: pytest.fail("a file is read"))
+    languages.speak(locale)
+    assert not languages.registered
+
+
+@pytest.mark.usefixtures("scene")
+def test_panel_is_german_and_stored_results_english(languages):
+    languages.speak("de_DE")
     closed, mesh = mesh_body(), bpy.data.meshes.new("Open")
     faces = [tuple(face.vertices) for face in closed.polygons]
     mesh.from_pydata([vertex.co for vertex in closed.vertices], [], faces[1:])

@@ -1,17 +1,18 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Findings are data, and their one table of sentences covers every code that the source makes."""
+"""Findings are data; their codes are declared beside the code that makes them, with severity and sentence."""
 
 import ast
-import functools
 import json
 import string
+import subprocess
+import sys
 from dataclasses import fields
 from pathlib import Path
 
 import numpy as np
 import pytest
-from body_moments.core.shape.library import Similarity
+from body_moments.core.verdict import catalog
 from body_moments.core.verdict.finding import (
     Finding,
     MeasureError,
@@ -24,7 +25,10 @@ from body_moments.core.verdict.finding import (
 )
 from body_moments.core.verdict.health import DefectiveElements, MeshHealth
 from body_moments.core.verdict.method import Method, Source, Verdict, least_trusted
-from body_moments.core.verdict.sentences import MESSAGES, of_severity, sentence, severity, truncate_list
+from body_moments.core.verdict.sentences import of_severity, sentence, severity, truncate_list
+
+from tests.core.findings import declarations
+from tests.package.test_architecture import WINGS
 
 ROOT = Path(__file__).resolve().parent.parent.parent.parent
 
@@ -108,66 +112,50 @@ def test_severity_belongs_to_the_code():
 
 def test_template_has_only_placeholders_known_to_the_formatter():
     known = ("", "percent", "length", "point", "size", "word")
-    for code, entry in MESSAGES.items():
+    for code, entry in declarations().items():
         for text in filter(None, (entry.text, entry.plural)):
             for _, name, spec, conversion in string.Formatter().parse(text):
                 assert conversion in (None, "r") and (name is None or name.isidentifier()), (code, text)
                 assert spec is None or spec in known or spec[-1] in "dgfes%", (code, text, spec)
 
 
-@functools.cache
-def calls_that_make() -> list[tuple[str, ast.Call]]:
-    """Yield the places of the source that create findings and refusals."""
-    makers = {"finding", "Finding", "MeasureError", "ReadError", "EditRefusedError", "FileError", "QueryError"}
-    makers |= {"SurfaceRefusedError", "NoShapeError", "_damaged"}
-    return [
-        ("{}:{}".format(path.relative_to(ROOT), node.lineno), node)
-        for part in ("core", "operators", "panels")
-        for path in (ROOT / part).rglob("*.py")
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
-        if isinstance(node, ast.Call) and maker_of(node) in makers and node.args
-    ]
-
-
-def maker_of(call: ast.Call) -> str:
-    return getattr(call.func, "id", getattr(call.func, "attr", ""))
-
-
-def codes_of(call: ast.Call) -> list[str]:
-    """The strings of its first argument."""
-    constants = (node for node in ast.walk(call.args[0]) if isinstance(node, ast.Constant))
-    return [constant.value for constant in constants if isinstance(constant.value, str)]
-
-
-def test_every_created_code_has_a_message():
-    assert not {code: place for place, call in calls_that_make() for code in codes_of(call) if code not in MESSAGES}
-
-
 FILLED_IN_LATER = {"axes_made_principal": {"count"}, "origins_moved": {"count"}}
 
 
-def test_every_placeholder_of_a_message_is_given():
-    missing = []
-    for place, call in calls_that_make():
-        given = {"elements", *(keyword.arg for keyword in call.keywords)}
-        if maker_of(call) == "SurfaceRefusedError":  # these are known where the surfaces of a file are listed
-            given |= {"count", "kind", "names"}
-        holds_another = any(isinstance(node, ast.Call) for node in ast.walk(call.args[0]))
-        if holds_another or maker_of(call) == "Finding" or None in given:
-            continue
-        for code in codes_of(call):
-            message, known = MESSAGES[code], given | FILLED_IN_LATER.get(code, set())
-            if code.startswith("progress_"):
-                known |= {"share"}
-            texts = [message.text, message.plural or ""]
-            needed = {name for text in texts for _, name, _, _ in string.Formatter().parse(text) if name}
-            missing += [(place, code, name) for name in needed - known]
+def test_declarations_need_no_numpy_and_stand_in_the_catalog():
+    found = {path.parent.relative_to(ROOT).as_posix().replace("/", ".") for path in ROOT.glob("*/**/findings.py")}
+    assert {place for place in found if not place.startswith("tests")} == set(catalog.PACKAGES)
+    code = (
+        "import importlib, importlib.util, sys\n"
+        "spec = importlib.util.spec_from_file_location('body_moments', sys.argv[1] + '/__init__.py', "
+        "submodule_search_locations=[sys.argv[1]])\n"
+        "sys.modules['body_moments'] = module = importlib.util.module_from_spec(spec)\n"
+        "spec.loader.exec_module(module)\n"
+        "for package in sys.argv[2:]:\n"
+        "    importlib.import_module('body_moments.' + package + '.findings')\n"
+        "assert not {'numpy', 'bpy'} & set(sys.modules)\n"
+    )
+    subprocess.run([sys.executable, "-P", "-c", code, str(ROOT), *catalog.PACKAGES], check=True, timeout=480)
+
+
+def test_every_placeholder_of_a_sentence_is_given():
+    """A creation is `finding(CODE, ...)` or an error of that code; the values stand beside it."""
+    makers = {"finding", "MeasureError", "ReadError", "EditRefusedError", "FileError", "QueryError", "NoShapeError"}
+    missing, known_codes = [], declarations()
+    for path in [path for wing in WINGS for path in (ROOT / wing).rglob("*.py")]:
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if not (isinstance(node, ast.Call) and getattr(node.func, "id", "") in makers and node.args):
+                continue
+            given = {"elements", "share" if "PROGRESS_" in ast.unparse(node) else "", *(k.arg for k in node.keywords)}
+            if None in given or any(isinstance(n, ast.Call) for n in ast.walk(node.args[0])):
+                continue
+            for name in [n.id.lower() for n in ast.walk(node.args[0]) if isinstance(n, ast.Name)]:
+                code = known_codes.get(name)
+                given |= FILLED_IN_LATER.get(name, set())
+                texts = [code.text, code.plural or ""] if code else []
+                needed = {name for text in texts for _, name, _, _ in string.Formatter().parse(text) if name}
+                missing += [(path.name, node.lineno, code, name) for name in needed - given]
     assert not missing
-
-
-def test_every_countable_shape_and_defect_has_a_message():
-    kinds = {"shapes_" + similarity for similarity in Similarity} - {"shapes_different"}
-    assert kinds | {"defect_" + field.name for field in fields(DefectiveElements)} <= MESSAGES.keys()
 
 
 @pytest.mark.parametrize("count, more", [(7, ""), (8, ""), (9, ", und 1 weitere"), (20, ", und 12 weitere")])
