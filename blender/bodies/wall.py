@@ -26,8 +26,8 @@ from ...core.verdict.finding import Finding, ReadError, finding, unique
 from ...core.verdict.method import Verdict
 from ...core.verdict.tolerances import NEGLIGIBLE
 from ...core.wall import OffsetSolid, offset_solid, split_thickness, wall_moments
-from ..read.reading import Reading
 from ...core.wall.findings import WALL_MEASURED
+from ..read.reading import Reading
 from .body import Body, MeshBody
 from .findings import (
     INSTANCE_WALLS_UNCHECKED,

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Findings of `blender/write`."""
 
-from ...core.verdict.finding import error, note, warning
+from ...core.verdict.finding import error, warning
 
 LINKED_RESULTS = error("linked_results", "Linked from another file. Make it local to store results.")
 OVERRIDE_RESULTS = error(

@@ -22,8 +22,8 @@ from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import Finding, MeasureError, ReadError, finding
 from ...core.verdict.method import Method, Verdict
 from ...core.verdict.sentences import HEALTH, METHODS, method_key
-from . import properties
 from ...core.wall.findings import WALL_MEASURED
+from . import properties
 from .findings import NO_STORED_RESULTS, STALE_RESULTS
 from .units import rounded_up
 

@@ -207,7 +207,7 @@ def mirrored_by_a_key(frames):
 
 
 @pytest.mark.parametrize("frames", [4, 10])
-def test_what_a_shape_key_turns_inside_out_weighs_as_much(scene, frames):
+def test_body_turned_inside_out_by_key_keeps_its_weight(scene, frames):
     """In few frames, in each of which it is measured, as in many."""
     mirrored_by_a_key(frames)
     assert bpy.ops.object.body_moments_balance_group() == {"FINISHED"}
@@ -217,7 +217,7 @@ def test_what_a_shape_key_turns_inside_out_weighs_as_much(scene, frames):
 
 
 @pytest.mark.parametrize("by", ["shape key", "scale", "scale of a mix"])
-def test_what_becomes_flat_ends_it(scene, reported, by):
+def test_body_that_becomes_flat_ends_balance_group(scene, reported, by):
     mirrored_by_a_key(9 if by == "shape key" else 10)
     if by != "shape key":
         obj = bpy.context.object if by == "scale of a mix" else bpy.data.objects["Other"]
@@ -229,7 +229,7 @@ def test_what_becomes_flat_ends_it(scene, reported, by):
     assert reported.codes == ["no_volume" if by == "shape key" else "zero_scale"] and not groups()
 
 
-def test_a_signal_says_when_the_center_leaves_the_support_polygon(scene, reported):
+def test_signal_tells_center_beyond_support_polygon(scene, reported):
     """A weight that slides over a foot from -2 to 2: over the foot as long as their common center is within ±1."""
     foot = objects.add(box((2.0, 2.0, 0.1), (-1.0, -1.0, 0.0)), "Foot")
     weight = objects.add(box((1.0, 1.0, 1.0), (-0.5, -0.5, 0.0)), "Weight")
@@ -262,7 +262,7 @@ def test_a_signal_says_when_the_center_leaves_the_support_polygon(scene, reporte
 
 
 @pytest.mark.parametrize(("reach", "distance"), [(0.0, 0.02), (0.005, 0.005)])
-def test_what_is_as_near_to_the_ground_as_the_contact_distance_touches_it(scene, reach, distance):
+def test_foot_within_contact_distance_touches_ground(scene, reach, distance):
     """Of a foot of 2 m, a hundredth of that where none is given."""
     foot = objects.add(box((2.0, 2.0, 0.1), (-1.0, -1.0, 0.0)), "Foot")
     for frame, share in ((1, 0.98), (2, 1.02)):
@@ -296,7 +296,7 @@ def test_the_frame_and_the_selection_stay_and_one_empty_is_made(scene):
     assert not any(obj.animation_data for obj in (first, second))
 
 
-def test_the_ground_is_where_things_fall_to(scene):
+def test_ground_is_in_direction_of_gravity(scene):
     """Gravity that points along x: a foot whose face at x = -3 stands on ground at height 3."""
     foot = objects.add(box((0.1, 2.0, 2.0), (-0.1, -1.0, -1.0)), "Foot")
     for frame, x in ((1, -3.0), (2, -4.0), (3, -2.0)):
@@ -311,17 +311,6 @@ def test_the_ground_is_where_things_fall_to(scene):
     arguments = {"use_scene_range": False, "frame_end": 3, "contacts": "Feet", "ground": 3.0, "reach": 0.01}
     assert bpy.ops.object.body_moments_balance_group(**arguments) == {"FINISHED"}
     assert path_of(groups()[0]).inside.tolist() == [True, False, True]
-
-
-def test_a_collection_is_followed(scene):
-    obj = objects.add(objects.mesh_body())
-    collection = bpy.data.collections.new("Parts")
-    scene.collection.children.link(collection)
-    collection.objects.link(obj)
-    bpy.ops.object.select_all(action="DESELECT")
-    arguments = {"use_scene_range": False, "frame_start": 1, "frame_end": 2}
-    assert bpy.ops.object.body_moments_balance_group(collection="Parts", **arguments) == {"FINISHED"}
-    assert groups()[0]["body_balance_group"] == obj.name
 
 
 @pytest.mark.parametrize("unit", [1.0, 0.5])
@@ -342,7 +331,7 @@ def test_masses_given_for_a_nested_collection_count(scene, unit):
     assert close(path_of(groups()[0]).centers[:, 0], 3.0, 1e-6)
 
 
-def test_of_a_collection_its_instances_are_followed_and_not_what_they_show(scene):
+def test_collection_instances_are_followed(scene):
     shown, parts = bpy.data.collections.new("Shown"), bpy.data.collections.new("Parts")
     scene.collection.children.link(parts)
     obj = objects.add(box((1.0, 1.0, 1.0), (-0.5, -0.5, -0.5)))
@@ -360,7 +349,7 @@ def test_of_a_collection_its_instances_are_followed_and_not_what_they_show(scene
 
 
 @pytest.mark.parametrize("arguments", [{}, {"collection": "Nowhere"}, {"contacts": "Nowhere"}, {"contacts": "Lamps"}])
-def test_refusals_name_what_is_missing(scene, reported, arguments):
+def test_missing_groups_are_refused(scene, reported, arguments):
     bpy.data.collections.new("Lamps")
     if arguments:
         objects.add(objects.mesh_body())

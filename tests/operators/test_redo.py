@@ -7,14 +7,14 @@ import pytest
 from body_moments.blender.session.tracking import staleness
 from body_moments.blender.write import section
 
-from tests.blender.objects import add, mesh_body, only
+from tests.blender.objects import add, mesh_body
 from tests.close import close
 from tests.operators.setup.test_remedy_buttons import boxes
 
 pytestmark = pytest.mark.usefixtures("scene")
 
 
-def test_measure_changes_settings_only_where_it_is_told_to():
+def test_measure_options_change_only_their_settings():
     obj = add(boxes(2.0, 1.0))
     before = {name: getattr(obj.body_moments, name) for name in ("kind", "overlap", "density", "material")}
     bpy.ops.object.body_moments_measure()
@@ -26,21 +26,8 @@ def test_measure_changes_settings_only_where_it_is_told_to():
     assert obj["body_method"] == "shell" and obj.body_moments.material == "Copper"
 
 
-def test_only_the_chosen_kinds_of_defects_are_selected():
-    import bmesh
-
-    mesh = boxes(2.0, reverse=[0])
-    obj = add(mesh)
-    bpy.ops.object.body_moments_select_faults(kinds={"boundary_edges"})
-    assert bpy.context.mode == "OBJECT"
-    bpy.ops.object.body_moments_select_faults(kinds={"flipped_faces"})
-    assert bpy.context.mode == "EDIT_MESH"
-    selected = [face.index for face in bmesh.from_edit_mesh(obj.data).faces if face.select]
-    assert selected == [0]
-
-
 @pytest.mark.parametrize("kinds", [{"MASS"}, {"SECTION"}, {"SYMMETRY"}, {"MASS", "SECTION"}])
-def test_only_the_chosen_results_are_cleared_and_the_others_stay_up_to_date(kinds):
+def test_cleared_kinds_leave_other_results_current(kinds):
     bpy.ops.mesh.primitive_plane_add()
     obj = bpy.context.object
     obj.body_moments.kind = "SHELL"
@@ -60,7 +47,7 @@ def test_only_the_chosen_results_are_cleared_and_the_others_stay_up_to_date(kind
     assert bpy.ops.object.body_moments_clear() == {"FINISHED"} and "body_mass" not in obj
 
 
-def test_an_edit_just_before_results_are_cleared_still_counts_for_the_others():
+def test_edit_before_clearing_makes_symmetry_stale():
     obj = add(mesh_body())
     bpy.ops.object.body_moments_measure()
     bpy.ops.object.body_moments_find_symmetry()
@@ -71,7 +58,7 @@ def test_an_edit_just_before_results_are_cleared_still_counts_for_the_others():
     assert staleness.symmetry_stale_reason(obj) == "stale_geometry"
 
 
-def test_results_that_were_out_of_date_when_they_were_cleared_are_so_after_undo():
+def test_undo_of_clearing_stale_results_keeps_them_stale():
     obj = add(mesh_body())
     bpy.ops.object.body_moments_measure()
     bpy.ops.ed.undo_push(message="measured")
@@ -83,16 +70,3 @@ def test_results_that_were_out_of_date_when_they_were_cleared_are_so_after_undo(
     bpy.context.view_layer.update()
     obj = bpy.data.objects["Body"]
     assert "body_mass" in obj and staleness.stale_reason(obj, bpy.context.scene) == "stale_geometry"
-
-
-def test_an_empty_has_the_form_and_size_that_were_asked_for():
-    obj = add(mesh_body())
-    bpy.ops.object.body_moments_add_empty()
-    plain = bpy.data.objects["Body Principal Frame"]
-    assert plain.empty_display_type == "ARROWS" and plain.show_in_front and plain.rotation_mode == "QUATERNION"
-    size = plain.empty_display_size
-    bpy.data.objects.remove(plain)
-    only(obj)
-    bpy.ops.object.body_moments_add_empty(display="SPHERE", size=0.5)
-    made = bpy.data.objects["Body Principal Frame"]
-    assert made.empty_display_type == "SPHERE" and close(made.empty_display_size, 0.5 * size, rel=1e-6)

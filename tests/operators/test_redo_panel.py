@@ -294,7 +294,7 @@ def but_cursor(found):
 
 
 @pytest.mark.parametrize("operator", REDONE)
-def test_other_values_after_the_fact_are_as_if_they_had_been_the_first(operator, tmp_path):
+def test_redo_with_other_values_equals_first_run(operator, tmp_path):
     before, first, other = REDONE[operator]
     build(before, tmp_path)
     start = state()

@@ -3,14 +3,11 @@
 """Refusals of operators, reached through the scene and checked by their codes."""
 
 from contextlib import suppress
-from types import SimpleNamespace
 
 import bpy
 import pytest
-from body_moments.operators.assembly.assembly import target_of
 
 from tests.blender.bodies.test_assembly import box_mesh
-from tests.blender.findings import refused
 from tests.blender.objects import add, mesh_body, only, strip_mesh
 from tests.operators.assembly.test_assembly import assembly_of_boxes
 from tests.operators.rig.test_rig import character
@@ -309,8 +306,3 @@ def test_operators_refuse_with_the_code_of_the_reason(case, reported):
     with suppress(RuntimeError):  # an error report
         assert getattr(getattr(bpy.ops, category), "body_moments_" + name)(**options) == {"CANCELLED"}
     assert reported.codes[-1] == code
-
-
-def test_assembly_without_active_collection_is_refused():
-    with refused("no_active_collection"):
-        target_of(SimpleNamespace(collection=None), "COLLECTION")

@@ -76,14 +76,14 @@ def test_a_world_without_collections_gets_them(name):
     assert len(bpy.context.scene.rigidbody_world.collection.objects) > 0
 
 
-def test_what_is_a_rigid_body_already_needs_no_place_in_the_world(linked):
+def test_existing_rigid_body_is_set_in_linked_world(linked):
     obj = add(mesh_body())
     bpy.ops.rigidbody.object_add()
     bpy.context.scene.rigidbody_world.collection = linked
     assert obj.rigid_body and run("set_rigid_body_mass") == {"FINISHED"} and obj.rigid_body.mass > 100.0
 
 
-def test_the_joint_of_an_object_is_kept_or_the_object_is_left_as_it_is(linked, reported):
+def test_joint_is_moved_or_object_is_unchanged(linked, reported):
     obj = add(mesh_body())
     bpy.ops.rigidbody.world_add()
     bpy.ops.rigidbody.constraint_add(type="HINGE")
@@ -116,7 +116,7 @@ def layer_of(collection):
 @pytest.mark.parametrize("how", HIDDEN)
 @pytest.mark.parametrize("is_nested", [False, True])
 @pytest.mark.parametrize(("name", "key"), [("physics_rig", "physics_rig_of"), ("rig_center", "center_of_mass_of")])
-def test_what_was_made_for_an_armature_is_replaced_where_its_collection_is_not_shown(name, key, is_nested, how):
+def test_rig_objects_in_hidden_collection_are_replaced(name, key, is_nested, how):
     armature, _ = character()
     assert run(name) == {"FINISHED"}
     (collection,) = [one for one in bpy.data.collections if one.get(key) == armature]
@@ -138,7 +138,7 @@ def test_what_was_made_for_an_armature_is_replaced_where_its_collection_is_not_s
 
 
 @pytest.mark.parametrize(("name", "key"), [("physics_rig", "physics_rig_of"), ("rig_center", "center_of_mass_of")])
-def test_what_was_made_for_an_armature_in_another_scene_stays_there(name, key):
+def test_rig_objects_of_another_scene_stay(name, key):
     armature, _ = character()
     assert run(name) == {"FINISHED"}
     (collection,) = [one for one in bpy.data.collections if one.get(key) == armature]

@@ -76,17 +76,7 @@ def test_axes_are_as_long_as_the_radii_of_gyration(registered):
     assert close(segments[:, 1] - segments[:, 0], 2.0 * (turn * gyration).T, 1e-12)
 
 
-def test_verdicts_differ_in_form_where_colors_are_not_seen(registered):
-    from body_moments.panels.overlay import appearance, glyphs
-
-    discs = glyphs.discs()
-    forms = [np.round(shape, 3).tobytes() for shape in discs.corners]
-    assert len(set(forms)) == len(appearance.VERDICTS)
-    for verdict, color in enumerate(appearance.COLORS):
-        assert (discs.colors[:, verdict] == color).all(axis=2).any(axis=1).all()
-
-
-def test_the_body_is_drawn_where_it_is_in_the_world(scene):
+def test_overlay_body_has_world_center_and_gyration(scene):
     from body_moments.blender.session.stored.shown import shown_body
 
     scene.unit_settings.scale_length = 0.001
@@ -100,7 +90,7 @@ def test_the_body_is_drawn_where_it_is_in_the_world(scene):
     assert body.verdict == "exact"
 
 
-def test_what_is_not_measured_is_not_drawn(scene):
+def test_unmeasured_object_is_not_drawn(scene):
     from body_moments.blender.session.stored.shown import shown_body
 
     assert shown_body(objects.add(objects.mesh_body())) is None
@@ -118,48 +108,3 @@ def test_an_open_body_is_doubtful_and_an_edited_one_out_of_date(scene):
     body.data.update()
     bpy.context.view_layer.update()
     assert shown_body(body).verdict == "out of date"
-
-
-def test_nothing_is_registered_to_draw_in_background_mode(registered):
-    from body_moments.panels.overlay import draw
-
-    assert bpy.app.background and draw._state.handle is None
-
-
-def test_discs_are_made_where_they_are_seen_and_named_where_axes_are_long(view):
-    from body_moments.panels.overlay.bodies import Bodies
-    from body_moments.panels.overlay.glyphs import digits, discs
-    from body_moments.panels.overlay.lines import disc_triangles
-
-    places = np.array([(0.0, 0.0, -8.0), (1.0, 1.0, -8.0), (-1.0, 0.5, -7.0), (0.0, 0.0, 8.0), (50.0, 0.0, -8.0)])
-    centers = (places - view.view[:3, 3]) @ view.view[:3, :3]  # three before the eye, one behind it, one beside
-    axes, verdicts = np.tile(np.eye(3), (5, 1, 1)), np.zeros(5, np.intp)
-    short, long = (
-        disc_triangles(Bodies(centers, axes, np.full((5, 3), gyration), verdicts), view, 1.0, True)
-        for gyration in (1e-3, 1.0)
-    )
-    disc, digit = discs().corners.shape[1], digits().corners.shape[1]
-    assert len(short[0]) == short[1].shape[1] == 3 * disc
-    assert len(long[0]) == 3 * (disc + 3 * digit)
-    for points, _, triangles in (short, long):
-        assert triangles.dtype == np.int32 and points.dtype == np.float32  # as the GPU takes them
-        assert triangles.min() == 0 and triangles.max() < len(points)
-        assert np.isfinite(points).all()
-        assert np.abs(view.pixels(points.astype(float)) - view.size / 2.0).max() < view.size.max() + 500.0
-
-
-@pytest.mark.parametrize("inside", [None, [True, True, False, False, True]])
-def test_a_path_is_another_color_where_the_center_leaves_the_support_polygon(inside, registered):
-    from body_moments.blender.session.stored.balance_groups import Path
-    from body_moments.panels.overlay import appearance as look
-    from body_moments.panels.overlay.details import _path
-
-    centers = np.array([[0, 0, 0], [1, 2, 0], [3, 2, 1], [4, 0, 5], [20, 1, 1]], float)
-    drawn = _path(Path(np.arange(5.0), centers, None if inside is None else np.array(inside)))
-    segments, colors = drawn.segments
-    lines, ticks = segments[:4], segments[4:]
-    assert (lines[:, 0] == centers[:-1]).all() and (lines[:, 1] == centers[1:]).all()
-    assert (ticks[:, 0] == centers).all() and (ticks[:, 1] == centers + [0.0, 0.0, 0.2]).all()
-    leaves = [False] * 9 if inside is None else [False, True, True, True, False, False, True, True, False]
-    wanted = [look.TIPS if tips else look.PATH for tips in leaves]
-    assert (colors == np.array(wanted, np.float32)).all() and len(drawn.triangles[0]) == 0

@@ -7,26 +7,10 @@ import numpy as np
 import pytest
 from body_moments.core.verdict.finding import finding
 
-from tests.blender.objects import add, measured, mesh_body, only, strip_mesh
+from tests.blender.objects import add, measured, mesh_body, only
 from tests.panels.drawing import copied, findings_of, labels, shown, shows
 
 pytestmark = pytest.mark.usefixtures("scene")
-
-
-def test_what_measure_and_live_refuse_for_the_same_reason_is_not_shown_twice():
-    obj = add(mesh_body())
-    bpy.ops.object.body_moments_measure()
-    obj.body_moments.density_from, obj.body_moments.density_polynomial = "POLYNOMIAL", "-1"
-    bpy.ops.object.body_moments_live()
-    from body_moments.blender.session.live import live
-    from body_moments.blender.session.stored import results
-
-    sentence = str(live.current_numbers(obj).refusal)
-    assert sentence in " ".join(labels(shown()))
-    bpy.ops.object.body_moments_measure()
-    assert " ".join(labels(shown())).count(sentence) == 1
-    assert str(results.failure(obj)) == sentence
-    bpy.ops.object.body_moments_live()
 
 
 def test_a_refusal_is_not_held_against_other_settings():
@@ -71,7 +55,7 @@ def test_the_frame_shown_is_the_frame_chosen(frame, unit):
     assert np.abs(shown.radii_of_gyration / truth.radii_of_gyration - 1.0).max() < 1e-12
 
 
-def test_the_total_shows_what_may_be_no_part_of_it(capfd):
+def test_total_names_boolean_operands(capfd):
     """Without a window there is no clipboard: the whole report goes to the standard output."""
     from body_moments.blender.session.stored import results
 
@@ -93,19 +77,7 @@ def test_the_total_shows_what_may_be_no_part_of_it(capfd):
     assert results.total(bpy.context).findings == ()
 
 
-def test_the_total_shows_that_an_open_body_makes_it_depend_on_a_point(capfd):
-    from body_moments.blender.session.stored import results
-
-    only(add(mesh_body(), "Body"), add(strip_mesh(), "Strip"))
-    bpy.ops.object.body_moments_measure()
-    (caveat,) = results.total(bpy.context).findings
-    assert caveat.code == "total_of_open_objects"
-    assert "“Strip”" in str(caveat) and "“Body”" not in str(caveat)
-    bpy.ops.object.body_moments_copy_report()
-    assert str(caveat) in capfd.readouterr().out
-
-
-def test_what_is_rounding_in_a_totals_center_is_shown_as_0():
+def test_rounding_in_total_center_is_shown_as_zero():
     for turn in ((0.3, 0.2, 0.1), (0.1, 0.5, 0.7)):
         bpy.ops.mesh.primitive_cylinder_add(vertices=7, rotation=turn)
     bpy.ops.object.select_all(action="SELECT")
@@ -150,7 +122,7 @@ def test_damaged_results_are_not_shown():
     assert "Not Measured" in labels(shown())
 
 
-def test_findings_that_are_damaged_or_of_another_version_do_not_stop_the_panel():
+def test_damaged_findings_leave_panel_drawn():
     obj = add(mesh_body())
     bpy.ops.object.body_moments_measure()
     for text in ("", "[", "{}", '[{"code": "of_the_future", "values": {}}]', '[{"code": "holes_capped"}]', "[1]"):
@@ -161,7 +133,7 @@ def test_findings_that_are_damaged_or_of_another_version_do_not_stop_the_panel()
 
 
 @pytest.mark.parametrize("kind", ["FONT", "META", "CURVE"])
-def test_polygons_that_stand_for_a_curve_are_a_note_and_no_warning(kind, capfd):
+def test_curve_polygons_are_a_note(kind, capfd):
     if kind == "META":
         bpy.ops.object.metaball_add()
         bpy.context.object.data.render_resolution = bpy.context.object.data.resolution
@@ -182,23 +154,6 @@ def test_polygons_that_stand_for_a_curve_are_a_note_and_no_warning(kind, capfd):
     assert not any(label.startswith("Warnings (") for label in found)
 
 
-def test_a_density_from_a_grid_is_shown_and_no_warning(tmp_path, capfd):
-    from tests.blender.grids import vdb_grid, volume_object
-
-    only(volume_object(tmp_path / "a.vdb", vdb_grid(np.ones((4, 4, 4), np.float32))))
-    bpy.ops.object.body_moments_measure()
-    assert "Warning" not in capfd.readouterr().out
-    assert "Notes (2)" in labels(shown())
-
-
-def test_faces_of_a_mesh_that_are_not_planar_are_a_warning():
-    obj = add(mesh_body())
-    obj.data.vertices[3].co.z += 0.2
-    obj.data.update()
-    bpy.ops.object.body_moments_measure()
-    assert findings_of(obj, "warning") == ["non_planar_faces"] and "Warnings (1)" in labels(shown())
-
-
 def test_drawing_changes_nothing_and_measures_nothing(monkeypatch):
     from body_moments.blender.bodies import request
 
@@ -217,36 +172,7 @@ def outdated():
     return [code for code in codes if "Out of date: {}".format(finding("stale_" + code)) in text]
 
 
-def test_out_of_date_after_a_change_of_transform_settings_or_geometry_and_not_after_measuring():
-    obj = add(mesh_body())
-    update = bpy.context.view_layer.update
-    bpy.ops.object.body_moments_measure()
-    update()
-    assert not outdated()
-    obj.scale.x = 2.0
-    update()
-    assert outdated() == ["transform"]
-    obj.scale.x = 1.0
-    update()
-    assert not outdated()
-    obj.body_moments.kind = "SHELL"
-    assert outdated() == ["settings"]
-    bpy.ops.object.body_moments_measure()
-    update()
-    assert not outdated()
-    obj.data.vertices[0].co.x -= 1.0
-    obj.data.update()
-    update()
-    assert outdated() == ["geometry"]
-    bpy.ops.object.body_moments_measure()
-    update()
-    assert not outdated()
-    obj.modifiers.new("Subdivision", "SUBSURF")
-    update()
-    assert outdated()
-
-
-def test_selecting_renaming_and_undoing_something_else_leaves_results_up_to_date():
+def test_undo_of_renaming_keeps_results_current():
     obj = add(mesh_body())
     bpy.ops.object.body_moments_measure()
     bpy.context.view_layer.update()
@@ -262,16 +188,7 @@ def test_selecting_renaming_and_undoing_something_else_leaves_results_up_to_date
     assert bpy.context.object.name == "Body" and not outdated()
 
 
-def test_an_operator_that_refuses_leaves_results_up_to_date():
-    obj = add(mesh_body())
-    obj.modifiers.new("Cast", "CAST")
-    bpy.ops.object.body_moments_measure()
-    bpy.context.view_layer.update()
-    assert bpy.ops.object.body_moments_origin_to_center() == {"CANCELLED"}
-    assert not outdated()
-
-
-def test_a_saved_file_is_up_to_date_when_opened_and_out_of_date_when_edited(tmp_path):
+def test_saved_file_opens_current_and_edit_is_stale(tmp_path):
     add(mesh_body())
     bpy.ops.object.body_moments_measure()
     path = str(tmp_path / "a.blend")

@@ -2,9 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """File > Export and the exporters of collections: files of robots from the scene."""
 
-import json
 import re
-import struct
 from xml.etree import ElementTree
 
 import pytest
@@ -17,7 +15,6 @@ from body_moments.blender.bodies.rig import measure_rig
 from body_moments.core.inertia.mass_properties import combine
 from body_moments.core.numerics.rotations import rotation_matrix
 from body_moments.core.robots.write import gltf
-from body_moments.operators.export import robot
 
 from tests.blender.characters import armature_of, pose, skin_of
 from tests.blender.exported_robots import SUFFIXES, assert_filled, exported_links
@@ -55,15 +52,6 @@ def tensor(inertia, quaternion):
 
 def export(name, path, **options):
     return getattr(bpy.ops.export_scene, "body_moments_" + name)(filepath=str(path), **options)
-
-
-def test_a_file_has_its_meshes_beside_it(tmp_path):
-    pair()
-    assert export("urdf", tmp_path / "robot.urdf") == {"FINISHED"}
-    root = ElementTree.parse(tmp_path / "robot.urdf").getroot()
-    assert root.get("name") == "robot" and len(root.findall("link")) == 4
-    for mesh in root.iter("mesh"):
-        assert (tmp_path / mesh.get("filename")).stat().st_size == 84 + 50 * 20
 
 
 @pytest.mark.parametrize("unit", [1.0, 0.01, 0.001, 0.0254])
@@ -118,19 +106,6 @@ def test_collections_are_links_with_all_that_they_hold(tmp_path):
     assert (tmp_path / "meshes" / "arm" / "arm.stl").stat().st_size == 84 + 2 * 50 * 20
 
 
-def test_the_links_of_a_collections_exporter_are_the_collections_in_it(tmp_path):
-    upper, fore, tool = pair()
-    robot, arm, hand = (bpy.data.collections.new(name) for name in ("Robot", "Arm", "Hand"))
-    bpy.context.scene.collection.children.link(robot)
-    for obj, collection in ((upper, arm), (tool, hand)):
-        robot.children.link(collection)
-        bpy.context.scene.collection.objects.unlink(obj)
-        collection.objects.link(obj)
-    export("urdf", tmp_path / "robot.urdf", links="COLLECTION", collection="Robot", geometry="NONE")
-    root = ElementTree.parse(tmp_path / "robot.urdf").getroot()
-    assert {"Arm", "Hand"} <= {link.get("name") for link in root.iter("link")}
-
-
 @pytest.mark.parametrize("unit", [1.0, 0.001])
 def test_usd_is_blenders_geometry_under_a_layer_of_masses(tmp_path, unit):
     bpy.context.scene.unit_settings.scale_length = unit
@@ -150,7 +125,7 @@ def test_usd_is_blenders_geometry_under_a_layer_of_masses(tmp_path, unit):
 
 
 @pytest.mark.parametrize("unit", [1.0, 0.001])
-def test_gltf_bodies_hold_what_is_fixed_to_them(tmp_path, unit, reported):
+def test_gltf_bodies_include_fixed_children(tmp_path, unit, reported):
     bpy.context.scene.unit_settings.scale_length = unit
     upper, fore, tool = pair()
     assert export("gltf", tmp_path / "robot.glb") == {"FINISHED"}
@@ -165,23 +140,6 @@ def test_gltf_bodies_hold_what_is_fixed_to_them(tmp_path, unit, reported):
     for link in links.values():
         assert_filled(link, 1000.0)
     assert close(links["Upper"].mass, whole(upper, fore).mass, 1e-14)
-
-
-def test_a_file_that_is_dropped_is_not_written_over():
-    """These formats are for collections that are exported: Blender would run the exporter on the file."""
-    assert len(robot.FILE_HANDLERS) == 5
-    assert not any(handler.poll_drop(bpy.context) for handler in robot.FILE_HANDLERS)
-
-
-def test_the_rest_of_a_glb_stays_to_the_bit():
-    binary = struct.pack("<II", 4, 0x004E4942) + b"\1\2\3\4"
-    text = json.dumps({"nodes": [{"name": "ü"}]}).encode()
-    text += b" " * (-len(text) % 4)
-    chunk = struct.pack("<II", len(text), 0x4E4F534A) + text
-    data = struct.pack("<4sII", b"glTF", 2, 12 + len(chunk) + len(binary)) + chunk + binary
-    changed = gltf.replace_json(data, {**gltf.read_json(data), "extensionsUsed": ["A"]})
-    assert changed.endswith(binary) and struct.unpack_from("<I", changed, 8)[0] == len(changed)
-    assert gltf.read_json(changed) == {"nodes": [{"name": "ü"}], "extensionsUsed": ["A"]} and len(changed) % 4 == 0
 
 
 @pytest.mark.parametrize(

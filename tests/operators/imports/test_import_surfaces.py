@@ -13,7 +13,7 @@ pytestmark = pytest.mark.usefixtures("scene")
 
 
 @pytest.mark.parametrize("scale", [1.0, 0.5])
-def test_a_file_without_a_unit_has_that_of_the_option_and_others_their_own(scale, tmp_path):
+def test_unitless_surface_file_takes_unit_of_option(scale, tmp_path):
     bpy.context.scene.unit_settings.scale_length = scale
     written(tmp_path, unrolled(sphere()), unit=6)
     (tmp_path / "two.obj").write_text(obj_text([unrolled(sphere())], name="Ball"))

@@ -7,13 +7,9 @@ import pytest
 
 pytest.importorskip("bpy")
 import bpy
-from body_moments.blender.bodies import fourier
 from body_moments.blender.bodies.fourier import object_transform
 from body_moments.blender.settings.options import MeasureOptions
-from body_moments.command.measure import fourier as command
 from body_moments.core.fourier import instances as fourier_body
-from body_moments.core.fourier.wave_vectors import FrequencyGrid
-from body_moments.core.mesh.surface import Surface
 
 from tests.blender import batch_files as files
 from tests.blender import objects
@@ -46,7 +42,7 @@ def transform(obj, q=Q, options=None, **more):
     return found.result()
 
 
-def test_the_command_writes_wave_vectors_as_given_and_the_transform(tmp_path, wave_vectors):
+def test_fourier_command_writes_given_wave_vectors_and_values(tmp_path, wave_vectors):
     files.add_box()
     out = tmp_path / "out.npz"
     entry = measured("--fourier", out, "--q", wave_vectors)
@@ -70,7 +66,7 @@ def test_the_command_writes_a_grid(tmp_path):
         assert np.abs(found["F"] - box_spectrum(found["q"])).max() <= 1e-13
 
 
-def test_the_object_frame_has_the_location_and_the_rotation_but_unit_scale(tmp_path, wave_vectors):
+def test_fourier_object_frame_has_unit_scale(tmp_path, wave_vectors):
     box = files.add_box(center=(0, 0, 0))
     box.location, box.rotation_euler, box.scale = (5, 6, 7), (0.3, -0.2, 1.1), (2, 1, 0.5)
     out = tmp_path / "out.npz"
@@ -78,14 +74,6 @@ def test_the_object_frame_has_the_location_and_the_rotation_but_unit_scale(tmp_p
     with np.load(out) as found:
         assert str(found["frame"]) == "object"
         assert np.abs(found["F"] - box_spectrum(Q, SIZE * [2, 1, 0.5], np.zeros(3))).max() <= 1e-4
-
-
-def test_the_units_of_the_scene_count(scene, tmp_path, wave_vectors):
-    files.add_box(center=(0, 0, 0))
-    scene.unit_settings.scale_length = 0.01
-    measured("--fourier", tmp_path / "out.npz", "--q", wave_vectors)
-    with np.load(tmp_path / "out.npz") as found:
-        assert np.abs(found["F"] - box_spectrum(Q, SIZE / 100, np.zeros(3))).max() <= 1e-18
 
 
 def test_a_shell_is_its_area_times_its_thickness():
@@ -106,32 +94,7 @@ def test_a_wall_of_real_thickness_is_refused_with_the_remedy():
     assert close(transform(box, np.zeros((1, 3)), thick, area=True)[0].values[0], 22.0, rel=1e-14)
 
 
-def test_a_grid_is_as_long_as_the_box_around_turned_instances():
-    """Of a unit cube about (2, 0, 0): one where it is, one a quarter turn about z later, one of three more along y; and
-    one that rises by 3 along x.
-    """
-    corners = np.array([(x, y, z) for x in (1.5, 2.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)])
-    matrices = np.array([np.eye(4)] * 4)
-    matrices[1, :2, :2] = (0.0, -1.0), (1.0, 0.0)
-    matrices[2, 1, 3] = matrices[3, 2, 0] = 3.0
-    surface = Surface.from_triangles(corners, np.array([(0, 1, 2), (5, 6, 7)]))
-    for count, length in ((1, 1.0), (2, 3.0), (3, 4.0), (4, 8.5)):
-        assert close(fourier._extent([(surface, matrices[:count])]), length, rel=1e-15)
-    assert close(fourier._extent([(surface.transform(0.125 * np.eye(3)), matrices[:1])]), 0.125, rel=1e-15)
-
-
-@pytest.mark.parametrize("kind", ["solid", "shell"])
-def test_a_grid_needs_an_extent(kind):
-    """A mesh with all its corners at one place has none."""
-    mesh = bpy.data.meshes.new("Point")
-    mesh.from_pydata([(1, 2, 3)] * 3, [], [(0, 1, 2)])
-    point = objects.add(mesh)
-    options = MeasureOptions(kind=kind, thickness=0.1)
-    with refused("fourier_no_extent", point.name):
-        transform(point, lambda size: FrequencyGrid(4, 1.0 / size, 3), options, area=kind == "solid")
-
-
-def test_meters_per_unit_that_are_given_take_the_place_of_the_scenes_in_both_frames(scene):
+def test_given_unit_scale_overrides_scene_unit_in_both_frames(scene):
     scene.unit_settings.scale_length = 10.0
     box = files.add_box()
     options = MeasureOptions(unit_scale=0.01)
@@ -141,13 +104,7 @@ def test_meters_per_unit_that_are_given_take_the_place_of_the_scenes_in_both_fra
     assert np.abs(transform(box, options=options, frame="object")[0].values - own).max() <= 1e-18
 
 
-def test_a_wire_is_refused_with_the_remedy():
-    box = files.add_box()
-    with refused("fourier_of_wire"):
-        transform(box, options=MeasureOptions(kind="wire"))
-
-
-def test_flipped_faces_are_turned_and_holes_capped_as_they_are_for_the_mass():
+def test_fourier_turns_flipped_faces_and_caps_holes():
     box = files.add_box()
     box.data.polygons[2].flip()
     found, findings = transform(box)
@@ -162,7 +119,7 @@ def test_flipped_faces_are_turned_and_holes_capped_as_they_are_for_the_mass():
     assert said(findings)["holes_capped"]["count"] == 2
 
 
-def test_what_cannot_be_closed_is_refused_with_the_remedy():
+def test_fourier_of_fins_is_refused():
     mesh = bpy.data.meshes.new("Fins")
     mesh.from_pydata([(0, 0, 0), (0, 0, 1), (1, 0, 0), (0, 1, 0), (-1, -1, 0)], [], [(0, 1, 2), (0, 1, 3), (0, 1, 4)])
     obj = objects.add(mesh)
@@ -211,18 +168,6 @@ def test_one_object_is_needed_and_a_refusal_is_an_error(tmp_path, wave_vectors):
     assert line.errors == 1 and line.internal_errors == 0 and not out.exists()
 
 
-def test_a_file_that_cannot_be_written_is_an_error(tmp_path, wave_vectors, monkeypatch):
-    files.add_box()
-
-    def full(*_):
-        raise OSError(28, "No space left on device")
-
-    monkeypatch.setattr("os.replace", full)
-    found = document("--fourier", tmp_path / "out.npz", "--q", wave_vectors)
-    assert "No space left" in found["errors"][0]["reason"]
-    assert [path.name for path in tmp_path.iterdir()] == ["q.npy"]
-
-
 def test_the_operator_writes_the_file_and_an_image(tmp_path):
     box = objects.add(objects.mesh_body(), location=(1, 2, 3))
     selected, mode = bpy.context.selected_objects, bpy.context.mode
@@ -246,9 +191,3 @@ def test_the_operator_writes_the_file_and_an_image(tmp_path):
     for found, slice_ in ((gray[:, :12], values[:, :, 6]), (gray[:, 14:26], values[:, 6]), (gray[:, 28:], values[6])):
         assert np.abs(found.T - (1 + np.log10(slice_ / values.max()).clip(-6, 0) / 6)).max() <= 1 / 255
     assert (bpy.context.selected_objects, bpy.context.mode) == (selected, mode)
-
-
-def test_an_archive_in_place_of_an_array_is_refused(tmp_path):
-    np.savez(tmp_path / "q.npz", a=Q, b=Q)
-    with refused("wave_vectors_archive"):
-        command._read_wave_vectors(tmp_path / "q.npz")

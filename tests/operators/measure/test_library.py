@@ -3,18 +3,12 @@
 """Measure Library: the files of a folder in other processes, a report, and the metadata of assets."""
 
 import json
-import os
-import signal
-import sys
-import time
 
 import bpy
 import pytest
-from body_moments.command.supervisor.whole_run import WholeRun
 
 from tests.blender import batch_files as files
 from tests.close import close
-from tests.soak import commands
 
 pytestmark = pytest.mark.usefixtures("scene")
 
@@ -77,22 +71,6 @@ def test_metadata_goes_into_copies_unless_told_otherwise(library):
     assert measure(library, asset_metadata=True, overwrite=True) == {"FINISHED"}
     assert statuses(library) == ["ok", "ok", "error"]  # the copies are not measured
     assert close(mass_in_metadata(library / "b.blend"), 6000.0, 1e-6)
-
-
-@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="not on this system: signals of pipes")
-def test_a_run_ends_with_the_process_that_started_it(tmp_path):
-    slow = tmp_path / "z_2048x2048x2048_uint8.raw"
-    slow.touch()
-    os.truncate(slow, 1 << 33)
-    run = WholeRun([str(slow)], tmp_path / "out.json", None)
-    pid = run._process.pid
-    assert commands.wait_until(lambda: commands.children(pid), 60)
-    time.sleep(1.0)
-    born = commands.children(pid)
-    os.close(run._kept)  # as when the process ends
-    run._kept = None
-    assert run._process.wait(20) == -signal.SIGIO
-    assert commands.wait_until(lambda: not any(map(commands.is_running, born)), 20.0)
 
 
 def test_metadata_of_collections_and_a_word_about_assets_without(library, reported):

@@ -3,7 +3,6 @@
 """Centers and joints that operators make for each bone of a character."""
 
 import bpy
-import numpy as np
 import pytest
 from body_moments.blender.session.stored import rig as session
 from body_moments.blender.session.tracking import staleness
@@ -15,7 +14,7 @@ pytestmark = pytest.mark.usefixtures("scene")
 
 
 @pytest.mark.parametrize("density", [1000.0, 1e-5])
-def test_each_part_has_an_empty_at_its_center_and_its_share_however_light_it_is(density):
+def test_rig_center_weights_each_part_by_mass(density):
     bpy.context.scene.unit_settings.scale_length = unit = 0.5
     armature, _ = character(density=density)
     armature.location, armature.rotation_euler = (3, 2, 1), (0.1, 0.2, 0.3)
@@ -39,7 +38,7 @@ def test_each_part_has_an_empty_at_its_center_and_its_share_however_light_it_is(
     assert place(center)[:3, 3] * unit == pytest.approx(rig.measurement.mass_properties.center, rel=1e-5, abs=1e-5)
 
 
-def test_what_a_library_has_made_stays_and_is_made_beside_it(tmp_path):
+def test_library_rig_center_stays_beside_new_one(tmp_path):
     armature, skin = character()
     skin_name = skin.name
     bpy.ops.object.body_moments_rig_center()
@@ -60,7 +59,7 @@ def test_what_a_library_has_made_stays_and_is_made_beside_it(tmp_path):
 
 
 @pytest.mark.parametrize("operator", ["rig_center", "physics_rig"])
-def test_what_is_made_of_a_character_leaves_results_up_to_date(operator):
+def test_made_rig_objects_keep_results_current(operator):
     """Of other rigid bodies too, and of densities by materials, which no digest of a shape has."""
     other = add(mesh_body(), "Other", (9, 0, 0))
     other.data.materials.append(bpy.data.materials.new("Steel"))
@@ -77,20 +76,7 @@ def test_what_is_made_of_a_character_leaves_results_up_to_date(operator):
     assert session.stale_reason(armature, bpy.context.scene) is None
 
 
-def test_a_joint_is_at_the_bone_s_head_along_its_axes_a_quarter_as_large(reported):
-    armature, _ = character()
-    armature.location, armature.rotation_euler, armature.scale = (3, 2, 1), (0.1, 0.2, 0.3), (2, 2, 2)
-    bpy.context.view_layer.update()
-    assert bpy.ops.object.body_moments_physics_rig() == {"FINISHED"}
-    joint, bone = bpy.data.objects["Rig arm.L Joint"], armature.data.bones["arm.L"]
-    rest = np.array(armature.matrix_world @ bone.matrix_local)
-    assert np.allclose(place(joint)[:3, 3], rest[:3, 3], 1e-6, 1e-6)
-    assert np.allclose(place(joint)[:3, :3], rest[:3, :3] / 2.0, 1e-5, 1e-6)
-    assert joint.empty_display_size == pytest.approx(0.25 * bone.length * 2.0)
-    assert joint.rigid_body_constraint.type == "GENERIC" and joint.rigid_body_constraint.disable_collisions
-
-
-def test_a_joint_turns_as_far_as_the_inverse_kinematics_of_its_bone():
+def test_joint_limits_follow_inverse_kinematics():
     armature, _ = character()
     bone = armature.pose.bones["arm.L"]
     bone.lock_ik_x = bone.use_ik_limit_x = bone.use_ik_limit_y = True

@@ -13,7 +13,7 @@ from tests.blender.objects import add, mesh_body, only, seen, strip_mesh
 pytestmark = pytest.mark.usefixtures("scene")
 
 
-def test_a_node_group_that_is_linked_or_of_another_version_is_not_taken(tmp_path):
+def test_linked_or_older_node_group_is_not_reused(tmp_path):
     first = node_group.center_of_mass_group()
     assert node_group.center_of_mass_group() == first
     path = str(tmp_path / "library.blend")
@@ -32,21 +32,7 @@ def test_a_node_group_that_is_linked_or_of_another_version_is_not_taken(tmp_path
 
 
 @pytest.mark.parametrize("frame", ["AXES", "ORIGIN", "KEEP"])
-@pytest.mark.parametrize("is_stored", [False, True])
-def test_a_symmetry_no_longer_holds_where_the_axes_have_turned_and_there_alone(frame, is_stored):
-    obj = add(mesh_body(), "Body", (1, 2, 3), (0.3, 0.2, 0.1))
-    if is_stored:
-        bpy.ops.object.body_moments_measure()
-    bpy.ops.object.body_moments_find_symmetry()
-    assert bpy.ops.object.body_moments_rigid_bodies(frame=frame) == {"FINISHED"}
-    bpy.context.view_layer.update()
-    reason = staleness.symmetry_stale_reason(obj)
-    assert staleness.stale_reason(obj, bpy.context.scene) is None
-    assert (reason is not None) == (frame == "AXES"), reason
-
-
-@pytest.mark.parametrize("frame", ["AXES", "ORIGIN", "KEEP"])
-def test_results_that_come_from_materials_are_up_to_date_when_a_body_was_made(frame):
+def test_rigid_body_keeps_material_results_current(frame):
     """Blender says that its geometry has changed, and there is no digest of what the density was."""
     obj = add(mesh_body(), "Body", (1, 2, 3), (0.3, 0.2, 0.1))
     obj.data.materials.append(bpy.data.materials.new("Steel"))
@@ -78,7 +64,7 @@ def test_of_a_compound_the_member_that_is_refused_is_named(reported):
         bpy.data.objects.remove(member)
 
 
-def test_what_was_sculpted_on_faces_stays_where_it_is_when_they_are_reversed():
+def test_recalculated_faces_keep_sculpted_shape():
     """Multires keeps its moves by the corners of faces, whose order is the other way round then."""
     bpy.ops.mesh.primitive_cube_add()
     obj = bpy.context.object

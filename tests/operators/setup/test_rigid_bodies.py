@@ -50,28 +50,6 @@ def test_mass_origin_and_axes_are_right_and_nothing_moves(unit):
         assert make(frame=frame) == {"FINISHED"} and is_what_bullet_takes_it_for(obj)
 
 
-def test_calculate_mass_is_shown_beside(reported):
-    obj = slanted()
-    obj.scale = (1, 1, 1)
-    bpy.context.view_layer.update()
-    make(frame="KEEP", shape="BOX")
-    values = reported.values("rigid_bodies_made")
-    bpy.ops.rigidbody.mass_calculate(material="Custom", density=1000.0)
-    assert close(values["calculated"], obj.rigid_body.mass, 1e-6)
-    assert (
-        close(values["mass"], measured(obj).mass_properties.mass, 1e-12) and values["calculated"] > 1.1 * values["mass"]
-    )
-
-
-def test_a_modifier_counts_and_calculate_mass_does_not_see_it(reported):
-    obj = slanted()
-    obj.modifiers.new("Array", "ARRAY").count = 3
-    bpy.context.view_layer.update()
-    assert make(frame="KEEP") == {"FINISHED"}
-    values = reported.values("rigid_bodies_made")
-    assert close(values["mass"], 3.0 * values["calculated"], 1e-5) and obj.rigid_body.mesh_source == "FINAL"
-
-
 def test_one_density_for_all_and_types_and_shapes():
     first, second = slanted("a"), slanted("b")
     only(first, second)
@@ -124,7 +102,7 @@ def test_parts_of_a_compound_keep_their_masses():
     assert child.rigid_body.mass == 3.0 and close(root.rigid_body.mass, 7850 * 8 + 1000 * 8, 1e-6)
 
 
-def test_a_compound_whose_axes_are_free_keeps_those_of_its_parent():
+def test_compound_of_free_axes_keeps_axes_of_its_parent():
     scene = bpy.context.scene.collection
     root, child = box(scene, (2, 2, 2), (0, 0, 0), 1000, "root"), box(scene, (1, 1, 1), (0, 0, 0), 500, "child")
     child.parent, root.rotation_euler, root.location = root, (0.1, 0.2, 0.3), (1, 2, 3)
@@ -136,7 +114,7 @@ def test_a_compound_whose_axes_are_free_keeps_those_of_its_parent():
     assert np.abs(place(root)[:3, :3] - turn).max() < 1e-6
 
 
-def test_joints_stay_where_they_are():
+def test_joints_keep_their_places():
     first, second = slanted("a"), slanted("b")
     hinge = bpy.data.objects.new("Hinge", None)
     bpy.context.scene.collection.objects.link(hinge)
@@ -162,18 +140,7 @@ def test_joints_stay_where_they_are():
     assert np.abs(found[:3, :3] - turn).max() < 1e-5
 
 
-def test_a_body_that_cannot_have_its_frame_stays_the_joint_that_it_was():
-    obj = slanted()
-    bpy.ops.rigidbody.world_add()
-    bpy.ops.rigidbody.constraint_add(type="HINGE")
-    obj.rigid_body_constraint.use_limit_ang_z, obj.lock_location = True, (True, True, True)
-    before = place(obj)
-    assert make() == {"CANCELLED"}
-    assert list(bpy.data.objects) == [obj] and (place(obj) == before).all() and obj.rigid_body is None
-    assert obj.rigid_body_constraint.type == "HINGE" and obj.rigid_body_constraint.use_limit_ang_z
-
-
-def test_what_is_right_and_what_is_refused_do_not_end_the_others():
+def test_correct_and_refused_bodies_leave_the_rest_to_be_made():
     right = box(bpy.context.scene.collection, (4, 2, 1), (0, 0, 0), 1000, "a")
     instancer, last = slanted("b"), slanted("c")
     instancer.instance_type, slanted("Child").parent = "VERTS", instancer
@@ -185,7 +152,7 @@ def test_what_is_right_and_what_is_refused_do_not_end_the_others():
     assert (place(right) == before[0]).all() and (place(instancer) == before[1]).all()
 
 
-def test_a_body_whose_faces_are_not_flat_has_the_axes_of_what_it_is_without_its_scale():
+def test_scaled_body_of_bent_faces_gets_principal_axes():
     """Blender cuts such faces into other triangles then."""
     obj = slanted()
     obj.data.vertices[3].co += Vector((0.3, -0.2, 0.6))
@@ -193,7 +160,7 @@ def test_a_body_whose_faces_are_not_flat_has_the_axes_of_what_it_is_without_its_
     assert make() == {"FINISHED"} and is_what_bullet_takes_it_for(obj)
 
 
-def test_a_body_whose_data_cannot_have_another_frame_stays_as_it_is_and_the_next_is_made(reported):
+def test_body_of_local_modifier_stays_and_next_is_made(reported):
     held, good = slanted("held"), slanted("good")
     cast = held.modifiers.new("Cast", "CAST")
     cast.show_viewport, cast.factor = False, 0.8
@@ -209,7 +176,7 @@ def test_a_body_whose_data_cannot_have_another_frame_stays_as_it_is_and_the_next
     assert reported.values("failure")["object"] == "held" and reported.codes[-1] == "render_only_modifier"
 
 
-def test_a_rigid_body_that_is_refused_keeps_its_mass_whichever_object_is_active():
+def test_refused_rigid_body_keeps_its_mass():
     good, held, empty = slanted("good"), slanted("held"), add(None, "Empty")
     only(held)
     bpy.ops.rigidbody.object_add()
@@ -221,7 +188,7 @@ def test_a_rigid_body_that_is_refused_keeps_its_mass_whichever_object_is_active(
     assert close(good.rigid_body.mass, measured(good).mass_properties.mass, 1e-6)
 
 
-def test_what_cannot_be_one_is_left_as_it_is_with_the_reason(reported):
+def test_text_and_too_light_body_stay_with_a_reason(reported):
     good, text = slanted("good"), add(bpy.data.curves.new("T", "FONT"), "Text")
     text.data.body, text.data.extrude = "A", 0.5
     tiny = slanted("tiny")

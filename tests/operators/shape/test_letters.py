@@ -13,7 +13,7 @@ from tests.soak import letters
 pytestmark = pytest.mark.usefixtures("scene")
 
 
-def test_letters_with_noise_are_found_again_among_those_of_two_fonts():
+def test_noisy_letters_of_two_fonts_are_found_again():
     known, classes = letters.library()
     assert {pair for pair in classes.items() if pair[0] != pair[1]} == {("Bfont 1", "Bfont I")}
     lost = list(letters.missed(known, classes, 1e-4, np.random.default_rng(0)))

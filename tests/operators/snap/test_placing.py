@@ -5,7 +5,7 @@
 import bpy
 import numpy as np
 import pytest
-from body_moments.operators.snap import align, empty
+from body_moments.operators.snap import empty
 
 from tests.blender.bodies.test_assembly import box_mesh
 from tests.blender.objects import add, measured, mesh_body, only, place
@@ -14,16 +14,7 @@ from tests.operators.test_refusals import linked_assembly
 pytestmark = pytest.mark.usefixtures("scene")
 
 
-@pytest.mark.parametrize("order", align.ORDERS)
-def test_an_order_names_the_axes_that_the_principal_ones_go_to_and_mirrors_nothing(order):
-    frame = align.directions(order)
-    assert np.linalg.det(frame) == 1.0
-    signs = [1.0, 1.0, 1.0 if order in ("XYZ", "YZX", "ZXY") else -1.0]
-    for column, letter, sign in zip(frame.T, order, signs, strict=True):
-        assert np.array_equal(column, sign * np.eye(3)["XYZ".index(letter)])
-
-
-def test_an_empty_that_cannot_be_placed_is_as_it_was_parent_and_size_and_all(reported):
+def test_refused_empty_keeps_parent_place_and_size(reported):
     obj, other = add(mesh_body()), add(mesh_body("Other"), "Other", (9, 0, 0))
     only(obj)
     assert bpy.ops.object.body_moments_add_empty(parent=False) == {"FINISHED"}
@@ -65,7 +56,7 @@ def test_an_empty_is_not_put_into_a_collection_of_a_library(overridden):
         ("view3d.body_moments_cursor_to_center", {"rotate": True}),
     ],
 )
-def test_the_axes_of_a_cube_are_its_sides_and_it_is_said_that_they_were_free(operator, options, reported):
+def test_axes_of_a_cube_are_its_sides(operator, options, reported):
     obj = add(box_mesh(2, 2, 2), "Cube", (1, 2, 3), (0.3, 0.4, 0.5))
     for vertex in obj.data.vertices:
         vertex.co.x += 1.0
@@ -86,37 +77,3 @@ def test_the_axes_of_a_cube_are_its_sides_and_it_is_said_that_they_were_free(ope
     if "cursor" in name:
         reported.clear()
         assert bpy.ops.view3d.body_moments_cursor_to_center() == {"FINISHED"} and reported.codes == ["cursor_moved"]
-
-
-def test_an_orientation_of_the_same_name_is_replaced():
-    slot = bpy.context.scene.transform_orientation_slots[0]
-    for number in range(2):
-        obj = add(mesh_body(), rotation=(0.3, 0.4, number))
-        assert bpy.ops.object.body_moments_create_orientation(name="Mine") == {"FINISHED"}
-        axes = measured(obj).mass_properties.principal.axes
-        assert slot.custom_orientation.name == "Mine"
-        assert np.abs(np.array(slot.custom_orientation.matrix) - axes).max() < 1e-6
-
-
-@pytest.mark.parametrize("operator", ["axes_to_principal", "rigid_bodies"])
-@pytest.mark.parametrize(
-    ("rotation", "scale", "is_kept"),
-    [
-        ((0, 0, 0), (4, 4, 4), True),
-        ((0, 0, 0), (5, 5, 5), False),
-        ((-np.arcsin(3.0**-0.5), np.pi / 4, 0), (0, 0, 2), True),
-        ((-np.arcsin(3.0**-0.5), np.pi / 4, 0), (0, 0, 8), False),
-    ],
-)
-def test_a_scale_that_is_one_but_for_rounding_stays(rotation, scale, is_kept, operator):
-    """By so many last places; by twice as many products of axes differ from one."""
-    wanted = 1.0 + np.array(scale) * 2.0**-23
-    obj = add(box_mesh(4, 2, 1), "Box", rotation=rotation, scale=wanted)
-    getattr(bpy.ops.object, "body_moments_" + operator)()
-    assert (np.array(obj.scale, np.float64) == (wanted if is_kept else 1.0)).all()
-
-
-def test_a_cube_that_is_mirrored_gets_axes_that_are_not():
-    obj = add(box_mesh(2, 2, 2), "Cube", scale=(-1, 1, 1))
-    assert bpy.ops.object.body_moments_axes_to_principal() == {"FINISHED"}
-    assert np.linalg.det(place(obj)[:3, :3]) > 0.0

@@ -61,7 +61,7 @@ def state(obj):
 
 @pytest.mark.parametrize("name", REFRAMING)
 @pytest.mark.parametrize("scale", [(1, 1, 1), (2, 0.5, 3), (-1, 2, 1), (-1, -1, -1)])
-def test_the_body_stays_where_it_is_and_a_second_time_changes_nothing(name, scale):
+def test_reframed_body_stays_in_place_and_is_final(name, scale):
     obj = add(mesh_body(), location=(3, -4, 5), rotation=(0.3, -1.2, 2.0), scale=scale)
     before, data = seen(obj), obj.data
     volume = measured(obj).volume
@@ -109,22 +109,6 @@ def test_every_rotation_mode_and_deltas(name, mode):
     assert_reframed(name, obj)
 
 
-@pytest.mark.parametrize("mode", ["XYZ", "XZY", "YXZ", "YZX", "ZXY", "ZYX"])
-@pytest.mark.parametrize("cosine", [0.0, 1e-7, 1e-5, 1e-3, 0.5])
-def test_euler_angles_rebuild_the_rotation_even_beside_gimbal_lock(mode, cosine):
-    from body_moments.blender.scene.transforms import euler_angles, euler_matrix
-
-    middle = "XYZ".index(mode[1])
-    angles = np.array([0.3, -0.8, 1.1])
-    angles[middle] = np.pi / 2.0 - cosine
-    rotation = euler_matrix(angles, mode)
-    found = euler_angles(rotation, mode, np.array([4.0, -7.0, 0.5]))
-    assert np.abs(euler_matrix(found.astype(np.float32).astype(float), mode) - rotation).max() < 1e-6
-    from mathutils import Euler
-
-    assert np.abs(np.array(Euler(found, mode).to_matrix()) - rotation).max() < 1e-6
-
-
 @pytest.mark.parametrize("name", REFRAMING)
 def test_children_do_not_move(name):
     obj = add(mesh_body(), location=(1, 2, 3), rotation=(0.2, 0.3, 0.4), scale=(1, 2, 3))
@@ -154,7 +138,7 @@ def test_parents_are_respected(name):
     assert run(name) == {"CANCELLED"}
 
 
-def test_axes_below_a_shearing_parent_are_refused_and_nothing_changes():
+def test_axes_below_shearing_parent_are_refused():
     parent = add(None, "Parent", scale=(1, 2, 5))
     obj = add(mesh_body(), rotation=(0.3, 0.4, 0.5))
     obj.parent = parent
@@ -233,7 +217,7 @@ def test_the_center_is_that_of_the_body_with_its_modifiers(name, kind):
         ("MIRROR", {"use_axis": (True, True, True), "use_bisect_axis": (True, True, True)}),
     ],
 )
-def test_modifiers_that_live_in_local_space_are_refused_and_nothing_changes(name, kind, options):
+def test_local_space_modifier_is_refused_unchanged(name, kind, options):
     obj = add(mesh_body(), location=(1, 2, 3))
     modifier = obj.modifiers.new("Local One", kind)
     for key, value in options.items():
@@ -248,7 +232,7 @@ def test_modifiers_that_live_in_local_space_are_refused_and_nothing_changes(name
     assert (seen(obj) == points).all()
 
 
-def test_axes_of_a_body_whose_triangles_are_others_without_its_scale_are_principal_at_once():
+def test_scaled_body_of_bent_faces_gets_axes_at_once():
     obj = add(mesh_body(), location=(3, -4, 5), rotation=(0.3, -1.2, 2.0), scale=(1, 0.5, 2.5))
     obj.data.vertices[3].co += Vector((0.3, -0.2, 0.6))  # faces are not flat any more
     obj.data.update()
@@ -259,7 +243,7 @@ def test_axes_of_a_body_whose_triangles_are_others_without_its_scale_are_princip
 
 @pytest.mark.parametrize("name", [ALIGN, "body_moments_match_pose"])
 @pytest.mark.parametrize("kind", ["LATTICE", "ARRAY", "MIRROR"])
-def test_what_changes_its_shape_where_it_goes_is_refused_with_what_makes_it_and_nothing_changes(name, kind, reported):
+def test_modifier_bound_to_place_refuses_motion_unchanged(name, kind, reported):
     target = add(mesh_body(), "Target")
     cage = add(bpy.data.lattices.new("Cage"), "Cage", rotation=(0.5, 0.4, 0.3), scale=(9, 9, 9))
     cage.data.points[1].co_deform.x += 0.3
@@ -280,7 +264,7 @@ def test_what_changes_its_shape_where_it_goes_is_refused_with_what_makes_it_and_
     assert reported.values("shape_depends_on_location") == {"modifiers": ["Bent"]}
 
 
-def test_what_is_bent_by_its_own_child_is_aligned_with_it():
+def test_body_bent_by_its_child_is_aligned():
     obj = add(mesh_body(), location=(1, 2, 1), rotation=(0.3, 0.2, 0.1))
     cage = add(bpy.data.lattices.new("Cage"), "Cage", scale=(9, 9, 9))
     cage.data.points[1].co_deform.x += 0.3
@@ -313,7 +297,7 @@ def test_an_object_that_others_mirror_about_is_refused():
     assert state(obj) == before and (seen(other) == points).all()
 
 
-def test_an_object_that_nodes_of_others_show_in_its_own_space_is_refused():
+def test_object_shown_by_nodes_of_others_is_refused():
     obj = add(mesh_body(), location=(1, 2, 3))
     tree = bpy.data.node_groups.new("Show", "GeometryNodeTree")
     tree.interface.new_socket("Geometry", in_out="OUTPUT", socket_type="NodeSocketGeometry")
@@ -449,14 +433,6 @@ def test_far_away_the_origin_is_as_near_as_float32_allows(distance):
     assert run(ORIGIN) == {"CANCELLED"}
 
 
-@pytest.mark.parametrize("unit", [0.001, 1.0, 1000.0])
-def test_the_scenes_unit_does_not_matter(unit):
-    bpy.context.scene.unit_settings.scale_length = unit
-    obj = add(mesh_body(), location=(1, 2, 3), rotation=(0.2, 0.4, 0.6))
-    assert run(AXES) == {"FINISHED"}
-    assert np.abs(place(obj)[:3, 3] - measured(obj).mass_properties.center / unit).max() < TOLERANCE
-
-
 @pytest.mark.parametrize("order", ["XYZ", "YZX", "ZXY", "XZY", "YXZ", "ZYX"])
 def test_align_lays_the_principal_axes_along_the_worlds(order):
     obj = add(mesh_body(), location=(3, 2, 1), rotation=(0.5, 0.6, 0.7), scale=(1, 2, -1))
@@ -573,17 +549,8 @@ def test_a_cube_turned_within_its_object_gets_its_own_axes(name):
     assert run(AXES) == {"CANCELLED"}
 
 
-def test_a_round_body_turned_within_its_object_stays():
-    bpy.ops.mesh.primitive_cylinder_add(vertices=64, depth=5, location=(1, 2, 3))
-    obj = bpy.context.object
-    run(AXES)
-    matrix = place(obj)
-    bpy.context.view_layer.update()
-    assert run(AXES) == {"CANCELLED"} and (place(obj) == matrix).all()
-
-
 @pytest.mark.parametrize("name", [AXES, ALIGN])
-def test_the_strict_rule_poses_what_it_can_and_refuses_the_rest(name):
+def test_strict_rule_poses_prism_and_refuses_cube(name):
     add(
         mesh_body(points=[(0, 0, 0), (3, 0, 0), (3.5, 1, 0), (1, 1, 0), (1, 2.5, 0), (0, 2, 0)]),
         location=(1, 2, 3),
@@ -597,7 +564,7 @@ def test_the_strict_rule_poses_what_it_can_and_refuses_the_rest(name):
 
 @pytest.mark.parametrize("name", [AXES, ALIGN])
 @pytest.mark.parametrize(("side", "answer"), [(0.0228, "CANCELLED"), (0.028, "FINISHED")])
-def test_the_strict_rule_asks_for_exact_third_moments_where_they_are_doubtful(name, side, answer, reported):
+def test_strict_rule_needs_third_moments_beyond_rounding(name, side, answer, reported):
     """Of a box with a small one aside, whose third moments are hardly more than rounding may leave."""
     corners = np.array(list(product((-0.5, 0.5), repeat=3)))
     faces = np.array([(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)])
@@ -609,22 +576,8 @@ def test_the_strict_rule_asks_for_exact_third_moments_where_they_are_doubtful(na
     assert ("strict_rule_no_skewness" in reported.codes) == (answer == "CANCELLED")
 
 
-@pytest.mark.parametrize("name", [AXES, ALIGN])
-def test_the_strict_rule_poses_shells(name):
-    obj = add(mesh_body(), rotation=(0.3, 0.4, 0.5))
-    obj.body_moments.kind = "SHELL"
-    assert run(name, strict=True) == {"FINISHED"}
-
-
-@pytest.mark.parametrize("scale", [1e-3, 1e3])
-def test_a_body_of_any_scale_is_turned(scale):
-    obj = add(mesh_body(), location=(1, 2, 3), rotation=(0.3, 0.4, 0.5), scale=(scale,) * 3)
-    assert run(ALIGN) == {"FINISHED"}
-    assert abs(np.abs(measured(obj).mass_properties.principal.axes).trace() - 3.0) < 1e-5
-
-
 @pytest.mark.parametrize("parent", [True, False])
-def test_an_empty_cannot_follow_what_is_scaled_to_nothing_along_an_axis(parent, reported):
+def test_empty_of_zero_scaled_object_is_refused(parent, reported):
     obj = add(mesh_body(), scale=(1, 1, 0))
     assert run("body_moments_add_empty", parent=parent) == {"CANCELLED"}
     assert list(bpy.data.objects) == [obj]
@@ -632,7 +585,7 @@ def test_an_empty_cannot_follow_what_is_scaled_to_nothing_along_an_axis(parent, 
 
 
 @pytest.mark.parametrize("how", ["modifier", "parent"])
-def test_a_body_bound_to_an_armature_is_not_turned_away_from_its_bones(how, reported):
+def test_armature_bound_body_is_not_turned(how, reported):
     bpy.ops.object.armature_add()
     armature = bpy.context.object
     obj = add(mesh_body(), rotation=(0.3, 0.4, 0.5))
