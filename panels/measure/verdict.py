@@ -13,11 +13,11 @@ from ...blender.session.live import live
 from ...blender.session.stored import results, trust
 from ...blender.session.tracking import posed, staleness
 from ...blender.write import properties
-from ...blender.write.findings import WALL_MEASURED
 from ...blender.write.translations import localized
 from ...core.verdict.finding import Finding, finding
 from ...core.verdict.method import Method, Source
 from ...core.verdict.sentences import METHODS, method_key
+from ...core.wall.findings import WALL_MEASURED
 from .. import rows
 from ..findings import (
     PANEL_LIVE,

@@ -104,20 +104,6 @@ def test_accepted_warning_stays_a_note_after_measuring():
     assert bpy.ops.object.body_moments_accept(code="") == {"CANCELLED"}
 
 
-<<<<<<< HEAD
-def test_errors_cannot_be_accepted_away():
-    from body_moments.blender.settings.accepted import with_acceptance
-    from body_moments.core.verdict.finding import Severity, finding
-    from body_moments.core.verdict.sentences import severity
-
-    (marked,) = with_acceptance([finding("no_faces")], {"no_faces"})
-    assert severity(marked) == Severity.ERROR
-    (again,) = with_acceptance([marked], ())
-    assert again == finding("no_faces")
-
-
-=======
->>>>>>> w-tblender
 def test_the_unit_is_asked_for_once_a_scene_and_set_at_a_click():
     scene = bpy.context.scene
     obj = add(boxes(60.0), location=(20.0, 0.0, 0.0))
