@@ -29,7 +29,7 @@ PUBLIC = {
     for name in module.__all__
     if inspect.isclass(getattr(module, name)) or inspect.isfunction(inspect.unwrap(getattr(module, name)))
 }
-# What core.papers offers are modules: their functions.
+# core.papers offers modules; their functions are the public names.
 PUBLIC |= {
     (module.__name__, name): thing
     for module in (getattr(FACES[".papers"], name) for name in FACES[".papers"].__all__)

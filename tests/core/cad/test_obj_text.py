@@ -113,7 +113,7 @@ def test_index_ahead_of_its_vertex_is_refused():
     for text, line, word in (("v 0 0 0\nf 1 1 2\nv 1 1 1\n", 2, "2"), ("vt 0\nv 0 0 0\nf 1/2 1 1\nvt 1", 3, "1/2")):
         with misread(line, "field_not_vertex", text=word):
             check_obj_text(text.encode())
-    check_obj_text(b"v 0 0 0\nf 1/2/9 1//7 1/0\nvt 1\nvn 0 0 1\n")  # as there are none yet
+    check_obj_text(b"v 0 0 0\nf 1/2/9 1//7 1/0\nvt 1\nvn 0 0 1\n")  # no vertices exist yet
     check_obj_text(b"v 0 0 0\nv 0 1 0\nv 0 0 1\nf -3 -2 -1\n" * 500)
     with misread(2001, "field_not_vertex", text="-1501"):
         check_obj_text(b"v 0 0 0\nv 0 1 0\nv 0 0 1\nf -3 -2 -1\n" * 500 + b"f -1500 -1501 1\n")

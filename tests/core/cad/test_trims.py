@@ -9,7 +9,7 @@ from body_moments.core.cad.trims import Piece, trims_nothing
 DOMAIN = (1.0, 3.0), (-2.0, 6.0)
 SIZE = np.array([2.0, 8.0])
 A, B, C, D = np.array([(1.0, -2.0), (3.0, -2.0), (3.0, 6.0), (1.0, 6.0)])
-NOISE = 1e-7  # of the domain in each direction: what float32 rounds
+NOISE = 1e-7  # float32 rounding, as a share of the domain in each direction
 
 
 def lines(*corners):

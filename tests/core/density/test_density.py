@@ -219,6 +219,6 @@ def test_values_are_mapped_before_they_are_summed():
 
 
 def test_signaling_nan_samples_are_refused_without_warning():
-    samples = np.full((2, 3, 4), 0x7FA00000, np.uint32).view(np.float32)  # what a damaged file may hold
+    samples = np.full((2, 3, 4), 0x7FA00000, np.uint32).view(np.float32)  # a damaged file may hold it
     with refused("density_non_finite"):
         grid_moments(samples, samples.shape, np.eye(4))

@@ -41,7 +41,7 @@ def linear_truth(points, triangles, density, about):
         double = Fraction(isqrt(square.numerator * square.denominator * root * root), square.denominator * root)
         for at, powers in enumerate(exact.MONOMIALS):
             axes = [axis for axis, n in enumerate(powers) for _ in range(n)]
-            for choice in product(range(3), repeat=len(axes) + 1):  # which corner each factor, and the density, takes
+            for choice in product(range(3), repeat=len(axes) + 1):  # the corner of each factor and of the density
                 value = Fraction(float(rho[choice[-1]]))
                 for axis, k in zip(axes, choice):
                     value *= corner[k][axis]

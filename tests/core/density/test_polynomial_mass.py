@@ -223,7 +223,7 @@ def test_a_cylinder_with_a_linear_density():
     assert body.mass == pytest.approx(area * height * (a + b * height / 2.0), rel=1e-14)
     z = (a * height / 2.0 + b * height**2 / 3.0) / (a + b * height / 2.0)
     assert body.center == pytest.approx([0.0, 0.0, z], abs=1e-14)
-    gyration = radius**2 / 6.0 * (2.0 + np.cos(2.0 * np.pi / n))  # of a regular polygon about its centre
+    gyration = radius**2 / 6.0 * (2.0 + np.cos(2.0 * np.pi / n))  # a regular polygon about its center
     assert body.inertia[2, 2] == pytest.approx(body.mass * gyration, rel=1e-13)
 
 

@@ -14,7 +14,7 @@ from tests.core import bodies, exact
 def found(text, body, solid=True):
     """The value and the place, or None, and a flag if a negative value remains possible."""
     points, triangles = (np.array(part) for part in body)
-    unused = np.concatenate([points, [[-1e3, 1e3, 1e3]]])  # where any of these densities would be something else
+    unused = np.concatenate([points, [[-1e3, 1e3, 1e3]]])  # any of these densities would differ there
     return find_negative_point(parse_polynomial(text), unused, triangles, solid)
 
 

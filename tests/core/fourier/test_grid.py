@@ -17,7 +17,7 @@ from body_moments.core.polyhedron import integration
 from tests.core import bodies
 from tests.core.findings import refused
 
-polyhedron_moments = partial(integration.polyhedron_moments, allow_open=True)  # of faces as they are
+polyhedron_moments = partial(integration.polyhedron_moments, allow_open=True)  # open faces count as given
 
 
 def half_grid(half):
@@ -53,7 +53,7 @@ def test_the_area_and_an_open_surface_are_right_to_the_tolerance():
         transform = GridTransform(surface, FrequencyGrid(15, 18.0), "area", tolerance * total)
         shares = np.array(list(transform.steps()))
         found = transform.result()
-        # where the points are spread, their one sum is collected
+        # spread points are collected in one sum
         assert np.count_nonzero(np.abs(shares - 1.0 + fourier_grid.CHECKING_TIME) < 1e-12) == 1 + 1
         assert transform.fine
         assert np.abs(found.values - exact.values).max() <= tolerance * total

@@ -47,7 +47,7 @@ def test_copies_under_any_map_are_the_mapped_bodies(of, alone, q):
             mirror = np.linalg.det(matrix[:3, :3]) < 0.0
             image = bodies.moved(bodies.inverted(part) if mirror else part, matrix[:3, :3], matrix[:3, 3])
             true = true + alone(bodies.surface(image), q).values
-    # what mapping the corners rounds, at 70 from the origin: the surface's area times that
+    # rounding of mapped corners, 70 from the origin, times the surface's area
     assert np.abs(found.values - true).max() <= 150.0 * 4 * 2.0**-47
     assert len(transform.jobs) == 6 and found.method == "exact"
 

@@ -17,7 +17,7 @@ from tests.close import close
 from tests.core import bodies, exact
 from tests.core.findings import refused
 
-polyhedron_moments = partial(integration.polyhedron_moments, allow_open=True)  # of faces as they are
+polyhedron_moments = partial(integration.polyhedron_moments, allow_open=True)  # open faces count as given
 
 TETRAHEDRON = (
     np.array([[0, 0, 0], [1, 0, 0], [0.5, 0.75**0.5, 0], [0.5, 0.75**0.5 / 3, (2 / 3) ** 0.5]]),

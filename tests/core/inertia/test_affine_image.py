@@ -34,7 +34,7 @@ def test_affine_image_matches_mapped_moments(scale, mirrored):
     assert close(image.principal.moments, truth.principal.moments, 1e-11)
     assert close((image.principal.axes * truth.principal.axes).sum(axis=0), 1.0, 1e-10)
     assert close(np.linalg.det(image.principal.axes), 1.0, 1e-12)
-    for seed in range(20):  # of the frames along these axes the nearest one, also to a left-handed one
+    for seed in range(20):  # the nearest frame along these axes, also to a left-handed one
         preferred = rotation(seed) * (-1.0) ** seed
         frames = truth.principal.axes * HALF_TURN_SIGNS[:, None]
         nearest = max(frames, key=lambda frame: (frame * preferred).sum())

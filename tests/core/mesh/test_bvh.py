@@ -59,7 +59,7 @@ def test_distances_from_a_box_match_their_closed_form(turn):
         ((1.5, 0.5, -2.0), (1.5, 0.5, 1.0), 0.5),  # from the side along x
         ((0.25, 1.0, -1.0), (0.25, 1.0, 3.0), 0.25),  # from that along y
         ((2.0, 1.0, -1.0), (2.0, 1.0, 1.0), 0.4),  # from the slanted one
-        ((1.0, 1.25, -3.0), (1.0, 0.05, 1.0), 0.35),  # where it crosses at three quarters of its way
+        ((1.0, 1.25, -3.0), (1.0, 0.05, 1.0), 0.35),  # it crosses at three quarters of its way
         ((1.0, 1.0, -0.3), (1.0, 1.0, 2.0), 0.3),  # in which it begins just below
         ((1.0, 1.0, -2.0), (1.0, 1.0, 0.3), 0.3),  # ends just above
         ((1.0, 2.0, -0.15), (1.0, -1.0, 0.15), 0.05),  # leaves just above

@@ -15,7 +15,7 @@ from body_moments.core.polyhedron import integration
 from tests.close import close
 from tests.core.bodies import ring, rotation
 
-polyhedron_moments = partial(integration.polyhedron_moments, allow_open=True)  # of faces as they are
+polyhedron_moments = partial(integration.polyhedron_moments, allow_open=True)  # open faces count as given
 
 
 def one_by_one(surface, error):

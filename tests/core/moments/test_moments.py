@@ -186,7 +186,7 @@ def test_shift_at_order_20_is_exact_within_a_tight_bound(point):
     shifted = body.about_point(point)
     exact = box_moments(low, high, 20, point)
     assert_within_bound(shifted, exact)
-    reach = np.abs([low, high]).max(axis=0) + np.abs(point)  # what the binomial theorem's terms add up to
+    reach = np.abs([low, high]).max(axis=0) + np.abs(point)  # the sum of the sizes of the binomial theorem's terms
     largest = 24.0 * np.prod(reach ** monomials(20), axis=1)
     assert (shifted.rounding_error <= 1e-13 * largest).all()
 

@@ -22,7 +22,7 @@ def rational(values):
 def test_a_sum_and_a_product_with_their_rests_are_exact():
     for octaves in (1, 60, 400):
         a, b = any_size((2, 2000), octaves)
-        b[:500] = -a[:500] * (1.0 + RNG.integers(-4, 4, 500) * 2.0**-51)  # which cancel
+        b[:500] = -a[:500] * (1.0 + RNG.integers(-4, 4, 500) * 2.0**-51)  # these sums cancel
         total, rest = map(rational, two_sum(a, b))
         product, low = map(rational, two_product(a, b))
         a, b = rational(a), rational(b)

@@ -32,7 +32,7 @@ def test_a_float32_quaternion_gives_an_orthonormal_matrix():
 def test_own_axes_match_drawn_axes_or_nearest_under_shear(rotation, seed):
     rng = np.random.default_rng(seed)
     scale, sign = 10.0 ** rng.uniform(-6, 6, (3, 3)), rng.choice([-1.0, 1.0], 3)
-    maps = np.full((3, 4, 4), np.nan)  # of which the linear parts alone are looked at
+    maps = np.full((3, 4, 4), np.nan)  # only the linear parts count
     maps[0, :3, :3] = rotation * sign * scale[0]
     maps[1, :3, :3] = sheared = rotation @ (np.eye(3) + rng.uniform(-0.3, 0.3, (3, 3))) * scale[1]
     maps[2, :3, :3] = rotation * scale[2] * (0.0, 1.0, 1.0)
@@ -43,7 +43,7 @@ def test_own_axes_match_drawn_axes_or_nearest_under_shear(rotation, seed):
     for _ in range(9):  # Newton's iteration to the polar factor
         nearest = (nearest + np.linalg.inv(nearest).T) / 2.0
     assert np.abs(axes[1] - nearest).max() <= 1e-14
-    assert np.abs(axes[2].T @ axes[2] - np.eye(3)).max() <= 1e-14  # of a map that flattens too
+    assert np.abs(axes[2].T @ axes[2] - np.eye(3)).max() <= 1e-14  # a flattening map has axes, too
     assert np.abs(axes[2] - rotation)[:, 1:].max() <= 1e-14
 
 
@@ -78,7 +78,7 @@ def test_half_and_third_turns_are_exact_without_negative_zeros():
     matrices = rotation_matrix(known * 3.0)
     assert matrices.shape == (4, 4, 3, 3)
     w, v = known[..., 0, None, None], known[..., 1:]
-    across = np.cross(v[..., None, :], np.eye(3)).swapaxes(-1, -2)  # what v × does to a vector
+    across = np.cross(v[..., None, :], np.eye(3)).swapaxes(-1, -2)  # the matrix of v ×
     rodrigues = (2.0 * w * w - 1.0) * np.eye(3) + 2.0 * v[..., :, None] * v[..., None, :] + 2.0 * w * across
     assert np.abs(matrices - rodrigues).max() <= 1e-14
     found = quaternion(matrices)

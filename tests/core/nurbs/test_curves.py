@@ -193,7 +193,8 @@ def test_turns_between_rule_points_are_found(ratio):
     """x' = (t - 0.5)² - h², negative for a moment: rules without a point there agree upon a wrong length. Weights that
     each are so many times the one before make the same curve by other parameters."""
     for h in (0.1, 0.01, 1e-3):
-        x = np.array([0.0, (0.25 - h * h) / 3.0, 0.0, 1.0 / 12.0 - h * h])  # of t³/3 - t²/2 + (1/4 - h²) t
+        # Control points of t³/3 - t²/2 + (1/4 - h²) t.
+        x = np.array([0.0, (0.25 - h * h) / 3.0, 0.0, 1.0 / 12.0 - h * h])
         x[2] = 2.0 * x[1] - 1.0 / 6.0
         weights = None if ratio == 1.0 else ratio ** np.arange(4.0)
         line = Curve(clamped_space(4), np.stack([x, 0.0 * x, 0.0 * x], axis=1), weights)

@@ -255,7 +255,7 @@ def closed_by_cones(patch, place=0.0):
     found = [patch]
     for axis, end, forward in ((1, 0, True), (0, 1, True), (1, 1, False), (0, 0, False)):
         curve = patch.side(axis, end)
-        rim = np.round(curve.points * 2.0**20) / 2.0**20  # as they were
+        rim = np.round(curve.points * 2.0**20) / 2.0**20  # rounded like the control points
         ends = (np.full_like(rim, place), rim)[:: 1 if forward else -1]
         weights = None if curve.weights is None else np.stack([curve.weights] * 2, axis=1)
         found.append(Patch((curve.space, clamped_space(2)), np.stack(ends, axis=1), weights))

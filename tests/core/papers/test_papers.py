@@ -157,7 +157,7 @@ def test_moments_about_a_point_match_the_moved_body():
 def test_float_sums_of_many_triangles_match_fractions():
     flat = np.array([(0.0, 0.0, 1.0), (1.0, 0.0, 1.0), (0.0, 2.0, 1.0)])
     volume, surface = sheynin_tuzikov.triangle_moments(flat, np.array([[0, 1, 2]]), 1)
-    assert close(volume, [1 / 3, 1 / 12, 1 / 6, 1 / 4], rel=1e-14)  # of the cone from the origin
+    assert close(volume, [1 / 3, 1 / 12, 1 / 6, 1 / 4], rel=1e-14)  # the cone from the origin
     assert close(surface, [1.0, 1 / 3, 2 / 3, 1.0], rel=1e-14)
     points, faces = prism()
     cut = triangles(points, faces)

@@ -24,7 +24,7 @@ from tests.core.findings import refused
 from tests.core.polyhedron.test_third_order import grid_torus
 from tests.core.strategies import holds, random_meshes, seeds
 
-polyhedron_moments = partial(integration.polyhedron_moments, allow_open=True)  # of faces as they are
+polyhedron_moments = partial(integration.polyhedron_moments, allow_open=True)  # open faces count as given
 
 
 @pytest.fixture(params=["one block", "many blocks"])

@@ -172,7 +172,7 @@ def test_a_box_off_the_origin_is_its_closed_form_to_order_12():
     at_origin = volume.about_point(np.zeros(3))
     right = np.array([float(value) for value in exact.box_moments(low, high, ORDER)])
     assert np.allclose(at_origin.raw, right, rtol=1e-11, atol=0.0)
-    sides = 0.0  # of the surface: the six sides' own integrals of x⁴ z²
+    sides = 0.0  # the surface: integrals of x⁴ z² over the six sides
     half = [(b - a) / 2 for a, b in zip(low, high)]
     for axis in range(3):
         rest = [2.0 * half[j] ** (k + 1) / (k + 1) for j, k in enumerate((4, 0, 2)) if j != axis]

@@ -20,7 +20,7 @@ from tests.core import exact
 from tests.core.bodies import rotation
 from tests.core.strategies import holds, random_meshes, seeds
 
-polyhedron_moments = partial(integration.polyhedron_moments, allow_open=True)  # of faces as they are
+polyhedron_moments = partial(integration.polyhedron_moments, allow_open=True)  # open faces count as given
 
 MONOMIALS = exact.MONOMIALS
 L_OUTLINE = [(0, 0), (3, 0), (3, 1), (1, 1), (1, 3), (0, 3)]

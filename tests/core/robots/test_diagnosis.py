@@ -96,7 +96,7 @@ def mistakes():
         yield "products_swapped", values, of_inertia(swapped - np.diag(np.diag(swapped)) + diagonal)
     moments, axes = np.linalg.eigh(INERTIA)
     for order, signs in product(permutations(range(3)), ((1, 1, 1), (1, 1, -1), (1, -1, 1), (-1, 1, 1))):
-        rows = np.diag(signs) @ axes[:, order].T  # which makes the tensor's own axes point either way
+        rows = np.diag(signs) @ axes[:, order].T  # the tensor's own axes may then point either way
         tensor = rows @ np.diag(moments[list(order)]) @ rows.T
         if np.abs(tensor - INERTIA).max() > 1e-3:  # the axes are all but symmetric
             yield "axes_transposed", {}, of_inertia(tensor)

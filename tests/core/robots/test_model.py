@@ -103,7 +103,7 @@ def test_principal_axes_not_matching_the_tensor_are_recomputed():
     rod = Inertial.with_agreeing_axes(1.0, Z, np.diag([1e-20, 1.0, 1.0]), rod_moments, tilt)
     assert rod.moments[0] == 3e-20 and rod.moments[2] <= rod.moments[0] + rod.moments[1]
     other = Inertial.with_agreeing_axes(1.0, Z, np.diag([1e-20, 1.0, 1.0]), rod_moments[[0, 2, 2]], tilt)
-    assert (other.moments == rod_moments[[0, 2, 2]]).all()  # what agrees stays to the last digit
+    assert (other.moments == rod_moments[[0, 2, 2]]).all()  # agreeing moments stay as given
     for scale in (2.0**-40, 2.0**40):
         tensor, moments = agreeing.inertia * scale, np.array([1.0, 2.0, 3.0]) * scale
         scaled = Inertial.with_agreeing_axes(1.7, true.center, tensor, moments, off)

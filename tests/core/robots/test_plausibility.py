@@ -74,7 +74,7 @@ def test_excess_spread_between_axes_is_found():
     """An octahedron is thinnest along the diagonals, of a third of the variance that it allows along its axes."""
     directions, draw = _sphere(400), np.random.default_rng(2).normal(size=(1000, 3))
     assert directions.shape == (400, 3) and close((directions**2).sum(axis=1), 1.0, 1e-14)
-    assert np.abs(directions[:, 2] + directions[::-1, 2]).max() < 1e-14  # as many below as above
+    assert np.abs(directions[:, 2] + directions[::-1, 2]).max() < 1e-14  # equally many below and above
     draw /= np.linalg.norm(draw, axis=1)[:, None]
     assert (draw @ directions.T).max(axis=1).min() > np.cos(0.14)
     assert (directions @ directions.T - 2.0 * np.eye(400)).max() < np.cos(0.15)

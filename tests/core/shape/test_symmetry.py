@@ -83,7 +83,7 @@ def about(axis, n):
 def group_of(generators):
     """All products of some matrices."""
     found = [np.eye(3)]
-    for one in found:  # which grows
+    for one in found:  # the list grows meanwhile
         for other in generators:
             product = other @ one
             if min(np.abs(product - known).max() for known in found) > 1e-6:

@@ -49,7 +49,7 @@ def in_ball(part):
 def test_a_full_ball_is_the_first_function_alone():
     found = descriptors(zernike_moments(ball(20), 20))
     assert len(found) == 121 and found[0] == pytest.approx(1.0)
-    assert np.abs(found[1:]).max() < 1e-9  # what raw moments of order 20 lose
+    assert np.abs(found[1:]).max() < 1e-9  # the loss of raw moments of order 20
 
 
 @pytest.mark.parametrize("radius", [0.3, 0.7])

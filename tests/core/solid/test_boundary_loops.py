@@ -79,7 +79,7 @@ def test_edges_running_back_along_an_edge_enclose_no_area():
         loops = loops_of(points, sides, directed)
         assert len(loops.cone_area) == 4 and loops.complete.all()
         assert np.all(loops.cone_area < 1e-15)
-    # Where the shorter ones run the same way, the loops are the same, and the links say that the two sides disagree.
+    # If the shorter ones run the same way, the loops are the same, and the links say that the two sides disagree.
     flipped = [side if k % 4 == 0 else side[::-1] for k, side in enumerate(sides)]
     assert len(loops_of(points, flipped, directed=False).cone_area) == 4
     start, stop = np.array(flipped).T

@@ -9,7 +9,7 @@ from body_moments.core.solid.self_intersection import measure_excess
 
 from tests.close import close
 
-# of each line the row and the column, and where it enters (1) and leaves (-1)
+# row and column of each line, and its entries (1) and exits (-1)
 LINES = {
     (0, 0): [(-1.0, 1)],  # a hole
     (0, 1): [(-2.0, 1), (-1.0, 1), (1.5, -1), (2.0, -1)],  # twice for 2.5

@@ -129,7 +129,7 @@ def test_a_doubled_triangle_counts_once(turn):
     assert result.health.non_manifold_edges == 3 == len(result.health.defective_elements.non_manifold_edges)
     finding = only(result)
     assert finding == Finding("duplicate_faces_ignored", {"count": 1}) and finding.elements.tolist() == [12]
-    assert close(result.area.total, 6.5, rel=1e-14)  # of the faces as they are
+    assert close(result.area.total, 6.5, rel=1e-14)  # the area of the unchanged faces
 
 
 @pytest.mark.parametrize("turn", [1, -1])
@@ -539,7 +539,7 @@ def test_spread_of_polygons_is_reported():
     beside = mesh(np.concatenate([[[9.0, 9.0, 9.0]], points]), [[corner + 1 for corner in face] for face in faces])
     assert measure_solid(beside).health.as_record() == raised.health.as_record()  # a vertex of no face is left out
     far = mesh(moved(CUBE, rotation(1), (300, 200, 100))[0], SIDES.tolist(), np.float32)
-    assert measure_solid(far).health.non_planar_faces == 0  # what float32 bends is not bent
+    assert measure_solid(far).health.non_planar_faces == 0  # bending by float32 does not count
 
 
 def test_loose_vertices_and_edges_change_nothing():
@@ -791,7 +791,7 @@ def test_outline_turning_back_on_itself_closes(apart):
         exact = volume_moments(result.repaired_surface.points, result.repaired_surface.triangles, result.volume.about)
         assert abs(result.volume.total - 3.5) <= result.volume.rounding_error[0] and exact[0] == Fraction(7, 2)
     wide = OUTLINE.copy()
-    wide[1, 0] = 0.5  # what is left over has an area
+    wide[1, 0] = 0.5  # the remaining faces have an area
     assert measure_solid(surface(letter(wide))).method == "open"
     beside = joined(letter(OUTLINE), moved(letter(wide), offset=(9, 0, 0)))
     result = measure_solid(surface(beside))

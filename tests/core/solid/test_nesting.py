@@ -133,7 +133,7 @@ def test_winding_numbers_match_the_bodies(spin):
 def test_known_pairs_are_related_as_built(name, parts, inside, crossing, spin):
     if spin is not None:
         parts = [moved(part, rotation(spin) * 0.7, (5, -3, 2)) for part in parts]
-        # As Blender stores them: what touched now misses or enters by an ulp.
+        # Stored as in Blender, touching faces now miss or enter by an ulp.
         parts = [(points.astype(np.float32).astype(float), triangles) for points, triangles in parts]
     assert relation(*parts) == (inside, crossing, 0)
 

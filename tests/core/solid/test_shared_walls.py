@@ -46,7 +46,7 @@ def test_cubes_in_a_row_are_turned_one_by_one(turned, cut):
             whole = np.flatnonzero(np.repeat(turned, 12)[order])
             found = only(result).elements
             assert len(found) == (0 if all(turned) else len(whole))
-            walls = np.isin(order % 12, (8, 9, 10, 11))  # of which either layer may be either body's
+            walls = np.isin(order % 12, (8, 9, 10, 11))  # either layer may belong to either body
             assert set(found) - set(np.flatnonzero(walls)) == (set() if all(turned) else set(whole[~walls[whole]]))
 
 
@@ -99,7 +99,7 @@ def test_welding_within_float32_precision_is_not_reported(gap, reported, scale):
     """Along the open edges of a box that has no top, and of the top."""
     top = box()[0], box()[1][2:4]
     part = joined(without(box(), 2, 3), moved(top, offset=(gap, 0, 0)))
-    part = moved(part, scale * np.eye(3), (-0.5 * scale,) * 3)  # where small numbers are finer than large ones
+    part = moved(part, scale * np.eye(3), (-0.5 * scale,) * 3)  # small numbers are finer there than large ones
     result = measure_solid(surface(part))
     assert result.method == "exact" and result.health.welded
     assert codes(result) == ["vertices_welded_slightly"] * reported

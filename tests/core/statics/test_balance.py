@@ -67,7 +67,7 @@ def test_no_other_move_is_smaller_to_first_order(shell):
         step = size * np.array([1.0, 0.5, 0.0])
         found = balance(bodies.surface(part), movable, moments.center + step, across=HORIZONTAL, shell=shell)
         ours = (found.points - part[0])[movable].ravel() * root
-        least = np.linalg.lstsq(rows, step[:2], rcond=None)[0]  # of all that bring it there, the shortest
+        least = np.linalg.lstsq(rows, step[:2], rcond=None)[0]  # the shortest of all moves to the point
         off.append(np.linalg.norm(ours - least) / np.linalg.norm(least))
     assert off[0] < 100 * 1e-3 and 8.0 < off[0] / off[1] < 12.0
 
