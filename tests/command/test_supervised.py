@@ -221,7 +221,7 @@ def test_terminal_shows_a_bar_and_ctrl_c_ends_the_run(tmp_path):
             shown += screen.read(1 << 16)
         born = commands.children(pid)
         screen.write(b"\x03")
-        with suppress(OSError):  # how the end of a terminal is read
+        with suppress(OSError):  # Reading the end of a terminal fails.
             while data := screen.read(1 << 16):
                 shown += data
     _, status = os.waitpid(pid, 0)
@@ -309,7 +309,7 @@ def test_the_scan_through_children_is_the_one_without(scans):
 
 
 def test_a_closed_pipe_of_the_supervisor_ends_its_child(tmp_path):
-    """As when the supervisor is killed: the descriptor that a child watches closes."""
+    """Close the descriptor that a child watches, as a killed supervisor does."""
     if not sys.platform.startswith("linux"):
         pytest.skip("not on this system: signals of pipes")
     watched, kept = os.pipe()
