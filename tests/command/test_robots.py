@@ -291,10 +291,6 @@ def test_an_older_robot_of_ours_is_replaced_and_another_is_not(tmp_path):
         assert refused("measure", "--format", name, "--output", str(path))
 
 
-def test_several_files_are_no_robot(tmp_path):
-    assert refused("measure", "--format", "urdf", str(tmp_path / "a.stl"), str(tmp_path / "b.stl"))
-
-
 def test_collections_and_bones_are_links_too(tmp_path):
     upper, forearm, tool = arm()
     hand = bpy.data.collections.new("Hand")

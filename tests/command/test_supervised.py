@@ -21,7 +21,6 @@ with suppress(ImportError):  # Windows
 pytest.importorskip("bpy")
 import bpy
 from body_moments.command.supervisor import listing, processes
-from body_moments.command.supervisor.journal import Journal
 
 from tests.blender import batch_files as files
 from tests.command.test_process import BLENDER, SCRIPT, in_blender, process, script
@@ -136,17 +135,6 @@ def test_resuming_measures_only_missing_or_changed_files(scans, tmp_path):
     before = out.read_bytes()
     assert script(*words).returncode == 0
     assert (tmp_path / "out.json.old").read_bytes() == before and (tmp_path / "out.json.journal.old").exists()
-
-
-def test_a_longer_time_out_is_tried_when_resuming(tmp_path):
-    key = {"path": "a", "size": 1, "mtime_ns": 2, "options": "x", "addon": "1", "blender": "5"}
-    with Journal(tmp_path / "journal") as journal:
-        journal.append(key, "timeout", 2, 4.0, {"seconds": 2.0, "memory": 10}, b'{"a": 1}')
-        entry = journal.entries["a"]
-        assert entry.serves(key, {"seconds": 2.0, "memory": 20})
-        assert not entry.serves(key, {"seconds": 3.0, "memory": 10})
-        assert not entry.serves({**key, "mtime_ns": 3}, {"seconds": 2.0, "memory": 10})
-        assert journal.document("a") == {"a": 1}
 
 
 @pytest.mark.parametrize("name", ["out.json.old", "out.json.journal"])
