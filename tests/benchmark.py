@@ -5,8 +5,7 @@
     python tests/benchmark.py [--quick] [--stream M]
 
 Every table interleaves its rows in one process, so that its ratios hold whatever else the machine does. It prints
-medians and least times and asserts nothing: a busy machine is no failure. What is not installed is left out;
-OpenCascade (cadquery-ocp) has to be installed by hand, as it brings more than a gigabyte.
+medians and least times and asserts nothing: a busy machine is no failure. Programs that are not installed are left out.
 """
 
 from __future__ import annotations
@@ -21,7 +20,6 @@ import sys
 import tempfile
 import time
 from collections.abc import Callable
-from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from types import ModuleType
@@ -52,7 +50,7 @@ from body_moments.core.papers.sheynin_tuzikov_2001 import triangle_moments as ex
 from body_moments.core.polyhedron import integration
 from body_moments.core.solid.measure import measure_solid
 
-polyhedron_moments = partial(integration.polyhedron_moments, allow_open=True)  # as a measurement calls it
+polyhedron_moments = partial(integration.polyhedron_moments, allow_open=True)  # A measurement calls it so.
 
 
 def torus(n: int, m: int, noise: float, lopsided: bool = False) -> tuple[np.ndarray, np.ndarray]:
@@ -95,12 +93,12 @@ def gather(points: np.ndarray, faces: np.ndarray) -> None:
 
 
 def gather_in_place(points: np.ndarray, faces: np.ndarray) -> None:
-    """The same as fast as numpy can: without a copy of the points, into arrays that are made once and stay in cache."""
+    """Gather as fast as numpy can: without a copy of the points, into reused arrays that stay in cache."""
     size, corners = 32768, faces.shape[1]
     flat, origin = points.reshape(-1), points[0].astype(np.float64)[:, None, None]
     index, fetched = np.empty((corners, size), np.intp), np.empty((3, corners, size), points.dtype)
     place = np.empty(fetched.shape)
-    for start in range(0, len(faces) - size + 1, size):  # what is left over is not worth a line
+    for start in range(0, len(faces) - size + 1, size):  # The rest is not worth a line.
         index[...] = faces[start : start + size].T
         np.multiply(index, 3, index)
         for axis in range(3):
@@ -222,7 +220,7 @@ def verdicts(side: int, rounds: int) -> None:
     table(title, interleaved(rows, rounds), ["integral, 1 thread"], len(triangles))
 
 
-MULTIPLES = {4: 6, 6: 15, 10: 60, 16: 260, 20: 480}  # of the kernel for low orders that each order may cost
+MULTIPLES = {4: 6, 6: 15, 10: 60, 16: 260, 20: 480}  # Each order may cost so many times the kernel for low orders.
 EXPLICIT = {4: 18, 6: 40}  # times as fast as the explicit formula that each order must be
 
 
@@ -446,189 +444,6 @@ def instances(count: int, rounds: int) -> None:
     table("{:,} instances of {:,} faces".format(count, 10_000), interleaved(rows, rounds), list(rows)[1:])
 
 
-def spline_bodies() -> dict[str, tuple[list, float | None]]:
-    """Closed bodies of clamped B-spline patches, each with its volume where that is known in closed form."""
-    from body_moments.core.numerics.bspline import SplineSpace, clamped_space
-    from body_moments.core.nurbs.patch import Patch
-    from body_moments.core.nurbs.solid import measure_patches
-
-    half = np.sqrt(0.5)
-    around = SplineSpace((0.0, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 4), 3, 9)
-    circle = np.array([(1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1), (1, 0)], float)
-    weights = np.array([1.0, half] * 4 + [1.0])
-
-    def turned(profile, space, profile_weights):
-        points = [[(x * out, y * out, z) for out, z in profile] for x, y in circle]
-        return Patch((around, space), np.array(points), np.outer(weights, profile_weights))
-
-    arch = SplineSpace((0.0, 0, 0, 1, 1, 2, 2, 2), 3, 5)
-    ball = turned([(0, -1), (1, -1), (1, 0), (1, 1), (0, 1)], arch, [1, half, 1, half, 1])
-    ring = turned([(0.75 + 0.25 * x, 0.25 * y) for x, y in circle], around, weights)
-    tube = turned([(1, -1), (1, 1)], clamped_space(2), [1, 1])
-    rng = np.random.default_rng(0)
-    u, v = np.linspace(0, 2 * np.pi, 8), np.linspace(-1, 1, 7)
-    out = np.sqrt(1.0 - v**2) * 1.2
-    blob = np.stack([np.outer(np.cos(u), out), np.outer(np.sin(u), out), np.outer(np.ones(8), v)], axis=-1)
-    blob *= 1.0 + 0.2 * rng.random((8, 7, 1))
-    blob[-1], blob[:, 0], blob[:, -1] = blob[0], blob[0, 0], blob[0, -1]
-    spaces = clamped_space(4, (1, 2, 3, 4), 0, 5), clamped_space(4, (1, 2, 3), 0, 4)
-    random = 10.0 ** rng.uniform(-0.5, 0.5, (8, 7))
-    random[-1] = random[0]
-    return {
-        "unit sphere": ([ball], 4.0 * np.pi / 3.0),
-        "torus": ([ring], 2.0 * np.pi**2 * 0.75 * 0.0625),
-        "capped cylinder": (list(measure_patches([tube]).patches), 2.0 * np.pi),
-        "bicubic closed 8 x 7": ([Patch(spaces, blob)], None),
-        "random rational 8 x 7": ([Patch(spaces, blob, random)], None),
-    }
-
-
-def opencascade_shape(patches):
-    """The same patches as an OpenCascade compound of faces."""
-    from OCP.BRep import BRep_Builder
-    from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeFace
-    from OCP.collections import Array1_double, Array1_int, Array2_double, Array2_gp_Pnt
-    from OCP.Geom import Geom_BSplineSurface
-    from OCP.gp import gp_Pnt
-    from OCP.TopoDS import TopoDS_Compound
-
-    builder, compound = BRep_Builder(), TopoDS_Compound()
-    builder.MakeCompound(compound)
-    for patch in patches:
-        rows, columns = patch.points.shape[:2]
-        poles, weights = Array2_gp_Pnt(1, rows, 1, columns), Array2_double(1, rows, 1, columns)
-        for i in range(rows):
-            for j in range(columns):
-                poles.SetValue(i + 1, j + 1, gp_Pnt(*patch.points[i, j].tolist()))
-                weights.SetValue(i + 1, j + 1, 1.0 if patch.weights is None else float(patch.weights[i, j]))
-        knots, counts = [], []
-        for space in patch.spaces:
-            values, repeats = np.unique(space.knots, return_counts=True)
-            knots.append(Array1_double(1, len(values)))
-            counts.append(Array1_int(1, len(values)))
-            for i, (value, repeat) in enumerate(zip(values.tolist(), repeats.tolist()), 1):
-                knots[-1].SetValue(i, value)
-                counts[-1].SetValue(i, repeat)
-        surface = Geom_BSplineSurface(poles, weights, *knots, *counts, *(space.order - 1 for space in patch.spaces))
-        builder.Add(compound, BRepBuilderAPI_MakeFace(surface, 1e-9).Face())
-    return compound
-
-
-ROUNDED = 1e-14  # an error below this is rounding: such errors are equal
-
-
-def splines(rounds: int) -> None:
-    """B-spline bodies: volume and second moment against OpenCascade, and control points that move.
-
-    Errors are the larger one of both numbers. At equal error means: against OpenCascade's fastest way whose error is at
-    most ours, or rounding; where none is, ours to the tolerance at which its error is at most OpenCascade's least.
-    """
-    from body_moments.core.numerics.bspline import clamped_space
-    from body_moments.core.nurbs import patch_moments
-    from body_moments.core.nurbs.incremental import IncrementalPatchMoments
-    from body_moments.core.nurbs.patch import Patch
-
-    print("\nB-spline bodies: relative error of V and of the second moment about z, and time of one call")
-    for name, (patches, volume) in spline_bodies().items():
-        rules = patch_moments.RULES
-        patch_moments.RULES = tuple(2 * points for points in rules)
-        truth = patch_moments.volume_moments(patches, 2)[0].about_point(np.zeros(3))
-        patch_moments.RULES = rules
-        truth = np.array([volume or truth.total, truth[2, 0, 0] + truth[0, 2, 0]])
-
-        def told(way: str, function: Callable, name=name, truth=truth) -> tuple[float, float]:
-            """Print and return the error and the seconds of one call."""
-            start = time.perf_counter()
-            errors = np.abs(function() / truth - 1.0)
-            last = time.perf_counter() - start
-            times = interleaved({"": function}, min(20 * rounds, int(0.1 / last)))[""] or [last]
-            print(
-                "    {:<24s}{:<34s}{:>10.1e}{:>10.1e}{:>11.3f} ms".format(
-                    name, way, *errors, statistics.median(times) * 1e3
-                )
-            )
-            return float(errors.max()), statistics.median(times)
-
-        def fastest(rows: list[tuple[float, float]], error: float) -> float | None:
-            return min((seconds for own, seconds in rows if own <= error), default=None)
-
-        fresh = iter([_anew(patches) for _ in range(20 * rounds + 2)])
-        first = told("ours, new function spaces", lambda fresh=fresh: _ours(next(fresh)))
-        ours = [
-            told(
-                "ours" if tolerance < 1e-14 else "ours, to {:.0e}".format(tolerance),
-                lambda patches=patches, tolerance=tolerance: _ours(patches, tolerance),
-            )
-            for tolerance in (patch_moments.VOLUME_RTOL, 1e-6)
-        ]
-        if not optional("OCP"):
-            continue
-        target, theirs = max(ours[0][0], ROUNDED), []
-        for way, functions in _opencascade(opencascade_shape(patches)).items():
-            for epsilon, function in functions.items():
-                theirs.append(told("OpenCascade{:s}".format(way.format(epsilon)), function))
-                if theirs[-1][1] >= (fastest(theirs, target) or np.inf):  # a smaller error takes longer
-                    break
-        own, other = ours[0][1], fastest(theirs, target)
-        if other is None:
-            target = min(error for error, _ in theirs)
-            own, other = fastest(ours, target), fastest(theirs, target)
-        print(
-            "    {:<24s}at equal error, {:.0e}: {:.0f} times as fast, {:.0f} times in new function spaces".format(
-                name, target, other / own, other / first[1]
-            )
-        )
-    rng = np.random.default_rng(0)
-    for count in (8, 40):
-        space = clamped_space(4, tuple(range(1, count - 3)), 0, count - 3)
-        points = rng.random((count, count, 3))
-        evaluator = IncrementalPatchMoments(Patch((space, space), points))
-        evaluator.moments(points)
-        times = interleaved(
-            {
-                "all ten moments": lambda e=evaluator, p=points: e.moments(p),
-                "after one point": lambda e=evaluator, i=count // 2: e.move_control_point(i, i, np.zeros(3)),
-            },
-            20 * rounds,
-        )
-        for way, values in times.items():
-            print("    bicubic {:d} x {:d}, {:s}: {:.3f} ms".format(count, count, way, statistics.median(values) * 1e3))
-
-
-def _anew(patches) -> list:
-    """The same patches in function spaces of which nothing is known yet."""
-    return [replace(patch, spaces=tuple(replace(space) for space in patch.spaces)) for patch in patches]
-
-
-def _ours(patches, tolerance: float = 0.0) -> np.ndarray:
-    from body_moments.core.nurbs.patch_moments import VOLUME_RTOL, volume_moments
-
-    moments = volume_moments(patches, 2, np.zeros(3), tolerance or VOLUME_RTOL)[0]
-    return np.array([moments.total, moments[2, 0, 0] + moments[0, 2, 0]])
-
-
-def _opencascade(shape) -> dict[str, dict[float, Callable[[], np.ndarray]]]:
-    """Its ways to volume and second moment, and the tolerances to ask for, larger ones first."""
-    from OCP.BRepGProp import BRepGProp
-    from OCP.GProp import GProp_GProps
-
-    def run(function: Callable, *arguments) -> np.ndarray:
-        properties = GProp_GProps()
-        function(shape, properties, *arguments)
-        center, mass = properties.CentreOfMass(), properties.Mass()
-        second = properties.MatrixOfInertia().Value(3, 3) + mass * (center.X() ** 2 + center.Y() ** 2)
-        return np.abs([mass, second])
-
-    plain, kronrod = BRepGProp.VolumeProperties_s, BRepGProp.VolumePropertiesGK_s
-    to = [10.0**-k for k in (4, 6, 7, 8, 9, 10, 12)]
-    return {
-        "": {0.0: partial(run, plain)},
-        ", Eps {:.0e}": {epsilon: partial(run, plain, epsilon) for epsilon in to},
-        ", GK {:.0e} by spans": {epsilon: partial(run, kronrod, epsilon, False, True, False, True) for epsilon in to},
-        ", GK {:.0e}": {epsilon: partial(run, kronrod, epsilon, False, False, False, True) for epsilon in to},
-    }
-
-
 def fourier(quick: bool) -> None:
     """The Fourier transform on one thread: closed form on lists and grids, a large grid to a tolerance, and BornAgain's
     form factor of a tetrahedron where that is installed."""
@@ -644,7 +459,7 @@ def fourier(quick: bool) -> None:
             {"list": lambda q=q: solid_transform(surface, q), "grid": lambda grid=grid: solid_transform(surface, grid)},
             1 if quick else 3,
         )
-        half = (count + 1) ** 2 * (count // 2 + 1)  # of a grid only half is computed
+        half = (count + 1) ** 2 * (count // 2 + 1)  # Only half of a grid is computed.
         print(
             "    |q| L = {:<6g}    list {:>5.0f}    grid {:>5.0f}".format(
                 size, min(times["list"]) / 500 / faces * 1e9, min(times["grid"]) / half / faces * 1e9
@@ -673,45 +488,6 @@ def fourier(quick: bool) -> None:
         table("A tetrahedron at 5,000 wave vectors", interleaved(rows, 3), ["bornagain"])
 
 
-def densities(rounds: int) -> None:
-    """The volumetric scheme: all moments to order 2 of 128 x 128 x 256 coefficients, and one coefficient changed."""
-    from body_moments.core.density.spline_grid import TrivariateSpline, density_moments
-    from body_moments.core.density.spline_tables import SplineAxis
-
-    rng = np.random.default_rng(0)
-    coefficients = rng.random((128, 128, 256))
-    axes = [SplineAxis.uniform(count, 4) for count in coefficients.shape]
-    x, y, z = (np.arange(n) - n / 2.0 for n in coefficients.shape)
-
-    def voxel_sum() -> None:
-        for p in range(3):
-            for q in range(3 - p):
-                for r in range(3 - p - q):
-                    (coefficients * x[:, None, None] ** p * y[:, None] ** q * z**r).sum()
-
-    rows = {
-        "ours, cubic splines, float64": lambda: density_moments(coefficients, axes, 2),
-        "ours, cubic splines, float32": lambda: density_moments(single, axes, 2),
-        "ours, cubic splines, float64, order 4": lambda: density_moments(coefficients, axes, 4),
-        "straightforward voxel sum": voxel_sum,
-    }
-    single = coefficients.astype(np.float32)
-    times = interleaved(rows, rounds)
-    table("128 x 128 x 256 coefficients, moments to order 2 (the paper: 21,100 ms)", times, [list(rows)[-1]])
-    live = TrivariateSpline(coefficients, axes, 2)
-    places = rng.integers(0, coefficients.shape, (1000, 3)).tolist()
-    start = time.perf_counter()
-    for i, j, k in places:
-        live.set_coefficient(i, j, k, 0.5)
-    one = (time.perf_counter() - start) / len(places)
-    ratio = statistics.median(times["straightforward voxel sum"]) / one
-    print(
-        "    {:<40s}{:>10.1f} us (the paper: 8,370 us), {:,.0f}x the voxel sum".format(
-            "one coefficient changed", one * 1e6, ratio
-        )
-    )
-
-
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--quick", action="store_true", help="a tenth of the faces, fewer rounds")
@@ -729,8 +505,6 @@ def main() -> None:
     )
     arrays(side, rounds)
     verdicts(side, rounds)
-    splines(3 if quick else rounds)
-    densities(rounds)
     fourier(quick)
     orders(quick)
     if not optional("bpy"):

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What it costs to measure 400 small .blend files: one Blender a file, one process for all, one child, two children.
+"""Cost of measuring 400 small .blend files: one Blender a file, one process for all, one child, two children.
 
     python tests/benchmark_batch.py [BLENDER]
 
@@ -44,7 +44,7 @@ def timed(words: list) -> tuple[float, float]:
 
 
 def one_round(start: list, folder: Path, first: Path, out: Path) -> dict[str, list[tuple[float, float]]]:
-    """Of each way its whole time for all files, and for one; of one Blender a file the one."""
+    """Return the times of each way for all files and for one; of one Blender a file, for one only."""
     found = {"one Blender a file": [timed([*start, first, "--no-supervisor", "--output", out / "one.json"])]}
     for way, words in WAYS.items():
         result = ["--force", "--format", "jsonl", "--output", out / (way + ".jsonl")]
@@ -62,7 +62,7 @@ def main() -> None:
         make = MAKE.format(count=COUNT, folder=str(folder))
         subprocess.run([blender, "-b", "--factory-startup", "--python-expr", make], check=True, capture_output=True)
         first = min(folder.iterdir())
-        one_round(start, folder, first, out)  # what the disk has to read is in memory then
+        one_round(start, folder, first, out)  # The files are in memory then.
         rounds = [one_round(start, folder, first, out) for _ in range(ROUNDS)]
     load = os.getloadavg()
     print("{} files, {} rounds, load {:.1f} at the end".format(COUNT, ROUNDS, load[0]))

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What many small parts cost beside the floor: reading their arrays, storing twelve numbers, and one update.
+"""Cost of many small parts beside the floor: reading their arrays, storing twelve numbers, and one update.
 
 Run by benchmark.py. Times are the processor's. All rows of a table are interleaved in one process.
 """
@@ -40,7 +40,7 @@ def ball() -> tuple[np.ndarray, list[list[int]]]:
 
 
 def kinds(rng: np.random.Generator) -> dict[str, Callable[[], tuple[np.ndarray, list]]]:
-    """What the parts are made of, by name; the same arrays each time are one mesh."""
+    """Return the kinds of parts by name; arrays repeated each time are one mesh."""
     points, faces = ball()
     linked = CORNERS.copy()
     turned, cylinder_faces = prism(32)
@@ -119,7 +119,7 @@ def many(count: int, rounds: int) -> None:
     """Measure, Set Origin and the snaps for parts of each kind, against the floor."""
     rng = np.random.default_rng(1)
     make(3, next(iter(kinds(rng).values())), rng)
-    for first in ("measure", "origin_to_center", "axes_to_principal"):  # which loads what they need
+    for first in ("measure", "origin_to_center", "axes_to_principal"):  # It loads their modules.
         getattr(bpy.ops.object, "body_moments_" + first)()
     print("\n{:,} separate parts: microseconds an object (median), and times the floor".format(count))
     rows = "floor", "Measure", "Blender's Set Origin", "Origin to Center", "Axes to Principal"

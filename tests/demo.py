@@ -19,7 +19,7 @@ from pathlib import Path
 # millimeters
 LENGTH, WIDTH, HEIGHT, THICKNESS = 80.0, 60.0, 50.0, 8.0
 RIB_LEG, RIB_THICKNESS = 30.0, 6.0
-SIDES = 64  # of the prisms that are the holes
+SIDES = 64  # Sides of the prisms for the holes.
 PLATE_HOLES = [(x, y, 3.3) for x in (35.0, 70.0) for y in (10.0, 50.0)]  # x, y, radius
 WALL_HOLES = [(12.0, 35.0, 5.0), (48.0, 35.0, 5.0)]  # y, z, radius
 NAME = "Bracket"

@@ -72,7 +72,7 @@ class Row:
         return self._told(body.mass, body.inertia[0, 0], body.inertia[2, 2])
 
     def discrete(self, grid: np.ndarray) -> tuple[float, ...]:
-        """The same of the samples as points, in exact integers."""
+        """Return the moments of the samples as points, in exact integers."""
         i, j, k = (np.arange(n) - n // 2 for n in grid.shape)
         planes = grid.sum(axis=2, dtype=np.int64)
         second = [

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How often the signature finds a part again among real ones, after it was moved, cut into other faces and made noisy.
+"""Retrieval rate of real parts that were moved, cut into other faces and made noisy.
 
     python -m pip download --no-deps gymnasium-robotics && python -m zipfile -e gymnasium_robotics-*.whl parts
     python tests/retrieval.py parts

@@ -72,7 +72,7 @@ OPTIONS = {
     ),
     **LIMITED,
 }  # fmt: skip
-# what an option needs, to go together with nothing wrong
+# Options that each option needs beside it.
 WITH = {
     "--grid": ("--fourier", "f.npz", "--qmax", "1"),
     "--qmax": ("--fourier", "f.npz", "--grid", "4"),

@@ -122,7 +122,7 @@ def test_asset_metadata_is_in_the_asset_frame(tmp_path):
         assert "body_mass" not in bpy.data.objects["Box"]
     bpy.data.objects["Box"].asset_data.pop("body_mass")
     path = saved(tmp_path)
-    assert files.run("--asset-metadata", "copy").errors == 0  # of what is open no copy is made
+    assert files.run("--asset-metadata", "copy").errors == 0  # The open file gets no copy.
     for words, has_mass in (((), False), (("--asset-metadata", "copy"), True)):
         assert files.run("--write", *words, path).has_saved
         bpy.ops.wm.open_mainfile(filepath=str(path))

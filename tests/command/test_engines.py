@@ -76,7 +76,7 @@ def test_gnu_parallel(job):
 @in_blender
 @pytest.mark.skipif(os.name == "nt", reason="not on this system: bash")
 def test_the_tasks_of_a_slurm_array(job):
-    """As Slurm runs them, one of them twice: a task that is requeued goes on where it was."""
+    """Run one task twice, as Slurm does: a requeued task continues."""
     for number in (0, 1, 2, 1):
         variables = environment(job, SLURM_ARRAY_TASK_ID=number, SLURM_CPUS_PER_TASK=1)
         ended = process("bash", ENGINES / "body_moments.slurm.sh", env=variables)
@@ -103,7 +103,7 @@ def slurm():
 
 @in_blender
 def test_an_array_under_a_controller_of_slurm(job, slurm):
-    """As the script's own head says it; the task at work on a file that takes long is requeued by the controller."""
+    """Follow the head of the script; the controller requeues a task during a slow file."""
     listed = [json.loads(line) for line in (job / "list").read_text().splitlines()]
     slow = job / "files" / "slow_2048x2048x2048_uint8.raw"
     slow.touch()
@@ -135,14 +135,14 @@ def test_an_array_under_a_controller_of_slurm(job, slurm):
     assert commands.wait_until(lambda: state(merge) in ("COMPLETED", "FAILED"), 300.0), state(merge)
     told = (job / "log-2").read_text()
     assert state(merge) == "COMPLETED", (told, (job / "log-merge").read_text())
-    assert "1 file in" in told, told  # what the first run had measured is not measured again
+    assert "1 file in" in told, told  # The second run does not repeat measured files.
     everything = [json.loads(line) for line in (job / "results" / "all.jsonl").read_text().splitlines()]
     assert everything.pop()["status"] == "missing"
     (job / "results" / "all.jsonl").write_text("".join(json.dumps(line) + "\n" for line in everything))
     check(job)
 
 
-# What Flamenco gives to a job type, and what its workers do with the commands.
+# Flamenco's interface to a job type.
 STUBS = """
 const fs = require("fs"), paths = require("path"), vm = require("vm");
 const [, , source, given] = process.argv;

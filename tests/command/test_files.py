@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the command line opens: every format, its unit and axes, and broken files of all kinds."""
+"""Files opened by the command line: every format, its unit and axes, and broken files of all kinds."""
 
 import gzip
 import os
@@ -187,7 +187,7 @@ def test_usdz_checksums_are_verified(tmp_path):
     (tmp_path / "larger.usdz").write_bytes(data[: directory + 20] + larger + data[directory + 28 :])
     assert any(
         words in reason(tmp_path / "larger.usdz") for words in ("Overlapped", "overlap", "Bad CRC-32")
-    )  # of old Pythons
+    )  # Old Pythons use other words.
     assert close(measured(tmp_path / "whole.usdz")["volume"], 6.0, rel=1e-6)
 
 
@@ -258,7 +258,7 @@ def test_missing_usd_reference_is_an_error_beside_records(tmp_path, capfd):
     names = [str(tmp_path / name) for name in ("away.usd", "gone.usdc", "layer.usda", "there.usda</Nope>")]
     assert [error["name"] for error in found["errors"]] == [None]
     assert found["errors"][0]["reason"] == sentence("missing_references", names=names)
-    assert "_ReportErrors" in capfd.readouterr().err  # what USD says is there all the same
+    assert "_ReportErrors" in capfd.readouterr().err  # USD's own message is there too.
     empty = "#usda 1.0\n(\n    subLayers = [@./layer.usda@]\n)\n"
     found = reason(files.write_text(tmp_path / "empty.usda", empty))
     assert found == sentence("missing_references", names=names[2:3])
@@ -290,7 +290,7 @@ def test_a_cache_that_is_gone_is_an_error(tmp_path, kind):
     assert len(found["objects"]) == 1
     (error,) = found["errors"]
     assert error["name"] is None and "points." in error["reason"]
-    if kind == "MESH_SEQUENCE_CACHE":  # of a sequence each frame has a file of its own
+    if kind == "MESH_SEQUENCE_CACHE":  # Each frame of a sequence has its own file.
         bpy.data.cache_files[0].is_sequence = True
         assert document(files.save(tmp_path / "part.blend"))["errors"] == []
         bpy.data.cache_files[0].is_sequence = False

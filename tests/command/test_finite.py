@@ -170,7 +170,7 @@ def test_a_gltf_with_a_position_that_is_not_finite_is_refused(tmp_path, gltf):
     (tmp_path / "box.bin").write_bytes(binary)
     name = text["meshes"][0]["name"]
     assert reason(path) == refused(1, "at_mesh_vertex", mesh=name, vertex=5)
-    # The same in one file, and as a text.
+    # Repeat it with a single file, and with the data as text.
     text["buffers"][0].pop("uri")
     head = json.dumps(text).encode()
     head += b" " * (-len(head) % 4)

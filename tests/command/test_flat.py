@@ -194,7 +194,7 @@ def exact_moments(points):
 
 @pytest.mark.parametrize("far, least", [(0.0, 1e-3), (300.0, 1e-6)])
 def test_centroid_and_second_moments_have_tight_bounds(far, least):
-    """Of polygons whose coordinates are float32, against fractions."""
+    """Compare float32 polygons with fractions."""
     rng, worst = np.random.default_rng(5), dict.fromkeys(("area", "centroid", "second_moments"), 0.0)
     for _ in range(12):
         turns = np.sort(rng.random(7)) * 2.0 * np.pi

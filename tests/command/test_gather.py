@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What gathers results: summaries, comparisons, the report as a page. And the options that the panel has too."""
+"""Summaries, comparisons and the report page; and the options that the panel has too."""
 
 import html
 import json
@@ -96,38 +96,25 @@ def test_results_within_their_bounds_are_the_same(main, tmp_path):
     assert main("compare", first)[0] == 2
 
 
-def test_every_number_is_compared(main, tmp_path):
-    """Of objects, assemblies and bones: moments, tensors about a point, density. A change of any of them is found."""
+def test_assemblies_bones_and_missing_moments_are_compared(main, tmp_path):
     files.add_box("Box", (1.0, 2.0, 3.0))
     whole = document("--order", "2", "--surface-moments", "--about", "0.5,0,0", "--pose")
     whole["assemblies"] = [{**whole["objects"][0], "name": "All"}]
     whole["bones"] = [{**whole["objects"][0], "name": "Arm", "armature": "Rig"}]
     first = result(tmp_path / "a", whole)
-    code, out, _ = main("compare", first, first)
-    assert code == 0 and out == "3 bodies compared, 0 differences beyond what is allowed\n"
-
-    def change(body, *path):
+    assert main("compare", first, first)[0] == 0
+    for body, path in (
+        ("objects", ("inertia_about", "inertia", 0, 1)),
+        ("assemblies", ("mass",)),
+        ("bones", ("mass",)),
+    ):
         changed = json.loads(first.read_text())
         place = changed[body][0]
         for key in path[:-1]:
             place = place[key]
         place[path[-1]] *= 1.01
-        return main("compare", first, result(tmp_path / "b", changed))
-
-    for path, name in {
-        ("density",): "density",
-        ("moments", "volume", "1,0,0"): "moments.volume[1,0,0]",
-        ("moments", "mass", "0,0,2"): "moments.mass[0,0,2]",
-        ("moments", "surface", "0,1,0"): "moments.surface[0,1,0]",
-        ("inertia_about", "inertia", 0, 1): "inertia_about[xy]",
-        ("inertia", 2, 2): "inertia[zz]",
-        ("principal_moments", 1): "principal_moments[2]",
-    }.items():
-        code, out, _ = change("objects", *path)
-        assert code == 1 and out.count("FAIL") == 1 and "FAIL  : Box: " + name in out.replace("None", ""), out
-    for body, name in (("assemblies", "assembly All"), ("bones", "bone Arm of Rig")):
-        code, out, _ = change(body, "mass")
-        assert code == 1 and out.count("FAIL") == 1 and name + ": mass" in out
+        code, out, _ = main("compare", first, result(tmp_path / "b", changed))
+        assert code == 1 and out.count("FAIL") == 1 and changed[body][0]["name"] in out
     gone = json.loads(first.read_text())
     del gone["objects"][0]["moments"]["mass"]
     assert main("compare", first, result(tmp_path / "b", gone))[0] == 1
@@ -255,7 +242,7 @@ def test_attribute_and_volume_agree_with_the_panel(tmp_path):
     box.body_moments.density_from, box.body_moments.density_volume = "VOLUME", cloud
     as_set = measured("--object", "Box")
     assert found["mass"] == as_set["mass"] and found["inertia"] == as_set["inertia"]
-    assert 6.0 < found["mass"] < 12.0  # of a box of 6 m³
+    assert 6.0 < found["mass"] < 12.0  # The box has 6 m³.
 
 
 def test_a_wall_of_real_thickness():

@@ -23,7 +23,7 @@ STOPPING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP) if os.name != "nt" els
 
 @pytest.fixture(autouse=True)
 def handlers():
-    """As they were, after a test; Ctrl+C is one, also where this runs in the background of a shell."""
+    """Restore the handlers after a test. Ctrl+C has its handler even in the background of a shell."""
     before = {number: signal.getsignal(number) for number in STOPPING}
     signal.signal(signal.SIGINT, signal.default_int_handler)
     yield

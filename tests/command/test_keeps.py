@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the command line's --output and --fourier replace: older results, other files with --force, never an input."""
+"""Files replaced by --output and --fourier: older results, other files with --force, never an input."""
 
 import base64
 import errno
@@ -27,7 +27,7 @@ from tests.core.scan_files import nrrd
 
 pytestmark = pytest.mark.usefixtures("scene")
 WAVES = ("--grid", "2", "--qmax", "1")
-# What usd-core writes for a stage with the sublayer ./shape.usda.
+# A layer from usd-core with the sublayer ./shape.usda.
 CRATE = zlib.decompress(
     base64.b85decode(
         "c-jky2+|D=c5!ClU;u;Hj0{u(j5yc`@WCD?4zijX%1(gNaWG|Hm92F(85nX?OHzx915%4Z^D;{qq8LgG94j)58T9mvGZG6@^-7CV5*dn1lY9~@"
@@ -109,7 +109,7 @@ def test_force_replaces_a_foreign_file(tmp_path, main):
 def test_older_results_are_replaced_and_keep_their_mode(tmp_path, main):
     part = files.box_file(tmp_path / "part.stl")
     target, arrays = tmp_path / "out", tmp_path / "out.npz"
-    target.touch()  # as mktemp does
+    target.touch()  # mktemp creates such files.
     target.chmod(0o600)
     for words in (
         (part,),
@@ -285,7 +285,7 @@ def test_a_damaged_binary_layer_refers_to_nothing(tmp_path, data):
 
 
 def test_unreadable_file_is_not_replaced(tmp_path, main, no_measuring, monkeypatch):
-    """Whether it is a result cannot be known."""
+    """Refuse a file that may or may not be a result."""
     part, target = files.box_file(tmp_path / "part.stl"), tmp_path / "out"
     target.write_text("mine")
 

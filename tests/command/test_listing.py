@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a batch of files finds in folders."""
+"""Files that a batch finds in folders."""
 
 import os
 

@@ -32,7 +32,7 @@ def moments_of(*words):
 
 
 def box_surface_moment(powers, low, high):
-    """Of the six sides of a box."""
+    """Return a surface moment of the six sides of a box."""
 
     def one(i, n):
         return (high[i] ** (n + 1) - low[i] ** (n + 1)) / (n + 1)

@@ -88,7 +88,7 @@ def test_unrendered_objects_and_wire_operands_are_listed():
     cutter.display_type, joined.display_type, helper.display_type = "WIRE", "BOUNDS", "WIRE"
     blank.hide_render = joined.hide_render = True
     bpy.ops.object.light_add()
-    bpy.context.object.hide_render = True  # which nobody would measure
+    bpy.context.object.hide_render = True  # Nobody would measure it.
     found = document()
     assert names(found) == ["Body", "Helper"] and found["errors"] == []
     operand = sentence("boolean_operand")
@@ -130,7 +130,7 @@ def test_collection_operands_and_unrendered_ones_are_left_out():
         parent.children.link(child)
     for home, obj in ((cutters, one), (cutters, two), (inner, other), (inner, both)):
         home.objects.link(obj)
-        if obj is not both:  # which the scene's own collection renders
+        if obj is not both:  # The scene's own collection renders it.
             top.objects.unlink(obj)
     hidden.hide_render = True
     one.display_type = "WIRE"
@@ -201,13 +201,13 @@ def test_a_density_that_nobody_set_is_a_finding():
 
 def test_a_driver_or_a_script_that_did_not_run_is_a_finding(tmp_path):
     box = files.add_box()
-    box.driver_add("location", 0).driver.expression = "2 * frame"  # which Blender itself computes
+    box.driver_add("location", 0).driver.expression = "2 * frame"  # Blender itself computes it.
     simple = files.save(tmp_path / "simple.blend")
     script = bpy.data.texts.new("startup.py")
     script.use_module = True
     text = files.save(tmp_path / "text.blend")
     box.driver_add("location", 1).driver.expression = "bpy.data.filepath"
-    summed = box.driver_add("location", 2).driver  # which is no script, and not valid either
+    summed = box.driver_add("location", 2).driver  # It is neither a script nor valid.
     summed.type, summed.variables.new().targets[0].data_path = "SUM", "nothing"
     summed.is_valid = False
     driver = files.save(tmp_path / "driver.blend")
@@ -258,7 +258,7 @@ def test_excluded_instanced_members_are_in_the_instancer_record():
     found = document()
     assert names(found) == [empty.name] and found["errors"] == [] and found["left_out"] == []
     assert found["objects"][0]["center_of_mass"] == pytest.approx([5.0, 0.0, 0.0], abs=1e-12)
-    empty.instance_type = "NONE"  # which keeps the collection
+    empty.instance_type = "NONE"  # The object keeps its collection.
     assert left_out(document()) == {"member": sentence("not_rendered")}
 
 

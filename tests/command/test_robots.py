@@ -168,7 +168,7 @@ def test_meshes_are_written_along_link_axes(tmp_path):
     record = {entry["name"]: entry for entry in document("--frame", "object")["objects"]}["Fore arm"]
     named = [mesh.get("filename") for mesh in ElementTree.parse(path).getroot().iter("mesh")]
     assert {tmp_path / name for name in named} == {*(tmp_path / "meshes" / "robot").iterdir()}
-    for name in ("usd", "gltf"):  # which hold them
+    for name in ("usd", "gltf"):  # These formats embed meshes.
         path = tmp_path / name / ("robot." + name)
         path.parent.mkdir()
         text("measure", "--format", name, "--output", str(path))
@@ -181,7 +181,7 @@ def test_meshes_are_written_along_link_axes(tmp_path):
 
 @pytest.mark.parametrize("name", SUFFIXES)
 def test_meshes_are_left_out_of_streams_and_on_request(tmp_path, name):
-    """What goes to the standard output has no file beside it that it could name."""
+    """A robot on the standard output has no files beside it to name."""
     arm()
     path = tmp_path / ("robot" + SUFFIXES[name])
     for words in ((), ("--output", "/dev/stdout"), ("--output", "/dev/null"), ("--no-meshes", "--output", path)):
@@ -227,7 +227,7 @@ def test_meshes_in_blocks_are_links_without_geometry(tmp_path, name):
 
 
 def test_robots_in_one_folder_keep_their_own_meshes(tmp_path):
-    """Of links with one name."""
+    """Both robots have a link with one name."""
     body = add(mesh_body(), "Part")
     text("measure", "--format", "urdf", "--output", tmp_path / "small.urdf")
     body.scale = (2, 2, 2)
@@ -291,10 +291,6 @@ def test_an_older_robot_of_ours_is_replaced_and_another_is_not(tmp_path):
         assert refused("measure", "--format", name, "--output", str(path))
 
 
-def test_several_files_are_no_robot(tmp_path):
-    assert refused("measure", "--format", "urdf", str(tmp_path / "a.stl"), str(tmp_path / "b.stl"))
-
-
 def test_collections_and_bones_are_links_too(tmp_path):
     upper, forearm, tool = arm()
     hand = bpy.data.collections.new("Hand")
@@ -325,7 +321,7 @@ def test_a_robot_without_links_is_an_error():
 
 
 def test_unwritable_meshes_are_an_error_beside_the_robot(tmp_path):
-    """As where their folder's name is taken."""
+    """A file takes the name of the meshes' folder."""
     arm()
     (tmp_path / "meshes").write_text("mine")
     path = tmp_path / "robot.urdf"

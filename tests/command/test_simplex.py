@@ -104,7 +104,7 @@ def test_wrong_files_and_options_are_said(tmp_path, capfd):
 
 
 def test_overflowing_moment_bounds_are_refused(tmp_path, capfd):
-    """Those of odd order about the middle of a square are zero, however large it is."""
+    """Moments of odd order about the middle of a square are zero, however large it is."""
     square = np.array([[1, 1], [-1, 1], [-1, -1], [1, -1]])
     for scale, order, code in ((1e106, 1, 0), (1e109, 1, 1), (1e109, 0, 0), (1e160, 0, 1)):
         np.savez(tmp_path / "a.npz", points=scale * square, simplices=[[0, 1], [1, 2], [2, 3], [3, 0]])

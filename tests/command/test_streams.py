@@ -21,7 +21,7 @@ from tests.records import valid
 
 pytestmark = pytest.mark.usefixtures("scene")
 
-MEMORY_MB = 300  # of a child, with Blender in it
+MEMORY_MB = 300  # The limit of a child, with Blender in it.
 
 FORMS = {"part.stl": stl, "part text.stl": stl_text, "part.ply": lambda part: ply(*part)}
 

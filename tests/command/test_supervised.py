@@ -21,7 +21,6 @@ with suppress(ImportError):  # Windows
 pytest.importorskip("bpy")
 import bpy
 from body_moments.command.supervisor import listing, processes
-from body_moments.command.supervisor.journal import Journal
 
 from tests.blender import batch_files as files
 from tests.command.test_process import BLENDER, SCRIPT, in_blender, process, script
@@ -138,17 +137,6 @@ def test_resuming_measures_only_missing_or_changed_files(scans, tmp_path):
     assert (tmp_path / "out.json.old").read_bytes() == before and (tmp_path / "out.json.journal.old").exists()
 
 
-def test_a_longer_time_out_is_tried_when_resuming(tmp_path):
-    key = {"path": "a", "size": 1, "mtime_ns": 2, "options": "x", "addon": "1", "blender": "5"}
-    with Journal(tmp_path / "journal") as journal:
-        journal.append(key, "timeout", 2, 4.0, {"seconds": 2.0, "memory": 10}, b'{"a": 1}')
-        entry = journal.entries["a"]
-        assert entry.serves(key, {"seconds": 2.0, "memory": 20})
-        assert not entry.serves(key, {"seconds": 3.0, "memory": 10})
-        assert not entry.serves({**key, "mtime_ns": 3}, {"seconds": 2.0, "memory": 10})
-        assert journal.document("a") == {"a": 1}
-
-
 @pytest.mark.parametrize("name", ["out.json.old", "out.json.journal"])
 def test_file_in_the_way_of_an_older_result_is_kept(scans, tmp_path, name):
     (tmp_path / "out.json").write_text(script("measure", next(scans.iterdir())).stdout.decode())
@@ -221,7 +209,7 @@ def test_terminal_shows_a_bar_and_ctrl_c_ends_the_run(tmp_path):
             shown += screen.read(1 << 16)
         born = commands.children(pid)
         screen.write(b"\x03")
-        with suppress(OSError):  # how the end of a terminal is read
+        with suppress(OSError):  # Reading the end of a terminal fails.
             while data := screen.read(1 << 16):
                 shown += data
     _, status = os.waitpid(pid, 0)
@@ -309,7 +297,7 @@ def test_the_scan_through_children_is_the_one_without(scans):
 
 
 def test_a_closed_pipe_of_the_supervisor_ends_its_child(tmp_path):
-    """As when the supervisor is killed: the descriptor that a child watches closes."""
+    """Close the descriptor that a child watches, as a killed supervisor does."""
     if not sys.platform.startswith("linux"):
         pytest.skip("not on this system: signals of pipes")
     watched, kept = os.pipe()

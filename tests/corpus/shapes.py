@@ -44,12 +44,12 @@ def with_flipped(part, *numbers):
 
 
 def with_again(part, *numbers):
-    """The same with some faces twice."""
+    """Return the part with some faces doubled."""
     return part[0], [*part[1], *(list(part[1][i]) for i in numbers)]
 
 
 def unwelded(part):
-    """The same with vertices for each face alone."""
+    """Return the part with separate vertices for each face."""
     ends = np.cumsum([0] + [len(face) for face in part[1]])
     points = part[0][np.concatenate(part[1])]
     return points, [list(range(start, end)) for start, end in zip(ends, ends[1:])]
@@ -202,7 +202,7 @@ def random_hull(seed, count=12):
 
 
 def clipped(part, normal, offset):
-    """Of a convex body, the side where normal . x <= offset."""
+    """Return the part of a convex body with normal . x <= offset."""
     points, faces = part
     heights = points @ normal - offset
     edges = {(min(a, b), max(a, b)) for face in faces for a, b in zip(face, [*face[1:], face[0]])}

@@ -15,10 +15,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-RELATIVE = 1e-8  # of the largest number of its kind
+RELATIVE = 1e-8  # Relative to the largest number of its kind.
 BOUND = 0.1  # the share of a reported error bound that a number may move by
 OF_BOUNDS = 0.2  # Bounds are sums of roundings, or differences of two rules that agree.
-OF_FLOAT32 = 1e-6  # of numbers from points that Blender computes
+OF_FLOAT32 = 1e-6  # Relative, for points that Blender computes.
 TURN = 1e-6  # in radians, of axes that the inertia determines
 # Zernike descriptors are differences of far larger numbers, and the chirality of a symmetric body is rounding.
 OF_SIGNATURE = {"zernike": 1e-7, "chirality": 1e-5}
@@ -146,7 +146,7 @@ class _Entry:
         table = entry if isinstance(entry, dict) else {}
         self.table = {name.removeprefix("body_"): value for name, value in table.items()}
         bound = self.table.get("error_bound") or {}
-        if isinstance(bound, list):  # as operators store them
+        if isinstance(bound, list):  # Operators store the bounds as a list.
             bound = dict(zip(BOUNDED, bound[:4])) | {"input": dict(zip(BOUNDED, bound[4:]))}
         self.bound, self.input = bound, bound.get("input") or {}
         self.relative = OF_FLOAT32 if loose else RELATIVE

@@ -40,7 +40,7 @@ def measure_a_cube() -> None:
 
 
 def note_commands() -> dict:
-    """What is registered for `blender -c NAME` from now on, by its name: the module itself cannot be started so."""
+    """Return the commands registered for `blender -c NAME` from now on, by name: the module cannot be started so."""
     import bpy
 
     noted, register = {}, bpy.utils.register_cli_command
@@ -54,7 +54,7 @@ def note_commands() -> dict:
 
 
 def measure_files(command) -> None:
-    """As Blender calls the command, with a file that its children can measure and one that they cannot."""
+    """Call the command as Blender does, with a file that its children can measure and one that they cannot."""
     import bpy
 
     with tempfile.TemporaryDirectory() as folder:

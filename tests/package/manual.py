@@ -82,7 +82,7 @@ def anchor(heading: str) -> str:
 
 
 def target(link: str, document: Path, prefix: str = "") -> str:
-    """Where a link of a document leads in the manual. prefix: from the page to the manual's folder."""
+    """Return the target of a document's link in the manual. prefix: from the page to the manual's folder."""
     path, _, place = link.partition("#")
     if not path:
         return link

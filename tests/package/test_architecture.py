@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which part of the add-on may import which, as docs/architecture.md draws it. Read off the syntax trees."""
+"""Allowed imports between parts of the add-on, as docs/architecture.md draws them, read off the syntax trees."""
 
 import ast
 from pathlib import Path
@@ -32,7 +32,7 @@ ORDER = {
     ),
 }
 MAY_KNOW_EACH_OTHER = ("mesh", "inertia", "papers")
-WITHOUT_WRITE = ("settings", "read", "bodies", "scene")  # what only makes findings and numbers
+WITHOUT_WRITE = ("settings", "read", "bodies", "scene")  # These make findings and numbers only.
 # Blender is imported when it is needed: the package can be imported without it, and a script has to be ready first.
 LATE = {"__init__.py", "core/verdict/finding.py", "operators/batch.py"}
 
@@ -48,7 +48,7 @@ MODULES = shipped()
 
 
 def imports(module: tuple[str, ...]) -> list[tuple[tuple[str, ...], int, bool]]:
-    """What a module imports of the add-on: (module or package, line, whether at the top of the file)."""
+    """Return a module's imports from the add-on: (module or package, line, whether at the top of the file)."""
     result = []
     package = module[:-1]
     tree = ast.parse(MODULES[module].read_text(encoding="utf-8"))

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the documents name exists: folders, files, and functions, classes and methods written as `path.py:name`."""
+"""Places that documents name: folders, files, and functions, classes and methods written as `path.py:name`."""
 
 import ast
 import re
@@ -22,7 +22,7 @@ def places(document: Path) -> list[tuple[str, str]]:
 
 
 def defines(path: Path, name: str) -> bool:
-    """Whether a module defines this function or class, or this method of a class, itself."""
+    """Return whether a module itself defines this function, class or method of a class."""
     body = ast.parse(path.read_text(encoding="utf-8")).body
     for part in name.split("."):
         inner = [node.body for node in body if isinstance(node, (ast.FunctionDef, ast.ClassDef)) and node.name == part]

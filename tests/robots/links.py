@@ -39,7 +39,7 @@ def ball(count=6):
 
 
 def inertial(points, triangles, density=1000.0):
-    """What measuring the body along the link's axes gives."""
+    """Return the measured inertial of the body along the link's axes."""
     body = MassProperties.from_moments(polyhedron_moments(Surface.from_triangles(points, triangles))[0], density)
     frame = body.principal
     return Inertial.with_agreeing_axes(body.mass, body.center, body.inertia, frame.moments, frame.axes)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What SDFormat 1.9 says of the elements that we write: attributes, children, how often, of which type.
+"""The schema of SDFormat 1.9 for the written elements: attributes, children, counts and types.
 
 Restated from its descriptions (sdf/1.9/root, model, link, inertial, pose, collision, visual, geometry and joint), for
 machines without the parser itself, which test_sdf_parser.py asks.

@@ -19,12 +19,12 @@ from urdf_parser_py.urdf import URDF
 from tests.robots import sdf_schema
 from tests.robots.links import bodies, rotation, shapes
 
-RTOL = 1e-14  # of the largest entry
+RTOL = 1e-14  # Relative to the largest entry.
 SINGLE = 2.0**-23
 
 
 def near(found, truth, rel=RTOL, scale=None):
-    """Whether all entries are within `rel` of the largest true one, or of `scale`."""
+    """Return whether all entries are within `rel` of the largest true entry, or of `scale`."""
     found, truth = np.asarray(found, float), np.asarray(truth, float)
     return np.abs(found - truth).max() <= rel * (np.abs(truth).max() if scale is None else scale)
 

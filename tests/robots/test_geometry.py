@@ -33,7 +33,7 @@ MOTION = {
     "angularVelocity": VECTOR,
     "gravityFactor": {"type": "number"},
 }
-# As the extensions' own descriptions have them. Zero mass or inertia is allowed there, and means something else.
+# The schemas of the extensions. Zero mass or inertia is allowed there, and means something else.
 SCHEMAS = {
     gltf.KHR: {
         "type": "object",
@@ -163,7 +163,7 @@ def test_primitives_have_the_inertia_of_mujoco(kind):
 
 NUMBER, INDEX = {"type": "number"}, {"type": "integer", "minimum": 0}
 AXES = {"type": "array", "items": {"enum": [0, 1, 2]}, "minItems": 1, "maxItems": 3, "uniqueItems": True}
-# As KHR_physics_rigid_bodies and KHR_implicit_shapes describe them.
+# The schemas of KHR_physics_rigid_bodies and KHR_implicit_shapes.
 LIMIT = {
     "type": "object",
     "properties": {"linearAxes": AXES, "angularAxes": AXES, "min": NUMBER, "max": NUMBER},

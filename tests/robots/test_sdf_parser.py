@@ -14,7 +14,7 @@ from body_moments.core.robots.write import sdf
 from tests.robots.links import bodies, shapes
 
 SOURCE = Path(__file__).with_name("read_sdf.cc")
-LIBRARY = "sdformat12"  # of SDF 1.9, in Debian 12
+LIBRARY = "sdformat12"  # The parser of SDF 1.9, in Debian 12.
 
 
 @pytest.fixture(scope="module")

@@ -67,7 +67,7 @@ def documents(path: Path) -> list[dict]:
 
 
 def check_documents(found: list[dict], paths: list[Path]) -> Counter:
-    """How many there are of each status; each file has exactly one document, in the order given."""
+    """Count the documents of each status; each file has exactly one document, in the order given."""
     assert [document["file"] for document in found] == [str(path) for path in paths]
     for document in found:
         assert (document["status"] == "ok") == (not document["errors"]), document["file"]

@@ -21,7 +21,7 @@ from tests.soak import commands, hostile, hostile_files
 
 NUMBERS = ("mass", "volume", "area", "center_of_mass", "inertia")
 CHECKED = (".3mf", ".usdz", ".npz", ".nii.gz", ".nrrd")
-DAMAGED = 40  # of each format in a round
+DAMAGED = 40  # Damaged files of each format in a round.
 
 
 def whole_files(folder: Path) -> dict[str, bytes]:
@@ -45,7 +45,7 @@ def flipped(data: bytes, chance: random.Random) -> bytes:
 
 
 def numbers(document: dict) -> str:
-    """What was measured, as text to compare; "" for what was refused."""
+    """Return the measured numbers as text, or "" for a refused file."""
     if document["status"] != "ok":
         return ""
     return json.dumps([[body.get(name) for name in NUMBERS] for body in document["objects"]])

@@ -214,7 +214,7 @@ def write_cases(folder: Path, marker: Path) -> dict[Path, set[str]]:
         "error",
     )
     put("unknown.xyz", b"1 2 3", "error")
-    for path in sorted(CRASHES.iterdir()):  # what has crashed some Blender
+    for path in sorted(CRASHES.iterdir()):  # Each has crashed some Blender.
         put(path.name, path.read_bytes(), *(STATUSES - {"missing", "unsupported_version"}))
     empty_scene()
     bpy.ops.wm.save_as_mainfile(filepath=str(folder / "no object.blend"), copy=True)

@@ -40,7 +40,7 @@ def _files(folder: Path, count: int) -> list[Path]:
 
 
 def _lines(result: Path) -> int:
-    """How many files are recorded."""
+    """Count the recorded files."""
     journal = result.with_name(result.name + ".journal")
     return journal.read_bytes().count(b"\n") if journal.exists() else 0
 
@@ -70,7 +70,7 @@ def _kill_children(paths: list[Path], folder: Path, count: int, chance: random.R
             time.sleep(0.05)
     said = process.stderr.read().decode()
     assert process.returncode in (0, 1), said[-2000:]
-    _check(result, paths, damaged=count // 2)  # what was hit twice
+    _check(result, paths, damaged=count // 2)  # A file may be hit twice.
     _check_nothing_left(folder, {"files", result.name, result.name + ".journal"})
 
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How often the signature finds a letter again that was moved, turned, scaled, drawn otherwise, and noisy.
+"""Retrieval rate of letters that were moved, turned, scaled, drawn otherwise and made noisy.
 
 The letters are the 62 letters and digits of each font, all of them in one library. Those that are one shape up to turn
 and scale count as one class, as I and 1 of Blender's font; a mirror image is a class of its own.
@@ -82,7 +82,7 @@ def missed(letters, classes, noise: float, rng: np.random.Generator) -> Iterator
 
 
 def run(budget_seconds: float, seed: int) -> str:
-    """As often as the time allows. Fails where less than 99 % are found at a noise of 0.01 % or less."""
+    """Repeat until the time is used up. Fail if less than 99 % are found at a noise of 0.01 % or less."""
     rng, end = np.random.default_rng(seed), time.monotonic() + budget_seconds
     letters, classes = library()
     count = len(set(classes.values()))

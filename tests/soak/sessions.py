@@ -25,7 +25,7 @@ from body_moments.core.verdict.finding import MeasureError
 
 from tests.blender.objects import add, measured, mesh_body
 
-STEPS = 40  # of a session
+STEPS = 40  # Steps of a session.
 MAX_OBJECTS = 6
 RTOL = 1e-5
 
@@ -76,7 +76,7 @@ class Session:
                 bpy.ops.ed.undo_push(message=step.__name__)
 
     def unkeyed(self):
-        """What no operator of ours has to change, by object."""
+        """Return the state of each object that no operator may change."""
         return {
             obj.name: (
                 [key.value for key in obj.data.shape_keys.key_blocks] if obj.data.shape_keys else [],

@@ -48,7 +48,7 @@ def markdown(table):
 
 
 def run(budget_seconds, seed):
-    """As many trials as the time allows."""
+    """Run trials until the time is used up."""
     table = collect(seed % 2**31, 10**9, budget_seconds)
     return "{} trials, no wrong number without a label\n{}".format(sum(table.values()), markdown(table))
 

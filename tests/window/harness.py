@@ -21,7 +21,7 @@ import numpy as np
 WIDTH, HEIGHT = 1600, 1000
 START_LIMIT = 480.0  # seconds until Blender's window answers
 STEP_LIMIT = 240.0  # seconds until what was pressed has happened
-PAGES = 3  # how far down the sidebar a button is looked for
+PAGES = 3  # Buttons are searched as far down the sidebar.
 TOOLS = ("Xvfb", "xdotool", "scrot")
 
 
@@ -45,7 +45,7 @@ class Window:
         self.environment = {**os.environ, "BLENDER_USER_RESOURCES": str(user)}
         self.environment["LIBGL_ALWAYS_SOFTWARE"] = "1"
         self.questions = 0
-        self.buttons: dict[str, tuple[float, float]] = {}  # where they were found last
+        self.buttons: dict[str, tuple[float, float]] = {}  # Their last known places.
 
     def __enter__(self):
         with contextlib.ExitStack() as stack:
@@ -84,7 +84,7 @@ class Window:
         self.ask("pass", limit=START_LIMIT)
 
     def output(self) -> str:
-        """What Blender has printed so far; an error in a panel's draw is told nowhere else."""
+        """Return Blender's output so far; errors while panels are drawn appear only there."""
         return self.log.read_text(encoding="utf-8", errors="replace")
 
     # questions
@@ -184,7 +184,7 @@ class Window:
         self.click(*self.place(operator))
 
     def place(self, operator: str) -> tuple[float, float]:
-        """Where the button of an operator is in the sidebar, after scrolling to it if need be."""
+        """Return the place of an operator's button in the sidebar, after scrolling to it if need be."""
         place = self.buttons.get(operator)
         if place is None or self._button_at(*place) != operator:
             place = self._find_button(operator)

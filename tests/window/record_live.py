@@ -17,7 +17,7 @@ from tests.package import extension
 from tests.window import harness, png
 
 ROOT = Path(__file__).resolve().parent.parent.parent
-STEPS = 14  # of the drag
+STEPS = 14  # Steps of the drag.
 PIXELS = 9  # to the right in each
 SCENE = """
 for obj in list(bpy.data.objects):

@@ -222,17 +222,5 @@ def test_an_operator_is_chosen_from_the_menu_and_does_its_work(window, operator)
         window.ask("bpy.ops.object.mode_set(mode='OBJECT')")
 
 
-def test_the_redo_panel_changes_the_action_after_the_fact(window):
-    window.ask(BRICK)
-    window.choose(MENU, "object.body_moments_measure")
-    window.wait(f"{PART}['body_density'] == 1000.0")
-    window.point_at_view()
-    window.key("F9")
-    window.redraw()
-    window.picture("operators-redo")
-    window.key("Escape")
-    assert window.get("bpy.context.window_manager.operators[-1].bl_idname") == "OBJECT_OT_body_moments_measure"
-
-
 def test_nothing_went_wrong_while_the_panels_were_drawn(window):
     assert "Traceback" not in window.output()

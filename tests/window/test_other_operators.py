@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Those operators clicked in the window that no other test clicks: of sub-panels, of File menus and of file browsers.
+"""Operators that no other test clicks in the window: of sub-panels, File menus and file browsers.
 
 Their buttons are far down in sub-panels, so each is the only entry of a menu of the test's own.
 """
@@ -240,7 +240,5 @@ def test_every_operator_has_been_pressed():
             if isinstance(node, ast.Call) and ast.unparse(node.func) in ("window.press", "window.choose"):
                 pressed |= {word.value for word in node.args if isinstance(word, ast.Constant)}
     pressed |= {one for one, other in BY_OTHERS.items() if other in {*pressed, "object.body_moments_set_material"}}
-    assert (
-        made - pressed - {"object.body_moments_set_material"} == set()
-    )  # which test_every_operator chooses in its menu
+    assert made - pressed - {"object.body_moments_set_material"} == set()  # test_every_operator chooses it in its menu.
     assert pressed - made <= {"VIEW3D_MT_body_moments"}

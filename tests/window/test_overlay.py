@@ -12,7 +12,7 @@ import pytest
 PACKAGE = "bl_ext.user_default.body_moments"
 SETTINGS = "bpy.context.scene.body_moments.overlay"
 EXACT, OUT_OF_DATE = (0.15, 0.85, 0.60), (0.68, 0.72, 0.76)
-FROM_SRGB = 0.06  # of a color: what rounding and the display change
+FROM_SRGB = 0.06  # Rounding and the display change colors by as much.
 
 
 def center_color(window, name="overlay"):
@@ -34,7 +34,7 @@ def center_color(window, name="overlay"):
 
 
 def white_pixels_of_disc(window, name):
-    """How many pixels around the cube's center are white."""
+    """Count the white pixels around the cube's center."""
     window.point_at_view()
     window.redraw()
     window.get("True")

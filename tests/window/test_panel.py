@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a person does first: open the tab, press Measure, look, change their mind.
+"""First steps of a person: open the tab, press Measure, look, change their mind.
 
 The tests run in the order of the file and go on from one another, as the person does.
 """

@@ -50,7 +50,7 @@ for cls in bpy.types.Panel.__subclasses__():
 """
 )
 FIRST_LINE, LINE_STEP = 172, 20.7  # pixels, the first above the button under the list, with its filters open
-FILTERS = {  # how far from the left of the sidebar and above that button
+FILTERS = {  # Pixels from the left of the sidebar and above that button.
     "opened": (31, 27),
     "Name": (58, 31),
     "Mass": (133, 31),

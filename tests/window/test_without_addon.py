@@ -8,7 +8,7 @@ import subprocess
 import numpy as np
 import pytest
 
-FLOAT32 = 2e-5  # of the size: what nodes lose
+FLOAT32 = 2e-5  # Relative to the size: nodes lose as much.
 UNIT = 0.001
 # An L with a leg of 1 × 3 and a foot of 2 × 1, 0.5 high: volume 2.5, center (1.1, 1.1, 0.25).
 POINTS = [(0, 0), (3, 0), (3, 1), (1, 1), (1, 3), (0, 3)]
@@ -52,7 +52,7 @@ scene.frame_set(1)
 assert bpy.ops.object.body_moments_add_nodes() == {{"FINISHED"}}
 bpy.ops.wm.save_as_mainfile(filepath=sys.argv[-1])
 """
-# What a user of the file does: the outputs of the group are stored with the marker, a modifier and the frame changed.
+# Steps of a user: store the group's outputs with the marker, change a modifier and the frame.
 READ = """\
 import bpy, json, sys
 assert not hasattr(bpy.types.Object, "body_moments"), "the add-on is here"
@@ -83,7 +83,7 @@ print("SEEN", json.dumps(seen))
 
 @pytest.fixture(scope="module")
 def without_addon(run_blender, tmp_path_factory):
-    """What the file says in a Blender with factory settings and a user folder of its own."""
+    """Return the numbers of the file in a Blender with factory settings and an empty user folder."""
     folder = tmp_path_factory.mktemp("nodes")
     made, read, file = folder / "made.py", folder / "read.py", folder / "nodes.blend"
     made.write_text(MADE, encoding="utf-8")
