@@ -1,8 +1,54 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Findings of `operators`."""
+"""Findings of the operators, by subject."""
 
 from ..core.verdict.finding import error, note, warning
+
+# assembly
+
+MEMBERS_NOT_STORED = note(
+    "members_not_stored",
+    "{count} member cannot hold results: {names}.",
+    "{count} members cannot hold results: {names}.",
+)
+NO_ACTIVE_COLLECTION = error("no_active_collection", "No collection is active. Click one in the Outliner.")
+NO_ACTIVE_ASSEMBLY_EMPTY = error(
+    "no_active_assembly_empty", "The active object is not an empty with children. Select one."
+)
+ASSEMBLY_MEASURED = note(
+    "assembly_measured",
+    "{assembly}: {mass:.7g} kg from {count} object",
+    "{assembly}: {mass:.7g} kg from {count} objects",
+)
+ASSEMBLY_HAS_OPEN_MEMBERS = error(
+    "assembly_has_open_members",
+    "A member is open, and its center depends on a reference point. Close its mesh, or set Kind to Shell.",
+)
+CURSOR_TO_ASSEMBLY = note("cursor_to_assembly", "Moved the 3D cursor to the center of mass of “{assembly}”")
+EMPTY_AT_ASSEMBLY = note("empty_at_assembly", "Placed an empty at the principal frame of “{assembly}”")
+ASSEMBLY_OFFSET_SET = note("assembly_offset_set", "Instances of “{assembly}” are placed by its center of mass")
+ASSEMBLY_ORIGIN_MOVED = note("assembly_origin_moved", "Moved “{assembly}” to the center of mass; its children stay")
+CHILDREN_WOULD_MOVE = error(
+    "children_would_move",
+    "These would move with it: {names}. Remove what holds them, such as constraints or animation.",
+)
+BILL_WRITTEN = note(
+    "bill_written", "Wrote the masses of {count} member to “{file}”", "Wrote the masses of {count} members to “{file}”"
+)
+
+# export
+
+ROBOT_EXPORTED = note("robot_exported", "{count} link exported to {file}.", "{count} links exported to {file}.")
+ROBOT_SHEARED = warning(
+    "robot_sheared", "Bodies must not be sheared. Apply the scale of the parents of {links} (Object > Apply > Scale)."
+)
+ROBOT_NAMES_ALIKE = error("robot_names_alike", "Blender gives {names} one name in USD. Rename one of them.")
+ROBOT_GEOMETRY_NOT_WRITTEN = error("robot_geometry_not_written", "Blender's exporter failed: {error}.")
+ROBOT_NOT_WRITTEN = error("robot_not_written", "The file cannot be written: {error}.")
+ROBOT_COPIED = note("robot_copied", "Inertial of {count} link copied.", "Inertials of {count} links copied.")
+PRIMITIVES_ADDED = note("primitives_added", "{count} shape added", "{count} shapes added")
+PRIMITIVE_HAS_PARENT = error("primitive_has_parent", "It has a parent, or is linked. Clear the parent to simulate it.")
+AUDIT_TEXT = note("audit_text", "See the text “{text}” in the Text Editor")
 
 LIBRARY_OVERRIDE_MASS = error(
     "library_override_mass",
@@ -32,3 +78,314 @@ POLL_OBJECT_MODE = note("poll_object_mode", "Switch to Object Mode")
 POLL_SELECT_OBJECTS = note("poll_select_objects", "Select objects")
 POLL_ACTIVE_MEASURABLE = note("poll_active_measurable", "Make a measurable object active")
 POLL_ACTIVE_MESH = note("poll_active_mesh", "Make a mesh object active")
+
+# imports
+
+SCAN_NON_FINITE = error("scan_non_finite", "Some samples are not finite. Remove them.")
+SCAN_DRAWN_EVENLY = note(
+    "scan_drawn_evenly",
+    "Blender draws samples evenly. They are measured where they stand; the ends along {axes} are in their places.",
+)
+SCAN_CT_NUMBERS = note("scan_ct_numbers", "Negative values are taken as CT numbers, by the transfer table.")
+SURFACES_IMPORTED = note(
+    "surfaces_imported",
+    "Imported {count} patch of order {order} from {file}.",
+    "Imported {count} patches of order {order} at most from {file}.",
+)
+NOT_IMPORTED = warning("not_imported", "Not imported: {cause}")
+NO_SURFACE_FILE = error("no_surface_file", "No file is chosen. Choose IGES or .obj files.")
+VOLUME_NOT_WRITTEN = error("volume_not_written", "The volume cannot be written: {error}")
+OPENVDB_MISSING = error("openvdb_missing", "This Python has no openvdb module. Use Blender.")
+NO_IMPORT_FILE = error("no_import_file", "No file is chosen. Choose a scan.")
+SCAN_IMPORTED = note("scan_imported", "Imported {samples:size} samples as “{file}”")
+
+# measure
+
+FOURIER_FOLDER_MISSING = error(
+    "fourier_folder_missing", "The folder “{folder}” does not exist. Choose another File Path."
+)
+FOURIER_PATH_MISSING = error("fourier_path_missing", "No file is chosen. Set File Path.")
+MODIFIED_MESH = error(
+    "modified_mesh",
+    "Modifiers change the mesh, so its defects are not those of what is measured. Apply or hide {modifiers}.",
+)
+AXIS_NEEDS_TWO_POINTS = error(
+    "axis_needs_two_points", "{count} points are selected. Select two vertices, or two objects."
+)
+REFERENCE_STORED = note(
+    "reference_stored",
+    "Stored the inertia of {count} object about the reference",
+    "Stored the inertia of {count} objects about the reference",
+)
+STALE_UNIT_SCALE = warning("stale_unit_scale", "Unit scale changed")
+MEASURED_ONE = note("measured_one", "Measured {object}")
+MEASURED_ONE_WITH_WARNINGS = warning("measured_one_with_warnings", "Measured {object}, with warnings")
+MEASURED_SEVERAL = note("measured_several", "Measured {count} of {total} objects")
+WITH_WARNINGS = warning("with_warnings", "{count} with warnings: {objects}")
+OBJECT_WARNINGS = warning("object_warnings", "{object}: {causes}")
+MEASURED_SECTION = note("measured_section", "Measured the section of {object}")
+MEASURED_SECTION_WITH_WARNINGS = warning(
+    "measured_section_with_warnings", "Measured the section of {object}, with warnings"
+)
+MEASURED_SECTIONS = note("measured_sections", "Measured {count} section", "Measured {count} sections")
+NO_DEFECTS = note("no_defects", "Measured {count} object: no defects", "Measured {count} objects: no defects")
+WITH_DEFECTS = warning(
+    "with_defects",
+    "{count} of {total} measured objects has defects",
+    "{count} of {total} measured objects have defects",
+)
+OBJECT_DEFECTS = warning("object_defects", "{object}: {defects}")
+VALUE_COPIED = note("value_copied", "Copied {value}")
+NO_VALUE_TO_COPY = warning("no_value_to_copy", "No value to copy")
+CSV_COPIED = note("csv_copied", "Copied {count} row.", "Copied {count} rows.")
+NUMBERS_SAVED = note("numbers_saved", "Saved {count} object to “{file}”.", "Saved {count} objects to “{file}”.")
+NUMBERS_SUFFIX = error(
+    "numbers_suffix", "The format of “{file}” is unknown. Let its name end in .csv, .json or .jsonl."
+)
+REPORT_COPIED = note("report_copied", "Copied the report of {count} object", "Copied the report of {count} objects")
+SECTION_COPIED = note("section_copied", "Copied the section of {object}")
+MOMENTS_COMPUTED = note("moments_computed", "Computed {count} moments of {object}")
+MOMENTS_COPIED = note("moments_copied", "Copied {count} moments")
+WIRE_WITHOUT_MOMENTS = warning(
+    "wire_without_moments",
+    "{object}: a wire has no volume or surface. Set Kind to Solid or Shell; measure --order gives moments of length.",
+)
+FOURIER_WRITTEN = note(
+    "fourier_written", "Wrote {count} frequencies to {file}; the image {image} shows slices of their magnitude"
+)
+CANCELED_FOURIER = note("canceled_fourier", "Fourier transform canceled; nothing was written")
+PROGRESS_LIBRARY = note("progress_library", "Measuring the library: {share:.0%}. Esc to stop")
+CANCELED_LIBRARY = warning("canceled_library", "Stopped. The files measured so far stand in the journal")
+LIBRARY_NOT_STARTED = error("library_not_started", "No process can be started: {error}.")
+LIBRARY_FAILED = error(
+    "library_failed", "Measuring the library failed with exit code {code}. Use the command line to see why."
+)
+LIBRARY_MEASURED = note(
+    "library_measured", "{count} file measured; report: {file}", "{count} files measured; report: {file}"
+)
+LIBRARY_MEASURED_WITH_FAILURES = warning(
+    "library_measured_with_failures",
+    "{count} file measured, {failed} without a result; report: {file}",
+    "{count} files measured, {failed} of them not or not fully; report: {file}",
+)
+PROGRESS_FOURIER = note("progress_fourier", "Fourier transform: {share:.0%}. Esc to cancel")
+POLL_SELECT_MESHES = note("poll_select_meshes", "Select mesh objects")
+POLL_MEASURE_SELECTED = note("poll_measure_selected", "Measure the selected objects first")
+POLL_MEASURE_SECTION = note("poll_measure_section", "Measure a section first")
+POLL_COMPUTE_MOMENTS = note("poll_compute_moments", "Compute the moments first")
+POLL_ACTIVE_SURFACE = note("poll_active_surface", "Make an object with a surface active")
+POLL_SECTION = note("poll_section", "Select faces in Edit Mode, or a flat mesh, 2D curve or text")
+PANEL_FOURIER_DEFAULT = note("panel_fourier_default", "0 rad/m: from the object's size")
+
+# rig
+
+BONES_MEASURED = note(
+    "bones_measured",
+    "{armature}: {mass:.7g} kg in the parts of {count} bone",
+    "{armature}: {mass:.7g} kg in the parts of {count} bones",
+)
+PHYSICS_RIG_CREATED = note("physics_rig_created", "Rigid bodies created: {count}, joints: {joints}")
+PHYSICS_RIG_TOO_LIGHT = error(
+    "physics_rig_too_light",
+    "Rigid bodies weigh {limit:.3g} kg at least, and these parts less: {names}. Scale the character, or set masses.",
+)
+RIG_CENTER_ADDED = note("rig_center_added", "Added the center of mass of “{armature}”, which follows its pose")
+
+# setup
+
+LIBRARY_OVERRIDE_SETTINGS = error(
+    "library_override_settings",
+    "A library override, which would lose its settings. Use Object > Relations > Make Local.",
+)
+MATERIAL_NOT_LOCAL = error("material_not_local", "No local material “{material}”. Make it local.")
+RIGID_BODIES_MADE = note(
+    "rigid_bodies_made",
+    "{count} rigid body of {mass:.7g} kg; Calculate Mass would say {calculated:.7g} kg",
+    "{count} rigid bodies of {mass:.7g} kg; Calculate Mass would say {calculated:.7g} kg",
+)
+NODE_GROUP_ADDED = note("node_group_added", "Added the node group “{group}”")
+NODE_MARKER_ADDED = note("node_marker_added", "Added the node group “{group}” and the marker “{object}”")
+NODE_MARKER_IS_OF_SOLID = note("node_marker_is_of_solid", "nodes take the object as a solid of one density")
+NO_REVERSED_FACES = note("no_reversed_faces", "no faces were measured as reversed")
+FACES_REVERSED = note("faces_reversed", "Reversed {count} face", "Reversed {count} faces")
+MATERIAL_SET = note("material_set", "Set {count} object to {material}", "Set {count} objects to {material}")
+MATERIAL_SET_ALREADY = note("material_set_already", "already set to {material}")
+BLENDER_MATERIAL_SET = note("blender_material_set", "Set “{target}” to {material}")
+SETTINGS_COPIED = note(
+    "settings_copied", "Copied the settings to {count} object", "Copied the settings to {count} objects"
+)
+SETTINGS_EQUAL = note("settings_equal", "the settings are equal")
+POLL_SELECT_OTHERS = note("poll_select_others", "Select other objects besides the active one")
+
+# shape
+
+MIRROR_IMAGE = error("mirror_image", "A mirror image of the active object, which no rotation can match.")
+FLAT_MIRROR_IMAGE = error(
+    "flat_mirror_image", "A mirror image of the active object, seen from the front. Turn it over, or mirror it."
+)
+FLAT_AND_BODY = error(
+    "flat_and_body", "A flat shape and a body cannot match. Select objects of one kind, or set Kind to Shell."
+)
+LIBRARY_OVERRIDE_SYMMETRY = error(
+    "library_override_symmetry",
+    "A library override, which would lose its symmetry. Use Object > Relations > Make Local.",
+)
+ACTIVE_IS_CHILD = error(
+    "active_is_child", "The active object is a child of this one and would move along. Clear the parent."
+)
+POSES_MATCHED = note("poses_matched", "Moved {count} object onto {object}", "Moved {count} objects onto {object}")
+POSE_DISTANCE = note("pose_distance", "{object}: surfaces at most {maximum:length} apart, {mean:length} on average")
+POSE_NOT_A_COPY = warning(
+    "pose_not_a_copy",
+    "{object}: surfaces at most {maximum:length} apart, {mean:length} on average; not a copy, or cut off",
+)
+SHAPES_COMPARED = note("shapes_compared", "Compared {count} shape", "Compared {count} shapes")
+SHAPE_COUNTS = note("shape_counts", "{counts}")
+SHAPES_COPY = note("shapes_copy", "{count} copy", "{count} copies")
+SHAPES_SCALED_COPY = note("shapes_scaled_copy", "{count} scaled copy", "{count} scaled copies")
+SHAPES_MIRROR = note("shapes_mirror", "{count} mirror image", "{count} mirror images")
+SHAPES_SCALED_MIRROR = note("shapes_scaled_mirror", "{count} scaled mirror image", "{count} scaled mirror images")
+SHAPES_COPY_OR_MIRROR = note("shapes_copy_or_mirror", "{count} copy or mirror image", "{count} copies or mirror images")
+SHAPES_SCALED_COPY_OR_MIRROR = note(
+    "shapes_scaled_copy_or_mirror", "{count} scaled copy or mirror image", "{count} scaled copies or mirror images"
+)
+SHAPES_SIMILAR = note("shapes_similar", "{count} similar")
+NONE_SIMILAR = note("none_similar", "none is similar")
+NEAREST_SHAPE = note("nearest_shape", "nearest is {object}, at {distance:.2e}")
+OBJECT_NOT_IN_VIEW_LAYER = error("object_not_in_view_layer", "No object {object} in the view layer")
+RECORDS_LEFT_OUT = warning("records_left_out", "Left out: {causes}")
+LIBRARY_FILE_UNREADABLE = error("library_file_unreadable", "{file} cannot be read: {error}")
+SYMMETRY_FOUND = note("symmetry_found", "{object}: {group}, {description}")
+SYMMETRY_FOUND_OF_DISPLAY_MESH = note(
+    "symmetry_found_of_display_mesh", "{object}: {group}, {description}, of the display mesh"
+)
+SYMMETRY_SEARCHED = note("symmetry_searched", "Searched {count} object", "Searched {count} objects")
+SYMMETRY_SPHERE = note("symmetry_sphere", "sphere")
+SYMMETRY_REVOLUTION = note("symmetry_revolution", "body of revolution")
+SYMMETRY_REVOLUTION_REVERSIBLE = note("symmetry_revolution_reversible", "body of revolution, symmetric end to end")
+SYMMETRY_AXES = note(
+    "symmetry_axes", "{count} rotation axis, {order}-fold", "{count} rotation axes, up to {order}-fold"
+)
+SYMMETRY_PLANES = note("symmetry_planes", "{count} mirror plane", "{count} mirror planes")
+SYMMETRY_INVERSION = note("symmetry_inversion", "center of inversion")
+SYMMETRY_NONE = note("symmetry_none", "no symmetry")
+CANCELED_SEARCH = note("canceled_search", "Search canceled; nothing was changed")
+CANCELED_MATCH_POSE = note("canceled_match_pose", "Match Pose canceled; nothing was moved")
+PROGRESS_COMPARING = note("progress_comparing", "Comparing: {share:.0%}. Esc to cancel")
+PROGRESS_SYMMETRY = note("progress_symmetry", "Finding symmetry: {share:.0%}. Esc to cancel")
+POLL_ACTIVE_WANTED = note("poll_active_wanted", "Make an object active to compare with")
+POLL_MATCH_SELECTION = note("poll_match_selection", "Select the objects to move, then the object to match")
+
+# snap
+
+SCALE_ZERO_AXIS_OF_PARENT_TARGET = error(
+    "scale_zero_axis_of_parent_target", "The scale is zero along an axis. Set the scale, or turn off Parent to Object."
+)
+EMPTY_FOLLOWED = error(
+    "empty_followed", "The object follows its empty “{empty}” and would move along. Clear that parent or constraint."
+)
+EMPTY_CONSTRAINED = error("empty_constrained", "A constraint holds the empty “{empty}”. Remove it.")
+NOT_A_RIGID_BODY = error("not_a_rigid_body", "Not a rigid body. Turn on Add Rigid Bodies.")
+RIGID_BODY_CENTER_ELSEWHERE = warning(
+    "rigid_body_center_elsewhere",
+    "Physics uses the origin as center of mass, which differs for {objects}. Use Axes to Principal Axes.",
+)
+BALANCE_NO_SELECTION = error("balance_no_selection", "No vertex is selected. Select the vertices that may move.")
+BALANCE_NO_GROUP = error("balance_no_group", "No vertex group “{group}”. Choose one in Vertex Group.")
+BALANCE_NO_ACTIVE_GROUP = error("balance_no_active_group", "No vertex group. Add one with the vertices that may move.")
+BALANCE_GROUP_EMPTY = error(
+    "balance_group_empty", "No vertex has a weight in the vertex group “{group}”. Assign the vertices that may move."
+)
+BALANCE_TRIANGULATION_VARIES = error(
+    "balance_triangulation_varies", "The triangulation changes with every move. Use Face > Triangulate Faces."
+)
+BALANCE_LINKED_MESH = error("balance_linked_mesh", "The mesh is linked from another file. Make it local.")
+BALANCE_SHAPE_KEYS = error("balance_shape_keys", "The mesh has shape keys. Apply or remove them.")
+BALANCE_WALL = error("balance_wall", "Balancing needs a thin shell. Set Wall to Thin.")
+BALANCE_VARYING_DENSITY = error(
+    "balance_varying_density", "Balancing needs uniform density. Set Density From to One Value."
+)
+BALANCE_UNCLEAN = error(
+    "balance_unclean",
+    "The mesh is not closed with all faces outward. Merge by distance, fill holes and recalculate normals, or"
+    " set Kind to Shell.",
+)
+BALANCE_ZERO_SCALE = error("balance_zero_scale", "A zero scale flattens the object. Set the scale.")
+BALANCE_INSTANCES = error("balance_instances", "The object shows instances. Use Object > Apply > Make Instances Real.")
+BALANCE_MODIFIED = error("balance_modified", "The measured shape is made by {modifiers}. Apply or hide them.")
+BALANCE_MODIFIED_UNKNOWN = error(
+    "balance_modified_unknown", "The measured shape is made by animation, constraints or instances. Apply them."
+)
+BALANCE_MESH_SHARED = note("balance_mesh_shared", "Other objects use this mesh and changed too.")
+BALANCE_ONLY_ACTIVE = note(
+    "balance_only_active", "Only “{object}” was balanced; the other meshes in Edit Mode are unchanged."
+)
+ORIENTATION_NEEDS_VIEWPORT = warning("orientation_needs_viewport", "A transform orientation needs an open 3D Viewport.")
+ALIGNED_TO_WORLD = note(
+    "aligned_to_world", "Aligned {count} object to the world axes", "Aligned {count} objects to the world axes"
+)
+ALREADY_ALIGNED = note("already_aligned", "already aligned")
+CURSOR_MOVED = note(
+    "cursor_moved",
+    "Moved the 3D cursor to the center of mass of {count} object",
+    "Moved the 3D cursor to the center of mass of {count} objects",
+)
+EMPTIES_PLACED = note(
+    "empties_placed",
+    "Placed an empty at the principal frame of {count} object",
+    "Placed empties at the principal frames of {count} objects",
+)
+EMPTIES_IN_PLACE = note("empties_in_place", "the empties are in place")
+ORIGINS_MOVED = note(
+    "origins_moved",
+    "Moved the origin of {count} object to the center of mass",
+    "Moved the origins of {count} objects to the center of mass",
+)
+AXES_MADE_PRINCIPAL = note(
+    "axes_made_principal",
+    "Aligned the axes of {count} object to its principal axes",
+    "Aligned the axes of {count} objects to their principal axes",
+)
+ALREADY_IN_PLACE = note("already_in_place", "already in place")
+ORIENTATION_CREATED = note("orientation_created", "Created the transform orientation “{name}”")
+RIGID_BODY_MASSES_SET = note(
+    "rigid_body_masses_set", "Set the rigid body mass of {count} object", "Set the rigid body mass of {count} objects"
+)
+RIGID_BODY_MASSES_EQUAL = note("rigid_body_masses_equal", "the masses are equal")
+BALANCED = note(
+    "balanced",
+    "Moved {count} vertex by at most {distance:length}; the center of mass went from {start:point} to {end:point}",
+    "Moved {count} vertices by at most {distance:length}; the center of mass went from {start:point} to {end:point}",
+)
+POLL_ACTIVE_SELECTED = note("poll_active_selected", "Make an object active and select it")
+POLL_EDIT_VERTICES = note("poll_edit_vertices", "Switch to Edit Mode and select the vertices that may move")
+POLL_VERTICES_OR_GROUP = note(
+    "poll_vertices_or_group", "Select the vertices that may move in Edit Mode, or add a vertex group"
+)
+
+# statics
+
+HULL_SIMPLIFIED = note(
+    "hull_simplified",
+    "“{object}” is finely divided: its convex hull is taken with {corners} corners, to {share:percent} of its size",
+)
+STABILITY_COMPUTED = note("stability_computed", "{count} of {total} object stands", "{count} of {total} objects stand")
+OBJECTS_TIP = warning("objects_tip", "{names} tips over", "{names} tip over")
+LAID_ON_GROUND = note("laid_on_ground", "Laid {count} object on the ground", "Laid {count} objects on the ground")
+ALREADY_ON_GROUND = note("already_on_ground", "already on the ground")
+POLL_OBJECT_OR_POSE_MODE = note("poll_object_or_pose_mode", "Switch to Object Mode or Pose Mode")
+PROGRESS_BALANCE = note("progress_balance", "Following the center of mass: {share:percent}. Esc to cancel")
+CANCELED_BALANCE = note("canceled_balance", "Balance Group canceled; nothing was changed")
+NO_SUCH_COLLECTION = error("no_such_collection", "There is no collection “{collection}”. Choose another one.")
+BALANCE_GROUP_WITHOUT_CONTACTS = error(
+    "balance_group_without_contacts", "“{collection}” has no object with a surface. Choose another collection."
+)
+BALANCE_GROUP_EMPTY_GROUP = error(
+    "balance_group_empty_group", "Nothing to follow. Select objects with a surface, or an armature that deforms some."
+)
+BALANCE_GROUP_MADE = note(
+    "balance_group_made",
+    "“{empty}” has {count} key of the center of mass; objects: {objects_count}",
+    "“{empty}” has {count} keys of the center of mass; objects: {objects_count}",
+)
+BALANCE_GROUP_INSIDE = note("balance_group_inside", "It is over the support polygon at {count} of {total} frames")

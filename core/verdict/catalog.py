@@ -38,15 +38,6 @@ PACKAGES = (
     "core.verdict",
     "core.wall",
     "operators",
-    "operators.assembly",
-    "operators.export",
-    "operators.imports",
-    "operators.measure",
-    "operators.rig",
-    "operators.setup",
-    "operators.shape",
-    "operators.snap",
-    "operators.statics",
     "panels",
 )
 

@@ -12,9 +12,17 @@ from ...blender.write import properties, reports
 from ...core.verdict.finding import Finding, MeasureError, Severity, finding
 from ...core.verdict.sentences import of_severity
 from .. import selection
-from ..findings import CANCELED_MEASURING, NO_RESULTS_TO_REMOVE, PROGRESS_MEASURING, RESULTS_REMOVED
+from ..findings import (
+    ASSEMBLY_MEASURED,
+    CANCELED_MEASURING,
+    MEMBERS_NOT_STORED,
+    NO_ACTIVE_ASSEMBLY_EMPTY,
+    NO_ACTIVE_COLLECTION,
+    NO_RESULTS_TO_REMOVE,
+    PROGRESS_MEASURING,
+    RESULTS_REMOVED,
+)
 from ..modal import MAX_OBJECTS_WITHOUT_REDRAW, ModalSteps, redraw
-from .findings import ASSEMBLY_MEASURED, MEMBERS_NOT_STORED, NO_ACTIVE_ASSEMBLY_EMPTY, NO_ACTIVE_COLLECTION
 
 TARGET = EnumProperty(
     name="Assembly",

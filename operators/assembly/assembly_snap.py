@@ -23,8 +23,7 @@ from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import EditRefusedError, Finding, MeasureError, finding
 from ...core.verdict.method import Verdict
 from .. import selection
-from .assembly import TARGET, measured_assembly
-from .findings import (
+from ..findings import (
     ASSEMBLY_HAS_OPEN_MEMBERS,
     ASSEMBLY_OFFSET_SET,
     ASSEMBLY_ORIGIN_MOVED,
@@ -32,6 +31,7 @@ from .findings import (
     CURSOR_TO_ASSEMBLY,
     EMPTY_AT_ASSEMBLY,
 )
+from .assembly import TARGET, measured_assembly
 
 PLACE_RTOL = 4e-6  # what float32 matrices leave of places
 FRAME_OF = "principal_frame_of_assembly"  # ID property of an empty: the collection or empty whose frame it shows

@@ -19,9 +19,8 @@ from ...blender.write.bill import BillRow, bill_csv
 from ...core.files.whole_file import whole_file
 from ...core.verdict.finding import FileError, MeasureError, finding, system_reason
 from .. import files, selection
-from ..findings import FILE_NOT_WRITTEN, NO_EXPORT_FILE
+from ..findings import BILL_WRITTEN, FILE_NOT_WRITTEN, NO_EXPORT_FILE
 from .assembly import TARGET, measured_assembly
-from .findings import BILL_WRITTEN
 
 
 def bill_rows(part: MemberBody, mass: float, level: int = 0, counted: bool = True) -> Iterator[BillRow]:

@@ -21,8 +21,7 @@ from ...core.robots.repair import repaired_copy
 from ...core.robots.write import audit_report
 from ...core.verdict.finding import FileError, Finding, MeasureError, Severity, finding, system_reason
 from .. import selection
-from ..findings import FILE_EXISTS
-from .findings import AUDIT_TEXT
+from ..findings import AUDIT_TEXT, FILE_EXISTS
 
 
 class IMPORT_SCENE_OT_body_moments_audit(Operator, ImportHelper):

@@ -12,8 +12,8 @@ from ...blender.write import reports
 from ...core.robots.write.formats import robot_text
 from ...core.verdict.finding import MeasureError, finding
 from .. import selection
+from ..findings import ROBOT_COPIED
 from ..measure.copy import copy_text
-from .findings import ROBOT_COPIED
 
 FORMATS = (
     ("urdf", "URDF", "Tensor along the axes of the object"),

@@ -21,7 +21,7 @@ from ...core.robots.model import Inertial, Shape
 from ...core.robots.primitives import equal_inertia_shape
 from ...core.verdict.finding import EditRefusedError, finding
 from .. import selection
-from .findings import PRIMITIVE_HAS_PARENT, PRIMITIVES_ADDED
+from ..findings import PRIMITIVE_HAS_PARENT, PRIMITIVES_ADDED
 
 KINDS = (
     ("BOX", "Box", "The box of the same mass, center and inertia"),

@@ -28,10 +28,16 @@ from ...core.robots.write.shapes import with_primitives
 from ...core.verdict.finding import EditRefusedError, FileError, Finding, MeasureError, finding, system_reason
 from ...core.verdict.sentences import sentence
 from .. import selection
-from ..findings import POLL_OBJECT_MODE
+from ..findings import (
+    POLL_OBJECT_MODE,
+    ROBOT_EXPORTED,
+    ROBOT_GEOMETRY_NOT_WRITTEN,
+    ROBOT_NAMES_ALIKE,
+    ROBOT_NOT_WRITTEN,
+    ROBOT_SHEARED,
+)
 from ..modal import progress
 from .copy_inertial import OBJECT_OT_body_moments_copy_inertial
-from .findings import ROBOT_EXPORTED, ROBOT_GEOMETRY_NOT_WRITTEN, ROBOT_NAMES_ALIKE, ROBOT_NOT_WRITTEN, ROBOT_SHEARED
 
 LINKS = (
     ("OBJECT", "Objects", "Each object is a link; its parent holds it by a fixed joint"),

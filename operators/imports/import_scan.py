@@ -31,10 +31,11 @@ from ...core.scans.positions import Positions, place_samples, read_all_positions
 from ...core.scans.scan import Scan
 from ...core.streams.findings import FILE_UNREADABLE
 from ...core.verdict.finding import FileError, Finding, MeasureError, finding, system_reason
-from ..findings import FILE_EXISTS, POLL_OBJECT_MODE
-from .findings import (
+from ..findings import (
+    FILE_EXISTS,
     NO_IMPORT_FILE,
     OPENVDB_MISSING,
+    POLL_OBJECT_MODE,
     SCAN_CT_NUMBERS,
     SCAN_DRAWN_EVENLY,
     SCAN_IMPORTED,

@@ -20,8 +20,7 @@ from ...core.cad.surface_file import SUFFIXES, read_surfaces
 from ...core.numerics.float32 import shortest_decimal
 from ...core.streams.findings import FILE_UNREADABLE
 from ...core.verdict.finding import FileError, Finding, MeasureError, finding, system_reason
-from ..findings import POLL_OBJECT_MODE
-from .findings import NO_SURFACE_FILE, NOT_IMPORTED, SURFACES_IMPORTED
+from ..findings import NO_SURFACE_FILE, NOT_IMPORTED, POLL_OBJECT_MODE, SURFACES_IMPORTED
 
 
 class OBJECT_OT_body_moments_import_surfaces(Operator, ImportHelper):

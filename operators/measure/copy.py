@@ -16,7 +16,7 @@ from ...blender.write.text_report import stored_document, text
 from ...blender.write.translations import localized
 from ...core.verdict.finding import Finding, finding
 from .. import selection
-from .findings import NO_VALUE_TO_COPY, POLL_MEASURE_SELECTED, REPORT_COPIED, VALUE_COPIED
+from ..findings import NO_VALUE_TO_COPY, POLL_MEASURE_SELECTED, REPORT_COPIED, VALUE_COPIED
 
 
 def copy_text(operator: Operator, context: Context, text: str, done: Finding) -> None:

@@ -23,8 +23,7 @@ from ...core.fourier.wave_vectors import FrequencyGrid
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import FileError, MeasureError, finding, system_reason
 from .. import files
-from ..modal import ModalSteps
-from .findings import (
+from ..findings import (
     CANCELED_FOURIER,
     FOURIER_FOLDER_MISSING,
     FOURIER_PATH_MISSING,
@@ -33,6 +32,7 @@ from .findings import (
     POLL_ACTIVE_SURFACE,
     PROGRESS_FOURIER,
 )
+from ..modal import ModalSteps
 
 SUFFIX = ".npz"
 

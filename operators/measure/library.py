@@ -20,8 +20,7 @@ from ...command.supervisor.whole_run import WholeRun
 from ...core.files.whole_file import whole_file
 from ...core.measurement.page import to_html
 from ...core.verdict.finding import MeasureError, finding, system_reason
-from ..modal import ModalSteps
-from .findings import (
+from ..findings import (
     CANCELED_LIBRARY,
     LIBRARY_FAILED,
     LIBRARY_MEASURED,
@@ -29,6 +28,7 @@ from .findings import (
     LIBRARY_NOT_STARTED,
     PROGRESS_LIBRARY,
 )
+from ..modal import ModalSteps
 
 RESULT, REPORT = "body_moments.jsonl", "body_moments.html"
 JOURNAL = RESULT + ".journal"

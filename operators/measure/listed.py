@@ -15,9 +15,8 @@ from ...core.files.whole_file import whole_file
 from ...core.measurement.documents import FORMATS
 from ...core.verdict.finding import FileError, MeasureError, finding, system_reason
 from .. import files, selection
-from ..findings import FILE_NOT_WRITTEN, NO_EXPORT_FILE
+from ..findings import CSV_COPIED, FILE_NOT_WRITTEN, NO_EXPORT_FILE, NUMBERS_SAVED, NUMBERS_SUFFIX
 from .copy import copy_text, poll_stored, selected_document
-from .findings import CSV_COPIED, NUMBERS_SAVED, NUMBERS_SUFFIX
 
 SUFFIXES = {".csv": "csv", ".json": "json", ".jsonl": "jsonl"}
 

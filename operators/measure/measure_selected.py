@@ -20,9 +20,17 @@ from ...core.density.materials import BY_NAME
 from ...core.verdict import internal_error
 from ...core.verdict.finding import Finding, Severity, finding
 from ...core.verdict.sentences import of_severity
-from ..findings import CANCELED_MEASURING, POLL_SELECT_OBJECTS, PROGRESS_MEASURING
+from ..findings import (
+    CANCELED_MEASURING,
+    MEASURED_ONE,
+    MEASURED_ONE_WITH_WARNINGS,
+    MEASURED_SEVERAL,
+    OBJECT_WARNINGS,
+    POLL_SELECT_OBJECTS,
+    PROGRESS_MEASURING,
+    WITH_WARNINGS,
+)
 from ..modal import MAX_OBJECTS_WITHOUT_REDRAW, ModalSteps, redraw
-from .findings import MEASURED_ONE, MEASURED_ONE_WITH_WARNINGS, MEASURED_SEVERAL, OBJECT_WARNINGS, WITH_WARNINGS
 
 AS_SET = "AS_SET"
 

@@ -27,9 +27,14 @@ from ...core.flat.regions import plane_positions
 from ...core.moments.moments import Measure
 from ...core.verdict.finding import Finding, MeasureError, finding
 from .. import selection
-from ..findings import POLL_ACTIVE_MEASURABLE
+from ..findings import (
+    MOMENTS_COMPUTED,
+    MOMENTS_COPIED,
+    POLL_ACTIVE_MEASURABLE,
+    POLL_COMPUTE_MOMENTS,
+    WIRE_WITHOUT_MOMENTS,
+)
 from .copy import copy_text
-from .findings import MOMENTS_COMPUTED, MOMENTS_COPIED, POLL_COMPUTE_MOMENTS, WIRE_WITHOUT_MOMENTS
 
 
 def _active(cls: type[Operator], context: Context) -> Object | None:

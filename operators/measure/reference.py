@@ -15,9 +15,9 @@ from ...blender.write.findings import NO_STORED_RESULTS
 from ...core.inertia.reference import ReferredInertia
 from ...core.verdict.finding import MeasureError, QueryError, finding
 from .. import selection
+from ..findings import AXIS_NEEDS_TWO_POINTS, POLL_MEASURE_SELECTED, REFERENCE_STORED, REPORT_COPIED
 from ..modal import redraw
 from .copy import copy_text
-from .findings import AXIS_NEEDS_TWO_POINTS, POLL_MEASURE_SELECTED, REFERENCE_STORED, REPORT_COPIED
 
 POINTS = 2  # of an axis
 

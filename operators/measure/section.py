@@ -19,9 +19,7 @@ from ...core.flat.section import Section, measure_section
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import Finding, Severity, finding
 from ...core.verdict.sentences import of_severity
-from ..modal import redraw
-from .copy import copy_text
-from .findings import (
+from ..findings import (
     MEASURED_SECTION,
     MEASURED_SECTION_WITH_WARNINGS,
     MEASURED_SECTIONS,
@@ -31,6 +29,8 @@ from .findings import (
     STALE_UNIT_SCALE,
     WITH_WARNINGS,
 )
+from ..modal import redraw
+from .copy import copy_text
 
 
 def section_of(obj: Object, depsgraph: Depsgraph) -> tuple[Section, str, tuple[Finding, ...]]:

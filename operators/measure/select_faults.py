@@ -22,8 +22,7 @@ from ...core.verdict.finding import EditRefusedError, finding
 from ...core.verdict.findings import FLIPPED_FACES
 from ...core.verdict.health import DefectiveElements
 from .. import selection
-from ..findings import POLL_OBJECT_MODE
-from .findings import MODIFIED_MESH, NO_DEFECTS, OBJECT_DEFECTS, POLL_SELECT_MESHES, WITH_DEFECTS
+from ..findings import MODIFIED_MESH, NO_DEFECTS, OBJECT_DEFECTS, POLL_OBJECT_MODE, POLL_SELECT_MESHES, WITH_DEFECTS
 
 DEFECTS = {field.name: "defect_" + field.name for field in fields(DefectiveElements)}
 # Modifiers that only move vertices: the faults' indices are those of the mesh itself.

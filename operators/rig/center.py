@@ -22,8 +22,8 @@ from ...blender.write import reports
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import MeasureError, finding
 from .. import selection
+from ..findings import RIG_CENTER_ADDED
 from ..modal import redraw
-from .findings import RIG_CENTER_ADDED
 from .measure import poll_armature
 
 CENTER_OF = "center_of_mass_of"  # ID property of what is made: the armature object

@@ -12,9 +12,8 @@ from ...blender.write import reports
 from ...core.verdict.finding import MeasureError, Severity, finding
 from ...core.verdict.sentences import of_severity
 from .. import selection
-from ..findings import NO_RESULTS_TO_REMOVE, RESULTS_REMOVED
+from ..findings import BONES_MEASURED, NO_RESULTS_TO_REMOVE, RESULTS_REMOVED
 from ..modal import redraw
-from .findings import BONES_MEASURED
 
 
 def poll_armature(cls: type[Operator], context: Context) -> bool:

@@ -20,8 +20,8 @@ from ...core.mesh.surface import join_surfaces
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import EditRefusedError, MeasureError, finding
 from .. import selection
+from ..findings import PHYSICS_RIG_CREATED, PHYSICS_RIG_TOO_LIGHT
 from ..modal import redraw
-from .findings import PHYSICS_RIG_CREATED, PHYSICS_RIG_TOO_LIGHT
 from .measure import poll_armature
 
 RIG_OF = "physics_rig_of"  # ID property of what is made: the armature object

@@ -21,8 +21,7 @@ from ...blender.settings.density import object_density
 from ...blender.write import reports
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import finding
-from ..findings import POLL_OBJECT_MODE
-from .findings import NODE_GROUP_ADDED, NODE_MARKER_ADDED, NODE_MARKER_IS_OF_SOLID
+from ..findings import NODE_GROUP_ADDED, NODE_MARKER_ADDED, NODE_MARKER_IS_OF_SOLID, POLL_OBJECT_MODE
 
 GROUP_NAME, MARKER_NAME = "Center of Mass", "Center of Mass Marker"
 KEY = "body_moments_nodes"  # ID property of our groups: the version of their nodes

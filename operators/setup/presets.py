@@ -16,13 +16,13 @@ from ...blender.write import reports
 from ...core.density.materials import BY_NAME
 from ...core.verdict.finding import finding
 from .. import selection
-from ..findings import POLL_SELECT_OBJECTS
-from .findings import (
+from ..findings import (
     BLENDER_MATERIAL_SET,
     LIBRARY_OVERRIDE_SETTINGS,
     MATERIAL_NOT_LOCAL,
     MATERIAL_SET,
     MATERIAL_SET_ALREADY,
+    POLL_SELECT_OBJECTS,
     POLL_SELECT_OTHERS,
     SETTINGS_COPIED,
     SETTINGS_EQUAL,

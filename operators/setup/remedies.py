@@ -21,9 +21,16 @@ from ...core.solid.findings import FLIPPED_FACES_SLIGHTLY, INVERTED_COMPONENTS, 
 from ...core.verdict.finding import EditRefusedError, MeasureError, finding
 from ...core.verdict.findings import FLIPPED_FACES
 from .. import selection
-from ..findings import NOTHING_TO_DO, POLL_ACTIVE_MEASURABLE, POLL_ACTIVE_MESH, POLL_OBJECT_MODE
+from ..findings import (
+    FACES_REVERSED,
+    LIBRARY_OVERRIDE_SETTINGS,
+    NO_REVERSED_FACES,
+    NOTHING_TO_DO,
+    POLL_ACTIVE_MEASURABLE,
+    POLL_ACTIVE_MESH,
+    POLL_OBJECT_MODE,
+)
 from ..measure.select_faults import require_editable_mesh
-from .findings import FACES_REVERSED, LIBRARY_OVERRIDE_SETTINGS, NO_REVERSED_FACES
 
 # Findings whose elements are the faces that were reversed; without elements, all faces were
 REVERSED = (FLIPPED_FACES, FLIPPED_FACES_SLIGHTLY, INVERTED_COMPONENTS, INVERTED_COMPONENTS_SLIGHTLY)

@@ -37,6 +37,7 @@ from ...core.verdict.method import Verdict
 from .. import selection
 from ..findings import (
     LIBRARY_OVERRIDE_MASS,
+    RIGID_BODIES_MADE,
     RIGID_BODY_DISPLAY_SCALED,
     RIGID_BODY_MASS_TOO_SMALL,
     RIGID_BODY_NEEDS_MESH,
@@ -45,7 +46,6 @@ from ..modal import progress
 from ..snap import base as snapping
 from ..snap.origin import matrix_at_center
 from ..snap.principal_axes import matrix_along_axes
-from .findings import RIGID_BODIES_MADE
 
 SHOWN = 12  # bodies in the redo panel
 PROBE_DENSITY = 1e6  # with which Calculate Mass is asked: rigid bodies weigh no less than a gram

@@ -29,20 +29,20 @@ from ...core.shape.registration import MAX_FIT_RTOL, RigidMatch
 from ...core.shape.signatures import Likeness, Signature, similarity
 from ...core.verdict.finding import FileError, Finding, MeasureError, finding, system_reason
 from .. import selection
-from ..findings import POLL_OBJECT_MODE
-from ..modal import ModalSteps, redraw
-from .findings import (
+from ..findings import (
     CANCELED_SEARCH,
     LIBRARY_FILE_UNREADABLE,
     NEAREST_SHAPE,
     NONE_SIMILAR,
     OBJECT_NOT_IN_VIEW_LAYER,
     POLL_ACTIVE_WANTED,
+    POLL_OBJECT_MODE,
     PROGRESS_COMPARING,
     RECORDS_LEFT_OUT,
     SHAPE_COUNTS,
     SHAPES_COMPARED,
 )
+from ..modal import ModalSteps, redraw
 
 DESCRIPTOR_ORDER = 12  # of the descriptors: more than separate parts, a fourth of the time that 20 takes
 MAX_LISTED_BODIES = 20

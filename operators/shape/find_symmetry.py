@@ -31,11 +31,10 @@ from ...blender.write import reports
 from ...core.shape.symmetries import Symmetry
 from ...core.verdict.finding import Finding, finding
 from .. import selection
-from ..findings import NOTHING_MEASURABLE
-from ..modal import ModalSteps, redraw
-from .findings import (
+from ..findings import (
     CANCELED_SEARCH,
     LIBRARY_OVERRIDE_SYMMETRY,
+    NOTHING_MEASURABLE,
     PROGRESS_SYMMETRY,
     SYMMETRY_AXES,
     SYMMETRY_FOUND,
@@ -48,6 +47,7 @@ from .findings import (
     SYMMETRY_SEARCHED,
     SYMMETRY_SPHERE,
 )
+from ..modal import ModalSteps, redraw
 
 MAX_STORED_ELEMENTS = 32  # elements of a symmetry that are stored; of a ball's or a fine prism's nobody reads more
 

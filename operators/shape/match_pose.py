@@ -18,9 +18,7 @@ from ...core.numerics.float32 import shortest_decimal
 from ...core.shape.registration import MAX_FIT_RTOL, RigidMatch
 from ...core.verdict.finding import EditRefusedError, Finding, MeasureError, finding
 from .. import selection
-from ..modal import ModalSteps
-from ..snap import base as snapping
-from .findings import (
+from ..findings import (
     ACTIVE_IS_CHILD,
     CANCELED_MATCH_POSE,
     FLAT_AND_BODY,
@@ -32,6 +30,8 @@ from .findings import (
     POSES_MATCHED,
     PROGRESS_COMPARING,
 )
+from ..modal import ModalSteps
+from ..snap import base as snapping
 
 
 class OBJECT_OT_body_moments_match_pose(ModalSteps, Operator):

@@ -13,8 +13,8 @@ from ...blender.scene import reframe
 from ...blender.scene.transforms import world
 from ...core.verdict.finding import finding
 from .. import selection
+from ..findings import ALIGNED_TO_WORLD, ALREADY_ALIGNED
 from . import base as snapping
-from .findings import ALIGNED_TO_WORLD, ALREADY_ALIGNED
 
 # Where principal axes 1, 2 and 3 go. An odd order would mirror the body, so there axis 3 points the
 # other way.

@@ -36,8 +36,8 @@ from ...core.verdict import internal_error
 from ...core.verdict.finding import EditRefusedError, Finding, finding
 from ...core.verdict.method import Verdict
 from .. import selection
+from ..findings import ALREADY_IN_PLACE
 from ..modal import progress
-from .findings import ALREADY_IN_PLACE
 
 STRICT_PROPERTY = BoolProperty(
     name="Zhang and Chen's Rule",

@@ -14,8 +14,7 @@ from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import EditRefusedError, finding
 from ...core.verdict.method import Verdict
 from .. import selection
-from ..findings import NOTHING_MEASURABLE
-from .findings import CURSOR_MOVED
+from ..findings import CURSOR_MOVED, NOTHING_MEASURABLE
 
 
 class VIEW3D_OT_body_moments_cursor_to_center(Operator):

@@ -16,15 +16,15 @@ from ...blender.scene.transforms import TransformChannels, basis, world
 from ...blender.write import reports
 from ...core.verdict.finding import EditRefusedError, Finding, finding
 from .. import selection
-from ..modal import progress
-from . import base as snapping
-from .findings import (
+from ..findings import (
     EMPTIES_IN_PLACE,
     EMPTIES_PLACED,
     EMPTY_CONSTRAINED,
     EMPTY_FOLLOWED,
     SCALE_ZERO_AXIS_OF_PARENT_TARGET,
 )
+from ..modal import progress
+from . import base as snapping
 
 OBJECT_KEY = "principal_frame_of"  # ID property of such an empty: the object whose frame it shows
 RESTORED_PROPERTIES = ("parent", "parent_type", "parent_bone", "empty_display_size")

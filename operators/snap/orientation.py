@@ -14,8 +14,8 @@ from mathutils import Matrix
 from ...blender.write import reports
 from ...core.verdict.finding import MeasureError, finding
 from .. import selection
+from ..findings import ORIENTATION_CREATED, ORIENTATION_NEEDS_VIEWPORT, POLL_ACTIVE_SELECTED
 from . import base as snapping
-from .findings import ORIENTATION_CREATED, ORIENTATION_NEEDS_VIEWPORT, POLL_ACTIVE_SELECTED
 
 
 class OBJECT_OT_body_moments_create_orientation(Operator):

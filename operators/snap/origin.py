@@ -11,8 +11,8 @@ from ...blender.scene import reframe
 from ...blender.scene.transforms import world
 from ...core.verdict.finding import finding
 from .. import selection
+from ..findings import ORIGINS_MOVED
 from . import base as snapping
-from .findings import ORIGINS_MOVED
 
 
 class OBJECT_OT_body_moments_origin_to_center(Operator):

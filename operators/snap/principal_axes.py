@@ -13,8 +13,8 @@ from ...blender.scene import reframe
 from ...blender.scene.transforms import world
 from ...core.verdict.finding import finding
 from .. import selection
+from ..findings import AXES_MADE_PRINCIPAL
 from . import base as snapping
-from .findings import AXES_MADE_PRINCIPAL
 
 UNIT_SCALE = 1e-6  # by how much the products of an object's axes may differ from 1 and 0
 

@@ -22,14 +22,17 @@ from .. import selection
 from ..findings import (
     CANCELED_MEASURING,
     LIBRARY_OVERRIDE_MASS,
+    NOT_A_RIGID_BODY,
     PROGRESS_MEASURING,
+    RIGID_BODY_CENTER_ELSEWHERE,
     RIGID_BODY_DISPLAY_SCALED,
     RIGID_BODY_MASS_TOO_SMALL,
+    RIGID_BODY_MASSES_EQUAL,
+    RIGID_BODY_MASSES_SET,
     RIGID_BODY_NEEDS_MESH,
 )
 from ..modal import MAX_OBJECTS_WITHOUT_REDRAW, ModalSteps
 from . import base as snapping
-from .findings import NOT_A_RIGID_BODY, RIGID_BODY_CENTER_ELSEWHERE, RIGID_BODY_MASSES_EQUAL, RIGID_BODY_MASSES_SET
 from .principal_axes import matrix_along_axes
 
 

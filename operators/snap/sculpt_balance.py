@@ -34,9 +34,7 @@ from ...core.statics.balancing import BalanceResult, balance
 from ...core.verdict.finding import EditRefusedError, Finding, MeasureError, finding
 from ...core.verdict.method import Method, Verdict
 from .. import selection
-from ..findings import POLL_ACTIVE_MESH
-from . import base as snapping
-from .findings import (
+from ..findings import (
     BALANCE_GROUP_EMPTY,
     BALANCE_INSTANCES,
     BALANCE_LINKED_MESH,
@@ -54,9 +52,11 @@ from .findings import (
     BALANCE_WALL,
     BALANCE_ZERO_SCALE,
     BALANCED,
+    POLL_ACTIVE_MESH,
     POLL_EDIT_VERTICES,
     POLL_VERTICES_OR_GROUP,
 )
+from . import base as snapping
 
 MAX_ATTEMPTS = 6  # at a cut of faces that suits the shape that it leads to
 REACHED_RTOL = 1e-6  # of the body's size: what float32 coordinates leave of a center

@@ -25,8 +25,7 @@ from ...core.statics.support import Support, support_of_contacts
 from ...core.verdict import internal_error
 from ...core.verdict.finding import EditRefusedError, Finding, finding
 from .. import selection
-from ..modal import ModalSteps, redraw
-from .findings import (
+from ..findings import (
     BALANCE_GROUP_EMPTY_GROUP,
     BALANCE_GROUP_INSIDE,
     BALANCE_GROUP_MADE,
@@ -36,6 +35,7 @@ from .findings import (
     POLL_OBJECT_OR_POSE_MODE,
     PROGRESS_BALANCE,
 )
+from ..modal import ModalSteps, redraw
 
 REACH = 0.01  # of the contact objects' extent: what is that near to the ground touches it
 

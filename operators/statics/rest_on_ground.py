@@ -19,8 +19,8 @@ from ...core.statics.findings import NO_STABLE_POSE
 from ...core.statics.resting import RestingPoses
 from ...core.verdict.finding import EditRefusedError, Finding, finding
 from .. import selection
+from ..findings import ALREADY_ON_GROUND, LAID_ON_GROUND
 from ..snap import base as snapping
-from .findings import ALREADY_ON_GROUND, LAID_ON_GROUND
 from .stability import check_stability
 
 

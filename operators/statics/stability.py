@@ -16,8 +16,8 @@ from ...blender.write import properties
 from ...core.verdict.finding import EditRefusedError, Finding, finding
 from ...core.verdict.method import Verdict
 from .. import selection
+from ..findings import HULL_SIMPLIFIED, OBJECTS_TIP, STABILITY_COMPUTED
 from ..modal import redraw
-from .findings import HULL_SIMPLIFIED, OBJECTS_TIP, STABILITY_COMPUTED
 
 
 class OBJECT_OT_body_moments_stability(Operator):

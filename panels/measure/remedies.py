@@ -39,7 +39,7 @@ from ...core.solid.findings import (
 from ...core.verdict.finding import Finding, Severity, finding, truncate
 from ...core.verdict.findings import AND_MORE, FLIPPED_FACES, SELF_INTERSECTION
 from ...core.verdict.sentences import of_severity, severity
-from ...operators.snap.findings import RIGID_BODY_CENTER_ELSEWHERE
+from ...operators.findings import RIGID_BODY_CENTER_ELSEWHERE
 from .. import rows
 from ..findings import PANEL_UNIT_QUESTION
 
