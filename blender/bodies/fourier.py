@@ -75,12 +75,11 @@ def object_transform(
     frame: str = "world",
     area: bool = False,
 ) -> ObjectTransform:
-    """The transform of one object as it is evaluated.
+    """Return the transform of one evaluated object.
 
-    q: rad/m, (M, 3) or a grid, along the axes of the frame, "world" or "object"; or what makes a grid from the body's
-    largest extent in m. area: ∫ exp(-i q·x) dA over its faces, in m²; else of what it is measured as, in m³:
-    ∫ exp(-i q·x) dV of a solid, and thickness times ∫ exp(-i q·x) dA of a shell.
-    Raises MeasureError where there is no transform.
+    q: rad/m, (M, 3) or a grid, along the axes of the frame, "world" or "object"; or a function that makes a grid from
+    the body's largest extent in m. area: ∫ exp(-i q·x) dA over its faces, in m²; else of its body, in m³: ∫ exp(-i q·x)
+    dV of a solid, and thickness times ∫ exp(-i q·x) dA of a shell. Raises MeasureError if there is no transform.
     """
     unit = options.meters_per_unit(depsgraph.scene)
     resolved = with_object_settings(options, obj, unit, depsgraph.scene)

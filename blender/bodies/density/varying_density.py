@@ -63,8 +63,11 @@ MAX_NAMED = 8  # materials
 
 @dataclass(frozen=True, eq=False)
 class _Weighed:
-    """mass: moments in kg, SI units and world axes. source: where the density came from. findings: what was decided.
-    materials: full names of those that were met, with a density or without."""
+    """Mass of a part or body.
+
+    mass: moments in kg, SI units and world axes. source: of the density. findings: the decisions. materials: full names
+    of all materials met, with a density or without.
+    """
 
     mass: Moments
     source: Finding
@@ -78,7 +81,7 @@ def weigh(reading: Reading, body: MeshBody, request: Request) -> MeshBody:
     Raises
     ------
     MeasureError
-        Where the density is missing or negative somewhere.
+        If the density is missing or negative anywhere.
     """
     extent(body, request.options)  # refused before it is weighed
     order = request.options.order
@@ -117,7 +120,7 @@ def _field(request: Request) -> DensityField:
 
 
 def _thickness(request: Request) -> float:
-    """What area moments are multiplied by; 1 of solids."""
+    """Return the factor of area moments, the thickness; 1 for solids."""
     return request.options.thickness if request.options.kind == "shell" else 1.0
 
 
@@ -229,7 +232,7 @@ class _FaceDensities:
             yield finding(OBJECT_DENSITY_USED, **values)
 
     def source(self, by_area: bool) -> Finding:
-        """Where the densities come from. by_area: whether components of several materials took their mean."""
+        """Return the source of the densities. by_area: components of several materials took their mean by area."""
         known = [(material.name, material_density(material)) for material in self.materials]
         known = [(name, value) for name, value in known if value is not None]
         parts = [finding(DENSITY_OF_MATERIAL, material=name, density=value) for name, value in known]
@@ -250,8 +253,9 @@ class _FaceDensities:
 def _solid_moments(
     solid: SolidIntegrals, volume: Moments, matrices: NDArray, values: NDArray, names: NDArray
 ) -> tuple[list[Moments], list[Finding], bool]:
-    """∫ρ dV of a surface's places, findings about its components, and whether any takes a mean by area. volume: its
-    volume moments, to the order that is wanted. values, names: of its mesh faces."""
+    """Return ∫ρ dV of a surface's places, findings about its components, and whether any takes a mean by area. volume:
+    its volume moments, to the wanted order. values, names: of its mesh faces.
+    """
     components = solid.parts()
     moments, findings = [], []
     has_foreign_material = is_slight = False
@@ -285,8 +289,9 @@ def _similarity_groups(matrices: NDArray) -> Iterator[NDArray]:
 def _mixed_parts_notes(
     parts: ClosedParts, part_density: PartDensities, names: NDArray, negligible: float
 ) -> list[Finding]:
-    """A finding about components whose faces have several materials, about the first face of each. negligible: density
-    times area that does not matter, wherever in the body it is."""
+    """Return a finding about components whose faces have several materials, with the first face of each. negligible: a
+    negligible density times area, anywhere in the body.
+    """
     which = np.flatnonzero(part_density.has_several_materials)
     if not len(which):
         return []
@@ -302,7 +307,7 @@ def _mixed_parts_notes(
 
 
 def _vertex_density(reading: Reading, i: int, name: str) -> NDArray[np.float64]:
-    """(n,) checked values of a part's vertices; those that no face uses do not count."""
+    """Return (n,) checked values of a part's vertices; vertices without faces are not checked."""
     part = reading.parts[i]
     values = part.attributes.vertex_values
     used = np.unique(part.surface.all_triangles()[0])

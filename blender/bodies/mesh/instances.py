@@ -39,12 +39,12 @@ def singular_reason(reading: Reading) -> Finding:
 
 
 def singular_instances_message(count: int) -> Finding:
-    """That so many instances enclose nothing."""
+    """Return the finding that so many instances enclose nothing."""
     return finding(INSTANCES_ZERO_SCALE, count=count)
 
 
 def not_compared(reading: Reading) -> Finding:
-    """That nobody looked for overlap between the instances."""
+    """Return the finding that overlap between the instances was not checked."""
     return finding(INSTANCE_OVERLAP_UNCHECKED, count=reading.instance_count)
 
 
@@ -62,7 +62,7 @@ def findings_by_part(parts: Iterable[tuple[str, Iterable[Finding]]], whole: str)
 
 
 def each_once(findings: Iterable[Finding]) -> list[Finding]:
-    """The findings in their order, without those that say the same of the same elements."""
+    """Return the findings in their order, without repetitions about the same elements."""
     return list({_identity(result): result for result in findings}.values())
 
 
@@ -72,7 +72,7 @@ def _identity(result: Finding) -> tuple[Finding, object]:
 
 
 def overlap_findings(reading: Reading, solids: Sequence[SolidIntegrals], comparison: PlaceComparison) -> list[Finding]:
-    """What is reported of places that have something in common: faces as [face, source], each once."""
+    """Return findings about places that overlap or contain each other: faces as [face, source], each once."""
     findings = []
     nested = COMPONENTS_NESTED_SLIGHTLY if comparison.nested_slightly else COMPONENTS_NESTED
     overlap = COMPONENTS_OVERLAP_SLIGHTLY if comparison.overlapping_slightly else COMPONENTS_OVERLAP
@@ -99,7 +99,7 @@ def with_overlaps(health: MeshHealth, comparison: PlaceComparison) -> MeshHealth
 
 
 def instances_overlap(reading: Reading) -> bool:
-    """Whether the boxes around any two of the places where parts stand share more than a boundary."""
+    """Return whether the boxes around any two places of parts share more than a boundary."""
     return boxes_overlap(*_boxes(reading))
 
 
@@ -110,7 +110,7 @@ def instances_size(reading: Reading) -> float:
 
 
 def _boxes(reading: Reading) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """(k, 3) and (k, 3) the middles of the boxes around the places where parts stand, and half their sides."""
+    """Return (k, 3) the middles and (k, 3) half the sides of the boxes around the places of parts."""
     centers, extents = [], []
     for part in reading.parts:
         low, high = part.surface.box
@@ -150,8 +150,9 @@ def group_by_similarity(surface: Surface, matrices: NDArray) -> Iterator[tuple[S
 
 
 def merge_health(healths: Iterable[tuple[MeshHealth, int, float]]) -> MeshHealth:
-    """One verdict for all parts, each with the number of its instances and the area of all of them: counts add; faults
-    are named where there is one part only."""
+    """Return one verdict for all parts, each with the number of its instances and the area of all of them: counts add;
+    faults are named only if there is a single part.
+    """
     healths = list(healths)
     first, copies, _ = healths[0]
     if len(healths) == 1 and copies == 1:
