@@ -1,10 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The settings: what an object is made of, and in which frame numbers are shown.
+"""The settings: the material of an object, and the frame of displayed numbers.
 
 They live in property groups (`Object.body_moments`, `Material.body_moments`, `Scene.body_moments`); results live in ID
 properties, never here. The given mass has no unit type: Blender would scale a `unit='MASS'`
-property by scale_length³, while a weighed part weighs the same whatever a scene's unit is.
+property by scale_length³, while a weighed part weighs the same in all units.
 """
 
 import bpy
@@ -78,7 +78,7 @@ def _shown_density(settings: PropertyGroup) -> float:
 
 
 class BodyMomentsObjectSettings(GivenPartProperties, PropertyGroup):
-    """What one object is made of."""
+    """Settings of one object's body."""
 
     kind: EnumProperty(
         name="Kind",
@@ -328,7 +328,7 @@ class BodyMomentsObjectSettings(GivenPartProperties, PropertyGroup):
 
 
 class BodyMomentsMaterialSettings(PropertyGroup):
-    """What a material weighs."""
+    """Settings of a material's density."""
 
     density: FloatProperty(
         name="Density",
@@ -351,7 +351,7 @@ class BodyMomentsMaterialSettings(PropertyGroup):
 
 
 class BodyMomentsSceneSettings(SceneDefaults, PropertyGroup):
-    """How the scene's numbers are shown, and what its objects start with."""
+    """Display settings of the scene's numbers, and initial settings of its objects."""
 
     overlay: PointerProperty(name="Overlay", type=BodyMomentsOverlaySettings)
     has_defaults: BoolProperty(
@@ -414,7 +414,7 @@ def density_field_name(scene: Scene) -> str:
 
 
 def copy_settings(source: PropertyGroup, target: PropertyGroup) -> bool:
-    """Copy every setting; whether anything was different. What is set in the source is set in the target."""
+    """Copy every setting; return whether anything was different. Settings set in the source are set in the target."""
     changed = False
     for name in COPIED_PROPERTIES:
         value = getattr(source, name)
