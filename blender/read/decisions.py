@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The findings for what reading an object decided, and for why there was nothing to read.
+"""The findings about decisions in reading an object, and the reasons if there was nothing to read.
 
-The viewport is what is read. Where the render would show another body, by Blender's settings as far
-as they report, that is a finding; a node tree that asks where it runs is beyond them.
+The viewport is read. If the render would show another body, by Blender's settings as far as they report, that is a
+finding; a node tree that tells viewport from render is beyond them.
 """
 
 from __future__ import annotations
@@ -128,7 +128,7 @@ def reading_findings(obj, gathered: InstanceCollector, depsgraph) -> Iterator[Fi
 
 
 def modifier_findings(obj, scene) -> Iterator[Finding]:
-    """The same of what the object's modifiers made, whatever that is."""
+    """Yield the findings about an object with modifiers of any kind."""
     yield from _render_findings(obj, scene)
     yield from _node_errors(obj)
 
@@ -146,7 +146,7 @@ def _member_findings(collections) -> Iterator[Finding]:
             member.original: None
             for collection in collections
             for member in visible_objects(collection, switch)
-            if measurable(member.original) and member.type != "META"  # which Blender cannot instance
+            if measurable(member.original) and member.type != "META"  # Blender cannot instance metaballs
         }
         for switch in ("hide_viewport", "hide_render")
     )
@@ -171,7 +171,7 @@ def _family(obj, depsgraph) -> list:
 
 
 def _polygons(obj, drawn) -> Iterator[Finding]:
-    """What polygons stand for, of curves, text and metaballs."""
+    """Yield findings about the polygons of curves, text and metaballs."""
     for source in drawn:
         if source.type == "META":
             yield attribute_to_source(finding(SURFACE_DRAWN_AS_POLYGONS), source.name, obj.name)
@@ -198,7 +198,7 @@ def _mode_findings(obj) -> Iterator[Finding]:
 
 
 def _spline_findings(evaluated, splines) -> Iterator[Finding]:
-    """What was decided about a surface object, the one that is read or one that it instances."""
+    """Yield the decisions about a surface object, either the read one or one of its instances."""
     if splines is not None:
         yield from splines.findings
         return
@@ -241,7 +241,7 @@ def _render_differences(obj, scene, exact: bool = False) -> Iterator[Finding]:
 
 
 def _levels(modifier, render) -> tuple[int, int]:
-    """The modifier's number in the viewport and in the render, the same where it has but one."""
+    """Return the modifier's number in the viewport and in the render, twice the same if it has but one."""
     if modifier.type in {"SUBSURF", "MULTIRES"}:
         here, there = modifier.levels, modifier.render_levels
         if render.use_simplify:

@@ -8,8 +8,7 @@ same numbers through `vertex_values`, `loops` and `loop_triangles` cost 10 to 10
 
 The sizes of the faces come from the tessellation (a face of n corners has n - 2 triangles), whose
 `loop_triangle_polygons` is such an attribute too. Triangles and quads are then rows of the corners;
-only n-gons need the slow `loop_triangles`. Quads stay whole: core/mesh/surface.py cuts them where
-Blender does.
+only n-gons need the slow `loop_triangles`. Quads stay whole: core/mesh/surface.py cuts them as Blender does.
 """
 
 from __future__ import annotations
@@ -35,8 +34,8 @@ Read = TypeVar("Read")
 
 
 def plain_mesh(obj, depsgraph):
-    """The evaluated mesh of an object that shows its own mesh and nothing else, of which reading has nothing to decide:
-    `read_object` would give one part in one place and no findings. None where that has to look for itself.
+    """Return the evaluated mesh of an object that shows its own mesh and nothing else, so that reading needs no
+    decision: `read_object` would give one part in one place and no findings. None if it has to look for itself.
     """
     data, parent = obj.data, obj.parent
     if (
@@ -108,8 +107,8 @@ def _faces(mesh, corners: NDArray[np.int32]) -> dict[str, NDArray]:
 
 
 def from_edit_mesh(mesh, read: Callable[[bpy.types.Mesh], Read]) -> Read:
-    """What `read` gives for a mesh in Edit Mode as its BMesh is now, with edits that the mesh itself does not have
-    yet.
+    """Return the result of `read` for a mesh in Edit Mode by its current BMesh, with edits that the mesh itself does
+    not have yet.
 
     A BMesh gives its elements one by one only, 5 s for a million faces; the copy into a mesh that
     lives for this call costs a fortieth of that and leaves the edit mesh as it is.
@@ -130,7 +129,7 @@ def face_slots(mesh) -> NDArray[np.int32]:
 
 
 def vertex_values(mesh, name: str) -> NDArray[np.float64]:
-    """(n,) the values of a float attribute on vertices. ReadError where there is none."""
+    """Return (n,) the values of a float attribute on vertices. ReadError if there is none."""
     attribute = mesh.attributes.get(name)
     if attribute is None:
         raise ReadError(ATTRIBUTE_MISSING, attribute=name)
@@ -141,7 +140,7 @@ def vertex_values(mesh, name: str) -> NDArray[np.float64]:
 
 def _attribute(mesh, name: str, member: str, shape: tuple[int, ...], dtype) -> NDArray:
     array = np.empty(shape, dtype)
-    if shape[0]:  # where there are no elements there may be no attribute either
+    if shape[0]:  # without elements there may be no attribute either
         mesh.attributes[name].data.foreach_get(member, array.reshape(-1))
     return array
 
@@ -153,7 +152,7 @@ def _array(data, member: str, shape: tuple[int, ...], dtype) -> NDArray:
 
 
 def _in_pairs(owners: NDArray[np.int32]) -> bool:
-    """Whether these are 0, 0, 1, 1, 2, 2, …"""
+    """Return whether these are 0, 0, 1, 1, 2, 2, …"""
     # Two at once: the even places alone would accept a triangle followed by a pentagon.
     pairs, step = owners.view(np.int64), (1 << 32) + 1
     count = np.arange(min(FACES_PER_BLOCK, len(pairs))) * step
