@@ -39,9 +39,9 @@ def surface_object(name: str, patches: Sequence[Patch], factor: float = 1.0) -> 
     Returns
     -------
     obj : Object
-        With its origin at that of the patches, or among them where they are far from it.
+        With its origin at that of the patches, or among them if they are far from it.
     moved : float
-        By how much float32 moves a point of the surfaces at most, as a share of their size.
+        Largest effect of float32 on a point of the surfaces, as a share of their size.
     """
     data, moved, origin = surface_data(name, patches, factor)
     obj = bpy.data.objects.new(name, data)
@@ -50,7 +50,9 @@ def surface_object(name: str, patches: Sequence[Patch], factor: float = 1.0) -> 
 
 
 def surface_data(name: str, patches: Sequence[Patch], factor: float) -> tuple[Curve, float, NDArray[np.float32]]:
-    """The data of `surface_object`, by what share of the size its points moved, and where its origin is to stand."""
+    """Return the data of `surface_object`, the share of the size by which its points moved, and the place of its
+    origin.
+    """
     low = factor * np.min([patch.points.min(axis=(0, 1)) for patch in patches], axis=0)
     high = factor * np.max([patch.points.max(axis=(0, 1)) for patch in patches], axis=0)
     size, distance = float((high - low).max()), float(np.abs([low, high]).max())

@@ -2,10 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """An object's own transform channels, in float64.
 
-Blender's setters for `matrix_world` and `matrix_basis` take Euler angles out of a float32 matrix,
-each angle by itself; near gimbal lock the angles then no longer fit together. Here each angle is
-taken from what the ones before it leave over, in float64, so that the angles rebuild the rotation
-however it lies.
+Blender's setters for `matrix_world` and `matrix_basis` take Euler angles out of a float32 matrix, each angle by itself;
+near gimbal lock the angles then no longer fit together. Here each angle is taken from the rest that the ones before it
+leave over, in float64, so that the angles rebuild any rotation.
 
 The basis of an object is T(location + delta) · R(delta) R(rotation) · S(scale · delta), before
 parents and constraints.
@@ -25,7 +24,7 @@ from ...core.verdict.finding import EditRefusedError
 from .findings import CHANNEL_ANIMATED, CHANNEL_LOCKED, LINKED_OBJECT, PARENT_OR_DELTA_SCALE_ZERO, PARENT_SHEARS
 
 FLOAT32 = float(np.finfo(np.float32).eps)
-MAX_SHEAR = 2e-6  # of a float32 matrix that is a rotation times a scale
+MAX_SHEAR = 2e-6  # found in float32 products of a rotation and a scale
 
 Matrix3 = NDArray[np.float64]
 Matrix4 = NDArray[np.float64]
@@ -40,7 +39,7 @@ def require_editable(obj: Object) -> None:
 def require_storable_data(obj: Object, code: str) -> None:
     """EditRefusedError for a linked object, and with this code for a library override."""
     require_editable(obj)
-    if obj.override_library is not None:  # of which a file keeps only what Blender lets be overridden
+    if obj.override_library is not None:  # a file keeps only overridable properties of it
         raise EditRefusedError(code)
 
 
@@ -50,7 +49,7 @@ def world(obj: Object) -> Matrix4:
 
 
 def solve(matrix: Matrix4, right_side: Matrix4) -> Matrix4:
-    """(4, 4) what the matrix has to be multiplied with: float64, which numpy's types do not say."""
+    """Return the solution of `matrix` · x = `right_side`, (4, 4): float64, which numpy's types do not say."""
     return np.asarray(np.linalg.solve(matrix, right_side), np.float64)
 
 
@@ -76,7 +75,7 @@ def euler_matrix(angles: NDArray, mode: str) -> Matrix3:
 
 
 def euler_angles(rotation: NDArray, mode: str, near: NDArray) -> NDArray[np.float64]:
-    """(..., 3) angles by axis x, y, z that rebuild rotations (..., 3, 3), those of all equal ones that are nearest to
+    """Return (..., 3) angles by axis x, y, z that rebuild rotations (..., 3, 3), the nearest of all equal ones to
     `near`, (..., 3).
     """
     i, j, k, s = _order(mode)
@@ -102,7 +101,7 @@ def _rotation(obj: Object) -> Matrix3:
         angle, *axis = obj.rotation_axis_angle
         length = np.linalg.norm(axis)
         if length == 0.0:
-            return np.eye(3)  # as Blender takes it
+            return np.eye(3)  # Blender takes it so
         return rotation_matrix([cos(angle / 2.0), *(sin(angle / 2.0) * np.divide(axis, length))])
     return euler_matrix(np.array(obj.rotation_euler), mode)
 
@@ -145,7 +144,7 @@ def rotation_and_scale(linear: NDArray, scale: NDArray) -> tuple[NDArray[np.floa
 
 
 def set_rotation_and_scale(obj: Object, linear: Matrix3) -> None:
-    """Make the 3×3 part of the basis `linear`, a rotation times a scale; EditRefusedError where it is sheared."""
+    """Make the 3×3 part of the basis `linear`, a rotation times a scale; EditRefusedError if it is sheared."""
     delta_scale = np.array(obj.delta_scale, np.float64)
     if np.linalg.norm(linear, axis=0).min() <= 0.0 or np.abs(delta_scale).min() == 0.0:
         raise EditRefusedError(PARENT_OR_DELTA_SCALE_ZERO)
