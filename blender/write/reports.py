@@ -44,7 +44,7 @@ def report(operator: Operator, *findings: Finding) -> None:
 
 
 def unavailable(operator: type[Operator], reason: Finding) -> bool:
-    """What `poll` returns where an operator cannot run, for this reason."""
+    """Return False from `poll`, with this reason."""
     operator.poll_message_set(text(reason))
     return False
 

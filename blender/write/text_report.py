@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A report that a person reads, in the order of CAD dialogs: verdict, mass, volume, center, principal axes, tensor.
 
-It is made from a document (`documents.document`) alone, and for results that are stored on objects a document is made
-first: so it can say all that JSON says. What a document lacks is left out.
+It is made from a document (`documents.document`) alone, and results stored on objects become a document first: so it
+can say all that JSON says. Entries missing in a document are left out.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ from .findings import NO_STORED_RESULTS, STALE_RESULTS, WALL_MEASURED
 from .units import rounded_up
 
 BOUNDS = {"volume": "m³", "area": "m²", "center_of_mass": "m", "inertia": "kg·m²"}
-DIGITS = 7  # as many as float32 coordinates carry
+DIGITS = 7  # float32 coordinates carry as many
 ZERO_DISPLAY_RTOL = 2.5e-7  # beside the largest component: what float32 matrices leave of a right angle; shown as 0
 INDENT = "  "
 WIDTH = 22
@@ -36,10 +36,9 @@ WIDTH = 22
 def report_text(
     context: Any, objects: Sequence[Any], outdated: Collection[str] = (), caveats: Sequence[Finding] = ()
 ) -> str:
-    """The results stored on `objects`, in the frame that the context's scene is set to.
+    """Return a report of the results stored on `objects`, in the frame that the context's scene is set to.
 
-    outdated: names of those whose results no longer hold. Objects without results are named too.
-    caveats: about their total.
+    outdated: names of objects with outdated results. Objects without results are named too. caveats: about their total.
     """
     return text(stored_document(context, objects, outdated, caveats))
 
@@ -189,7 +188,7 @@ def _vector(values: Sequence[float | None], size: float = 0.0) -> str:
 
 
 def _clean(values: Sequence[float | None], size: float = 0.0) -> list[float | None]:
-    """The values with 0.0 for what is rounding beside the largest of them, or beside the body's size."""
+    """Return the values with 0.0 for rounding beside the largest of them, or beside the body's size."""
     largest = max([size, *(abs(value) for value in values if value is not None)])
     return [0.0 if value is not None and abs(value) <= ZERO_DISPLAY_RTOL * largest else value for value in values]
 

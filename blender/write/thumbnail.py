@@ -61,7 +61,7 @@ def _draw(image: NDArray, corners: NDArray, normals: NDArray, areas: NDArray) ->
     """Points of the triangles, spread over their areas, the nearest in front; each is shaded by its normal."""
     chance = np.random.default_rng(0)
     chosen = np.searchsorted(np.cumsum(areas), chance.random(_SAMPLES) * areas.sum())
-    chosen = np.minimum(chosen, len(areas) - 1)  # where the sums are rounded otherwise
+    chosen = np.minimum(chosen, len(areas) - 1)  # the sums may be rounded differently
     a, b = chance.random((2, _SAMPLES, 1))
     a, b = np.where(a + b > 1.0, 1.0 - a, a), np.where(a + b > 1.0, 1.0 - b, b)
     triangles = corners[chosen]

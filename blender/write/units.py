@@ -48,7 +48,7 @@ MASSES = {
         "OUNCES": (POUND / 16.0, "oz"),
     },
 }
-# What an adaptive unit chooses from. Hundredweights and stones are for those who ask for them.
+# Choices of an adaptive unit. Hundredweights and stones are for people who ask for them.
 ADAPTIVE_LENGTHS = {
     "METRIC": ("KILOMETERS", "METERS", "CENTIMETERS", "MILLIMETERS", "MICROMETERS"),
     "IMPERIAL": ("MILES", "FEET", "INCHES", "THOU"),
@@ -73,7 +73,7 @@ SI_UNITS = {
 }
 DIGITS = 6
 UPWARD = Context(prec=2, rounding=ROUND_CEILING)
-GROUPS = {"SPACE": "\u2009", "COMMA": ",", "NONE": ""}  # what stands between groups of three digits
+GROUPS = {"SPACE": "\u2009", "COMMA": ",", "NONE": ""}  # separators of groups of three digits
 MIN_GROUPED = 5  # integers of fewer digits are read at a glance
 MIN_EXPONENT, MAX_EXPONENT = -5, 10  # beyond these, powers of ten are shown
 
@@ -104,8 +104,9 @@ class Units:
         return self.texts(quantity, (value,))[0]
 
     def texts(self, quantity: str, values: Sequence[float], size: float = 0.0) -> list[str]:
-        """SI values of one quantity as a column: all in the unit that suits the largest of them, with as many decimals.
-        size: of the body that they belong to; what is rounding beside it is shown as 0."""
+        """Return SI values of one quantity as a column: all in the unit that suits the largest of them, with as many
+        decimals. size: of the body that they belong to; rounding beside it is shown as 0.
+        """
         largest = max((abs(value) for value in values if isfinite(value)), default=0.0)
         noise = max(1e-12 * largest, 1e-7 * size)
         factor, name = self.unit(quantity, 0.0 if largest < noise else largest)
@@ -159,9 +160,7 @@ def _base(table: dict[str, tuple[float, str]]) -> tuple[float, str]:
 
 
 def _fitting_unit(units: Sequence[tuple[float, str]], value: float, base: tuple[float, str]) -> tuple[float, str]:
-    """The largest unit of which there is at least one, the smallest where there is none, the
-    base for zero.
-    """
+    """Return the largest unit of which there is at least one, else the smallest; the base for zero."""
     if value == 0.0:
         return base
     for unit in units:
@@ -176,14 +175,14 @@ def rounded_up(bound: float) -> float:
 
 
 def number(value: float, digits: int = DIGITS, grouping: str = "SPACE") -> str:
-    """A number as a person reads it: so many significant digits, no trailing zeros, powers of ten
-    only where needed.
+    """Return a number as a person reads it: so many significant digits, no trailing zeros, powers of ten only if
+    needed.
     """
     return column((value,), digits, grouping)[0]
 
 
 def column(values: Sequence[float], digits: int = DIGITS, grouping: str = "SPACE") -> list[str]:
-    """Numbers as a person reads them below one another.
+    """Return numbers as a person reads them below one another.
 
     Parameters
     ----------
@@ -196,8 +195,8 @@ def column(values: Sequence[float], digits: int = DIGITS, grouping: str = "SPACE
     Returns
     -------
     list of str
-        With as many decimals each, zeros that all of them would end with left out, and the same power of ten where one
-        is needed.
+        With as many decimals each, without their common trailing zeros, and with the same power of ten if one is
+        needed.
     """
     largest = max((abs(value) for value in values if isfinite(value)), default=0.0)
     if largest == 0.0:
