@@ -49,7 +49,7 @@ from .moving_surface import MovingSurface
 
 BUDGET = 0.01  # s a redraw, where there are no preferences
 MAX_PASS = 5.0  # budgets that the only pass of a redraw may take
-RETRY = 0.7  # s a redraw, without preferences
+RETRY = 0.7  # applied to the time of a pass that was left out
 IDLE = 0.25  # s without an update, after which what takes longer than the budget is measured
 POLL = 0.1  # s between two looks whether that is so
 

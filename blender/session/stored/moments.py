@@ -47,7 +47,7 @@ from ..tracking.cache import SessionCache
 MAX_SHOWN_ORDER = 4  # the highest order whose moments a panel shows one by one
 
 
-HU_ORDER = 3  # enough for Hu's invariants
+HU_ORDER = 3  # order of Hu's invariants
 
 
 MAX_CACHED_OBJECTS = 16  # objects
