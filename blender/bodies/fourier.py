@@ -58,7 +58,7 @@ class ObjectTransform:
             raise
 
     def result(self) -> tuple[Spectrum, tuple[Finding, ...]]:
-        """The spectrum, and a finding for each decision that was taken."""
+        """Return the spectrum, and a finding for each decision that was taken."""
         spectrum = self.transform.result().scale(self.factor)
         findings = self.findings
         if spectrum.method == APPROXIMATE:
@@ -126,7 +126,7 @@ def _require_thin(options: ResolvedOptions) -> None:
 
 
 def _extent(parts: list[tuple[Surface, NDArray]]) -> float:
-    """The longest side of the box around all boxes around the parts."""
+    """Return the longest side of the box around all boxes around the parts."""
     low, high = np.full(3, np.inf), np.full(3, -np.inf)
     for surface, matrices in parts:
         box, linear = np.array(surface.box, np.float64), matrices[:, :3, :3]
@@ -140,7 +140,7 @@ def _extent(parts: list[tuple[Surface, NDArray]]) -> float:
 
 
 def _to_object(reading: Reading, unit: float) -> NDArray[np.float64]:
-    """(4, 4) from the world to the object frame."""
+    """Return (4, 4) from the world to the object frame."""
     turn = np.eye(4)
     turn[:3, :3] = np.asarray(reading.rotation, np.float64).T
     turn[:3, 3] = -turn[:3, :3] @ np.asarray(reading.location, np.float64) * unit

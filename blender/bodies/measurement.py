@@ -119,7 +119,7 @@ def extent(body: Body, options: ResolvedOptions) -> Moments:
 def _weighed(
     body: Body, measured: Moments, solid: Moments, thin: bool, options: ResolvedOptions
 ) -> tuple[Moments, float, float]:
-    """The moments that carry the mass, the mass in kg per unit of them, and the density."""
+    """Return the moments that carry the mass, the mass in kg per unit of them, and the density."""
     if body.mass is not None:
         factor = 1.0 if options.mass is None else options.mass / body.mass.total
         moments, density = body.mass, body.mass.total * factor / measured.total

@@ -112,7 +112,7 @@ class PatchSheetBody(Body):
 
 
 def _patches(part: Part) -> tuple[Patch, ...]:
-    """The patches of a part that has some."""
+    """Return the patches of a part that has some."""
     return cast(SplineReading, part.splines).patches
 
 
@@ -214,7 +214,7 @@ def _solid_findings(
 
 
 def _split_parts(reading: Reading) -> tuple[list[Part], Reading]:
-    """The parts that are patches, and a reading of the others."""
+    """Return the parts that are patches, and a reading of the others."""
     return (
         [part for part in reading.parts if part.splines is not None],
         replace(reading, parts=[part for part in reading.parts if part.splines is None]),
@@ -227,12 +227,12 @@ def _source(reading: Reading) -> Source:
 
 
 def _moments_to_order(measure: PatchIntegrals, order: int) -> Moments:
-    """The volume's moments to another order."""
+    """Return the volume's moments to another order."""
     return extend_input_error(volume_moments(measure.patches, order, measure.volume.about)[0], measure.volume)
 
 
 def _image_areas(part: Part, area: Moments, matrices: NDArray) -> Iterator[Moments]:
-    """The area moments of a part's images."""
+    """Yield the area moments of a part's images."""
     even = are_similarities(matrices[:, :3, :3])
     if even.any():
         yield sum_of_images(area, matrices[even])
@@ -242,7 +242,7 @@ def _image_areas(part: Part, area: Moments, matrices: NDArray) -> Iterator[Momen
 
 
 def _sheet_body(reading: Reading, unit: float, wall: str, thickness: float, threads: int) -> Body:
-    """Thin sheets, or walls with the surfaces at their inner or outer side or in their middle."""
+    """Return thin sheets, or walls with the surfaces at their inner or outer side or in their middle."""
     patch_parts, meshes = _split_parts(reading)
     if meshes.parts and wall != "thin":
         raise ReadError(WALL_OF_MIXED_SURFACES)

@@ -377,7 +377,7 @@ def _area(sheet: Surface, metric: NDArray[np.float64], order: int) -> Moments:
 
 
 def _total(entries: list[tuple[float, float, float]]) -> tuple[float, float, float]:
-    """Values with their bounds, added."""
+    """Return the sums of values and of their bounds."""
     values, rounding, inputs = np.array(entries, np.float64).reshape(-1, 3).T
     return (
         float(values.sum()),

@@ -61,7 +61,7 @@ class WallPiece:
     matrices: NDArray[np.float64]
 
     def max_thickness(self, side: str) -> float:
-        """The thickness in m from which the wall folds over."""
+        """Return the thickness in m from which the wall folds over."""
         return self.offset.max_thickness(side) * self.scale
 
     def folds(self, side: str, thickness: float) -> bool:
@@ -230,7 +230,7 @@ def _orient_outward(surface: Surface, solid: SolidIntegrals, findings: list[Find
 
 
 def _round_down(length: float) -> float:
-    """The length rounded down to four digits, so that the length that is named works."""
+    """Return the length rounded down to four digits, so that the length that is named works."""
     if not isfinite(length):
         return inf
     unit = 10.0 ** (floor(log10(length)) - 3)

@@ -122,7 +122,7 @@ class _Walk:
         self.replaced = {child for obj in self.given for child in obj.children_recursive}
 
     def collection(self, collection: bpy.types.Collection, depth: int = 0) -> Member:
-        """A collection with its nested ones, before its own objects."""
+        """Return a collection with its nested ones, before its own objects."""
         if self.inside and (collection.hide_render or collection.hide_viewport):
             return Member(collection, MemberKind.COLLECTION, left_out=finding(NOT_RENDERED))
         members = [self.collection(child, depth) for child in collection.children]
@@ -172,7 +172,7 @@ class _Walk:
         return [Member(obj, kind)]
 
     def _left_out(self, obj: Object) -> Finding | None:
-        """Why an object is no part, or why Blender cannot show that it is one."""
+        """Return the reason why an object is no part, or why Blender cannot show that it is one."""
         if self.inside:
             if obj in self.operands and obj.display_type in {"WIRE", "BOUNDS"}:
                 return finding(BOOLEAN_OPERAND)

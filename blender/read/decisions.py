@@ -67,7 +67,7 @@ LINES_ONLY = {"CURVE": LINES_ONLY_CURVE, "FONT": LINES_ONLY_TEXT}
 
 
 def why_empty(obj, gathered: InstanceCollector, depsgraph) -> Finding:
-    """Why nothing of the object has a face."""
+    """Return the reason why nothing of the object has a face."""
     vertices, edges = gathered.faceless
     if obj.type == "META":
         mother = _family(obj, depsgraph)[0]
@@ -97,7 +97,7 @@ def why_empty(obj, gathered: InstanceCollector, depsgraph) -> Finding:
 
 
 def reading_findings(obj, gathered: InstanceCollector, depsgraph) -> Iterator[Finding]:
-    """A finding for each thing that was decided while reading."""
+    """Yield a finding for each thing that was decided while reading."""
     hidden = hidden_reason(obj, depsgraph)
     if hidden:
         yield finding(HIDDEN_OBJECT_MEASURED, cause=hidden.as_record())
@@ -140,7 +140,7 @@ def _render_findings(obj, scene, exact: bool = False) -> Iterator[Finding]:
 
 
 def _member_findings(collections) -> Iterator[Finding]:
-    """The members of instanced collections that only the viewport or only the render shows."""
+    """Yield the members of instanced collections that only the viewport or only the render shows."""
     shown, rendered = (
         {
             member.original: None
@@ -212,7 +212,9 @@ def _spline_findings(evaluated, splines) -> Iterator[Finding]:
 
 
 def _render_differences(obj, scene, exact: bool = False) -> Iterator[Finding]:
-    """exact: the object is read without its display mesh, so that no resolution counts."""
+    """Yield findings about differences in the render. exact: the object is read without its display mesh, so that no
+    resolution counts.
+    """
     for modifier in obj.modifiers:
         shown, rendered = modifier.show_viewport, modifier.show_render
         if shown != rendered:

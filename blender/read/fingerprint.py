@@ -32,7 +32,7 @@ MAX_DIGESTED_FACES = 50_000  # faces: reading and digesting them takes 2 ms
 
 
 def fingerprint(geometry: bytes, matrix: str, settings: str) -> str:
-    """The text stored as `body_fingerprint`: version, then the three digests."""
+    """Return the text stored as `body_fingerprint`: version, then the three digests."""
     return ":".join([VERSION, digest(geometry), matrix, settings])
 
 
@@ -113,7 +113,7 @@ def _moves_along(obj: bpy.types.Object) -> bool:
 
 
 def scale_hash(obj: bpy.types.Object) -> str:
-    """A digest of how the object is scaled and sheared, wherever it lies."""
+    """Return a digest of the object's scale and shear, independent of its place."""
     linear = np.array(obj.matrix_world, np.float64)[:3, :3]
     products = linear.T @ linear
     largest = np.abs(products).max() or 1.0
@@ -121,7 +121,7 @@ def scale_hash(obj: bpy.types.Object) -> str:
 
 
 def settings_hash(obj: bpy.types.Object, scene: bpy.types.Scene) -> str:
-    """A digest of the settings that the numbers of this object depend on."""
+    """Return a digest of the settings that the numbers of this object depend on."""
     settings = obj.body_moments
     density, mass = None, None
     if settings.mass_from == "MASS":
@@ -132,13 +132,13 @@ def settings_hash(obj: bpy.types.Object, scene: bpy.types.Scene) -> str:
 
 
 def given_density(obj: bpy.types.Object, scene: bpy.types.Scene) -> float:
-    """The one density that the object's settings say: kg/m³, of a wire kg/m."""
+    """Return the one density that the object's settings say: kg/m³, of a wire kg/m."""
     settings = obj.body_moments
     return shortest_decimal(settings.linear_density) if settings.kind == "WIRE" else object_density(settings, scene)
 
 
 def settings_hash_with(obj: bpy.types.Object, scene: bpy.types.Scene, density: float | None, mass: float | None) -> str:
-    """A digest of the object's settings as they are, but for this density or mass."""
+    """Return a digest of the object's settings as they are, but for this density or mass."""
     settings = obj.body_moments
     unit = shortest_decimal(scene.unit_settings.scale_length)
     return effective_hash(
@@ -207,7 +207,7 @@ def shape_digest(obj, depsgraph) -> bytes | None:
 
 
 def surface_digest(surface: Surface, face_count: int) -> bytes | None:
-    """A digest of the faces of a mesh as they were read; None of many."""
+    """Return a digest of the faces of a mesh as they were read; None of many."""
     if face_count > MAX_DIGESTED_FACES:
         return None
     shape = hashlib.blake2b(digest_size=16)
@@ -218,5 +218,5 @@ def surface_digest(surface: Surface, face_count: int) -> bytes | None:
 
 
 def digest(data: bytes | NDArray) -> str:
-    """A short text that differs for different data."""
+    """Return a short text that differs for different data."""
     return hashlib.blake2s(data if isinstance(data, bytes) else data.data, digest_size=6).hexdigest()

@@ -119,7 +119,7 @@ class InstanceCollector:
         return parts
 
     def _add_object(self, evaluated, matrices: NDArray) -> None:
-        """An object standing at `matrices` instead of its own matrix, with its instances."""
+        """Add an object standing at `matrices` instead of its own matrix, with its instances."""
         original = evaluated.original
         if original in self._path or len(self._path) > MAX_DEPTH:
             return
@@ -207,7 +207,7 @@ class InstanceCollector:
             self._add_object(evaluated, matrices @ float64_matrix(evaluated.matrix_world))
 
     def _add_listed_instances(self, instance_matrix: NDArray) -> None:
-        """The root and its instances as `depsgraph.object_instances` has them."""
+        """Add the root and its instances as `depsgraph.object_instances` has them."""
         original = self.root.original
         if not original.visible_get(view_layer=self.depsgraph.view_layer):
             raise ReadError(INSTANCES_OF_HIDDEN_OBJECT, subject=original.name)
@@ -300,7 +300,7 @@ def _object_slots(owner) -> tuple:
 
 
 def _slots(mesh, owner) -> tuple:
-    """The original materials that the faces of an evaluated mesh name by number."""
+    """Return the original materials that the faces of an evaluated mesh name by number."""
     slots = list(mesh.materials)
     if owner is not None:
         if not slots:  # a copy of an edit mesh has none of its own

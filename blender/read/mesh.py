@@ -54,7 +54,7 @@ def plain_mesh(obj, depsgraph):
 
 
 def mesh_surface(mesh, *, edges: bool = True) -> Surface:
-    """The polygons of a `bpy.types.Mesh` as copied arrays, float32 points in the mesh's own
+    """Return the polygons of a `bpy.types.Mesh` as copied arrays, float32 points in the mesh's own
     coordinates.
 
     edges: with the edge at each corner, which takes a fifth of the time.
@@ -68,7 +68,7 @@ def mesh_surface(mesh, *, edges: bool = True) -> Surface:
 
 
 def mesh_points(mesh, corners: NDArray[np.integer]) -> NDArray[np.float32] | None:
-    """(n, 3) the vertices of a `bpy.types.Mesh` that has these vertices at its corners; None of any other."""
+    """Return (n, 3) the vertices of a `bpy.types.Mesh` that has these vertices at its corners; None of any other."""
     if len(mesh.loops) != len(corners):
         return None
     if not np.array_equal(_attribute(mesh, ".corner_vert", "value", corners.shape, np.int32), corners):
@@ -77,7 +77,7 @@ def mesh_points(mesh, corners: NDArray[np.integer]) -> NDArray[np.float32] | Non
 
 
 def _faces(mesh, corners: NDArray[np.int32]) -> dict[str, NDArray]:
-    """The triangles and quads of a Surface, and which faces they are of."""
+    """Return the triangles and quads of a Surface, and which faces they are of."""
     faces = len(mesh.polygons)
     if not faces:
         return {}
@@ -122,7 +122,7 @@ def from_edit_mesh(mesh, read: Callable[[bpy.types.Mesh], Read]) -> Read:
 
 
 def face_slots(mesh) -> NDArray[np.int32]:
-    """(f,) the material slot that each face names; the mesh may have fewer."""
+    """Return (f,) the material slot that each face names; the mesh may have fewer."""
     if mesh.attributes.get("material_index") is None:  # then all of them name the first one
         return np.zeros(len(mesh.polygons), np.int32)
     return _attribute(mesh, "material_index", "value", (len(mesh.polygons),), np.int32)

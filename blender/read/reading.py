@@ -108,7 +108,7 @@ class Reading:
         return sum([len(part.matrices) for part in self.parts])
 
     def join(self) -> Surface:
-        """All parts, wherever they stand, as one surface of triangles in the world, float64."""
+        """Return all parts, in their places, as one surface of triangles in the world, float64."""
         return join_surfaces(
             [part.surface.transform(matrix[:3, :3], matrix[:3, 3]) for part in self.parts for matrix in part.matrices]
         )
@@ -122,12 +122,12 @@ def attribute_to_source(result: Finding, source: str, whole: str) -> Finding:
 
 
 def to_si(matrices: NDArray, unit: float) -> NDArray[np.float64]:
-    """(k, 4, 4) world matrices to SI. unit: meters per Blender unit."""
+    """Return (k, 4, 4) world matrices in SI units. unit: meters per Blender unit."""
     scaled = np.array(matrices, np.float64)
     scaled[:, :3] *= unit
     return scaled
 
 
 def float64_matrix(matrix) -> NDArray[np.float64]:
-    """(4, 4) float64 of a `mathutils.Matrix`, to the bit."""
+    """Return a `mathutils.Matrix` as a (4, 4) float64 array, to the bit."""
     return np.array([row[:] for row in matrix], np.float64)

@@ -45,7 +45,7 @@ def operands_of(objects: Iterable[Object]) -> dict[Object, Object]:
 
 
 def total_caveats(objects: Collection[Object], view_layer: ViewLayer) -> list[Finding]:
-    """A finding for each reason why some of the objects may be no parts of the body that they are summed to."""
+    """Return a finding for each reason why some of the objects may be no parts of the body that they are summed to."""
     if len(objects) < 2:
         return []
     objects = sorted(objects, key=lambda obj: obj.name)
@@ -79,7 +79,7 @@ def open_body_caveats(methods: Iterable[tuple[str, Method | None]]) -> list[Find
 
 
 def _operands(obj: Object) -> Iterator[Object]:
-    """The objects that the Boolean modifiers of another one work with."""
+    """Yield the objects that the Boolean modifiers of another one work with."""
     for modifier in obj.modifiers:
         if modifier.type != "BOOLEAN" or not (modifier.show_viewport or modifier.show_render):
             continue

@@ -98,7 +98,7 @@ def instanced_by_parent(obj) -> bool:
 
 
 def metaball_families(view_layer) -> list[list]:
-    """The metaball objects by family, in each the one first that holds the polygons of all.
+    """Return the metaball objects by family, in each the one first that holds the polygons of all.
 
     A family shares the name before its number, and the lowest number holds
     (BKE_mball_basis_find)."""
@@ -149,7 +149,7 @@ def _shape_keys_fit(curve) -> bool:
 
 
 def why_not_evaluated(obj, depsgraph) -> Finding:
-    """Why Blender has not evaluated the object."""
+    """Return the reason why Blender has not evaluated the object."""
     return hidden_reason(obj, depsgraph) or finding(NOT_EVALUATED)
 
 
@@ -164,7 +164,7 @@ def _sculpt_mode_reason(obj) -> Finding | None:
 
 
 def hidden_reason(obj, depsgraph) -> Finding | None:
-    """Why the view layer does not show the object; None if it does or has yet to be updated."""
+    """Return the reason why the view layer does not show the object; None if it does or has yet to be updated."""
     if obj.visible_get(view_layer=depsgraph.view_layer):
         return None
     homes = set(obj.users_collection)
@@ -193,7 +193,7 @@ def hidden_reason(obj, depsgraph) -> Finding | None:
 
 
 def edit_modifiers(obj) -> list:
-    """The modifiers that act while the object's mesh is in Edit Mode."""
+    """Return the modifiers that act while the object's mesh is in Edit Mode."""
     return [modifier for modifier in obj.modifiers if modifier.show_viewport and modifier.show_in_editmode]
 
 

@@ -36,7 +36,7 @@ def run_change(context: Context, change: SceneChange) -> None:
 
 
 def run_together(changes: Iterable[SceneChange]) -> SceneChange:
-    """Several changes as one."""
+    """Run several changes as one."""
     waiting = list(changes)
     try:
         for change in waiting:

@@ -31,7 +31,7 @@ Shape = list[tuple[NDArray[np.float64], NDArray[np.float64]]]
 
 
 def referring(objects: set[Object]) -> dict[Object, set[Object]]:
-    """For each object the other objects that refer to it, directly or through data and collections."""
+    """Return for each object its users, directly or through data and collections."""
     users = users_of(objects, LINKING_TYPES)
 
     def through(data: ID, visited: set[ID]) -> set[Object]:

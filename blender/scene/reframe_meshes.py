@@ -224,7 +224,7 @@ def _set_rotations_and_scales(objects: Sequence[Object], linear: NDArray) -> NDA
 
 
 def _transform_meshes(meshes: Sequence[Mesh], changes: NDArray) -> None:
-    """p → change · p for the points of each, in float64."""
+    """Map the points of each mesh, p → change · p, in float64."""
     flips = np.linalg.det(changes[:, :3, :3]) < 0.0
     counts = [len(mesh.vertices) for mesh in meshes]
     ends = np.cumsum([0, *counts]).tolist()

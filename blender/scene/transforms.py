@@ -31,20 +31,20 @@ Matrix4 = NDArray[np.float64]
 
 
 def require_editable(obj: Object) -> None:
-    """EditRefusedError for a linked object."""
+    """Raise EditRefusedError for a linked object."""
     if not obj.is_editable:
         raise EditRefusedError(LINKED_OBJECT)
 
 
 def require_storable_data(obj: Object, code: str) -> None:
-    """EditRefusedError for a linked object, and with this code for a library override."""
+    """Raise EditRefusedError for a linked object, and with this code for a library override."""
     require_editable(obj)
     if obj.override_library is not None:  # a file keeps only overridable properties of it
         raise EditRefusedError(code)
 
 
 def world(obj: Object) -> Matrix4:
-    """(4, 4) the evaluated matrix_world as float64."""
+    """Return (4, 4) the evaluated matrix_world as float64."""
     return np.array(obj.matrix_world, np.float64)
 
 
@@ -69,7 +69,7 @@ def _order(mode: str) -> tuple[int, int, int, float]:
 
 
 def euler_matrix(angles: NDArray, mode: str) -> Matrix3:
-    """(3, 3) of Euler angles by axis x, y, z; in mode "XYZ" the turn about X comes first."""
+    """Return the (3, 3) matrix of Euler angles by axis x, y, z; in mode "XYZ" the turn about X comes first."""
     i, j, k, _ = _order(mode)
     return _turn(k, angles[k]) @ _turn(j, angles[j]) @ _turn(i, angles[i])
 
@@ -115,7 +115,7 @@ def _delta_rotation(obj: Object) -> Matrix3:
 
 
 def basis(obj: Object) -> Matrix4:
-    """(4, 4) location, rotation and scale with their deltas, before parents and constraints."""
+    """Return the (4, 4) matrix of location, rotation and scale with their deltas, before parents and constraints."""
     matrix = np.eye(4)
     scale = np.array(obj.scale, np.float64) * np.array(obj.delta_scale, np.float64)
     matrix[:3, :3] = _delta_rotation(obj) @ _rotation(obj) * scale
@@ -181,7 +181,7 @@ def _assign(obj: Object, channel: str, value: NDArray, locks: Sequence[bool], to
 
 
 def driven_channels(obj: Object) -> set[str]:
-    """The data paths of the object that an action, the NLA or a driver sets."""
+    """Return the data paths of the object that an action, the NLA or a driver sets."""
     animation = obj.animation_data
     if animation is None:
         return set()
@@ -215,7 +215,7 @@ class TransformChannels:
 
 
 def ancestors(obj: Object | None) -> Iterator[Object]:
-    """The object, its parent, that one's parent, and so on."""
+    """Yield the object, its parent, that one's parent, and so on."""
     while obj is not None:
         yield obj
         obj = obj.parent

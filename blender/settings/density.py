@@ -72,7 +72,7 @@ def density_field(settings: bpy.types.PropertyGroup) -> DensityField | None:
 
 
 def object_density(settings: bpy.types.PropertyGroup, scene: bpy.types.Scene) -> float:
-    """The one density in kg/m³ that an object's settings say: its own, else the scene's default."""
+    """Return the one density in kg/m³ that an object's settings say: its own, else the scene's default."""
     default = None if settings.is_property_set("density") else default_density(scene)
     return shortest_decimal(settings.density) if default is None else default
 

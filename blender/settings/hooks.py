@@ -19,41 +19,41 @@ on_part_change: list[Hook] = []  # the mass of an assembly or of a bone's part
 
 
 def part_changed(settings: PropertyGroup, context: Context) -> None:
-    """Update the settings of assemblies and of bones: Blender reports their changes for no object."""
+    """Call the hooks of assemblies and of bones: Blender reports changes of their settings for no object."""
     _call(on_part_change, settings, context)
 
 
 def changed(settings: PropertyGroup, context: Context) -> None:
-    """The update function of an object's settings."""
+    """Call the hooks of a changed setting of an object."""
     _call(on_change, settings, context)
 
 
 def given_changed(settings: PropertyGroup, context: Context) -> None:
-    """Update the given values of a part, an object or an assembly."""
+    """Call the hooks of a changed given value of a part, an object or an assembly."""
     _call(on_change, settings, context)
     _call(on_part_change, settings, context)
 
 
 def density_changed(settings: PropertyGroup, context: Context) -> None:
-    """The update function of the settings that say how much an object weighs."""
+    """Call the hooks of an object's changed density or mass."""
     _call(on_change, settings, context)
     _call(on_density_change, settings, context)
 
 
 def wall_changed(settings: PropertyGroup, context: Context) -> None:
-    """Update the settings of the side of a shell's material."""
+    """Call the hooks of a shell's changed wall: its side or thickness."""
     _call(on_change, settings, context)
     _call(on_wall_change, settings, context)
 
 
 def threshold_changed(settings: PropertyGroup, context: Context) -> None:
-    """The update function of the threshold of a grid."""
+    """Call the hooks of a grid's changed threshold."""
     _call(on_change, settings, context)
     _call(on_threshold_change, settings, context)
 
 
 def default_density_changed(settings: PropertyGroup, context: Context) -> None:
-    """Update the default density of objects without one, in a scene or in the preferences."""
+    """Call the hooks of a changed default density in a scene; the preferences have none."""
     if isinstance(settings.id_data, Scene):
         _call(on_default_density_change, settings, context)
 

@@ -57,7 +57,7 @@ def _forget_material(settings: PropertyGroup, _context: Context | None = None) -
 
 
 def _density_in(unit: str, description: str):
-    """The density of an object or a material in a unit, for fields of a panel."""
+    """Return the density of an object or a material in a unit, for fields of a panel."""
     factor, name = DENSITY_UNITS[unit]
     return FloatProperty(
         name="Density ({:s})".format(name),
@@ -408,8 +408,9 @@ class BodyMomentsSceneSettings(SceneDefaults, PropertyGroup):
 
 
 def density_field_name(scene: Scene) -> str:
-    """The property of an object's or a material's settings that shows its density in the unit that a scene is set
-    to."""
+    """Return the property of an object's or a material's settings that shows its density in the unit that a scene is
+    set to.
+    """
     return "density_" + density_unit(scene.body_moments.density_unit, scene.unit_settings.system).lower()
 
 
@@ -426,7 +427,7 @@ def copy_settings(source: PropertyGroup, target: PropertyGroup) -> bool:
 
 
 def _comparable(value):
-    """The value; of an array its numbers."""
+    """Return the value; of an array its numbers."""
     return value[:] if hasattr(value, "foreach_get") else value
 
 

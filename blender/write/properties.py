@@ -337,18 +337,19 @@ def store_findings(obj: bpy.types.Object, findings: Sequence[Finding]) -> None:
 
 
 def warning_lines(findings: Iterable[Finding]) -> str:
-    """The English sentences of the warnings, one a line."""
+    """Return the English sentences of the warnings, one a line."""
     return "\n".join([sentence(finding) for finding in of_severity(findings, Severity.WARNING)])
 
 
 def findings_text(findings: Iterable[Finding]) -> str:
-    """Findings as JSON text, to be read by `findings_in`."""
+    """Return findings as JSON text, to be read by `findings_in`."""
     return json.dumps([plain(finding.as_record()) for finding in findings], ensure_ascii=False)
 
 
 def findings_in(text: object) -> tuple[Finding, ...]:
-    """The findings in a stored text. Text that `findings_text` has not written gives none; a finding that this version
-    of the add-on cannot put into words is left out."""
+    """Return the findings in a stored text. Text that `findings_text` has not written gives none; a finding that this
+    version of the add-on cannot put into words is left out.
+    """
     return _findings_in(text) if isinstance(text, str) else ()
 
 
@@ -407,7 +408,7 @@ def numbers(obj: Owner) -> tuple[tuple[float, ...], ...] | None:
 
 
 def from_numbers(numbers_read: tuple[tuple[float, ...], ...]) -> StoredProperties:
-    """The results that `numbers` has read, in the object frame."""
+    """Return the results that `numbers` has read, in the object frame."""
     (mass,), (density,), (volume,), (area,), center, entries, moments, turn, bounds = numbers_read
     tensor = np.zeros((3, 3))
     tensor[ROWS, COLUMNS] = tensor[COLUMNS, ROWS] = entries
@@ -423,5 +424,5 @@ def from_numbers(numbers_read: tuple[tuple[float, ...], ...]) -> StoredPropertie
 
 
 def tensor_entries(tensor: NDArray) -> NDArray[np.float64]:
-    """(6,) a (3, 3) tensor in the order of ENTRIES."""
+    """Return (6,) a (3, 3) tensor in the order of ENTRIES."""
     return tensor[ROWS, COLUMNS]

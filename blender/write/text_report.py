@@ -51,7 +51,9 @@ def stored_document(
     file: str | None = None,
     blender: str | None = None,
 ) -> dict[str, Any]:
-    """The document of the results stored on `objects`; see `report_text`. The health of their meshes is not stored."""
+    """Return the document of the results stored on `objects`; see `report_text`. The health of their meshes is not
+    stored.
+    """
     scene = context.scene
     unit, frame = shortest_decimal(scene.unit_settings.scale_length), scene.body_moments.frame.lower()
     entries, bodies, errors = [], [], []
@@ -69,7 +71,7 @@ def stored_document(
 
 
 def text(file_document: dict[str, Any]) -> str:
-    """A document as plain text, with its units and conventions stated."""
+    """Return a document as plain text, with its units and conventions stated."""
     lines = ["Mass properties, SI units, {} frame".format(file_document["frame"])]
     if file_document["file"]:
         lines.append("File: {}".format(file_document["file"]))
@@ -91,7 +93,7 @@ def text(file_document: dict[str, Any]) -> str:
 
 
 def _body(entry: dict[str, Any], frame: str) -> Iterable[str]:
-    """The lines of one object, or of a total."""
+    """Return the lines of one object, or of a total."""
     if "method" in entry:
         walled = any(found["code"] == WALL_MEASURED for found in entry.get("findings", ()))
         _, explanation = METHODS.get(method_key(Method.parse(entry["method"]), walled), ("", ""))
@@ -194,7 +196,7 @@ def _clean(values: Sequence[float | None], size: float = 0.0) -> list[float | No
 
 
 def _stored_record(obj: Any, stored: properties.StoredProperties, outdated: bool) -> dict[str, Any]:
-    """A record without health, which is not stored."""
+    """Return a record without health, which is not stored."""
     method, findings = properties.method(obj), properties.findings(obj)
     kinds = {Verdict.SHELL: "shell", Verdict.WIRE: "wire"}
     source = properties.density_from(obj)
@@ -228,7 +230,7 @@ def _stored_record(obj: Any, stored: properties.StoredProperties, outdated: bool
 
 
 def _stored_total(entries: Sequence[dict[str, Any]], bodies: Sequence[MassProperties]) -> dict[str, Any]:
-    """Everything stored as one body, world frame. Axes are left out: signs need third moments."""
+    """Return the sum of all stored results as one body, world frame. Axes are left out: signs need third moments."""
     total = {name: sum(entry[name] for entry in entries) for name in ("mass", "volume", "area")}
     total |= dict.fromkeys(("center_of_mass", "inertia", "principal_moments"))
     if bodies:

@@ -94,13 +94,13 @@ class Units:
 
     @classmethod
     def of(cls, settings) -> Units:
-        """From a scene's `unit_settings`, and the number format of that scene."""
+        """Return the units of a scene's `unit_settings`, and the number format of that scene."""
         units = settings.system, settings.length_unit, settings.mass_unit, shortest_decimal(settings.scale_length)
         shown = getattr(getattr(settings, "id_data", None), "body_moments", None)
         return cls(*units) if shown is None else cls(*units, shown.density_unit, shown.digits, shown.digit_grouping)
 
     def text(self, quantity: str, value: float) -> str:
-        """One SI value: "1.5 kg", "12.3457 cm²"."""
+        """Return one SI value as text: "1.5 kg", "12.3457 cm²"."""
         return self.texts(quantity, (value,))[0]
 
     def texts(self, quantity: str, values: Sequence[float], size: float = 0.0) -> list[str]:
@@ -115,12 +115,12 @@ class Units:
         return ["{:s} {:s}".format(text, name).rstrip() for text in column(shown, self.digits, self.grouping)]
 
     def bound(self, quantity: str, bound: float, beside: float) -> str:
-        """An SI error bound, to two digits, upward, in the unit of its value: "± 4.5e-15 m³"."""
+        """Return an SI error bound, to two digits, upward, in the unit of its value: "± 4.5e-15 m³"."""
         factor, name = self.unit(quantity, abs(beside))
         return "± {:s} {:s}".format(number(rounded_up(bound / factor), 2, self.grouping), name).rstrip()
 
     def unit(self, quantity: str, value: float) -> tuple[float, str]:
-        """(SI value of one unit, its name) to show an SI `value` in."""
+        """Return (SI value of one unit, its name) to show an SI `value` in."""
         if self.system == "NONE" and quantity != "density":
             return (self.scale ** POWERS[quantity][1], "") if quantity in POWERS else (1.0, SI_UNITS[quantity])
         if quantity in POWERS:
@@ -170,7 +170,7 @@ def _fitting_unit(units: Sequence[tuple[float, str]], value: float, base: tuple[
 
 
 def rounded_up(bound: float) -> float:
-    """To two digits, no less than it was: a bound that is rounded down is none."""
+    """Return a bound rounded up to two digits: a bound that is rounded down is none."""
     return float(UPWARD.create_decimal(repr(float(bound))))
 
 

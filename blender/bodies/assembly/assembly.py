@@ -300,7 +300,7 @@ def _object_body(member: Member, result: Measured | Stacked | Finding) -> Member
 
 
 def _sum(like: MemberBody, bodies: Iterable[MemberBody], parts: tuple[MemberBody, ...]) -> MemberBody:
-    """The member with all these bodies together as its own."""
+    """Return the member with all these bodies together as its own."""
     bodies = [body for body in bodies if body.masses]
     masses: dict[int, list[Moments]] = {}
     for body in bodies:
@@ -321,7 +321,7 @@ def _sum(like: MemberBody, bodies: Iterable[MemberBody], parts: tuple[MemberBody
 
 
 def _with_given_mass(whole: MemberBody, unit: float) -> MemberBody:
-    """A collection, or an empty with its children, with the mass that its settings give it."""
+    """Return a collection, or an empty with its children, with the mass that its settings give it."""
     data = whole.member.data
     settings = settings_of(data)
     if settings.mass_from != "MASS":

@@ -104,7 +104,7 @@ def _to_local(matrices: NDArray) -> NDArray[np.float64]:
 
 
 def _sheet_pieces(reading: Reading, in_world: bool, unit: float) -> Iterator[_Piece]:
-    """The surfaces themselves, each under similarities only."""
+    """Yield the surfaces themselves, each under similarities only."""
     for part in reading.parts:
         matrices = to_si(part.matrices, unit)
         fields, axes = local_coordinates(matrices), polar_rotation(matrices)[0]

@@ -114,7 +114,7 @@ def _weigh(reading: Reading, body: MeshBody, request: Request, order: int) -> _W
 
 
 def _field(request: Request) -> DensityField:
-    """The density of a body that is weighed: one that is not one number."""
+    """Return the density of a body that is weighed: one that is not one number."""
     assert request.density is not None
     return request.density
 
@@ -221,7 +221,7 @@ class _FaceDensities:
         return len({value for values in self.values for value in np.unique(values).tolist()}) > 1
 
     def missing_note(self) -> Iterator[Finding]:
-        """A finding about faces that take the object's density."""
+        """Yield a finding about faces that take the object's density."""
         if not self.faces_without_density:
             return
         names = [material.name for material in self.materials if material_density(material) is None]
@@ -244,7 +244,7 @@ class _FaceDensities:
         return finding(DENSITY_FROM_MATERIALS, materials=[part.as_record() for part in parts])
 
     def with_names(self) -> Iterator[tuple[NDArray, NDArray]]:
-        """The densities and the materials' names of the faces of each part."""
+        """Yield the densities and the materials' names of the faces of each part."""
         for values, (faces, slots) in zip(self.values, self.slots):
             names = np.array([*(material.name if material else "" for material in slots), ""], object)
             yield values, names[faces]
@@ -277,7 +277,9 @@ def _solid_moments(
 
 
 def _similarity_groups(matrices: NDArray) -> Iterator[NDArray]:
-    """The (k, 4, 4) maps in groups that stretch areas alike: similarities together, then each uneven map's places."""
+    """Yield the (k, 4, 4) maps in groups that stretch areas alike: similarities together, then each uneven map's
+    places.
+    """
     even = are_similarities(matrices[:, :3, :3])
     if even.any():
         yield matrices[even]
@@ -324,7 +326,7 @@ def _vertex_density(reading: Reading, i: int, name: str) -> NDArray[np.float64]:
 def _sheet_moments(
     reading: Reading, i: int, values: NDArray, request: Request, order: int, by_vertex: bool = False
 ) -> Iterator[Moments]:
-    """∫ρ dA of a part's images. values: of its mesh faces, or of its vertices and linear between them."""
+    """Yield ∫ρ dA of a part's images. values: of its mesh faces, or of its vertices and linear between them."""
     part = reading.parts[i]
 
     def measured(surface: Surface) -> Moments:

@@ -67,7 +67,7 @@ def filled_by_volume(body: MeshBody, request: Request, order: int) -> MeshBody:
 def voxel_filled_body(
     body: MeshBody, reading: VolumeReading, options: GridOptions, unit: float, name: str, order: int
 ) -> MeshBody:
-    """The body with the mass that the grid gives its inside, to an order. unit: meters per Blender unit.
+    """Return the body with the mass that the grid gives its inside, to an order. unit: meters per Blender unit.
 
     name: of the object, which MeasureErrors are about that are not about the grid alone.
     """
@@ -127,7 +127,7 @@ def _corners(solid: SolidIntegrals, matrix: NDArray) -> NDArray[np.float64]:
 
 
 def _box_densities(reading: VolumeReading, options: GridOptions, low: NDArray, high: NDArray) -> NDArray[np.float64]:
-    """The densities of the voxels from `low` to `high`."""
+    """Return the densities of the voxels from `low` to `high`."""
     to_densities = options.to_densities(reading.background)
     densities = np.zeros(high - low)
     for start, block in reading.blocks():

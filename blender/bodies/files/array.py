@@ -63,8 +63,9 @@ def measure_array(
     options: MeasureOptions,
     progress: Callable[[int], None] = lambda samples: None,
 ) -> Measurement:
-    """The mass properties of the samples in a file. progress: called with how many samples have been read since the
-    last time. Raises MeasureError."""
+    """Return the mass properties of the samples in a file. progress: called with the number of samples read since the
+    last time. Raises MeasureError.
+    """
     if options.kind == "shell":
         raise ReadError(GRID_AS_SHELL, subject=name)
     with about_file(name):
@@ -98,7 +99,7 @@ def _density_body(
     findings: tuple[Finding, ...],
     progress: Callable[[int], None],
 ) -> Body:
-    """All of the samples, as densities."""
+    """Return the body of all samples, as densities."""
     grid = GridOptions(value_density=array.density_scale, spline_order=array.spline_order, negative=ARRAY_NEGATIVE)
     shape = scan.samples.shape
     findings += (finding(ARRAY_DENSITY, samples=list(shape), cause=grid.meaning().as_record()),)

@@ -35,7 +35,7 @@ class FlatTransform:
         return self.transform.steps()
 
     def result(self) -> tuple[Spectrum, tuple[Finding, ...]]:
-        """The spectrum, and a finding for each decision that was taken."""
+        """Return the spectrum, and a finding for each decision that was taken."""
         return self.transform.result(), self.findings
 
 

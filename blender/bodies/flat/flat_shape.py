@@ -80,11 +80,11 @@ class FlatShape:
         return float(np.hypot(*self.corners.T).max())
 
     def zernike(self, radius: float) -> NDArray[np.complex128]:
-        """`disc_zernike` in a disc about the centroid, to POSE_ORDER."""
+        """Return `disc_zernike` in a disc about the centroid, to POSE_ORDER."""
         return disc_zernike(self.moments.truncate(POSE_ORDER), radius)
 
     def signature(self, order: int = MAX_DISC_ORDER) -> Signature:
-        """Its numbers, with descriptors to an order."""
+        """Return the shape's numbers, with descriptors to an order."""
         # At about unit size, for high powers of a length are soon beyond the range of numbers.
         scale = 2.0 ** np.frexp(self.radius)[1]
         moments = self.moments.truncate(min(order, MAX_DISC_ORDER))
@@ -102,8 +102,9 @@ class FlatShape:
         )
 
     def pieces(self) -> Iterator[Surface]:
-        """A wall along the outline, across the plane, as high as the shape is large: in the plane it is as far away
-        as the outline."""
+        """Yield a wall along the outline, across the plane, as high as the shape is large: in the plane it is as far
+        away as the outline.
+        """
         ends = self.region.points[self.region.edges] - self.moments.about[:2]  # (m, 2 ends, 2)
         count, height = len(ends), self.size
         low, high = (np.insert(ends.reshape(-1, 2), 2, side * height, axis=1) for side in (-1.0, 1.0))

@@ -62,7 +62,7 @@ class ThresholdGrid:
     value: Callable[[NDArray], NDArray[np.float64]] | None = None
 
     def coarse(self) -> ThresholdGrid:
-        """Every second, third, … value of each axis, so that few enough are left to follow a slider."""
+        """Return every second, third, … value of each axis, so that few enough are left to follow a slider."""
         step = int(np.ceil((self.values.size / PREVIEW_CELLS) ** (1.0 / 3.0)))
         if step <= 1:
             return self

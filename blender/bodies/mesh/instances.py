@@ -34,7 +34,7 @@ from ..findings import (
 
 
 def singular_reason(reading: Reading) -> Finding:
-    """Why nothing of a singular reading encloses anything."""
+    """Return the reason why nothing of a singular reading encloses anything."""
     return finding(ZERO_SCALE if reading.is_singular else ALL_INSTANCES_ZERO_SCALE)
 
 
@@ -49,8 +49,9 @@ def not_compared(reading: Reading) -> Finding:
 
 
 def findings_by_part(parts: Iterable[tuple[str, Iterable[Finding]]], whole: str) -> list[Finding]:
-    """The findings of several parts, as (name of the surface's object, findings). Equal ones, about the same elements,
-    are one that names all their sources. Of a part that is all of the object `whole` they stay as they are."""
+    """Return the findings of several parts, as (name of the surface's object, findings). Equal ones, about the same
+    elements, are one that names all their sources. Of a part that is all of the object `whole` they stay as they are.
+    """
     parts = list(parts)
     if len(parts) == 1 and parts[0][0] in ("", whole):
         return each_once(parts[0][1])
@@ -90,7 +91,7 @@ def overlap_findings(reading: Reading, solids: Sequence[SolidIntegrals], compari
 
 
 def with_overlaps(health: MeshHealth, comparison: PlaceComparison) -> MeshHealth:
-    """The health with the components that are in others, or overlap others, in another place."""
+    """Return the health with the components that are in others, or overlap others, in another place."""
     return replace(
         health,
         nested_components=health.nested_components + len(comparison.nested),
@@ -104,7 +105,7 @@ def instances_overlap(reading: Reading) -> bool:
 
 
 def instances_size(reading: Reading) -> float:
-    """The diagonal of the box around all places, in Blender units."""
+    """Return the diagonal of the box around all places, in Blender units."""
     centers, extents = _boxes(reading)
     return float(np.linalg.norm((centers + extents).max(axis=0) - (centers - extents).min(axis=0)))
 
@@ -123,8 +124,9 @@ def _boxes(reading: Reading) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
 def area_of_instances(
     surface: Surface, area: Moments, matrices: NDArray, measured: Callable[[Surface], Moments] | None
 ) -> Iterator[Moments]:
-    """The area moments of a surface's images. They do not follow a map that stretches unevenly, so there the mapped
-    surface is `measured`, once for each different map; with None, only the area itself is wanted."""
+    """Yield the area moments of a surface's images. They do not follow a map that stretches unevenly, so there the
+    mapped surface is `measured`, once for each different map; with None, only the area itself is wanted.
+    """
     if measured is None:
         even = are_similarities(matrices[:, :3, :3])
         if even.any():
@@ -137,8 +139,9 @@ def area_of_instances(
 
 
 def group_by_similarity(surface: Surface, matrices: NDArray) -> Iterator[tuple[Surface, NDArray, NDArray]]:
-    """A surface's images as images under similarities: the surface itself or mapped ones, one for each different uneven
-    map, with the (j, 4, 4) maps that are left and which of `matrices` they stand for, (j,)."""
+    """Yield a surface's images as images under similarities: the surface itself or mapped ones, one for each different
+    uneven map, with the (j, 4, 4) maps that are left and which of `matrices` they stand for, (j,).
+    """
     even = are_similarities(matrices[:, :3, :3])
     if even.any():
         yield surface, matrices[even], np.flatnonzero(even)

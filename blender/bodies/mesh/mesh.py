@@ -107,7 +107,7 @@ def mesh_body(reading: Reading, unit: float, *, shell: bool, union: bool, thread
 
 
 def _sum_of_instances(reading: Reading, unit: float, shell: bool, threads: int) -> MeshBody:
-    """Each part measured once in its own coordinates, and mapped to wherever it stands."""
+    """Return the sum of all parts, each measured once in its own coordinates, and mapped to its places."""
     volumes, areas, healths, verdicts, by_part, parts = [], [], [], [], [], []
     drawn = _drawn(reading)
     for part in reading.parts:
@@ -195,7 +195,7 @@ def _single_surface_body(
     surface: Surface,
     threads: int,
 ) -> MeshBody:
-    """The body of one surface in one place."""
+    """Return the body of one surface in one place."""
     solids = [(solid, matrix[None])]
     return MeshBody(
         volume,

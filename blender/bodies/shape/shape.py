@@ -187,7 +187,7 @@ class Shape:
         return confirm(allowed, moments.about, skin.points, partial(skin.distance, within=near), near), allowed
 
     def points_about_center(self) -> NDArray[np.float64]:
-        """(n, 3) the corners of all faces."""
+        """Return (n, 3) the corners of all faces."""
         points = []
         for piece in self.pieces():
             triangles = piece.all_triangles()[0]

@@ -91,7 +91,9 @@ def stack_signatures(stack: MeasuredStack, order: int) -> list[Signature | None]
 def _signatures(
     stack: TriangleStack, rows: NDArray[np.intp], maps: NDArray, centers: NDArray, order: int
 ) -> tuple[list[Signature], NDArray[np.float64]]:
-    """The signatures of some surfaces after linear maps, in units of a length of their own, and these lengths."""
+    """Return the signatures of some surfaces after linear maps, in units of a length of their own, and these
+    lengths.
+    """
     points, triangles, first = [], [], 0
     for row, linear, center in zip(rows.tolist(), maps, centers):
         start, begin = stack.first_point[row], stack.first_triangle[row]

@@ -156,7 +156,7 @@ class _Collector:
         return member
 
     def _weight(self, obj: bpy.types.Object) -> tuple[float, float, str] | None:
-        """The density or the mass of a solid that has one, and the digest of the settings; None of others."""
+        """Return the density or the mass of a solid that has one, and the digest of the settings; None of others."""
         options, settings = self.options, obj.body_moments
         kind, overlap = options.kind or settings.kind.lower(), options.overlap or settings.overlap.lower()
         density, mass = options.density, options.mass

@@ -82,7 +82,7 @@ class MeshShape:
         return surface_digest(self.surface, self.face_count)
 
     def sixth_order(self) -> Moments:
-        """The volume's moments that axes are found by, of one that was measured by itself."""
+        """Return the volume's moments that axes are found by, of one that was measured by itself."""
         solid = self.alone
         assert solid is not None
         found = polyhedron_moments(
@@ -213,11 +213,11 @@ class MeasuredStack:
         return np.array(bounds).transpose(2, 0, 1)
 
     def in_object_frames(self) -> MassProperties:
-        """The mass properties, each in its object's own frame."""
+        """Return the mass properties, each in its object's own frame."""
         return self.mass_properties.in_frame(self.rotation, self.location)
 
     def measurement(self, i: int) -> Measurement:
-        """One of them."""
+        """Return the measurement of one member."""
         obj, shape, volume, density = self.members[i].obj, self.members[i].shape, self.volume.at(i), self.density[i]
         names = "volume", "area", "center_of_mass", "inertia"
         rounding, inputs = (dict(zip(names, row)) for row in self.error_bounds[i].tolist())
@@ -365,14 +365,14 @@ def _chosen(members: list[StackMember], which: NDArray) -> list[StackMember]:
 
 
 def _placed(moments: Moments, matrices: NDArray) -> Moments:
-    """The images about the images of their reference points, as `sum_of_images` gives them."""
+    """Return the images about the images of their reference points, as `sum_of_images` gives them."""
     linear, about = matrices[:, :3, :3], moments.about
     center = linear[..., 0] * about[:, :1] + linear[..., 1] * about[:, 1:2] + linear[..., 2] * about[:, 2:]
     return image(moments, matrices, center + matrices[:, :3, 3])
 
 
 def _areas(area: Moments, matrices: NDArray, members: list[StackMember]) -> Moments:
-    """The areas of the images, of uneven ones from the mapped surfaces."""
+    """Return the areas of the images, of uneven ones from the mapped surfaces."""
     even = are_similarities(matrices[:, :3, :3])
     if even.all():
         return _placed(area, matrices)

@@ -68,7 +68,7 @@ class SampledGrid:
 
     @contextmanager
     def _sampler(self) -> Iterator[Callable[[NDArray, tuple[int, int, int]], NDArray]]:
-        """Gives a function from the first voxel of a block and its shape to the values."""
+        """Yield a function from the first voxel of a block and its shape to the values."""
         made = []
 
         def keep(collection, block):
@@ -130,7 +130,7 @@ def _layer_at_frame_of(shown, scene):
 
 
 def _fill(tree, obj, name: str, kind: str) -> None:
-    """The nodes: the values of the object's named grid at the vertices, as the attribute "value"."""
+    """Add the nodes that store the values of the object's named grid at the vertices, as the attribute "value"."""
     for direction in ("INPUT", "OUTPUT"):
         tree.interface.new_socket("Geometry", in_out=direction, socket_type="NodeSocketGeometry")
     start, end, info, named, sample, place, store = (

@@ -107,6 +107,6 @@ class VdbGrid:
 
 
 def _cells(low: NDArray, end: NDArray, size: int) -> Iterator[tuple[int, int, int]]:
-    """The corners of the cells of `size` that hold voxels of the box."""
+    """Yield the corners of the cells of `size` that hold voxels of the box."""
     i, j, k = (range(int(a) // size * size, int(b), size) for a, b in zip(low, end))
     return product(i, j, k)

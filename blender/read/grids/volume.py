@@ -124,7 +124,7 @@ def volume_reading(obj, depsgraph, grid: str = "") -> Iterator[VolumeReading | N
 
 
 def _volume(obj, depsgraph):
-    """The evaluated volume with its grids loaded, or None."""
+    """Return the evaluated volume with its grids loaded, or None."""
     if obj.type not in {"VOLUME", "MESH", "CURVE", "FONT", "SURFACE", "POINTCLOUD", "CURVES"}:
         return None
     evaluated = obj.evaluated_get(depsgraph)
@@ -160,7 +160,7 @@ class _OwnedVolume:
 
 
 def _choose_grid(obj, volume: _OwnedVolume, name: str, findings: list[Finding]):
-    """The grid of that name, or the one that is meant most likely."""
+    """Return the grid of that name, or the one that is meant most likely."""
     grids = {grid.name: grid for grid in volume.data.grids}
     if len(grids) < len(volume.data.grids):
         findings.append(finding(GRID_NAMES_REPEATED))

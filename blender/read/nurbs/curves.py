@@ -105,7 +105,7 @@ def _kind(spline) -> tuple[str, bool, int, bool, bool]:
 
 
 def _control_points(spline) -> NDArray[np.float64]:
-    """(n, 3) in the order in which Blender counts them; of a Bézier point both handles, around it."""
+    """Return (n, 3) points in the order in which Blender counts them; of a Bézier point both handles, around it."""
     if spline.type != "BEZIER":
         return weighted_points(spline)[:, :3].astype(np.float64)
     coordinates = np.empty((3, 3 * len(spline.bezier_points)), np.float32)
@@ -182,8 +182,9 @@ def _shown_curves(curves, name: str) -> Iterator[Curve | None]:
 
 
 def _catmull_rom(points: NDArray, cyclic: bool) -> NDArray[np.float64]:
-    """(n, 3) the handles of the Bézier curve that is the same: a third of the slope, half of the way from neighbor to
-    neighbor."""
+    """Return (n, 3) the handles of the equal Bézier curve: a third of the slope, half of the way from neighbor to
+    neighbor.
+    """
     around = np.pad(points, ((1, 1), (0, 0)), "wrap" if cyclic else "edge")
     return (around[2:] - around[:-2]) / 6.0
 
@@ -213,7 +214,7 @@ def _curve(
     points: NDArray[np.float64],
     weights: NDArray | None,
 ) -> Curve | None:
-    """points: (n, 3), of a Bézier curve three for each point."""
+    """Return a spline as a curve; None if it is too short. points: (n, 3), of a Bézier curve three for each point."""
     if kind == "NURBS":
         space = blender_space(len(points), order, cyclic, bezier, endpoint)
         return None if space is None else Curve(space, points, weights)
@@ -231,7 +232,7 @@ def _curve(
 
 
 def _join_knots(pieces: int, order: int) -> Iterator[float]:
-    """Knots of Bézier pieces that follow each other."""
+    """Yield the knots of Bézier pieces that follow each other."""
     yield 0.0
     for piece in range(pieces + 1):
         yield from (float(piece),) * (order - 1)

@@ -101,14 +101,14 @@ def nonpositive_weights(splines) -> int:
 
 
 def weighted_points(spline) -> NDArray[np.float32]:
-    """(n, 4) the control points and weights of a spline that is not a Bézier one."""
+    """Return (n, 4) the control points and weights of a spline that is not a Bézier one."""
     row = np.empty(4 * len(spline.points), np.float32)
     spline.points.foreach_get("co", row)
     return row.reshape(-1, 4)
 
 
 def _spaces(spline) -> tuple[SplineSpace, SplineSpace] | None:
-    """The spaces of v and u: with v first, a patch's normal points as Blender's faces do."""
+    """Return the spaces of v and u: with v first, a patch's normal points as Blender's faces do."""
     v, u = (
         blender_space(
             spline.point_count_v, spline.order_v, spline.use_cyclic_v, spline.use_bezier_v, spline.use_endpoint_v

@@ -114,7 +114,7 @@ def is_pending(obj: Object) -> bool:
 
 
 def current_numbers(obj: Object) -> LiveResult | None:
-    """The numbers of an object with Live on when it was last measured, None before that."""
+    """Return the numbers of an object with Live on when it was last measured, None before that."""
     followed = _followed.get(obj)
     return None if followed is None else followed.result
 
@@ -283,7 +283,7 @@ def _measure(obj: Object, followed: _Followed, depsgraph: Depsgraph) -> tuple[Me
 
 
 def _budget() -> float:
-    """Seconds a redraw."""
+    """Return the budget of a redraw in seconds."""
     settings = preferences()
     return BUDGET if settings is None else settings.live_budget / 1e3
 

@@ -110,7 +110,7 @@ def _path(empty: Object) -> Path | None:
 
 
 def _curves(empty: Object):
-    """The empty's F-curves, of an action of its own."""
+    """Return the empty's F-curves, of an action of its own."""
     animation = empty.animation_data_create()
     if animation.action is None:
         animation.action = bpy.data.actions.new(empty.name)
@@ -135,7 +135,7 @@ def _existing_curves(empty: Object) -> Iterable[FCurve]:
 
 
 def _keys(curves: Iterable[FCurve], data_path: str, index: int) -> NDArray[np.float64] | None:
-    """(k, 2) frames and values."""
+    """Return (k, 2) frames and values."""
     for curve in curves:
         if curve.data_path == data_path and curve.array_index == index:
             points = np.empty(2 * len(curve.keyframe_points), np.float32)

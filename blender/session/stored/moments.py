@@ -67,7 +67,7 @@ class FlatMoments:
     plane: Plane
 
     def foot(self, point: NDArray) -> NDArray[np.float64]:
-        """(3,) the foot of a point of the world on the plane, in the plane's axes."""
+        """Return (3,) the foot of a point of the world on the plane, in the plane's axes."""
         return np.append(self.plane.project(np.asarray(point, np.float64)[None])[0], 0.0)
 
 
@@ -268,7 +268,7 @@ def _of(computed: ComputedMoments, of: str) -> Moments:
 
 
 def _in_plane(computed: ComputedMoments, about: str, frame: str, order: int, reference: Reference | None) -> Moments:
-    """Along the axes of the plane, about the foot of the frame's origin or of the reference."""
+    """Return moments along the axes of the plane, about the foot of the frame's origin or of the reference."""
     moments, flat = _of(computed, "FLAT").truncate(order), computed.flat
     if about == "NORMALIZED":
         return normalize(moments)
@@ -290,13 +290,13 @@ def _in_frame(computed: ComputedMoments, of: str, about: str, frame: str, order:
 
 
 def label(powers: list[int]) -> str:
-    """x²z, or 1."""
+    """Return the label of a moment: x²z, or 1."""
     factors = [axis + str(power).translate(SUPERSCRIPTS) * (power > 1) for axis, power in zip("xyz", powers) if power]
     return "".join(factors) or "1"
 
 
 def unit(of: str, about: str, degree: int) -> str:
-    """m⁵, or nothing for normalized ones."""
+    """Return the unit of a moment: m⁵, or nothing for normalized ones."""
     if about in ("NORMALIZED", "INVARIANT"):
         return ""
     if of == "MASS":

@@ -53,7 +53,7 @@ def remember(action: str, findings: Iterable[Finding]) -> None:
 
 
 def _objects_of(finding: Finding) -> list[str]:
-    """The names of the objects that a finding is about."""
+    """Return the names of the objects that a finding is about."""
     values = finding.values
     names = [values.get("object"), *values.get("objects", ()), *values.get("sources", ())]
     return [name for name in names if isinstance(name, str)]

@@ -133,7 +133,7 @@ def _store_stack(stack: MeasuredStack, which: list[int], scene: Scene) -> Iterat
 
 
 def remember_failure(obj: Object, reason: Finding | None) -> None:
-    """Keep, while the file is open, why the object could not be measured; None forgets it."""
+    """Keep, while the file is open, the reason why the object could not be measured; None forgets it."""
     if reason is None:
         _failures.forget(obj)
     else:
@@ -141,7 +141,7 @@ def remember_failure(obj: Object, reason: Finding | None) -> None:
 
 
 def failure(obj: Object) -> Finding | None:
-    """Why the object could not be measured when that was last tried with these settings, or nothing."""
+    """Return the reason why the last measurement with these settings failed, if it did."""
     remembered = _failures.get(obj)
     if remembered is None:
         return None
