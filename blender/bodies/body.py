@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What reading and measuring any kind of object comes to: its moments, and how they came about.
+"""The moments of a measured object of any kind, and their method.
 
 Each kind has a module that makes one; `kinds` has them in order.
 """
@@ -35,8 +35,7 @@ MAX_MASS_MOMENT = 1e100  # kg m^n whose squares are still numbers
 
 @dataclass(frozen=True, eq=False)
 class Body:
-    """All parts of an object together, in SI units and world axes. As it is: one whose moments are known to third order
-    only.
+    """All parts of an object together, in SI units and world axes. The base class knows moments to third order only.
 
     Attributes
     ----------
@@ -45,29 +44,29 @@ class Body:
     method, findings
         As in `Measurement`.
     mass : Moments, optional
-        Of a body whose density is not one number, its moments in kg.
+        Moments in kg of a body of varying density.
     higher_mass : Moments, optional
-        The same to the order that was asked for, above third.
+        The same to the requested order, above third.
     density_from : Finding, optional
-        Where such a density came from, with a code ``density_from_…``.
+        Source of such a density, with a code ``density_from_…``.
     density_key : str
-        What of the settings decides such a density, for the fingerprint.
+        Settings that decide such a density, for the fingerprint.
     materials : tuple of str
         Full names of the materials that were looked at for it.
     wall : Moments, optional
-        Of a shell of real thickness, the volume moments of its material.
+        Volume moments of the material of a shell of real thickness.
     length : Moments, optional
         Of a wire.
     estimated : bool
-        Whether the bounds of its errors are estimates.
+        True if the bounds of its errors are estimates.
     display_volume : float, optional
-        Of a body that is measured without its display mesh, what that would have given, m³.
+        Volume of the display mesh, for a body that is measured without it, m³.
     face_count : int
-        How many triangles and quads were measured.
+        Number of measured triangles and quads.
     """
 
-    any_order: ClassVar[bool] = False  # whether `moments` are known
-    has_surface: ClassVar[bool] = False  # whether `surfaces` are
+    any_order: ClassVar[bool] = False  # true if `moments` gives any order
+    has_surface: ClassVar[bool] = False  # true if `surfaces` yields any
 
     volume: Moments
     area: Moments
@@ -92,17 +91,17 @@ class Body:
         ----------
         order : int
         area : bool
-            Whether the area's are wanted; else they may be None.
+            The area's moments are wanted; else they may be None.
 
         Raises
         ------
         ReadError
-            Where they are not known.
+            If they are not known.
         """
         raise ReadError(WALL_ORDER, order=KNOWN_ORDER)
 
     def third_order(self) -> Moments:
-        """Return what the principal frame of a solid or a wire is made from, with exact third order."""
+        """Return the moments behind the principal frame of a solid or a wire, with exact third order."""
         return self.volume
 
     def moments_for_axes(self, order: int, area: bool) -> Moments | OwnMoments:
@@ -112,20 +111,20 @@ class Body:
         return volume if areas is None else areas
 
     def surfaces(self, sheets: bool) -> Iterator[Surface]:
-        """Yield the surfaces where they stand, in float64: around what is solid, or the sheets as they are."""
+        """Yield the surfaces in world coordinates, in float64: of the solid, or the sheets unchanged."""
         return iter(())
 
 
 @dataclass(frozen=True, eq=False)
 class MeshBody(Body):
-    """What polygons bound, or the sheets that they are.
+    """A body bounded by polygons, or their sheets.
 
     Attributes
     ----------
     solids : tuple of (SolidIntegrals, (k, 4, 4) array)
-        The surfaces that were measured, and the maps to where each stands.
+        The measured surfaces, and the maps to their places.
     sheets : tuple of Surface
-        What each of the solids was before it was repaired.
+        The surface of each solid before repair.
     """
 
     any_order: ClassVar[bool] = True
@@ -137,8 +136,11 @@ class MeshBody(Body):
     _known: dict[tuple[int, bool], tuple[Moments, Moments | None]] = field(default_factory=dict)
 
     def moments(self, order: int, area: bool) -> tuple[Moments, Moments | None]:
-        """Return the moments to an order, each part measured once and mapped to its places: the volume of the repaired
-        surface, in one pass with the area where the repair has neither added nor left out a face."""
+        """Return the moments to an order, each part measured once and mapped to its places.
+
+        The volume is that of the repaired surface, in one pass with the area if the repair has neither added nor left
+        out a face.
+        """
         if (order, area) not in self._known:  # the frame and the shape need them to one order
             self._known[order, area] = self._to_order(order, area)
         return self._known[order, area]
@@ -162,7 +164,7 @@ class MeshBody(Body):
                 solid.repaired_surface,
                 order,
                 area_order=order if area and same else alone,
-                about=solid.volume.about,  # of an open surface they depend on it
+                about=solid.volume.about,  # an open surface's moments depend on it
                 exact=True,
                 threads=self.threads,
                 allow_open=True,
@@ -191,15 +193,16 @@ class MeshBody(Body):
         )
 
     def surfaces(self, sheets: bool) -> Iterator[Surface]:
-        """Yield the surfaces where they stand."""
+        """Yield the surfaces in world coordinates."""
         for (solid, matrices), surface in zip(self.solids, self.sheets):
             piece = surface if sheets else solid.repaired_surface
             yield from (piece.transform(matrix[:3, :3], matrix[:3, 3]) for matrix in matrices)
 
 
 def with_known(moments: Moments, known: Moments) -> Moments:
-    """Return moments with those that are known to a lower order, about the same point, in place of their own: whoever
-    finds axes sees the same bounds."""
+    """Return moments with the known lower orders about the same point in place of their own, so that axes get the
+    same bounds.
+    """
     if not np.array_equal(moments.about, known.about):
         return moments
     names = "raw", "rounding_error", "input_error"
@@ -211,8 +214,9 @@ def with_known(moments: Moments, known: Moments) -> Moments:
 
 
 def with_input_error(moments: Moments, known: Moments) -> Moments:
-    """Return moments with the bounds of what storing may have moved of those that are known to a lower order, about the
-    same point, where the areas of the faces made them smaller."""
+    """Return moments with the smaller of two input bounds: their own, or that of the known lower orders about the
+    same point.
+    """
     if not np.array_equal(moments.about, known.about):
         return moments
     error = moments.input_error.copy()
@@ -221,9 +225,9 @@ def with_input_error(moments: Moments, known: Moments) -> Moments:
 
 
 def extend_input_error(moments: Moments, known: Moments) -> Moments:
-    """Return moments of another order with the bounds of those that are known about the same point.
+    """Return moments of another order with the input bounds of the known moments about the same point.
 
-    Of degree 0 that bound is the volume, or area, that is swept; from a degree to the next it grows by the reach.
+    At degree 0 the bound is the swept volume, or area; each further degree multiplies it by the reach.
     """
     swept, further = known.input_error[:2].tolist()
     reach = further / swept if swept > 0.0 else 0.0

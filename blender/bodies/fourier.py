@@ -58,7 +58,7 @@ class ObjectTransform:
             raise
 
     def result(self) -> tuple[Spectrum, tuple[Finding, ...]]:
-        """The spectrum, and a finding for each decision that was taken."""
+        """Return the spectrum, and a finding for each decision that was taken."""
         spectrum = self.transform.result().scale(self.factor)
         findings = self.findings
         if spectrum.method == APPROXIMATE:
@@ -75,12 +75,11 @@ def object_transform(
     frame: str = "world",
     area: bool = False,
 ) -> ObjectTransform:
-    """The transform of one object as it is evaluated.
+    """Return the transform of one evaluated object.
 
-    q: rad/m, (M, 3) or a grid, along the axes of the frame, "world" or "object"; or what makes a grid from the body's
-    largest extent in m. area: ∫ exp(-i q·x) dA over its faces, in m²; else of what it is measured as, in m³:
-    ∫ exp(-i q·x) dV of a solid, and thickness times ∫ exp(-i q·x) dA of a shell.
-    Raises MeasureError where there is no transform.
+    q: rad/m, (M, 3) or a grid, along the axes of the frame, "world" or "object"; or a function that makes a grid from
+    the body's largest extent in m. area: ∫ exp(-i q·x) dA over its faces, in m²; else of its body, in m³: ∫ exp(-i q·x)
+    dV of a solid, and thickness times ∫ exp(-i q·x) dA of a shell. Raises MeasureError if there is no transform.
     """
     unit = options.meters_per_unit(depsgraph.scene)
     resolved = with_object_settings(options, obj, unit, depsgraph.scene)
@@ -127,7 +126,7 @@ def _require_thin(options: ResolvedOptions) -> None:
 
 
 def _extent(parts: list[tuple[Surface, NDArray]]) -> float:
-    """The longest side of the box around all boxes around the parts."""
+    """Return the longest side of the box around all boxes around the parts."""
     low, high = np.full(3, np.inf), np.full(3, -np.inf)
     for surface, matrices in parts:
         box, linear = np.array(surface.box, np.float64), matrices[:, :3, :3]
@@ -141,7 +140,7 @@ def _extent(parts: list[tuple[Surface, NDArray]]) -> float:
 
 
 def _to_object(reading: Reading, unit: float) -> NDArray[np.float64]:
-    """(4, 4) from the world to the object frame."""
+    """Return (4, 4) from the world to the object frame."""
     turn = np.eye(4)
     turn[:3, :3] = np.asarray(reading.rotation, np.float64).T
     turn[:3, 3] = -turn[:3, :3] @ np.asarray(reading.location, np.float64) * unit

@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The kinds of bodies: an object is of the first one that reads it.
 
-Each is a module with MEASURED_AS, what its objects can be measured as, and two functions: `read(request)` gives what
-the kind reads of the object, None where it is of another kind, and `body(reading, request)` what that comes to. Both
-raise MeasureError where nothing can be measured.
+Each is a module with MEASURED_AS, the possible "measure as" settings of its objects, and two functions: `read(request)`
+returns the kind's reading of the object, None for another kind, and `body(reading, request)` its body. Both raise
+MeasureError if nothing can be measured.
 """
 
 from __future__ import annotations

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Measuring objects: the first kind of body that reads one, its body, and the measurement of that.
 
-`measure_object` is the way of one object by itself. Of many, `many` measures together what can be, with the same
-numbers, and sends the others here.
+`measure_object` measures one object by itself. For many, `many` stacks as many as it can, with the same numbers, and
+sends the others here.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ THREADS = os.cpu_count() or 1  # for what takes long
 
 @dataclass(frozen=True, eq=False)
 class Measured:
-    """One object's measurement, and what it was made from."""
+    """One object's measurement, with its reading and body."""
 
     measurement: Measurement
     reading: Reading | VolumeReading
@@ -62,13 +62,13 @@ def measure_object(
     Raises
     ------
     MeasureError
-        Where there is nothing to measure.
+        If there is nothing to measure.
     """
     return measure_body(obj, depsgraph, options).measurement
 
 
 def measure_body(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, options: MeasureOptions = AS_SET) -> Measured:
-    """Return the same as `measure_object`, with what was read and the body that was measured."""
+    """Return the same as `measure_object`, with the reading and the measured body."""
     try:
         with ExitStack() as opened:
             request = Request.of(obj, depsgraph, options, opened=opened)

@@ -35,12 +35,12 @@ MAX_FACES_HIGH_ORDER = 20_000
 
 
 def measurement_of(reading: Reading | VolumeReading, body: Body, request: Request) -> Measurement:
-    """Return the results of measuring a body, with its moments to the order that was asked for.
+    """Return the results of measuring a body, with its moments to the requested order.
 
     Raises
     ------
     MeasureError
-        Where it has no mass, or no moments of that order.
+        If it has no mass, or no moments of that order.
     """
     options = request.options
     shell, wire = options.kind == "shell", options.kind == "wire"
@@ -97,12 +97,13 @@ def measurement_of(reading: Reading | VolumeReading, body: Body, request: Reques
 
 
 def extent(body: Body, options: ResolvedOptions) -> Moments:
-    """Return what the density is of: the volume, of a shell that of its sheet or wall, of a wire its length.
+    """Return the moments that the density multiplies: the volume, of a shell that of its sheet or wall, of a wire its
+    length.
 
     Raises
     ------
     ReadError
-        Where there is none.
+        If there is none.
     """
     if body.length is not None:
         return body.length
@@ -118,7 +119,7 @@ def extent(body: Body, options: ResolvedOptions) -> Moments:
 def _weighed(
     body: Body, measured: Moments, solid: Moments, thin: bool, options: ResolvedOptions
 ) -> tuple[Moments, float, float]:
-    """The moments that carry the mass, the mass in kg per unit of them, and the density."""
+    """Return the moments that carry the mass, the mass in kg per unit of them, and the density."""
     if body.mass is not None:
         factor = 1.0 if options.mass is None else options.mass / body.mass.total
         moments, density = body.mass, body.mass.total * factor / measured.total
@@ -131,9 +132,9 @@ def _weighed(
 
 
 def _higher(body: Body, shell: bool) -> Callable[[], Moments | OwnMoments] | None:
-    """What gives the moments of higher order of what the principal frame is made from, where they are known."""
+    """Return a function for the higher moments of the principal frame, None if they are not known."""
     if not body.any_order or body.mass is not None or body.length is not None or body.wall is not None:
-        return None  # of walls neither, whose axes follow a slider
+        return None  # walls have none either, because their axes follow a slider
     return partial(_frame_moments, body, shell)
 
 
@@ -147,7 +148,7 @@ def _frame_moments(body: Body, shell: bool) -> Moments | OwnMoments:
 
 
 def _to_order(body: Body, options: ResolvedOptions, order: int) -> tuple[Moments | None, Moments] | None:
-    """The moments of volume and area to the order that was asked for; None where a body has them anyway."""
+    """Return the moments of volume and area to the requested order; None if a body has them anyway."""
     shell = options.kind == "shell"
     thin = shell and body.wall is None
     if order < KNOWN_ORDER and (shell or not options.surface):

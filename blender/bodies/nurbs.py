@@ -45,19 +45,19 @@ from .request import Request
 MEASURED_AS = frozenset({"solid", "shell"})
 
 MIN_CREASE_ANGLE = 0.02  # radians: less is what float32 leaves of a surface without
-HEIGHTS = {"inward": (-1.0, 0.0), "outward": (0.0, 1.0), "centered": (-0.5, 0.5)}  # of a wall, in thicknesses
+HEIGHTS = {"inward": (-1.0, 0.0), "outward": (0.0, 1.0), "centered": (-0.5, 0.5)}  # in thicknesses of a wall
 
 
 @dataclass(frozen=True, eq=False)
 class PatchBody(Body):
-    """What patches bound, and polygons beside them.
+    """A body bounded by patches, and polygons beside them.
 
     Attributes
     ----------
     reading : Reading
-        All of it. Asked for surfaces, it gives those of its display mesh.
+        All of it. `surfaces` yields its display mesh.
     pieces : tuple of (Part, PatchIntegrals, (k, 4, 4) array)
-        The parts that are patches, and the maps to where each stands.
+        The parts that are patches, and the maps to their places.
     polygons : MeshBody, optional
         The other parts.
     """
@@ -85,7 +85,7 @@ class PatchBody(Body):
         return sum_moments(volumes), sum_moments(areas) if area else None
 
     def surfaces(self, sheets: bool) -> Iterator[Surface]:
-        """Yield the display mesh where it stands: what asks for surfaces asks for polygons."""
+        """Yield the display mesh in its place: callers need polygons."""
         return mesh_body(self.reading, self.unit, shell=sheets, union=False, threads=self.threads).surfaces(sheets)
 
 
@@ -112,7 +112,7 @@ class PatchSheetBody(Body):
 
 
 def _patches(part: Part) -> tuple[Patch, ...]:
-    """The patches of a part that has some."""
+    """Return the patches of a part that has some."""
     return cast(SplineReading, part.splines).patches
 
 
@@ -121,13 +121,12 @@ def _stored(part: Part) -> float:
 
 
 def read(request: Request) -> Reading:
-    """Return the surfaces of an object of one density some of whose surfaces are patches. Raises MeasureError."""
+    """Return the surfaces, at least one of them a patch, of an object of one density. Raises MeasureError."""
     return request.surfaces
 
 
 def body(reading: Reading, request: Request) -> Body:
-    """Return what patches bound, or the sheets or walls that they are. Raises MeasureError where there is nothing to
-    measure."""
+    """Return the body that patches bound, or their sheets or walls. Raises MeasureError if there is none."""
     options = request.options
     return nurbs_body(
         reading,
@@ -150,11 +149,11 @@ def nurbs_body(
     threads: int,
     compare: bool,
 ) -> Body:
-    """What an object's surfaces bound where some of them are B-spline patches, or the sheets that they are.
+    """Return the body that an object's surfaces, some of them B-spline patches, bound, or their sheets.
 
     unit: meters per Blender unit. wall: of a shell, as in `MeasureOptions`; None for solids. thickness: m. union:
-    shells that overlap are united, for which polygons are needed. compare: also measure what the display mesh would
-    have given. MeasureError where there is nothing to measure.
+    shells that overlap are united, which needs polygons. compare: also measure the volume of the display mesh.
+    MeasureError if there is nothing to measure.
     """
     if wall is not None:
         return _sheet_body(reading, unit, wall, thickness, threads)
@@ -215,7 +214,7 @@ def _solid_findings(
 
 
 def _split_parts(reading: Reading) -> tuple[list[Part], Reading]:
-    """The parts that are patches, and a reading of the others."""
+    """Return the parts that are patches, and a reading of the others."""
     return (
         [part for part in reading.parts if part.splines is not None],
         replace(reading, parts=[part for part in reading.parts if part.splines is None]),
@@ -223,17 +222,17 @@ def _split_parts(reading: Reading) -> tuple[list[Part], Reading]:
 
 
 def _source(reading: Reading) -> Source:
-    """What was measured: NURBS where all of it are patches."""
+    """Return the source of the measurement: NURBS if all of it are patches."""
     return Source.NURBS if all(part.splines for part in reading.parts) else Source.POLYGONS
 
 
 def _moments_to_order(measure: PatchIntegrals, order: int) -> Moments:
-    """The volume's moments to another order."""
+    """Return the volume's moments to another order."""
     return extend_input_error(volume_moments(measure.patches, order, measure.volume.about)[0], measure.volume)
 
 
 def _image_areas(part: Part, area: Moments, matrices: NDArray) -> Iterator[Moments]:
-    """The area moments of a part's images."""
+    """Yield the area moments of a part's images."""
     even = are_similarities(matrices[:, :3, :3])
     if even.any():
         yield sum_of_images(area, matrices[even])
@@ -243,7 +242,7 @@ def _image_areas(part: Part, area: Moments, matrices: NDArray) -> Iterator[Momen
 
 
 def _sheet_body(reading: Reading, unit: float, wall: str, thickness: float, threads: int) -> Body:
-    """Thin sheets, or walls with the surfaces at their inner or outer side or in their middle."""
+    """Return thin sheets, or walls with the surfaces at their inner or outer side or in their middle."""
     patch_parts, meshes = _split_parts(reading)
     if meshes.parts and wall != "thin":
         raise ReadError(WALL_OF_MIXED_SURFACES)
@@ -292,8 +291,9 @@ def _sheet_body(reading: Reading, unit: float, wall: str, thickness: float, thre
 
 
 def _distinct_images(patches: Sequence[Patch], matrices: NDArray) -> Iterator[tuple[list[Patch], NDArray]]:
-    """The patches under each different linear map, facing as before, and the (k, 4, 4) translations to where they
-    stand."""
+    """Yield the patches under each different linear map, facing as before, and the (k, 4, 4) translations to their
+    places.
+    """
     for linear, members in distinct_linear_parts(matrices):
         turn = np.eye(4)
         turn[:3, :3] = linear

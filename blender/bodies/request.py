@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is asked of one measurement, resolved once: options, unit, density, and what several kinds read alike."""
+"""The request for one measurement, resolved once: options, unit, density, and readings that several kinds share."""
 
 from __future__ import annotations
 
@@ -26,17 +26,17 @@ class Request:
     Attributes
     ----------
     options : ResolvedOptions
-        What was given, and the object's settings.
+        The given options, completed by the object's settings.
     unit : float
         Metres per Blender unit.
     given : MeasureOptions
-        What overrides the object's settings.
+        Overrides of the object's settings.
     obj, depsgraph
-        The object and where it is evaluated; None for what is in a file only.
+        The object and its depsgraph; None for the content of a file.
     opened : ExitStack
-        Closes what is open for as long as the measurement takes.
+        Closes opened resources at the end of the measurement.
     findings : list of Finding
-        Why kinds that might have read the object did not.
+        Reasons why kinds that might have read the object did not.
     """
 
     options: ResolvedOptions
@@ -57,7 +57,7 @@ class Request:
         unit: float | None = None,
         opened: ExitStack | None = None,
     ) -> Request:
-        """Return what is asked of an object. unit: meters per Blender unit, by default the scene's."""
+        """Return the request for an object. unit: meters per Blender unit, by default the scene's."""
         unit = unit or given.meters_per_unit(depsgraph.scene)
         return cls(
             with_object_settings(given, obj, unit, _scene(depsgraph)),
@@ -70,7 +70,7 @@ class Request:
 
     @property
     def scene(self) -> bpy.types.Scene:
-        """The scene whose defaults count."""
+        """The scene with the defaults."""
         return _scene(self.depsgraph)
 
     @property
@@ -80,9 +80,9 @@ class Request:
 
     @cached_property
     def density(self) -> DensityField | None:
-        """Where the density comes from when it is not one number.
+        """Source of a density that is not one number.
 
-        Raises MeasureError where the settings name none that can be read.
+        Raises MeasureError if the settings name none that can be read.
         """
         options, settings = self.options, self.obj.body_moments
         is_given = self.given.density is not None or options.mass is not None
@@ -92,7 +92,7 @@ class Request:
 
     @cached_property
     def surfaces(self) -> Reading:
-        """The object's surfaces, polygons and patches, with what its density needs of them. Raises MeasureError."""
+        """The object's surfaces, polygons and patches, with the attributes for its density. Raises MeasureError."""
         density = self.density
         reading = read_object(
             self.obj,
@@ -111,11 +111,13 @@ def _scene(depsgraph: bpy.types.Depsgraph | None) -> bpy.types.Scene:
 def with_object_settings(
     options: MeasureOptions, obj: bpy.types.Object, unit: float, scene: bpy.types.Scene
 ) -> ResolvedOptions:
-    """The options with every gap filled from the object's settings, and the density of one that has none from the
-    scene's."""
+    """Return the options with every gap filled from the object's settings, and the density of one that has none from
+    the scene's.
+    """
     settings = obj.body_moments
     density, mass = options.density, options.mass
-    kind = options.kind or ("solid" if obj.type == "VOLUME" else settings.kind.lower())  # which has no setting for it
+    # volumes have no setting for it
+    kind = options.kind or ("solid" if obj.type == "VOLUME" else settings.kind.lower())
     if density is None and mass is None:
         density, mass = (
             (shortest_decimal(settings.linear_density) if kind == "wire" else object_density(settings, scene), None)

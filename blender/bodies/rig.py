@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The parts of a skinned character's bones, in rest pose: what is skinned to each, and what hangs on it."""
+"""The parts of a skinned character's bones, in rest pose: skinned geometry and parented objects."""
 
 from __future__ import annotations
 
@@ -54,10 +54,10 @@ DENSITIES_FROM = {"MESH": finding(DENSITY_FROM_MEMBERS), "DENSITY": DENSITY_FROM
 
 @dataclass(eq=False)
 class _Sum:
-    """What has been found to go with one bone.
+    """Moments and sources of one bone's part.
 
-    carriers: mass moments at 1 kg/m³ of what is skinned to it, each with its density. hanging: mass moments of objects
-    parented to it. extents, areas: (value, rounding, what float32 moved), m³ and m².
+    carriers: mass moments at 1 kg/m³ of geometry skinned to it, each with its density. hanging: mass moments of objects
+    parented to it. extents, areas: (value, rounding, effect of float32), m³ and m².
     """
 
     carriers: list[tuple[Moments, float]] = field(default_factory=list)
@@ -113,21 +113,21 @@ def measure_rig(context: Context, armature: Object) -> Rig:
     Parameters
     ----------
     context : Context
-        Its view layer has the armature object and what it moves.
+        Its view layer has the armature object and all that it moves.
     armature : Object
         An armature object.
 
     Raises
     ------
     MeasureError
-        Where it has no part with a mass.
+        If it has no part with a mass.
     """
     with rest_pose(context, armature) as depsgraph:
         return _Measuring(armature, depsgraph).rig()
 
 
 def rig_hash(armature: Object, objects: Iterable[Object], scene) -> str:
-    """Return a digest of what the parts are made from, but for the shapes of meshes."""
+    """Return a digest of all inputs of the parts, except for the shapes of meshes."""
     keys = []
     for bone in armature.data.bones:
         settings = armature.pose.bones[bone.name].body_moments
@@ -250,14 +250,17 @@ class _Measuring:
             self.unset.append(obj.name)
 
     def _pieces(self, obj: Object, part: Part, shell: bool) -> Iterator[tuple]:
-        """Of one surface (bone, volume or area moments in SI and world, area, surface, map, verdict) of each piece."""
+        """Yield (bone, volume or area moments in SI and world, area, surface, map, verdict) of each piece of one
+        surface.
+        """
         surface = part.surface
         if not len(surface.triangles) and not len(surface.quads):
             return
         weights = vertex_weights(obj, part, self.bones, self.depsgraph)
         triangles, face = surface.all_triangles()
         number = len(surface.points)
-        corners = np.unique(np.repeat(face, 3).astype(np.int64) * number + triangles.ravel())  # of an n-gon each once
+        # each corner of an n-gon once
+        corners = np.unique(np.repeat(face, 3).astype(np.int64) * number + triangles.ravel())
         pairs = np.stack([corners // number, corners % number], axis=1)
         used = np.zeros(number, bool)
         used[pairs[:, 1]] = True
@@ -366,7 +369,7 @@ class _Measuring:
 
 
 def _area(sheet: Surface, metric: NDArray[np.float64], order: int) -> Moments:
-    """The area's moments of a sheet where it stands."""
+    """Return the area's moments of a sheet in its place."""
     if are_similarities(metric[None, :3, :3])[0]:
         area = polyhedron_moments(sheet, 0, area_order=order, allow_open=True)[1]
         return area.transform(metric)
@@ -374,7 +377,7 @@ def _area(sheet: Surface, metric: NDArray[np.float64], order: int) -> Moments:
 
 
 def _total(entries: list[tuple[float, float, float]]) -> tuple[float, float, float]:
-    """Values with their bounds, added."""
+    """Return the sums of values and of their bounds."""
     values, rounding, inputs = np.array(entries, np.float64).reshape(-1, 3).T
     return (
         float(values.sum()),

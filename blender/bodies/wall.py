@@ -47,44 +47,44 @@ from .findings import (
 )
 from .mesh.instances import group_by_similarity
 
-REPORTED = 0.01  # of the thickness: less unevenness is not reported
+REPORTED = 0.01  # in thicknesses: less unevenness is not reported
 SAME_AREA_RTOL = 1e-9
-SAME_SCALE_RTOL = 1e-6  # what float32 matrices leave of one scale
+SAME_SCALE_RTOL = 1e-6  # float32 matrices spread one scale by as much
 
 
 @dataclass(frozen=True)
 class WallPiece:
-    """One surface. offset: its polynomials. scale: m for each of its units. matrices: (k, 4, 4) to where it stands."""
+    """One surface. offset: its polynomials. scale: m for each of its units. matrices: (k, 4, 4) maps to its places."""
 
     offset: OffsetSolid
     scale: float
     matrices: NDArray[np.float64]
 
     def max_thickness(self, side: str) -> float:
-        """The thickness in m from which the wall folds over."""
+        """Return the thickness in m from which the wall folds over."""
         return self.offset.max_thickness(side) * self.scale
 
     def folds(self, side: str, thickness: float) -> bool:
-        """Whether the wall folds over, rounded as `moments` rounds."""
+        """Return whether the wall folds over, rounded as `moments` rounds."""
         return not thickness / self.scale < self.offset.max_thickness(side)
 
     def moments(self, side: str, thickness: float, order: int = KNOWN_ORDER) -> Moments:
-        """Of the wall, in SI units."""
+        """Return the moments of the wall, in SI units."""
         reach = split_thickness(side, thickness / self.scale)
         own = self.offset.moments(*reach) if order <= KNOWN_ORDER else wall_moments(self.offset, *reach, order)
         return sum_of_images(own, self.matrices)
 
     def per_thickness(self) -> Moments:
-        """Of the wall by its thickness, where that goes to zero."""
+        """Return the limit of the wall's moments by its thickness, as that goes to zero."""
         first = Moments(self.offset.coefficients[:, 0], self.offset.about, Measure.VOLUME)
         return sum_of_images(first, self.matrices) * (1.0 / self.scale)
 
     def self_intersects(self, side: str, thickness: float) -> bool:
-        """Whether the wall runs into itself."""
+        """Return whether the wall runs into itself."""
         return self.offset.self_intersects(*split_thickness(side, thickness / self.scale))
 
     def boxes(self, side: str, thickness: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """(k, 3) the middles and (k, 3) half the sides of boxes around the wall where it stands, in m."""
+        """Return (k, 3) the middles and (k, 3) half the sides of boxes around the wall in its places, in m."""
         low, high = self.offset.box(*split_thickness(side, thickness / self.scale))
         linear = self.matrices[:, :3, :3]
         return linear @ ((low + high) / 2.0) + self.matrices[:, :3, 3], np.abs(linear) @ ((high - low) / 2.0)
@@ -94,7 +94,7 @@ class WallPiece:
 class Walls:
     """The walls of one object, SI units, world axes.
 
-    thin: the body as a thin shell. side: "inward", "outward" or "centered". findings: what was decided about the sides.
+    thin: the body as a thin shell. side: "inward", "outward" or "centered". findings: the decisions about the sides.
     """
 
     thin: Body
@@ -108,8 +108,9 @@ class Walls:
         return min(piece.max_thickness(self.side) for piece in self.pieces)
 
     def body(self, thickness: float, check_overlap: bool = True) -> WallBody:
-        """The body with walls that thick, m. check_overlap: whether walls that meet are looked for, which takes time.
-        ReadError where a wall folds over."""
+        """Return the body with walls of a thickness, m. check_overlap: find walls that meet, which takes time.
+        ReadError if a wall folds over.
+        """
         if not thickness > 0.0:
             raise ReadError(NO_THICKNESS)
         if any(piece.folds(self.side, thickness) for piece in self.pieces):
@@ -129,7 +130,7 @@ class Walls:
         )
 
     def drop_arrays(self) -> Walls:
-        """The same without the arrays that are as large as the mesh."""
+        """Return a copy without the arrays that are as large as the mesh."""
         return replace(
             self,
             thin=Body(self.thin.volume, self.thin.area, self.thin.health, self.thin.method, self.thin.findings),
@@ -168,7 +169,9 @@ class Walls:
         return findings
 
     def _unevenness(self) -> float:
-        """How far the moments to second order of a very thin wall are from those of its surface, by its size."""
+        """Return the difference between the moments to second order of a very thin wall and of its surface, by its
+        size.
+        """
         surface = self.thin.area
         center, degree = surface.center, monomials(2).sum(axis=1)
         wall = sum_moments([piece.per_thickness() for piece in self.pieces]).about_point(center).truncate(2).raw
@@ -198,7 +201,7 @@ class WallBody(Body):
 
 
 def find_walls(reading: Reading, body: MeshBody, side: str) -> Walls:
-    """The walls of an object that was measured as a thin shell. MeasureError where a surface has no sides."""
+    """Return the walls of an object that was measured as a thin shell. MeasureError if a surface has no sides."""
     if body.mass is not None:
         raise ReadError(WALL_NEEDS_ONE_DENSITY)
     pieces, findings = [], []
@@ -215,7 +218,7 @@ def find_walls(reading: Reading, body: MeshBody, side: str) -> Walls:
 
 
 def _orient_outward(surface: Surface, solid: SolidIntegrals, findings: list[Finding]) -> Surface:
-    """The surface with its faces outward where it is closed, else as it is."""
+    """Return a closed surface with its faces outward, any other unchanged."""
     if solid.method in (Verdict.EXACT, Verdict.REORIENTED):
         area = polyhedron_moments(solid.repaired_surface, area_order=0, allow_open=True)[1].total
         if abs(area - solid.area.total) <= SAME_AREA_RTOL * solid.area.total:  # else the repair has left something out
@@ -227,7 +230,7 @@ def _orient_outward(surface: Surface, solid: SolidIntegrals, findings: list[Find
 
 
 def _round_down(length: float) -> float:
-    """The length rounded down to four digits, so that the length that is named works."""
+    """Return the length rounded down to four digits, so that the length that is named works."""
     if not isfinite(length):
         return inf
     unit = 10.0 ** (floor(log10(length)) - 3)

@@ -25,7 +25,7 @@ from .request import Request
 MEASURED_AS = frozenset({"wire"})
 
 DEGREE = monomials(3).sum(axis=1)
-CLOSED_RTOL = 1e-9  # of the wire's reach: its ends are one point
+CLOSED_RTOL = 1e-9  # relative to the wire's reach: its ends are one point
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,12 +47,12 @@ class WireBody(Body):
 
 
 def read(request: Request) -> Reading:
-    """Return the curves of an object that is to be measured as a wire. Raises MeasureError for what has none."""
+    """Return the curves of an object that is measured as a wire. Raises MeasureError if it has none."""
     return read_lines(request.obj, request.depsgraph)
 
 
 def body(reading: Reading, request: Request) -> Body:
-    """Return the curves as a wire. Raises MeasureError where they have no length."""
+    """Return the curves as a wire. Raises MeasureError if they have no length."""
     curves, stored = curves_in_world(reading.curves, reading.matrix, request.unit)
     length = length_moments(curves)
     if not length.total > 0.0:
@@ -90,6 +90,6 @@ def curves_in_world(curves: list[Curve], matrix: NDArray[np.float64], unit: floa
 
 
 def _is_closed(curve: Curve, reach: float) -> bool:
-    """Whether a curve ends where it starts, to its size and to the rounding of where it is."""
+    """Return whether a curve ends at its start, to its size and to the rounding of its place."""
     first, last = curve.samples(1)[[0, -1]]
     return bool(np.abs(last - first).max() <= CLOSED_RTOL * reach + 32.0 * U * np.abs(first).max())

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The members of an assembly: of a collection with its nested ones, or of an empty with its children.
 
-An object counts once, in the first place where it is met. An instance of a collection is an assembly of its own, whose
-members have their own densities, unless the instancer's own density or mass is set.
+An object counts once, in its first place. An instance of a collection is an assembly of its own, with the members' own
+densities, unless the instancer's own density or mass is set.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ Root = Object | bpy.types.Collection
 
 
 class MemberKind(StrEnum):
-    """What a member of an assembly is."""
+    """Kind of a member of an assembly."""
 
     COLLECTION = "COLLECTION"
     INSTANCE = "INSTANCE"
@@ -48,11 +48,11 @@ class Member:
         Of an instance, the instancer.
     kind : MemberKind
     members : tuple of Member
-        Those of a collection, an instance, or the children of an object.
+        Members of a collection or an instance, or the children of an object.
     matrix : (4, 4) array, optional
-        Of an instance, from where its collection's members stand to where they are shown, Blender units.
+        Of an instance, from its collection's members to their displayed places, Blender units.
     left_out : Finding, optional
-        Why it is not counted.
+        Reason why it is not counted.
     """
 
     data: Root
@@ -63,12 +63,12 @@ class Member:
 
     @property
     def name(self) -> str:
-        """Of the object or collection."""
+        """Name of the object or collection."""
         return self.data.name
 
     @property
     def is_measured(self) -> bool:
-        """Whether it has a body of its own, beside those of its members."""
+        """True if it has a body of its own, beside its members' bodies."""
         return self.kind in (MemberKind.OBJECT, MemberKind.POINT) and self.left_out is None
 
     def walk(self) -> Iterator[Member]:
@@ -106,7 +106,7 @@ def settings_of(data: Root):
 
 
 class _Walk:
-    """One look through an assembly: in the scene, or inside an instance, where other objects are shown."""
+    """One look through an assembly: in the scene, or inside an instance, which shows other objects."""
 
     def __init__(self, objects: Collection[Object], depsgraph: Depsgraph, inside: bool = False):
         self.depsgraph = depsgraph
@@ -122,7 +122,7 @@ class _Walk:
         self.replaced = {child for obj in self.given for child in obj.children_recursive}
 
     def collection(self, collection: bpy.types.Collection, depth: int = 0) -> Member:
-        """A collection with its nested ones, before its own objects."""
+        """Return a collection with its nested ones, before its own objects."""
         if self.inside and (collection.hide_render or collection.hide_viewport):
             return Member(collection, MemberKind.COLLECTION, left_out=finding(NOT_RENDERED))
         members = [self.collection(child, depth) for child in collection.children]
@@ -137,12 +137,12 @@ class _Walk:
         return Member(collection, MemberKind.COLLECTION, tuple(members))
 
     def empty(self, obj: Object, depth: int = 0) -> Member:
-        """An empty with what its children show, and the point mass that it may be itself."""
+        """Return an empty with its children's members, and its own point mass, if any."""
         own = self.object(obj, obj.name, depth) if is_point_mass(obj) else []
         return Member(obj, MemberKind.EMPTY, (*own, *self.children(obj, depth)))
 
     def children(self, parent: Object, depth: int) -> list[Member]:
-        """What an object's children show."""
+        """Return the members of an object's children."""
         members: list[Member] = []
         for child in sorted(self.of_parent.get(parent, ()), key=_name):
             if child.type == "EMPTY" and not shows_collection(child) and child in self.of_parent:
@@ -153,7 +153,7 @@ class _Walk:
         return members
 
     def object(self, obj: Object, place: str, depth: int) -> list[Member]:
-        """The object as a member, none for what is no body. place: in which assembly it is."""
+        """Return the object as a member, none if it is no body. place: the name of its assembly."""
         if not measurable(obj) or instanced_by_parent(obj):
             return []
         kind = MemberKind.POINT if is_point_mass(obj) else MemberKind.OBJECT
@@ -172,7 +172,7 @@ class _Walk:
         return [Member(obj, kind)]
 
     def _left_out(self, obj: Object) -> Finding | None:
-        """Why an object is no part, or why Blender cannot show that it is one."""
+        """Return the reason why an object is no part, or why Blender cannot show that it is one."""
         if self.inside:
             if obj in self.operands and obj.display_type in {"WIRE", "BOUNDS"}:
                 return finding(BOOLEAN_OPERAND)
@@ -186,7 +186,7 @@ class _Walk:
 
 
 def _shows_members(obj: Object) -> bool:
-    """Whether an instance of a collection has no density and no mass of its own."""
+    """Return whether an instance of a collection has no density and no mass of its own."""
     settings = obj.body_moments
     return (
         shows_collection(obj)

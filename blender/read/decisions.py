@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The findings for what reading an object decided, and for why there was nothing to read.
+"""The findings about decisions in reading an object, and the reasons if there was nothing to read.
 
-The viewport is what is read. Where the render would show another body, by Blender's settings as far
-as they report, that is a finding; a node tree that asks where it runs is beyond them.
+The viewport is read. If the render would show another body, by Blender's settings as far as they report, that is a
+finding; a node tree that tells viewport from render is beyond them.
 """
 
 from __future__ import annotations
@@ -67,7 +67,7 @@ LINES_ONLY = {"CURVE": LINES_ONLY_CURVE, "FONT": LINES_ONLY_TEXT}
 
 
 def why_empty(obj, gathered: InstanceCollector, depsgraph) -> Finding:
-    """Why nothing of the object has a face."""
+    """Return the reason why nothing of the object has a face."""
     vertices, edges = gathered.faceless
     if obj.type == "META":
         mother = _family(obj, depsgraph)[0]
@@ -97,7 +97,7 @@ def why_empty(obj, gathered: InstanceCollector, depsgraph) -> Finding:
 
 
 def reading_findings(obj, gathered: InstanceCollector, depsgraph) -> Iterator[Finding]:
-    """A finding for each thing that was decided while reading."""
+    """Yield a finding for each thing that was decided while reading."""
     hidden = hidden_reason(obj, depsgraph)
     if hidden:
         yield finding(HIDDEN_OBJECT_MEASURED, cause=hidden.as_record())
@@ -128,7 +128,7 @@ def reading_findings(obj, gathered: InstanceCollector, depsgraph) -> Iterator[Fi
 
 
 def modifier_findings(obj, scene) -> Iterator[Finding]:
-    """The same of what the object's modifiers made, whatever that is."""
+    """Yield the findings about an object with modifiers of any kind."""
     yield from _render_findings(obj, scene)
     yield from _node_errors(obj)
 
@@ -140,13 +140,13 @@ def _render_findings(obj, scene, exact: bool = False) -> Iterator[Finding]:
 
 
 def _member_findings(collections) -> Iterator[Finding]:
-    """The members of instanced collections that only the viewport or only the render shows."""
+    """Yield the members of instanced collections that only the viewport or only the render shows."""
     shown, rendered = (
         {
             member.original: None
             for collection in collections
             for member in visible_objects(collection, switch)
-            if measurable(member.original) and member.type != "META"  # which Blender cannot instance
+            if measurable(member.original) and member.type != "META"  # Blender cannot instance metaballs
         }
         for switch in ("hide_viewport", "hide_render")
     )
@@ -171,7 +171,7 @@ def _family(obj, depsgraph) -> list:
 
 
 def _polygons(obj, drawn) -> Iterator[Finding]:
-    """What polygons stand for, of curves, text and metaballs."""
+    """Yield findings about the polygons of curves, text and metaballs."""
     for source in drawn:
         if source.type == "META":
             yield attribute_to_source(finding(SURFACE_DRAWN_AS_POLYGONS), source.name, obj.name)
@@ -198,7 +198,7 @@ def _mode_findings(obj) -> Iterator[Finding]:
 
 
 def _spline_findings(evaluated, splines) -> Iterator[Finding]:
-    """What was decided about a surface object, the one that is read or one that it instances."""
+    """Yield the decisions about a surface object, either the read one or one of its instances."""
     if splines is not None:
         yield from splines.findings
         return
@@ -212,7 +212,9 @@ def _spline_findings(evaluated, splines) -> Iterator[Finding]:
 
 
 def _render_differences(obj, scene, exact: bool = False) -> Iterator[Finding]:
-    """exact: the object is read without its display mesh, so that no resolution counts."""
+    """Yield findings about differences in the render. exact: the object is read without its display mesh, so that no
+    resolution counts.
+    """
     for modifier in obj.modifiers:
         shown, rendered = modifier.show_viewport, modifier.show_render
         if shown != rendered:
@@ -241,7 +243,7 @@ def _render_differences(obj, scene, exact: bool = False) -> Iterator[Finding]:
 
 
 def _levels(modifier, render) -> tuple[int, int]:
-    """The modifier's number in the viewport and in the render, the same where it has but one."""
+    """Return the modifier's number in the viewport and in the render, twice the same if it has but one."""
     if modifier.type in {"SUBSURF", "MULTIRES"}:
         here, there = modifier.levels, modifier.render_levels
         if render.use_simplify:

@@ -1,11 +1,11 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What stored numbers were computed from, in a text short enough for a property: geometry, transform and settings.
+"""The inputs of stored numbers, in a text short enough for a property: geometry, transform and settings.
 
 The geometry's part is a digest of the moments themselves: no two shapes that a person would distinguish share twenty
 moments to the last bit, and it costs nothing. Transform and settings can be digested without measuring, so a panel
-may compare them while it draws. Beside them stands a digest of the shape that a mesh object shows, cheap enough to be
-taken whenever Blender re-evaluates it.
+may compare them while it draws. Beside them stands a digest of a mesh object's surface, cheap enough for every
+evaluation by Blender.
 """
 
 from __future__ import annotations
@@ -27,23 +27,24 @@ from .mesh import mesh_surface
 from .visibility import evaluated_geometry
 
 VERSION = "v1"
-SAME_SCALE_RTOL = 2e-6  # of an axis' length: what float32 matrices make of it as the object turns
+SAME_SCALE_RTOL = 2e-6  # relative to an axis' length: float32 matrices change as much as the object turns
 MAX_DIGESTED_FACES = 50_000  # faces: reading and digesting them takes 2 ms
 
 
 def fingerprint(geometry: bytes, matrix: str, settings: str) -> str:
-    """The text stored as `body_fingerprint`: version, then the three digests."""
+    """Return the text stored as `body_fingerprint`: version, then the three digests."""
     return ":".join([VERSION, digest(geometry), matrix, settings])
 
 
 def matrix_hash(obj: bpy.types.Object) -> str:
-    """A digest of where the object is and how it is turned, scaled and sheared."""
+    """Return a digest of the object's place, rotation, scale and shear."""
     return digest(np.array(obj.matrix_world, np.float32).tobytes())
 
 
 def transform_key(obj: bpy.types.Object) -> str:
-    """What of the object's transform its numbers depend on: how it is scaled and mirrored, but neither where it is nor
-    how it is turned. A digest of all of it where the object is sheared, or its body does not move along with it.
+    """Return a key of the transform as far as the object's numbers depend on it: scale and mirroring, but neither
+    location nor rotation. It is a digest of the whole transform if the object is sheared, or its body does not move
+    along with it.
 
     Returns
     -------
@@ -58,7 +59,7 @@ def transform_key(obj: bpy.types.Object) -> str:
 
 
 def transform_keys(matrices: NDArray[np.float64]) -> list[str]:
-    """`transform_key` of objects whose bodies move along with them. matrices: (n, 4, 4) their `matrix_world`."""
+    """Return the `transform_key` of objects with bodies that move along. matrices: (n, 4, 4) their `matrix_world`."""
     columns = matrices[:, :3, :3].astype(np.float64)
     lengths = np.sqrt(np.add.reduce(columns * columns, axis=1))
     with np.errstate(invalid="ignore"):  # axes of no length, or an endless one, are no numbers, and so no right angles
@@ -74,7 +75,7 @@ def transform_keys(matrices: NDArray[np.float64]) -> list[str]:
 
 
 def has_transform(obj: bpy.types.Object, key: str) -> bool:
-    """Whether the object's transform is that of a key, as far as its numbers depend on it."""
+    """Return whether the object's transform matches a key, as far as its numbers depend on it."""
     if key[:1] not in {"+", "-"}:
         return key == matrix_hash(obj)
     scale = _scale(obj) if _moves_along(obj) else None
@@ -88,8 +89,9 @@ def has_transform(obj: bpy.types.Object, key: str) -> bool:
 
 
 def _scale(obj: bpy.types.Object) -> tuple[str, list[float]] | None:
-    """The sign of the determinant, and the lengths of the axes; None where the object is sheared or flat, or a length
-    is not finite."""
+    """Return the sign of the determinant, and the lengths of the axes; None if the object is sheared or flat, or a
+    length is not finite.
+    """
     axes = list(zip(*[row[:3] for row in obj.matrix_world[:3]]))  # in Python: a panel asks for many objects'
     lengths = [math.hypot(*axis) for axis in axes]
     if not all([0.0 < length < math.inf for length in lengths]):
@@ -101,7 +103,7 @@ def _scale(obj: bpy.types.Object) -> tuple[str, list[float]] | None:
 
 
 def _moves_along(obj: bpy.types.Object) -> bool:
-    """Whether the body is the same in the object's frame wherever the object is."""
+    """Return whether the body is the same in the object's frame at every place of the object."""
     if obj.type == "META" or len(obj.particle_systems):
         return False
     settings = obj.body_moments
@@ -111,7 +113,7 @@ def _moves_along(obj: bpy.types.Object) -> bool:
 
 
 def scale_hash(obj: bpy.types.Object) -> str:
-    """A digest of how the object is scaled and sheared, wherever it lies."""
+    """Return a digest of the object's scale and shear, independent of its place."""
     linear = np.array(obj.matrix_world, np.float64)[:3, :3]
     products = linear.T @ linear
     largest = np.abs(products).max() or 1.0
@@ -119,7 +121,7 @@ def scale_hash(obj: bpy.types.Object) -> str:
 
 
 def settings_hash(obj: bpy.types.Object, scene: bpy.types.Scene) -> str:
-    """A digest of the settings that the numbers of this object depend on."""
+    """Return a digest of the settings that the numbers of this object depend on."""
     settings = obj.body_moments
     density, mass = None, None
     if settings.mass_from == "MASS":
@@ -130,13 +132,13 @@ def settings_hash(obj: bpy.types.Object, scene: bpy.types.Scene) -> str:
 
 
 def given_density(obj: bpy.types.Object, scene: bpy.types.Scene) -> float:
-    """The one density that the object's settings say: kg/m³, of a wire kg/m."""
+    """Return the one density that the object's settings say: kg/m³, of a wire kg/m."""
     settings = obj.body_moments
     return shortest_decimal(settings.linear_density) if settings.kind == "WIRE" else object_density(settings, scene)
 
 
 def settings_hash_with(obj: bpy.types.Object, scene: bpy.types.Scene, density: float | None, mass: float | None) -> str:
-    """A digest of the object's settings as they are, but for this density or mass."""
+    """Return a digest of the object's settings as they are, but for this density or mass."""
     settings = obj.body_moments
     unit = shortest_decimal(scene.unit_settings.scale_length)
     return effective_hash(
@@ -161,10 +163,11 @@ def effective_hash(
     wall: str = "THIN",
     varying: str = "",
 ) -> str:
-    """A digest of settings as they were used; what a kind has no use for does not count. varying: `density_key`, which
-    takes the place of the density."""
+    """Return a digest of the used settings; settings without use for the kind do not count. varying: `density_key`, in
+    place of the density.
+    """
     density = None if varying else density
-    # as a setting holds it
+    # settings hold such decimals
     density, mass = [None if value is None else shortest_decimal(value) for value in (density, mass)]
     used = [
         kind,
@@ -181,8 +184,9 @@ def effective_hash(
 
 
 def shape_digest(obj, depsgraph) -> bytes | None:
-    """Of the faces of a mesh object in Object Mode, wherever it stands; None of others, large ones, those that show
-    instances, and those whose mesh is edited by way of another object."""
+    """Return a digest of a mesh object's faces, independent of its transform, or None for other types, outside Object
+    Mode, for large meshes, for objects that show instances, and for meshes edited by way of another object.
+    """
     if (
         obj.type != "MESH"
         or obj.mode != "OBJECT"
@@ -203,7 +207,7 @@ def shape_digest(obj, depsgraph) -> bytes | None:
 
 
 def surface_digest(surface: Surface, face_count: int) -> bytes | None:
-    """A digest of the faces of a mesh as they were read; None of many."""
+    """Return a digest of the faces of a mesh as they were read; None of many."""
     if face_count > MAX_DIGESTED_FACES:
         return None
     shape = hashlib.blake2b(digest_size=16)
@@ -214,5 +218,5 @@ def surface_digest(surface: Surface, face_count: int) -> bytes | None:
 
 
 def digest(data: bytes | NDArray) -> str:
-    """A short text that differs for different data."""
+    """Return a short text that differs for different data."""
     return hashlib.blake2s(data if isinstance(data, bytes) else data.data, digest_size=6).hexdigest()

@@ -7,7 +7,7 @@ The instances of geometry nodes are two arrays, a transform and a reference for 
 (`GeometrySet.instances_pointcloud`), and a reference is an object, a collection or again a geometry
 set with a mesh and instances of its own. The walk carries all places of one thing at once as a (k,
 4, 4) array, so that ten thousand instances cost one matrix product, in float64 where Blender's own
-list has float32. What it mirrors is object_dupli.cc; the tests compare the two.
+list has float32. It mirrors object_dupli.cc; the tests compare the two.
 
 Instancing on vertices and faces and by particles is left to Blender: `depsgraph.object_instances`,
 one by one.
@@ -46,17 +46,17 @@ class _NeedsInstanceList(Exception):
 
 
 class InstanceCollector:
-    """The surfaces found so far with all their places, and what had to be left out.
+    """The surfaces found so far with all their places, and the omitted objects.
 
     faceless: (vertices, edges) of the meshes without a face.
-    left_out: how many of each kind of thing that has no surface, by the code that names the kind.
+    left_out: number of objects without surface, by the code that names the kind.
     sources: the original objects that were read, without the first.
-    vanished_count: how many instances are scaled to nothing.
-    splines: of each evaluated surface object that was read, its patches, None where its mesh has to do.
+    vanished_count: number of instances that are scaled to nothing.
+    splines: the patches of each evaluated surface object that was read, None if its mesh has to do.
     drawn: the original objects whose own polygons were read.
     collections: the original collections that it instances, as far as Blender's own list was not needed.
-    materials, attribute, edges: whether the faces' materials are wanted, the name of the vertices' attribute, and
-        whether the edges at the corners are.
+    materials, attribute, edges: requests for the faces' materials, for the vertices' attribute of a name, and for the
+        edges at the corners.
     """
 
     def __init__(self, root, depsgraph, materials: bool = False, attribute: str | None = None, edges: bool = True):
@@ -92,10 +92,9 @@ class InstanceCollector:
             self._add_listed_instances(place)
 
     def parts(self) -> list[Part]:
-        """One part for each surface, its matrices finite.
+        """Return one part for each surface, its matrices finite.
 
-        Raises ReadError where an instance's are not. Instances scaled to nothing are left out and
-        counted.
+        Raises ReadError if an instance's are not. Instances scaled to nothing are left out and counted.
         """
         parts = []
         for key, matrix_blocks in self._matrices.items():
@@ -120,7 +119,7 @@ class InstanceCollector:
         return parts
 
     def _add_object(self, evaluated, matrices: NDArray) -> None:
-        """An object standing at `matrices` instead of its own matrix, with its instances."""
+        """Add an object standing at `matrices` instead of its own matrix, with its instances."""
         original = evaluated.original
         if original in self._path or len(self._path) > MAX_DEPTH:
             return
@@ -168,7 +167,7 @@ class InstanceCollector:
         self._add_instances(geometry, matrices)
 
     def _add_instances(self, geometry, matrices: NDArray) -> bool:
-        """Add what the geometry set instances at every place of it; whether there was anything."""
+        """Add the geometry set's instances at every place of it; return whether there were any."""
         cloud = geometry.instances_pointcloud()
         if cloud is None:  # so it is where there are none
             return False
@@ -190,7 +189,7 @@ class InstanceCollector:
         return True
 
     def _add_reference(self, reference, matrices: NDArray) -> None:
-        """What a geometry set instances: an object, a collection or another geometry set."""
+        """Add an instance of a geometry set: an object, a collection or another geometry set."""
         if isinstance(reference, bpy.types.Object):
             self._add_object(reference.evaluated_get(self.depsgraph), matrices)
         elif isinstance(reference, bpy.types.Collection):
@@ -208,7 +207,7 @@ class InstanceCollector:
             self._add_object(evaluated, matrices @ float64_matrix(evaluated.matrix_world))
 
     def _add_listed_instances(self, instance_matrix: NDArray) -> None:
-        """The root and its instances as `depsgraph.object_instances` has them."""
+        """Add the root and its instances as `depsgraph.object_instances` has them."""
         original = self.root.original
         if not original.visible_get(view_layer=self.depsgraph.view_layer):
             raise ReadError(INSTANCES_OF_HIDDEN_OBJECT, subject=original.name)
@@ -232,14 +231,14 @@ class InstanceCollector:
                 self._add_mesh(mesh, mesh, matrix, source)
 
     def _add_mesh(self, key: Hashable, mesh, matrices: NDArray, owner=None) -> None:
-        """Add a mesh; owner: the evaluated object whose material slots it is shown with."""
+        """Add a mesh; owner: the evaluated object with its material slots."""
         if mesh is not None:
             if owner is not None and len(mesh.polygons):
                 self.drawn[owner.original] = None
             self._add_surface(self._surface_key(key, owner), lambda: self._read(mesh, owner), matrices, owner)
 
     def _surface_key(self, key: Hashable, owner) -> Hashable:
-        """One mesh is several surfaces where objects show it with materials of their own."""
+        """Return a key of a mesh as a surface: several if objects show it with materials of their own."""
         return (key, _object_slots(owner)) if self.materials and owner is not None else key
 
     def _read(self, mesh, owner) -> tuple[Surface, FaceAttributes]:
@@ -266,7 +265,7 @@ class InstanceCollector:
         return FaceAttributes(slots, faces, vertices)
 
     def _edit_mode_surface(self, evaluated) -> tuple[Surface, FaceAttributes]:
-        """The surface of an object whose mesh is in Edit Mode, with what acts there."""
+        """Return the surface of an object in Edit Mode of its mesh, with the modifiers that act there."""
         if not edit_modifiers(evaluated.original) and not blends_keys(evaluated.original):
             return from_edit_mesh(evaluated.original.data, lambda copy: self._read(copy, evaluated))
         # The evaluated mesh may be a BMesh in disguise, which only to_mesh() turns into arrays.
@@ -292,7 +291,7 @@ class InstanceCollector:
 
 
 def _object_slots(owner) -> tuple:
-    """What an object's own material slots put in place of its data's."""
+    """Return the materials that an object's own slots put in place of its data's."""
     return tuple(
         (i, slot.material.original if slot.material else None)
         for i, slot in enumerate(owner.material_slots)
@@ -301,7 +300,7 @@ def _object_slots(owner) -> tuple:
 
 
 def _slots(mesh, owner) -> tuple:
-    """The original materials that the faces of an evaluated mesh name by number."""
+    """Return the original materials that the faces of an evaluated mesh name by number."""
     slots = list(mesh.materials)
     if owner is not None:
         if not slots:  # a copy of an edit mesh has none of its own
@@ -313,7 +312,7 @@ def _slots(mesh, owner) -> tuple:
 
 
 def shows_itself(obj, instanced: bool) -> bool:
-    """Whether the viewport shows the object's own geometry beside its instances and particles."""
+    """Return whether the viewport shows the object's own geometry beside its instances and particles."""
     instancer = instanced or obj.instance_type != "NONE" or len(obj.particle_systems) > 0
     return obj.show_instancer_for_viewport or not instancer
 
@@ -326,8 +325,9 @@ def _needs_instance_list(obj) -> bool:
 
 
 def visible_objects(collection, switch: str = "hide_viewport") -> Iterator:
-    """The collection's objects and those of its children, each once, without those disabled in viewports, or with
-    `hide_render` in renders."""
+    """Yield the objects of a collection and its children, each once, except for objects disabled in viewports, or with
+    `hide_render` in renders.
+    """
     visited = set()
     pending = [collection]
     while pending:

@@ -8,8 +8,7 @@ same numbers through `vertex_values`, `loops` and `loop_triangles` cost 10 to 10
 
 The sizes of the faces come from the tessellation (a face of n corners has n - 2 triangles), whose
 `loop_triangle_polygons` is such an attribute too. Triangles and quads are then rows of the corners;
-only n-gons need the slow `loop_triangles`. Quads stay whole: core/mesh/surface.py cuts them where
-Blender does.
+only n-gons need the slow `loop_triangles`. Quads stay whole: core/mesh/surface.py cuts them as Blender does.
 """
 
 from __future__ import annotations
@@ -35,8 +34,8 @@ Read = TypeVar("Read")
 
 
 def plain_mesh(obj, depsgraph):
-    """The evaluated mesh of an object that shows its own mesh and nothing else, of which reading has nothing to decide:
-    `read_object` would give one part in one place and no findings. None where that has to look for itself.
+    """Return the evaluated mesh of an object that shows its own mesh and nothing else, so that reading needs no
+    decision: `read_object` would give one part in one place and no findings. None if it has to look for itself.
     """
     data, parent = obj.data, obj.parent
     if (
@@ -55,7 +54,7 @@ def plain_mesh(obj, depsgraph):
 
 
 def mesh_surface(mesh, *, edges: bool = True) -> Surface:
-    """The polygons of a `bpy.types.Mesh` as copied arrays, float32 points in the mesh's own
+    """Return the polygons of a `bpy.types.Mesh` as copied arrays, float32 points in the mesh's own
     coordinates.
 
     edges: with the edge at each corner, which takes a fifth of the time.
@@ -69,7 +68,7 @@ def mesh_surface(mesh, *, edges: bool = True) -> Surface:
 
 
 def mesh_points(mesh, corners: NDArray[np.integer]) -> NDArray[np.float32] | None:
-    """(n, 3) the vertices of a `bpy.types.Mesh` that has these vertices at its corners; None of any other."""
+    """Return (n, 3) the vertices of a `bpy.types.Mesh` that has these vertices at its corners; None of any other."""
     if len(mesh.loops) != len(corners):
         return None
     if not np.array_equal(_attribute(mesh, ".corner_vert", "value", corners.shape, np.int32), corners):
@@ -78,7 +77,7 @@ def mesh_points(mesh, corners: NDArray[np.integer]) -> NDArray[np.float32] | Non
 
 
 def _faces(mesh, corners: NDArray[np.int32]) -> dict[str, NDArray]:
-    """The triangles and quads of a Surface, and which faces they are of."""
+    """Return the triangles and quads of a Surface, and which faces they are of."""
     faces = len(mesh.polygons)
     if not faces:
         return {}
@@ -108,8 +107,8 @@ def _faces(mesh, corners: NDArray[np.int32]) -> dict[str, NDArray]:
 
 
 def from_edit_mesh(mesh, read: Callable[[bpy.types.Mesh], Read]) -> Read:
-    """What `read` gives for a mesh in Edit Mode as its BMesh is now, with edits that the mesh itself does not have
-    yet.
+    """Return the result of `read` for a mesh in Edit Mode by its current BMesh, with edits that the mesh itself does
+    not have yet.
 
     A BMesh gives its elements one by one only, 5 s for a million faces; the copy into a mesh that
     lives for this call costs a fortieth of that and leaves the edit mesh as it is.
@@ -123,14 +122,14 @@ def from_edit_mesh(mesh, read: Callable[[bpy.types.Mesh], Read]) -> Read:
 
 
 def face_slots(mesh) -> NDArray[np.int32]:
-    """(f,) the material slot that each face names; the mesh may have fewer."""
+    """Return (f,) the material slot that each face names; the mesh may have fewer."""
     if mesh.attributes.get("material_index") is None:  # then all of them name the first one
         return np.zeros(len(mesh.polygons), np.int32)
     return _attribute(mesh, "material_index", "value", (len(mesh.polygons),), np.int32)
 
 
 def vertex_values(mesh, name: str) -> NDArray[np.float64]:
-    """(n,) the values of a float attribute on vertices. ReadError where there is none."""
+    """Return (n,) the values of a float attribute on vertices. ReadError if there is none."""
     attribute = mesh.attributes.get(name)
     if attribute is None:
         raise ReadError(ATTRIBUTE_MISSING, attribute=name)
@@ -141,7 +140,7 @@ def vertex_values(mesh, name: str) -> NDArray[np.float64]:
 
 def _attribute(mesh, name: str, member: str, shape: tuple[int, ...], dtype) -> NDArray:
     array = np.empty(shape, dtype)
-    if shape[0]:  # where there are no elements there may be no attribute either
+    if shape[0]:  # without elements there may be no attribute either
         mesh.attributes[name].data.foreach_get(member, array.reshape(-1))
     return array
 
@@ -153,7 +152,7 @@ def _array(data, member: str, shape: tuple[int, ...], dtype) -> NDArray:
 
 
 def _in_pairs(owners: NDArray[np.int32]) -> bool:
-    """Whether these are 0, 0, 1, 1, 2, 2, …"""
+    """Return whether these are 0, 0, 1, 1, 2, 2, …"""
     # Two at once: the even places alone would accept a triangle followed by a pentagon.
     pairs, step = owners.view(np.int64), (1 << 32) + 1
     count = np.arange(min(FACES_PER_BLOCK, len(pairs))) * step

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""An object as a Reading: what the viewport shows of it, and a finding for each decision.
+"""An object as a Reading: its surfaces in the viewport, and a finding for each decision.
 
 Reading changes nothing: no mode, no selection, no mesh. An object that Blender has not evaluated is
 refused with the reason, never read without its modifiers (visibility.py). The object frame is
@@ -32,7 +32,7 @@ def read_object(
     """Read one object, original or evaluated, as the up-to-date viewport `depsgraph` has it.
 
     materials: with the materials of its faces. attribute: with the values of a float attribute on its
-    vertices. edges: with what proves surfaces closed.
+    vertices. edges: with the edges that prove surfaces closed.
 
     Raises ReadError: of a kind without surface, not evaluated, nothing with a face, coordinates or
     transforms that are not finite.
@@ -52,7 +52,7 @@ def read_object(
 
 
 def read_lines(obj, depsgraph) -> Reading:
-    """As `read_object` for a curve object, but its curves instead of the surface that it may show.
+    """Read a curve object as `read_object` does, but its curves instead of its surface, if any.
 
     Raises ReadError for objects of other kinds too.
     """
@@ -65,8 +65,10 @@ def read_lines(obj, depsgraph) -> Reading:
 
 
 def read_patches(obj, depsgraph) -> Reading | None:
-    """As `read_object` for a surface object, but its patches alone: no display mesh, unless control points have to be
-    compared with it, and no finding about the render. None where it shows more, or has to be measured by its mesh.
+    """Read a surface object as `read_object` does, but its patches alone.
+
+    There is no display mesh, unless control points have to be compared with it, and no finding about the render. None
+    if it shows more, or has to be measured by its mesh.
     """
     obj = obj.original
     reading = locate(obj, depsgraph)
@@ -83,9 +85,9 @@ def read_patches(obj, depsgraph) -> Reading | None:
 
 
 def locate(obj, depsgraph) -> Reading:
-    """An evaluated object's name and place, with nothing read of it yet.
+    """Return an evaluated object's name and place, with nothing read of it yet.
 
-    Raises ReadError where Blender has not evaluated it, or its transform is not finite.
+    Raises ReadError if Blender has not evaluated it, or its transform is not finite.
     """
     evaluated = obj.evaluated_get(depsgraph)
     if not evaluated.is_evaluated:

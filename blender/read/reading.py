@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What reading an object gives: surfaces, their places in the world, a finding for each decision."""
+"""The result of reading an object: surfaces, their places in the world, a finding for each decision."""
 
 from __future__ import annotations
 
@@ -21,10 +21,10 @@ NO_VALUES = np.empty(0)
 
 @dataclass(frozen=True, eq=False)
 class FaceAttributes:
-    """What the faces and vertices of a surface carry.
+    """Attributes of the faces and vertices of a surface.
 
     materials: the original materials of its slots, None for empty ones. face_slots: (f,) the slot of each
-    mesh face, -1 where there are no slots. vertex_values: (n,) values of the attribute that was asked for, else none.
+    mesh face, -1 if there are no slots. vertex_values: (n,) values of the requested attribute, else none.
     """
 
     materials: tuple = ()
@@ -34,8 +34,11 @@ class FaceAttributes:
 
 @dataclass(frozen=True, eq=False)
 class SplineReading:
-    """patches: of the splines that show a surface, each facing as Blender's faces do. stored: by how much float32
-    may have moved their points. findings: what was decided."""
+    """Patches of a surface object.
+
+    patches: of the splines that show a surface, each facing as Blender's faces do. stored: largest effect of float32 on
+    their points. findings: the decisions.
+    """
 
     patches: tuple[Patch, ...]
     stored: float
@@ -44,14 +47,12 @@ class SplineReading:
 
 @dataclass
 class Part:
-    """One surface and the places where it stands.
+    """One surface and its places.
 
-    matrices: (k, 4, 4) float64, k >= 1, world from the surface's coordinates, Blender units, column
-    vectors.
-    attributes: what its faces and vertices carry, where that was asked for.
-    source_object_name: the name of the object whose surface it is, or whose nodes made it; empty for the one that was
-    read.
-    splines: where `surface` is but the display mesh of B-spline patches, those.
+    matrices: (k, 4, 4) float64, k >= 1, world from the surface's coordinates, Blender units, column vectors.
+    attributes: of its faces and vertices, if requested.
+    source_object_name: the name of the object with this surface, or with its nodes; empty for the object that was read.
+    splines: B-spline patches, if `surface` is but their display mesh.
     """
 
     surface: Surface
@@ -70,10 +71,9 @@ class Reading:
     rotation: (3, 3), orthonormal to float64, and location: (3,), Blender units, as
         `matrix_world.decompose()` gives them: the object frame.
     curves: of a curve object that is read as lines, in its own coordinates; else none.
-    singular_instance_count: how many of the places have a matrix that flattens the surface, so that it encloses
-    nothing.
-    all_singular: all of them have. instance_count: how many surfaces stand where, instances counted each.
-    findings: one for each decision that was taken.
+    singular_instance_count: number of places with a matrix that flattens the surface, so that it encloses nothing.
+    all_singular: all places have such a matrix. instance_count: number of places of all surfaces.
+    findings: one for each decision.
     """
 
     name: str
@@ -87,12 +87,12 @@ class Reading:
 
     @property
     def has_patches(self) -> bool:
-        """Whether some of it are B-spline patches."""
+        """True if any part of it is B-spline patches."""
         return any([part.splines is not None for part in self.parts])
 
     @property
     def is_singular(self) -> bool:
-        """Whether the object's own matrix flattens."""
+        """True if the object's own matrix flattens."""
         return bool(are_singular(self.matrix[None, :3, :3])[0])
 
     @property
@@ -108,25 +108,26 @@ class Reading:
         return sum([len(part.matrices) for part in self.parts])
 
     def join(self) -> Surface:
-        """All parts, wherever they stand, as one surface of triangles in the world, float64."""
+        """Return all parts, in their places, as one surface of triangles in the world, float64."""
         return join_surfaces(
             [part.surface.transform(matrix[:3, :3], matrix[:3, 3]) for part in self.parts for matrix in part.matrices]
         )
 
 
 def attribute_to_source(result: Finding, source: str, whole: str) -> Finding:
-    """A finding about a surface of the object `whole`: with the name of the surface's own object where that is another
-    one."""
+    """Return a finding about a surface of the object `whole`: with the name of the surface's own object, if
+    different.
+    """
     return result if source in ("", whole) else result.of_sources([source])
 
 
 def to_si(matrices: NDArray, unit: float) -> NDArray[np.float64]:
-    """(k, 4, 4) world matrices to SI. unit: meters per Blender unit."""
+    """Return (k, 4, 4) world matrices in SI units. unit: meters per Blender unit."""
     scaled = np.array(matrices, np.float64)
     scaled[:, :3] *= unit
     return scaled
 
 
 def float64_matrix(matrix) -> NDArray[np.float64]:
-    """(4, 4) float64 of a `mathutils.Matrix`, to the bit."""
+    """Return a `mathutils.Matrix` as a (4, 4) float64 array, to the bit."""
     return np.array([row[:] for row in matrix], np.float64)

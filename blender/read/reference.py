@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What inertia is referred to, as the scene has it now: a point and axes, SI."""
+"""The current reference of inertia in the scene: a point and axes, SI."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ Point = tuple[float, ...]
 
 @dataclass(frozen=True)
 class ReferenceChoice:
-    """Which reference is meant, wherever it is.
+    """Choice of a reference, independent of its place.
 
     Attributes
     ----------
@@ -41,7 +41,7 @@ class ReferenceChoice:
 
     @classmethod
     def of(cls, settings: PropertyGroup) -> ReferenceChoice:
-        """Return what the scene's settings choose."""
+        """Return the choice of the scene's settings."""
         if settings.about == "OBJECT":
             return cls("OBJECT", settings.object.name if settings.object is not None else "")
         if settings.about == "AXIS":
@@ -60,7 +60,7 @@ class ReferenceChoice:
 
     @classmethod
     def parse(cls, text: object) -> ReferenceChoice | None:
-        """Return what `text` has written; None for anything else."""
+        """Return the choice written by `text`; None for anything else."""
         try:
             entry = json.loads(str(text))
             points = tuple(tuple(map(float, point)) for point in entry.get("points", ()))
@@ -74,7 +74,7 @@ class ReferenceChoice:
         Parameters
         ----------
         owner : Object or Collection
-            What was measured.
+            The measured object or collection.
         scene : Scene
         center : (3,) array
             Its center of mass, m.
@@ -82,7 +82,7 @@ class ReferenceChoice:
         Raises
         ------
         QueryError
-            Where there is no such frame.
+            If there is no such frame.
         """
         unit = shortest_decimal(scene.unit_settings.scale_length)
         if self.about == "CENTER":

@@ -31,7 +31,7 @@ class RestBones:
     names : tuple of str
         Of all bones.
     deforming : tuple of str
-        Of those that deform meshes, which are numbered in this order.
+        Of the bones that deform meshes, numbered in this order.
     segments : (b, 2, 3) array
         Head and tail of these in the world, Blender units.
     frames : mapping
@@ -100,13 +100,13 @@ def skinned_objects(armature: Object, objects: Iterable[Object]) -> list[Object]
 
 
 def hanging_objects(armature: Object, skinned: Iterable[Object]) -> list[tuple[Object, str]]:
-    """Return the measurable objects that are parented to bones, with what is parented to these, and the bone of each.
+    """Return the measurable objects parented to bones, with their children, and the bone of each.
 
     Parameters
     ----------
     armature : Object
     skinned : iterable of Object
-        Which are no such objects, wherever they are parented.
+        Objects to skip, under any parent.
     """
     skinned, found = set(skinned), []
     for child in sorted(armature.children, key=lambda obj: obj.name):
@@ -118,8 +118,8 @@ def hanging_objects(armature: Object, skinned: Iterable[Object]) -> list[tuple[O
 
 
 def vertex_weights(obj: Object, part: Part, bones: RestBones, depsgraph: Depsgraph) -> VertexWeights:
-    """Return the weights of the deforming bones on the vertices of an object's own surface; none where it is another
-    object's, or has other vertices than the evaluated mesh.
+    """Return the weights of the deforming bones on the vertices of an object's own surface; none for another object's
+    surface, or if its vertices are not the evaluated mesh's.
 
     Vertices give their groups one by one only, in 0.3 s for 100,000.
     """

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What makes a measured object a link of a robot: where it stands, and what it hangs on."""
+"""A measured object as a link of a robot: its place, and its parents."""
 
 from __future__ import annotations
 
@@ -32,17 +32,17 @@ def link_entry(
     measurement : Measurement
         Its own; the link's frame is the object's.
     parents : sequence of str
-        The records of what it hangs on, the nearest first.
+        The records of its parents, the nearest first.
     scale : (3,) sequence
         Of the object's own geometry.
     free : sequence of mapping
-        How it may move in its parent: "kind", "axis" (its own), "lower" and "upper" of each degree of freedom, None for
+        Its motion in its parent: "kind", "axis" (its own), "lower" and "upper" of each degree of freedom, None for
         no limit.
 
     Returns
     -------
     dict
-        "position" (m) and "rotation" (w, x, y, z) in the world, "scale", "parents"; "free" where it may move.
+        "position" (m) and "rotation" (w, x, y, z) in the world, "scale", "parents"; "free" if it may move.
     """
     return {
         "position": measurement.location.tolist(),
@@ -67,8 +67,7 @@ def object_entry(
 def link_surface(
     objects: Iterable[bpy.types.Object], depsgraph: bpy.types.Depsgraph, pose: Pose, unit: float
 ) -> Surface | None:
-    """Return what the objects of a link show as triangles in meters, in the link's frame; None where they show no
-    faces.
+    """Return the surfaces of a link's objects as triangles in meters, in the link's frame; None if they show no faces.
 
     Parameters
     ----------
@@ -94,7 +93,7 @@ def link_surface(
 
 
 def sheared_objects(objects: Iterable[bpy.types.Object]) -> list[str]:
-    """Return the names of objects whose matrix does more than move, turn, scale and mirror."""
+    """Return the names of objects with a matrix that does more than move, turn, scale and mirror."""
     located = list(objects)
     if not located:
         return []
@@ -138,15 +137,15 @@ def bone_freedom(bone: bpy.types.PoseBone) -> list[dict[str, Any]]:
 
 
 def bone_parents(bone: bpy.types.PoseBone, labels: Mapping[str, str]) -> list[str]:
-    """Return the labels of the bones that one hangs on, the nearest first. labels: by name, of those that are links."""
+    """Return the labels of a bone's parents, the nearest first. labels: by name, for bones that are links."""
     return [labels[above.name] for above in bone.parent_recursive if above.name in labels]
 
 
-USD_ROOT = "root"  # what Blender's exporter puts everything under
+USD_ROOT = "root"  # Blender's exporter puts everything under it
 
 
 def usd_path(obj: bpy.types.Object, identifier: Callable[[str], str]) -> list[str]:
-    """Return the names of the prims from the top to an object's, in what Blender's exporter writes.
+    """Return the names of the prims from the top to an object's, as Blender's exporter writes them.
 
     Parameters
     ----------

@@ -1,11 +1,11 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a plane section is measured from: selected faces, an object's faces, or the outlines of 2-D curves and text.
+"""The inputs of a plane section: selected faces, an object's faces, or the outlines of 2-D curves and text.
 
 Curves and text are read by their outlines, not by their fill: Blender fills outlines that touch, coincide or cross
 wrongly and without a word (4.5 and 5.2 alike: two squares side by side, one of them lower, lose the larger one). The
-outlines are those of a copy of the curve whose fill is off, which Blender turns into edges. Only a text on a curve is
-read by its fill.
+outlines come from a copy of the curve without fill, which Blender turns into edges. Only a text on a curve is read by
+its fill.
 """
 
 from __future__ import annotations
@@ -51,11 +51,11 @@ ZERO_SCALE = 1e-17  # a scale that `decompose()` takes for zero
 class SectionReading:
     """Faces or outlines as arrays, in the world, Blender units.
 
-    description: of what object or part, in words. points: (n, 3). triangles: (m, 3), facing as drawn, and faces: (m,)
+    description: of the object or part, in words. points: (n, 3). triangles: (m, 3), facing as drawn, and faces: (m,)
     the face of each; for outlines fans that give the plane, with loops: the points of each closed outline, in order.
-    facing: (3,) where the plane has to look, None where the triangles decide. error: how far float32 storage may have
-    moved a point. drawn_area: the area that Blender fills, of outlines in a plane. rotation, location: the object
-    frame, or where a zero scale leaves `decompose()` without a rotation, the right-angled axes that are left.
+    facing: (3,) front of the plane, None if the triangles decide. error: largest effect of float32 storage on a point.
+    drawn_area: the area that Blender fills, of outlines in a plane. rotation, location: the object frame, or, if a zero
+    scale leaves `decompose()` without a rotation, the right-angled axes that are left.
     """
 
     name: str
@@ -73,9 +73,9 @@ class SectionReading:
 
 
 def read_section(obj, depsgraph, *, selected: bool = True, resolution: int | None = None) -> SectionReading:
-    """Read one object: in Edit Mode of a mesh its selected faces as they are now, else what the viewport shows of it.
+    """Read one object: in Edit Mode of a mesh its currently selected faces, else its surface in the viewport.
 
-    selected: whether only the selected faces in Edit Mode. resolution: of curves and text, in the place of their own.
+    selected: read only the selected faces in Edit Mode. resolution: of curves and text, in the place of their own.
     Raises ReadError.
     """
     obj = obj.original
@@ -105,10 +105,10 @@ def read_section(obj, depsgraph, *, selected: bool = True, resolution: int | Non
 
 
 def read_outline_curves(obj, depsgraph) -> tuple[list[Curve], NDArray[np.float64]]:
-    """The outlines of a flat curve or text as curves in its own coordinates, and its `matrix_world`. It has no
+    """Return the outlines of a flat curve or text as curves in its own coordinates, and its `matrix_world`. It has no
     modifiers, and follows no curve.
 
-    Raises ReadError where there are none.
+    Raises ReadError if there are none.
     """
     obj = obj.original
     place = locate(obj, depsgraph)
@@ -139,7 +139,7 @@ def _selected_faces(obj, depsgraph) -> SectionReading:
     triangles, faces = surface.all_triangles()
     inside = chosen[faces]
     triangles = triangles[inside]
-    _require_finite(obj, surface.points)  # of all, which say how far float32 may have moved any
+    _require_finite(obj, surface.points)  # all points bound the effect of float32 on any
     acting = [modifier.name for modifier in obj.modifiers if modifier.show_viewport]
     findings = [finding(SECTION_WITHOUT_MODIFIERS, modifiers=acting)] if acting else []
     count = int(np.count_nonzero(chosen))
@@ -226,7 +226,9 @@ def _require_flat_outlines(obj) -> None:
 
 
 def _spline_outlines(obj, resolution: int | None) -> tuple[NDArray[np.float32], list[NDArray[np.intp]], int]:
-    """(n, 3) the points of the object's splines, those of each closed one, and how many are open."""
+    """Return (n, 3) the points of the object's splines, the indices of each closed one's, and the number of open
+    ones.
+    """
     data = obj.data.copy()
     data.dimensions, data.fill_mode = "2D", "NONE"
     if resolution is not None:
@@ -265,7 +267,7 @@ def _fill_area(obj, depsgraph) -> Surface | None:
 
 
 def _resolution(obj) -> str:
-    """The resolution of what is curved, or the range of them; "" where all is straight."""
+    """Return the resolution of curved splines, or the range of them; "" if all are straight."""
     if obj.type == "FONT":
         return str(obj.data.resolution_u)
     used = sorted({spline.resolution_u for spline in obj.data.splines if spline.type != "POLY"})

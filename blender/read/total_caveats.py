@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is no part of a body, or may be none, and would count in a total: cutters and helpers are objects too."""
+"""Objects that are no part of a body, or may be none, and would count in a total, such as cutters and helpers."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ from .findings import BOOLEAN_OPERAND, NOT_RENDERED, TOTAL_BOOLEAN_OPERANDS, TOT
 
 
 def left_out_reasons(scene: Scene, view_layer: ViewLayer) -> dict[Object, Finding]:
-    """The scene's objects that are no parts of what it shows, each with the reason: operands of Boolean modifiers that
-    are drawn as mere wire or bounds, and what no view layer renders.
+    """Return the scene's objects that are no parts of the displayed body, each with the reason: operands of Boolean
+    modifiers that are drawn as mere wire or bounds, and objects that no view layer renders.
     """
     # One that is switched off renders nothing; the open one is all there is where all are.
     layers = [layer for layer in scene.view_layers if layer.use] or [view_layer]
@@ -31,12 +31,12 @@ def left_out_reasons(scene: Scene, view_layer: ViewLayer) -> dict[Object, Findin
 
 
 def boolean_operands(scene: Scene) -> dict[Object, Object]:
-    """What the Boolean modifiers of the scene's objects work with, each with the first of these by name."""
+    """Return the operands of Boolean modifiers of the scene's objects, each with the first user by name."""
     return operands_of(scene.objects)
 
 
 def operands_of(objects: Iterable[Object]) -> dict[Object, Object]:
-    """What the Boolean modifiers of some objects work with, each with the first of these by name."""
+    """Return the operands of Boolean modifiers of some objects, each with the first user by name."""
     operands: dict[Object, Object] = {}
     for user in sorted(objects, key=lambda obj: obj.name):
         for operand in _operands(user):
@@ -45,7 +45,7 @@ def operands_of(objects: Iterable[Object]) -> dict[Object, Object]:
 
 
 def total_caveats(objects: Collection[Object], view_layer: ViewLayer) -> list[Finding]:
-    """A finding for each reason why some of the objects may be no parts of the body that they are summed to."""
+    """Return a finding for each reason why some of the objects may be no parts of the body that they are summed to."""
     if len(objects) < 2:
         return []
     objects = sorted(objects, key=lambda obj: obj.name)
@@ -72,14 +72,14 @@ def total_caveats(objects: Collection[Object], view_layer: ViewLayer) -> list[Fi
 
 
 def open_body_caveats(methods: Iterable[tuple[str, Method | None]]) -> list[Finding]:
-    """The same of bodies, given as names and methods, whose own numbers depend on a reference point."""
+    """Return caveats about open bodies, given as names and methods: their own numbers depend on a reference point."""
     methods = list(methods)
     names = sorted(name for name, method in methods if method is not None and method.verdict == Verdict.OPEN)
     return [finding(TOTAL_OF_OPEN_OBJECTS, objects=names)] if names and len(methods) > 1 else []
 
 
 def _operands(obj: Object) -> Iterator[Object]:
-    """The objects that the Boolean modifiers of another one work with."""
+    """Yield the objects that the Boolean modifiers of another one work with."""
     for modifier in obj.modifiers:
         if modifier.type != "BOOLEAN" or not (modifier.show_viewport or modifier.show_render):
             continue
@@ -90,7 +90,7 @@ def _operands(obj: Object) -> Iterator[Object]:
 
 
 def _rendered(layer: LayerCollection) -> Iterator[Object]:
-    """The objects of the collections that are rendered. What is excluded may hold a collection that is not."""
+    """Yield the objects of the collections that are rendered. An excluded collection may hold others that are not."""
     if not layer.collection.hide_render:
         if not layer.exclude:
             yield from layer.collection.objects

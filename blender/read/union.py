@@ -18,7 +18,7 @@ from .mesh import mesh_surface
 
 
 def union_surface(surface: Surface) -> Surface:
-    """The surface around the union of all shells of `surface`, in float32 coordinates as Blender computes it.
+    """Return the surface around the union of all shells of `surface`, in float32 coordinates as Blender computes it.
 
     The shells are taken about the middle of their bounding box and at about unit size, so that nothing is lost far from
     the origin, and no threshold of Blender's meets a tiny part.

@@ -1,12 +1,11 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What can be read, and whether Blender has evaluated it.
+"""Checks that an object can be read and that Blender has evaluated it.
 
-Blender does not evaluate what is disabled in viewports, excluded from the view layer or in another
-scene, and then returns the object without its modifiers and at its last place as if nothing were
-wrong. `evaluated_geometry()` is the one test: it refuses such an object, also where only the
-object's transform was evaluated for another's sake. What is merely hidden (the eye), or is
-evaluated because something shown needs it, is read rightly and said.
+Blender does not evaluate objects that are disabled in viewports, excluded from the view layer or in another scene, and
+then returns the object without its modifiers and at its last place as if nothing were wrong. `evaluated_geometry()` is
+the one test: it refuses such an object, also if only the object's transform was evaluated for another's sake. Objects
+that are merely hidden (the eye), or evaluated because something shown needs them, are read rightly and reported.
 """
 
 from __future__ import annotations
@@ -47,21 +46,22 @@ SURFACE_TYPES = {"MESH", "CURVE", "SURFACE", "META", "FONT"}
 
 
 def measurable(obj) -> bool:
-    """Whether the object is of a kind that may show a surface: cheap enough for a poll, so it
-    promises nothing more."""
+    """Return whether the object is of a kind that may show a surface: cheap enough for a poll, so it promises
+    nothing more.
+    """
     if shows_collection(obj):
         return True
     if obj.type == "EMPTY":
         return is_point_mass(obj)
     if obj.type == "CURVE":
-        # As a wire it needs none, and as a shell what closed curves bound is one.
+        # A wire needs no surface, and closed curves bound one for a shell.
         settings = getattr(obj, "body_moments", None)
         return _curve_has_surface(obj) or (settings is not None and settings.kind != "SOLID")
     return obj.type in SURFACE_TYPES or obj.type == "VOLUME" or _has_nodes(obj)
 
 
 def shows_flat_region(obj) -> bool:
-    """Whether all that a curve object may show is the flat region that its curves bound."""
+    """Return whether a curve object can show nothing but the flat region that its curves bound."""
     curve = obj.data
     return not (
         curve.extrude
@@ -73,12 +73,10 @@ def shows_flat_region(obj) -> bool:
 
 
 def measurable_objects(view_layer) -> list:
-    """The measurable objects of a view layer by name, hidden ones included: reading them reports what
-    can be done.
+    """Return the measurable objects of a view layer by name, hidden ones included: reading reports the possible remedy.
 
-    Without those that only others show, and so are in their records: children of objects that
-    instance on vertices or faces, hidden members of instanced collections, and metaballs but the
-    one that holds its family's polygons.
+    Left out are objects in the records of others: children of objects that instance on vertices or faces, hidden
+    members of instanced collections, and metaballs but the one that holds its family's polygons.
     """
     # A view layer that has not been updated knows neither its new objects nor what of them is
     # shown.
@@ -95,12 +93,12 @@ def measurable_objects(view_layer) -> list:
 
 
 def instanced_by_parent(obj) -> bool:
-    """Whether the viewport shows the object only as the instances of its parent."""
+    """Return whether the viewport shows the object only as the instances of its parent."""
     return obj.parent is not None and obj.parent.instance_type in {"VERTS", "FACES"}
 
 
 def metaball_families(view_layer) -> list[list]:
-    """The metaball objects by family, in each the one first that holds the polygons of all.
+    """Return the metaball objects by family, in each the one first that holds the polygons of all.
 
     A family shares the name before its number, and the lowest number holds
     (BKE_mball_basis_find)."""
@@ -122,10 +120,9 @@ def require_kind(obj) -> None:
 
 
 def evaluated_geometry(obj, depsgraph, reader):
-    """The object's `GeometrySet`, which owns the meshes that it returns.
+    """Return the object's `GeometrySet`, which owns the meshes that it returns.
 
-    Raises ReadError about `reader`, the object for which `obj` is read, where Blender has not
-    evaluated `obj` in full.
+    Raises ReadError about `reader`, the object for which `obj` is read, if Blender has not evaluated `obj` in full.
     """
     reason = _sculpt_mode_reason(obj) if obj.mode == "SCULPT" else None
     if obj.type in {"CURVE", "SURFACE"} and not _shape_keys_fit(obj.data):
@@ -141,7 +138,7 @@ def evaluated_geometry(obj, depsgraph, reader):
 
 
 def _shape_keys_fit(curve) -> bool:
-    """Whether a curve's shape keys have as many points as its splines.
+    """Return whether a curve's shape keys have as many points as its splines.
 
     Join adds splines and not to the keys: Blender then shows points from past their end.
     """
@@ -152,12 +149,12 @@ def _shape_keys_fit(curve) -> bool:
 
 
 def why_not_evaluated(obj, depsgraph) -> Finding:
-    """Why Blender has not evaluated the object."""
+    """Return the reason why Blender has not evaluated the object."""
     return hidden_reason(obj, depsgraph) or finding(NOT_EVALUATED)
 
 
 def _sculpt_mode_reason(obj) -> Finding | None:
-    """Why what the viewport shows of an object in Sculpt Mode is not its evaluated mesh; None where it is."""
+    """Return the reason why the viewport shows something else than the evaluated mesh in Sculpt Mode, or None."""
     if obj.use_dynamic_topology_sculpting:
         return finding(DYNAMIC_TOPOLOGY)
     for modifier in obj.modifiers:
@@ -167,7 +164,7 @@ def _sculpt_mode_reason(obj) -> Finding | None:
 
 
 def hidden_reason(obj, depsgraph) -> Finding | None:
-    """Why the view layer does not show the object; None if it does or has yet to be updated."""
+    """Return the reason why the view layer does not show the object; None if it does or has yet to be updated."""
     if obj.visible_get(view_layer=depsgraph.view_layer):
         return None
     homes = set(obj.users_collection)
@@ -196,12 +193,12 @@ def hidden_reason(obj, depsgraph) -> Finding | None:
 
 
 def edit_modifiers(obj) -> list:
-    """The modifiers that act while the object's mesh is in Edit Mode."""
+    """Return the modifiers that act while the object's mesh is in Edit Mode."""
     return [modifier for modifier in obj.modifiers if modifier.show_viewport and modifier.show_in_editmode]
 
 
 def blends_keys(obj) -> bool:
-    """Whether Edit Mode shows the object's mesh with all of its shape keys, not the one alone that is edited."""
+    """Return whether Edit Mode shows the object's mesh with all of its shape keys, not just the edited one."""
     return obj.data.shape_keys is not None and obj.use_shape_key_edit_mode
 
 
@@ -222,7 +219,7 @@ def _split_name(name: str) -> tuple[str, int]:
 
 
 def _branches(layer, path: tuple = ()) -> Iterator[tuple]:
-    """Every layer collection with those above it, the outermost first."""
+    """Yield every layer collection with its parents, the outermost first."""
     path += (layer,)
     yield path
     for child in layer.children:

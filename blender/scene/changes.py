@@ -1,10 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Changes of the scene that have to see what comes of them, many at a time.
+"""Changes of the scene that have to see their own results, many at a time.
 
 To evaluate the scene costs as much for one changed object as for a thousand. So a change is a generator: it yields
-wherever it needs the scene evaluated, and gets the evaluated depsgraph back. Changes that have nothing to do with each
-other go forward side by side, with one evaluation for all of them.
+whenever it needs the scene evaluated, and gets the evaluated depsgraph back. Unrelated changes go forward side by side,
+with one evaluation for all of them.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from bpy.types import ID, Context, Depsgraph, Object
 
 Planned = TypeVar("Planned")
 SceneChange = Generator[None, Depsgraph, None]  # yields once before it does anything
-# What objects refer to each other by: a curve by its bevel, shape keys by drivers, particles by what they show.
+# Types through which objects refer to each other: a curve by its bevel, shape keys by drivers, particles by objects.
 LINKING_TYPES = {"ARMATURE", "COLLECTION", "CURVE", "KEY", "LATTICE", "MESH", "META", "NODETREE", "PARTICLE", "TEXTURE"}
 
 
@@ -36,7 +36,7 @@ def run_change(context: Context, change: SceneChange) -> None:
 
 
 def run_together(changes: Iterable[SceneChange]) -> SceneChange:
-    """Several changes as one."""
+    """Run several changes as one."""
     waiting = list(changes)
     try:
         for change in waiting:
@@ -45,7 +45,7 @@ def run_together(changes: Iterable[SceneChange]) -> SceneChange:
             depsgraph = yield
             waiting = [change for change in waiting if _advance(change, depsgraph)]
     finally:
-        for change in waiting:  # where one fails, the others put back what they have changed
+        for change in waiting:  # if one fails, the others put back their changes
             change.close()
 
 
@@ -58,8 +58,9 @@ def _advance(change: SceneChange, depsgraph: Depsgraph) -> bool:
 
 
 def independent_rounds(changes: Iterable[tuple[Planned, set[ID]]]) -> list[list[Planned]]:
-    """Changes, each with what it may touch, in the rounds in which they can be made: after all earlier ones that touch
-    the same, beside others."""
+    """Return changes, each with the data it may touch, in rounds: after all earlier ones that touch the same data,
+    beside others.
+    """
     last: dict[ID, int] = {}
     by_round: dict[int, list[Planned]] = {}
     for change, touched in changes:
@@ -70,8 +71,9 @@ def independent_rounds(changes: Iterable[tuple[Planned, set[ID]]]) -> list[list[
 
 
 def dependents(objects: Iterable[Object]) -> dict[Object, set[Object]]:
-    """For each object itself and all that refer to it, directly or through others: what may look different while it
-    is being changed."""
+    """Return for each object itself and all that refer to it, directly or through others: they may look different
+    during its change.
+    """
     users = users_of(objects, {"OBJECT", *LINKING_TYPES})
 
     def reached(obj: Object) -> set[Object]:
@@ -85,7 +87,7 @@ def dependents(objects: Iterable[Object]) -> dict[Object, set[Object]]:
 
 
 def users_of(objects: Iterable[Object], through: set[str]) -> dict[ID, set[ID]]:
-    """What refers to the objects, and what refers to that as far as it is of the kinds `through`, and so on."""
+    """Return the users of the objects, their users as far as they are of the kinds `through`, and so on."""
     users: dict[ID, set[ID]] = {}
     new: set[ID] = set(objects)
     while new:

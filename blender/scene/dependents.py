@@ -1,10 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What must not move when an object gets another origin and other axes: its own shape, its
-children, and whatever else refers to it.
+"""Data that must not move when an object gets another origin and other axes: its own shape, its
+children, and all other users of it.
 
 Surfaces are compared as they are evaluated, point by point in the world, because no list of
-modifiers could say what each of them does with an origin.
+modifiers could say how each of them depends on an origin.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from .changes import LINKING_TYPES, users_of
 from .findings import CHILD_LINKED, CHILD_NOT_HELD, DEPENDENT_CURVE_CHANGES, DEPENDENT_SHAPE_CHANGES, FOLLOWER_MOVED
 from .transforms import FLOAT32, Matrix4, world
 
-# Of the size: what rounding in a chain of modifiers may move, and far less than anyone can see.
+# Relative to the size: more than the rounding in a chain of modifiers, and far less than anyone can see.
 SAME_SHAPE_RTOL = 1e-5
 # Points compared in each of many instances; the first instance is compared point by point.
 SAMPLES = 64
@@ -31,7 +31,7 @@ Shape = list[tuple[NDArray[np.float64], NDArray[np.float64]]]
 
 
 def referring(objects: set[Object]) -> dict[Object, set[Object]]:
-    """For each object the other objects that refer to it, directly or through data and collections."""
+    """Return for each object its users, directly or through data and collections."""
     users = users_of(objects, LINKING_TYPES)
 
     def through(data: ID, visited: set[ID]) -> set[Object]:
@@ -48,8 +48,9 @@ def referring(objects: set[Object]) -> dict[Object, set[Object]]:
 
 
 def shape(obj: Object, depsgraph: Depsgraph) -> Shape | None:
-    """The evaluated surfaces of an object in the world: for each part, all points of the first
-    place where it stands and some points of all others. None where there is nothing to see."""
+    """Return the evaluated surfaces of an object in the world: for each part, all points of the first place and some
+    points of all others. None if there is nothing to see.
+    """
     try:
         reading = read_object(obj, depsgraph, edges=False)
     except ReadError:
@@ -66,7 +67,7 @@ def shape(obj: Object, depsgraph: Depsgraph) -> Shape | None:
 
 
 def transform_shape(before: Shape | None, was: Matrix4, now: Matrix4) -> Shape | None:
-    """The shape as it is where its object went with all of it. was, now: (4, 4) the object's matrices."""
+    """Return the shape after a rigid move with all of its object. was, now: (4, 4) the object's matrices."""
     way = now @ np.linalg.pinv(was)
     if before is None:
         return None
@@ -75,7 +76,7 @@ def transform_shape(before: Shape | None, was: Matrix4, now: Matrix4) -> Shape |
 
 
 def same_shape(before: Shape | None, after: Shape | None, size: float) -> bool:
-    """Whether two shapes are the same, to what rounding can do to a body of this size."""
+    """Return whether two shapes are the same, to rounding in a body of this size."""
     if before is None or after is None:
         return before is None and after is None
     pairs = [pair for first, second in zip(before, after) for pair in zip(first, second)]
@@ -87,8 +88,9 @@ def same_shape(before: Shape | None, after: Shape | None, size: float) -> bool:
 
 
 def _sample_instances(shape: Shape) -> dict[int, NDArray[np.float64]]:
-    """Some points of each place, whichever part it is of, in the order of their centers along a line: for each number
-    of points (k, few, 3)."""
+    """Return a few points of each place, of any part, in the order of their centers along a line: for each number of
+    points (k, few, 3).
+    """
     by_count: dict[int, list[NDArray[np.float64]]] = {}
     for first, rest in shape:
         sample_index = np.linspace(0, len(first) - 1, rest.shape[1]).astype(int)
@@ -150,8 +152,8 @@ class DependentsGuard:
         }
 
     def compensate(self) -> None:
-        """Give children parent inverses, and Child Of constraints inverses, that keep them where
-        they were, now that the changed objects' matrices are evaluated.
+        """Set parent inverses of children, and inverses of Child Of constraints, that keep them in their old places,
+        now that the changed objects' matrices are evaluated.
         """
         held = {parent: np.linalg.solve(world(parent), was) for parent, was in self.changed.items()}
         for child, inverse in self.children.items():
@@ -160,7 +162,7 @@ class DependentsGuard:
             constraint.inverse_matrix = Matrix(held[constraint.target] @ inverse)
 
     def verify(self, depsgraph: Depsgraph, size: float) -> None:
-        """EditRefusedError where a child or another object's shape moved; followers by constraint are only noted."""
+        """Raise EditRefusedError if a child or another object's shape moved; followers by constraint are only noted."""
         for dependent, place in self.places.items():
             moved = self._moved(place, world(dependent), size)
             if moved and dependent in self.children:
@@ -191,7 +193,7 @@ class DependentsGuard:
 
 
 def _has_derived_shape(obj: Object) -> bool:
-    """Whether its shape is more than its own data, and so may come from other objects."""
+    """Return whether its shape is more than its own data, and so may come from other objects."""
     return bool(obj.modifiers or obj.type in {"CURVE", "FONT"} or getattr(obj.data, "shape_keys", None))
 
 

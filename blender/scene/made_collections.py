@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Collections of what is made for an armature. What was made before is replaced; what else is in them stays."""
+"""Collections of objects made for an armature. Objects made before are replaced; all else in them stays."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ from bpy.types import Collection, Context, Object
 
 
 class MadeCollection:
-    """The collection of a scene for an armature, with nothing made in it yet, where the view layer has it.
+    """The collection of a scene for an armature, with nothing made in it yet, in the view layer.
 
-    key: ID property of it and of what is made in it: the armature object.
+    key: ID property of it and of the objects made in it: the armature object.
     """
 
     def __init__(self, context: Context, armature: Object, key: str, name: str):
@@ -38,7 +38,7 @@ class MadeCollection:
 
 
 def _include(context: Context, collection: Collection) -> None:
-    """Blender adds rigid bodies and joints to what is in the view layer alone."""
+    """Include a collection in the view layer: Blender adds rigid bodies and joints to objects there alone."""
     layers, found = [context.view_layer.layer_collection], []
     for layer in layers:
         layers += layer.children

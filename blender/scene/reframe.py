@@ -1,19 +1,18 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Giving an object another origin and other axes while all that can be seen stays where it is.
+"""Giving an object another origin and other axes while all that can be seen stays in place.
 
 An object's matrix goes from W to W', its data from p to D p with D = W'⁻¹ W, its children's parent
 inverses from P to W'⁻¹ W P. W' is read back after Blender has rounded it to float32, so that D
 undoes the very matrix that is used, and D is applied in float64 with one rounding.
 
 Nothing is assumed of modifiers: the change is first made on a copy of the data, the evaluated
-surfaces in the world are compared with those of before, and only where they are the same the change
-is kept. Otherwise all is put back. Other users of the data keep it as it is; the objects that are
+surfaces in the world are compared with the earlier ones, and the change is kept only if they are the
+same. Otherwise all is put back. Other users of the data keep it as it is; the objects that are
 changed get a copy of their own, shared among them.
 
-Meshes that one object alone shows as they are need no trial: see `reframe_meshes`. Other
-objects that have nothing to do with each other are changed side by side. One that is refused so is tried again alone,
-in case another's change was the reason.
+Meshes that one object alone shows unmodified need no trial: see `reframe_meshes`. Other unrelated objects are changed
+side by side. One that is refused so is tried again alone, in case another's change was the reason.
 """
 
 from __future__ import annotations
@@ -67,7 +66,7 @@ from .transforms import (
     world,
 )
 
-# What these do does not depend on where an object's origin is, nor on its axes.
+# Their effect does not depend on an object's origin, nor on its axes.
 FRAME_INDEPENDENT_MODIFIERS = {
     "ARMATURE",
     "BOOLEAN",
@@ -87,7 +86,7 @@ FRAME_INDEPENDENT_MODIFIERS = {
 
 
 def check(obj: Object) -> None:
-    """EditRefusedError where the object's data cannot be re-expressed at all."""
+    """Raise EditRefusedError if the object's data cannot be re-expressed at all."""
     if obj.library is not None or (obj.data is not None and obj.data.library is not None):
         raise EditRefusedError(LINKED_OBJECT_DATA)
     if obj.data is None:
@@ -114,7 +113,7 @@ def check(obj: Object) -> None:
 def reframe(
     context: Context, plans: list[Plan], progress: Callable[[float], None] = lambda done: None
 ) -> tuple[list[Plan], list[tuple[Object, Finding]]]:
-    """Carry out the plans; those that were, and for each other object why it was left as it was."""
+    """Carry out the plans; return the successful ones, and the reason for each object that was left as it was."""
     objects = {plan.obj for plan in plans}
     users, touched = (referring(objects), dependents(objects)) if plans else ({}, {})
     refused: dict[Object, Finding] = {}
@@ -149,8 +148,9 @@ def reframe(
 
 
 def _groups(plans: Iterable[Plan]) -> list[list[Plan]]:
-    """Plans whose objects share data and want the same change of it; never a parent and its child,
-    for the child is placed after its parent.
+    """Return plans in groups that share data and want the same change of it.
+
+    A group never has a parent and its child, for the child is placed after its parent.
     """
     groups: list[list[Plan]] = []
     sharing: dict[ID, list[tuple[Matrix4, list[Plan]]]] = {}
@@ -221,7 +221,7 @@ def _reframe_group(group: list[Plan], users: dict[Object, set[Object]]) -> Scene
 
 
 def check_movable(obj: Object) -> None:
-    """EditRefusedError where the object cannot be moved as a whole and stay the body that it is."""
+    """Raise EditRefusedError if the object cannot be moved as a whole with its body unchanged."""
     if obj.library is not None:
         raise EditRefusedError(LINKED_OBJECT)
     if density_anchor(obj) == "world":
@@ -235,7 +235,7 @@ def check_movable(obj: Object) -> None:
 
 
 def move(context: Context, plan: Plan) -> None:
-    """As `set_world_matrix`, as the body that it is, or leave the object where it was."""
+    """Set the world matrix by `set_world_matrix` with the body unchanged, or leave the object in its place."""
     obj, saved = plan.obj, TransformChannels(plan.obj)
     was, before = world(obj), shape(obj, context.evaluated_depsgraph_get())
     try:
@@ -256,8 +256,7 @@ def move(context: Context, plan: Plan) -> None:
 
 
 def set_world_matrix(plan: Plan) -> SceneChange:
-    """Set the channels so that the evaluated matrix becomes the target; EditRefusedError where something else holds
-    it."""
+    """Set the channels so that the evaluated matrix becomes the target; EditRefusedError if something else holds it."""
     yield
     obj = plan.obj
     outer = _parent_matrix(obj)
@@ -265,7 +264,7 @@ def set_world_matrix(plan: Plan) -> SceneChange:
         raise EditRefusedError(PARENT_SCALE_ZERO)
     tolerance = location_tolerance(obj, plan.size) / np.cbrt(abs(np.linalg.det(outer[:3, :3])))
     target = plan.target
-    for _ in range(3):  # what the parents' float32 matrices round is corrected once it is known
+    for _ in range(3):  # rounding of the parents' float32 matrices is corrected once it is known
         local = solve(outer, target)
         set_location(obj, local[:3, 3], tolerance)
         if not plan.move_only:
@@ -285,7 +284,7 @@ def set_world_matrix(plan: Plan) -> SceneChange:
 
 
 def _parent_matrix(obj: Object) -> Matrix4:
-    """(4, 4) what parents multiply the basis with."""
+    """Return (4, 4) the factor of the basis by its parents."""
     if obj.parent is None:
         return np.eye(4)
     if obj.parent_type in {"OBJECT", "ARMATURE", "LATTICE"}:
@@ -300,8 +299,7 @@ def _parent_matrix(obj: Object) -> Matrix4:
 
 
 def transform_data(data: ID, change: Matrix4) -> None:
-    """p → change · p for every control point of the data and its shape keys. EditRefusedError where the data
-    cannot."""
+    """Map every control point of the data and its shape keys, p → change · p. EditRefusedError if the data cannot."""
     if isinstance(data, bpy.types.Mesh):
         _transform_mesh(data, change)
     elif isinstance(data, bpy.types.TextCurve):

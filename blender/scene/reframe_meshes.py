@@ -1,12 +1,11 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Many meshes that get another origin and other axes at once: of objects that show their mesh as it is, without
-modifiers, and to which nothing refers.
+"""Many meshes that get another origin and other axes at once: of objects that show their unmodified mesh and have no
+users.
 
-Where their points come to lie is known, so that no trial is needed. Objects that share a mesh and want the same change
-of it go on sharing; for other changes, and where others use the mesh, too, it is copied. What is not as it should be
-after the objects were moved is put back and left to `reframe`, which looks at each by itself. So is everything where an
-error comes.
+The new places of their points are known, so that no trial is needed. Objects that share a mesh and want the same change
+of it go on sharing; for other changes, and if others use the mesh, too, it is copied. Deviations found after the move
+are put back and left to `reframe`, which looks at each object by itself. So is everything after an error.
 """
 
 from __future__ import annotations
@@ -41,7 +40,7 @@ UNCHANGED = (0.0, 0.0, 0.0), (0.0, 0.0, 0.0), (1.0, 1.0, 1.0)
 
 @dataclass
 class Plan:
-    """What one object is to become.
+    """Plan for one object.
 
     target: (4, 4) the wanted matrix_world. size: of the body, in Blender units. move_only: the axes
         are kept to the bit.
@@ -55,16 +54,15 @@ class Plan:
 
 
 def location_tolerance(obj: Object, size: float) -> float:
-    """How near to a point an origin can be known to be: some float32 steps of every location on
-    the way to the world.
-    """
+    """Return the precision of an origin: some float32 steps of every location on the way to the world."""
     reach = max(np.abs(world(ancestor)[:3, 3]).max() for ancestor in ancestors(obj))
     return 4e-7 * size + 4.0 * FLOAT32 * reach
 
 
 def data_change(was: NDArray, now: NDArray, move_only: bool) -> NDArray[np.float64]:
-    """(..., 4, 4) what points have to be multiplied with so that they stay where they are while their objects' matrices
-    go from `was` to `now`."""
+    """Return (..., 4, 4) the maps of points that keep their places while their objects' matrices go from `was` to
+    `now`.
+    """
     change = np.linalg.solve(now, was)
     if move_only:
         change[..., :3, :3] = np.eye(3)
@@ -75,8 +73,9 @@ def data_change(was: NDArray, now: NDArray, move_only: bool) -> NDArray[np.float
 
 
 def shows_own_mesh(obj: Object, users: dict[Object, set[Object]]) -> bool:
-    """Whether what is seen of an object is its mesh as it is, nothing else has to do with the object, and where it
-    stands is its location, rotation and scale alone, free to change."""
+    """Return whether an object shows just its unmodified mesh, has no users, and stands by its location, rotation and
+    scale alone, free to change.
+    """
     data = obj.data
     return (
         obj.type == "MESH"
@@ -96,7 +95,7 @@ def shows_own_mesh(obj: Object, users: dict[Object, set[Object]]) -> bool:
 
 
 def reframe_own_meshes(context: Context, plans: Sequence[Plan]) -> list[Object]:
-    """Carry out plans for objects of which `shows_own_mesh` holds; those that are done. The others are as they were."""
+    """Carry out plans for objects that pass `shows_own_mesh`; return the finished objects. The others are unchanged."""
     done: list[Object] = []
     for move_only in (True, False):
         some = [plan for plan in plans if plan.move_only == move_only]
@@ -140,7 +139,7 @@ def _reframe_alike(
     off = np.abs(now - targets)
     fits &= off[:, :3, 3].max(axis=1) <= 4e-7 * size + 4.0 * FLOAT32 * np.abs(now[:, :3, 3]).max(axis=1)
     fits &= off[:, :3, :3].max(axis=(1, 2)) <= MAX_SHEAR * np.abs(targets[:, :3, :3]).max(axis=(1, 2))
-    # what rounding may move points by that come to lie far from their origin
+    # Rounding may move points far from their origin by as much.
     boxes = np.array([obj.bound_box for obj in objects]) @ change[:, :3, :3].swapaxes(1, 2) + change[:, None, :3, 3]
     largest = np.abs(now[:, :3, :3]).sum(axis=2).max(axis=1)
     fits &= FLOAT32 * np.abs(boxes).max(axis=(1, 2)) * largest <= SAME_SHAPE_RTOL * size
@@ -175,18 +174,18 @@ def _give_meshes(plans: Sequence[Plan], changes: NDArray, reach: NDArray) -> lis
 
 
 def _alike(changes: NDArray, reach: NDArray, within: Sequence[float]) -> list[list[int]]:
-    """Which of the changes move no point farther apart than is allowed.
+    """Return groups of changes that move no point farther apart than is allowed.
 
-    Each first one is compared with those alone that a sorted sum of the entries does not tell apart: of 10,000 changes
-    that all differ, with none.
+    The first of each is compared only with changes of a similar sorted sum of entries: of 10,000 changes that all
+    differ, with none.
     """
-    limit, weights = np.array(within), np.cos(np.arange(12.0)).reshape(3, 4)  # of entries no larger than 1
+    limit, weights = np.array(within), np.cos(np.arange(12.0)).reshape(3, 4)  # for entries no larger than 1
     weights[:, :3] *= reach.min()
     weights[:, 3] /= 3.0
     sums = np.einsum("nij,ij->n", changes[:, :3], weights)
     order = np.argsort(sums, kind="stable")
     sums_in_order = sums[order]
-    margin = limit + 1e-12 * np.abs(changes[:, :3] * weights).sum(axis=(1, 2)).max()  # what rounding makes of sums
+    margin = limit + 1e-12 * np.abs(changes[:, :3] * weights).sum(axis=(1, 2)).max()  # with the rounding of sums
     starts = np.searchsorted(sums_in_order, sums - margin).tolist()
     ends = np.searchsorted(sums_in_order, sums + margin, side="right").tolist()
     groups: list[list[int]] = []
@@ -210,7 +209,7 @@ def _worlds(objects: Sequence[Object]) -> NDArray[np.float64]:
 
 
 def _set_rotations_and_scales(objects: Sequence[Object], linear: NDArray) -> NDArray[np.bool_]:
-    """Set what makes objects' matrices these, (n, 3, 3); of which of them that is possible."""
+    """Set rotations and scales to matrices (n, 3, 3); return a mask of the possible ones."""
     turns, scales, fits = rotation_and_scale(linear, np.array([obj.scale for obj in objects], np.float64))
     rows_by_mode: dict[str, list[int]] = {}
     for row, obj in enumerate(objects):
@@ -225,7 +224,7 @@ def _set_rotations_and_scales(objects: Sequence[Object], linear: NDArray) -> NDA
 
 
 def _transform_meshes(meshes: Sequence[Mesh], changes: NDArray) -> None:
-    """p → change · p for the points of each, in float64."""
+    """Map the points of each mesh, p → change · p, in float64."""
     flips = np.linalg.det(changes[:, :3, :3]) < 0.0
     counts = [len(mesh.vertices) for mesh in meshes]
     ends = np.cumsum([0, *counts]).tolist()
@@ -248,7 +247,7 @@ def _transform_meshes(meshes: Sequence[Mesh], changes: NDArray) -> None:
 def _change_mesh(
     mesh: Mesh, change: NDArray, points: NDArray[np.float32], is_flipped: bool, put_back: ExitStack
 ) -> None:
-    """Give a mesh the points that a change takes its own to. put_back: gets what undoes all but the points."""
+    """Give a mesh its mapped points. put_back: gets functions that undo all but the points."""
     if mesh.has_custom_normals:
         mesh.transform(Matrix(change))  # turns them, too
         put_back.callback(mesh.transform, Matrix(np.linalg.inv(change)))

@@ -15,7 +15,7 @@ from .findings import RIGID_WORLD_LINKED
 
 
 def require_rigid_world(scene: Scene, joints: bool = False) -> None:
-    """EditRefusedError where nothing can be added to the scene's rigid bodies, or to its joints either."""
+    """Raise EditRefusedError if nothing can be added to the scene's rigid bodies, or to its joints either."""
     world = scene.rigidbody_world
     if world is None:
         return

@@ -39,9 +39,9 @@ def surface_object(name: str, patches: Sequence[Patch], factor: float = 1.0) -> 
     Returns
     -------
     obj : Object
-        With its origin at that of the patches, or among them where they are far from it.
+        With its origin at that of the patches, or among them if they are far from it.
     moved : float
-        By how much float32 moves a point of the surfaces at most, as a share of their size.
+        Largest effect of float32 on a point of the surfaces, as a share of their size.
     """
     data, moved, origin = surface_data(name, patches, factor)
     obj = bpy.data.objects.new(name, data)
@@ -50,7 +50,9 @@ def surface_object(name: str, patches: Sequence[Patch], factor: float = 1.0) -> 
 
 
 def surface_data(name: str, patches: Sequence[Patch], factor: float) -> tuple[Curve, float, NDArray[np.float32]]:
-    """The data of `surface_object`, by what share of the size its points moved, and where its origin is to stand."""
+    """Return the data of `surface_object`, the share of the size by which its points moved, and the place of its
+    origin.
+    """
     low = factor * np.min([patch.points.min(axis=(0, 1)) for patch in patches], axis=0)
     high = factor * np.max([patch.points.max(axis=(0, 1)) for patch in patches], axis=0)
     size, distance = float((high - low).max()), float(np.abs([low, high]).max())
@@ -65,7 +67,7 @@ def surface_data(name: str, patches: Sequence[Patch], factor: float) -> tuple[Cu
 
 
 def _stored(patch: Patch, factor: float, origin: NDArray) -> tuple[NDArray[np.float32], float]:
-    """(n, 4) control points and weights as Blender has them, and by how much the surface moves at most."""
+    """Return (n, 4) control points and weights as Blender has them, and the largest move of the surface."""
     points = factor * patch.points - origin
     values = np.ones((*points.shape[:2], 4), np.float32)
     values[..., :3] = points
@@ -90,7 +92,7 @@ def _fill(spline, patch: Patch, values: NDArray[np.float32]) -> None:
 
 
 def _grids(name: str, shapes: Sequence[tuple[int, int]]) -> Curve:
-    """Surface data with a spline of (count_v, count_u) points for each shape, in order."""
+    """Return surface data with a spline of (count_v, count_u) points for each shape, in order."""
     with _temporary_scene() as scene:
         models = {shape: _grid(scene, shape) for shape in dict.fromkeys(shapes)}
         objects = [bpy.data.objects.new(name, models[shape]) for shape in shapes]
@@ -134,7 +136,7 @@ def _active(scene: Scene, obj: Object, selected: Sequence[Object]) -> Iterator[N
 
 
 def _grid(scene: Scene, shape: tuple[int, int]) -> Curve:
-    """Surface data with one spline of (count_v, count_u) points, wherever they are."""
+    """Return surface data with one spline of (count_v, count_u) points, at any places."""
     rows, columns = max(shape[0], MIN_LOFTED_POINTS), shape[1]
     data = bpy.data.curves.new("Body Moments Import", "SURFACE")
     for _ in range(columns):

@@ -2,10 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """An object's own transform channels, in float64.
 
-Blender's setters for `matrix_world` and `matrix_basis` take Euler angles out of a float32 matrix,
-each angle by itself; near gimbal lock the angles then no longer fit together. Here each angle is
-taken from what the ones before it leave over, in float64, so that the angles rebuild the rotation
-however it lies.
+Blender's setters for `matrix_world` and `matrix_basis` take Euler angles out of a float32 matrix, each angle by itself;
+near gimbal lock the angles then no longer fit together. Here each angle is taken from the rest that the ones before it
+leave over, in float64, so that the angles rebuild any rotation.
 
 The basis of an object is T(location + delta) · R(delta) R(rotation) · S(scale · delta), before
 parents and constraints.
@@ -25,32 +24,32 @@ from ...core.verdict.finding import EditRefusedError
 from .findings import CHANNEL_ANIMATED, CHANNEL_LOCKED, LINKED_OBJECT, PARENT_OR_DELTA_SCALE_ZERO, PARENT_SHEARS
 
 FLOAT32 = float(np.finfo(np.float32).eps)
-MAX_SHEAR = 2e-6  # of a float32 matrix that is a rotation times a scale
+MAX_SHEAR = 2e-6  # found in float32 products of a rotation and a scale
 
 Matrix3 = NDArray[np.float64]
 Matrix4 = NDArray[np.float64]
 
 
 def require_editable(obj: Object) -> None:
-    """EditRefusedError for a linked object."""
+    """Raise EditRefusedError for a linked object."""
     if not obj.is_editable:
         raise EditRefusedError(LINKED_OBJECT)
 
 
 def require_storable_data(obj: Object, code: str) -> None:
-    """EditRefusedError for a linked object, and with this code for a library override."""
+    """Raise EditRefusedError for a linked object, and with this code for a library override."""
     require_editable(obj)
-    if obj.override_library is not None:  # of which a file keeps only what Blender lets be overridden
+    if obj.override_library is not None:  # a file keeps only overridable properties of it
         raise EditRefusedError(code)
 
 
 def world(obj: Object) -> Matrix4:
-    """(4, 4) the evaluated matrix_world as float64."""
+    """Return (4, 4) the evaluated matrix_world as float64."""
     return np.array(obj.matrix_world, np.float64)
 
 
 def solve(matrix: Matrix4, right_side: Matrix4) -> Matrix4:
-    """(4, 4) what the matrix has to be multiplied with: float64, which numpy's types do not say."""
+    """Return the solution of `matrix` · x = `right_side`, (4, 4): float64, which numpy's types do not say."""
     return np.asarray(np.linalg.solve(matrix, right_side), np.float64)
 
 
@@ -70,13 +69,13 @@ def _order(mode: str) -> tuple[int, int, int, float]:
 
 
 def euler_matrix(angles: NDArray, mode: str) -> Matrix3:
-    """(3, 3) of Euler angles by axis x, y, z; in mode "XYZ" the turn about X comes first."""
+    """Return the (3, 3) matrix of Euler angles by axis x, y, z; in mode "XYZ" the turn about X comes first."""
     i, j, k, _ = _order(mode)
     return _turn(k, angles[k]) @ _turn(j, angles[j]) @ _turn(i, angles[i])
 
 
 def euler_angles(rotation: NDArray, mode: str, near: NDArray) -> NDArray[np.float64]:
-    """(..., 3) angles by axis x, y, z that rebuild rotations (..., 3, 3), those of all equal ones that are nearest to
+    """Return (..., 3) angles by axis x, y, z that rebuild rotations (..., 3, 3), the nearest of all equal ones to
     `near`, (..., 3).
     """
     i, j, k, s = _order(mode)
@@ -102,7 +101,7 @@ def _rotation(obj: Object) -> Matrix3:
         angle, *axis = obj.rotation_axis_angle
         length = np.linalg.norm(axis)
         if length == 0.0:
-            return np.eye(3)  # as Blender takes it
+            return np.eye(3)  # Blender takes it so
         return rotation_matrix([cos(angle / 2.0), *(sin(angle / 2.0) * np.divide(axis, length))])
     return euler_matrix(np.array(obj.rotation_euler), mode)
 
@@ -116,7 +115,7 @@ def _delta_rotation(obj: Object) -> Matrix3:
 
 
 def basis(obj: Object) -> Matrix4:
-    """(4, 4) location, rotation and scale with their deltas, before parents and constraints."""
+    """Return the (4, 4) matrix of location, rotation and scale with their deltas, before parents and constraints."""
     matrix = np.eye(4)
     scale = np.array(obj.scale, np.float64) * np.array(obj.delta_scale, np.float64)
     matrix[:3, :3] = _delta_rotation(obj) @ _rotation(obj) * scale
@@ -131,8 +130,8 @@ def set_location(obj: Object, location: NDArray, tolerance: float) -> None:
 
 
 def rotation_and_scale(linear: NDArray, scale: NDArray) -> tuple[NDArray[np.float64], NDArray, NDArray[np.bool_]]:
-    """Rotations (..., 3, 3) and scales (..., 3) that make up linear maps, with the signs of the present scales as far
-    as their hand allows, and (...,) which of the maps are that: not sheared, and with no zero scale."""
+    """Return rotations (..., 3, 3) and scales (..., 3) of linear maps, with the signs of the present scales as
+    far as their hand allows, and a (...,) mask of such maps: not sheared, and with no zero scale."""
     length = np.linalg.norm(linear, axis=-2)
     sign = np.where(scale < 0.0, -1.0, 1.0)
     sign[..., 0] *= np.where(np.prod(sign, axis=-1) * np.linalg.det(linear) < 0.0, -1.0, 1.0)
@@ -145,7 +144,7 @@ def rotation_and_scale(linear: NDArray, scale: NDArray) -> tuple[NDArray[np.floa
 
 
 def set_rotation_and_scale(obj: Object, linear: Matrix3) -> None:
-    """Make the 3×3 part of the basis `linear`, a rotation times a scale; EditRefusedError where it is sheared."""
+    """Make the 3×3 part of the basis `linear`, a rotation times a scale; EditRefusedError if it is sheared."""
     delta_scale = np.array(obj.delta_scale, np.float64)
     if np.linalg.norm(linear, axis=0).min() <= 0.0 or np.abs(delta_scale).min() == 0.0:
         raise EditRefusedError(PARENT_OR_DELTA_SCALE_ZERO)
@@ -182,7 +181,7 @@ def _assign(obj: Object, channel: str, value: NDArray, locks: Sequence[bool], to
 
 
 def driven_channels(obj: Object) -> set[str]:
-    """The data paths of the object that an action, the NLA or a driver sets."""
+    """Return the data paths of the object that an action, the NLA or a driver sets."""
     animation = obj.animation_data
     if animation is None:
         return set()
@@ -216,7 +215,7 @@ class TransformChannels:
 
 
 def ancestors(obj: Object | None) -> Iterator[Object]:
-    """The object, its parent, that one's parent, and so on."""
+    """Yield the object, its parent, that one's parent, and so on."""
     while obj is not None:
         yield obj
         obj = obj.parent

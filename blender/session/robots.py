@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The scene as a robot: which objects are measured, and what of them becomes a link."""
+"""The scene as a robot: the choice of objects, and the links made from them."""
 
 from __future__ import annotations
 
@@ -33,8 +33,9 @@ from .findings import LEFT_OUT_OF_ROBOT, ROBOT_WITHOUT_BONES
 class SceneLinks:
     """A robot made from the scene.
 
-    robot, findings: and what was left out. unit: meters per Blender unit, for the inertials and for `surface`.
-    members: the objects of each link. pieces: of each bone, the surfaces and the maps that put them into the world, m.
+    robot, findings: the robot, and notes on the omitted parts. unit: meters per Blender unit, for the inertials and for
+    `surface`. members: the objects of each link. pieces: of each bone, the surfaces and the maps that put them into the
+    world, m.
     """
 
     robot: Robot
@@ -44,7 +45,7 @@ class SceneLinks:
     pieces: dict[str, tuple[tuple[Surface, NDArray[np.float64]], ...]] = field(default_factory=dict)
 
     def surface(self, context: Context, label: str) -> Surface | None:
-        """Return what a link shows, in meters along its own axes; None where it shows no faces."""
+        """Return a link's surface, in meters along its own axes; None if it shows no faces."""
         pose = self.robot.link(label).pose
         if label not in self.pieces:
             depsgraph = context.evaluated_depsgraph_get()
@@ -61,8 +62,9 @@ class SceneLinks:
 
 
 def candidates(context: Context, collection: str, selected: bool) -> list[Object]:
-    """Return the objects of the collection of that name, where there is one; else the selected ones, or all that are
-    rendered."""
+    """Return the objects of the collection of that name, if given; else the selected objects, or all objects in
+    renders.
+    """
     if collection:
         return list(bpy.data.collections[collection].all_objects)
     if selected:
@@ -73,8 +75,9 @@ def candidates(context: Context, collection: str, selected: bool) -> list[Object
 def object_links(
     context: Context, name: str, objects: list[Object], step: Callable[[float], None] = lambda done: None
 ) -> SceneLinks:
-    """Return a robot with a link for each object that can be measured. MeasureError where there is none. step: is
-    called with how many are done."""
+    """Return a robot with a link for each object that can be measured. MeasureError if there is none. step: is called
+    with the number of finished objects.
+    """
     depsgraph = context.evaluated_depsgraph_get()
     chosen = [obj for obj in objects if measurable(obj)]
     measured: dict[Object, Measurement] = {}
@@ -100,8 +103,9 @@ def object_links(
 def collection_links(
     context: Context, name: str, root: Collection, objects: list[Object], options: MeasureOptions = AS_SET
 ) -> SceneLinks:
-    """Return a robot with a link for each collection in one, or for the collection itself where there is none in it.
-    They are assemblies, along the world's axes, with all that they hold. objects: what their meshes show."""
+    """Return a robot with a link for each collection in one, or for the collection itself if it has none. Links are
+    assemblies, along the world's axes, with all that they hold. objects: of the displayed meshes.
+    """
     depsgraph = context.evaluated_depsgraph_get()
     records, failures, members = [], [], {}
     collections = list(root.children) or [root]
@@ -124,7 +128,8 @@ def collection_links(
 
 def bone_links(context: Context, name: str, objects: list[Object]) -> SceneLinks:
     """Return a robot with a link for each bone that has a part, in its rest frame, and joints with the bones' limits.
-    MeasureError where there is no character."""
+    MeasureError if there is no character.
+    """
     records, findings, pieces = [], [], {}
     armatures = [obj for obj in objects if obj.type == "ARMATURE"]
     for armature in armatures:
@@ -150,7 +155,7 @@ def bone_links(context: Context, name: str, objects: list[Object]) -> SceneLinks
 
 
 def left_out(failures: list[Finding], total: int) -> list[Finding]:
-    """What a report says of objects that could not be measured."""
+    """Return the findings about objects that could not be measured."""
     if not failures:
         return []
     causes = [failure.as_record() for failure in reports.first(failures)]

@@ -22,7 +22,7 @@ def accepted_codes(obj: Object) -> frozenset[str]:
 
 
 def set_accepted(obj: Object, code: str, accepted: bool) -> bool:
-    """Accept the findings of a code for an object, or no longer; whether that changed anything."""
+    """Accept the findings of a code for an object, or no longer; return whether that changed anything."""
     before = accepted_codes(obj)
     after = before | {code} if accepted else before - {code}
     if after != before:
@@ -31,7 +31,7 @@ def set_accepted(obj: Object, code: str, accepted: bool) -> bool:
 
 
 def with_acceptance(findings: Iterable[Finding], codes: Collection[str]) -> tuple[Finding, ...]:
-    """Return the findings, those of the accepted codes marked as such, and no others."""
+    """Return the findings, marked as accepted exactly if their codes are."""
     return tuple(_marked(finding, finding.code in codes) for finding in findings)
 
 

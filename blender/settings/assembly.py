@@ -33,7 +33,7 @@ class BodyMomentsAssemblyRow(PropertyGroup):
 
 
 class BodyMomentsAssemblySettings(GivenPartProperties, PropertyGroup):
-    """What an assembly weighs, and what it was last measured as."""
+    """Settings of an assembly's mass, and its last measurement."""
 
     mass_from: EnumProperty(
         name="Specify",

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The settings of a pose bone: what its part of a character is made of."""
+"""The settings of a pose bone: the material of its part of a character."""
 
 import bpy
 from bpy.props import EnumProperty, FloatProperty
@@ -10,7 +10,7 @@ from .hooks import part_changed
 
 
 class BodyMomentsBoneSettings(PropertyGroup):
-    """What the part of a bone is made of."""
+    """Settings of the material of a bone's part."""
 
     mass_from: EnumProperty(
         name="Specify",

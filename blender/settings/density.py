@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Where an object's density comes from when it is not one number, as the settings say."""
+"""The source of an object's density in the settings, if it is not one number."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from .findings import (
 )
 from .preferences import default_density
 
-# Where the density comes from the object's one value, or that of some faces.
+# Sources of density from the one value of an object, for all or some of its faces.
 _BY_OBJECT = {DENSITY_FROM_VALUE, OBJECT_DENSITY_USED, OBJECT_DENSITY_USED_FOR_MATERIALS}
 
 
@@ -40,18 +40,21 @@ class DensityField:
 
     @property
     def frame(self) -> str:
-        """Whose coordinates those of the polynomial are: "world" or "object"."""
+        """Frame of the polynomial's coordinates: "world" or "object"."""
         return "world" if self.in_world else "object"
 
     def polynomial_source(self) -> Finding:
-        """Where a polynomial density comes from. Who meant a decimal comma sees here what it was taken for."""
+        """Return the source of a polynomial density. A decimal comma shows here as the coefficients it was taken
+        for.
+        """
         code = DENSITY_FROM_COEFFICIENTS if "," in self.text else DENSITY_FROM_POLYNOMIAL
         return finding(code, polynomial=self.text, frame=self.frame)
 
 
 def density_field(settings: bpy.types.PropertyGroup) -> DensityField | None:
-    """What the object's settings name; None for one value or a given mass. MeasureError where a polynomial cannot be
-    read, or nothing is chosen."""
+    """Return the density that the object's settings name; None for one value or a given mass. MeasureError if a
+    polynomial cannot be read, or nothing is chosen.
+    """
     if settings.mass_from != "DENSITY" or settings.density_from == "VALUE":
         return None
     if settings.density_from == "MATERIALS":
@@ -69,21 +72,21 @@ def density_field(settings: bpy.types.PropertyGroup) -> DensityField | None:
 
 
 def object_density(settings: bpy.types.PropertyGroup, scene: bpy.types.Scene) -> float:
-    """The one density in kg/m³ that an object's settings say: its own, else the scene's default."""
+    """Return the one density in kg/m³ that an object's settings say: its own, else the scene's default."""
     default = None if settings.is_property_set("density") else default_density(scene)
     return shortest_decimal(settings.density) if default is None else default
 
 
 def material_density(material: bpy.types.Material | None) -> float | None:
-    """kg/m³; None where there is no material, or it has no density."""
+    """Return a material's density in kg/m³; None if there is no material, or it has no density."""
     density = 0.0 if material is None else shortest_decimal(material.body_moments.density)
     return density if density > 0.0 else None
 
 
 def unset_density(obj: bpy.types.Object, measurement: Measurement, scene: bpy.types.Scene) -> str | None:
-    """Which density of the object's settings was used and set by nobody, neither for the object nor for the scene:
-    "density" or "linear_density"; None where none was. measurement: of the object, with no density or mass from
-    elsewhere."""
+    """Return the density setting that was used and set by nobody, neither for the object nor for the scene: "density"
+    or "linear_density"; None if there was none. measurement: of the object, with no density or mass from elsewhere.
+    """
     settings = obj.body_moments
     used = {measurement.density_from.code, *(one.code for one in measurement.findings)}
     if not used & _BY_OBJECT:
@@ -94,13 +97,14 @@ def unset_density(obj: bpy.types.Object, measurement: Measurement, scene: bpy.ty
 
 
 def is_density_unset(settings: bpy.types.PropertyGroup, scene: bpy.types.Scene) -> bool:
-    """Whether nobody has set the density that `object_density` gives, neither for the object nor for the scene."""
+    """Return whether the density of `object_density` is unset, both for the object and for the scene."""
     return not settings.is_property_set("density") and default_density(scene) is None
 
 
 def density_anchor(obj: bpy.types.Object) -> str:
-    """What the object's density is fixed to, where it changes as the object moves or gets other axes: "own" or "world"
-    coordinates; "" else."""
+    """Return the coordinates to which the object's density is fixed, if it changes as the object moves or gets other
+    axes: "own" or "world"; else "".
+    """
     settings = obj.body_moments
     if settings.mass_from != "DENSITY" or settings.density_from != "POLYNOMIAL":
         return ""

@@ -14,16 +14,16 @@ from .grid import GridOptions
 
 
 def grid_key(obj: bpy.types.Object, density: float | None = None) -> str:
-    """What decides the density of a Volume object. density: as for `GridOptions.of`."""
+    """Return a key of the density of a Volume object. density: as for `GridOptions.of`."""
     grid = GridOptions.of(obj.body_moments, density)
     return "" if grid.solid else repr(grid.key)
 
 
 def density_key(obj: bpy.types.Object, used: Iterable[str], scene: bpy.types.Scene) -> str:
-    """What of the settings and of materials decides the density, as a text; "" for one value, a given mass or a wire.
+    """Return the settings and materials behind the density, as a text; "" for one value, a given mass or a wire.
 
-    used: the full names of the materials that the last measurement met, beside those in the object's slots.
-    scene: whose default density counts where the object has none.
+    used: the full names of the materials that the last measurement met, beside the ones in the object's slots.
+    scene: its default density counts if the object has none.
     """
     settings = obj.body_moments
     given = GivenPart.of(settings, 1.0).key if settings.mass_from == "MASS" else ""

@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A part whose mass is known: given, with or without its center and inertia.
+"""A part of known mass: given, with or without its center and inertia.
 
-Objects and assemblies have these settings alike; they count where the mass is given.
+Objects and assemblies have these settings alike; they count if the mass is given.
 """
 
 from __future__ import annotations
@@ -20,14 +20,14 @@ GIVEN_PROPERTIES = ("use_center", "given_center", "use_inertia", "given_inertia_
 
 @dataclass(frozen=True, eq=False)
 class GivenPart:
-    """What is given of a part beside its mass, SI, in its own frame.
+    """Given values of a part beside its mass, SI, in its own frame.
 
     Attributes
     ----------
     center : (3,) array or None
-        Its center of mass, m; None where that of the geometry counts.
+        Its center of mass, m; None if the geometry's counts.
     inertia : (3, 3) array or None
-        Its tensor about the center, kg·m²; None where it follows from the geometry.
+        Its tensor about the center, kg·m²; None if it follows from the geometry.
     """
 
     center: NDArray[np.float64] | None = None
@@ -35,7 +35,7 @@ class GivenPart:
 
     @classmethod
     def of(cls, settings: PropertyGroup, unit: float) -> GivenPart:
-        """Return what the settings give. unit: meters per Blender unit."""
+        """Return the given part of the settings. unit: meters per Blender unit."""
         center = inertia = None
         if settings.use_center:
             center = _decimals(settings.given_center) * unit
@@ -50,7 +50,7 @@ class GivenPart:
 
     @property
     def key(self) -> str:
-        """A text that changes with the settings, "" where nothing is given."""
+        """Text that changes with the settings, "" if nothing is given."""
         values = [None if value is None else value.tolist() for value in (self.center, self.inertia)]
         return repr(values) if self else ""
 
@@ -61,7 +61,7 @@ def shows_collection(obj: Object) -> bool:
 
 
 def is_point_mass(obj: Object) -> bool:
-    """Return whether an object without any geometry stands for a part whose mass is given."""
+    """Return whether an object without any geometry stands for a part of given mass."""
     settings = getattr(obj, "body_moments", None)  # none where the add-on is not registered
     return obj.type == "EMPTY" and not shows_collection(obj) and settings is not None and settings.mass_from == "MASS"
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The properties of a part whose mass is known, shared by the settings of objects and of assemblies."""
+"""The properties of a part of known mass, shared by the settings of objects and of assemblies."""
 
 from bpy.props import BoolProperty, FloatVectorProperty
 
@@ -8,7 +8,7 @@ from .hooks import given_changed
 
 
 class GivenPartProperties:
-    """What may be given beside a mass."""
+    """Optional given values beside a mass."""
 
     use_center: BoolProperty(
         name="Given Center",

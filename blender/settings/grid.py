@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How the values of a grid are taken: which grid, and what a value stands for."""
+"""The use of a grid: its choice, and the meaning of its values."""
 
 from __future__ import annotations
 
@@ -31,13 +31,13 @@ from .findings import (
 
 @dataclass(frozen=True)
 class GridOptions:
-    """How a grid is taken.
+    """Options of a grid.
 
-    grid: its name, "" for the likeliest. solid: a level set as the solid it bounds. threshold: the body where values
-    are at least that, None for all of the grid; filled: with the grid's own density, not with one material.
-    value_density: kg/m³ where a value is 1; table: a transfer table instead, "" for none. spline_order: 1 voxels, 2
-    trilinear, 4 cubic. sample_positions: where samples stand that do not stand evenly, as `positions_text` writes it.
-    negative: the code of the refusal of negative densities, by where they come from.
+    grid: its name, "" for the likeliest. solid: a level set as the solid it bounds. threshold: smallest value inside
+    the body, None for all of the grid; filled: with the grid's own density, not with one material. value_density: kg/m³
+    of a value of 1; table: a transfer table instead, "" for none. spline_order: 1 voxels, 2 trilinear, 4 cubic.
+    sample_positions: of uneven samples, as `positions_text` writes it. negative: the code of the refusal of negative
+    densities, by their source.
     """
 
     grid: str = ""
@@ -52,7 +52,7 @@ class GridOptions:
 
     @classmethod
     def of(cls, settings, density: float | None = None) -> GridOptions:
-        """From an object's settings. density: overrides what a value of 1 stands for, and the table."""
+        """Return the options of an object's settings. density: overrides the density of a value of 1, and the table."""
         table = settings.transfer_table if settings.values_from == "TABLE" and density is None else ""
         return cls(
             settings.grid,
@@ -67,7 +67,7 @@ class GridOptions:
 
     @property
     def key(self) -> tuple:
-        """What the numbers depend on."""
+        """Key of all that the numbers depend on."""
         if self.threshold is not None and not self.filled:
             return self.grid, "threshold", self.threshold, self.spline_order
         values = (self.grid, "solid") if self.solid else (self.grid, self.table or self.value_density)
@@ -76,8 +76,9 @@ class GridOptions:
         return (*values, self.spline_order) if self.threshold is None else (*values, self.spline_order, self.threshold)
 
     def positions(self, grid: str, low: NDArray, shape: Sequence[int]) -> Positions:
-        """Where all samples of the scan stand along each axis, in voxels. ReadError where that is not known of those
-        in the box from `low` on. grid: its name."""
+        """Return the positions of all samples of the scan along each axis, in voxels. ReadError if they are unknown in
+        the box from `low` on. grid: its name.
+        """
         if not self.sample_positions:
             return EVEN
         rows: list[NDArray[np.float64] | None] = []
@@ -93,13 +94,14 @@ class GridOptions:
         return x, y, z
 
     def needs_even_samples(self, grid: str) -> None:
-        """ReadError where samples do not stand evenly. grid: its name."""
+        """Raise ReadError if samples are uneven. grid: its name."""
         if self.sample_positions:
             raise ReadError(POSITIONS_ONLY_AS_DENSITY, grid=grid)
 
     def to_densities(self, background: float | None) -> Callable[[NDArray], NDArray]:
-        """What makes densities in kg/m³ of values, and raises ReadError where it cannot. The background, if any, is
-        empty, whatever its value."""
+        """Return a function that makes densities in kg/m³ of values, and raises ReadError if it cannot. The background,
+        if any, is empty, at any value.
+        """
         pairs = parse_table(self.table) if self.table else None
 
         def weighed(values: NDArray) -> NDArray[np.float64]:
@@ -115,14 +117,14 @@ class GridOptions:
         return weighed
 
     def empty_background_note(self, background: float | None) -> tuple[Finding, ...]:
-        """A finding where the background would have a density if it did not count as empty."""
+        """Return a finding if the background would have a density, but counts as empty."""
         if background is None or not np.isfinite(background):
             return ()
         density = np.interp(background, *parse_table(self.table)) if self.table else background * self.value_density
         return (finding(BACKGROUND_EMPTY, value=float(background)),) if density else ()
 
     def meaning(self) -> Finding:
-        """What a value stands for."""
+        """Return the meaning of a value."""
         spline = {"order": self.spline_order} if self.spline_order > 1 else {}
         if self.table:
             return finding(VALUES_BY_TABLE_SPLINE if spline else VALUES_BY_TABLE, **spline)
@@ -130,14 +132,15 @@ class GridOptions:
 
 
 def positions_text(positions: Positions) -> str:
-    """Positions as an object keeps them: in voxels, so that the first and the last sample are where Blender draws
-    them."""
+    """Return positions as text for an object: in voxels, with the first and the last sample at their places in
+    Blender.
+    """
     known = {axis: (row * ((len(row) - 1) / row[-1])).tolist() for axis, row in zip(AXES, positions) if row is not None}
     return json.dumps(known, separators=(",", ":")) if known else ""
 
 
 def _parsed_positions(text: str) -> dict[str, NDArray[np.float64]] | None:
-    """The rows by their axes; None where the text is none that `positions_text` writes."""
+    """Return the rows by their axes; None if the text is not from `positions_text`."""
     try:
         rows = {axis: np.array(row, np.float64) for axis, row in json.loads(text).items()}
     except (ValueError, TypeError, AttributeError, RecursionError):

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What settings call when they change, so that they need not know who remembers results: the session registers it."""
+"""Functions called when settings change, so that settings need not know the session: the session registers them."""
 
 from __future__ import annotations
 
@@ -11,49 +11,49 @@ from bpy.types import Context, PropertyGroup, Scene
 Hook = Callable[[PropertyGroup, Context], None]
 
 on_change: list[Hook] = []  # any setting of an object
-on_density_change: list[Hook] = []  # what an object's mass is multiplied by: a density, a given mass, which of them
+on_density_change: list[Hook] = []  # an object's density or given mass, or the choice between them
 on_wall_change: list[Hook] = []  # the side of a shell's material, or its thickness
 on_threshold_change: list[Hook] = []  # the value from which on a grid's points are inside
-on_default_density_change: list[Hook] = []  # that of a scene's objects that have none of their own
-on_part_change: list[Hook] = []  # what an assembly or a bone's part weighs
+on_default_density_change: list[Hook] = []  # the default of a scene's objects without density
+on_part_change: list[Hook] = []  # the mass of an assembly or of a bone's part
 
 
 def part_changed(settings: PropertyGroup, context: Context) -> None:
-    """The update function of the settings of assemblies and of bones, whose changes Blender reports of no object."""
+    """Call the hooks of assemblies and of bones: Blender reports changes of their settings for no object."""
     _call(on_part_change, settings, context)
 
 
 def changed(settings: PropertyGroup, context: Context) -> None:
-    """The update function of an object's settings."""
+    """Call the hooks of a changed setting of an object."""
     _call(on_change, settings, context)
 
 
 def given_changed(settings: PropertyGroup, context: Context) -> None:
-    """The update function of what is given of a part, an object or an assembly."""
+    """Call the hooks of a changed given value of a part, an object or an assembly."""
     _call(on_change, settings, context)
     _call(on_part_change, settings, context)
 
 
 def density_changed(settings: PropertyGroup, context: Context) -> None:
-    """The update function of the settings that say how much an object weighs."""
+    """Call the hooks of an object's changed density or mass."""
     _call(on_change, settings, context)
     _call(on_density_change, settings, context)
 
 
 def wall_changed(settings: PropertyGroup, context: Context) -> None:
-    """The update function of the settings that say where the material of a shell is."""
+    """Call the hooks of a shell's changed wall: its side or thickness."""
     _call(on_change, settings, context)
     _call(on_wall_change, settings, context)
 
 
 def threshold_changed(settings: PropertyGroup, context: Context) -> None:
-    """The update function of the threshold of a grid."""
+    """Call the hooks of a grid's changed threshold."""
     _call(on_change, settings, context)
     _call(on_threshold_change, settings, context)
 
 
 def default_density_changed(settings: PropertyGroup, context: Context) -> None:
-    """The update function of what objects weigh whose density has not been set, in a scene or in the preferences."""
+    """Call the hooks of a changed default density in a scene; the preferences have none."""
     if isinstance(settings.id_data, Scene):
         _call(on_default_density_change, settings, context)
 

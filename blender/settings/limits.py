@@ -12,5 +12,5 @@ VARIABLE = "BODY_MOMENTS_LIMITS"
 
 
 def scan_limits() -> Limits:
-    """Those of this process. MeasureError where the variable is not understood."""
+    """Return the limits of this process. MeasureError if the variable is not understood."""
     return Limits.parse(os.environ.get(VARIABLE, ""))

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What overrides the objects' own settings."""
+"""Overrides of the objects' own settings."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ from ...core.numerics.float32 import shortest_decimal
 
 @dataclass(frozen=True)
 class MeasureOptions:
-    """What overrides the objects' own settings; None leaves the setting. SI units.
+    """Overrides of the objects' own settings; None leaves the setting. SI units.
 
     kind: "solid", "shell" or "wire"; density: kg/m³, of a wire kg/m; mass: kg; thickness: m; overlap: "signed" or
     "union"; wall: of a shell, "thin", "inward", "outward" or "centered"; unit_scale: meters per Blender unit, else the
-    scene's. order: of the moments that the measurement is to hold; None for what mass properties need. surface: those
-    of the area too. pose: the principal frame follows the body's shape to sixth order however many faces it has.
-    compare: whether what needs no display mesh is compared with it. axes: whether moments above third order choose the
-    principal axes where these leave a choice; without, they are any of those that are left.
+    scene's. order: of the measurement's moments; None for the order that mass properties need. surface: moments of the
+    area, too. pose: the principal frame follows the body's shape to sixth order, for any number of faces. compare:
+    bodies that need no display mesh are compared with it. axes: moments above third order choose the principal axes if
+    these leave a choice; without, any of the remaining axes may result.
     """
 
     kind: str | None = None
@@ -45,7 +45,7 @@ class MeasureOptions:
 
 @dataclass(frozen=True)
 class ResolvedOptions(MeasureOptions):
-    """Options without gaps: what was given, and the object's settings. Of density and mass one at most."""
+    """Options without gaps: the given ones, completed by the object's settings. Of density and mass one at most."""
 
     kind: str = field(kw_only=True)
     thickness: float = field(kw_only=True)

@@ -1,13 +1,13 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The settings of what is drawn in the 3D Viewport: a group of the scene's settings."""
+"""The settings of the overlay in the 3D Viewport: a group of the scene's settings."""
 
 from bpy.props import BoolProperty, EnumProperty
 from bpy.types import PropertyGroup
 
 
 class BodyMomentsOverlaySettings(PropertyGroup):
-    """What is drawn of measured objects."""
+    """Settings of the overlay of measured objects."""
 
     show: BoolProperty(
         name="Mass Properties",

@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The add-on's preferences: what a scene starts with.
+"""The add-on's preferences: initial settings of a scene.
 
-They are copied into a scene when it is first used (`copy_defaults`), and the scene is what counts from then on: a file
-gives the same numbers on every machine, and in batch, which never reads preferences.
+They are copied into a scene when it is first used (`copy_defaults`), and from then on the scene decides: a file gives
+the same numbers on every machine, and in batch, which never reads preferences.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ COPIED = ("frame", "density_unit", "digits", "digit_grouping", "default_material
 
 
 class SceneDefaults:
-    """What the preferences and the settings of a scene have in common."""
+    """Properties common to the preferences and the settings of a scene."""
 
     frame: EnumProperty(
         name="Frame",
@@ -88,7 +88,7 @@ class SceneDefaults:
 
 
 class BodyMomentsPreferences(SceneDefaults, AddonPreferences):
-    """What new scenes start with."""
+    """Initial settings of new scenes."""
 
     bl_idname = ADDON_ID
 
@@ -127,7 +127,7 @@ class BodyMomentsPreferences(SceneDefaults, AddonPreferences):
 
 
 def preferences() -> BodyMomentsPreferences | None:
-    """Return the preferences, None where the package is used without being an enabled add-on."""
+    """Return the preferences, None if the package is used without being an enabled add-on."""
     addon = bpy.context.preferences.addons.get(ADDON_ID)
     return None if addon is None else addon.preferences
 
@@ -146,13 +146,12 @@ def copy_defaults(scene: Scene) -> None:
 
 
 def default_density(scene: Scene) -> float | None:
-    """Return the density in kg/m³ of the scene's objects that have none of their own, None where the scene has none."""
+    """Return the density in kg/m³ of the scene's objects that have none of their own, None if the scene has none."""
     return _density(scene.body_moments)
 
 
 def default_material(scene: Scene) -> str:
-    """Return the name of the material of the scene's objects that have no density of their own, "" where there is
-    none."""
+    """Return the name of the material of the scene's objects that have no density of their own, "" if there is none."""
     name = scene.body_moments.default_material
     return name if name in BY_NAME else ""
 

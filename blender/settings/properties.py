@@ -1,10 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The settings: what an object is made of, and in which frame numbers are shown.
+"""The settings: the material of an object, and the frame of displayed numbers.
 
 They live in property groups (`Object.body_moments`, `Material.body_moments`, `Scene.body_moments`); results live in ID
 properties, never here. The given mass has no unit type: Blender would scale a `unit='MASS'`
-property by scale_length³, while a weighed part weighs the same whatever a scene's unit is.
+property by scale_length³, while a weighed part weighs the same in all units.
 """
 
 import bpy
@@ -57,7 +57,7 @@ def _forget_material(settings: PropertyGroup, _context: Context | None = None) -
 
 
 def _density_in(unit: str, description: str):
-    """The density of an object or a material in a unit, for fields of a panel."""
+    """Return the density of an object or a material in a unit, for fields of a panel."""
     factor, name = DENSITY_UNITS[unit]
     return FloatProperty(
         name="Density ({:s})".format(name),
@@ -78,7 +78,7 @@ def _shown_density(settings: PropertyGroup) -> float:
 
 
 class BodyMomentsObjectSettings(GivenPartProperties, PropertyGroup):
-    """What one object is made of."""
+    """Settings of one object's body."""
 
     kind: EnumProperty(
         name="Kind",
@@ -328,7 +328,7 @@ class BodyMomentsObjectSettings(GivenPartProperties, PropertyGroup):
 
 
 class BodyMomentsMaterialSettings(PropertyGroup):
-    """What a material weighs."""
+    """Settings of a material's density."""
 
     density: FloatProperty(
         name="Density",
@@ -351,7 +351,7 @@ class BodyMomentsMaterialSettings(PropertyGroup):
 
 
 class BodyMomentsSceneSettings(SceneDefaults, PropertyGroup):
-    """How the scene's numbers are shown, and what its objects start with."""
+    """Display settings of the scene's numbers, and initial settings of its objects."""
 
     overlay: PointerProperty(name="Overlay", type=BodyMomentsOverlaySettings)
     has_defaults: BoolProperty(
@@ -408,13 +408,14 @@ class BodyMomentsSceneSettings(SceneDefaults, PropertyGroup):
 
 
 def density_field_name(scene: Scene) -> str:
-    """The property of an object's or a material's settings that shows its density in the unit that a scene is set
-    to."""
+    """Return the property of an object's or a material's settings that shows its density in the unit that a scene is
+    set to.
+    """
     return "density_" + density_unit(scene.body_moments.density_unit, scene.unit_settings.system).lower()
 
 
 def copy_settings(source: PropertyGroup, target: PropertyGroup) -> bool:
-    """Copy every setting; whether anything was different. What is set in the source is set in the target."""
+    """Copy every setting; return whether anything was different. Settings set in the source are set in the target."""
     changed = False
     for name in COPIED_PROPERTIES:
         value = getattr(source, name)
@@ -426,7 +427,7 @@ def copy_settings(source: PropertyGroup, target: PropertyGroup) -> bool:
 
 
 def _comparable(value):
-    """The value; of an array its numbers."""
+    """Return the value; of an array its numbers."""
     return value[:] if hasattr(value, "foreach_get") else value
 
 

@@ -8,7 +8,7 @@ from bpy.types import Object, PropertyGroup
 
 
 class BodyMomentsReferenceSettings(PropertyGroup):
-    """What inertia and moments are about."""
+    """Settings of the reference of inertia and moments."""
 
     about: EnumProperty(
         name="About",

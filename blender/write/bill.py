@@ -24,8 +24,8 @@ COLUMNS = (
 class BillRow:
     """A member of an assembly, SI, world axes.
 
-    level: 0 for the assembly itself. type: of the member. properties: None where it has no mass. density, volume, area:
-    None where it has none. findings: what was noticed; left_out: why it is not counted.
+    level: 0 for the assembly itself. type: of the member. properties: None if it has no mass. density, volume, area:
+    None if it has none. findings: about the member; left_out: the reason why it is not counted.
     """
 
     level: int

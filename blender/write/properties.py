@@ -61,8 +61,8 @@ DESCRIPTIONS = {
     "storing coordinates as float32 may have",
     "body_axis_inertia": "Moment of inertia about the axis of the reference, in kg·m²",
 }
-REFERENCE_KEYS = ("body_reference", "body_axis")  # how the keys of results about a reference begin
-FRAMES = {  # of what results are stored on
+REFERENCE_KEYS = ("body_reference", "body_axis")  # beginnings of the keys of results about a reference
+FRAMES = {  # by the type of the owner of results
     bpy.types.Object: "the object's frame (location and rotation, unit scale)",
     bpy.types.Collection: "the world",
     bpy.types.PoseBone: "the bone's rest frame (head and axes, unit scale)",
@@ -79,16 +79,17 @@ LENGTHS = {
     "body_principal_axes": 4,
     "body_error_bound": 8,
 }
-OPTIONAL = ("body_length", "body_display_volume")  # of wires, and of what was measured without its display mesh
-ROUNDING = 2.0**-52  # of a product of two rounded numbers, relative
+OPTIONAL = ("body_length", "body_display_volume")  # for wires, and for bodies measured without their display mesh
+ROUNDING = 2.0**-52  # relative, for a product of two rounded numbers
 BOUND_KEYS = ("volume", "area", "center_of_mass", "inertia")
 ENTRIES, ROWS, COLUMNS = zip(*TENSOR)
 
 
 @dataclass(frozen=True, eq=False)
 class StoredProperties:
-    """What an object carries, SI. body: in the object frame, or where `in_world` has put it.
-    error_bound: as in `Measurement`."""
+    """Stored results of an object, SI. body: in the object frame, or in the world after `in_world`. error_bound: as in
+    `Measurement`.
+    """
 
     density: float
     volume: float
@@ -97,7 +98,7 @@ class StoredProperties:
     error_bound: dict
 
     def in_world(self, matrix_world, unit: float) -> StoredProperties:
-        """The same in the world frame. matrix_world: of the object; unit: meters per Blender unit."""
+        """Return the results in the world frame. matrix_world: of the object; unit: meters per Blender unit."""
         location, turn, _ = matrix_world.decompose()
         to_object = rotation_matrix(turn).T
         origin = -to_object @ np.array(location, np.float64) * unit
@@ -105,8 +106,7 @@ class StoredProperties:
 
 
 def store(obj: Owner, measurement: Measurement) -> None:
-    """Write all results on an object, a collection or a pose bone, or none. EditRefusedError where it cannot hold
-    them."""
+    """Write all results on an object, a collection or a pose bone, or none. EditRefusedError if it cannot hold them."""
     require_storable(obj)
     body = measurement.mass_properties.in_frame(measurement.rotation, measurement.location)
     bound = measurement.error_bound
@@ -189,7 +189,7 @@ def store_stack(
 
 
 def _texts(method: Method, found: Iterable[Finding], mark: str) -> dict[str, str]:
-    """What is stored beside the numbers."""
+    """Return the texts stored beside the numbers."""
     return {
         "body_method": str(method),
         "body_warnings": warning_lines(found),
@@ -199,7 +199,7 @@ def _texts(method: Method, found: Iterable[Finding], mark: str) -> dict[str, str
 
 
 def _replace(obj: Owner, values: dict) -> None:
-    """Make these the only results, or leave those that were there. The tensor is stored in two ways."""
+    """Make these the only results, or leave the earlier ones. The tensor is stored in two ways."""
     entries = values["body_inertia"]
     values |= {"body_inertia_diagonal": entries[:3], "body_inertia_products": entries[3:]}
     values = {key: values[key] for key in DESCRIPTIONS if key in values}
@@ -213,8 +213,7 @@ def _replace(obj: Owner, values: dict) -> None:
 
 
 def store_scaled(obj: Owner, density: float, mass: float, findings: Sequence[Finding], fingerprint: str) -> None:
-    """Write what another density makes of stored results, all of which are finite: the mass by a factor, and all that
-    it is a factor of.
+    """Write stored results, all of them finite, for another density: the mass and its products change by a factor.
 
     Parameters
     ----------
@@ -239,8 +238,9 @@ def store_scaled(obj: Owner, density: float, mass: float, findings: Sequence[Fin
 
 
 def _write(obj: Owner, values: dict, before: dict) -> None:
-    """Makes these, by their keys, the only results of the object. before: those that are there, whose descriptions stay
-    where the kind of value does."""
+    """Make these, by their keys, the only results of the object. before: the earlier ones, whose descriptions stay if
+    the kind of value does.
+    """
     for key in DESCRIPTIONS:
         if key not in values and key in obj:
             del obj[key]
@@ -263,8 +263,9 @@ def _description(key: str, owner: type) -> str:
 
 
 def store_reference(obj: Owner, values: dict) -> None:
-    """Write results about a reference, by their keys, beside the others. EditRefusedError where the owner cannot hold
-    them."""
+    """Write results about a reference, by their keys, beside the others. EditRefusedError if the owner cannot hold
+    them.
+    """
     require_storable(obj)
     for key in DESCRIPTIONS:
         if key.startswith(REFERENCE_KEYS) and key not in values and key in obj:
@@ -274,7 +275,7 @@ def store_reference(obj: Owner, values: dict) -> None:
 
 
 def require_storable(obj: Owner) -> None:
-    """Raise EditRefusedError for what cannot hold results."""
+    """Raise EditRefusedError for an owner that cannot hold results."""
     data = obj.id_data
     if not data.is_editable:
         raise EditRefusedError(LINKED_RESULTS, subject=data.name_full)
@@ -283,7 +284,7 @@ def require_storable(obj: Owner) -> None:
 
 
 def clear(obj: Owner) -> bool:
-    """Remove all results; whether there were any."""
+    """Remove all results; return whether there were any."""
     present = [key for key in DESCRIPTIONS if key in obj]
     for key in present:
         del obj[key]
@@ -293,11 +294,11 @@ def clear(obj: Owner) -> bool:
 
 
 def retrigger_drivers(obj: Owner) -> None:
-    """Makes Blender evaluate the drivers that read what was stored, and nothing else.
+    """Make Blender evaluate the drivers that read the stored results, and nothing else.
 
-    Tags do more: TIME evaluates the object's animation, which puts back whatever was changed and not keyed yet; OBJECT,
-    what depends on its place, such as the Booleans that it is an operand of. To set a property that is only drawn makes
-    Blender copy the object for evaluation, and look at its custom properties then.
+    Tags do more: TIME evaluates the object's animation, which reverts unkeyed changes; OBJECT, dependents of its place,
+    such as the Booleans that it is an operand of. Setting a property that is only drawn makes Blender copy the object
+    for evaluation, and look at its custom properties then.
     """
     if isinstance(obj, bpy.types.Collection):
         obj.color_tag = obj.color_tag
@@ -306,27 +307,27 @@ def retrigger_drivers(obj: Owner) -> None:
 
 
 def is_stored(obj: Owner) -> bool:
-    """Whether the object carries results."""
+    """Return whether the object carries results."""
     return numbers(obj) is not None
 
 
 def method(obj: Owner) -> Method | None:
-    """How the stored numbers came about; None where there are none, or this version does not know their method."""
+    """Return the method of the stored numbers; None if there are none, or this version does not know their method."""
     return Method.parse(method_text(obj))
 
 
 def method_text(obj: Owner) -> str:
-    """The method as it is stored, "" where there are no numbers."""
+    """Return the method as it is stored, "" if there are no numbers."""
     return str(obj.get("body_method", ""))
 
 
 def fingerprint(obj: Owner) -> str:
-    """The mark of what the numbers were computed from (session/marks.py), "" where there is none."""
+    """Return the mark of the numbers' inputs (session/marks.py), "" if there is none."""
     return str(obj.get("body_fingerprint", ""))
 
 
 def findings(obj: Owner) -> tuple[Finding, ...]:
-    """What was found and decided when the stored numbers were computed; see `findings_in`."""
+    """Return the findings of the stored measurement; see `findings_in`."""
     return findings_in(obj.get("body_findings"))
 
 
@@ -336,18 +337,19 @@ def store_findings(obj: bpy.types.Object, findings: Sequence[Finding]) -> None:
 
 
 def warning_lines(findings: Iterable[Finding]) -> str:
-    """The English sentences of the warnings, one a line."""
+    """Return the English sentences of the warnings, one a line."""
     return "\n".join([sentence(finding) for finding in of_severity(findings, Severity.WARNING)])
 
 
 def findings_text(findings: Iterable[Finding]) -> str:
-    """Findings as JSON text, to be read by `findings_in`."""
+    """Return findings as JSON text, to be read by `findings_in`."""
     return json.dumps([plain(finding.as_record()) for finding in findings], ensure_ascii=False)
 
 
 def findings_in(text: object) -> tuple[Finding, ...]:
-    """The findings in a stored text. Text that `findings_text` has not written gives none; a finding that this version
-    of the add-on cannot put into words is left out."""
+    """Return the findings in a stored text. Text that `findings_text` has not written gives none; a finding that this
+    version of the add-on cannot put into words is left out.
+    """
     return _findings_in(text) if isinstance(text, str) else ()
 
 
@@ -368,7 +370,7 @@ def _has_sentence(finding: Finding) -> bool:
 
 
 def is_estimated(obj: bpy.types.Object) -> bool:
-    """Whether the stored bounds are estimates: those of splines are, and those of solids filled with a grid."""
+    """Return whether the stored bounds are estimates, as for splines and for solids filled with a grid."""
     how = method(obj)
     if how is None:
         return False
@@ -380,18 +382,18 @@ def is_estimated(obj: bpy.types.Object) -> bool:
 
 
 def optional(obj: Owner, key: str) -> float | None:
-    """One of OPTIONAL, None where the object does not carry it."""
+    """Return one of OPTIONAL, None if the object does not carry it."""
     value = obj.get(key)
     return value if isinstance(value, float) else None
 
 
 def density_from(obj: Owner) -> str:
-    """Where the density of the stored numbers came from, "" where it is the same everywhere."""
+    """Return the source of the stored numbers' density, "" if it is the same everywhere."""
     return str(obj.get("body_density_from", ""))
 
 
 def numbers(obj: Owner) -> tuple[tuple[float, ...], ...] | None:
-    """The stored numbers as they are, in the order of LENGTHS; None where one is missing or not finite."""
+    """Return the stored numbers unchanged, in the order of LENGTHS; None if one is missing or not finite."""
     values = []
     for key, length in LENGTHS.items():
         value = obj.get(key)
@@ -406,7 +408,7 @@ def numbers(obj: Owner) -> tuple[tuple[float, ...], ...] | None:
 
 
 def from_numbers(numbers_read: tuple[tuple[float, ...], ...]) -> StoredProperties:
-    """The results that `numbers` has read, in the object frame."""
+    """Return the results that `numbers` has read, in the object frame."""
     (mass,), (density,), (volume,), (area,), center, entries, moments, turn, bounds = numbers_read
     tensor = np.zeros((3, 3))
     tensor[ROWS, COLUMNS] = tensor[COLUMNS, ROWS] = entries
@@ -422,5 +424,5 @@ def from_numbers(numbers_read: tuple[tuple[float, ...], ...]) -> StoredPropertie
 
 
 def tensor_entries(tensor: NDArray) -> NDArray[np.float64]:
-    """(6,) a (3, 3) tensor in the order of ENTRIES."""
+    """Return (6,) a (3, 3) tensor in the order of ENTRIES."""
     return tensor[ROWS, COLUMNS]

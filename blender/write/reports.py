@@ -21,7 +21,7 @@ LEVELS = {Severity.NOTE: "INFO", Severity.WARNING: "WARNING", Severity.ERROR: "E
 
 
 def text(*findings: Finding) -> str:
-    """The sentences of findings, one after the other."""
+    """Return the sentences of findings, one after the other."""
     joined = ""
     for added in [sentence(shown, bpy.app.translations.pgettext_rpt, _length) for shown in findings]:
         between = " " if joined.endswith(".") else ". " if added.endswith(".") else "; "
@@ -38,30 +38,30 @@ def _rank(shown: Finding) -> int:
 
 
 def report(operator: Operator, *findings: Finding) -> None:
-    """One report of findings, as severe as the most severe of them."""
+    """Report findings at once, as severe as the most severe of them."""
     worst = findings[0] if len(findings) == 1 else max(findings, key=_rank)
     operator.report({LEVELS[severity(worst)]}, text(*findings))
 
 
 def unavailable(operator: type[Operator], reason: Finding) -> bool:
-    """What `poll` returns where an operator cannot run, for this reason."""
+    """Return False from `poll`, with this reason."""
     operator.poll_message_set(text(reason))
     return False
 
 
 def first(findings: Sequence[Finding]) -> list[Finding]:
-    """The first of the most severe findings, and how many more there are."""
+    """Return the first of the most severe findings, and how many more there are."""
     return truncate_findings(sorted(findings, key=_rank, reverse=True), MAX_REPORTED)
 
 
 def failure(name: str, reason: Finding | Exception) -> Finding:
-    """Why one of several objects was left as it is: it was refused, or this program failed."""
+    """Return the finding that one of several objects was left as it is: it was refused, or this program failed."""
     cause = reason if isinstance(reason, Finding) else internal_error.finding_of(reason)
     return finding(FAILURE, object=name, cause=cause.as_record())
 
 
 def refusal(error: MeasureError) -> Finding:
-    """Why an operator does nothing at all."""
+    """Return the reason why an operator does nothing at all."""
     if not error.subject:
         return error.finding
     return finding(REFUSED, object=error.subject, cause=error.finding.as_record())

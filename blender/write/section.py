@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A stored section: one group of ID properties, `body_section`, on the object it was measured of, and its text report.
+"""A stored section: one group of ID properties, `body_section`, on the measured object, and its text report.
 
-SI units, world axes. Beside what a `core.flat.section.Section` holds: what was measured, findings, a fingerprint.
+SI units, world axes. It holds a `core.flat.section.Section` with its description, findings and a fingerprint.
 """
 
 from __future__ import annotations
@@ -81,13 +81,13 @@ def store(
 
 
 def fingerprint(obj: bpy.types.Object) -> str:
-    """What the stored section was computed from, "" where there is none."""
+    """Return the fingerprint of the stored section, "" if there is none."""
     group = obj.get(KEY)
     return str(group.get("fingerprint", "")) if hasattr(group, "get") else ""
 
 
 def stored(obj: bpy.types.Object) -> StoredSection | None:
-    """The stored section; None where there is none, or something else under its name."""
+    """Return the stored section; None if there is none, or something else under its name."""
     group = obj.get(KEY)
     if not hasattr(group, "get"):
         return None
@@ -102,7 +102,7 @@ def stored(obj: bpy.types.Object) -> StoredSection | None:
 
 
 def clear(obj: bpy.types.Object) -> bool:
-    """Remove the section; whether there was one."""
+    """Remove the section; return whether there was one."""
     if KEY not in obj:
         return False
     del obj[KEY]
@@ -129,7 +129,7 @@ def _from_keys(numbers: tuple[tuple[float, ...], ...], words: tuple[str, ...]) -
 
 
 def text(name: str, section: StoredSection, outdated: Finding | None = None) -> str:
-    """A report that a person reads, in SI units. outdated: why the section no longer holds."""
+    """Return a report that a person reads, in SI units. outdated: the reason why the section no longer holds."""
     return "\n".join(_lines(name, section, outdated)) + "\n"
 
 

@@ -28,19 +28,22 @@ def save(
     check: Callable[[Path], None] | None = None,
     plane: Mapping[str, Any] | None = None,
 ) -> None:
-    """Write an .npz file, whole or not at all: q (M, 3) in rad/m, F (M,) complex in m³ or m², error (M,) and input,
-    what rounding and storing coordinates as float32 may have changed, method and frame. check: as in `whole_file`.
-    plane: of a flat shape, whose q is (M, 2), `FLAT_SPECTRUM_ARRAYS`. Raises OSError."""
+    """Write an .npz file, whole or not at all.
+
+    It has q (M, 3) in rad/m, F (M,) complex in m³ or m², error (M,) and input, bounds of rounding and of storing
+    coordinates as float32, method and frame. check: as in `whole_file`. plane: `FLAT_SPECTRUM_ARRAYS` of a flat shape
+    with q (M, 2). Raises OSError.
+    """
     with whole_file(path, check) as file:
         arrays = spectrum.q, spectrum.values, spectrum.error, spectrum.input_error, spectrum.method, frame
         np.savez(file, **dict(zip(SPECTRUM_ARRAYS, arrays)), **(plane or {}))
 
 
 def picture(name: str, values: NDArray[np.complex128], count: int, dimension: int = 3) -> bpy.types.Image:
-    """An image of the slices z = 0, y = 0 and x = 0, from left to right, of a transform on a grid of count³; of one on
-    a grid of count² all of it.
+    """Return an image of the slices z = 0, y = 0 and x = 0, from left to right, of a transform on a grid of count³; of
+    one on a grid of count² all of it.
 
-    Gray is log |F|: white where it is largest, black from six decades below on. The first of the axes left runs to the
+    Gray is log |F|: white at the maximum, black from six decades below on. The first of the axes left runs to the
     right, the other one upward.
     """
     half = count // 2

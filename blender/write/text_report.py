@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A report that a person reads, in the order of CAD dialogs: verdict, mass, volume, center, principal axes, tensor.
 
-It is made from a document (`documents.document`) alone, and for results that are stored on objects a document is made
-first: so it can say all that JSON says. What a document lacks is left out.
+It is made from a document (`documents.document`) alone, and results stored on objects become a document first: so it
+can say all that JSON says. Entries missing in a document are left out.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ from .findings import NO_STORED_RESULTS, STALE_RESULTS
 from .units import rounded_up
 
 BOUNDS = {"volume": "m³", "area": "m²", "center_of_mass": "m", "inertia": "kg·m²"}
-DIGITS = 7  # as many as float32 coordinates carry
+DIGITS = 7  # float32 coordinates carry as many
 ZERO_DISPLAY_RTOL = 2.5e-7  # beside the largest component: what float32 matrices leave of a right angle; shown as 0
 INDENT = "  "
 WIDTH = 22
@@ -37,10 +37,9 @@ WIDTH = 22
 def report_text(
     context: Any, objects: Sequence[Any], outdated: Collection[str] = (), caveats: Sequence[Finding] = ()
 ) -> str:
-    """The results stored on `objects`, in the frame that the context's scene is set to.
+    """Return a report of the results stored on `objects`, in the frame that the context's scene is set to.
 
-    outdated: names of those whose results no longer hold. Objects without results are named too.
-    caveats: about their total.
+    outdated: names of objects with outdated results. Objects without results are named too. caveats: about their total.
     """
     return text(stored_document(context, objects, outdated, caveats))
 
@@ -53,7 +52,9 @@ def stored_document(
     file: str | None = None,
     blender: str | None = None,
 ) -> dict[str, Any]:
-    """The document of the results stored on `objects`; see `report_text`. The health of their meshes is not stored."""
+    """Return the document of the results stored on `objects`; see `report_text`. The health of their meshes is not
+    stored.
+    """
     scene = context.scene
     unit, frame = shortest_decimal(scene.unit_settings.scale_length), scene.body_moments.frame.lower()
     entries, bodies, errors = [], [], []
@@ -71,7 +72,7 @@ def stored_document(
 
 
 def text(file_document: dict[str, Any]) -> str:
-    """A document as plain text, with its units and conventions stated."""
+    """Return a document as plain text, with its units and conventions stated."""
     lines = ["Mass properties, SI units, {} frame".format(file_document["frame"])]
     if file_document["file"]:
         lines.append("File: {}".format(file_document["file"]))
@@ -93,7 +94,7 @@ def text(file_document: dict[str, Any]) -> str:
 
 
 def _body(entry: dict[str, Any], frame: str) -> Iterable[str]:
-    """The lines of one object, or of a total."""
+    """Return the lines of one object, or of a total."""
     if "method" in entry:
         walled = any(found["code"] == WALL_MEASURED for found in entry.get("findings", ()))
         _, explanation = METHODS.get(method_key(Method.parse(entry["method"]), walled), ("", ""))
@@ -190,13 +191,13 @@ def _vector(values: Sequence[float | None], size: float = 0.0) -> str:
 
 
 def _clean(values: Sequence[float | None], size: float = 0.0) -> list[float | None]:
-    """The values with 0.0 for what is rounding beside the largest of them, or beside the body's size."""
+    """Return the values with 0.0 for rounding beside the largest of them, or beside the body's size."""
     largest = max([size, *(abs(value) for value in values if value is not None)])
     return [0.0 if value is not None and abs(value) <= ZERO_DISPLAY_RTOL * largest else value for value in values]
 
 
 def _stored_record(obj: Any, stored: properties.StoredProperties, outdated: bool) -> dict[str, Any]:
-    """A record without health, which is not stored."""
+    """Return a record without health, which is not stored."""
     method, findings = properties.method(obj), properties.findings(obj)
     kinds = {Verdict.SHELL: "shell", Verdict.WIRE: "wire"}
     source = properties.density_from(obj)
@@ -230,7 +231,7 @@ def _stored_record(obj: Any, stored: properties.StoredProperties, outdated: bool
 
 
 def _stored_total(entries: Sequence[dict[str, Any]], bodies: Sequence[MassProperties]) -> dict[str, Any]:
-    """Everything stored as one body, world frame. Axes are left out: signs need third moments."""
+    """Return the sum of all stored results as one body, world frame. Axes are left out: signs need third moments."""
     total = {name: sum(entry[name] for entry in entries) for name in ("mass", "volume", "area")}
     total |= dict.fromkeys(("center_of_mass", "inertia", "principal_moments"))
     if bodies:

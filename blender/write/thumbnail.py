@@ -58,10 +58,10 @@ def thumbnail(
 
 
 def _draw(image: NDArray, corners: NDArray, normals: NDArray, areas: NDArray) -> None:
-    """Points of the triangles, spread over their areas, the nearest in front; each is shaded by its normal."""
+    """Draw points of the triangles, spread over their areas, the nearest in front; each is shaded by its normal."""
     chance = np.random.default_rng(0)
     chosen = np.searchsorted(np.cumsum(areas), chance.random(_SAMPLES) * areas.sum())
-    chosen = np.minimum(chosen, len(areas) - 1)  # where the sums are rounded otherwise
+    chosen = np.minimum(chosen, len(areas) - 1)  # the sums may be rounded differently
     a, b = chance.random((2, _SAMPLES, 1))
     a, b = np.where(a + b > 1.0, 1.0 - a, a), np.where(a + b > 1.0, 1.0 - b, b)
     triangles = corners[chosen]
@@ -82,7 +82,7 @@ def _put(image: NDArray, spots: NDArray, colors: NDArray) -> None:
 
 
 def _png(image: NDArray[np.uint8]) -> bytes:
-    """https://www.w3.org/TR/png/: 8 bits, red, green, blue, opacity."""
+    """Return a PNG file (https://www.w3.org/TR/png/): 8 bits, red, green, blue, opacity."""
 
     def chunk(kind: bytes, data: bytes) -> bytes:
         return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))

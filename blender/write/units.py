@@ -48,7 +48,7 @@ MASSES = {
         "OUNCES": (POUND / 16.0, "oz"),
     },
 }
-# What an adaptive unit chooses from. Hundredweights and stones are for those who ask for them.
+# Choices of an adaptive unit. Hundredweights and stones are for people who ask for them.
 ADAPTIVE_LENGTHS = {
     "METRIC": ("KILOMETERS", "METERS", "CENTIMETERS", "MILLIMETERS", "MICROMETERS"),
     "IMPERIAL": ("MILES", "FEET", "INCHES", "THOU"),
@@ -73,7 +73,7 @@ SI_UNITS = {
 }
 DIGITS = 6
 UPWARD = Context(prec=2, rounding=ROUND_CEILING)
-GROUPS = {"SPACE": "\u2009", "COMMA": ",", "NONE": ""}  # what stands between groups of three digits
+GROUPS = {"SPACE": "\u2009", "COMMA": ",", "NONE": ""}  # separators of groups of three digits
 MIN_GROUPED = 5  # integers of fewer digits are read at a glance
 MIN_EXPONENT, MAX_EXPONENT = -5, 10  # beyond these, powers of ten are shown
 
@@ -94,18 +94,19 @@ class Units:
 
     @classmethod
     def of(cls, settings) -> Units:
-        """From a scene's `unit_settings`, and the number format of that scene."""
+        """Return the units of a scene's `unit_settings`, and the number format of that scene."""
         units = settings.system, settings.length_unit, settings.mass_unit, shortest_decimal(settings.scale_length)
         shown = getattr(getattr(settings, "id_data", None), "body_moments", None)
         return cls(*units) if shown is None else cls(*units, shown.density_unit, shown.digits, shown.digit_grouping)
 
     def text(self, quantity: str, value: float) -> str:
-        """One SI value: "1.5 kg", "12.3457 cm²"."""
+        """Return one SI value as text: "1.5 kg", "12.3457 cm²"."""
         return self.texts(quantity, (value,))[0]
 
     def texts(self, quantity: str, values: Sequence[float], size: float = 0.0) -> list[str]:
-        """SI values of one quantity as a column: all in the unit that suits the largest of them, with as many decimals.
-        size: of the body that they belong to; what is rounding beside it is shown as 0."""
+        """Return SI values of one quantity as a column: all in the unit that suits the largest of them, with as many
+        decimals. size: of the body that they belong to; rounding beside it is shown as 0.
+        """
         largest = max((abs(value) for value in values if isfinite(value)), default=0.0)
         noise = max(1e-12 * largest, 1e-7 * size)
         factor, name = self.unit(quantity, 0.0 if largest < noise else largest)
@@ -114,12 +115,12 @@ class Units:
         return ["{:s} {:s}".format(text, name).rstrip() for text in column(shown, self.digits, self.grouping)]
 
     def bound(self, quantity: str, bound: float, beside: float) -> str:
-        """An SI error bound, to two digits, upward, in the unit of its value: "± 4.5e-15 m³"."""
+        """Return an SI error bound, to two digits, upward, in the unit of its value: "± 4.5e-15 m³"."""
         factor, name = self.unit(quantity, abs(beside))
         return "± {:s} {:s}".format(number(rounded_up(bound / factor), 2, self.grouping), name).rstrip()
 
     def unit(self, quantity: str, value: float) -> tuple[float, str]:
-        """(SI value of one unit, its name) to show an SI `value` in."""
+        """Return (SI value of one unit, its name) to show an SI `value` in."""
         if self.system == "NONE" and quantity != "density":
             return (self.scale ** POWERS[quantity][1], "") if quantity in POWERS else (1.0, SI_UNITS[quantity])
         if quantity in POWERS:
@@ -159,9 +160,7 @@ def _base(table: dict[str, tuple[float, str]]) -> tuple[float, str]:
 
 
 def _fitting_unit(units: Sequence[tuple[float, str]], value: float, base: tuple[float, str]) -> tuple[float, str]:
-    """The largest unit of which there is at least one, the smallest where there is none, the
-    base for zero.
-    """
+    """Return the largest unit of which there is at least one, else the smallest; the base for zero."""
     if value == 0.0:
         return base
     for unit in units:
@@ -171,19 +170,19 @@ def _fitting_unit(units: Sequence[tuple[float, str]], value: float, base: tuple[
 
 
 def rounded_up(bound: float) -> float:
-    """To two digits, no less than it was: a bound that is rounded down is none."""
+    """Return a bound rounded up to two digits: a bound that is rounded down is none."""
     return float(UPWARD.create_decimal(repr(float(bound))))
 
 
 def number(value: float, digits: int = DIGITS, grouping: str = "SPACE") -> str:
-    """A number as a person reads it: so many significant digits, no trailing zeros, powers of ten
-    only where needed.
+    """Return a number as a person reads it: so many significant digits, no trailing zeros, powers of ten only if
+    needed.
     """
     return column((value,), digits, grouping)[0]
 
 
 def column(values: Sequence[float], digits: int = DIGITS, grouping: str = "SPACE") -> list[str]:
-    """Numbers as a person reads them below one another.
+    """Return numbers as a person reads them below one another.
 
     Parameters
     ----------
@@ -196,8 +195,8 @@ def column(values: Sequence[float], digits: int = DIGITS, grouping: str = "SPACE
     Returns
     -------
     list of str
-        With as many decimals each, zeros that all of them would end with left out, and the same power of ten where one
-        is needed.
+        With as many decimals each, without their common trailing zeros, and with the same power of ten if one is
+        needed.
     """
     largest = max((abs(value) for value in values if isfinite(value)), default=0.0)
     if largest == 0.0:

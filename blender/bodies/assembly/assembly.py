@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Assemblies: each member is measured once, and their masses add up, with exact parallel-axis terms.
 
-What an instance of a collection shows weighs as its members do: mass moments are kept apart by the power of the scale
-that their mass grows with, which is 3 for solids, 2 for shells, 1 for wires and 0 where the mass is given.
+The contents of a collection instance weigh as the members do: mass moments are kept apart by the power of the scale
+that their mass grows with, which is 3 for solids, 2 for shells, 1 for wires and 0 for given masses.
 """
 
 from __future__ import annotations
@@ -60,21 +60,21 @@ Results = dict[Object, Measured | Stacked | Finding]
 
 @dataclass(frozen=True, eq=False)
 class MemberBody:
-    """What a member of an assembly comes to, SI, world axes.
+    """Moments of a member of an assembly, SI, world axes.
 
     Attributes
     ----------
     member : Member
     masses : mapping of int to Moments
-        In kg to third order, by the power of an instance's scale that they grow with; empty where nothing counts.
+        In kg to third order, by the power of an instance's scale that they grow with; empty if nothing counts.
     volume, area, volume_error, area_error : float
         m³ and m², with bounds of their rounding.
     volume_input, area_input : float
-        What float32 coordinates may have moved of both.
+        Bounds of the effect of float32 coordinates on both.
     measured : Measured or Stacked, optional
         Of an object, with its measurement.
     refusal : Finding, optional
-        Why it could not be measured.
+        Reason why it could not be measured.
     parts : tuple of MemberBody
         Its own members.
     findings : tuple of Finding
@@ -97,7 +97,7 @@ class MemberBody:
 
     @property
     def mass(self) -> Moments | None:
-        """All of its mass, None where there is none."""
+        """Sum of its mass moments, None if there are none."""
         return sum_moments(list(self.masses.values())) if self.masses else None
 
     def walk(self) -> Iterator[MemberBody]:
@@ -132,12 +132,12 @@ def measure_assembly(root: Root, depsgraph: Depsgraph, options: MeasureOptions =
     depsgraph : Depsgraph
         Up to date.
     options : MeasureOptions
-        What overrides the members' settings.
+        Overrides of the members' settings.
 
     Raises
     ------
     MeasureError
-        Where it has no mass.
+        If it has no mass.
     """
     member = members_of(root, depsgraph)
     results: Results = {}
@@ -149,7 +149,7 @@ def measure_assembly(root: Root, depsgraph: Depsgraph, options: MeasureOptions =
 def measure_members(
     root: Member, depsgraph: Depsgraph, results: Results, options: MeasureOptions = AS_SET
 ) -> Generator[int, None, None]:
-    """Measure each object of an assembly once, into `results`; yields how many are done. What refuses ends nothing."""
+    """Measure each object of an assembly once, into `results`; yield the number done. Refusals do not stop it."""
     objects = {member.data: None for member in root.walk() if member.is_measured or _is_sheared(member)}
     for together in measure_many(list(objects), depsgraph, options):
         for obj, outcome in together:
@@ -158,14 +158,14 @@ def measure_members(
 
 
 def assemble(root: Member, results: Results, depsgraph: Depsgraph, options: MeasureOptions = AS_SET) -> Assembly:
-    """Return the assembly that measured members come to. MeasureError where it has no mass."""
+    """Return the assembly of measured members. MeasureError if it has no mass."""
     unit = options.meters_per_unit(depsgraph.scene)
     whole = member_body(root, results, unit)
     return Assembly(whole, assembly_measurement(whole, depsgraph, unit))
 
 
 def member_body(member: Member, results: Results, unit: float) -> MemberBody:
-    """Return what a member comes to. unit: meters per Blender unit."""
+    """Return the moments of a member. unit: meters per Blender unit."""
     parts = tuple(member_body(part, results, unit) for part in member.members)
     if member.kind in (MemberKind.OBJECT, MemberKind.POINT):
         own = MemberBody(member) if member.left_out is not None else _object_body(member, results[member.data])
@@ -177,7 +177,7 @@ def member_body(member: Member, results: Results, unit: float) -> MemberBody:
 
 
 def assembly_measurement(whole: MemberBody, depsgraph: Depsgraph, unit: float) -> Measurement:
-    """Return the results of an assembly as one body. MeasureError where it has no mass."""
+    """Return the results of an assembly as one body. MeasureError if it has no mass."""
     data, mass = whole.member.data, whole.mass
     if mass is None:
         raise ReadError(ASSEMBLY_WITHOUT_MEMBERS, subject=data.name)
@@ -209,19 +209,20 @@ def assembly_measurement(whole: MemberBody, depsgraph: Depsgraph, unit: float) -
 
 
 def members_key(root: Member, fingerprints: Mapping[Object, str]) -> str:
-    """Return what changes with the results of any measured member. fingerprints: of the objects' results."""
+    """Return a key of the results of all measured members. fingerprints: of the objects' results."""
     keys = []
     for member in root.walk():
         if member.kind == MemberKind.POINT:  # an empty with children carries those results, not its own
             settings = member.data.body_moments
             keys.append(GivenPart.of(settings, 1.0).key + repr(settings.mass) + matrix_hash(member.data))
         elif member.is_measured:
-            keys.append(fingerprints.get(member.data, "") + matrix_hash(member.data))  # which moving leaves as they are
+            # moving leaves fingerprints unchanged
+            keys.append(fingerprints.get(member.data, "") + matrix_hash(member.data))
     return "\n".join(keys)
 
 
 def structure_hash(root: Member) -> str:
-    """Return a digest of who is a member, where instances stand, and what is given of assemblies."""
+    """Return a digest of the members, the places of instances and the masses given for assemblies."""
     keys = []
     for member in root.walk():
         key = [member.kind.value, member.name, member.left_out.code if member.left_out else ""]
@@ -236,7 +237,7 @@ def structure_hash(root: Member) -> str:
 
 
 def findings_of(whole: MemberBody, scene: bpy.types.Scene) -> Iterator[Finding]:
-    """Yield what is to be said of an assembly: of the whole itself, then of its members by name."""
+    """Yield the findings about an assembly: the whole first, then its members by name."""
     yield from whole.findings
     members = list(whole.walk())
     refused = [part.member.name for part in members if part.refusal is not None]
@@ -299,7 +300,7 @@ def _object_body(member: Member, result: Measured | Stacked | Finding) -> Member
 
 
 def _sum(like: MemberBody, bodies: Iterable[MemberBody], parts: tuple[MemberBody, ...]) -> MemberBody:
-    """The member with all these bodies together as its own."""
+    """Return the member with all these bodies together as its own."""
     bodies = [body for body in bodies if body.masses]
     masses: dict[int, list[Moments]] = {}
     for body in bodies:
@@ -320,7 +321,7 @@ def _sum(like: MemberBody, bodies: Iterable[MemberBody], parts: tuple[MemberBody
 
 
 def _with_given_mass(whole: MemberBody, unit: float) -> MemberBody:
-    """A collection, or an empty with its children, with the mass that its settings give it."""
+    """Return a collection, or an empty with its children, with the mass that its settings give it."""
     data = whole.member.data
     settings = settings_of(data)
     if settings.mass_from != "MASS":
@@ -341,12 +342,12 @@ def _with_given_mass(whole: MemberBody, unit: float) -> MemberBody:
 
 
 def _is_sheared(member: Member) -> bool:
-    """Whether an instance stretches its members, so that no one factor turns their areas into those shown."""
+    """Return whether an instance stretches its members, so that no single factor scales their areas."""
     return member.matrix is not None and not are_similarities(member.matrix[None, :3, :3])[0]
 
 
 def _instance_body(whole: MemberBody, results: Results, unit: float) -> MemberBody:
-    """What an instance shows of its collection, where it shows it."""
+    """Return the body of a collection instance, in the place of the instance."""
     member = whole.member
     assert member.matrix is not None
     matrix = to_si(member.matrix[None], unit)[0]

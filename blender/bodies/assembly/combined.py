@@ -47,14 +47,14 @@ def combined_measurement(
     volume, area : tuple of two floats
         m³ and m², and the bounds of their rounding.
     inputs : tuple of two floats
-        What float32 coordinates may have moved volume and area.
+        Bounds of the effect of float32 coordinates on volume and area.
     rotation, location : (3, 3) and (3,) array
         The frame in which the results are stored, m.
 
     Raises
     ------
     MeasureError
-        Where they have no certain mass, or second moments that no body has.
+        If they have no certain mass, or second moments that are impossible for a body.
     """
     properties = properties_of(mass, rotation)
     nothing = np.zeros(monomial_count(KNOWN_ORDER) - 1)

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Parts whose mass is known: their center and inertia as given, and point masses, which have no geometry.
 
-What is given replaces the mass moments of a body: a mass, no first moments about the center, and the second moments
-that make the tensor. Volume and area stay those of the geometry.
+Given values replace the mass moments of a body: a mass, no first moments about the center, and the second moments of
+the tensor. Volume and area stay as measured.
 """
 
 from __future__ import annotations
@@ -51,8 +51,8 @@ def given_moments(
     rotation, location : (3, 3) and (3,) array
         That frame, its axes as columns, m.
     geometry : Moments, optional
-        Whose center, and inertia scaled to the mass, count where none are given, to third order. Without any, the part
-        is a point at its origin.
+        Source of the center, and of the inertia scaled to the mass, to third order, if these are not given. Without
+        any, the part is a point at its origin.
 
     Returns
     -------
@@ -63,7 +63,7 @@ def given_moments(
     Raises
     ------
     ReadError
-        Where no body can have the mass or the tensor.
+        If the mass or the tensor is impossible.
     """
     if not mass > 0.0:
         raise ReadError(ZERO_MASS)
@@ -90,7 +90,7 @@ def given_moments(
 
 
 def _second_moments(inertia: NDArray) -> NDArray[np.float64]:
-    """The central second moments of a tensor. ReadError where they are those of no body."""
+    """Return the central second moments of a tensor. ReadError if they are impossible."""
     second = np.trace(inertia) / 2.0 * np.eye(3) - inertia
     values, axes = np.linalg.eigh(second)
     if values[0] < -GIVEN_RTOL * np.trace(inertia) or not np.isfinite(values).all():
@@ -99,7 +99,7 @@ def _second_moments(inertia: NDArray) -> NDArray[np.float64]:
 
 
 def with_given(body: Body, reading: Reading, request: Request) -> Body:
-    """Return the body with the center and the inertia that its settings give. ReadError where they are impossible."""
+    """Return the body with the center and the inertia that its settings give. ReadError if they are impossible."""
     if request.options.mass is None or request.obj.body_moments.mass_from != "MASS":
         return body
     given = GivenPart.of(request.obj.body_moments, request.unit)
@@ -115,14 +115,14 @@ def with_given(body: Body, reading: Reading, request: Request) -> Body:
 
 
 def _carrier(body: Body, request: Request) -> Moments:
-    """What the mass is spread over."""
+    """Return the moments of the volume, area or length over which the mass is spread."""
     thin = request.options.kind == "shell" and body.wall is None
     measured = extent(body, request.options)  # refused where there is none
     return body.area if thin else measured
 
 
 def _is_outside(point: NDArray, reading: Reading, unit: float) -> bool:
-    """Whether a point is outside the boxes around all that was read."""
+    """Return whether a point is outside the boxes around all parts of the reading."""
     for part in getattr(reading, "parts", ()):
         low, high = part.surface.box
         for matrix in to_si(part.matrices, unit):
@@ -134,14 +134,14 @@ def _is_outside(point: NDArray, reading: Reading, unit: float) -> bool:
 
 
 def read_point(request: Request) -> Reading | None:
-    """Return where a point mass is; None for any other object. Raises MeasureError."""
+    """Return the frame of a point mass; None for any other object. Raises MeasureError."""
     if not is_point_mass(request.obj):
         return None
     return locate(request.obj.original, request.depsgraph)
 
 
 def point_measurement(reading: Reading, request: Request) -> tuple[Measurement, Body]:
-    """Return the results of a part that has no geometry, and its body. ReadError where it has no mass."""
+    """Return the results of a part without geometry, and its body. ReadError if it has no mass."""
     settings, options = request.obj.body_moments, request.options
     given = GivenPart.of(settings, request.unit)
     location = np.asarray(reading.location, np.float64) * request.unit
@@ -193,7 +193,7 @@ def point_measurement(reading: Reading, request: Request) -> tuple[Measurement, 
 
 
 def properties_of(mass: Moments, preferred_axes: NDArray) -> MassProperties:
-    """Return mass properties of moments in kg, whose body may be a point: then no axes are fixed."""
+    """Return mass properties of moments in kg. A point has no unique axes."""
     if not mass.total > 0.0:  # a bone of flat faces alone: refused there
         return MassProperties.from_moments(mass, preferred_axes=preferred_axes)
     central = mass.truncate(2).about_center()

@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The mass moments of a body whose density is a polynomial, and whether that is negative somewhere in it.
+"""The mass moments of a body whose density is a polynomial, and a check that it is not negative in the body.
 
-The density's coordinates are meters along the world's axes, or along each surface's own: then it is carried along by
-the object, and by each instance, turned and mirrored as it is.
+The density's coordinates are meters along the world's axes, or along each surface's own: then the density follows the
+object and each instance, including turns and mirroring.
 """
 
 from __future__ import annotations
@@ -48,9 +48,9 @@ class _Piece:
 def polynomial_mass_result(
     reading: Reading, body: MeshBody, density: DensityField, *, unit: float, shell: bool, threads: int, order: int
 ) -> tuple[list[Moments], list[Finding]]:
-    """The mass moments of all parts to an order (of a shell for a thickness of one meter), and the findings.
+    """Return the mass moments of all parts to an order (of a shell for a thickness of one meter), and the findings.
 
-    ReadError where the density is negative.
+    ReadError if the density is negative.
     """
     polynomial, findings = _polynomial(density), []
     pieces = list(
@@ -79,7 +79,7 @@ def polynomial_mass_result(
 
 
 def _solid_pieces(reading: Reading, body: MeshBody, in_world: bool, unit: float) -> Iterator[_Piece]:
-    """What encloses the body, as it was repaired."""
+    """Yield the repaired surfaces that enclose the body."""
     if body.method.verdict == Verdict.UNION:
         if reading.instance_count > 1 and not in_world:
             raise ReadError(DENSITY_OF_UNITED_INSTANCES)
@@ -96,7 +96,7 @@ def _solid_pieces(reading: Reading, body: MeshBody, in_world: bool, unit: float)
 
 
 def _to_local(matrices: NDArray) -> NDArray[np.float64]:
-    """(k, 4, 4) from world coordinates, in meters, to those along the axes of what stands there."""
+    """Return (k, 4, 4) maps from world coordinates, in meters, to those along the axes of each place."""
     axes = polar_rotation(matrices)[0].transpose(0, 2, 1)
     to_own = translation_matrices(-(axes @ matrices[:, :3, 3, None])[..., 0])
     to_own[:, :3, :3] = axes
@@ -104,7 +104,7 @@ def _to_local(matrices: NDArray) -> NDArray[np.float64]:
 
 
 def _sheet_pieces(reading: Reading, in_world: bool, unit: float) -> Iterator[_Piece]:
-    """The surfaces themselves, each under similarities only."""
+    """Yield the surfaces themselves, each under similarities only."""
     for part in reading.parts:
         matrices = to_si(part.matrices, unit)
         fields, axes = local_coordinates(matrices), polar_rotation(matrices)[0]
@@ -122,7 +122,7 @@ def _polynomial(density: DensityField) -> Polynomial:
 
 
 def _negative_density_note(density: DensityField, pieces: list[_Piece], shell: bool) -> list[Finding]:
-    """A finding where the density may be negative in the body; ReadError where it is."""
+    """Return a finding if the density may be negative in the body; ReadError if it is."""
     polynomial = _polynomial(density)
     corners = np.array(list(product((0.0, 1.0), repeat=3)))
     boxes = []

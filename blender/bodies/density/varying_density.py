@@ -63,8 +63,11 @@ MAX_NAMED = 8  # materials
 
 @dataclass(frozen=True, eq=False)
 class _Weighed:
-    """mass: moments in kg, SI units and world axes. source: where the density came from. findings: what was decided.
-    materials: full names of those that were met, with a density or without."""
+    """Mass of a part or body.
+
+    mass: moments in kg, SI units and world axes. source: of the density. findings: the decisions. materials: full names
+    of all materials met, with a density or without.
+    """
 
     mass: Moments
     source: Finding
@@ -78,7 +81,7 @@ def weigh(reading: Reading, body: MeshBody, request: Request) -> MeshBody:
     Raises
     ------
     MeasureError
-        Where the density is missing or negative somewhere.
+        If the density is missing or negative anywhere.
     """
     extent(body, request.options)  # refused before it is weighed
     order = request.options.order
@@ -111,13 +114,13 @@ def _weigh(reading: Reading, body: MeshBody, request: Request, order: int) -> _W
 
 
 def _field(request: Request) -> DensityField:
-    """The density of a body that is weighed: one that is not one number."""
+    """Return the density of a body that is weighed: one that is not one number."""
     assert request.density is not None
     return request.density
 
 
 def _thickness(request: Request) -> float:
-    """What area moments are multiplied by; 1 of solids."""
+    """Return the factor of area moments, the thickness; 1 for solids."""
     return request.options.thickness if request.options.kind == "shell" else 1.0
 
 
@@ -218,7 +221,7 @@ class _FaceDensities:
         return len({value for values in self.values for value in np.unique(values).tolist()}) > 1
 
     def missing_note(self) -> Iterator[Finding]:
-        """A finding about faces that take the object's density."""
+        """Yield a finding about faces that take the object's density."""
         if not self.faces_without_density:
             return
         names = [material.name for material in self.materials if material_density(material) is None]
@@ -229,7 +232,7 @@ class _FaceDensities:
             yield finding(OBJECT_DENSITY_USED, **values)
 
     def source(self, by_area: bool) -> Finding:
-        """Where the densities come from. by_area: whether components of several materials took their mean."""
+        """Return the source of the densities. by_area: components of several materials took their mean by area."""
         known = [(material.name, material_density(material)) for material in self.materials]
         known = [(name, value) for name, value in known if value is not None]
         parts = [finding(DENSITY_OF_MATERIAL, material=name, density=value) for name, value in known]
@@ -241,7 +244,7 @@ class _FaceDensities:
         return finding(DENSITY_FROM_MATERIALS, materials=[part.as_record() for part in parts])
 
     def with_names(self) -> Iterator[tuple[NDArray, NDArray]]:
-        """The densities and the materials' names of the faces of each part."""
+        """Yield the densities and the materials' names of the faces of each part."""
         for values, (faces, slots) in zip(self.values, self.slots):
             names = np.array([*(material.name if material else "" for material in slots), ""], object)
             yield values, names[faces]
@@ -250,8 +253,9 @@ class _FaceDensities:
 def _solid_moments(
     solid: SolidIntegrals, volume: Moments, matrices: NDArray, values: NDArray, names: NDArray
 ) -> tuple[list[Moments], list[Finding], bool]:
-    """∫ρ dV of a surface's places, findings about its components, and whether any takes a mean by area. volume: its
-    volume moments, to the order that is wanted. values, names: of its mesh faces."""
+    """Return ∫ρ dV of a surface's places, findings about its components, and whether any takes a mean by area. volume:
+    its volume moments, to the wanted order. values, names: of its mesh faces.
+    """
     components = solid.parts()
     moments, findings = [], []
     has_foreign_material = is_slight = False
@@ -273,7 +277,9 @@ def _solid_moments(
 
 
 def _similarity_groups(matrices: NDArray) -> Iterator[NDArray]:
-    """The (k, 4, 4) maps in groups that stretch areas alike: similarities together, then each uneven map's places."""
+    """Yield the (k, 4, 4) maps in groups that stretch areas alike: similarities together, then each uneven map's
+    places.
+    """
     even = are_similarities(matrices[:, :3, :3])
     if even.any():
         yield matrices[even]
@@ -285,8 +291,9 @@ def _similarity_groups(matrices: NDArray) -> Iterator[NDArray]:
 def _mixed_parts_notes(
     parts: ClosedParts, part_density: PartDensities, names: NDArray, negligible: float
 ) -> list[Finding]:
-    """A finding about components whose faces have several materials, about the first face of each. negligible: density
-    times area that does not matter, wherever in the body it is."""
+    """Return a finding about components whose faces have several materials, with the first face of each. negligible: a
+    negligible density times area, anywhere in the body.
+    """
     which = np.flatnonzero(part_density.has_several_materials)
     if not len(which):
         return []
@@ -302,7 +309,7 @@ def _mixed_parts_notes(
 
 
 def _vertex_density(reading: Reading, i: int, name: str) -> NDArray[np.float64]:
-    """(n,) checked values of a part's vertices; those that no face uses do not count."""
+    """Return (n,) checked values of a part's vertices; vertices without faces are not checked."""
     part = reading.parts[i]
     values = part.attributes.vertex_values
     used = np.unique(part.surface.all_triangles()[0])
@@ -319,7 +326,7 @@ def _vertex_density(reading: Reading, i: int, name: str) -> NDArray[np.float64]:
 def _sheet_moments(
     reading: Reading, i: int, values: NDArray, request: Request, order: int, by_vertex: bool = False
 ) -> Iterator[Moments]:
-    """∫ρ dA of a part's images. values: of its mesh faces, or of its vertices and linear between them."""
+    """Yield ∫ρ dA of a part's images. values: of its mesh faces, or of its vertices and linear between them."""
     part = reading.parts[i]
 
     def measured(surface: Surface) -> Moments:

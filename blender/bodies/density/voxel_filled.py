@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A solid whose density is that of a Volume object's grid, wherever the two stand."""
+"""A solid with the density of a Volume object's grid, each in its own place."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ from ..findings import (
 )
 from ..request import Request
 
-MAX_OUTSIDE_SHARE = 1e-9  # of the volume: below this, rounding
+MAX_OUTSIDE_SHARE = 1e-9  # relative to the volume: below this, rounding
 
 
 def filled_by_volume(body: MeshBody, request: Request, order: int) -> MeshBody:
@@ -45,7 +45,7 @@ def filled_by_volume(body: MeshBody, request: Request, order: int) -> MeshBody:
     Raises
     ------
     MeasureError
-        Where that has no grid that can be read, or does not reach the solid.
+        If that has no readable grid, or does not reach the solid.
     """
     name, source = request.obj.name, request.obj.body_moments.density_volume
     grid = GridOptions.of(source.body_moments)
@@ -67,7 +67,7 @@ def filled_by_volume(body: MeshBody, request: Request, order: int) -> MeshBody:
 def voxel_filled_body(
     body: MeshBody, reading: VolumeReading, options: GridOptions, unit: float, name: str, order: int
 ) -> MeshBody:
-    """The body with the mass that the grid gives its inside, to an order. unit: meters per Blender unit.
+    """Return the body with the mass that the grid gives its inside, to an order. unit: meters per Blender unit.
 
     name: of the object, which MeasureErrors are about that are not about the grid alone.
     """
@@ -121,13 +121,13 @@ def voxel_filled_body(
 
 
 def _corners(solid: SolidIntegrals, matrix: NDArray) -> NDArray[np.float64]:
-    """(n, 3, 3) the triangles of what was measured, in the grid's coordinates, outward."""
+    """Return (n, 3, 3) the triangles of the measured surface, in the grid's coordinates, outward."""
     surface = solid.repaired_surface.transform(matrix[:3, :3], matrix[:3, 3])
     return surface.points[surface.all_triangles()[0]].astype(np.float64, copy=False)
 
 
 def _box_densities(reading: VolumeReading, options: GridOptions, low: NDArray, high: NDArray) -> NDArray[np.float64]:
-    """The densities of the voxels from `low` to `high`."""
+    """Return the densities of the voxels from `low` to `high`."""
     to_densities = options.to_densities(reading.background)
     densities = np.zeros(high - low)
     for start, block in reading.blocks():
@@ -142,7 +142,7 @@ def _box_densities(reading: VolumeReading, options: GridOptions, low: NDArray, h
 
 
 def _input_error(body: MeshBody, mass: Moments) -> NDArray[np.float64]:
-    """What float32 coordinates may have moved, as a share of each moment like that of the solid's own."""
+    """Return the effect of float32 coordinates, as large a share of the largest moment as in the solid itself."""
     solid = body.volume if mass.order <= body.volume.order else body.moments(mass.order, False)[0]
     solid = solid.about_point(mass.about).truncate(mass.order)
     scale = np.abs(mass.raw).max() / max(np.abs(solid.raw).max(), np.finfo(float).tiny)

@@ -39,9 +39,12 @@ from .bare_file import about_file, bare_reading
 
 @dataclass(frozen=True)
 class ArrayOptions:
-    """spacing, origin: (x, y, z) in place of the file's own; unit_scale: meters per unit where the file has none;
-    density_scale: kg/m³ where a sample is 1; threshold: the body where values are at least that, None for all;
-    limits: of what the file may ask for; positions: files of the samples' positions by axis, in units of unit_scale."""
+    """Options of a measured array file.
+
+    spacing, origin: (x, y, z) in place of the file's own; unit_scale: meters per unit if the file has none;
+    density_scale: kg/m³ of a sample of 1; threshold: smallest value inside the body, None for all; limits: of the
+    file's size; positions: files of the samples' positions by axis, in units of unit_scale.
+    """
 
     spacing: Sequence[float] | None = None
     origin: Sequence[float] | None = None
@@ -60,8 +63,9 @@ def measure_array(
     options: MeasureOptions,
     progress: Callable[[int], None] = lambda samples: None,
 ) -> Measurement:
-    """The mass properties of the samples in a file. progress: called with how many samples have been read since the
-    last time. Raises MeasureError."""
+    """Return the mass properties of the samples in a file. progress: called with the number of samples read since the
+    last time. Raises MeasureError.
+    """
     if options.kind == "shell":
         raise ReadError(GRID_AS_SHELL, subject=name)
     with about_file(name):
@@ -80,7 +84,7 @@ def measure_array(
 
 
 def _with_positions(findings: Iterable[Finding], files: Mapping[str, str]) -> tuple[Finding, ...]:
-    """What was decided of the places of samples, where files say them: of all three, no spacing is missing."""
+    """Return the findings with the positions from files: if all three axes have them, no spacing is missing."""
     kept = [one for one in findings if len(files) < 3 or one.code != SCAN_WITHOUT_SPACING]
     return (*kept, finding(SAMPLES_POSITIONED, axes=sorted(files)))
 
@@ -95,7 +99,7 @@ def _density_body(
     findings: tuple[Finding, ...],
     progress: Callable[[int], None],
 ) -> Body:
-    """All of the samples, as densities."""
+    """Return the body of all samples, as densities."""
     grid = GridOptions(value_density=array.density_scale, spline_order=array.spline_order, negative=ARRAY_NEGATIVE)
     shape = scan.samples.shape
     findings += (finding(ARRAY_DENSITY, samples=list(shape), cause=grid.meaning().as_record()),)
@@ -118,7 +122,7 @@ def _threshold_body(
     findings: tuple[Finding, ...],
     progress: Callable[[int], None],
 ) -> Body:
-    """Where the samples are at least a threshold, of one density where one is given, else of their own."""
+    """Return the body of samples at or above a threshold, of the given density, else of the samples' own."""
     if array.positions:
         raise ReadError(THRESHOLD_POSITIONS)
     filled = options.density is None

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Files whose content is measured without an object in Blender: scans, and meshes that are streamed."""
+"""Files that are measured without an object in Blender: scans, and streamed meshes."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ from ...read.reading import Reading
 
 
 def bare_reading(name: str, kind: str) -> Reading:
-    """What stands for the object: at the world's origin, along its axes. kind: its type in the records."""
+    """Return the frame of a file: the world's origin and axes. kind: its type in the records."""
     return Reading(name, kind, np.eye(4), np.eye(3), np.zeros(3))
 
 
 @contextmanager
 def about_file(name: str) -> Iterator[None]:
-    """Give what is refused the file's name; what the system refuses is a ReadError."""
+    """Add the file's name to errors; errors of the system become a ReadError."""
     try:
         yield
     except MeasureError as error:

@@ -31,16 +31,16 @@ COUNTED = "boundary_edges", "non_manifold_edges", "inconsistent_edges", "compone
 
 
 class StreamHealth(MeshHealth):
-    """Whether a mesh is closed, and nothing else: no edge was kept."""
+    """Health of a streamed mesh: closed or not, and nothing else, because no edge was kept."""
 
     def as_record(self) -> dict:
-        """Plain values for JSON, None for what was not counted."""
+        """Return plain values for JSON, None for all uncounted faults."""
         return {"closed": self.closed, "welded": False, **dict.fromkeys(COUNTED), SELF_INTERSECTION: "not_checked"}
 
 
 @dataclass(frozen=True, eq=False)
 class StreamBody(Body):
-    """What the faces of a file bound, or the sheet that they are.
+    """A body bounded by the faces of a file, or their sheet.
 
     Attributes
     ----------
@@ -57,7 +57,7 @@ class StreamBody(Body):
     threads: int = field(kw_only=True)
 
     def moments(self, order: int, area: bool) -> tuple[Moments, Moments | None]:
-        """Return the moments to an order; the file is read again where that is more than is known."""
+        """Return the moments to an order; the file is read again if that is more than is known."""
         if order <= self.volume.order and (not area or order <= self.area.order):
             return self.volume.truncate(order), self.area.truncate(order) if area else None
         found = measure_stream(self.mesh, order, order if area else 0, self.threads)
@@ -99,7 +99,7 @@ def measure_mesh_file(
             StreamHealth(closed=found.closed),
             Method(_verdict(found)),
             (*findings, *_findings(found, kind)),
-            face_count=found.face_count,  # of many faces the axes come from third order, without reading them again
+            face_count=found.face_count,  # axes of many faces come from third order, without reading them again
             mesh=mesh,
             unit=unit,
             threads=options.threads,
@@ -117,14 +117,14 @@ def _verdict(found: StreamIntegrals) -> Verdict:
 
 
 def _in_meters(found: StreamIntegrals, unit: float) -> tuple[Moments, Moments]:
-    """Volume and area; the volume as that of outward faces where it is negative."""
+    """Return volume and area; a negative volume is reversed, as if its faces were outward."""
     matrix = np.diag([unit, unit, unit, 1.0])
     volume = found.volume * -1.0 if found.volume.total < 0.0 else found.volume
     return volume.transform(matrix), found.area.transform(matrix)
 
 
 def _findings(found: StreamIntegrals, kind: str) -> list[Finding]:
-    """What was noticed, and what was not looked for."""
+    """Return the findings about a streamed mesh, and about the omitted checks."""
     findings = [finding(MESH_STREAMED, count=found.face_count)]
     if kind == "solid" and not found.closed:
         findings.append(finding(STREAMED_OPEN))

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Flat shapes: selected faces, flat meshes, 2-D curves and text as regions of their own plane, seen from the front.
 
-The front of faces is where their normals point, of curves and text their own +z. Moments of closed curves and of text
-are those of the curves themselves where Blender says what they are; all else is of the polygons that it draws.
+Normals of faces point to the front; the front of curves and text is their own +z. Moments of closed curves and of text
+are exact if Blender gives the curves; all other moments are of the drawn polygons.
 """
 
 from __future__ import annotations
@@ -57,7 +57,7 @@ FILL_AREA_RTOL = 1e-4  # Blender's fill and the outlines differ by more than thi
 # why an object is no body, and why it is no flat shape either: the first of them is what its user has to hear
 NO_BODY = {NO_VOLUME, NO_CERTAIN_VOLUME, NO_GEOMETRY, SHAPE_OF_OPEN_SURFACE}
 NOT_FLAT = {SECTION_NOT_FLAT, SECTION_EXTRUDED, SECTION_3D_CURVE, SECTION_OFFSET, FLAT_OF_TYPE}
-NORMAL = np.array([0.0, 0.0, 1.0])  # of the plane, in its own axes
+NORMAL = np.array([0.0, 0.0, 1.0])  # in the plane's own axes
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,7 +69,7 @@ class FlatRegion:
     name, type : str
         Of the object.
     description : str
-        What of it was read.
+        The part of it that was read.
     plane : Plane
         In the world.
     spatial : (n, 3) array
@@ -77,7 +77,7 @@ class FlatRegion:
     edges : (m, 2) integer array
         The inside lies to the left of each, seen from the front.
     stored : float
-        How far storing the points as float32 may have moved each.
+        Largest effect of float32 on a point.
     shared : float
         The length that edges share.
     drawn_area : float or None
@@ -85,7 +85,7 @@ class FlatRegion:
     rotation, location : arrays
         The object frame.
     curves : tuple of Curve
-        What the outlines are, in the plane's axes, where that is known; else none.
+        The outlines in the plane's axes, if known; else none.
     findings : tuple of Finding
     """
 
@@ -106,7 +106,7 @@ class FlatRegion:
 
     @property
     def rounded(self) -> float:
-        """How far rounding may have moved a coordinate of a point in the plane."""
+        """Largest effect of rounding on a coordinate of a point in the plane."""
         return projection_rounding(self.plane, self.spatial, self.used)
 
     @cached_property
@@ -120,7 +120,7 @@ class FlatRegion:
         Raises
         ------
         MeasureError
-            Where nothing is enclosed, or a moment leaves the range of numbers.
+            If nothing is enclosed, or a moment leaves the range of numbers.
         """
         with np.errstate(over="ignore", invalid="ignore"):
             if self.curves:
@@ -132,7 +132,7 @@ class FlatRegion:
         return moments
 
     def foot(self, point: NDArray) -> NDArray[np.float64]:
-        """(3,) the foot of a point of the world on the plane, in the plane's axes."""
+        """Return (3,) the foot of a point of the world on the plane, in the plane's axes."""
         return np.append(self.plane.project(np.asarray(point, np.float64)[None])[0], 0.0)
 
 
@@ -152,18 +152,18 @@ def flat_region(
     obj : bpy.types.Object
     depsgraph : bpy.types.Depsgraph
     selected : bool
-        Whether only its selected faces, where it is in Edit Mode.
+        In Edit Mode, read only its selected faces.
     resolution : int, optional
         Of curves and text, in the place of their own.
     exact : bool
-        Whether with their curves.
+        Read the curves, too.
     unit : float, optional
         Meters per Blender unit, by default the scene's.
 
     Raises
     ------
     MeasureError
-        Where it is not flat, is extruded, or has outlines that cross.
+        If it is not flat, is extruded, or has outlines that cross.
     """
     reading = read_section(obj, depsgraph, selected=selected, resolution=resolution)
     unit = unit or shortest_decimal(depsgraph.scene.unit_settings.scale_length)
@@ -182,7 +182,7 @@ def flat_region(
 
 
 def clearer_refusal(no_body: MeasureError, not_flat: MeasureError) -> MeasureError:
-    """Of the reasons why an object is neither a body nor a flat shape the one that says what to do."""
+    """Return the more helpful of two refusals: as a body, or as a flat shape."""
     is_nearly_flat = no_body.finding.code in NO_BODY and not_flat.finding.code not in NOT_FLAT
     return not_flat if is_nearly_flat else no_body
 
@@ -227,7 +227,7 @@ def _region_of(reading: SectionReading, kind: str, unit: float) -> FlatRegion:
 
 
 def area_findings(found: FlatRegion, area: float) -> list[Finding]:
-    """What can be said only once a region's area is known: how far it is from flat, and whether Blender fills it."""
+    """Return findings that need a region's area: its distance from flat, and a wrong fill by Blender."""
     findings = []
     off = found.plane.out_of_plane
     if off > 4.0 * found.stored:
@@ -241,8 +241,9 @@ def area_findings(found: FlatRegion, area: float) -> list[Finding]:
 def _curves(
     obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, reading: SectionReading, plane: Plane, unit: float
 ) -> tuple[tuple[Curve, ...], float] | None:
-    """The outlines as curves, along the plane's axes, and how far float32 may have moved their control points; None
-    where Blender does not say what they are, or they touch."""
+    """Return the outlines as curves, along the plane's axes, and the largest effect of float32 on their control points;
+    None if Blender does not give them, or they touch.
+    """
     if reading.loops is None:
         return None
     try:
@@ -254,7 +255,7 @@ def _curves(
         boundary, _ = planar_region([curve.transform(to_plane) for curve in placed], stored)
     except MeasureError:
         return None
-    if len(boundary) != len(reading.loops):  # some are left out of the polygons
+    if len(boundary) != len(reading.loops):  # polygons leave out some loops
         return None
     is_left = plane_moments(boundary, NORMAL, 1).total > 0.0
     return tuple(boundary if is_left else [curve.reverse() for curve in boundary]), stored

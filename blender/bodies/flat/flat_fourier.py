@@ -22,7 +22,7 @@ from .flat import area_findings, flat_region
 class FlatTransform:
     """A flat object's transform, in SI units: `steps` does the work, `result` gives the outcome.
 
-    arrays: what beside the spectrum says where the plane is, `axes`, x and y as rows, and `origin`, in the world.
+    arrays: `axes` of the plane, x and y as rows, and its `origin`, in the world, beside the spectrum.
     """
 
     name: str
@@ -35,7 +35,7 @@ class FlatTransform:
         return self.transform.steps()
 
     def result(self) -> tuple[Spectrum, tuple[Finding, ...]]:
-        """The spectrum, and a finding for each decision that was taken."""
+        """Return the spectrum, and a finding for each decision that was taken."""
         return self.transform.result(), self.findings
 
 
@@ -54,16 +54,16 @@ def flat_transform(
     obj : bpy.types.Object
     depsgraph : bpy.types.Depsgraph
     q : (M, 2) array, FrequencyGrid or callable
-        Rad/m along the plane's x and y; or what makes a grid from the region's largest extent in m.
+        Rad/m along the plane's x and y; or a function that makes a grid from the region's largest extent in m.
     frame : str
-        "world" or "object": the foot of its origin is where x and y are counted from.
+        "world" or "object": x and y are counted from the foot of its origin.
     unit : float, optional
         Meters per Blender unit, by default the scene's.
 
     Raises
     ------
     MeasureError
-        Where it is not flat, has outlines that cross, or encloses nothing.
+        If it is not flat, has outlines that cross, or encloses nothing.
     """
     region = flat_region(obj, depsgraph, selected=False, exact=False, unit=unit)
     findings = (*region.findings, *area_findings(region, region.moments(1).total))

@@ -33,13 +33,14 @@ from ..findings import SHAPE_FAR_FROM_ORIGIN
 from ..shape.shape import EXACT_DISTANCE, SURFACE_SAMPLES, Shape, SurfaceDistance, surface_shape_of
 from .flat import NO_BODY, FlatRegion, clearer_refusal, flat_region
 
-OUTLINE_RESOLUTION = 64  # of curves and text, whatever they are drawn with: shapes do not depend on that
-POSE_ORDER = 12  # of what is compared where shapes are laid onto each other
+# curves and text are read with this resolution, because shapes must not depend on the drawn one
+OUTLINE_RESOLUTION = 64
+POSE_ORDER = 12  # for moments of shapes that are laid onto each other
 
 
 @dataclass(frozen=True, eq=False)
 class FlatShape:
-    """A flat object, in SI units. moments: about the centroid, in the plane's axes. fingerprint: of what was read."""
+    """A flat object, in SI units. moments: about the centroid, in the plane's axes. fingerprint: of the reading."""
 
     region: FlatRegion
     moments: Moments
@@ -75,15 +76,15 @@ class FlatShape:
 
     @property
     def radius(self) -> float:
-        """Of the disc about the centroid that just holds the shape."""
+        """Radius of the smallest disc about the centroid that holds the shape."""
         return float(np.hypot(*self.corners.T).max())
 
     def zernike(self, radius: float) -> NDArray[np.complex128]:
-        """`disc_zernike` in a disc about the centroid, to POSE_ORDER."""
+        """Return `disc_zernike` in a disc about the centroid, to POSE_ORDER."""
         return disc_zernike(self.moments.truncate(POSE_ORDER), radius)
 
     def signature(self, order: int = MAX_DISC_ORDER) -> Signature:
-        """Its numbers, with descriptors to an order."""
+        """Return the shape's numbers, with descriptors to an order."""
         # At about unit size, for high powers of a length are soon beyond the range of numbers.
         scale = 2.0 ** np.frexp(self.radius)[1]
         moments = self.moments.truncate(min(order, MAX_DISC_ORDER))
@@ -101,8 +102,9 @@ class FlatShape:
         )
 
     def pieces(self) -> Iterator[Surface]:
-        """A wall along the outline, across the plane, as high as the shape is large: in the plane it is as far away
-        as the outline."""
+        """Yield a wall along the outline, across the plane, as high as the shape is large: in the plane it is as far
+        away as the outline.
+        """
         ends = self.region.points[self.region.edges] - self.moments.about[:2]  # (m, 2 ends, 2)
         count, height = len(ends), self.size
         low, high = (np.insert(ends.reshape(-1, 2), 2, side * height, axis=1) for side in (-1.0, 1.0))
@@ -113,14 +115,14 @@ class FlatShape:
         yield Surface.from_triangles(points, triangles)
 
     def match(self, target: FlatShape, residual: Residual) -> RigidMatch:
-        """How this shape lies on another one, front on front. residual: as for `match_flat`."""
-        ratio = target.size / self.size  # of other sizes turns are found too
+        """Return the motion that lays this shape onto another one, front on front. residual: as for `match_flat`."""
+        ratio = target.size / self.size  # turns are found between different sizes, too
         radius = max(target.radius, ratio * self.radius)
         turned = self.zernike(radius / ratio), target.zernike(radius)
         return match_flat(*turned, (self.axes, target.axes), residual, target.size)
 
     def find_symmetries(self, skin: SurfaceDistance, tolerance: float) -> tuple[Symmetry, Symmetry]:
-        """What the outline confirms, and what the moments allow. tolerance: by the size."""
+        """Return the symmetry that the outline confirms, and the one that the moments allow. tolerance: by the size."""
         zernike, near = self.zernike(self.radius), tolerance * self.size
 
         def distance(points: NDArray) -> NDArray[np.float64]:
@@ -149,12 +151,12 @@ def _thinned(points: NDArray) -> NDArray[np.float64]:
 
 
 def distance_from(shape: Shape | FlatShape) -> SurfaceDistance:
-    """What points are held against."""
+    """Return the distance function of a shape's surface or outline."""
     return OutlineDistance(shape) if isinstance(shape, FlatShape) else SurfaceDistance(shape)
 
 
 def flat_shape_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, unit: float | None = None) -> FlatShape:
-    """Return a flat object's shape. Raises MeasureError where it is not flat, or its outlines cross."""
+    """Return a flat object's shape. Raises MeasureError if it is not flat, or its outlines cross."""
     region = flat_region(obj, depsgraph, selected=False, resolution=OUTLINE_RESOLUTION, exact=False, unit=unit)
     mark = fingerprint(region.points.tobytes(), matrix_hash(obj), settings_hash(obj, depsgraph.scene))
     try:
@@ -171,9 +173,9 @@ BodyShape = TypeVar("BodyShape")
 
 
 def comparable_shape_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, flat: bool = False) -> Shape | FlatShape:
-    """Return an object's shape: of its body, or where it has none of what is flat.
+    """Return the shape of an object's body, or of a flat object without one.
 
-    flat: whether it is to be compared with a flat shape, and a sheet is looked at as one too. Raises MeasureError.
+    flat: it is compared with a flat shape, so that a sheet counts as flat, too. Raises MeasureError.
     """
     return body_or_flat(obj, depsgraph, partial(surface_shape_of, depsgraph=depsgraph), flat)
 
@@ -184,7 +186,7 @@ def body_or_flat(
     of_body: Callable[[bpy.types.Object], BodyShape],
     flat: bool,
 ) -> BodyShape | FlatShape:
-    """As `comparable_shape_of`, by a function that finds the shape of an object's body, or raises MeasureError."""
+    """Return the same as `comparable_shape_of`, by a function that finds a body's shape, or raises MeasureError."""
     if flat:
         with suppress(MeasureError):
             return flat_shape_of(obj, depsgraph)

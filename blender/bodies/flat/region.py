@@ -30,7 +30,7 @@ MEASURED_AS = frozenset({"shell"})
 
 @dataclass
 class RegionReading(Reading):
-    """A curve object, and what its curves bound.
+    """A curve object, and the region that its curves bound.
 
     Attributes
     ----------
@@ -39,7 +39,7 @@ class RegionReading(Reading):
     normal : (3,) array
         Of their plane.
     stored : float
-        By how much float32 may have moved their points, m.
+        Largest effect of float32 on their points, m.
     """
 
     boundary: tuple[Curve, ...] = ()
@@ -64,8 +64,9 @@ class RegionBody(Body):
 
 
 def read(request: Request) -> RegionReading | None:
-    """Return the region that a curve object bounds, where it is to be a thin shell of one density and shows nothing
-    else; None where its curves bound none, but Blender fills them. Raises MeasureError where nothing is filled."""
+    """Return the region that a curve object bounds, if it is a thin shell of one density and shows nothing else; None
+    if its curves bound none, but Blender fills them. Raises MeasureError if nothing is filled.
+    """
     obj, options = request.obj, request.options
     if obj.type != "CURVE" or options.wall != "thin":
         return None

@@ -52,13 +52,13 @@ class GridBody(Body):
     Attributes
     ----------
     samples, shape
-        What is there, (offset, array) block by block or one array, and the (3,) shape of the box that holds it.
+        The samples, (offset, array) block by block or one array, and the (3,) shape of the box that holds them.
     matrix : (4, 4) array
     options : GridOptions
     background : float, optional
         A value that counts as empty.
     positions : three of (n,) array or None
-        Where samples stand along an axis, in place of 0, 1, 2, …
+        Positions of samples along an axis, in place of 0, 1, 2, …
     """
 
     any_order: ClassVar[bool] = True
@@ -80,7 +80,7 @@ class GridBody(Body):
 
 
 class _Weights:
-    """What a block of samples weighs, kg/m³."""
+    """Densities of blocks of samples, kg/m³."""
 
     def __init__(self, options: GridOptions, background: float | None, slope: float, intercept: float):
         self._weigh = options.to_densities(background)
@@ -91,7 +91,7 @@ class _Weights:
         return self._weigh(block * self._slope + self._intercept if scaled else block)
 
     def occupied(self, block: NDArray) -> NDArray[np.float64]:
-        """1 where there is something, 0 where there is nothing."""
+        """Return 1 for filled samples, 0 for empty ones."""
         return (self.densities(block) != 0.0).astype(np.float64)
 
 
@@ -103,9 +103,9 @@ def _occupied(
 
 
 def read(request: Request) -> VolumeReading | None:
-    """Return the grid that an object shows; None where it shows polygons, or no volume.
+    """Return the grid that an object shows; None if it shows polygons, or no volume.
 
-    Raises MeasureError where the grid cannot be read, or is to be anything but a solid.
+    Raises MeasureError if the grid cannot be read, or is to be anything but a solid.
     """
     obj = request.obj
     if obj.type != "VOLUME" and "NODES" not in [modifier.type for modifier in obj.modifiers]:
@@ -122,7 +122,7 @@ def read(request: Request) -> VolumeReading | None:
 
 
 def body(reading: VolumeReading, request: Request) -> Body:
-    """Return the body of one grid. Raises MeasureError where there is none."""
+    """Return the body of one grid. Raises MeasureError if there is none."""
     obj, density, options = request.obj, request.given.density, request.options
     order = KNOWN_ORDER if options.order is None else options.order
     made = grid_body(reading, GridOptions.of(obj.body_moments, density), request.unit, options.threads, order)
@@ -134,8 +134,9 @@ def body(reading: VolumeReading, request: Request) -> Body:
 def grid_body(
     reading: VolumeReading, options: GridOptions, unit: float, threads: int = 1, order: int = KNOWN_ORDER
 ) -> Body:
-    """The body of one grid. unit: meters per Blender unit. order: to which the mass is wanted. MeasureError where there
-    is none."""
+    """Return the body of one grid. unit: meters per Blender unit. order: of the wanted mass moments. MeasureError if
+    there is none.
+    """
     if options.threshold is not None:
         options.needs_even_samples(reading.grid)
         return threshold_grid_body(threshold_grid(reading, unit), options, order=order)
@@ -164,8 +165,9 @@ def grid_body(
 
 
 def _whole_axes(reading: VolumeReading, positions: Positions) -> Blocks:
-    """The blocks of a grid whose box begins at 0 along the axes with positions: how thick the first and the last sample
-    of the box are depends on those beside it."""
+    """Return the blocks of a grid whose box begins at 0 along the axes with positions: the thickness of the outer
+    samples depends on their neighbors.
+    """
     offset = [0 if row is None else int(low) for low, row in zip(reading.low, positions)]
 
     def blocks() -> Iterator[tuple[tuple[int, int, int], NDArray]]:
@@ -188,10 +190,10 @@ def density_body(
     order: int = KNOWN_ORDER,
     positions: Positions = EVEN,
 ) -> GridBody:
-    """The body of samples at matrix @ (i, j, k, 1), in meters, that stand for slope · sample + intercept.
+    """Return the body of samples at matrix @ (i, j, k, 1), in meters, that stand for slope · sample + intercept.
 
-    background: a value that counts as empty. progress: called with how many samples are about to be read. order: to
-    which the mass is wanted. positions: where samples stand along an axis, in place of 0, 1, 2, …
+    background: a value that counts as empty. progress: called with the number of samples about to be read. order: of
+    the wanted mass moments. positions: of samples along an axis, in place of 0, 1, 2, …
     """
     if min(shape) < 1:
         raise ReadError(GRID_EMPTY)
@@ -231,7 +233,7 @@ def density_body(
 
 
 def _solid(reading: VolumeReading, unit: float, threads: int) -> MeshBody:
-    """What a level set bounds, by its polygons."""
+    """Return the body that a level set bounds, by its polygons."""
     if reading.level_set is False:
         raise ReadError(GRID_IS_NOT_LEVEL_SET, grid=reading.grid)
     surface = reading.polygons()

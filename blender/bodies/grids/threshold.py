@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The body where the values of a grid are at least a threshold."""
+"""The body of the grid values at or above a threshold."""
 
 from __future__ import annotations
 
@@ -34,14 +34,14 @@ from ..findings import (
     THRESHOLD_TOO_LARGE,
 )
 
-MAX_SAMPLES = 1 << 29  # of the box that holds the grid
-PREVIEW_CELLS = 1 << 18  # of a grid that follows a slider
+MAX_SAMPLES = 1 << 29  # in the box that holds the grid
+PREVIEW_CELLS = 1 << 18  # in a grid that follows a slider
 TRILINEAR = 2
 
 
 @dataclass(frozen=True, eq=False)
 class ThresholdGrid:
-    """The values of a grid, dense, and where they stand.
+    """The values of a grid, dense, and their places.
 
     Attributes
     ----------
@@ -50,9 +50,9 @@ class ThresholdGrid:
     matrix : (4, 4) array
         The value (i, j, k) stands at matrix @ (i, j, k, 1), in meters.
     background : float, optional
-        What is beyond the grid; None where nothing is known of it.
+        The value beyond the grid; None if it is not known.
     value : callable, optional
-        Converts a block of them, where they stand for others.
+        Converts a block of stored values, if they stand for others.
     """
 
     name: str
@@ -62,7 +62,7 @@ class ThresholdGrid:
     value: Callable[[NDArray], NDArray[np.float64]] | None = None
 
     def coarse(self) -> ThresholdGrid:
-        """Every second, third, … value of each axis, so that few enough are left to follow a slider."""
+        """Return every second, third, … value of each axis, so that few enough are left to follow a slider."""
         step = int(np.ceil((self.values.size / PREVIEW_CELLS) ** (1.0 / 3.0)))
         if step <= 1:
             return self
@@ -71,7 +71,7 @@ class ThresholdGrid:
         )
 
     def set_above(self, options: GridOptions, order: int, preview: bool = False) -> ThresholdBody:
-        """Return the moments of the body where the values are at least the threshold."""
+        """Return the moments of the body of values at or above the threshold."""
         assert options.threshold is not None
         threshold = options.threshold
         if options.spline_order > TRILINEAR and not preview:
@@ -84,14 +84,14 @@ class ThresholdGrid:
         )
 
     def largest(self) -> float:
-        """Return the largest value, NaN where there is none."""
+        """Return the largest value, NaN if there is none."""
         slabs = self.values if self.value is None else map(self.value, self.values)
         return max((float(np.nanmax(slab)) for slab in slabs if slab.size), default=float("nan"))
 
 
 @dataclass(frozen=True, eq=False)
 class ThresholdGridBody(Body):
-    """Where the values of a grid are at least a threshold.
+    """The body of grid values at or above a threshold.
 
     Attributes
     ----------
@@ -116,7 +116,7 @@ def threshold_grid(reading: VolumeReading, unit: float) -> ThresholdGrid:
     Raises
     ------
     ReadError
-        Where there are too many.
+        If there are too many.
     """
     if reading.level_set:
         raise ReadError(GRID_IS_LEVEL_SET, grid=reading.grid)
@@ -137,12 +137,12 @@ def threshold_grid(reading: VolumeReading, unit: float) -> ThresholdGrid:
 def threshold_grid_body(
     grid: ThresholdGrid, options: GridOptions, preview: bool = False, order: int = KNOWN_ORDER
 ) -> ThresholdGridBody:
-    """Return the body where the values of a grid are at least a threshold. order: to which the mass is wanted.
+    """Return the body of grid values at or above a threshold. order: of the wanted mass moments.
 
     Raises
     ------
     MeasureError
-        Where there is none, or its density is not known.
+        If there is none, or its density is not known.
     """
     if options.filled and options.table:
         raise ReadError(THRESHOLD_NEEDS_FACTOR)

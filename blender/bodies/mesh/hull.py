@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The convex hull of what an object shows: what it can touch the ground with."""
+"""The convex hull of an object's surface: its possible contacts with the ground."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ from ....core.verdict.finding import EditRefusedError
 from ...read.findings import SCALE_ZERO_AXIS
 from ...read.objects import read_object
 
-HULL_RTOL = 1e-6  # of the extent: points that are outside by less are left out
+HULL_RTOL = 1e-6  # relative to the extent: points that are outside by less are left out
 NOISE = 4.0  # half ulps of float32 coordinates by which flat faces may be uneven
-MAX_CORNERS = 10000  # of a hull: finely divided round bodies have more
+MAX_CORNERS = 10000  # per hull: finely divided round bodies have more
 
 
 def object_hull(obj: Object, depsgraph: Depsgraph) -> ConvexHull:
@@ -35,7 +35,7 @@ def object_hull(obj: Object, depsgraph: Depsgraph) -> ConvexHull:
     Raises
     ------
     MeasureError
-        Where it shows no surface, an axis is scaled to zero, or all points are on a line.
+        If it shows no surface, an axis is scaled to zero, or all points are on a line.
     """
     reading = read_object(obj, depsgraph, edges=False)
     if reading.is_singular:
@@ -53,7 +53,7 @@ def object_hull(obj: Object, depsgraph: Depsgraph) -> ConvexHull:
 
 
 def _used_points(surface: Surface) -> NDArray[np.float64]:
-    """Those that are corners of faces."""
+    """Return the points that are corners of faces."""
     used = np.zeros(len(surface.points), bool)
     used[surface.triangles] = True
     used[surface.quads] = True

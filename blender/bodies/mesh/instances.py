@@ -34,23 +34,24 @@ from ..findings import (
 
 
 def singular_reason(reading: Reading) -> Finding:
-    """Why nothing of a singular reading encloses anything."""
+    """Return the reason why nothing of a singular reading encloses anything."""
     return finding(ZERO_SCALE if reading.is_singular else ALL_INSTANCES_ZERO_SCALE)
 
 
 def singular_instances_message(count: int) -> Finding:
-    """That so many instances enclose nothing."""
+    """Return the finding that so many instances enclose nothing."""
     return finding(INSTANCES_ZERO_SCALE, count=count)
 
 
 def not_compared(reading: Reading) -> Finding:
-    """That nobody looked for overlap between the instances."""
+    """Return the finding that overlap between the instances was not checked."""
     return finding(INSTANCE_OVERLAP_UNCHECKED, count=reading.instance_count)
 
 
 def findings_by_part(parts: Iterable[tuple[str, Iterable[Finding]]], whole: str) -> list[Finding]:
-    """The findings of several parts, as (name of the surface's object, findings). Equal ones, about the same elements,
-    are one that names all their sources. Of a part that is all of the object `whole` they stay as they are."""
+    """Return the findings of several parts, as (name of the surface's object, findings). Equal ones, about the same
+    elements, are one that names all their sources. Of a part that is all of the object `whole` they stay as they are.
+    """
     parts = list(parts)
     if len(parts) == 1 and parts[0][0] in ("", whole):
         return each_once(parts[0][1])
@@ -62,7 +63,7 @@ def findings_by_part(parts: Iterable[tuple[str, Iterable[Finding]]], whole: str)
 
 
 def each_once(findings: Iterable[Finding]) -> list[Finding]:
-    """The findings in their order, without those that say the same of the same elements."""
+    """Return the findings in their order, without repetitions about the same elements."""
     return list({_identity(result): result for result in findings}.values())
 
 
@@ -72,7 +73,7 @@ def _identity(result: Finding) -> tuple[Finding, object]:
 
 
 def overlap_findings(reading: Reading, solids: Sequence[SolidIntegrals], comparison: PlaceComparison) -> list[Finding]:
-    """What is reported of places that have something in common: faces as [face, source], each once."""
+    """Return findings about places that overlap or contain each other: faces as [face, source], each once."""
     findings = []
     nested = COMPONENTS_NESTED_SLIGHTLY if comparison.nested_slightly else COMPONENTS_NESTED
     overlap = COMPONENTS_OVERLAP_SLIGHTLY if comparison.overlapping_slightly else COMPONENTS_OVERLAP
@@ -90,7 +91,7 @@ def overlap_findings(reading: Reading, solids: Sequence[SolidIntegrals], compari
 
 
 def with_overlaps(health: MeshHealth, comparison: PlaceComparison) -> MeshHealth:
-    """The health with the components that are in others, or overlap others, in another place."""
+    """Return the health with the components that are in others, or overlap others, in another place."""
     return replace(
         health,
         nested_components=health.nested_components + len(comparison.nested),
@@ -99,18 +100,18 @@ def with_overlaps(health: MeshHealth, comparison: PlaceComparison) -> MeshHealth
 
 
 def instances_overlap(reading: Reading) -> bool:
-    """Whether the boxes around any two of the places where parts stand share more than a boundary."""
+    """Return whether the boxes around any two places of parts share more than a boundary."""
     return boxes_overlap(*_boxes(reading))
 
 
 def instances_size(reading: Reading) -> float:
-    """The diagonal of the box around all places, in Blender units."""
+    """Return the diagonal of the box around all places, in Blender units."""
     centers, extents = _boxes(reading)
     return float(np.linalg.norm((centers + extents).max(axis=0) - (centers - extents).min(axis=0)))
 
 
 def _boxes(reading: Reading) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """(k, 3) and (k, 3) the middles of the boxes around the places where parts stand, and half their sides."""
+    """Return (k, 3) the middles and (k, 3) half the sides of the boxes around the places of parts."""
     centers, extents = [], []
     for part in reading.parts:
         low, high = part.surface.box
@@ -123,8 +124,9 @@ def _boxes(reading: Reading) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
 def area_of_instances(
     surface: Surface, area: Moments, matrices: NDArray, measured: Callable[[Surface], Moments] | None
 ) -> Iterator[Moments]:
-    """The area moments of a surface's images. They do not follow a map that stretches unevenly, so there the mapped
-    surface is `measured`, once for each different map; with None, only the area itself is wanted."""
+    """Yield the area moments of a surface's images. They do not follow a map that stretches unevenly, so there the
+    mapped surface is `measured`, once for each different map; with None, only the area itself is wanted.
+    """
     if measured is None:
         even = are_similarities(matrices[:, :3, :3])
         if even.any():
@@ -137,8 +139,9 @@ def area_of_instances(
 
 
 def group_by_similarity(surface: Surface, matrices: NDArray) -> Iterator[tuple[Surface, NDArray, NDArray]]:
-    """A surface's images as images under similarities: the surface itself or mapped ones, one for each different uneven
-    map, with the (j, 4, 4) maps that are left and which of `matrices` they stand for, (j,)."""
+    """Yield a surface's images as images under similarities: the surface itself or mapped ones, one for each different
+    uneven map, with the (j, 4, 4) maps that are left and which of `matrices` they stand for, (j,).
+    """
     even = are_similarities(matrices[:, :3, :3])
     if even.any():
         yield surface, matrices[even], np.flatnonzero(even)
@@ -150,8 +153,9 @@ def group_by_similarity(surface: Surface, matrices: NDArray) -> Iterator[tuple[S
 
 
 def merge_health(healths: Iterable[tuple[MeshHealth, int, float]]) -> MeshHealth:
-    """One verdict for all parts, each with the number of its instances and the area of all of them: counts add; faults
-    are named where there is one part only."""
+    """Return one verdict for all parts, each with the number of its instances and the area of all of them: counts add;
+    faults are named only if there is a single part.
+    """
     healths = list(healths)
     first, copies, _ = healths[0]
     if len(healths) == 1 and copies == 1:

@@ -64,8 +64,9 @@ DRAWN_CODES = (SURFACE_DRAWN_AS_POLYGONS, CURVES_DRAWN_AS_POLYGONS)
 
 
 def read(request: Request) -> Reading | None:
-    """Return the polygons that an object shows; None where patches are better, which have one density. Raises
-    MeasureError where it shows none."""
+    """Return the polygons that an object shows; None if it has patches of one density, which are better. Raises
+    MeasureError if it shows none.
+    """
     reading, density, obj = request.surfaces, request.density, request.obj
     if reading.has_patches:
         if density is None:
@@ -77,8 +78,9 @@ def read(request: Request) -> Reading | None:
 
 
 def body(reading: Reading, request: Request) -> Body:
-    """Return what polygons bound, weighed and with walls as the settings want it. Raises MeasureError where there is
-    nothing to measure."""
+    """Return the body that polygons bound, weighed and with walls as set. Raises MeasureError if there is nothing to
+    measure.
+    """
     options = request.options
     shell = options.kind == "shell"
     made = mesh_body(reading, request.unit, shell=shell, union=options.overlap == "union", threads=options.threads)
@@ -90,9 +92,9 @@ def body(reading: Reading, request: Request) -> Body:
 
 
 def mesh_body(reading: Reading, unit: float, *, shell: bool, union: bool, threads: int) -> MeshBody:
-    """What an object's surfaces bound, or with `shell` the sheets that they are.
+    """Return the body that an object's surfaces bound, or with `shell` their sheets.
 
-    unit: meters per Blender unit. union: shells that overlap are united first. MeasureError where there is nothing to
+    unit: meters per Blender unit. union: shells that overlap are united first. MeasureError if there is nothing to
     measure.
     """
     if shell:
@@ -105,7 +107,7 @@ def mesh_body(reading: Reading, unit: float, *, shell: bool, union: bool, thread
 
 
 def _sum_of_instances(reading: Reading, unit: float, shell: bool, threads: int) -> MeshBody:
-    """Each part measured once in its own coordinates, and mapped to wherever it stands."""
+    """Return the sum of all parts, each measured once in its own coordinates, and mapped to its places."""
     volumes, areas, healths, verdicts, by_part, parts = [], [], [], [], [], []
     drawn = _drawn(reading)
     for part in reading.parts:
@@ -158,7 +160,7 @@ def _sum_of_instances(reading: Reading, unit: float, shell: bool, threads: int) 
 
 
 def _part_findings(part: Part, solid: SolidIntegrals, shell: bool, flat: bool, drawn: set[str]) -> list[Finding]:
-    """What is reported of one surface. A sheet is measured as it is."""
+    """Return the findings about one surface. A sheet is not repaired."""
     if shell:
         copies = solid.health.defective_elements.duplicate_faces
         return [_copies_of_shell(part.surface, copies)] if len(copies) else []
@@ -174,7 +176,7 @@ def _copies_of_shell(surface: Surface, copies: NDArray[np.integer]) -> Finding:
 
 
 def _area(threads: int) -> Callable[[Surface], Moments]:
-    """What measures the area of a mapped surface."""
+    """Return a function that measures the area of a mapped surface."""
 
     def measured(surface: Surface) -> Moments:
         return polyhedron_moments(surface, area_order=3, threads=threads, allow_open=True)[1]
@@ -193,7 +195,7 @@ def _single_surface_body(
     surface: Surface,
     threads: int,
 ) -> MeshBody:
-    """The body of one surface in one place."""
+    """Return the body of one surface in one place."""
     solids = [(solid, matrix[None])]
     return MeshBody(
         volume,
@@ -209,13 +211,13 @@ def _single_surface_body(
 
 
 def _drawn(reading: Reading) -> set[str]:
-    """The sources of which Blender draws polygons in place of something round."""
+    """Return the names of the sources of round shapes that Blender draws as polygons."""
     results = [result for result in reading.findings if result.code in DRAWN_CODES]
     return {name for result in results for name in result.values.get("sources", ["", reading.name])}
 
 
 def _of_drawn(findings: Iterable[Finding], parts: Iterable[Part], drawn: set[str]) -> list[Finding]:
-    """How polygons are cut that stand for something round matters less than that they do."""
+    """Return findings; non-planar faces count as the display mesh's if all parts are drawn round shapes."""
     if not drawn.issuperset([part.source_object_name for part in parts]):
         return list(findings)
     of_display_mesh = NON_PLANAR_FACES_OF_DISPLAY_MESH
@@ -223,7 +225,7 @@ def _of_drawn(findings: Iterable[Finding], parts: Iterable[Part], drawn: set[str
 
 
 def _boolean_union(reading: Reading, unit: float, threads: int) -> MeshBody:
-    """All parts where they stand as one surface, overlaps removed by Blender's exact boolean."""
+    """Return all parts in their places as one surface, overlaps removed by Blender's exact boolean."""
     before = _sum_of_instances(reading, unit, False, threads)
     if not before.volume.total > 0.0:
         return before

@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""An object's shape, apart from where it lies: its pose, its symmetry, its signature.
+"""An object's shape, apart from its place: its pose, its symmetry, its signature.
 
-They need moments of higher order than a measurement carries, of the same body: what is solid, or the sheet of a shell.
+They need moments of higher order than a measurement carries, of the same body: the solid, or the sheet of a shell.
 """
 
 from __future__ import annotations
@@ -45,16 +45,16 @@ from ..findings import (
 )
 from ..measure_object import THREADS, Measured, measure_body
 
-# of the size: between them single precision mistakes the distances of thin triangles
+# Relative to the size: between them single precision mistakes the distances of thin triangles.
 EXACT_DISTANCE, NEAR_DISTANCE = 1e-5, 1e-2
 SURFACE_SAMPLES = 1500  # points of a surface that are held against another one
 POINTS_PER_BATCH = 64  # points whose distances are found at once
-SURFACE_OPTIONS = MeasureOptions(threads=THREADS, axes=False)  # of what is measured for its surface's shape
+SURFACE_OPTIONS = MeasureOptions(threads=THREADS, axes=False)  # for the shape of a surface
 
 
 @dataclass(frozen=True)
 class Shape:
-    """An object as measured, in SI units and world axes, and what its moments of higher order say."""
+    """An object as measured, in SI units and world axes, with a shape by its moments of higher order."""
 
     measurement: Measurement
     body: Body
@@ -67,17 +67,17 @@ class Shape:
 
     @property
     def fingerprint(self) -> str:
-        """Of what was measured."""
+        """Fingerprint of the measurement."""
         return self.measurement.fingerprint
 
     @property
     def is_display_mesh(self) -> bool:
-        """Whether the pieces are the display mesh of something smooth."""
+        """True if the pieces are the display mesh of something smooth."""
         return is_display_mesh(self.measurement)
 
     @property
     def center(self) -> NDArray[np.float64]:
-        """(3,) of the shape; where the density varies, not that of mass."""
+        """(3,) of the shape; not the center of mass if the density varies."""
         return self.moments.about
 
     @property
@@ -87,7 +87,7 @@ class Shape:
 
     @cached_property
     def moments(self) -> Moments:
-        """About the center, to the order that a pose needs. ReadError where they exceed the range of numbers."""
+        """Moments about the center, to the order that a pose needs. ReadError if they exceed the range of numbers."""
         with np.errstate(over="ignore", invalid="ignore"):
             volume, area = self.body.moments(MAX_ORDER, self._sheets)
         found = volume if area is None else area
@@ -97,7 +97,7 @@ class Shape:
         return with_input_error(found, known).about_center()
 
     def piece_moments(self) -> Moments:
-        """As `moments`, of the polygons alone: what has to be compared with them."""
+        """Return moments as in `moments`, of the polygons alone, for comparisons with them."""
         if not is_display_mesh(self.measurement):
             return self.moments
         volume, area = polyhedron_moments(
@@ -115,13 +115,15 @@ class Shape:
         return self.measurement.kind == "shell"
 
     def pieces(self) -> Iterator[Surface]:
-        """The surfaces of the body, where they stand."""
+        """Yield the surfaces of the body in world coordinates."""
         return self.body.surfaces(self._sheets)
 
     def pose(self) -> dict[str, Any]:
-        """The pose for a record: see DESIGN.md. Where the density varies, third moments of the mass alone are known,
-        which cannot tell a symmetry. An axis of revolution is looked at to order 30: where it is none, the body decides
-        how it is turned about it."""
+        """Return the pose for a record: see DESIGN.md.
+
+        A varying density has third moments of mass alone, which cannot tell a symmetry. An apparent axis of revolution
+        is tested to order 30; if it is none, the body decides its turn about it.
+        """
         body = self.measurement.mass_properties
         axes, unique = body.principal.axes, body.principal.is_unique
         pose: dict[str, Any] = {"symmetry": None, "symmetry_order": None}
@@ -138,12 +140,13 @@ class Shape:
 
     @property
     def has_surface(self) -> bool:
-        """Whether there are polygons, which a signature and a comparison of surfaces need."""
+        """True if there are polygons, which a signature and a comparison of surfaces need."""
         return self.body.has_surface
 
     def signature(self, order: int = MAX_ORDER_BY_MOMENTS) -> Signature:
-        """Zernike descriptors to `order`; above 20, and where raw moments lose too many digits, by quadrature.
-        Needs a surface."""
+        """Return Zernike descriptors to `order`, by quadrature above 20 and if raw moments lose too many digits.
+        Needs a surface.
+        """
         points = self.points_about_center()
         radius = float(np.sqrt((points * points).sum(axis=1).max()))
         # About the center at about unit size, for high powers of a length are soon beyond the range of numbers.
@@ -172,11 +175,11 @@ class Shape:
         return replace(result, size=scale * result.size)
 
     def match(self, target: Shape, residual: Residual) -> RigidMatch:
-        """How this shape lies on another one. residual: as for `match`."""
+        """Return the motion that lays this shape onto another one. residual: as for `match`."""
         return match(self.moments, target.moments, residual, target.size)
 
     def find_symmetries(self, skin: SurfaceDistance, tolerance: float) -> tuple[Symmetry, Symmetry]:
-        """What the surface confirms, and what the moments allow. tolerance: by the size."""
+        """Return the symmetry that the surface confirms, and the one that the moments allow. tolerance: by the size."""
         moments = self.piece_moments()
         # Moments are looked at as loosely as the surface.
         allowed = symmetry(moments, max(NOISE_LEVEL, tolerance))
@@ -184,7 +187,7 @@ class Shape:
         return confirm(allowed, moments.about, skin.points, partial(skin.distance, within=near), near), allowed
 
     def points_about_center(self) -> NDArray[np.float64]:
-        """(n, 3) the corners of all faces."""
+        """Return (n, 3) the corners of all faces."""
         points = []
         for piece in self.pieces():
             triangles = piece.all_triangles()[0]
@@ -195,12 +198,12 @@ class Shape:
 
 
 def is_display_mesh(measurement: Measurement) -> bool:
-    """Whether a body's pieces are the display mesh of something smooth, whose moments differ a little."""
+    """Return whether a body's pieces are the display mesh of something smooth, whose moments differ a little."""
     return measurement.method.source == Source.NURBS
 
 
 class NoShapeError(ReadError):
-    """An object that was measured, but whose shape is not its own."""
+    """Refusal of an object that can be measured, but has no shape of its own."""
 
     def __init__(self, code: str, measurement: Measurement):
         super().__init__(code, subject=measurement.name)
@@ -208,12 +211,12 @@ class NoShapeError(ReadError):
 
 
 def surface_shape_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> Shape:
-    """As `shape_of`, of bodies with polygons only, in threads."""
+    """Return the same as `shape_of`, for bodies with polygons only, in threads."""
     return surface_shape(measure_body(obj, depsgraph, SURFACE_OPTIONS))
 
 
 def surface_shape(measured: Measured) -> Shape:
-    """The shape of what was measured with SURFACE_OPTIONS, which has to have polygons."""
+    """Return the shape of a body that was measured with SURFACE_OPTIONS, which must have polygons."""
     shape = _shape_of_measured(measured, SURFACE_OPTIONS.threads)
     if not shape.has_surface:
         raise NoShapeError(SIGNATURE_NEEDS_POLYGONS, shape.measurement)
@@ -221,13 +224,13 @@ def surface_shape(measured: Measured) -> Shape:
 
 
 def shape_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, options: MeasureOptions | None = None) -> Shape:
-    """Measure an object for its shape. Raises MeasureError, and of these NoShapeError where it has none."""
+    """Measure an object for its shape. Raises MeasureError, and its subclass NoShapeError if it has none."""
     options = replace(options or MeasureOptions(), pose=True)
     return _shape_of_measured(measure_body(obj, depsgraph, options), options.threads)
 
 
 def _shape_of_measured(measured: Measured, threads: int) -> Shape:
-    """The shape of what was measured for it. Raises NoShapeError where it has none."""
+    """Return the shape of a measured body. Raises NoShapeError if it has none."""
     measurement, body = measured.measurement, measured.body
     if body.mass is not None and not body.has_surface:
         raise NoShapeError(SHAPE_OF_GRID, measurement)
@@ -242,7 +245,7 @@ def _shape_of_measured(measured: Measured, threads: int) -> Shape:
 
 
 class Registered(Protocol):
-    """What is laid onto others of its kind: a `Shape`, or a flat one."""
+    """A shape that is laid onto others of its kind: a `Shape`, or a flat one."""
 
     @property
     def center(self) -> NDArray[np.float64]: ...
@@ -284,8 +287,10 @@ class SurfaceDistance:
         yield 1.0
 
     def distance(self, points: NDArray, within: float | None = None) -> NDArray[np.float64]:
-        """(n,) of (n, 3) points from the surface. within: where only this matters, whether they are within so much:
-        what is, and what clearly is not, is told in single precision, or as infinite."""
+        """Return (n,) distances of (n, 3) points from the surface.
+
+        within: the limit, if only distances above or below it matter: clear cases are in single precision, or infinite.
+        """
         scaled = (points - self._center) / self._scale
         nearest, queries = self._tree.find_nearest, scaled.tolist()
         reach = np.inf if within is None else 1.01 * max(NEAR_DISTANCE, within / self._scale)
@@ -306,7 +311,7 @@ class SurfaceDistance:
 
 
 def _as_tuples(array: NDArray) -> list[tuple]:
-    """As `tolist`, but of tuples, which the garbage collector does not look at again and again."""
+    """Return the rows as `tolist` does, but as tuples, which the garbage collector does not visit again and again."""
     return list(zip(*array.T.tolist()))
 
 
@@ -317,8 +322,9 @@ def register_surfaces(
     target_skin: SurfaceDistance,
     scale: float = 1.0,
 ) -> RigidMatch:
-    """How a shape comes to lie on another one, about their centers, and what is left between their surfaces.
-    source_skin, target_skin: theirs. scale: what the source is multiplied by first."""
+    """Return the motion that lays a shape onto another one, about their centers, and the residual between their
+    surfaces. source_skin, target_skin: theirs. scale: applied to the source first.
+    """
 
     def residual(way: NDArray, max_points: int | None) -> NDArray[np.float64]:
         source_points, target_points = (

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The signatures of many objects: together where they were measured together, a shape's once for all that show it."""
+"""The signatures of many objects: in batches if they were measured so, one per shape that several objects show."""
 
 from __future__ import annotations
 
@@ -50,8 +50,11 @@ def signed_in_turn(
 
 
 def stack_signatures(stack: MeasuredStack, order: int) -> list[Signature | None]:
-    """The signatures of objects that were measured together, to an order; None of those that need care alone: repaired
-    ones, what is far from the origin for its size, and where moments lose too many digits."""
+    """Return the signatures of objects that were measured together, to an order.
+
+    None for objects that need care alone: repaired ones, ones far from the origin for their size, and ones whose
+    moments lose too many digits.
+    """
     found: list[Signature | None] = [None] * len(stack.members)
     linear = np.array([member.matrix[:3, :3] for member in stack.members])
     is_even, determinant = are_similarities(linear), np.linalg.det(linear)
@@ -88,7 +91,9 @@ def stack_signatures(stack: MeasuredStack, order: int) -> list[Signature | None]
 def _signatures(
     stack: TriangleStack, rows: NDArray[np.intp], maps: NDArray, centers: NDArray, order: int
 ) -> tuple[list[Signature], NDArray[np.float64]]:
-    """The signatures of some surfaces after linear maps, in units of a length of their own, and these lengths."""
+    """Return the signatures of some surfaces after linear maps, in units of a length of their own, and these
+    lengths.
+    """
     points, triangles, first = [], [], 0
     for row, linear, center in zip(rows.tolist(), maps, centers):
         start, begin = stack.first_point[row], stack.first_triangle[row]

@@ -3,8 +3,8 @@
 """Many objects at once: solids that show one mesh each are measured as stacks, all others one by one, with the same
 numbers.
 
-What joins no stack, because it shows more than one mesh in one place, is no solid, is large, or has a density that
-varies, is measured by `measure_body`; so is what is refused, for the reason.
+An object joins no stack if it shows more than one mesh in one place, is no solid, is large, or has a varying density:
+`measure_body` measures it. Refused objects go there, too, for the reason.
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ def measure_many(
     Yields
     ------
     list of (bpy.types.Object, Measured or Stacked or Exception)
-        The next ones, in their order: what was measured, or why it was not.
+        The next ones, in their order: the measurement, or the reason why there is none.
     """
     pending: list[tuple[bpy.types.Object, StackMember | None]] = []
     collector = _Collector(depsgraph, options)
@@ -87,7 +87,7 @@ def measured_in_turn(
 def _outcomes(
     pending: list[tuple[bpy.types.Object, StackMember | None]], collector: _Collector
 ) -> Iterator[list[tuple[bpy.types.Object, Outcome]]]:
-    """What came of those that were collected: of stacked ones together, of others one by one."""
+    """Yield the outcomes of the collected objects: stacked ones together, others one by one."""
     stacked = collector.measure()
     together: list[tuple[bpy.types.Object, Outcome]] = []
     for obj, member in pending:
@@ -121,7 +121,7 @@ class _Collector:
         self._settings: dict[tuple[float | None, float | None], str] = {}
 
     def add(self, obj: bpy.types.Object) -> StackMember | None:
-        """The object as one of the stack; None where it cannot be, or reading it fails: by itself it fails again."""
+        """Return the object as one of the stack; None if it cannot be, or reading fails: by itself it fails again."""
         try:
             return self._member(obj)
         except Exception:
@@ -156,7 +156,7 @@ class _Collector:
         return member
 
     def _weight(self, obj: bpy.types.Object) -> tuple[float, float, str] | None:
-        """The density or the mass of a solid that has one, and the digest of the settings; None of others."""
+        """Return the density or the mass of a solid that has one, and the digest of the settings; None of others."""
         options, settings = self.options, obj.body_moments
         kind, overlap = options.kind or settings.kind.lower(), options.overlap or settings.overlap.lower()
         density, mass = options.density, options.mass
@@ -177,7 +177,7 @@ class _Collector:
         return nothing if density is None else density, nothing if mass is None else mass, digest
 
     def _read(self, mesh: bpy.types.Mesh) -> MeshShape | None:
-        """The shape of a mesh; None where it has to be measured by itself."""
+        """Return the shape of a mesh; None if it has to be measured by itself."""
         if not len(mesh.polygons) or len(mesh.polygons) > MAX_FACES_HIGH_ORDER:
             return None
         surface = mesh_surface(mesh)
@@ -193,7 +193,9 @@ class _Collector:
         return shape
 
     def measure(self) -> dict[int, Stacked]:
-        """What could be measured together, by number: where that fails, nothing, so that each is measured by itself."""
+        """Return the stacked measurements by number; none if the stack fails, so that each object is measured by
+        itself.
+        """
         try:
             stack = measure_members(self.members, self.shapes, self.unit, self.options.axes) if self.members else None
         except Exception as error:

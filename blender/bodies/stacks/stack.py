@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The measurements of many objects, each a solid of one shape in one place, computed together.
 
-A shape is a mesh in its own coordinates, however many objects show it: closed ones are measured together, what has to
-be repaired by itself, and its axes are looked for once. Objects are a shape, a place and a density or mass.
+A shape is a mesh in its own coordinates, however many objects show it: closed ones are measured together, others are
+repaired and measured alone, and axes are found once. Objects are a shape, a place and a density or mass.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ METHODS = {verdict: Method(verdict) for verdict in Verdict}
 
 @dataclass(eq=False)
 class MeshShape:
-    """A mesh in its own coordinates, and how it was measured.
+    """A mesh in its own coordinates, and its measurement.
 
     Attributes
     ----------
@@ -47,11 +47,11 @@ class MeshShape:
     face_count : int
         The mesh's.
     row : int
-        Where it stands in the stacks of moments.
+        Its index in the stacks of moments.
     solids : SolidStack, optional
-        Which it was measured with; its row is the same.
+        The stack that it was measured with; its row is the same.
     alone : SolidIntegrals, optional
-        What it came to by itself.
+        Its integrals, if it was measured by itself.
     """
 
     surface: Surface
@@ -64,7 +64,7 @@ class MeshShape:
 
     @property
     def health(self) -> MeshHealth:
-        """What the mesh is like."""
+        """Health of the mesh."""
         if self.solids is not None:
             return self.solids.health(self.row)
         assert self.alone is not None
@@ -72,17 +72,17 @@ class MeshShape:
 
     @property
     def defects(self) -> DefectiveElements | None:
-        """Where its faults are; None where there are none."""
+        """Elements with faults; None if there are none."""
         spotless = self.alone is None and self.method is METHODS[Verdict.EXACT]
         return None if spotless else self.health.defective_elements
 
     @cached_property
     def digest(self) -> bytes | None:
-        """Of what it shows, for staleness; None of a large one."""
+        """Digest of the surface, for staleness; None for a large one."""
         return surface_digest(self.surface, self.face_count)
 
     def sixth_order(self) -> Moments:
-        """The volume's moments that axes are found by, of one that was measured by itself."""
+        """Return the volume's moments that axes are found by, of one that was measured by itself."""
         solid = self.alone
         assert solid is not None
         found = polyhedron_moments(
@@ -92,8 +92,9 @@ class MeshShape:
 
 
 def measure_shapes(shapes: list[MeshShape]) -> tuple[Moments, Moments]:
-    """Measure shapes, whose points are finite, in their own coordinates: volumes to third order and areas, stacked by
-    row."""
+    """Measure shapes, with finite points, in their own coordinates: volumes to third order and areas, stacked by
+    row.
+    """
     small = [shape for shape in shapes if can_be_stacked(shape.surface)]
     volumes: list[Moments] = []
     areas: list[Moments] = []
@@ -129,7 +130,7 @@ class StackMember:
     Attributes
     ----------
     number : int
-        Which of those it is that were collected.
+        Its index among the collected objects.
     density, mass : float or None
         One of them; the other is NaN. kg/m³, kg.
     settings : str
@@ -159,14 +160,14 @@ class MeasuredStack:
     ----------
     members : list of StackMember
     from_mass : (n,) bool
-        Whether the density follows from a given mass.
+        True if the density follows from a given mass.
     density : (n,) array
         kg/m³.
     volume, area : Moments
     mass_properties : MassProperties
         With a leading axis.
     stretch : (n,) array
-        By what the volume of the shape was multiplied.
+        Factors of the shapes' volumes.
     rotation, location : (n, 3, 3) and (n, 3) array
         The object frames.
     fingerprints : list of str
@@ -186,7 +187,7 @@ class MeasuredStack:
     findings: list[tuple[Finding, ...]]
 
     def some(self, which: list[int]) -> MeasuredStack:
-        """Some of them as a stack."""
+        """Return a stack of the members with these indices."""
         if len(which) == len(self.members):
             return self
         lists = "members", "fingerprints", "findings"
@@ -212,11 +213,11 @@ class MeasuredStack:
         return np.array(bounds).transpose(2, 0, 1)
 
     def in_object_frames(self) -> MassProperties:
-        """The mass properties, each in its object's own frame."""
+        """Return the mass properties, each in its object's own frame."""
         return self.mass_properties.in_frame(self.rotation, self.location)
 
     def measurement(self, i: int) -> Measurement:
-        """One of them."""
+        """Return the measurement of one member."""
         obj, shape, volume, density = self.members[i].obj, self.members[i].shape, self.volume.at(i), self.density[i]
         names = "volume", "area", "center_of_mass", "inertia"
         rounding, inputs = (dict(zip(names, row)) for row in self.error_bounds[i].tolist())
@@ -244,7 +245,7 @@ class MeasuredStack:
 
 
 class Stacked:
-    """One object's measurement that is part of a stack: what `Measured` is of one that was measured by itself."""
+    """One object's measurement in a stack, the counterpart of `Measured`."""
 
     __slots__ = ("index", "stack")
 
@@ -273,15 +274,16 @@ class Stacked:
 
     @property
     def shape_digest(self) -> bytes | None:
-        """A digest of what the object shows; None of a large one."""
+        """Digest of the object's surface; None for a large one."""
         return self.stack.members[self.index].shape.digest
 
 
 def measure_members(
     members: list[StackMember], shapes: list[MeshShape], unit: float, axes: bool = True
 ) -> MeasuredStack | None:
-    """Measure objects together: those whose shapes can be measured and whose numbers are certain; None where there are
-    none. unit: meters per Blender unit. axes: as in `MeasureOptions`."""
+    """Measure objects together if their shapes can be measured and their numbers are certain; None if there are none.
+    unit: meters per Blender unit. axes: as in `MeasureOptions`.
+    """
     own, own_area = measure_shapes(shapes)
     which = np.array([member.shape.row for member in members])
     matrices = np.array([member.matrix for member in members], np.float64)
@@ -353,7 +355,7 @@ def measure_members(
 
 
 def _findings(member: StackMember) -> tuple[Finding, ...]:
-    """Of the member's shape, those marked that were accepted for the object."""
+    """Return the findings about the member's shape, with the object's accepted ones marked."""
     found = member.shape.findings
     return with_acceptance(found, accepted_codes(member.obj)) if found else ()
 
@@ -363,14 +365,14 @@ def _chosen(members: list[StackMember], which: NDArray) -> list[StackMember]:
 
 
 def _placed(moments: Moments, matrices: NDArray) -> Moments:
-    """The images about the images of their reference points, as `sum_of_images` gives them."""
+    """Return the images about the images of their reference points, as `sum_of_images` gives them."""
     linear, about = matrices[:, :3, :3], moments.about
     center = linear[..., 0] * about[:, :1] + linear[..., 1] * about[:, 1:2] + linear[..., 2] * about[:, 2:]
     return image(moments, matrices, center + matrices[:, :3, 3])
 
 
 def _areas(area: Moments, matrices: NDArray, members: list[StackMember]) -> Moments:
-    """The areas of the images, of uneven ones from the mapped surfaces."""
+    """Return the areas of the images, of uneven ones from the mapped surfaces."""
     even = are_similarities(matrices[:, :3, :3])
     if even.all():
         return _placed(area, matrices)

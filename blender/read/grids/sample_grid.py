@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""One grid of a volume by the node Sample Grid, where Blender has come without the openvdb module.
+"""One grid of a volume by the node Sample Grid, for Blender without the openvdb module.
 
-A mesh with a vertex at the center of each voxel stores there, by a node tree, what the nearest voxel of the volume
-holds: the same values to the bit. Mesh, tree and a scene to evaluate them in live for this reading only, so that
+A mesh with a vertex at the center of each voxel stores there, by a node tree, the value of the nearest voxel of the
+volume: the same values to the bit. Mesh, tree and a scene to evaluate them in live for this reading only, so that
 nothing of the user's scene is changed or evaluated anew. The extent is that of Blender's bounding box; empty space
 is not known before it is sampled.
 """
@@ -34,7 +34,7 @@ KINDS = {
 
 
 class SampledGrid:
-    """As `vdb.VdbGrid`; whether it is a level set is not known here."""
+    """Grid with the interface of `vdb.VdbGrid`; level sets are not recognized here."""
 
     level_set = None
 
@@ -56,7 +56,7 @@ class SampledGrid:
             self.background = float(sample(low - 2, (1, 1, 1))[0, 0, 0])
 
     def blocks(self) -> Iterator[tuple[tuple[int, int, int], NDArray]]:
-        """The voxels of the box, as blocks, each with where it begins in the box."""
+        """Yield the voxels of the box, as blocks, each with its offset in the box."""
         planes = max(1, VOXELS_PER_BLOCK // int(np.prod(self.shape[1:])))
         with self._sampler() as sample:
             for start in range(0, int(self.shape[0]), planes):
@@ -68,7 +68,7 @@ class SampledGrid:
 
     @contextmanager
     def _sampler(self) -> Iterator[Callable[[NDArray, tuple[int, int, int]], NDArray]]:
-        """Gives a function from the first voxel of a block and its shape to the values."""
+        """Yield a function from the first voxel of a block and its shape to the values."""
         made = []
 
         def keep(collection, block):
@@ -111,11 +111,11 @@ class SampledGrid:
 
 
 def _layer_at_frame_of(shown, scene):
-    """A view layer of an empty scene that is now at the frame of the one that is shown.
+    """Return a view layer of an empty scene that is now at the frame of the displayed one.
 
-    To set `frame_current` makes Blender evaluate the animation of every scene, and so put back what was changed and not
-    keyed yet; `frame_set` evaluates this scene alone, but calls handlers, which need not know. The new layer has not
-    been evaluated: else what it shows next would be reported as changed.
+    Setting `frame_current` makes Blender evaluate the animation of every scene, and so revert unkeyed changes;
+    `frame_set` evaluates this scene alone, but calls handlers, which need not know. The new layer has not been
+    evaluated: else its next content would be reported as changed.
     """
     handlers = [getattr(bpy.app.handlers, name) for name in ("frame_change_pre", "frame_change_post")]
     kept = [functions[:] for functions in handlers]
@@ -130,7 +130,7 @@ def _layer_at_frame_of(shown, scene):
 
 
 def _fill(tree, obj, name: str, kind: str) -> None:
-    """The nodes: the values of the object's named grid at the vertices, as the attribute "value"."""
+    """Add the nodes that store the values of the object's named grid at the vertices, as the attribute "value"."""
     for direction in ("INPUT", "OUTPUT"):
         tree.interface.new_socket("Geometry", in_out=direction, socket_type="NodeSocketGeometry")
     start, end, info, named, sample, place, store = (

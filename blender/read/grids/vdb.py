@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""One grid of a volume by the openvdb module that comes with Blender, block by block where there is something.
+"""One grid of a volume by Blender's openvdb module, block by block without the empty space.
 
-An OpenVDB tree has nodes of 4096, 128 and 8 voxels a side. The depth at which a value is held shows whether a node of
-128 is there at all, so the empty rest of a sparse grid costs nothing.
+An OpenVDB tree has nodes of 4096, 128 and 8 voxels a side. The depth of a value shows whether its node of 128 exists at
+all, so the empty rest of a sparse grid costs nothing.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ DTYPES = {"float": np.float32, "double": np.float64, "int32": np.int32, "int64":
 
 
 def openvdb() -> ModuleType | None:
-    """The module, or None where this Blender has none."""
+    """Return the module, or None if this Blender has none."""
     if hasattr(bpy.utils, "expose_bundled_modules"):
         bpy.utils.expose_bundled_modules()
     for name in ("openvdb", "pyopenvdb"):
@@ -44,8 +44,8 @@ def openvdb() -> ModuleType | None:
 class VdbGrid:
     """A grid of a .vdb file.
 
-    low, shape: (3,) the box of its active voxels, in voxels. background: what all others hold. level_set: whether the
-    file calls it one. to_object: (4, 4) from voxels. ReadError where it cannot be measured.
+    low, shape: (3,) the box of its active voxels, in voxels. background: value of all others. level_set: the file calls
+    it one. to_object: (4, 4) from voxels. ReadError if it cannot be measured.
     """
 
     def __init__(self, path: str, name: str) -> None:
@@ -80,7 +80,7 @@ class VdbGrid:
             raise ReadError(GRID_FAR_FROM_ORIGIN, grid=name)
 
     def blocks(self) -> Iterator[tuple[tuple[int, int, int], NDArray]]:
-        """The voxels that are there, as blocks, each with where it begins in the box."""
+        """Yield the stored voxels, as blocks, each with its offset in the box."""
         values = self._grid.getConstAccessor()
         end = self.low + self.shape
         for first in _cells(self.low, end, ROOT_VOXELS):
@@ -101,12 +101,12 @@ class VdbGrid:
                     yield tuple(offset.tolist()), array[tuple(slice(where[0], where[-1] + 1) for where in along)]
 
     def polygons(self) -> Surface:
-        """The surface where a level set is zero, in the object's coordinates, facing outward."""
+        """Return the zero surface of a level set, in the object's coordinates, facing outward."""
         points, _triangles, quads = self._grid.convertToPolygons()  # there are quads alone unless it adapts
         return Surface(np.ascontiguousarray(points, np.float32), quads=np.ascontiguousarray(quads[:, ::-1], np.int32))
 
 
 def _cells(low: NDArray, end: NDArray, size: int) -> Iterator[tuple[int, int, int]]:
-    """The corners of the cells of `size` that hold voxels of the box."""
+    """Yield the corners of the cells of `size` that hold voxels of the box."""
     i, j, k = (range(int(a) // size * size, int(b), size) for a, b in zip(low, end))
     return product(i, j, k)

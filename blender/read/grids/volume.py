@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A grid of voxels as an object shows it: of a Volume object, or of any that its nodes turn into a volume.
 
-Blender gives voxels only as a file or through nodes. What Blender has read from a .vdb file
-and not changed is read from that file; what it has made is written, where its openvdb module can read it again, to
-Blender's temporary folder for as long as the reading lasts; else it is sampled by nodes.
+Blender gives voxels only as a file or through nodes. Grids that Blender has read from a .vdb file and not changed are
+read from that file; other grids are written, if its openvdb module can read them again, to Blender's temporary folder
+for as long as the reading lasts; else they are sampled by nodes.
 """
 
 from __future__ import annotations
@@ -50,13 +50,13 @@ PREFERRED = "density"
 
 @dataclass
 class VolumeReading:
-    """One grid, and where it stands.
+    """One grid, and its place.
 
     name, type, matrix, rotation, location, findings: as in `Reading`.
-    grid: its name. level_set: whether it is marked as one, None where nobody knows.
+    grid: its name. level_set: True if it is marked as one, None if unknown.
     to_object: (4, 4) float64 from voxels to the object.
-    shape: (3,) of the box that holds its voxels; low: (3,) where that begins. background: what is in no voxel.
-    blocks: yields what is there, (offset in the box, array). polygons: gives the surface of a level set.
+    shape: (3,) of the box that holds its voxels; low: (3,) its offset. background: value outside all voxels.
+    blocks: yields the stored voxels, (offset in the box, array). polygons: gives the surface of a level set.
     """
 
     name: str
@@ -77,10 +77,10 @@ class VolumeReading:
 
 @contextmanager
 def volume_reading(obj, depsgraph, grid: str = "") -> Iterator[VolumeReading | None]:
-    """One grid of the object, by default "density" or else the first that can be one, as long as the context lasts;
-    None where the object shows polygons, or no volume.
+    """Yield one grid of the object, by default "density" or else the first possible one, as long as the context lasts;
+    None if the object shows polygons, or no volume.
 
-    Raises ReadError, and attaches the object's name to what is raised inside the context.
+    Raises ReadError, and attaches the object's name to errors inside the context.
     """
     obj = obj.original
     volume = _volume(obj, depsgraph)
@@ -124,7 +124,7 @@ def volume_reading(obj, depsgraph, grid: str = "") -> Iterator[VolumeReading | N
 
 
 def _volume(obj, depsgraph):
-    """The evaluated volume with its grids loaded, or None."""
+    """Return the evaluated volume with its grids loaded, or None."""
     if obj.type not in {"VOLUME", "MESH", "CURVE", "FONT", "SURFACE", "POINTCLOUD", "CURVES"}:
         return None
     evaluated = obj.evaluated_get(depsgraph)
@@ -160,7 +160,7 @@ class _OwnedVolume:
 
 
 def _choose_grid(obj, volume: _OwnedVolume, name: str, findings: list[Finding]):
-    """The grid of that name, or the one that is meant most likely."""
+    """Return the grid of that name, or the one that is meant most likely."""
     grids = {grid.name: grid for grid in volume.data.grids}
     if len(grids) < len(volume.data.grids):
         findings.append(finding(GRID_NAMES_REPEATED))
@@ -202,7 +202,7 @@ def _open_grid(obj, volume: _OwnedVolume, grid, depsgraph, findings: list[Findin
 
 
 def _unchanged_file(obj, volume: _OwnedVolume) -> str | None:
-    """The file that the grids are read from, where nothing has changed them since."""
+    """Return the file that the grids are read from, if nothing has changed them since."""
     if any(modifier.show_viewport for modifier in obj.modifiers) or obj.data.packed_file is not None:
         return None
     path = volume.data.grids.frame_filepath

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The splines of a curve object as B-spline curves: Bézier, NURBS, Catmull-Rom and straight ones.
 
-Blender's geometry set has the curves that are shown without a surface, as modifiers and shape keys leave them. Of those
-with a bevel it has the mesh alone, and they come from the splines.
+Blender's geometry set has the curves that are shown without a surface, after modifiers and shape keys. Of beveled
+curves it has the mesh alone, and they come from the splines.
 """
 
 from __future__ import annotations
@@ -23,17 +23,17 @@ from ..visibility import evaluated_geometry
 from .deformation import deform, is_deformed, spline_modifiers
 from .splines import weighted_points
 
-STRAIGHT_RTOL = 1e-6  # of a spline's length: what float32 leaves of a straight line
-TYPES = ("CATMULL_ROM", "POLY", "BEZIER", "NURBS")  # of a geometry set's curves, by their number
+STRAIGHT_RTOL = 1e-6  # relative to a spline's length: float32 bends a straight line as much
+TYPES = ("CATMULL_ROM", "POLY", "BEZIER", "NURBS")  # curve types by their number in a geometry set
 CUSTOM_KNOTS_MODE = 4  # the mode of knots that are none of those that the flags make
 # a point; of the length; of the largest coordinate, at each step
 STEPS_PER_POINT, SAME_LENGTH_RTOL, AGREEMENT_RTOL = 8, 1e-4, 1e-7
 
 
 def read_curves(obj, depsgraph) -> tuple[list[Curve], list[Finding]]:
-    """The curves of a curve object in its own coordinates, as it is evaluated, and what was decided.
+    """Return the curves of an evaluated curve object in its own coordinates, and the decisions.
 
-    Raises ReadError where there is none, or Blender has not evaluated it.
+    Raises ReadError if there is none, or Blender has not evaluated it.
     """
     obj = obj.original
     geometry = evaluated_geometry(obj, depsgraph, obj)  # it owns its curves
@@ -57,9 +57,9 @@ def read_curves(obj, depsgraph) -> tuple[list[Curve], list[Finding]]:
 
 
 def text_curves(obj, depsgraph) -> list[Curve]:
-    """The outlines of a text object in its own coordinates, as its font has them.
+    """Return the outlines of a text object in its own coordinates, as its font has them.
 
-    Raises ReadError where it has none.
+    Raises ReadError if it has none.
     """
     try:
         curves = [_curve(*_kind(spline), _control_points(spline), None) for spline in obj.to_curve(depsgraph).splines]
@@ -72,7 +72,7 @@ def text_curves(obj, depsgraph) -> list[Curve]:
 
 
 def is_round(obj) -> bool:
-    """Whether the polygons that Blender draws for a curve or text object stand for something that is not straight."""
+    """Return whether the polygons that Blender draws for a curve or text object stand for a curved shape."""
     curve = obj.data
     if obj.type == "FONT" or (curve.bevel_mode != "OBJECT" and curve.bevel_depth and curve.bevel_resolution):
         return True
@@ -83,7 +83,7 @@ def is_round(obj) -> bool:
 
 
 def _is_straight(spline) -> bool:
-    """Whether a spline has no bend but at its points."""
+    """Return whether a spline has no bend but at its points."""
     if spline.type == "POLY" or (spline.type == "NURBS" and spline.order_u == 2):
         return True
     pieces = _control_points(spline)[None]
@@ -105,7 +105,7 @@ def _kind(spline) -> tuple[str, bool, int, bool, bool]:
 
 
 def _control_points(spline) -> NDArray[np.float64]:
-    """(n, 3) in the order in which Blender counts them; of a Bézier point both handles, around it."""
+    """Return (n, 3) points in the order in which Blender counts them; of a Bézier point both handles, around it."""
     if spline.type != "BEZIER":
         return weighted_points(spline)[:, :3].astype(np.float64)
     coordinates = np.empty((3, 3 * len(spline.bezier_points)), np.float32)
@@ -115,7 +115,7 @@ def _control_points(spline) -> NDArray[np.float64]:
 
 
 def _spline_curves(evaluated, depsgraph) -> Iterator[Curve | None]:
-    """Those of the splines, None for anything but a curve, as shape keys and hooks move them."""
+    """Yield the splines as curves, moved by shape keys and hooks; None for anything else."""
     name, splines = evaluated.original.name, list(evaluated.data.splines)
     if not splines:
         return
@@ -126,7 +126,7 @@ def _spline_curves(evaluated, depsgraph) -> Iterator[Curve | None]:
     _require_finite(points, name)
     start = 0
     for spline, row in zip(splines, control_points):
-        weights = weighted_points(spline)[:, 3].astype(np.float64)  # of a Bézier spline none, nor needed
+        weights = weighted_points(spline)[:, 3].astype(np.float64)  # Bézier splines have none and need none
         if spline.type == "NURBS" and not _has_known_knots(spline, _curve(*_kind(spline), row, weights)):
             raise ReadError(UNKNOWN_KNOTS, subject=name)
         yield _curve(*_kind(spline), points[start : start + len(row)], weights)
@@ -134,7 +134,7 @@ def _spline_curves(evaluated, depsgraph) -> Iterator[Curve | None]:
 
 
 def _has_known_knots(spline, curve: Curve | None) -> bool:
-    """Whether the knots are those that a spline's settings make: else Blender finds another length."""
+    """Return whether the knots follow from a spline's settings: else Blender finds another length."""
     if curve is None:
         return True
     low, high = curve.space.domain
@@ -148,7 +148,7 @@ def _has_known_knots(spline, curve: Curve | None) -> bool:
 
 
 def _shown_curves(curves, name: str) -> Iterator[Curve | None]:
-    """Those of a geometry set, None for anything but a curve."""
+    """Yield the curves of a geometry set, None for anything else."""
     count = len(curves.points)
     positions, left, right = (
         _values(curves, attribute, "vector", (count, 3)) for attribute in ("position", "handle_left", "handle_right")
@@ -182,14 +182,15 @@ def _shown_curves(curves, name: str) -> Iterator[Curve | None]:
 
 
 def _catmull_rom(points: NDArray, cyclic: bool) -> NDArray[np.float64]:
-    """(n, 3) the handles of the Bézier curve that is the same: a third of the slope, half of the way from neighbor to
-    neighbor."""
+    """Return (n, 3) the handles of the equal Bézier curve: a third of the slope, half of the way from neighbor to
+    neighbor.
+    """
     around = np.pad(points, ((1, 1), (0, 0)), "wrap" if cyclic else "edge")
     return (around[2:] - around[:-2]) / 6.0
 
 
 def _values(curves, name: str, item: str, shape: tuple[int, int], default: float = 0.0) -> NDArray[np.float64]:
-    """An attribute of the points or the curves; the default where there is none."""
+    """Return an attribute of the points or the curves; the default if there is none."""
     if name not in curves.attributes:
         return np.full(shape, default)
     attribute = curves.attributes[name]
@@ -213,7 +214,7 @@ def _curve(
     points: NDArray[np.float64],
     weights: NDArray | None,
 ) -> Curve | None:
-    """points: (n, 3), of a Bézier curve three for each point."""
+    """Return a spline as a curve; None if it is too short. points: (n, 3), of a Bézier curve three for each point."""
     if kind == "NURBS":
         space = blender_space(len(points), order, cyclic, bezier, endpoint)
         return None if space is None else Curve(space, points, weights)
@@ -231,7 +232,7 @@ def _curve(
 
 
 def _join_knots(pieces: int, order: int) -> Iterator[float]:
-    """Knots of Bézier pieces that follow each other."""
+    """Yield the knots of Bézier pieces that follow each other."""
     yield 0.0
     for piece in range(pieces + 1):
         yield from (float(piece),) * (order - 1)

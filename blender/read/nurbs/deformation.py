@@ -39,7 +39,7 @@ CONSTRUCTIVE = {
     "VOLUME_TO_MESH",
     "SKIN",
 }
-# Of the distance from the hook's center, 0 there and 1 at the radius.
+# Functions of the distance from the hook's center, 0 there and 1 at the radius.
 FALLOFFS = {
     "CONSTANT": lambda d: np.ones_like(d),
     "LINEAR": lambda d: 1.0 - d,
@@ -52,7 +52,7 @@ FALLOFFS = {
 
 
 def spline_modifiers(obj) -> tuple[list, list]:
-    """The modifiers that move control points, and those that change the mesh that comes after."""
+    """Return the modifiers that move control points, and the ones that change the mesh that comes after."""
     shown = [
         modifier
         for modifier in obj.modifiers
@@ -68,15 +68,16 @@ def spline_modifiers(obj) -> tuple[list, list]:
 
 
 def is_deformed(evaluated) -> bool:
-    """Whether shape keys or modifiers move control points."""
+    """Return whether shape keys or modifiers move control points."""
     return bool(spline_modifiers(evaluated.original)[0]) or (
         evaluated.data.shape_keys is not None and evaluated.original.mode != "EDIT"
     )
 
 
 def deform(evaluated, points: NDArray, depsgraph) -> NDArray[np.float64]:
-    """(n, 3) the control points, of all splines in turn, of an evaluated object once shape keys and hooks have moved
-    them; what other modifiers do is left out. ReadError where a hook cannot be followed."""
+    """Return (n, 3) the control points, of all splines in turn, of an evaluated object, moved by shape keys and hooks;
+    other modifiers are left out. ReadError if a hook cannot be followed.
+    """
     points = np.asarray(points, np.float64)
     keys = evaluated.data.shape_keys
     if keys is not None and evaluated.original.mode != "EDIT":

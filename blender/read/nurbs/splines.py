@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The splines of a surface object as patches, proved against the mesh that Blender displays.
 
-Where shape keys and hooks move control points, or a spline has knots that Blender keeps to itself (its OBJ importer
-makes such ones), what was read may not be what is shown. So the patches are evaluated at the parameters of the display
-mesh's vertices and compared with them. Where they differ, the control points are recovered from those vertices, a
-linear problem in each direction; where that leaves a difference too, the display mesh has to do.
+If shape keys and hooks move control points, or a spline has knots that Blender keeps to itself (its OBJ importer makes
+such ones), the read patches may differ from the displayed ones. So the patches are evaluated at the parameters of the
+display mesh's vertices and compared with them. If they differ, the control points are recovered from these vertices, a
+linear problem in each direction; if a difference remains, the display mesh has to do.
 """
 
 from __future__ import annotations
@@ -24,15 +24,15 @@ from ..findings import CONTROL_POINTS_RECOVERED, SPLINES_LEFT_OUT
 from ..reading import SplineReading
 from .deformation import deform, is_deformed, spline_modifiers
 
-AGREEMENT_RTOL = 4e-6  # of the largest coordinate: float32 evaluation, of order 6 by order 6
-RECOVERY_RTOL = 1e-6  # of the size: what control points that were solved for may be off by
+AGREEMENT_RTOL = 4e-6  # relative to the largest coordinate: float32 evaluation, of order 6 by order 6
+RECOVERY_RTOL = 1e-6  # relative to the size: error of recovered control points
 MAX_CONDITION = 1e4  # condition of a direction's samples
 
 
 def spline_reading(evaluated, depsgraph, mesh) -> SplineReading | None:
-    """The patches of an evaluated surface object, None where its display mesh has to be measured.
+    """Return the patches of an evaluated surface object, None if its display mesh has to be measured.
 
-    mesh: what Blender displays for it, or None to believe the control points.
+    mesh: its mesh as Blender displays it, or None to believe the control points.
     """
     original = evaluated.original
     if spline_modifiers(original)[1]:
@@ -94,19 +94,21 @@ def spline_reading(evaluated, depsgraph, mesh) -> SplineReading | None:
 
 
 def nonpositive_weights(splines) -> int:
-    """How many control points have a weight that is not positive, for which the display mesh has to be measured."""
+    """Return the number of control points with weights that are not positive, for which the display mesh is
+    measured.
+    """
     return sum(int((~(weighted_points(spline)[:, 3] > 0.0)).sum()) for spline in splines if spline.type == "NURBS")
 
 
 def weighted_points(spline) -> NDArray[np.float32]:
-    """(n, 4) the control points and weights of a spline that is not a Bézier one."""
+    """Return (n, 4) the control points and weights of a spline that is not a Bézier one."""
     row = np.empty(4 * len(spline.points), np.float32)
     spline.points.foreach_get("co", row)
     return row.reshape(-1, 4)
 
 
 def _spaces(spline) -> tuple[SplineSpace, SplineSpace] | None:
-    """The spaces of v and u: with v first, a patch's normal points as Blender's faces do."""
+    """Return the spaces of v and u: with v first, a patch's normal points as Blender's faces do."""
     v, u = (
         blender_space(
             spline.point_count_v, spline.order_v, spline.use_cyclic_v, spline.use_bezier_v, spline.use_endpoint_v
@@ -121,7 +123,7 @@ def _spaces(spline) -> tuple[SplineSpace, SplineSpace] | None:
 def _verified(
     patches: list[Patch], samples: list[tuple[NDArray, NDArray]], shown: NDArray, tolerance: float
 ) -> list[Patch] | None:
-    """The patches where they agree with the display mesh, else those that do, else None."""
+    """Return the patches if they agree with the display mesh, else recovered ones if these do, else None."""
     counts = [len(v) * len(u) for v, u in samples]
     if sum(counts) != len(shown):
         return None
@@ -144,7 +146,9 @@ def _agrees(patch: Patch, sample: tuple[NDArray, NDArray], piece: NDArray, toler
 
 
 def _interpolating_patch(patch: Patch, sample: tuple[NDArray, NDArray], piece: NDArray) -> Patch | None:
-    """The patch of the same spaces and weights that goes through the samples; None where they do not determine it."""
+    """Return the patch of the same spaces and weights that goes through the samples; None if they do not determine
+    it.
+    """
     inverses = []
     for table in sample:
         acting = table.any(axis=0)

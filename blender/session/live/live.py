@@ -2,15 +2,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Numbers of objects that follow their edits while Live is on: shown, never stored.
 
-Nothing is written to any data. An object that moves is not measured again: its numbers are mapped to where it is. One
-that deforms while it is played or posed gets volume and center at once, in a light pass over its faces
-(moving_surface.py), as far as the budget of a redraw lasts. Full numbers come from a timer, never from a handler: at
-once where they take no longer than the budget, else when neither updates nor frames come any more. Until then the
-numbers lag, and say so. B-spline patches are tracked (core/nurbs/tracked_solid.py). Seconds are those of this thread:
-what others do on a busy machine makes no number lag.
+Nothing is written to any data. A moving object is not measured again: its numbers are mapped to its new place. An
+object that deforms during playback or posing gets volume and center at once, in a light pass over its faces
+(moving_surface.py), within the budget of a redraw. Full numbers come from a timer, never from a handler: at once if
+they take no longer than the budget, else when updates and frames have ceased. Until then the numbers lag, and say so.
+B-spline patches are tracked (core/nurbs/tracked_solid.py). Seconds are of this thread: other work on a busy machine
+makes no number lag.
 
-Which objects have Live on is kept in memory too: a property of the object would make Blender report an edit of its
-geometry when it is switched.
+Live is switched in memory, too: a property of the object would make Blender report an edit of its geometry.
 """
 
 from __future__ import annotations
@@ -50,13 +49,13 @@ from .moving_surface import MovingSurface
 
 BUDGET = 0.01  # s a redraw, where there are no preferences
 MAX_PASS = 5.0  # budgets that the only pass of a redraw may take
-RETRY = 0.7  # of what a pass has taken, after it was left out
+RETRY = 0.7  # applied to the time of a pass that was left out
 IDLE = 0.25  # s without an update, after which what takes longer than the budget is measured
 POLL = 0.1  # s between two looks whether that is so
 
 
 class Lag(StrEnum):
-    """How far live numbers are behind what is shown."""
+    """Lag of live numbers behind the displayed object."""
 
     NONE = ""
     FIRST_ORDER = "first order"  # volume, mass and center are current, inertia is that of the last measurement
@@ -65,8 +64,11 @@ class Lag(StrEnum):
 
 @dataclass(frozen=True, eq=False)
 class LiveResult:
-    """What an object's numbers are now. measurement: None where there are none; refusal: then why. seconds: what it
-    took. settings: the digest of those that it was measured with."""
+    """An object's current numbers.
+
+    measurement: None if there are none; refusal: then the reason. seconds: spent on it. settings: the digest of its
+    settings.
+    """
 
     measurement: Measurement | None
     refusal: Finding | None
@@ -78,10 +80,10 @@ class LiveResult:
 class _Followed:
     """An object with Live on.
 
-    matrix, transform: where it was when it was measured, and the key of what its numbers depend on of that. number: the
-    last update then. tracked: its body, where that is followed rather than measured each time. surface: its faces,
-    where a light pass can follow them; first_order: volume and center in its own coordinates after the last such pass.
-    is_pending: whether it was evaluated anew since it was measured.
+    matrix, transform: its place at the measurement, and the key of its numbers' dependence on that. number: of the last
+    update then. tracked: its body, if that is followed rather than measured each time. surface: its faces, if a light
+    pass can follow them; first_order: volume and center in its own coordinates after the last such pass. is_pending: it
+    was evaluated anew since the measurement.
     """
 
     result: LiveResult | None = None
@@ -101,24 +103,24 @@ _last_event = 0.0  # time of the last update
 
 
 def is_live(obj: Object) -> bool:
-    """Whether the object's numbers are to follow its edits."""
+    """Return whether Live is on for the object."""
     return obj in _followed
 
 
 def is_pending(obj: Object) -> bool:
-    """Whether an object with Live on is going to be measured: Blender has evaluated it anew."""
+    """Return whether an object with Live on is going to be measured: Blender has evaluated it anew."""
     followed = _followed.get(obj)
     return followed is not None and followed.is_pending
 
 
 def current_numbers(obj: Object) -> LiveResult | None:
-    """The numbers of an object with Live on when it was last measured, None before that."""
+    """Return the numbers of an object with Live on when it was last measured, None before that."""
     followed = _followed.get(obj)
     return None if followed is None else followed.result
 
 
 def lag(obj: Object) -> Lag:
-    """Return how far the live numbers of an object are behind what is shown."""
+    """Return the lag of an object's live numbers behind the displayed object."""
     followed = _followed.get(obj)
     if followed is None or not (followed.is_pending or _is_of_another_scale(obj, followed)):
         return Lag.NONE
@@ -126,25 +128,27 @@ def lag(obj: Object) -> Lag:
 
 
 def is_stale(obj: Object, scene: Scene) -> bool:
-    """Whether settings were changed since the live numbers were measured: Blender does not report every such change."""
+    """Return whether settings were changed since the live numbers were measured: Blender does not report every such
+    change.
+    """
     now = current_numbers(obj)
     return now is not None and now.settings != settings_hash(obj, scene)
 
 
 def current_properties(obj: Object, scene: Scene) -> StoredProperties | None:
-    """Return what an object with Live on has now, in its own frame, mapped to where it is and what it has become.
+    """Return the current numbers of an object with Live on, in its own frame, mapped to its place and stretch.
 
     Parameters
     ----------
     obj : bpy.types.Object
         An original object.
     scene : bpy.types.Scene
-        Whose unit scale counts.
+        Its unit scale counts.
 
     Returns
     -------
     StoredProperties or None
-        None where Live is off, or it could not be measured.
+        None if Live is off, or it could not be measured.
     """
     followed = _followed.get(obj)
     if followed is None or followed.result is None or followed.result.measurement is None:
@@ -159,7 +163,7 @@ def current_properties(obj: Object, scene: Scene) -> StoredProperties | None:
 
 
 def _is_of_another_scale(obj: Object, followed: _Followed) -> bool:
-    """Whether the numbers are those of another scale and do not follow it, until it is measured the next moment."""
+    """Return whether the numbers belong to another scale and cannot follow it, until the next measurement."""
     measured = None if followed.result is None else followed.result.measurement
     if measured is None or has_transform(obj, followed.transform):
         return False
@@ -167,8 +171,9 @@ def _is_of_another_scale(obj: Object, followed: _Followed) -> bool:
 
 
 def _linear_map(obj: Object, followed: _Followed, measured: Measurement) -> NDArray | None:
-    """The linear part of the map from how an object was measured to how it stands. None where its numbers do not follow
-    it: of what is no solid, or where either is flat."""
+    """Return the linear map from the measured object to its current state; None for shells and wires, or if either
+    is singular.
+    """
     before, now = followed.matrix[:3, :3], float64_matrix(obj.matrix_world)[:3, :3]
     if measured.kind != "solid" or not np.isfinite(now).all() or are_singular(np.stack([before, now])).any():
         return None
@@ -178,7 +183,7 @@ def _linear_map(obj: Object, followed: _Followed, measured: Measurement) -> NDAr
 def _mapped(
     obj: Object, followed: _Followed, measured: Measurement, shown: StoredProperties, unit: float
 ) -> StoredProperties:
-    """The same where the object is stretched, and with the volume and center that a light pass has found."""
+    """Return the numbers of the stretched object, with the volume and center of the last light pass."""
     linear = _linear_map(obj, followed, measured)
     if linear is None:
         return shown
@@ -219,7 +224,7 @@ def update(obj: Object, depsgraph: Depsgraph) -> LiveResult:
         refusal = error.finding
     except Exception as error:
         refusal = internal_error.finding_of(error)
-        followed.tracked = None  # what is half followed is no start for the next edit
+        followed.tracked = None  # a half-followed body is no start for the next edit
     result = LiveResult(measurement, refusal, time.thread_time() - start, settings_hash(obj, depsgraph.scene))
     followed.result = result
     followed.matrix, followed.transform = float64_matrix(obj.matrix_world), transform_key(obj)
@@ -278,7 +283,7 @@ def _measure(obj: Object, followed: _Followed, depsgraph: Depsgraph) -> tuple[Me
 
 
 def _budget() -> float:
-    """Seconds a redraw."""
+    """Return the budget of a redraw in seconds."""
     settings = preferences()
     return BUDGET if settings is None else settings.live_budget / 1e3
 
@@ -304,7 +309,7 @@ def _note_updates(events: handlers.Updates) -> None:
 
 
 def _follow_at_once(events: handlers.Updates, changed: set[int]) -> None:
-    """One object, and as many others as the budget of a redraw allows: those first whose passes take least."""
+    """Follow one object, and as many others as the budget of a redraw allows, quickest passes first."""
     budget, is_first = _budget(), True
     objects = [obj for obj in events.depsgraph.view_layer.objects if obj.session_uid in changed]
     for obj in sorted(objects, key=lambda obj: _followed[obj].pass_seconds):
@@ -353,19 +358,19 @@ def _tick() -> float | None:
 
 
 def _is_stroking(obj: Object) -> bool:
-    """Whether a brush is drawn over an object that is sculpted."""
+    """Return whether a brush is drawn over an object that is sculpted."""
     windows = bpy.context.window_manager.windows if obj.mode == "SCULPT" else ()
     return any(running.bl_idname.startswith("SCULPT_OT_") for window in windows for running in window.modal_operators)
 
 
 def _seconds(obj: Object) -> float:
-    """What measuring an object has taken."""
+    """Return the duration of an object's measurement, in seconds."""
     result = _followed[obj].result
     return 0.0 if result is None else result.seconds
 
 
 def _is_due(obj: Object, scene: Scene) -> bool:
-    """Whether an object has to be measured again: more than its place has changed."""
+    """Return whether an object has to be measured again: more than its place has changed."""
     followed = _followed[obj]
     if not followed.is_pending:
         followed.is_pending = updates.last_edit(obj).number > followed.number or not has_transform(

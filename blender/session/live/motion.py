@@ -1,10 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Masses and centers of objects from frame to frame: measured again only where the geometry has changed.
+"""Masses and centers of objects from frame to frame: measured again only if the geometry has changed.
 
-An object that only moves is measured once, and its moments are mapped by its matrices. One whose mesh is mixed from
-shape keys is sampled once, and its volume and center are polynomials of the key values while Blender cuts its faces
-into the same triangles; what it cuts otherwise is measured.
+An object that only moves is measured once, and its moments are mapped by its matrices. A mesh mixed from shape keys is
+sampled once, and its volume and center are polynomials of the key values while Blender cuts its faces into the same
+triangles; after other cuts it is measured.
 """
 
 from __future__ import annotations
@@ -29,15 +29,15 @@ from ...read.reading import float64_matrix
 from ..findings import OPEN_OBJECT
 from ..tracking import updates
 
-MAX_SAMPLES = 200  # of a shape-key mix: with more keys each frame is measured
+MAX_SAMPLES = 200  # for a shape-key mix: with more keys each frame is measured
 
 
 @dataclass(eq=False)
 class _Followed:
-    """An object: what was measured, and after which update of its geometry.
+    """An object's measurement, and the update of its geometry that it follows.
 
-    moments: of its mass, in the object's coordinates in SI units; given_mass: in kg, where the mass is given. mixes,
-    density: of shape keys; keys: their names; triangles: into which the faces are cut in the mixes.
+    moments: of its mass, in the object's coordinates in SI units; given_mass: in kg, if the mass is given. mixes,
+    density: of shape keys; keys: their names; triangles: of the faces as cut in the mixes.
     """
 
     change: int = -1
@@ -57,7 +57,7 @@ class Motion:
     Parameters
     ----------
     frames : int
-        How many frames are going to be asked for: shape keys are sampled where that is less work.
+        Number of frames to come: shape keys are sampled if that is less work.
     """
 
     frames: int
@@ -69,7 +69,7 @@ class Motion:
         Raises
         ------
         MeasureError
-            Where it has none, or they are not certain.
+            If it has none, or they are not certain.
         """
         unit = shortest_decimal(depsgraph.scene.unit_settings.scale_length)
         matrix = float64_matrix(obj.evaluated_get(depsgraph).matrix_world)
@@ -96,7 +96,7 @@ class Motion:
         return followed.hull[1].points @ matrix[:3, :3].T + matrix[:3, 3]
 
     def _shape_keys(self, obj: Object, depsgraph: Depsgraph, followed: _Followed) -> bool:
-        """Sample an object whose mesh is nothing but a mix of shape keys; whether it is one."""
+        """Sample an object that shows nothing but a mix of shape keys; return whether it is one."""
         keys = _mixed_keys(obj)
         if not keys or sample_count(len(keys)) > min(self.frames, MAX_SAMPLES):
             return False
@@ -117,7 +117,7 @@ class Motion:
 
 
 def _mixed_keys(obj: Object) -> tuple[str, ...]:
-    """The names of the shape keys that may change the mesh, where nothing but they does; else none."""
+    """Return the names of the shape keys that may change the mesh, if nothing else does; else none."""
     settings = obj.body_moments
     if obj.type != "MESH" or obj.data.shape_keys is None or not obj.data.shape_keys.use_relative:
         return ()
@@ -140,8 +140,9 @@ def _coordinates(data) -> NDArray[np.float64]:
 def _mixed(
     obj: Object, followed: _Followed, depsgraph: Depsgraph, matrix: NDArray, unit: float
 ) -> tuple[float, NDArray[np.float64]] | None:
-    """Mass and center; None for what has to be measured: where faces are cut otherwise than in the mixes, and where
-    keys or matrix make the mesh flat or turn it inside out."""
+    """Return mass and center; None if a measurement is needed: if faces are cut otherwise than in the mixes, or if keys
+    or matrix make the mesh flat or turn it inside out.
+    """
     assert followed.mixes is not None and followed.triangles is not None
     triangles, _ = read_object(obj, depsgraph, edges=False).parts[0].surface.all_triangles()
     if not np.array_equal(triangles, followed.triangles):
@@ -170,7 +171,7 @@ def _measured(
 
 
 def _can_map(moments: Moments, matrix: NDArray) -> bool:
-    """Whether the moments follow the matrix: not a flat one, areas and lengths only where nothing is stretched."""
+    """Return whether the moments follow the matrix: not a flat one, areas and lengths only if nothing is stretched."""
     if are_singular(matrix[None, :3, :3])[0]:
         return False
     return moments.measure in (Measure.VOLUME, Measure.MASS) or bool(are_similarities(matrix[None, :3, :3])[0])

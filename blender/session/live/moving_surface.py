@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The faces of a measured body whose points may move: volume and center of what it is now, in one light pass.
+"""The faces of a measured body whose points may move: its current volume and center in one light pass.
 
-For what deforms while it is played or posed: the faces as they were measured, flipped and capped, with the points as
-Blender shows them. Where the mesh has other faces than then, or had to be welded, there is no such pass.
+For deformations during playback or posing: the measured faces, flipped and capped, with the points as Blender shows
+them. There is no such pass if the faces of the mesh have changed, or had to be welded.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ FOLLOWED = {Verdict.EXACT, Verdict.CAPPED, Verdict.REORIENTED}
 
 @dataclass(frozen=True, eq=False)
 class MovingSurface:
-    """A body whose points may move.
+    """A body of moving points.
 
     Attributes
     ----------
@@ -44,7 +44,7 @@ class MovingSurface:
 
     @classmethod
     def of(cls, measured: Measured) -> MovingSurface | None:
-        """Return the faces of what was measured; None where it is not one mesh in the object's own place.
+        """Return the faces of a measured body; None if it is not one mesh in the object's own place.
 
         Parameters
         ----------
@@ -79,7 +79,7 @@ class MovingSurface:
         return cls(surface, read.corner_vertices)
 
     def follow(self, obj: Object, depsgraph: Depsgraph) -> tuple[float, NDArray[np.float64]] | None:
-        """Return volume and center of what the object shows now, in its own coordinates.
+        """Return the object's current volume and center, in its own coordinates.
 
         Parameters
         ----------
@@ -91,7 +91,7 @@ class MovingSurface:
         Returns
         -------
         (float, (3,) array) or None
-            None where it does not show these faces, or they enclose nothing.
+            None if it does not show these faces, or they enclose nothing.
         """
         if obj.type != "MESH" or obj.mode not in {"OBJECT", "POSE", "WEIGHT_PAINT"} or obj.data.is_editmode:
             return None

@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is stored of an assembly, and whether it still holds.
+"""The stored results of an assembly, and their staleness.
 
-Results are stored on the assembly, on those that are its members, and on the objects that were measured; the rows of
-its tree are kept with its settings.
+Results are stored on the assembly, on the assemblies in it, and on the measured objects; the rows of its tree are kept
+with its settings.
 """
 
 from __future__ import annotations
@@ -33,8 +33,8 @@ from ..tracking import handlers, marks, staleness
 from ..tracking.cache import SessionCache
 from . import reference, results
 
-SAME_RTOL = 1e-5  # of mass, and of the radius of gyration: what other coordinates of the same body may change
-_reasons: SessionCache[tuple[int, str | None]] = SessionCache()  # of assemblies, and the generation that is true of
+SAME_RTOL = 1e-5  # relative to mass and radius of gyration: other coordinates of the same body may change as much
+_reasons: SessionCache[tuple[int, str | None]] = SessionCache()  # by assembly: the generation, and the reason then
 
 
 def store(context: Context, assembly: Assembly) -> list[tuple[str, Finding]]:
@@ -43,12 +43,12 @@ def store(context: Context, assembly: Assembly) -> list[tuple[str, Finding]]:
     Returns
     -------
     list of (str, Finding)
-        Names of members that cannot hold theirs, and why.
+        Names of members that cannot hold results, and the reasons.
 
     Raises
     ------
     EditRefusedError
-        Where the assembly itself cannot.
+        If the assembly itself cannot.
     """
     scene, depsgraph = context.scene, context.evaluated_depsgraph_get()
     unit = shortest_decimal(scene.unit_settings.scale_length)
@@ -87,19 +87,19 @@ def store(context: Context, assembly: Assembly) -> list[tuple[str, Finding]]:
 
 
 def clear(root: Root) -> bool:
-    """Remove the results of an assembly; whether there were any. EditRefusedError where it cannot be changed."""
+    """Remove the results of an assembly; return whether there were any. EditRefusedError if it cannot be changed."""
     properties.require_storable(root)
     settings_of(root).rows.clear()
     return properties.clear(root)
 
 
 def stale_reason(root: Root) -> str | None:
-    """Compare the stored results of an assembly with what it is in the window's scene now.
+    """Compare the stored results of an assembly with its current state in the window's scene.
 
     Returns
     -------
     str or None
-        The code of why they are out of date; None where they are not, or there are none.
+        The code of the reason why they are out of date; None if they are not, or there are none.
     """
     known = _reasons.get(root)
     if known is None or known[0] != handlers.generation():
@@ -129,7 +129,7 @@ def _stale_reason(root: Root) -> str | None:
 def kept_up_to_date(context: Context) -> Iterator[None]:
     """Keep assemblies up to date while members get other frames, and their results are stored anew.
 
-    What has another mass or center afterwards, or is out of date itself, is left as it is: so is its assembly.
+    A member whose mass or center changes, or whose results are out of date, leaves its assembly unchanged.
     """
     scene = context.scene
     roots = [scene.collection, *scene.collection.children_recursive, *scene.objects]
@@ -152,7 +152,7 @@ def kept_up_to_date(context: Context) -> Iterator[None]:
 
 
 def _member_bodies(root: Member) -> dict[Object, tuple[float, NDArray[np.float64], float]]:
-    """Of each member the stored mass, where its center is in the world, and its radius of gyration."""
+    """Return the stored mass of each member, its center in the world, and its radius of gyration."""
     bodies = {}
     for member in root.walk():
         if member.kind == MemberKind.OBJECT and member.is_measured:
@@ -191,7 +191,7 @@ def _write_rows(assembly: Assembly) -> None:
 
 
 def _tree(part: MemberBody, depth: int, factor: float, counted: bool) -> Iterator[tuple[int, MemberBody, float, bool]]:
-    """Each member with how deep it is, the factor by which an instance changes its mass, and whether that counts."""
+    """Yield each member with its depth, the factor by which an instance changes its mass, and whether that counts."""
     yield depth, part, factor, counted
     below = sum([_own_mass(member) for member in part.parts], 0.0)
     if part.member.kind == MemberKind.INSTANCE and below > 0.0:
@@ -207,7 +207,7 @@ def _own_mass(part: MemberBody) -> float:
 
 
 def _row_findings(part: MemberBody) -> list[Finding]:
-    """Why a member is not counted, or what is to be said of it."""
+    """Return the reason for leaving out a member, or the findings about it."""
     if part.member.left_out is not None:
         return [part.member.left_out]
     if part.refusal is not None:

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Balance groups: objects whose center of mass was followed over frames, as keys of an empty.
 
-The empty's keys are what counts: the path is drawn from them, so that it is the same when the file is opened again. The
-support polygons are remembered while the file is open.
+The empty's keys decide: the path is drawn from them, so that it is the same when the file is opened again. The support
+polygons are remembered while the file is open.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ CONSTANT, LINEAR = 0, 1  # values of an F-curve's interpolation
 
 @dataclass(frozen=True, eq=False)
 class Path:
-    """Of a center of mass.
+    """Path of a center of mass.
 
     Attributes
     ----------
@@ -35,7 +35,7 @@ class Path:
     centers : (f, 3) array
         In Blender's units and the world.
     inside : (f,) array or None
-        Whether the center is over the support polygon, where there is one.
+        True for a center over the support polygon; None without a polygon.
     """
 
     frames: NDArray[np.float64]
@@ -55,13 +55,13 @@ def groups(scene: bpy.types.Scene) -> Iterator[Object]:
 
 
 def find(scene: bpy.types.Scene, objects: Iterable[Object]) -> Object | None:
-    """Return the empty that shows these objects, None where there is none."""
+    """Return the empty that shows these objects, None if there is none."""
     text = group_text(objects)
     return next((empty for empty in groups(scene) if empty[GROUP] == text), None)
 
 
 def group_text(objects: Iterable[Object]) -> str:
-    """Return what is stored of the objects of a group."""
+    """Return the stored text of a group's objects."""
     return "\n".join(sorted(obj.name_full for obj in objects))
 
 
@@ -86,7 +86,7 @@ def store(empty: Object, path: Path, supports: Sequence[Support | None]) -> None
 
 
 def path(empty: Object) -> Path | None:
-    """Return the path that an empty's keys hold, None where there are none."""
+    """Return the path in an empty's keys, None if there are none."""
     known = _paths.get(empty)
     if known is None or known[0] != handlers.generation():
         known = _paths[empty] = (handlers.generation(), _path(empty))
@@ -110,7 +110,7 @@ def _path(empty: Object) -> Path | None:
 
 
 def _curves(empty: Object):
-    """The empty's F-curves, of an action of its own."""
+    """Return the empty's F-curves, of an action of its own."""
     animation = empty.animation_data_create()
     if animation.action is None:
         animation.action = bpy.data.actions.new(empty.name)
@@ -135,7 +135,7 @@ def _existing_curves(empty: Object) -> Iterable[FCurve]:
 
 
 def _keys(curves: Iterable[FCurve], data_path: str, index: int) -> NDArray[np.float64] | None:
-    """(k, 2) frames and values."""
+    """Return (k, 2) frames and values."""
     for curve in curves:
         if curve.data_path == data_path and curve.array_index == index:
             points = np.empty(2 * len(curve.keyframe_points), np.float32)

@@ -1,11 +1,11 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Density as a multiplication: where it is one number, stored results follow it at once, without being measured again.
+"""Density as a multiplication: if it is one number, stored results follow it at once, without being measured again.
 
-Whether nothing but density or mass is different is read off the mark of the stored results: it is the digest of the
-settings as they are, with the stored density, or the stored mass, in place of the given one. So nothing is
-remembered, undo brings all of it back together, and a setting that is animated or driven, of which Blender calls no
-update function, leaves the results out of date.
+The mark of the stored results shows that nothing but density or mass is different: it is the digest of the current
+settings, with the stored density, or the stored mass, in place of the given one. So nothing is remembered, undo brings
+all of it back together, and an animated or driven setting, for which Blender calls no update function, leaves the
+results out of date.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ from ..findings import DENSITY_DEFAULT_KEPT, DENSITY_DEFAULTED, LINEAR_DENSITY_D
 from ..tracking import marks, staleness
 from . import reference
 
-DEFAULTS = {  # what is noted where nobody has set a density, by the setting
+DEFAULTS = {  # notes on an unset density, by the setting
     "density": finding(DENSITY_DEFAULT_KEPT),
     "linear_density": finding(LINEAR_DENSITY_DEFAULT_KEPT),
 }
@@ -37,7 +37,7 @@ OF_DEFAULT_DENSITY = frozenset(
 
 
 def noted(obj: Object, measurement: Measurement, scene: Scene) -> Measurement:
-    """Return an object's measurement, with a note where nobody has set its density and nothing says so yet."""
+    """Return an object's measurement, with a note if nobody has set its density and no finding says so yet."""
     unset = unset_density(obj, measurement, scene)
     if unset is None:
         return measurement
@@ -45,23 +45,22 @@ def noted(obj: Object, measurement: Measurement, scene: Scene) -> Measurement:
 
 
 def with_default_note(findings: tuple[Finding, ...], unset: str) -> tuple[Finding, ...]:
-    """Return findings with the note on a density that nobody has set, where none of them is about that. unset: the
-    setting."""
+    """Return findings with the note on an unset density, if none of them is about that. unset: the setting."""
     if OF_DEFAULT_DENSITY.intersection([found.code for found in findings]):
         return findings
     return (*findings, DEFAULTS[unset])
 
 
 def follow_density(obj: Object, scene: Scene) -> None:
-    """Store what the object's settings now make of its results, where these differ by a factor alone. Else they stay,
-    and are out of date.
+    """Update stored results by the object's settings if these change them by a factor alone; else they stay, out of
+    date.
 
     Parameters
     ----------
     obj : bpy.types.Object
         An original object.
     scene : bpy.types.Scene
-        Whose unit scale and default density count.
+        Its unit scale and default density count.
     """
     mark = marks.parse(properties.fingerprint(obj))
     if mark is None or mark.version != VERSION or "body_density_from" in obj or not _can_store(obj):
@@ -73,7 +72,7 @@ def follow_density(obj: Object, scene: Scene) -> None:
     if not extent:
         return
     if any(found.code == INERTIA_GIVEN for found in properties.findings(obj)):
-        return  # which no mass multiplies
+        return  # no mass multiplies it
     mass = numbers[0][0]
     if mark.settings not in (
         settings_hash_with(obj, scene, mass / extent, None),
@@ -111,7 +110,7 @@ def _can_store(obj: Object) -> bool:
 
 
 def _findings(obj: Object, scene: Scene) -> list[Finding]:
-    """The stored findings, with a note where nobody has set the density."""
+    """Return the stored findings, with a note if nobody has set the density."""
     settings = obj.body_moments
     kept = [found for found in properties.findings(obj) if found.code not in OF_DEFAULT_DENSITY]
     if settings.mass_from == "MASS":

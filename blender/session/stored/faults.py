@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Where the faults of measured meshes are, to be drawn: kept until the geometry changes or the file is closed."""
+"""The places of faults in measured meshes, to be drawn: kept until the geometry changes or the file is closed."""
 
 from __future__ import annotations
 
@@ -47,12 +47,12 @@ forget = _faults.forget
 
 
 def remember(obj: Object, measured: Measured) -> None:
-    """Keep where the faults of an object are that was just measured, or that it has none."""
+    """Keep the places of the faults of a freshly measured object, or forget them if it has none."""
     _faults.forget(obj)
     reading, elements = measured.reading, measured.measurement.health.defective_elements
     if not isinstance(reading, Reading) or not _any_faults(elements):
         return
-    if len(reading.parts) != 1 or reading.is_singular:  # of several surfaces it is not known which has the elements
+    if len(reading.parts) != 1 or reading.is_singular:  # with several surfaces the faulty one is unknown
         return
     (part,) = reading.parts
     _remember(obj, part.surface, np.linalg.inv(reading.matrix) @ part.matrices[0], elements)
@@ -82,7 +82,7 @@ def _remember(obj: Object, surface: Surface, place: NDArray, elements: Defective
 
 
 def of_object(obj: Object) -> Faults | None:
-    """Return the faults of an object, None where there are none or its geometry has changed since."""
+    """Return the faults of an object, None if there are none or its geometry has changed since."""
     faults = _faults.get(obj)
     if faults is None or faults.change != updates.last_change_of_geometry(obj):
         return None

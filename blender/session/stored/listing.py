@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which objects a list shows, and in which order: kept until Blender reports a change."""
+"""The objects in a list and their order: kept until Blender reports a change."""
 
 from __future__ import annotations
 
@@ -15,20 +15,20 @@ from ..tracking.cache import SessionCache
 from .shown import ShownBody, shown_body
 from .trust import Trust
 
-Listing = tuple[list[bool], list[int]]  # of each object whether it is listed, and its line
+Listing = tuple[list[bool], list[int]]  # for each object its visibility in the list, and its line
 RANKS = {verdict: rank for rank, verdict in enumerate(Trust)}
 
 
 class SortBy(StrEnum):
-    """What lines are sorted by."""
+    """Sort key of the lines."""
 
     NAME = "NAME"
     MASS = "MASS"  # the heaviest first
     VERDICT = "VERDICT"  # the least trustworthy first
 
 
-_masses: SessionCache[tuple[tuple, dict[int, str]]] = SessionCache()  # of scenes, and what each was asked for
-_listings: SessionCache[tuple[tuple, Listing]] = SessionCache()  # of scenes, and what each was asked for
+_masses: SessionCache[tuple[tuple, dict[int, str]]] = SessionCache()  # by scene: the last query, and its answer
+_listings: SessionCache[tuple[tuple, Listing]] = SessionCache()  # by scene: the last query, and its answer
 
 
 def listing(scene: Scene, view_layer: ViewLayer, name: str, sort_by: SortBy, warnings_first: bool) -> Listing:
@@ -39,15 +39,15 @@ def listing(scene: Scene, view_layer: ViewLayer, name: str, sort_by: SortBy, war
     scene : bpy.types.Scene
     view_layer : bpy.types.ViewLayer
     name : str
-        What the names are to contain, in whatever case.
+        A part of the names, in any case.
     sort_by : SortBy
     warnings_first : bool
-        Whether what is out of date or doubtful comes before all others.
+        True to put out-of-date and doubtful objects before all others.
 
     Returns
     -------
     (list of bool, list of int)
-        For each of the view layer's objects whether it is listed, and the line where it stands.
+        For each of the view layer's objects: listed or not, and its line.
     """
     key = (handlers.generation(), view_layer.name, name, sort_by, warnings_first)
     cached = _listings.get(scene)

@@ -1,10 +1,9 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Moments to a chosen order, kept in memory, and what a panel and the clipboard show of them.
+"""Moments to a chosen order, kept in memory, and their display in a panel and on the clipboard.
 
 Nothing is written to the object: a thousand numbers would burden the file, and no undo step is needed. The last few
-objects' moments are kept while the file is open; they know what they were computed from, and so when they are out of
-date.
+objects' moments are kept while the file is open; their keys show when they are out of date.
 """
 
 from __future__ import annotations
@@ -48,13 +47,13 @@ from ..tracking.cache import SessionCache
 MAX_SHOWN_ORDER = 4  # the highest order whose moments a panel shows one by one
 
 
-HU_ORDER = 3  # of Hu's invariants
+HU_ORDER = 3  # order of Hu's invariants
 
 
 MAX_CACHED_OBJECTS = 16  # objects
 
 
-ZERO_DISPLAY_RTOL = 1e-12  # of the largest moment of a degree: shown as 0
+ZERO_DISPLAY_RTOL = 1e-12  # relative to the largest moment of a degree: shown as 0
 
 
 SUPERSCRIPTS = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
@@ -68,15 +67,18 @@ class FlatMoments:
     plane: Plane
 
     def foot(self, point: NDArray) -> NDArray[np.float64]:
-        """(3,) the foot of a point of the world on the plane, in the plane's axes."""
+        """Return (3,) the foot of a point of the world on the plane, in the plane's axes."""
         return np.append(self.plane.project(np.asarray(point, np.float64)[None])[0], 0.0)
 
 
 @dataclass(frozen=True, eq=False)
 class ComputedMoments:
-    """One object's moments, SI, world axes. volume: of a shell those of its thin volume; None of what is flat, as is
-    area. mass: None where it is not known to that order. rotation, location: the object frame. key: what they were
-    computed from. flat: those of a flat shape; not_flat: why there are none."""
+    """One object's moments, SI, world axes.
+
+    volume: for a shell that of its thin volume; None for flat shapes, as is area. mass: None if it is not known to that
+    order. rotation, location: the object frame. key: the state of the object. flat: the moments of a flat shape;
+    not_flat: the reason if there are none.
+    """
 
     name: str
     volume: Moments | None
@@ -94,7 +96,7 @@ class ComputedMoments:
 
     @property
     def known(self) -> Moments:
-        """Those that there are."""
+        """Known moments: of the volume, else of the flat shape."""
         if self.volume is not None:
             return self.volume
         assert self.flat is not None
@@ -118,7 +120,7 @@ class Degree:
     rows: tuple[tuple[str, str, str], ...]
 
 
-Display = tuple[tuple[Degree, ...], Finding | None]  # what a panel shows, and where that is nothing, why
+Display = tuple[tuple[Degree, ...], Finding | None]  # a panel's degrees, and the reason if there are none
 NOTHING: Display = ((), None)
 
 _computed: SessionCache[ComputedMoments] = SessionCache(MAX_CACHED_OBJECTS)
@@ -126,17 +128,17 @@ _displays: SessionCache[tuple[tuple, Display]] = SessionCache(MAX_CACHED_OBJECTS
 
 
 def cache_moments(obj: Object, computed: ComputedMoments) -> None:
-    """Remember what was computed for an object."""
+    """Keep an object's computed moments."""
     _computed[obj] = computed
 
 
 def computed_moments(obj: Object) -> ComputedMoments | None:
-    """What was computed for an object; None where nothing was."""
+    """Return an object's computed moments; None if there are none."""
     return _computed.get(obj)
 
 
 def stale_reason(obj: Object, scene: Scene) -> str | None:
-    """The code of why what was computed does not hold any more; None where it does, or there is nothing."""
+    """Return the code of the reason why the moments are out of date, or None."""
     computed = computed_moments(obj)
     if computed is None:
         return None
@@ -149,7 +151,7 @@ def stale_reason(obj: Object, scene: Scene) -> str | None:
 
 
 def current_numbers(obj: Object, scene: Scene) -> Display:
-    """The moments to MAX_SHOWN_ORDER as the scene's settings want them, and where there are none, why."""
+    """Return the moments to MAX_SHOWN_ORDER by the scene's settings, and the reason if there are none."""
     settings = scene.body_moments
     # A panel is drawn at every movement of the mouse.
     computed = computed_moments(obj)
@@ -170,7 +172,7 @@ def current_numbers(obj: Object, scene: Scene) -> Display:
 
 
 def reference_of(obj: Object, computed: ComputedMoments, scene: Scene) -> Reference:
-    """The reference that the scene has chosen. MeasureError where there is none."""
+    """Return the scene's chosen reference. MeasureError if there is none."""
     return ReferenceChoice.of(scene.body_moments_reference).resolve(obj, scene, computed.center)
 
 
@@ -198,7 +200,7 @@ def _displayed_degrees(
 
 
 def _displayed_invariants(found: list[Invariant], order: int) -> Iterator[Degree]:
-    """Hu's as the numbers that they are, those above by the real and the imaginary part."""
+    """Yield the invariants by degree: Hu's as numbers, the higher ones by real and imaginary parts."""
     for degree in range(2, order + 1):
         rows = []
         for one in found:
@@ -217,8 +219,9 @@ def _displayed_invariants(found: list[Invariant], order: int) -> Iterator[Degree
 
 
 def invariants(computed: ComputedMoments, of: str, order: int) -> list[Invariant]:
-    """Hu's seven and, from fourth order on, Flusser's. MeasureError where the object is not flat, or the order is below
-    3."""
+    """Return Hu's seven invariants and, from fourth order on, Flusser's. MeasureError if the object is not flat, or the
+    order is below 3.
+    """
     if of != "FLAT":
         raise ReadError(INVARIANTS_OF_FLAT)
     if order < HU_ORDER:
@@ -234,9 +237,12 @@ def invariants(computed: ComputedMoments, of: str, order: int) -> list[Invariant
 def in_frame(
     computed: ComputedMoments, of: str, about: str, frame: str, order: int, reference: Reference | None = None
 ) -> Moments:
-    """The moments along the axes of the frame, "WORLD" or "OBJECT", about its "ORIGIN" or the body's "CENTER"; or
-    "NORMALIZED", as `normalize` by size, of a mass by gyration; or about a "REFERENCE", along its axes. MeasureError
-    where that cannot be, or leaves the range of numbers."""
+    """Return the moments in a frame or about a reference.
+
+    Axes are of the frame, "WORLD" or "OBJECT", about its "ORIGIN" or the body's "CENTER"; or "NORMALIZED", as
+    `normalize` by size, of a mass by gyration; or about a "REFERENCE", along its axes. MeasureError if that is
+    impossible, or leaves the range of numbers.
+    """
     with np.errstate(over="ignore", invalid="ignore"):
         if of == "FLAT":
             moments = _in_plane(computed, about, frame, order, reference)
@@ -262,7 +268,7 @@ def _of(computed: ComputedMoments, of: str) -> Moments:
 
 
 def _in_plane(computed: ComputedMoments, about: str, frame: str, order: int, reference: Reference | None) -> Moments:
-    """Along the axes of the plane, about the foot of the frame's origin or of the reference."""
+    """Return moments along the axes of the plane, about the foot of the frame's origin or of the reference."""
     moments, flat = _of(computed, "FLAT").truncate(order), computed.flat
     if about == "NORMALIZED":
         return normalize(moments)
@@ -284,13 +290,13 @@ def _in_frame(computed: ComputedMoments, of: str, about: str, frame: str, order:
 
 
 def label(powers: list[int]) -> str:
-    """x²z, or 1."""
+    """Return the label of a moment: x²z, or 1."""
     factors = [axis + str(power).translate(SUPERSCRIPTS) * (power > 1) for axis, power in zip("xyz", powers) if power]
     return "".join(factors) or "1"
 
 
 def unit(of: str, about: str, degree: int) -> str:
-    """m⁵, or nothing for normalized ones."""
+    """Return the unit of a moment: m⁵, or nothing for normalized ones."""
     if about in ("NORMALIZED", "INVARIANT"):
         return ""
     if of == "MASS":
@@ -299,7 +305,7 @@ def unit(of: str, about: str, degree: int) -> str:
 
 
 def as_csv(computed: ComputedMoments, of: str, about: str, frame: str, reference: Reference | None = None) -> str:
-    """All of them: a comment that says what they are, and a row for each with its bounds."""
+    """Return all moments as CSV: a comment that describes them, and a row for each with its bounds."""
     if of == "FLAT":
         return _flat_csv(computed, about, frame, reference)
     moments = in_frame(computed, of, about, frame, computed.order, reference)

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the last action refused or warned of, so that panels can show it until the next action: a status line is cut off
-and gone with the next click.
+"""Refusals and warnings of the last action, for panels to show until the next action: a status line is cut off and gone
+with the next click.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from ..tracking import handlers
 
 @dataclass(frozen=True, eq=False)
 class ActionOutcome:
-    """What is to be read of one action.
+    """Messages of one action.
 
     Attributes
     ----------
@@ -37,14 +37,14 @@ _last: ActionOutcome | None = None
 
 
 def remember(action: str, findings: Iterable[Finding]) -> None:
-    """Keep what an action refused or warned of, in place of that of the action before.
+    """Keep the refusals and warnings of an action, in place of the previous action's.
 
     Parameters
     ----------
     action : str
         The operator's label.
     findings : iterable of Finding
-        What is no more than a note is left out; where nothing is left, nothing is shown.
+        Mere notes are left out; if nothing remains, nothing is shown.
     """
     global _last
     kept = of_severity(findings, Severity.ERROR, Severity.WARNING)
@@ -53,14 +53,14 @@ def remember(action: str, findings: Iterable[Finding]) -> None:
 
 
 def _objects_of(finding: Finding) -> list[str]:
-    """The names of the objects that a finding is about."""
+    """Return the names of the objects that a finding is about."""
     values = finding.values
     names = [values.get("object"), *values.get("objects", ()), *values.get("sources", ())]
     return [name for name in names if isinstance(name, str)]
 
 
 def last() -> ActionOutcome | None:
-    """Return what the last action refused or warned of, None where that was nothing."""
+    """Return the refusals and warnings of the last action, None if there were none."""
     return _last
 
 

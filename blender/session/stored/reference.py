@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Inertia about the reference that the scene has chosen, from what is stored: shown, and stored on request.
+"""Inertia about the reference that the scene has chosen, from stored results: shown, and stored on request.
 
-What is stored remembers which reference was meant, and follows when its owner is measured again.
+The stored inertia remembers its reference, and follows when its owner is measured again.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ def referred(owner: Object | Collection, scene: Scene) -> ReferredInertia | Find
     Returns
     -------
     ReferredInertia, Finding or None
-        Why there is none; None where nothing is stored.
+        The reason if there is none; None if nothing is stored.
     """
     choice = ReferenceChoice.of(scene.body_moments_reference)
     key = (handlers.generation(), choice, scene.cursor.matrix.freeze() if choice.about == "CURSOR" else None)
@@ -63,7 +63,7 @@ def store(owner: Object | Collection, scene: Scene, choice: ReferenceChoice | No
     Raises
     ------
     MeasureError
-        Where there are no results, no such reference, or the owner cannot hold it.
+        If there are no results, no such reference, or the owner cannot hold it.
     """
     choice = choice or ReferenceChoice.of(scene.body_moments_reference)
     body = _stored_body(owner, scene)
@@ -88,19 +88,19 @@ def store(owner: Object | Collection, scene: Scene, choice: ReferenceChoice | No
 
 
 def stored_choice(owner: Object | Collection) -> ReferenceChoice | None:
-    """Return which reference the stored inertia is about; None where none is stored."""
+    """Return the reference of the stored inertia; None if none is stored."""
     return ReferenceChoice.parse(owner["body_reference"]) if "body_reference" in owner else None
 
 
 def follow(owner: Object | Collection, scene: Scene, choice: ReferenceChoice | None) -> None:
-    """Store again, after new results were, what was stored about a reference; not where that is gone."""
+    """Store the inertia about a reference again after new results; skip it if the reference is gone."""
     if choice is not None:
         with suppress(MeasureError):
             store(owner, scene, choice)
 
 
 def _stored_body(owner: Object | Collection, scene: Scene) -> MassProperties | None:
-    """What is stored, in the world."""
+    """Return the stored body in the world."""
     numbers = properties.numbers(owner)
     if numbers is None:
         return None

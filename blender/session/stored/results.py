@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Results are stored here, and made ready to be shown: in the wanted frame, and summed over a selection.
 
-A panel is drawn at every movement of the mouse, so both are cached: one object's by what is stored and where it stands,
-the totals until Blender reports any change.
+A panel is drawn at every movement of the mouse, so both are cached: one object's by its stored numbers and place, the
+totals until Blender reports any change.
 """
 
 from __future__ import annotations
@@ -42,9 +42,11 @@ from . import density, faults, reference, threshold, trust, walls
 
 @dataclass(frozen=True, eq=False)
 class Total:
-    """Selected objects as one body, SI, world axes. count: objects with results; body: None where they have no mass;
-    missing: names of those without; stale, doubtful: of those whose results are out of date or not to be trusted;
-    findings: on what may be no part of it."""
+    """Selected objects as one body, SI, world axes.
+
+    count: objects with results; body: None if they have no mass; missing: names of objects without results; stale,
+    doubtful: names of objects with outdated or untrustworthy results; findings: on possible non-parts.
+    """
 
     count: int
     volume: float
@@ -63,8 +65,9 @@ _totals: SessionCache[tuple[tuple, Total]] = SessionCache()  # a scene's last on
 
 
 def store(obj: Object, measured: Measured, scene: Scene) -> None:
-    """Write what was measured on the object, and remember what its sliders need. EditRefusedError where the object
-    cannot hold results."""
+    """Write a measurement on the object, and remember the data for its sliders. EditRefusedError if the object cannot
+    hold results.
+    """
     measured = replace(measured, measurement=density.noted(obj, measured.measurement, scene))
     staleness.note_edits(obj)
     about = reference.stored_choice(obj)
@@ -80,7 +83,9 @@ def store(obj: Object, measured: Measured, scene: Scene) -> None:
 def store_many(
     measured: Sequence[tuple[Object, Measured | Stacked]], scene: Scene
 ) -> Iterator[tuple[Object, Exception | None]]:
-    """As `store` on many objects; with each of them why it cannot hold results, or None."""
+    """Store the results of many objects as `store` does; yield each with the error if it cannot hold results, or
+    None.
+    """
     for stack, run in groupby(measured, key=lambda item: getattr(item[1], "stack", None)):
         items: list[tuple[Object, Any]] = list(run)
         if stack is None:
@@ -128,7 +133,7 @@ def _store_stack(stack: MeasuredStack, which: list[int], scene: Scene) -> Iterat
 
 
 def remember_failure(obj: Object, reason: Finding | None) -> None:
-    """Keep, while the file is open, why the object could not be measured; None forgets it."""
+    """Keep, while the file is open, the reason why the object could not be measured; None forgets it."""
     if reason is None:
         _failures.forget(obj)
     else:
@@ -136,7 +141,7 @@ def remember_failure(obj: Object, reason: Finding | None) -> None:
 
 
 def failure(obj: Object) -> Finding | None:
-    """Why the object could not be measured when that was last tried with these settings, or nothing."""
+    """Return the reason why the last measurement with these settings failed, if it did."""
     remembered = _failures.get(obj)
     if remembered is None:
         return None
@@ -145,13 +150,14 @@ def failure(obj: Object) -> Finding | None:
 
 
 def of_object(obj: Object, scene: Scene) -> properties.StoredProperties | None:
-    """The results in the frame that the scene shows: the live ones where they are on, else those that are stored; None
-    where there are none, or not all of them."""
+    """Return the results in the displayed frame: the live ones if Live is on, else the stored ones; None if any are
+    missing.
+    """
     return _of_object(obj, scene, scene.body_moments.frame == "OBJECT")
 
 
 def in_world(obj: Object, scene: Scene) -> properties.StoredProperties | None:
-    """The same as `of_object`, in the world frame whatever the scene shows."""
+    """Return the results as `of_object` does, always in the world frame."""
     if live.is_live(obj) or posed.stands_for_meshes(obj):
         return _of_object(obj, scene, False)
     key = (updates.last_change(obj), properties.numbers(obj), _unit(scene))
@@ -176,9 +182,9 @@ def _of_object(obj: Object, scene: Scene, in_own_frame: bool) -> properties.Stor
 
 
 def _summed(bodies: Sequence[MassProperties]) -> MassProperties | None:
-    """Bodies as one, by the parallel-axis theorem, for all of them at once; None where they have no mass."""
+    """Return bodies as one, by the parallel-axis theorem, for all of them at once; None if they have no mass."""
     masses = np.array([body.mass for body in bodies])
-    if not masses.sum() > 0.0:  # what is stored was changed
+    if not masses.sum() > 0.0:  # the stored values were changed
         return None
     centers = np.array([body.center for body in bodies])
     about = masses @ centers / masses.sum()
@@ -192,7 +198,7 @@ def _summed(bodies: Sequence[MassProperties]) -> MassProperties | None:
 
 
 def _of_meshes(armature: Object, scene: Scene) -> properties.StoredProperties | None:
-    """The sum of those meshes of an armature that have numbers, in the world; None where there is no mass."""
+    """Return the sum of an armature's meshes that have numbers, in the world; None if there is no mass."""
     parts = [part for mesh in posed.deformed_meshes(armature) if (part := _of_object(mesh, scene, False)) is not None]
     body = _summed([part.body for part in parts])
     if body is None:
@@ -204,7 +210,7 @@ def _of_meshes(armature: Object, scene: Scene) -> properties.StoredProperties | 
 
 
 def _bound_of_sum(parts: Sequence[properties.StoredProperties], center: NDArray, bounds: Sequence[dict]) -> dict:
-    """By how much the sum of bodies may be off where each is off by its bounds."""
+    """Return the bound of a sum of bodies, from the bound of each."""
     volume, area, center_error, inertia = np.array(
         [[bound[name] for name in properties.BOUND_KEYS] for bound in bounds], np.float64
     ).T
@@ -227,7 +233,7 @@ def are_meshes_measured(armature: Object, scene: Scene) -> bool:
 
 
 def total(context: Context) -> Total:
-    """The selected objects as one body, by the parallel-axis theorem, from what is stored."""
+    """Return the selected objects as one body, by the parallel-axis theorem, from stored results."""
     key = (handlers.generation(), context.view_layer.name)
     cached = _totals.get(context.scene)
     if cached is None or cached[0] != key:
@@ -242,7 +248,7 @@ def _sum(context: Context) -> Total:
     selected = set(chosen)
     for obj in chosen:
         if properties.method(obj) == ASSEMBLY and not selected.isdisjoint(_held(obj, selected)):
-            continue  # what it holds counts by itself
+            continue  # its members count by themselves
         body_now = in_world(obj, scene)
         if body_now is None:
             missing.append(obj.name)
@@ -268,7 +274,7 @@ def _sum(context: Context) -> Total:
 
 
 def _held(obj: Object, objects: Iterable[Object]) -> list[Object]:
-    """What an assembly or a character is made of."""
+    """Return the objects of an assembly or a character."""
     return [*obj.children_recursive, *skinned_objects(obj, objects)]
 
 

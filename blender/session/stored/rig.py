@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is stored of a character's bones, and whether it still holds.
+"""The stored results of a character's bones, and their staleness.
 
 A skinned mesh is evaluated anew whenever its armature moves, which changes nothing here: its rest pose is measured. So
-an edit is noted where Blender reports a new shape of a mesh and nothing new of its armature.
+an edit is noted if Blender reports a new shape of a mesh and nothing new of its armature.
 """
 
 from __future__ import annotations
@@ -26,18 +26,18 @@ from ..findings import STALE_FINGERPRINT, STALE_GEOMETRY, STALE_RIG
 from ..tracking import handlers, marks, staleness
 from ..tracking.cache import SessionCache
 
-_reasons: SessionCache[tuple[int, str | None]] = SessionCache()  # of armatures, and the generation that is true of
+_reasons: SessionCache[tuple[int, str | None]] = SessionCache()  # by armature: the generation, and the reason then
 _edited: SessionCache[bool] = SessionCache()  # armatures whose meshes have changed since they were measured
 _watched: dict[int, Object] = {}  # by the session uids of skinned meshes, the armatures that deform them
 
 
 def store(rig: Rig) -> list[tuple[str, Finding]]:
-    """Store the results of all bones and of the whole; names of bones that have none, and why.
+    """Store the results of all bones and of the whole; return names of bones without results, and the reasons.
 
     Raises
     ------
     EditRefusedError
-        Where the armature object cannot hold results.
+        If the armature object cannot hold results.
     """
     armature = rig.armature
     properties.store(armature, rig.measurement)
@@ -61,15 +61,16 @@ def store(rig: Rig) -> list[tuple[str, Finding]]:
 
 
 def clear(armature: Object) -> bool:
-    """Remove the results of all bones and of the whole; whether there were any. EditRefusedError where they cannot be
-    changed."""
+    """Remove the results of all bones and of the whole; return whether there were any. EditRefusedError if they cannot
+    be changed.
+    """
     properties.require_storable(armature)
     cleared = [properties.clear(owner) for owner in (armature, *armature.pose.bones)]
     return any(cleared)
 
 
 def stale_reason(armature: Object, scene: Scene) -> str | None:
-    """Compare the stored results of a character's bones with what it is now; the code of why they are out of date."""
+    """Return the code of the reason why a character's stored results are out of date, or None."""
     known = _reasons.get(armature)
     if known is None or known[0] != handlers.generation():
         known = _reasons[armature] = (handlers.generation(), _stale_reason(armature, scene))
@@ -127,7 +128,7 @@ def _write_notes() -> None:
 
 
 SUBSCRIPTIONS: tuple[tuple[list[Any], Callable[..., None]], ...] = (
-    (handlers.on_undo, _watch_all),  # which makes Python's references to objects invalid
+    (handlers.on_undo, _watch_all),  # undo makes Python's references to objects invalid
     (handlers.on_load, _watch_all),
     (handlers.on_save, _write_notes),
     (hooks.on_part_change, _count_change),

@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is drawn of measured objects: where their mass is now, and how far that is to be trusted.
+"""Data to draw measured objects: the current place of their mass, and the trust in it.
 
 A viewport is drawn at every movement of the mouse, so the answer is kept until Blender reports a change, and mapped to
-where the object is until it reports one of the object itself.
+the object's place until Blender reports a change of the object itself.
 """
 
 from __future__ import annotations
@@ -52,7 +52,7 @@ class ShownBody:
 
 @dataclass(frozen=True, eq=False)
 class _Own:
-    """What is stored on an object, in its own frame, lengths in Blender units, and what that was found for."""
+    """An object's stored numbers, in its own frame, lengths in Blender units, and the key of their state."""
 
     key: tuple
     center: NDArray[np.float64]
@@ -70,7 +70,7 @@ _own: SessionCache[_Own] = SessionCache()
 
 
 def shown_body(obj: Object, scene: Scene = None) -> ShownBody | None:
-    """Return what is to be drawn of an object: its live numbers where Live is on, else the stored ones.
+    """Return an object's body as it is drawn: its live numbers if Live is on, else the stored ones.
 
     Parameters
     ----------
@@ -82,7 +82,7 @@ def shown_body(obj: Object, scene: Scene = None) -> ShownBody | None:
     Returns
     -------
     ShownBody or None
-        None where it has no numbers.
+        None if it has no numbers.
     """
     scene = scene or bpy.context.scene
     key = (handlers.generation(), scene.session_uid)
@@ -93,7 +93,7 @@ def shown_body(obj: Object, scene: Scene = None) -> ShownBody | None:
 
 
 def changes_alone(obj: Object) -> bool:
-    """Return whether what is shown of an object changes with no move of another object that leaves its geometry.
+    """Return whether an object's drawn body is independent of all moves of others that leave its geometry.
 
     Parameters
     ----------
@@ -135,7 +135,7 @@ def _shown_now(obj: Object, scene: Scene) -> ShownBody | None:
 
 
 def _mapped(obj: Object, scene: Scene, key: tuple) -> ShownBody | None:
-    """What was found for `key`, where the object is now."""
+    """Return the body kept for `key`, mapped to the object's current place."""
     own = _own.get(obj)
     if own is None or own.key != key or not staleness.has_transform_of_results(obj):
         return _computed(obj, scene, key)
@@ -145,7 +145,7 @@ def _mapped(obj: Object, scene: Scene, key: tuple) -> ShownBody | None:
 
 
 def _computed(obj: Object, scene: Scene, key: tuple | None = None) -> ShownBody | None:
-    """What is shown, by the long way, remembered for `key` where that is given."""
+    """Compute the drawn body, and keep it for `key` if that is given."""
     stored = results.in_world(obj, scene)
     if stored is None or not stored.body.mass > 0.0:
         return None
@@ -162,7 +162,7 @@ def _computed(obj: Object, scene: Scene, key: tuple | None = None) -> ShownBody 
 
 
 def _posed_rig(armature: Object, scene: Scene) -> ShownBody | None:
-    """A character as its bones' parts stand now; what is stored on it is its rest pose."""
+    """Return a character as the current places of its bones' parts; its own stored numbers are of the rest pose."""
     parts = [part for bone in armature.pose.bones if (part := shown_bone(bone, scene)) is not None]
     if not parts:
         return None
@@ -178,7 +178,7 @@ def _posed_rig(armature: Object, scene: Scene) -> ShownBody | None:
 
 
 def shown_bone(bone: PoseBone, scene: Scene) -> ShownBody | None:
-    """Return what is to be drawn of a pose bone's part, where the bone is now.
+    """Return the drawn body of a pose bone's part, in the bone's current place.
 
     Parameters
     ----------
@@ -189,7 +189,7 @@ def shown_bone(bone: PoseBone, scene: Scene) -> ShownBody | None:
     Returns
     -------
     ShownBody or None
-        None where it has no numbers.
+        None if it has no numbers.
     """
     numbers = properties.numbers(bone)
     if numbers is None:

@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Whether objects stand: their convex hulls are remembered, so that the support polygon follows every move.
+"""Stability of objects: their convex hulls are remembered, so that the support polygon follows every move.
 
-A hull is computed when stability is asked for, and holds until the geometry changes. What follows from it and the
-center of mass is computed again when either of them, or the place of the object, has changed.
+A hull is computed when stability is asked for, and holds until the geometry changes. Its support and poses are computed
+again after changes of the hull, of the center of mass, or of the object's place.
 """
 
 from __future__ import annotations
@@ -26,14 +26,17 @@ from ..tracking import handlers, updates
 from ..tracking.cache import SessionCache
 from .shown import shown_body
 
-SAME_SHAPE_RTOL = 1e-5  # of scales and of centers: what float32 matrices change when an object turns
+SAME_SHAPE_RTOL = 1e-5  # relative to scales and centers: a turned object's float32 matrices change as much
 
 
 @dataclass(eq=False)
 class _Remembered:
-    """hull: in the object's coordinates. change: the last update of its geometry; edit: one that changed it.
-    digest: of what it showed, None of large meshes. shape: (4, 3) the scale and the center that `poses` are for.
-    support: after which change of which scene."""
+    """An object's hull, with its support and poses.
+
+    hull: in the object's coordinates. change: the last update of its geometry; edit: one that changed it. digest: of
+    the surface then, None for large meshes. shape: (4, 3) the scale and the center that `poses` are for. support: after
+    which change of which scene.
+    """
 
     hull: ConvexHull
     change: int
@@ -49,14 +52,14 @@ _remembered: SessionCache[_Remembered] = SessionCache()
 
 
 def down(scene: Scene) -> NDArray[np.float64]:
-    """Return the direction of gravity, (3,); -Z where the scene has none."""
+    """Return the direction of gravity, (3,); -Z if the scene has none."""
     gravity = np.array(scene.gravity, np.float64) if scene.use_gravity else np.zeros(3)
     length = np.linalg.norm(gravity)
     return gravity / length if length > 0.0 else np.array((0.0, 0.0, -1.0))
 
 
 def compute(obj: Object, depsgraph: Depsgraph) -> ConvexHull:
-    """Compute and remember the hull of an object as it is evaluated. MeasureError where it has none."""
+    """Compute and remember the hull of an object as it is evaluated. MeasureError if it has none."""
     hull = object_hull(obj, depsgraph)
     _remembered[obj] = _Remembered(hull, updates.last_change_of_geometry(obj), shape_digest(obj, depsgraph))
     handlers.count_change()
@@ -91,19 +94,19 @@ def forget(obj: Object) -> None:
 
 
 def support(obj: Object, scene: Scene = None) -> Support | None:
-    """Return how an object stands as it is now, in Blender's units and the world.
+    """Return the current support of an object, in Blender's units and the world.
 
     Parameters
     ----------
     obj : bpy.types.Object
         An original object.
     scene : bpy.types.Scene, optional
-        Whose gravity counts, by default the context's.
+        The scene with the gravity, by default the context's.
 
     Returns
     -------
     Support or None
-        None where its stability was not asked for or no longer holds, or it has no numbers.
+        None if its stability was not asked for or no longer holds, or it has no numbers.
     """
     scene = scene or bpy.context.scene
     remembered = _remembered.get(obj)
@@ -124,7 +127,7 @@ def support(obj: Object, scene: Scene = None) -> Support | None:
 
 
 def _tolerance(points: NDArray, hull: ConvexHull, matrix: NDArray) -> float:
-    """Of the extent: what is a contact, where points may be outside the hull."""
+    """Return the tolerance of contacts, relative to the extent; points may be outside the hull by its gap."""
     gap = hull.gap * float(np.linalg.norm(matrix[:3, :3], 2))
     return max(CONTACT_RTOL, 2.0 * gap / float(np.ptp(points, axis=0).max()))
 
@@ -138,12 +141,12 @@ def poses(obj: Object, scene: Scene | None = None) -> RestingPoses | Finding | N
     obj : bpy.types.Object
         An original object.
     scene : bpy.types.Scene, optional
-        Whose unit scale counts, by default the context's.
+        The scene with the unit scale, by default the context's.
 
     Returns
     -------
     RestingPoses, Finding or None
-        A finding where there are none and why; None as for `support`.
+        The reason if there are none; None as for `support`.
     """
     remembered = _remembered.get(obj)
     if remembered is None or is_stale(obj):

@@ -3,9 +3,9 @@
 """The threshold of a measured grid as a slider: the values of the grid are kept in memory, and a change of the setting
 stores the numbers of the new body at once.
 
-While the slider moves they come from every second or third value of a large grid, by a rule that nothing checks, and
-are out of date; a moment after the last change the exact ones take their place. Only where nothing else has changed
-since: geometry and transform must be those of the stored numbers.
+While the slider moves they come from every second or third value of a large grid, by an unchecked rule, and are out of
+date; a moment after the last change the exact ones take their place. This needs the geometry and transform of the
+stored numbers.
 """
 
 from __future__ import annotations
@@ -37,8 +37,9 @@ COARSE = "coarse"  # no key of settings: what is measured with it is out of date
 
 @dataclass(frozen=True, eq=False)
 class _CachedGrid:
-    """What was measured of one object, and what the marks say that it was given since: of the geometry at every
-    threshold, as undo goes back to any, and of the transform."""
+    """One object's grid, and the marks stored with it since: of the geometry at every threshold, as undo goes back to
+    any, and of the transform.
+    """
 
     reading: VolumeReading
     grid: ThresholdGrid
@@ -59,7 +60,7 @@ def cache_grid(obj: Object, measured: Measured, unit: float) -> None:
 
 
 def on_threshold(settings: PropertyGroup, context: Context) -> None:
-    """What a change of the threshold does to the stored numbers."""
+    """Store the numbers of a changed threshold."""
     obj, scene = settings.id_data, context.scene
     cached = _current(obj, scene)
     if cached is None:
@@ -78,7 +79,7 @@ def on_threshold(settings: PropertyGroup, context: Context) -> None:
 
 
 def _current(obj: Object, scene: Scene | None) -> _CachedGrid | None:
-    """What is kept of an object, where its stored numbers are of the same geometry and transform."""
+    """Return the kept grid of an object, if its stored numbers are of the same geometry and transform."""
     cached, mark = _cache.get(obj), marks.parse(properties.fingerprint(obj))
     if cached is None or mark is None or scene is None:
         return None
@@ -90,7 +91,7 @@ def _current(obj: Object, scene: Scene | None) -> _CachedGrid | None:
 
 
 def _store(obj: Object, scene: Scene, cached: _CachedGrid, grid: ThresholdGrid, preview: bool) -> bool:
-    """Write the numbers of the threshold that is set; False where there are none."""
+    """Write the numbers of the current threshold; False if there are none."""
     options = GridOptions.of(obj.body_moments)
     request = Request.of(obj, unit=cached.unit)
     try:

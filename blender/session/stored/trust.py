@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How far the numbers of an object hold, in one word."""
+"""The trust in an object's numbers, in one word."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ BY_OTHERS = ("MATERIALS", "VOLUME")  # densities that change without an update o
 
 
 class Trust(StrEnum):
-    """How far shown numbers are to be trusted, the best first."""
+    """Trust in displayed numbers, the best first."""
 
     EXACT = "exact"
     REPAIRED = "repaired"
@@ -39,14 +39,14 @@ _known: SessionCache[tuple[tuple, Trust]] = SessionCache()  # and what it was fo
 
 
 def trust(obj: Object, scene: Scene) -> Trust:
-    """Return how far the object's numbers, live or stored, are to be trusted.
+    """Return the trust in the object's numbers, live or stored.
 
     Parameters
     ----------
     obj : bpy.types.Object
         An original object with numbers, or an armature that stands for others with numbers.
     scene : bpy.types.Scene
-        Whose unit scale counts.
+        The scene with the unit scale.
 
     Returns
     -------
@@ -65,12 +65,12 @@ def trust(obj: Object, scene: Scene) -> Trust:
 
 
 def stored_key(obj: Object, scene: Scene) -> tuple:
-    """Return what changes with all that decides whether the stored numbers of an object hold, and where they are.
+    """Return a key of all that decides the validity and place of an object's stored numbers.
 
     Parameters
     ----------
     obj : bpy.types.Object
-        An original object whose density comes from none of `BY_OTHERS`.
+        An original object with a density from none of `BY_OTHERS`.
     scene : bpy.types.Scene
 
     Returns

@@ -1,10 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The thickness of a measured wall as a slider: what was measured last is kept in memory as polynomials in the
+"""The thickness of a measured wall as a slider: the last measured walls are kept in memory as polynomials in the
 thickness, and a change of the setting stores their values at once.
 
-Only where nothing else has changed since: geometry and transform must be those of the stored numbers. Otherwise the
-numbers stay, and are reported as out of date.
+This needs the geometry and transform of the stored numbers. Otherwise the numbers stay, and are reported as out of
+date.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ MAX_CACHED_OBJECTS = 64  # objects
 
 @dataclass(frozen=True)
 class _CachedWalls:
-    """What was measured of one object, and what the mark that it was given says of geometry and transform."""
+    """One object's walls, and the geometry and transform in the mark stored with them."""
 
     reading: Reading
     walls: Walls
@@ -53,7 +53,7 @@ def cache_walls(obj: Object, measured: Measured, unit: float) -> None:
 
 
 def max_thickness(obj: Object) -> float | None:
-    """From which thickness in m the object's wall folds over, where that is known and there is such a thickness."""
+    """Return the thickness in m from which the object's wall folds over, if it is known and there is one."""
     cached = _current_walls(obj)
     if cached is None or obj.body_moments.wall == "THIN":
         return None
@@ -62,7 +62,7 @@ def max_thickness(obj: Object) -> float | None:
 
 
 def is_too_thick(obj: Object) -> bool:
-    """Whether the thickness that is set is known to be too large."""
+    """Return whether the current thickness is known to be too large."""
     limit, cached = max_thickness(obj), _cache.get(obj)
     return (
         cached is not None
@@ -72,7 +72,7 @@ def is_too_thick(obj: Object) -> bool:
 
 
 def on_wall_setting(settings: PropertyGroup, context: Context) -> None:
-    """What a change of the wall or its thickness does to the stored numbers."""
+    """Store the numbers of a changed wall or thickness."""
     obj = settings.id_data
     cached = _current_walls(obj)
     scene = context.scene
@@ -101,7 +101,7 @@ def _walls_on_side(cached: _CachedWalls, obj: Object) -> Walls:
 
 
 def _current_walls(obj: Object) -> _CachedWalls | None:
-    """What is kept of an object, where its stored numbers are of the same geometry and transform."""
+    """Return the kept walls of an object, if its stored numbers are of the same geometry and transform."""
     cached, mark = _cache.get(obj), marks.parse(properties.fingerprint(obj))
     if cached is None or mark is None or (mark.geometry, mark.transform) != (cached.geometry, cached.transform):
         return None

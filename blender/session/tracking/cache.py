@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is remembered of objects while a file is open: in memory only, by session uid, gone with the file.
+"""Data about objects while a file is open: in memory only, by session uid, gone with the file.
 
 Blender gives every data-block a uid that lasts as long as it is loaded, through renaming, undo and redo, and that no
 other one gets later. All caches are emptied together, by `handlers`, when a file is loaded and when the add-on is
@@ -27,8 +27,8 @@ class SessionCache(Generic[Value]):
     Parameters
     ----------
     max_size : int, optional
-        How many values are kept: beyond it, the one not used for longest is forgotten. By default all are kept, for
-        what must not be forgotten, such as that an object was edited.
+        Number of values to keep: beyond it, the least recently used one is forgotten. By default all are kept, as edits
+        of objects must be.
     """
 
     def __init__(self, max_size: int | None = None) -> None:
@@ -37,14 +37,14 @@ class SessionCache(Generic[Value]):
         _caches.add(self)
 
     def get(self, data: ID, default: Value | None = None) -> Value | None:
-        """Return what is remembered of a data-block, or the default.
+        """Return the value of a data-block, or the default.
 
         Parameters
         ----------
         data : bpy.types.ID
             An object or any other original data-block.
         default : optional
-            What is returned where nothing is remembered.
+            Returned if nothing is remembered.
 
         Returns
         -------
@@ -94,7 +94,7 @@ class SessionCache(Generic[Value]):
         return len(self._values)
 
     def forget(self, data: ID) -> None:
-        """Forget what is remembered of a data-block, if anything.
+        """Forget the value of a data-block, if any.
 
         Parameters
         ----------
@@ -109,6 +109,6 @@ class SessionCache(Generic[Value]):
 
 
 def clear_all() -> None:
-    """Empty every cache: what they are about is not loaded any more."""
+    """Empty every cache: their objects are not loaded any more."""
     for cache in _caches:
         cache.clear()

@@ -1,11 +1,11 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What Blender reports while a file is open, heard once, and passed on to all of the session.
+"""Blender's reports while a file is open, heard once, and passed on to all of the session.
 
-These are the add-on's application handlers, except that of `blender/write/translations.py`. Who wants to know appends a
-plain function to one of the lists below when it is registered, and removes it when it is unregistered; who follows only
-some objects does so while there are any. A subscriber never writes data while Blender evaluates: that would be reported
-as the next change. Only before a file is saved may it write, and what it writes is saved.
+These are the add-on's application handlers, except that of `blender/write/translations.py`. A subscriber appends a plain function to one of the lists below when
+it is registered, and removes it when it is unregistered; one that follows only some objects does so while there are
+any. A subscriber never writes data while Blender evaluates: that would be reported as the next change. Only before a
+file is saved may it write, and the written data are saved.
 """
 
 from __future__ import annotations
@@ -23,7 +23,8 @@ from . import cache
 
 @dataclass(frozen=True, eq=False)
 class Updates:
-    """What the window's dependency graph has evaluated anew: session uids, for a frame may have thousands of them.
+    """Data-blocks that the window's dependency graph has evaluated anew: session uids, for a frame may have thousands
+    of them.
 
     Attributes
     ----------
@@ -32,11 +33,11 @@ class Updates:
     depsgraph : bpy.types.Depsgraph
         The evaluated dependency graph, its `updates` valid until the handlers return.
     reshaped, moved, others : list of int
-        Of objects with new geometry, of those of which only the transform is new, and of those of which neither is.
+        Of objects with new geometry, of objects with a new transform only, and of objects with neither.
     collections : list of int
-        Of collections of which something is new.
+        Of collections with any update.
     frame_changed : bool
-        Whether this is the evaluation of another frame.
+        True for the evaluation of another frame.
     """
 
     scene: Scene
@@ -60,18 +61,18 @@ _moved: set[int] = set()  # their session uids
 
 
 def generation() -> int:
-    """Return a number that grows with every change: what was computed under an older one may be wrong.
+    """Return a number that grows with every change: results of an older generation may be wrong.
 
     Returns
     -------
     int
-        How many changes there were since Blender was started.
+        Number of changes since Blender was started.
     """
     return _generation
 
 
 def moved_since(generation: int) -> set[int] | None:
-    """Return the objects that have moved since a generation, where nothing else has changed since then.
+    """Return the objects that have moved since a generation, if nothing else has changed since then.
 
     Parameters
     ----------
@@ -80,13 +81,13 @@ def moved_since(generation: int) -> set[int] | None:
     Returns
     -------
     set of int or None
-        Session uids of these objects, and perhaps of some that had moved before; None where there were other changes.
+        Session uids of these objects, and perhaps of some that had moved before; None if there were other changes.
     """
     return _moved if generation >= _moves_from else None
 
 
 def count_change() -> None:
-    """Count a change that Blender does not report, such as of what is noted about an object."""
+    """Count a change that Blender does not report, such as of a note about an object."""
     global _generation, _moves_from
     _generation += 1
     _moves_from = _generation
@@ -112,15 +113,15 @@ def _call(subscribers: Sequence[Callable[..., None]], *args: Updates) -> None:
             calls.callback(subscriber, *args)
 
 
-# Evaluated data-blocks → session uids of their originals, 0 of those that are neither objects nor collections, as long
-# as Blender builds no other graph: looking them up takes most of the time of thousands.
+# Evaluated data-blocks → session uids of their originals, 0 for neither objects nor collections, until Blender builds
+# another graph: looking them up takes most of the time of thousands.
 _uids: dict[ID, int] = {}
 _evaluated_collections: set[ID] = set()
 
 
 def _updates(scene: Scene, depsgraph: Depsgraph, frame_changed: bool) -> Updates:
     updates = Updates(scene, depsgraph, [], [], [], [], frame_changed)
-    if not frame_changed and depsgraph.id_type_updated("SCENE"):  # as when objects come, go, or are hidden
+    if not frame_changed and depsgraph.id_type_updated("SCENE"):  # objects come, go, or are hidden
         _forget_evaluated()
     for update in depsgraph.updates:  # no call and no attribute that is not needed
         data = update.id
@@ -217,7 +218,7 @@ def register() -> None:
 
 
 def unregister() -> None:
-    """Listen no more, and forget what was remembered."""
+    """Remove the handlers and empty all caches."""
     for name, function in reversed(HANDLERS):
         functions = getattr(bpy.app.handlers, name)
         if function in functions:  # scripts and other add-ons may empty these lists

@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The marks on what is stored with an object: fingerprints of what it was computed from.
+"""The marks on an object's stored results: fingerprints of their inputs.
 
 Results, a section and a symmetry carry one each: version, geometry, transform and settings, joined by colons. In a
-saved file, EDITED stands in place of the geometry's digest where the geometry has changed since.
+saved file, EDITED stands in place of the geometry's digest if the geometry has changed since.
 """
 
 from __future__ import annotations
@@ -33,30 +33,30 @@ def parse(text: str) -> Mark | None:
     Parameters
     ----------
     text : str
-        A mark, or whatever a script has put in its place.
+        A mark, or any text that a script has put in its place.
 
     Returns
     -------
     Mark or None
-        Its parts; None where it is no mark.
+        Its parts; None if it is no mark.
     """
     parts = text.split(":")
     return Mark(*parts) if len(parts) == len(Mark._fields) else None
 
 
 def of_section(obj: Object) -> str:
-    """Return the mark of the stored section, "" where there is none."""
+    """Return the mark of the stored section, "" if there is none."""
     return section.fingerprint(obj)
 
 
 def of_symmetry(obj: Object) -> str:
-    """Return the mark of the symmetry that was found, "" where there is none."""
+    """Return the mark of the stored symmetry, "" if there is none."""
     # Asked first: reading a group that is not there makes one.
     return obj.body_moments_symmetry.fingerprint if obj.is_property_set("body_moments_symmetry") else ""
 
 
 def of_object(obj: Object) -> list[str]:
-    """Return all marks of an object, those of the results first.
+    """Return all marks of an object, results first.
 
     Parameters
     ----------
@@ -72,14 +72,14 @@ def of_object(obj: Object) -> list[str]:
 
 
 def write_edited(obj: Object, edited: Container[str]) -> None:
-    """Put EDITED into those marks of an object whose geometry has changed.
+    """Put EDITED into the given marks of an object.
 
     Parameters
     ----------
     obj : bpy.types.Object
         An original, editable object.
     edited : container of str
-        These marks.
+        The marks whose geometry has changed.
     """
     for mark, group, key in (
         (properties.fingerprint(obj), obj, "body_fingerprint"),

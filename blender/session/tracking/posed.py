@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""In Pose Mode an armature stands for the meshes that it deforms: they are what is posed, and not what is selected."""
+"""In Pose Mode an armature stands for the meshes that it deforms: they are posed, but not selected."""
 
 from __future__ import annotations
 
@@ -13,7 +13,8 @@ from ...read.rig import is_skin_of
 from . import handlers
 from .cache import SessionCache
 
-_meshes: SessionCache[tuple[int, tuple[Object, ...]]] = SessionCache()  # of armatures, and after which change
+# by armature: the number of the last change, and its meshes
+_meshes: SessionCache[tuple[int, tuple[Object, ...]]] = SessionCache()
 
 
 def stands_for_meshes(obj: Object) -> bool:

@@ -1,25 +1,25 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Whether stored numbers are out of date.
+"""Staleness of stored numbers.
 
-What is compared: transform and settings, by the digests in the marks that results, section and symmetry carry.
+Compared: transform and settings, by the digests in the marks that results, section and symmetry carry.
 
-What is noted: a digest of the geometry would need measuring, so an edit is noted instead, in memory only: the marks
-that the object carried when Blender evaluated its geometry anew. When a file is saved, the notes become part of the
-marks (`marks.write_edited`), so that the file knows when it is opened; reading a file reports no updates.
+Noted: a digest of the geometry would need measuring, so an edit is noted instead, in memory only: the marks that the
+object carried when Blender evaluated its geometry anew. When a file is saved, the notes become part of the marks
+(`marks.write_edited`), so that the file knows when it is opened; reading a file reports no updates.
 
-When: Blender evaluates more than what was changed, as an object that is copied, shown again or gets a material slot.
-So what small meshes showed when their numbers were stored is kept, as a digest, and a note is made, or taken back, by
-comparing what they show now. Of what cannot be compared, every update is an edit, but for
+Times: Blender evaluates more than the changed objects, such as an object that is copied, shown again or gets a material
+slot. So the surfaces of small meshes are kept as digests when their numbers are stored, and a note is made, or taken
+back, by comparing the current surfaces. For all other objects every update is an edit, but for
 
 - the update of a setting, which Blender reports as one of the geometry;
 - the update that follows undo, which brings back numbers and shape together. An edit that undo brings back again was
   noted when it was made, and notes are kept: undo may bring back the numbers of before, too. In Edit Mode and Sculpt
   Mode it brings back the shape alone, and is an edit.
 
-How: a handler only writes down which objects were updated, for a frame of an animation may have thousands. What that
-means is found when somebody asks (`note_edits`), or before it could not be found any more: before results are replaced,
-before undo, and before the file is saved.
+Means: a handler only writes down which objects were updated, for a frame of an animation may have thousands. The
+meaning of updates is found on request (`note_edits`), or before it could not be found any more: before results are
+replaced, before undo, and before the file is saved.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ NO_SHAPES: Mapping[Object, bytes | None] = MappingProxyType({})
 _edited: SessionCache[frozenset[str]] = SessionCache()  # the marks that an object carried when its geometry changed
 _shapes: dict[str, bytes] = {}  # mark → digest of what was shown when it was stored: copies of an object share both
 _resolved: dict[int, int] = {}  # session uid → up to which update is noted what it means
-# of what is no object's own body, by the type of its object: what compares its results with what it is now
+# Results of several objects, by the object's type: a function that compares them with the current state.
 reasons_by_type: dict[str, Callable[[Object], str | None]] = {}
 
 
@@ -52,20 +52,20 @@ reasons_by_type: dict[str, Callable[[Object], str | None]] = {}
 def mark_up_to_date(
     context: Context, objects: Iterable[Object], shapes: Mapping[Object, bytes | None] = NO_SHAPES
 ) -> None:
-    """Take objects as up to date, after results were stored; evaluates what storing itself has tagged.
+    """Take objects as up to date, after results were stored; evaluate the data that storing itself has tagged.
 
     Parameters
     ----------
     context : bpy.types.Context
         Its view layer has the objects.
     objects : list of bpy.types.Object
-        Those whose results were stored or removed.
+        Objects with results stored or removed.
     shapes : mapping of bpy.types.Object to bytes or None
-        Of objects that have just been read, the `surface_digest` of what they show.
+        The `surface_digest` of freshly read objects.
     """
     depsgraph = context.evaluated_depsgraph_get()
     for obj in objects:
-        note_edits(obj)  # of its other marks
+        note_edits(obj)  # for its other marks
         mark_object(obj)
         mark = properties.fingerprint(obj)
         shape = shapes.get(obj)
@@ -83,7 +83,7 @@ def mark_fingerprints(context: Context, stored: Iterable[tuple[Object, str]]) ->
     context : bpy.types.Context
         Its view layer has the objects.
     stored : iterable of (bpy.types.Object, str)
-        The objects, and the marks of what was stored with them.
+        The objects, and the marks of the stored data.
     """
     with tracking_paused():
         depsgraph = context.evaluated_depsgraph_get()
@@ -94,7 +94,7 @@ def mark_fingerprints(context: Context, stored: Iterable[tuple[Object, str]]) ->
 
 
 def mark_object(obj: Object) -> None:
-    """Take the stored results as those of the object's geometry as it is now.
+    """Take the stored results as up to date with the object's current geometry.
 
     Parameters
     ----------
@@ -107,7 +107,7 @@ def mark_object(obj: Object) -> None:
 
 
 def replace_mark(obj: Object, before: str) -> None:
-    """Take over what is noted of the results, after numbers and settings were changed together and the shape was not.
+    """Take over the notes on the results, after numbers and settings were changed together and the shape was not.
 
     Parameters
     ----------
@@ -123,7 +123,7 @@ def replace_mark(obj: Object, before: str) -> None:
 
 
 def pin(obj: Object) -> None:
-    """Take the results of an object as those of the place where it is, after some were stored that depend on it.
+    """Take the results of an object as valid in its current place, after results that depend on it were stored.
 
     Parameters
     ----------
@@ -166,12 +166,12 @@ def stale_reason(obj: Object, scene: Scene) -> str | None:
     obj : bpy.types.Object
         An original object.
     scene : bpy.types.Scene
-        The scene whose unit scale counts.
+        The scene with the unit scale.
 
     Returns
     -------
     str or None
-        The code of why they are out of date; None where they are not, or there are none.
+        The code of the reason why they are out of date; None if they are not, or there are none.
     """
     mark = marks.parse(properties.fingerprint(obj))
     if mark is None or mark.version != VERSION:
@@ -186,7 +186,7 @@ def stale_reason(obj: Object, scene: Scene) -> str | None:
 
 
 def has_transform_of_results(obj: Object) -> bool:
-    """Return whether an object is scaled as it was when its results were stored, and stands where they hold."""
+    """Return whether an object has the scale of its stored results, and a place that they hold in."""
     mark = marks.parse(properties.fingerprint(obj))
     return mark is not None and has_transform(obj, mark.transform)
 
@@ -202,7 +202,7 @@ def section_stale_reason(obj: Object) -> str | None:
     Returns
     -------
     str or None
-        The code of why it is out of date; None where it is not, or there is none.
+        The code of the reason why it is out of date; None if it is not, or there is none.
     """
     mark = marks.parse(marks.of_section(obj))
     if mark is None:
@@ -213,7 +213,7 @@ def section_stale_reason(obj: Object) -> str | None:
 
 
 def symmetry_stale_reason(obj: Object) -> str | None:
-    """Compare the symmetry that was found with the object.
+    """Compare the stored symmetry with the object.
 
     Parameters
     ----------
@@ -223,7 +223,7 @@ def symmetry_stale_reason(obj: Object) -> str | None:
     Returns
     -------
     str or None
-        The code of why it is out of date; None where it is not, or there is none.
+        The code of the reason why it is out of date; None if it is not, or there is none.
     """
     mark = marks.parse(marks.of_symmetry(obj))
     if mark is None:
@@ -246,7 +246,7 @@ def _has_new_geometry(obj: Object, mark: marks.Mark) -> bool:
 
 
 def _set_edited(obj: Object, mark: str, is_edited: bool) -> None:
-    """Note that the geometry of what carries this mark has changed, or that it has not."""
+    """Note that the geometry behind this mark has changed, or that it has not."""
     noted = _edited_marks(obj)
     if is_edited != (mark in noted):
         handlers.count_change()
@@ -254,9 +254,9 @@ def _set_edited(obj: Object, mark: str, is_edited: bool) -> None:
 
 
 def note_edits(obj: Object) -> None:
-    """Note what the updates since the last call mean for the marks of an object.
+    """Note the effects of all updates since the last call on the marks of an object.
 
-    To be called before its marks are replaced: nobody could say later whether the geometry has changed since those.
+    Call it before its marks are replaced: later nobody could say whether the geometry has changed since.
 
     Parameters
     ----------
@@ -288,12 +288,12 @@ def _remember_shape(obj: Object, mark: str, depsgraph: Depsgraph) -> None:
 
 
 def _shape(obj: Object, depsgraph: Depsgraph | None) -> bytes | None:
-    """A digest of all that the numbers come from beside settings and transform; None where there is none."""
+    """Return a digest of all inputs of the numbers beside settings and transform; None if there is none."""
     return None if depsgraph is None or _varies(obj) else shape_digest(obj, depsgraph)
 
 
 def _varies(obj: Object) -> bool:
-    """Whether the numbers may come from more than that."""
+    """Return whether the numbers may have further inputs."""
     return obj.body_moments.density_from in {"MATERIALS", "ATTRIBUTE", "VOLUME"}
 
 
@@ -329,7 +329,7 @@ def register() -> None:
 
 
 def unregister() -> None:
-    """Note no more edits; what was noted is written first, for whoever enables the add-on again has the same file."""
+    """Stop noting edits. Write the existing notes first, for the file may outlive the add-on."""
     _write_notes()
     for subscribers, function in reversed(SUBSCRIPTIONS):
         subscribers.remove(function)

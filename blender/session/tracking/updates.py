@@ -1,10 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which data-blocks Blender has evaluated anew, and when: written down by number, and looked at when somebody asks.
+"""Data-blocks that Blender has evaluated anew, and the order: written down by number, and looked at on request.
 
 A frame of an animation may have thousands of updates, of which a panel shows one, so the handler does nothing but
-write down session uids. The updates of an object's geometry are of two kinds: what may be an edit, and what is none,
-the update of a setting and that of undo.
+write down session uids. An update of an object's geometry may be an edit, or is none: the update of a setting and that
+of undo.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ class Stamp(NamedTuple):
     Attributes
     ----------
     number : int
-        Grows from update to update; 0 where there was none.
+        Grows from update to update; 0 if there was none.
     scene : int
         Session uid of the scene that was evaluated.
     view_layer : str
@@ -40,13 +40,13 @@ class Stamp(NamedTuple):
 
 NEVER = Stamp(0, 0, "")
 # session uid → the last update of a data-block
-_edits: dict[int, Stamp] = {}  # of its geometry, which may be an edit
-_returns: dict[int, Stamp] = {}  # of its geometry, which is none
-_moves: dict[int, Stamp] = {}  # of its transform alone
-_touches: dict[int, Stamp] = {}  # of anything else
+_edits: dict[int, Stamp] = {}  # updates of geometry that may be edits
+_returns: dict[int, Stamp] = {}  # updates of geometry that are no edits
+_moves: dict[int, Stamp] = {}  # updates of the transform alone
+_touches: dict[int, Stamp] = {}  # all other updates
 _count = 0  # updates
-_set_since: set[int] = set()  # session uids of objects of which a setting was changed since the last update
-_undo_pending = False  # whether the next update is that of undo or redo
+_set_since: set[int] = set()  # session uids of objects with settings changed since the last update
+_undo_pending = False  # true if the next update is that of undo or redo
 
 
 def count() -> int:
@@ -55,7 +55,7 @@ def count() -> int:
 
 
 def shown_by(obj: Object) -> Iterator[ID]:
-    """Find what an object shows as instances, whose shape and place matter.
+    """Find the instances that an object shows: their shape and place matter.
 
     Parameters
     ----------
@@ -65,7 +65,7 @@ def shown_by(obj: Object) -> Iterator[ID]:
     Yields
     ------
     bpy.types.ID
-        Objects and collections. Of collections Blender reports what happens to their members.
+        Objects and collections. For collections Blender reports changes of their members.
     """
     kind = obj.instance_type
     if kind == "COLLECTION":
@@ -82,7 +82,7 @@ def shown_by(obj: Object) -> Iterator[ID]:
 
 
 def density_source(obj: Object) -> Object | None:
-    """Return the Volume object that the density comes from, of which the shape matters; its place is a setting.
+    """Return the Volume object that the density comes from, for its shape; its place is a setting.
 
     Parameters
     ----------
@@ -98,7 +98,7 @@ def density_source(obj: Object) -> Object | None:
 
 
 def last_edit(obj: Object, since: int = 0) -> Stamp:
-    """Return the last update of an object, or of what it shows, that may be an edit.
+    """Return the last update of an object, or of its instances, that may be an edit.
 
     Parameters
     ----------
@@ -110,7 +110,7 @@ def last_edit(obj: Object, since: int = 0) -> Stamp:
     Returns
     -------
     Stamp
-        `NEVER` where none came after `since`.
+        `NEVER` if none came after `since`.
     """
     last = _edits.get(obj.session_uid, NEVER)
     for shown in shown_by(obj):
@@ -121,7 +121,7 @@ def last_edit(obj: Object, since: int = 0) -> Stamp:
 
 
 def last_return(obj: Object) -> Stamp:
-    """Return the last update of an object's geometry that was of a setting, or after undo; `NEVER` where none was.
+    """Return the last update of an object's geometry that was of a setting, or after undo; `NEVER` if there was none.
 
     Parameters
     ----------
@@ -136,7 +136,7 @@ def last_return(obj: Object) -> Stamp:
 
 
 def last_change_of_geometry(obj: Object) -> int:
-    """Return the number of the last update of an object's geometry, of whatever kind, or of what it shows.
+    """Return the number of the last update of an object's geometry, of any kind, or of its instances.
 
     Parameters
     ----------
@@ -151,7 +151,7 @@ def last_change_of_geometry(obj: Object) -> int:
 
 
 def last_change_but_moves(obj: Object) -> int:
-    """Return the number of the last update of anything of an object, or of what it shows, but its own transform.
+    """Return the number of the last update of an object or of its instances, except for its own transform.
 
     Parameters
     ----------
@@ -166,7 +166,7 @@ def last_change_but_moves(obj: Object) -> int:
 
 
 def last_change(obj: Object) -> int:
-    """Return the number of the last update of anything of an object, or of what it shows.
+    """Return the number of the last update of any kind of an object, or of its instances.
 
     Parameters
     ----------
@@ -181,7 +181,7 @@ def last_change(obj: Object) -> int:
 
 
 def depsgraph_of(stamp: Stamp) -> Depsgraph | None:
-    """Return the dependency graph that an update was of, as it was evaluated last; None where it is gone.
+    """Return the dependency graph that an update was of, as it was evaluated last; None if it is gone.
 
     Parameters
     ----------
@@ -227,7 +227,7 @@ def _note_updates(updates: handlers.Updates) -> None:
 
 
 def _edited_by_undo(updates: handlers.Updates) -> set[int]:
-    """Of the updated objects, those of which undo brings back the shape alone."""
+    """Return the updated objects whose shape alone undo brings back."""
     evaluated = [update.id for update in updates.depsgraph.updates]
     objects = [data.original for data in evaluated if isinstance(data, Object)]
     edited = {obj.session_uid for obj in objects if obj.mode == "SCULPT" or getattr(obj.data, "is_editmode", False)}
