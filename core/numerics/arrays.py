@@ -15,7 +15,7 @@ PerBody: TypeAlias = Any
 
 
 def indices_in_range(indices: NDArray[np.integer], count: int) -> bool:
-    """Whether all indices are in 0 to count - 1."""
+    """Return whether all indices are in 0 to count - 1."""
     unsigned = indices.view(indices.dtype.str.replace("i", "u"))  # in which a negative index is a large one
     return not indices.size or bool(unsigned.max() < count)
 
@@ -35,12 +35,12 @@ def segment_ranges(counts: NDArray) -> NDArray[np.intp]:
 
 
 def segment_starts(counts: NDArray) -> NDArray[np.intp]:
-    """0, counts[0], counts[0] + counts[1], …: where segments of these lengths begin."""
+    """Return 0, counts[0], counts[0] + counts[1], …: the start of each segment of these lengths."""
     return np.cumsum(counts) - counts
 
 
 def sums_by_index(indices: NDArray[np.integer], weights: NDArray, count: int = 0) -> NDArray[np.float64]:
-    """(count or more,) the sum of the weights that have each index: what numpy's types say of `bincount` only without
+    """Return (count or more,) the sum of the weights of each index. numpy's types allow `bincount` only without
     weights."""
     return cast("NDArray[np.float64]", np.bincount(indices, weights, count))
 
@@ -54,7 +54,7 @@ def power_table(values: NDArray[np.float64], order: int) -> list[NDArray[np.floa
 
 
 def batches(weights: NDArray, size: float) -> Iterator[slice]:
-    """Slices of consecutive items whose weights add up to about `size`, of at least one item each."""
+    """Yield slices of consecutive items with weights that add up to about `size`, at least one item each."""
     total, start = np.cumsum(weights), 0
     while start < len(total):
         done = total[start - 1] if start else 0
@@ -77,10 +77,10 @@ def following_pairs(
 
 
 def first_occurrence(*columns: NDArray) -> NDArray[np.intp]:
-    """(n,) for each row the first row that is equal to it in all columns: 64-bit values, compared by their bits.
+    """Return (n,) the first row that equals each row in all columns: 64-bit values, compared by their bits.
 
-    By hashing into a table in which the lowest row of a slot wins; rows equal to the winner are done, the others, whose
-    slot another row has won, go into the next round.
+    The rows are hashed into a table in which the lowest row of a slot wins. Rows equal to the winner are done; the
+    others, whose slot another row has won, go into the next round.
     """
     bits_of = [column.view(np.uint64) for column in columns]
     key = bits_of[0]
@@ -93,7 +93,7 @@ def first_occurrence(*columns: NDArray) -> NDArray[np.intp]:
         bits = int(2 * len(rest)).bit_length()
         slot = (key >> np.uint64(64 - bits)).view(np.intp)
         winner = np.empty(1 << bits, first.dtype)
-        winner[slot[::-1]] = np.arange(len(rest) - 1, -1, -1, dtype=first.dtype)  # of equal slots the last is kept
+        winner[slot[::-1]] = np.arange(len(rest) - 1, -1, -1, dtype=first.dtype)  # the last write wins
         winner = winner[slot].astype(np.intp)
         lost = np.zeros(len(rest), bool)
         for column in bits_of:

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """B-splines of one parameter: function spaces, their values and derivatives.
 
-A `SplineSpace` is what Soldea, Elber and Rivlin (Exact and efficient computation of moments of free-form surface and
-trivariate based geometry, section 2) call the function space of a direction: order and knots, without control points.
+A `SplineSpace` is the function space of a direction of Soldea, Elber and Rivlin (Exact and efficient computation of
+moments of free-form surface and trivariate based geometry, section 2): order and knots, without control points.
 Everything that can be computed before control points are known is a table over a space. The basis is evaluated by the
 triangular scheme of Cox and de Boor, for many parameters at once; derivatives are differences of lower orders.
 """
@@ -71,12 +71,12 @@ class SplineSpace:
 
     @property
     def domain(self) -> tuple[float, float]:
-        """Where all the basis functions add up to one."""
+        """The interval in which all the basis functions add up to one."""
         return self.knots[self.order - 1], self.knots[self.function_count]
 
     @cached_property
     def is_discontinuous(self) -> bool:
-        """Whether curves may jump: where a knot within the domain is repeated as often as the order says."""
+        """If curves may jump: a knot within the domain is repeated `order` times."""
         knots = np.asarray(self.knots)
         first = knots[: len(knots) - self.order + 1]
         low, high = self.domain
@@ -103,7 +103,7 @@ class SplineSpace:
 
     @cached_property
     def end_weights(self) -> NDArray[np.float64]:
-        """(2, count) what each control point weighs at the domain's ends."""
+        """(2, count) weights of the control points at the domain's ends."""
         return self.collocation_matrix(np.array(self.domain))
 
     @cached_property
@@ -113,14 +113,14 @@ class SplineSpace:
 
     @cached_property
     def bezier_extraction(self) -> NDArray[np.float64]:
-        """(s, order, order) what each acting control point weighs in each Bézier control point of a span."""
+        """(s, order, order) weights of the acting control points in each Bézier control point of a span."""
         return self.bezier_weights(self.spans, self.intervals)
 
     def bezier_weights(self, spans: NDArray[np.integer], intervals: ArrayLike) -> NDArray[np.float64]:
-        """(s, order, order) what each acting control point weighs in each Bézier control point of an interval (s, 2)
-        within each span (s,).
+        """Return (s, order, order) weights of the acting control points in each Bézier control point of an interval (s,
+        2) within each span (s,).
 
-        That is the recursion of Cox and de Boor with a parameter for each of its steps, the interval's beginning or its
+        This is the recursion of Cox and de Boor with a parameter for each of its steps, the interval's beginning or its
         end: Bézier's b-th point takes b ends.
         """
         knots = np.asarray(self.knots)
@@ -184,8 +184,8 @@ class SplineSpace:
     def collocation_matrix(
         self, parameters: ArrayLike, derivative: int = 0, spans: NDArray[np.integer] | None = None
     ) -> NDArray[np.float64]:
-        """(n, count) what each control point weighs at each of n parameters, or in a derivative there. spans: (n,)
-        those that they belong to, where a knot may end one or begin the next."""
+        """Return (n, count) the weights of the control points at each of n parameters, or in a derivative there. spans:
+        (n,) the span of each parameter, needed if a knot may end one or begin the next."""
         parameters = float_array("parameters", parameters, "n")
         spans = self.find_spans(parameters) if spans is None else spans
         values = self.derivatives(spans, parameters, derivative)[derivative]
@@ -196,7 +196,7 @@ class SplineSpace:
 
 @lru_cache(maxsize=64)
 def clamped_space(order: int, inner: tuple[float, ...] = (), low: float = 0.0, high: float = 1.0) -> SplineSpace:
-    """Make the space whose curves begin and end at their first and last control points.
+    """Make the space of curves that begin and end at their first and last control points.
 
     Parameters
     ----------

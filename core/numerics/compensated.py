@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Sums and products of float64 with what they round off (Dekker 1971, Knuth), where an ulp would be too much."""
+"""Sums and products of float64 with their rounding errors (Dekker 1971, Knuth), for use if an ulp would be too much."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def two_product(a: NDArray, b: NDArray) -> tuple[NDArray, NDArray]:
 
 
 def _split(a: NDArray) -> tuple[NDArray, NDArray]:
-    """Two numbers of 26 bits whose sum is a."""
+    """Split a into two numbers of 26 bits that add up to it."""
     big = SPLITTER * a
     high = big - (big - a)
     return high, a - high
