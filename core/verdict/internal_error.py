@@ -17,8 +17,8 @@ PACKAGE = __name__.removesuffix("core.verdict.internal_error")
 
 
 def finding_of(error: Exception) -> Finding:
-    """What to report of an exception: the finding of a refusal; that there is too little memory; else that this program
-    failed, how and where, after its traceback has gone to the console."""
+    """Return the finding of a refusal; of too little memory; else of an internal error: the failure and its place,
+    after its traceback has gone to the console."""
     if isinstance(error, MeasureError):
         return error.finding
     if isinstance(error, MemoryError):
