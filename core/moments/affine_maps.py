@@ -1,10 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What affine maps do to a functional F[p,q,r] = ∫ x^p y^q z^r d(of).
+"""Affine maps of a functional F[p,q,r] = ∫ x^p y^q z^r d(of).
 
 Multiplying the integrand by the linear form l(x) = t + a·x sends F to (lF)[α] = t F[α] + Σ_i a_i F[α+e_i], one order
 shorter; the moments of the image are (l0^p l1^q l2^r F)[0,0,0]. Horner's scheme does that for any order and for many
-maps at once; `moments` has what is faster for one map.
+maps at once; `moments` has a faster way for one map.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from ..numerics.arrays import segment_ranges, segment_starts
 from .exponents import count_of_degree, monomial_count, monomial_index, monomials, product_indices, quotient_indices
 
-# Where the columns of a matrix, scaled to unit length, span less volume than this, the rounding of
+# If the columns of a matrix, scaled to unit length, span less volume than this, the rounding of
 # float32 entries alone may have made it: such a matrix cannot be distinguished from one that flattens.
 SINGULAR_RTOL = 4.0 * float(np.finfo(np.float32).eps)
 SIMILARITY_RTOL = 1e-5  # a float32 rotation matrix is a similarity to about 1e-7; a real shear is far above this
@@ -79,10 +79,9 @@ def multiply_by_linear_form(form: tuple[NDArray, ...], values: NDArray, order: i
 
 
 def apply_linear(values: NDArray, order: int, linear: NDArray) -> NDArray[np.float64]:
-    """(..., m, K): m functionals F, (..., m, K), under linear maps (..., 3, 3), the first as it is, the others under
-    |map|.
+    """Map functionals F, (..., m, K), by linear maps (..., 3, 3): the first of the m as it is, the others by |map|.
 
-    The image's monomials as polynomials of the old ones are those of one degree less times a form.
+    The image's monomials as polynomials of the old ones are the polynomials of one degree less times a form.
     """
     forms, out = np.stack([linear, np.abs(linear)], axis=-3), np.array(values)
     table = np.ones((*forms.shape[:-2], 1, 1))
@@ -107,8 +106,8 @@ def rotate_moments(raw: NDArray, order: int, rotation: NDArray) -> NDArray[np.fl
 
 
 def _raise_polynomials(table: NDArray, degree: int, forms: NDArray) -> NDArray[np.float64]:
-    """The images of the monomials of a degree as polynomials of the old ones, (..., rows, rows), from those of one
-    degree less. forms: (..., 3, 3) the images of x, y, z."""
+    """Return the images of the monomials of a degree as polynomials of the old ones, (..., rows, rows). table: the same
+    for one degree less. forms: (..., 3, 3) the images of x, y, z."""
     count, below = count_of_degree(degree), count_of_degree(degree - 1)
     padded = np.concatenate([table, np.zeros((*table.shape[:-1], 1))], axis=-1)
     raised = padded[..., quotient_indices(degree, below)]  # times x, y, z: (..., below, 3, rows)
@@ -128,8 +127,8 @@ def _raise_polynomials(table: NDArray, degree: int, forms: NDArray) -> NDArray[n
 
 @lru_cache
 def _terms(order: int) -> list[tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.float64], NDArray[np.intp]]]:
-    """The terms of all monomials, one after the other, once one of x, y, z is moved by t: (k,) the old monomial of each
-    term, the power of t, and the binomial; and (K,) where each monomial's terms begin."""
+    """Return the terms of all monomials, one after the other, once one of x, y, z is moved by t: (k,) the old monomial
+    of each term, the power of t, and the binomial; and (K,) the first term of each monomial."""
     powers, tables = monomials(order), []
     for axis in range(3):
         count = powers[:, axis] + 1
@@ -164,7 +163,7 @@ def apply_translation(values: NDArray, order: int, offsets: NDArray) -> NDArray[
 
 
 def are_singular(linear: NDArray) -> NDArray[np.bool_]:
-    """(k,) whether each of the (k, 3, 3) maps is singular, as far as entries that were float32 show."""
+    """Return (k,) whether (k, 3, 3) maps are singular, as far as entries that were float32 show."""
     columns = np.asarray(linear, np.float64).transpose(1, 2, 0).copy()
     # by the largest entry first, so that no square of a very small or large scale leaves the range of float64
     largest = np.abs(columns).max(axis=0)
@@ -179,11 +178,12 @@ def are_singular(linear: NDArray) -> NDArray[np.bool_]:
 
 
 def absolute_moments(raw: NDArray, order: int) -> NDArray[np.float64]:
-    """(..., K) at least ∫ |x^p y^q z^r| of functionals (..., K) with no negative density, from their own moments.
+    """Return (..., K) upper bounds of ∫ |x^p y^q z^r| of functionals (..., K) with no negative density, from their
+    moments.
 
-    Of an even degree n that is the largest of ∫ x^n, ∫ y^n, ∫ z^n (arithmetic and geometric mean), of an odd one the
-    root of the product of its neighbors (Cauchy and Schwarz). The highest odd degree has no upper neighbor: there it is
-    an estimate, from those below (to first order alone nothing but the moment itself).
+    For an even degree n that is the largest of ∫ x^n, ∫ y^n, ∫ z^n (arithmetic and geometric mean), for an odd one the
+    root of the product of its neighbors (Cauchy and Schwarz). The highest odd degree has no upper neighbor: its bound
+    is an estimate, from the lower degrees (to first order alone nothing but the moment itself).
     """
     out = np.abs(raw)
     largest = [
@@ -204,8 +204,8 @@ def absolute_moments(raw: NDArray, order: int) -> NDArray[np.float64]:
 
 
 def are_similarities(linear: NDArray) -> NDArray[np.bool_]:
-    """(k,) whether each of the (k, 3, 3) maps is a rotation, reflection and uniform scale, as far as float32 matrices
-    can be."""
+    """Return (k,) whether (k, 3, 3) maps are rotations, reflections and uniform scales, as far as float32 matrices can
+    be."""
     return anisotropy(np.ascontiguousarray(np.asarray(linear, np.float64).transpose(1, 2, 0))) <= SIMILARITY_RTOL
 
 

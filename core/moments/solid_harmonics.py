@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Moments against solid harmonics, ∫ r^(2j) conj(r^l Y_lm) dV, from raw moments: what turns by degrees.
+"""Moments against solid harmonics, ∫ r^(2j) conj(r^l Y_lm) dV, from raw moments: they turn degree by degree.
 
 Under a rotation the 2l+1 of them with one j and l mix among themselves only, by Wigner's unitary matrix; so their sum
 of squares is invariant, and so is any coupling of three of them to l = 0 (with 3j symbols). Y_lm are orthonormal, with
@@ -51,8 +51,8 @@ def with_negative_orders(half: NDArray[np.complex128]) -> NDArray[np.complex128]
 
 
 def couple(a: NDArray, b: NDArray, c: NDArray) -> NDArray[np.float64]:
-    """(…) the scalar made of three multiplets (2l+1, …): Σ (l l' l''; m m' m'') a_m b_m' c_m''. A reflection changes
-    its sign where l + l' + l'' is odd."""
+    """Return (…) the scalar made of three multiplets (2l+1, …): Σ (l l' l''; m m' m'') a_m b_m' c_m''. A reflection
+    changes its sign if l + l' + l'' is odd."""
     l, k, n = ((len(multiplet) - 1) // 2 for multiplet in (a, b, c))
     symbols, (i, j, m) = _nonzero_three_j(l, k, n)
     value = np.add.reduce(along_first(symbols, a) * a[i] * b[j] * c[m])
@@ -86,7 +86,7 @@ def circular_coefficients(plus: int, minus: int) -> tuple[complex, ...]:
 
 @lru_cache
 def _square_product_indices(order: int) -> NDArray[np.int64]:
-    """(3, K) where the products with x², y² and z² of the monomials two orders lower stand."""
+    """Return (3, K) the indices of the products of the monomials two orders lower with x², y² and z²."""
     return np.array(
         [[monomial_index(*(row + 2 * unit)) for row in monomials(order - 2)] for unit in np.eye(3, dtype=int)]
     )
@@ -94,7 +94,7 @@ def _square_product_indices(order: int) -> NDArray[np.int64]:
 
 @lru_cache(maxsize=256)
 def _nonzero_three_j(a: int, b: int, c: int) -> tuple[NDArray[np.float64], tuple[NDArray[np.intp], ...]]:
-    """Those of Wigner's 3j symbols that are not zero, and where they stand."""
+    """Return the nonzero Wigner 3j symbols and their indices."""
     table = _three_j(a, b, c)
     return table[table != 0.0], np.nonzero(table)
 

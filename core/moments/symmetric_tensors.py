@@ -15,7 +15,7 @@ from .moments import Moments, monomials
 
 
 def distinct_arrays(arrays: NDArray, within: float) -> NDArray[np.float64]:
-    """Those of (n, ...) vectors or matrices that differ from all earlier ones by at least `within` in some entry."""
+    """Return the (n, ...) vectors or matrices that differ from all earlier ones by at least `within` in some entry."""
     same = np.abs(arrays[:, None] - arrays[None]).max(axis=tuple(range(2, arrays.ndim + 1))) < within
     return arrays[np.argmax(same, axis=1) == np.arange(len(arrays))]
 
@@ -45,5 +45,5 @@ def _rotate_tensor(tensor: NDArray, frames: NDArray) -> NDArray[np.float64]:
 
 @lru_cache
 def _tensor_positions(degree: int) -> NDArray[np.int64]:
-    """For each monomial of a degree, in storage order, where the flattened tensor has it."""
+    """Return for each monomial of a degree, in storage order, its first index in the flattened tensor."""
     return np.unique(tensor_index(degree), return_index=True)[1]
