@@ -59,13 +59,13 @@ def locked(path: Path, wait: float | None = None) -> Iterator[bool]:
     finally:
         if descriptor is not None:
             os.close(descriptor)
-        if os.name == "nt":  # where what is open cannot be removed
+        if os.name == "nt":  # Windows cannot remove open files
             with suppress(OSError):
                 lock.unlink()
 
 
 def _acquired(lock: Path, deadline: float) -> int | None:
-    """The descriptor that holds the lock, None where there are no locks."""
+    """Return the descriptor that holds the lock, None if there are no locks."""
     while True:
         descriptor = _opened(lock)
         try:
