@@ -146,7 +146,7 @@ def moments(points: Sequence[Vector], faces: Sequence[Sequence[int]], order: int
 def moments_from_apexes(
     points: Sequence[Vector], faces: Sequence[Sequence[int]], apexes: Sequence[Vector], order: int
 ) -> list[Number]:
-    """Return what `moments` does, with an apex for each face: any point of its plane, p⊥ among them.
+    """Return the moments as `moments` does, with an apex for each face: any point of its plane, p⊥ among them.
 
     Parameters
     ----------

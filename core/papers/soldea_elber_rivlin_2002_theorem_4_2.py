@@ -21,7 +21,7 @@ from ..numerics.vectors import Number
 def integral_of_basis(knots: Sequence[Number], i: int, k: int, power: int, t: Number) -> Number:
     """Return ∫ from t_i to t of τ^power B_{i,k}(τ) dτ by equation (11).
 
-    The sums reach functions of order k + power + 1, beyond the last knot: those knots may be anything that ascends.
+    The sums reach functions of order k + power + 1, beyond the last knot: the knots there may be anything that ascends.
 
     Parameters
     ----------
