@@ -36,7 +36,7 @@ BYTE_ORDERS: tuple[ByteOrder, ...] = ("<", ">")
 
 
 def read_nifti(path: Path, limits: Limits) -> Scan:
-    """The scan, mapped where it is not packed."""
+    """Read the scan, mapped if it is not packed."""
     packed = path.name.lower().endswith(".gz")
     head = _head(path, packed)
     if len(head) < HEADER:

@@ -71,8 +71,8 @@ _HEADER_END = re.compile(rb"\r?\n\r?\n")
 
 
 def read_header(path: Path, limits: Limits) -> tuple[dict[str, str], int | None]:
-    """The fields by their names in lower case, and where the samples begin; None where the file ends before. FileError
-    where it is no NRRD file, or the header has no end within the limit."""
+    """Return the fields by their names in lower case, and the offset of the samples; None if the file ends before.
+    FileError if it is no NRRD file, or the header has no end within the limit."""
     head, end = bytearray(), None
     with open(path, "rb") as file:
         while not end and (block := file.read(HEADER_BLOCK)):
@@ -88,18 +88,18 @@ def read_header(path: Path, limits: Limits) -> tuple[dict[str, str], int | None]
     text = head[: end.start() if end else len(head)].decode("latin-1")
     for line in text.splitlines()[1:]:
         name, colon, value = line.partition(":")
-        if colon and not value.startswith("="):  # of a key's value
+        if colon and not value.startswith("="):  # “:=” sets a key's value
             fields[name.strip().lower()] = value.strip()
     return fields, end.end() if end else None
 
 
 def data_file(fields: dict[str, str]) -> str | None:
-    """The name of the file that has the samples, where it is another one."""
+    """Return the name of the file that has the samples, if it is another one."""
     return fields.get("data file", fields.get("datafile"))
 
 
 def read_nrrd(path: Path, limits: Limits) -> Scan:
-    """The scan, mapped where it is raw."""
+    """Read the scan, mapped if it is raw."""
     fields, start = read_header(path, limits)
 
     def needed(name: str) -> str:
@@ -183,7 +183,7 @@ def _skip_lines(path: Path, start: int, count: int, limits: Limits) -> int:
 def _sample_matrix(
     fields: dict[str, str], numbers: Callable[..., list]
 ) -> tuple[NDArray[np.float64], bool, float | None]:
-    """Where the samples stand, whether the header says so, and in which unit."""
+    """Return the matrix of the sample positions, whether the header states it, and its unit."""
     matrix = np.eye(4)
     words = re.findall(r'"([^"]*)"', fields.get("space units", fields.get("units", "")))
     units = {UNITS.get(word.strip().lower()) for word in words[:3]}
