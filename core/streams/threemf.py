@@ -29,7 +29,7 @@ from .findings import FILE_UNREADABLE, THREEMF_DAMAGED, THREEMF_EXTENSION, THREE
 MAX_INSTANCES = 100_000  # meshes that the build places
 MAX_TEXT = 60  # letters of a wrong field that are shown
 UNITS = {"micron": 1e-6, "millimeter": 1e-3, "centimeter": 1e-2, "inch": 0.0254, "foot": 0.3048, "meter": 1.0}
-_KNOWN = ("core/2015/02", "material/2015/02", "production/2015/06")  # what is understood, or changes no shape
+_KNOWN = ("core/2015/02", "material/2015/02", "production/2015/06")  # read here, or of no effect on shape
 _PACKAGE = "http://schemas.openxmlformats.org/package/2006/relationships"
 _BLOCK = 1 << 16
 
@@ -56,7 +56,7 @@ class Placed:
 
 
 def read_3mf(path: str, limits: Limits = DEFAULT_LIMITS) -> tuple[list[Placed], float]:
-    """Read what a file builds.
+    """Read the build of a file.
 
     Parameters
     ----------
@@ -249,7 +249,7 @@ class _Model:
 
 
 def _transform(text: str) -> NDArray[np.float64]:
-    """Return (3, 4) of a transform, whose vectors are rows. Raise ValueError with a wrong text."""
+    """Return the (3, 4) matrix of a transform text, which has the vectors as rows. Raise ValueError if it is wrong."""
     numbers = np.array(parse_numbers(text))
     if len(numbers) != 12 or not np.isfinite(numbers).all():
         raise ValueError(text)
