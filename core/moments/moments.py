@@ -68,9 +68,9 @@ class Moments:
 
     The point is the middle of the body's bounding box unless the measurement was given another one; `about_point`,
     `about_center` and `in_frame` lead to others. Moments add (`+`), scale by a density (`*`) and follow affine maps
-    (`transform`). `moments[p, q, r]` is one of them; iteration yields the exponents (p, q, r), as of a mapping.
-    All arrays may have the same leading axes: then they belong to a stack of bodies, and the arguments and
-    results of methods have these axes too.
+    (`transform`). `moments[p, q, r]` is one of them; iteration yields the exponents (p, q, r), as of a mapping. All
+    arrays may have the same leading axes: then they belong to a stack of bodies, and the arguments and results of
+    methods have these axes too.
 
     Parameters
     ----------

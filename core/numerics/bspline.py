@@ -76,7 +76,7 @@ class SplineSpace:
 
     @cached_property
     def is_discontinuous(self) -> bool:
-        """If curves may jump: a knot within the domain is repeated `order` times."""
+        """True if curves may jump: a knot within the domain is repeated `order` times."""
         knots = np.asarray(self.knots)
         first = knots[: len(knots) - self.order + 1]
         low, high = self.domain

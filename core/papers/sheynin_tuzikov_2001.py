@@ -6,9 +6,9 @@ The moment of a tetrahedron with one corner in the origin is det·Σ_pqr / (p+q+
 2A·Σ_pqr / (p+q+r+2)!, with Σ_pqr the nine-fold sum of `sigma`. Faces are fans from their first corner.
 
 A reference, not the way to measure a mesh: its cost grows with the ninth power of the order. It computes with any
-number type: `fractions.Fraction` gives exact rational moments, floats the usual ones, numpy arrays those of
-many triangles at once. The formulae are about the origin; in floats subtract a point of the body first (`about`), else
-only noise is left after cancellation.
+number type: `fractions.Fraction` gives exact rational moments, floats the usual ones, numpy arrays those of many
+triangles at once. The formulae are about the origin; in floats subtract a point of the body first (`about`), else only
+noise is left after cancellation.
 """
 
 from __future__ import annotations

@@ -3,10 +3,10 @@
 """Zhang and Chen's signed elementary shapes (ICIP 2001): area, volume and moments of 2-D and 3-D meshes.
 
 Every edge of a polygon makes a triangle with the origin, every triangle of a mesh a tetrahedron. The elementary shape
-counts with the sign of its determinant (eqs 2 and 4; 5 and 6), an integral over the inside is the sum of the
-elementary ones (eq. 9), and if the total comes out negative the order of all vertices was the wrong one and is
-reversed. The moments of an elementary shape are in an appendix that no copy of the paper at hand has; here they are
-from Dirichlet's integral over the shape's barycentric coordinates λ:
+counts with the sign of its determinant (eqs 2 and 4; 5 and 6), an integral over the inside is the sum of the elementary
+ones (eq. 9), and if the total comes out negative the order of all vertices was the wrong one and is reversed. The
+moments of an elementary shape are in an appendix that no copy of the paper at hand has; here they are from Dirichlet's
+integral over the shape's barycentric coordinates λ:
 
     ∫ λ_1^{k_1} … λ_d^{k_d} = measure · d! k_1! … k_d! / (k_1 + … + k_d + d)!,
 

@@ -59,7 +59,7 @@ class Scan:
     unit : float or None
         None if the file does not state it.
     is_placed : bool
-        If the file states the positions of samples.
+        True if the file states the positions of samples.
     slope, intercept : float
     findings : tuple of Finding
         Decisions made on the way.

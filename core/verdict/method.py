@@ -30,7 +30,7 @@ class Verdict(StrEnum):
 
     @property
     def is_closed(self) -> bool:
-        """If the surface encloses the measured volume."""
+        """True if the surface encloses the measured volume."""
         return self in (Verdict.CAPPED, Verdict.REORIENTED, Verdict.EXACT, Verdict.UNION)
 
 
