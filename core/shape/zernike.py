@@ -6,8 +6,8 @@
 on the ball: the normalization of Novotni and Klein (3D Zernike descriptors for content based shape retrieval, 2003), in
 which a full ball has Ω_000 = 1. The descriptor ‖Ω_nl‖ is the same however the body is turned, or mirrored.
 
-To order 20 they are sums of raw moments. These sums cancel, and `descriptor_error` estimates what is lost. Above that
-order, and where it is too much, the cones from the center over the triangles are integrated by quadrature. Over a
+To order 20 they are sums of raw moments. These sums cancel, and `descriptor_error` estimates the loss. Above that
+order, and if it is too much, the cones from the center over the triangles are integrated by quadrature. Over a
 triangle a polynomial of degree n takes Gauss's rule; along the cone, with S_k = R_nl / sqrt(2n+3), n = l+2k, partial
 integration of r S_k' against each S_i gives (r d/dr + 3) S_k = (n+3) S_k + Σ_{i<k} (2l+4i+3) S_i, and from that for
 J_k(x) = ∫_0^1 t² S_k(tx) dt the stable recursion
@@ -34,9 +34,9 @@ from ..numerics.quadrature import triangle_rule
 
 MAX_ORDER_BY_MOMENTS = 20  # the highest order that raw moments in float64 give
 MAX_DESCRIPTOR_ERROR = 1e-9  # the error of a descriptor that raw moments may have
-POINTS_PER_BLOCK = 16384  # of a quadrature that are evaluated together
+POINTS_PER_BLOCK = 16384  # points of a quadrature that are evaluated together
 NO_SUM = np.zeros((), np.complex128)
-QUADRATURE_RTOL = 1e-13  # of a triangle's integral, as its quadrature is chosen
+QUADRATURE_RTOL = 1e-13  # for a triangle's integral, in the choice of its quadrature
 
 
 def zernike_moments(raw: NDArray, order: int) -> Multiplets:
@@ -51,8 +51,8 @@ def zernike_moments(raw: NDArray, order: int) -> Multiplets:
 
 
 def descriptor_error(raw: NDArray, order: int) -> NDArray[np.float64]:
-    """(…) an estimate of the error of the descriptors that raw moments (K, …) accurate to a few roundings give: what
-    changes when each moment is moved by such an amount, at random but always the same."""
+    """Return (…) an estimate of the error of the descriptors from raw moments (K, …) accurate to a few roundings: their
+    change if each moment is moved by such an amount, at random but always the same."""
     moved = raw * along_first(1.0 + 8.0 * U * np.random.default_rng(0).uniform(-1.0, 1.0, len(raw)), raw)
     before, after = (descriptors(zernike_moments(raw_moments, order)) for raw_moments in (raw, moved))
     return np.abs(after - before).max(axis=0)
@@ -69,10 +69,10 @@ def degrees(order: int) -> list[tuple[int, int]]:
 
 
 def zernike_quadrature(points: NDArray, triangles: NDArray, order: int) -> Multiplets:
-    """As `zernike_moments`, of the body that the cones from the origin over outward triangles make up.
+    """Return the `zernike_moments` of the body that the cones from the origin over outward triangles make up.
 
     points: (n, 3) within the unit ball. triangles: (m, 3). The work grows with the order cubed, and with the number of
-    nodes that a triangle needs: one for the smallest, order²/4 for those as large as the ball.
+    nodes of a triangle: one for the smallest, order²/4 for a triangle as large as the ball.
     """
     corners = [points[triangles[:, i]] for i in range(3)]
     size = np.sqrt(np.max([((corners[i] - corners[i - 1]) ** 2).sum(axis=1) for i in range(3)], axis=0))
@@ -147,8 +147,8 @@ def _jacobi(beta: float, x: NDArray) -> Iterator[NDArray[np.float64]]:
 
 
 def radial_power(moments: Multiplets, wave_numbers: NDArray) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """(k, …) the mean of |F(q)|² over all directions of q, F(q) = ∫ exp(-i q·x) dV, and a bound of what the orders that
-    are left out may change.
+    """Return (k, …) the mean of |F(q)|² over all directions of q, F(q) = ∫ exp(-i q·x) dV, and a bound of the change by
+    the orders that are left out.
 
     moments: of a body in the unit ball, (2l+1, …). wave_numbers: (k,) |q|, in units of the ball's inverse radius.
     """
