@@ -66,7 +66,7 @@ def _exponent(reach: float) -> int:
 
 @dataclass(frozen=True, eq=False)
 class _FaceBatch:
-    """Some faces, (m, 3) or (m, 4), of a piece of the body. size: faces in a block. half_ulp: (3,) for its points."""
+    """Faces, (m, 3) or (m, 4), of a piece of the body. size: faces in a block. half_ulp: (3,) for its points."""
 
     points: NDArray
     faces: NDArray

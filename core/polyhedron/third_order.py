@@ -73,8 +73,8 @@ MIN_TRIANGLES_PER_THREAD = 250_000
 MAX_UNSCALED_REACH = 2.0**100
 DIVISORS = np.array([6.0, 48.0, 120.0, 2880.0])[DEGREE]  # divide the sums of `blocks`
 
-# Faces measured together: (k, 4) quads, (k, 3) triangles, or two such arrays of triangles whose rows may be halves
-# of one quad, with the surface's row that each array begins at; or, without rows, the (4, k) corners of turned quads.
+# Faces measured together: (k, 4) quads, (k, 3) triangles, or two such arrays of triangles with rows that may be
+# halves of one quad, with the surface's row that each array begins at; or, without rows, (4, k) corners of turned quads.
 _Block = tuple[list[int], list[NDArray]]
 
 
