@@ -10,8 +10,8 @@
     chirality    couplings in threes with degrees that add up to an odd number: a mirror image has the same with the
                  opposite sign, and a body that is its own mirror image has none.
 
-Size is kept apart, as the radius of gyration. The compared numbers are smooth in the shape: noise of the points changes it
-little, and nothing switches.
+Size is kept apart, as the radius of gyration. The compared numbers are smooth in the shape: noise of the points changes
+it little, and nothing switches.
 """
 
 from __future__ import annotations
@@ -136,8 +136,8 @@ class Likeness:
     chirality_difference : float
         The difference of their chiralities.
     is_mirror_image : bool or None
-        True for a mirror image; False if neither has a hand, None if noise as large as the shapes' difference could make
-        up their hands.
+        True for a mirror image; False if neither has a hand, None if noise as large as the shapes' difference could
+        make up their hands.
     """
 
     shape: float
