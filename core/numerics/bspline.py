@@ -96,7 +96,7 @@ class SplineSpace:
         return np.stack([knots[self.spans], knots[self.spans + 1]], axis=1)
 
     def uniform_parameters(self, per_span: int) -> NDArray[np.float64]:
-        """(spans * each + 1,) parameters at equal steps in every span, both ends of the domain included."""
+        """Return (spans * each + 1,) parameters at equal steps in every span, both ends of the domain included."""
         low, high = self.intervals.T
         inner = low[:, None] + (high - low)[:, None] * (np.arange(per_span) / per_span)
         return np.append(inner.ravel(), high[-1])
@@ -139,16 +139,16 @@ class SplineSpace:
         return values
 
     def controls_of_spans(self, spans: NDArray[np.integer]) -> NDArray[np.int64]:
-        """(..., order) the control points that act in each span."""
+        """Return (..., order) the control points that act in each span."""
         return (np.asarray(spans)[..., None] + np.arange(1 - self.order, 1)) % self.count
 
     def find_spans(self, parameters: NDArray) -> NDArray[np.int64]:
-        """The span of each parameter, the nearest one outside of the domain."""
+        """Return the span of each parameter, the nearest one outside of the domain."""
         inner = self.intervals[1:, 0]
         return self.spans[np.searchsorted(inner, parameters, side="right")]
 
     def derivatives(self, spans: NDArray[np.integer], parameters: NDArray, highest: int) -> list[NDArray[np.float64]]:
-        """The basis functions that act in the given spans and their derivatives, at most to order `highest`.
+        """Return the basis functions that act in the given spans and their derivatives, at most to order `highest`.
 
         spans, parameters: broadcast against each other to some shape (...). Returns most + 1 arrays (..., order).
         """
@@ -178,7 +178,7 @@ class SplineSpace:
         return by_derivative + [np.zeros_like(lower[-1]) for _ in range(self.order, highest + 1)]
 
     def _adjacent_knots(self, near: NDArray, order: int) -> tuple[NDArray, NDArray]:
-        """The first and the last knot of the order - 1 functions, one order lower, that act in a span."""
+        """Return the first and the last knot of the order - 1 functions, one order lower, that act in a span."""
         return near[..., self.order - order : self.order - 1], near[..., self.order - 1 : self.order + order - 2]
 
     def collocation_matrix(
