@@ -78,7 +78,7 @@ class MeshHealth:
     defective_elements: DefectiveElements = field(default_factory=DefectiveElements)
 
     def as_record(self) -> dict:
-        """Plain values for JSON; of the faults only the flipped faces."""
+        """Return plain values for JSON; of the faults only the flipped faces."""
         record = {entry.name: getattr(self, entry.name) for entry in fields(self) if entry.name != "defective_elements"}
         record[SELF_INTERSECTION] = str(self.self_intersection)
         record[FLIPPED_FACES] = self.defective_elements.flipped_faces.tolist()

@@ -29,7 +29,7 @@ def finding_of(error: Exception) -> Finding:
 
 
 def _where(error: Exception) -> str:
-    """File and line of the innermost frame of this program."""
+    """Return file and line of the innermost frame of this program."""
     where = "-"
     for frame, line in traceback.walk_tb(error.__traceback__):
         name = frame.f_globals.get("__name__", "")

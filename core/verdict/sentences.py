@@ -31,7 +31,7 @@ ACCEPTED = "Accepted: {}"  # before a finding that a user has judged, by its val
 
 
 def _item(item: Any, translate: Callable[[str], str]) -> str:
-    """A number, “a name”, or a pair of them: 3 of “Cube”."""
+    """Write a number, “a name”, or a pair of them: 3 of “Cube”."""
     if hasattr(item, "tolist"):
         item = item.tolist()
     if isinstance(item, (list, tuple)):
@@ -92,7 +92,7 @@ class _Formatter(string.Formatter):
 
     @staticmethod
     def _joined(texts: Sequence[str]) -> str:
-        """Sentences after one another, clauses with commas."""
+        """Join sentences by spaces, clauses by commas."""
         return "".join(text + (" " if text.endswith(".") else ", ") for text in texts[:-1]) + "".join(texts[-1:])
 
 
