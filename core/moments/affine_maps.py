@@ -27,28 +27,28 @@ HIGHEST_ODD = 3.0  # times what the degrees below would have if all were as far 
 
 
 def to_trailing_axis(matrices: NDArray) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """(3, 3, k) and (3, k): the linear parts and the offsets of (k, 4, 4) maps."""
+    """Return (3, 3, k) and (3, k): the linear parts and the offsets of (k, 4, 4) maps."""
     affine = np.ascontiguousarray(np.asarray(matrices, np.float64)[:, :3].transpose(1, 2, 0))
     return affine[:, :3], affine[:, 3]
 
 
 def distinct_linear_parts(matrices: NDArray) -> Iterator[tuple[NDArray[np.float64], NDArray[np.intp]]]:
-    """The different linear parts of (k, 4, 4) maps: each of them, (3, 3), and which of the maps have it, (j,)."""
+    """Return the different linear parts of (k, 4, 4) maps: each of them, (3, 3), and the maps that have it, (j,)."""
     linear, which = np.unique(matrices[:, :3, :3].reshape(-1, 9), axis=0, return_inverse=True)
     for i, row in enumerate(linear):
         yield row.reshape(3, 3), np.flatnonzero(which.ravel() == i)
 
 
 def translation_matrices(offsets: NDArray) -> NDArray[np.float64]:
-    """(k, 4, 4) the maps that move by (k, 3) offsets and do nothing else."""
+    """Return (k, 4, 4) the maps that move by (k, 3) offsets and do nothing else."""
     matrices = np.tile(np.eye(4), (len(offsets), 1, 1))
     matrices[:, :3, 3] = offsets
     return matrices
 
 
 def transform_by_horner(values: NDArray, order: int, linear: NDArray, offset: NDArray) -> NDArray[np.float64]:
-    """(K, k): (l0^p l1^q l2^r F)[0,0,0] for all p+q+r ≤ order, F the functional, (K, 1) or (K, k), l_i the linear forms
-    of the k maps, linear (3, 3, k) and offset (3, k)."""
+    """Return (K, k): (l0^p l1^q l2^r F)[0,0,0] for all p+q+r ≤ order, F the functional, (K, 1) or (K, k), l_i the
+    linear forms of the k maps, linear (3, 3, k) and offset (3, k)."""
     forms = [(offset[i], *linear[i]) for i in range(3)]
     out = np.zeros((len(values), offset.shape[1]))
     by_p = np.broadcast_to(values, out.shape)
@@ -65,7 +65,7 @@ def transform_by_horner(values: NDArray, order: int, linear: NDArray, offset: ND
 
 
 def multiply_by_linear_form(form: tuple[NDArray, ...], values: NDArray, order: int) -> NDArray[np.float64]:
-    """The functional multiplied by a linear form, one order shorter; nothing is left below order 0."""
+    """Return the functional multiplied by a linear form, one order shorter; nothing is left below order 0."""
     if not order:
         return values[:0]
     t, a, b, c = form
@@ -94,7 +94,7 @@ def apply_linear(values: NDArray, order: int, linear: NDArray) -> NDArray[np.flo
 
 
 def rotate_moments(raw: NDArray, order: int, rotation: NDArray) -> NDArray[np.float64]:
-    """(..., K): the moments (..., K) of bodies that are turned by rotations (..., 3, 3), without bounds."""
+    """Return (..., K): the moments (..., K) of bodies that are turned by rotations (..., 3, 3), without bounds."""
     shape = np.broadcast_shapes(raw.shape[:-1], rotation.shape[:-2])
     out = np.array(np.broadcast_to(raw, (*shape, raw.shape[-1])))
     table = np.ones((*rotation.shape[:-2], 1, 1))
@@ -142,7 +142,8 @@ def _terms(order: int) -> list[tuple[NDArray[np.intp], NDArray[np.intp], NDArray
 
 
 def apply_translation(values: NDArray, order: int, offsets: NDArray) -> NDArray[np.float64]:
-    """(..., K): each functional F, (..., K), with its own offset, (..., 3): F[(x+t)^α], one axis after the other."""
+    """Return (..., K): each functional F, (..., K), with its own offset, (..., 3): F[(x+t)^α], one axis after the
+    other."""
     moved = offsets.any(axis=-1)
     if not moved.all():  # most images are about the image of their point
         values = values.copy()
@@ -210,8 +211,8 @@ def are_similarities(linear: NDArray) -> NDArray[np.bool_]:
 
 
 def anisotropy(linear: NDArray) -> NDArray[np.float64]:
-    """(k,) by how much, relatively, each of the (3, 3, k) maps stretches one direction more than another; infinite for
-    a flat map."""
+    """Return (k,) the relative excess of the stretch of each of the (3, 3, k) maps in one direction over another;
+    infinite for a flat map."""
     columns = linear.transpose(1, 0, 2)
     a, b, c = [np.add.reduce(column * column) for column in columns]
     ab, ac, bc = [np.abs(np.add.reduce(columns[i] * columns[j])) for i, j in ((0, 1), (0, 2), (1, 2))]

@@ -43,7 +43,7 @@ class ComplexBound:
         return ComplexBound(self.value.conjugate(), self.bound)
 
     def power(self, exponent: int) -> ComplexBound:
-        """A natural power."""
+        """Return a natural power."""
         product = ComplexBound(1.0 + 0.0j, 0.0)
         for _ in range(exponent):
             product = product * self

@@ -38,7 +38,7 @@ def monomial_count(order: int) -> int:
 
 @lru_cache
 def order_from_count(count: int) -> int:
-    """The lowest order that has at least `count` monomials."""
+    """Return the lowest order that has at least `count` monomials."""
     order = 0
     while monomial_count(order) < count:
         order += 1

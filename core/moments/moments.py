@@ -137,7 +137,8 @@ class Moments:
         return (tuple(row) for row in monomials(self.order).tolist())
 
     def to_dense(self) -> NDArray[np.float64]:
-        """(order + 1, order + 1, order + 1) array[p, q, r], as `skimage.measure.moments` has it; 0 beyond the order."""
+        """Return (order + 1, order + 1, order + 1) array[p, q, r], as `skimage.measure.moments` has it; 0 beyond the
+        order."""
         dense = np.zeros((*self.raw.shape[:-1], *3 * (self.order + 1,)))
         dense[(..., *monomials(self.order).T)] = self.raw
         return dense
@@ -163,11 +164,11 @@ class Moments:
         return self.about + self.raw[..., 1:4] / self.raw[..., :1]
 
     def second(self) -> NDArray[np.float64]:
-        """(3, 3) the second moments about `about`."""
+        """Return (3, 3) the second moments about `about`."""
         return self.raw[..., SECOND_MOMENT_INDEX]
 
     def third(self) -> NDArray[np.float64]:
-        """(3, 3, 3) the third moments about `about`."""
+        """Return (3, 3, 3) the third moments about `about`."""
         return self.raw[..., THIRD_MOMENT_INDEX]
 
     def truncate(self, order: int) -> Moments:
@@ -409,8 +410,8 @@ def image(moments: Moments, matrices: NDArray, center: NDArray) -> Moments:
 
 
 def measure_scale_factors(measure: Measure, linear: NDArray) -> tuple[NDArray, NDArray, NDArray]:
-    """(k,) the factor by which each of the (3, 3, k) maps changes the measure, its rounding bound, and by how much the
-    map fails to have one factor."""
+    """Return (k,) the factor by which each of the (3, 3, k) maps changes the measure, its rounding bound, and the
+    deviation of the map from one factor."""
     exact = np.zeros(linear.shape[2])
     if measure == Measure.MASS:
         return np.ones(linear.shape[2]), exact, exact

@@ -23,7 +23,7 @@ Multiplets = dict[tuple[int, int], NDArray[np.complex128]]
 
 
 def harmonic_moments(raw: NDArray, order: int) -> Multiplets:
-    """{(n, l): (2l+1, …)} ∫ r^(n-l) conj(r^l Y_lm) for m = -l..l and every l ≤ n ≤ order with n-l even.
+    """Return {(n, l): (2l+1, …)} ∫ r^(n-l) conj(r^l Y_lm) for m = -l..l and every l ≤ n ≤ order with n-l even.
 
     raw: (K, …) moments to that order about the point that the harmonics are about.
     """
@@ -39,12 +39,12 @@ def harmonic_moments(raw: NDArray, order: int) -> Multiplets:
 
 
 def along_first(table: NDArray, values: NDArray) -> NDArray:
-    """A table with an axis more for each one of the values but the first: to be multiplied by them."""
+    """Return a table with an axis more for each one of the values but the first: to be multiplied by them."""
     return table.reshape(*table.shape, *[1] * (values.ndim - 1))
 
 
 def with_negative_orders(half: NDArray[np.complex128]) -> NDArray[np.complex128]:
-    """(2l+1, …) for m = -l..l from (l+1, …) for m = 0..l: c[-m] = (-1)^m conj(c[m])."""
+    """Return (2l+1, …) for m = -l..l from (l+1, …) for m = 0..l: c[-m] = (-1)^m conj(c[m])."""
     l = len(half) - 1
     sign = ((-1.0) ** np.arange(l, 0, -1)).reshape(-1, *[1] * (half.ndim - 1))
     return np.concatenate([half[:0:-1].conj() * sign, half])
@@ -61,7 +61,8 @@ def couple(a: NDArray, b: NDArray, c: NDArray) -> NDArray[np.float64]:
 
 @lru_cache
 def _solid(l: int) -> NDArray[np.complex128]:
-    """(l+1, (l+1)(l+2)/2) the coefficients of r^l Y_lm for m = 0..l in the monomials of degree l, in their order."""
+    """Return (l+1, (l+1)(l+2)/2) the coefficients of r^l Y_lm for m = 0..l in the monomials of degree l, in their
+    order."""
     start = monomial_count(l - 1)
     table = np.zeros((l + 1, monomial_count(l) - start), complex)
     for m in range(l + 1):
@@ -78,7 +79,7 @@ def _solid(l: int) -> NDArray[np.complex128]:
 
 @lru_cache(maxsize=1024)
 def circular_coefficients(plus: int, minus: int) -> tuple[complex, ...]:
-    """The coefficients of x^(n-i) y^i, i = 0..n, in (x+iy)^plus (x-iy)^minus."""
+    """Return the coefficients of x^(n-i) y^i, i = 0..n, in (x+iy)^plus (x-iy)^minus."""
     plus_powers = [comb(plus, i) * 1j ** (i % 4) for i in range(plus + 1)]
     minus_powers = [comb(minus, i) * (-1j) ** (i % 4) for i in range(minus + 1)]
     return tuple(np.convolve(plus_powers, minus_powers).tolist())
@@ -100,7 +101,7 @@ def _nonzero_three_j(a: int, b: int, c: int) -> tuple[NDArray[np.float64], tuple
 
 
 def _three_j(a: int, b: int, c: int) -> NDArray[np.float64]:
-    """(2a+1, 2b+1, 2c+1) Wigner's 3j symbols, by Racah's sum."""
+    """Return (2a+1, 2b+1, 2c+1) Wigner's 3j symbols, by Racah's sum."""
     table = np.zeros((2 * a + 1, 2 * b + 1, 2 * c + 1))
     triangle = factorial(a + b - c) * factorial(a - b + c) * factorial(-a + b + c) / factorial(a + b + c + 1)
     for i in range(-a, a + 1):

@@ -21,13 +21,13 @@ def distinct_arrays(arrays: NDArray, within: float) -> NDArray[np.float64]:
 
 
 def invert_through_point(moments: Moments) -> Moments:
-    """The moments of the body's image in its point `about`: its mirror image, turned."""
+    """Return the moments of the body's image in its point `about`: its mirror image, turned."""
     sign = (-1.0) ** monomials(moments.order).sum(axis=1)
     return replace(moments, raw=moments.raw * sign)
 
 
 def _contract(tensor: NDArray, times: int, points: NDArray) -> NDArray[np.float64]:
-    """The symmetric tensor with that many of its slots, one at least, filled with each of the (n, 3) points."""
+    """Return the symmetric tensor with that many of its slots, one at least, filled with each of the (n, 3) points."""
     out = np.tensordot(points, tensor, axes=(1, 0))
     for _ in range(times - 1):
         out = np.einsum("n...i,ni->n...", out, points)
@@ -35,7 +35,7 @@ def _contract(tensor: NDArray, times: int, points: NDArray) -> NDArray[np.float6
 
 
 def _rotate_tensor(tensor: NDArray, frames: NDArray) -> NDArray[np.float64]:
-    """(k, 3, ..., 3) the symmetric tensor's entries along the axes of k frames."""
+    """Return (k, 3, ..., 3) the symmetric tensor's entries along the axes of k frames."""
     degree = tensor.ndim
     out = np.broadcast_to(tensor, (len(frames), *tensor.shape))
     for _ in range(degree):
