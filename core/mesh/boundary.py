@@ -73,7 +73,7 @@ NO_PLACES = np.zeros(0, np.uint64)
 
 
 def _hash_places(points: NDArray[np.floating]) -> NDArray[np.uint64]:
-    """(n,) hashes of (n, 3) coordinates, by their values as float64."""
+    """Return (n,) hashes of (n, 3) coordinates, by their values as float64."""
     values = np.add(points.T, 0.0, dtype=np.float64)  # -0.0 + 0.0 = 0.0
     words = np.ascontiguousarray(values).view(np.uint64)
     hashes = words[0] ^ KEYS[5]
@@ -88,7 +88,7 @@ def _hash_places(points: NDArray[np.floating]) -> NDArray[np.uint64]:
 
 
 def _sum_of_sides(start: NDArray[np.uint64], stop: NDArray[np.uint64]) -> np.uint64:
-    """The sum over sides, each a hash of both its ends times their difference."""
+    """Return the sum over sides, each a hash of both its ends times their difference."""
     sides = start ^ stop
     sides *= KEYS[3]
     sides ^= sides >> HALF

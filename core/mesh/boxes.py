@@ -25,8 +25,8 @@ def _sweep(low: NDArray, high: NDArray, margin: float) -> tuple[NDArray[np.intp]
 
 
 def overlapping_box_pairs(low: NDArray, high: NDArray, margin: float, most: int) -> tuple[NDArray, NDArray, int]:
-    """Pairs of boxes that overlap by more than `margin` along every axis, at most about `most`, and the number of
-    candidates that were left out."""
+    """Return pairs of boxes that overlap by more than `margin` along every axis, at most about `most`, and the number
+    of candidates that were left out."""
     order, count = _sweep(low, high, margin)
     left, right, pair_count, tested_count = [np.empty(0, np.intp)], [np.empty(0, np.intp)], 0, 0
     for i, j in following_pairs(order, count, PIECE):

@@ -73,7 +73,8 @@ def sort_components(
 
 
 def radix_argsort(values: NDArray[np.integer]) -> NDArray[np.intp]:
-    """The stable order of integers from 0 to 2^32 - 1, 16 bits at a time: numpy sorts such short ones by counting."""
+    """Return the stable order of integers from 0 to 2^32 - 1, 16 bits at a time: numpy sorts such short ones by
+    counting."""
     order = np.argsort(values.astype(np.uint16), kind="stable")
     if values.max() > 0xFFFF:
         order = order[np.argsort((values >> 16).astype(np.uint16)[order], kind="stable")]
@@ -95,8 +96,8 @@ class Bvh:
         self._build_nodes(self._sort(components, selected), selected)
 
     def _sort(self, components: SortedComponents, selected: NDArray[np.bool_]) -> NDArray[np.intp]:
-        """`ids`, `bottom` and `top`: the triangles of the wanted components, one after the other, each in Morton order.
-        Returns (m,) the component of each."""
+        """Set `ids`, `bottom` and `top`: the triangles of the wanted components, one after the other, each in Morton
+        order. Return (m,) the component of each."""
         ids, component = components.triangles, components.component
         if not selected.all():
             triangle_rows = np.flatnonzero(selected[component])
@@ -123,7 +124,7 @@ class Bvh:
         return component
 
     def _build_nodes(self, component: NDArray[np.intp], selected: NDArray[np.bool_]) -> None:
-        """The nodes over the sorted triangles. component: (m,) of each triangle."""
+        """Build the nodes over the sorted triangles. component: (m,) of each triangle."""
         present = np.flatnonzero(selected)
         begin = np.searchsorted(component, present)
         size = np.searchsorted(component, present, side="right") - begin
@@ -156,7 +157,7 @@ class Bvh:
             self.high[node] = np.maximum(self.high[child], self.high[child + 1])
 
     def corners(self, triangle: NDArray[np.intp]) -> NDArray[np.float64]:
-        """(3, 3, k) the coordinates, about `origin`, of the corners of sorted triangles."""
+        """Return (3, 3, k) the coordinates, about `origin`, of the corners of sorted triangles."""
         return self.vertex_columns.take(self.ids.take(triangle, axis=1), axis=1)
 
     @cached_property
@@ -355,5 +356,5 @@ def _across(places: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[n
 
 
 def _batches(*arrays: NDArray, size: int = PAIRS_PER_BATCH) -> list[tuple[NDArray, ...]]:
-    """The arrays in parallel pieces of bounded length."""
+    """Cut the arrays into parallel pieces of bounded length."""
     return [tuple(array[k : k + size] for array in arrays) for k in range(0, len(arrays[0]), size)]

@@ -92,7 +92,7 @@ def _sides_at(
 
 
 def face_of_each(surface: Surface) -> tuple[NDArray[np.integer], NDArray[np.integer]]:
-    """The mesh face of each quad and of each triangle."""
+    """Return the mesh face of each quad and of each triangle."""
     return (
         np.arange(len(surface.quads)) if surface.quad_faces is None else surface.quad_faces,
         np.arange(len(surface.triangles)) if surface.triangle_faces is None else surface.triangle_faces,
@@ -113,30 +113,31 @@ class Edges:
     count: NDArray[np.intp]
 
     def signed_use_count(self, flipped: NDArray[np.bool_]) -> NDArray[np.float64]:
-        """(e,) sides that run upward minus sides that run downward, once the `flipped` triangles are reversed."""
+        """Return (e,) sides that run upward minus sides that run downward, once the `flipped` triangles are
+        reversed."""
         return sums_by_index(self.of_side, np.where(self.upward ^ np.repeat(flipped, 3), 1.0, -1.0))
 
     def manifold_side_pairs(self) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-        """The two sides of every edge that has exactly two."""
+        """Return the two sides of every edge that has exactly two."""
         two = self.count == 2
         last = np.empty(len(two), np.intp)
         last[self.of_side] = np.arange(len(self.of_side))  # the last write to equal indices wins
         return self.first[two], last[two]
 
     def adjacency(self) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-        """Links between triangles that make all the sides of an edge connected, however many there are."""
+        """Return links between triangles that connect all the sides of an edge, for any number of them."""
         side = np.arange(len(self.of_side))
         first = self.first[self.of_side]
         later = first != side
         return first[later] // 3, side[later] // 3
 
     def boundary_sides(self) -> NDArray[np.intp]:
-        """The sides of edges that have only one, ascending."""
+        """Return the sides of edges that have only one, ascending."""
         return self.first[self.count == 1]
 
 
 def find_edges(triangles: NDArray[np.integer]) -> Edges:
-    """The edges of (m, 3) triangles with three different vertices each, m at least 1."""
+    """Return the edges of (m, 3) triangles with three different vertices each, m at least 1."""
     start, stop = _ends(triangles.astype(np.int64, copy=False))
     low, high = np.minimum(start, stop), np.maximum(start, stop)
     first = first_occurrence(low * (int(high.max()) + 1) + high)
@@ -146,7 +147,7 @@ def find_edges(triangles: NDArray[np.integer]) -> Edges:
 
 
 def _ends(triangles: NDArray[np.integer]) -> tuple[NDArray[np.integer], NDArray[np.integer]]:
-    """(3m,) and (3m,) the vertices from which and to which the sides run."""
+    """Return (3m,) and (3m,) the vertices from which and to which the sides run."""
     stop = np.empty_like(triangles, order="C")
     stop[:, :2], stop[:, 2] = triangles[:, 1:], triangles[:, 0]
     return triangles.ravel(), stop.ravel()

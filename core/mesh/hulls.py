@@ -200,7 +200,7 @@ class _GrowingHull:
     def _highest(
         self, points: NDArray[np.intp], counts: NDArray[np.intp], firsts: NDArray[np.intp]
     ) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.float64]]:
-        """For each point, of one or more, the face that it is highest above, of the `counts` faces from the face
+        """Return for each point, of one or more, the face that it is highest above, of the `counts` faces from the face
         `firsts` on; without the points that are above none."""
         parts = []
         for block in batches(counts, PAIRS_PER_BLOCK):
@@ -238,7 +238,8 @@ class _GrowingHull:
     def _visible_faces(
         self, apexes: NDArray[np.intp], faces: NDArray[np.intp]
     ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-        """(k, 2) which apex sees which face, and (l, 3) apex, visible face and side beyond which it sees none."""
+        """Return (k, 2) pairs of an apex and a face that it sees, and (l, 3) apex, visible face and side beyond which
+        it sees none."""
         size = len(self.corners)
         front = np.stack([np.arange(len(apexes)), faces], axis=1)
         known = np.sort(front[:, 0] * size + front[:, 1])
@@ -256,7 +257,7 @@ class _GrowingHull:
         return np.stack(np.divmod(known, size), axis=1), np.concatenate(edges)
 
     def _independent(self, count: int, visible: NDArray[np.intp], horizon: NDArray[np.intp]) -> NDArray[np.bool_]:
-        """(count,) the apexes that no earlier one disturbs."""
+        """Return (count,) the apexes that no earlier one disturbs."""
         beyond = self.neighbors[horizon[:, 1], horizon[:, 2]]
         seen_by = np.full(len(self.corners), count)
         np.minimum.at(seen_by, visible[:, 1], visible[:, 0])
@@ -307,7 +308,7 @@ def _is_in(values: NDArray[np.intp], known: NDArray[np.intp]) -> NDArray[np.bool
 
 
 def _flat_hull(points: NDArray[np.float64], corners: list[int], tolerance: float) -> ConvexHull:
-    """Both sides of the polygon around points in the plane of three of them."""
+    """Return both sides of the polygon around points in the plane of three of them."""
     a, b, c = points[corners]
     normal = np.cross(b - a, c - a)
     normal /= np.linalg.norm(normal)

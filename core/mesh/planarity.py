@@ -109,7 +109,7 @@ class PlanarityAccumulator:
         self.quads[start] = _PlanarityPartial(len(bent), int(count), float(np.add.reduce(volume)), unsure)
 
     def add_triangles(self, starts: Sequence[int], step: int, lengths: NDArray) -> None:
-        """Every `step`-th from each of these rows on. lengths: (len(starts), k) of their normals."""
+        """Add every `step`-th triangle from each of these rows on. lengths: (len(starts), k) of their normals."""
         for start, normal in zip(starts, lengths):
             self.triangles[start] = _PlanarityPartial(
                 len(normal), 0, 0.0, start + step * np.flatnonzero(normal <= self.degenerate_limit)
@@ -147,9 +147,9 @@ class PlanarityAccumulator:
         return _classify_rows(self.surface.points, corners, pairs, self.error, self.exponent)
 
     def _polygon_tetrahedra(self, pieces: NDArray[np.integer]) -> tuple[NDArray[np.intp], NDArray[np.integer]]:
-        """The tetrahedra of the faces of more than one triangle: (m,) which face each is of, and (m, 4) corners.
+        """Return the tetrahedra of the faces of more than one triangle: (m,) the face of each, and (m, 4) corners.
 
-        pieces: how many triangles each mesh face has.
+        pieces: the number of triangles of each mesh face.
         """
         ring, quad_faces = self.surface.corner_vertices, face_of_each(self.surface)[0]
         polygon = np.flatnonzero(pieces > 1)
@@ -259,7 +259,7 @@ def _tetrahedra(
 
 
 def _sum_in_order(volumes: NDArray[np.float64]) -> float:
-    """The sum, one after the other, as a stack's is: `np.add.reduce` would add in another order."""
+    """Return the sum, one after the other, like the sum of a stack: `np.add.reduce` would add in another order."""
     return float(sums_by_index(np.zeros(len(volumes), np.intp), volumes, 1)[0])
 
 
@@ -278,5 +278,6 @@ def _merge_blocks(blocks: dict[int, _PlanarityPartial], count: int) -> _Planarit
 
 
 def _degenerate_limit(longest: NDArray | float, error: float | NDArray) -> NDArray | float:
-    """The largest square of the normal of a face without area, from the square of its longest edge or diagonal."""
+    """Return the largest square of the normal of a face without area, from the square of its longest edge or
+    diagonal."""
     return longest * (error * error + ZERO_AREA_RTOL * ZERO_AREA_RTOL * longest)

@@ -101,7 +101,7 @@ class LineGrids:
     def squared_distances(
         self, body: NDArray[np.intp], row: NDArray[np.intp], column: NDArray[np.intp], along: NDArray[np.float64]
     ) -> NDArray[np.float64]:
-        """(k,) of places on lines from the centers of their bodies (unit²)."""
+        """Return (k,) the squared distances of places on lines from the centers of their bodies (unit²)."""
         across = np.stack([row, column], axis=1) - self.origin[body]
         across[:, 1] += COLUMN_SLOPE * across[:, 0]
         across = across * self.cell[body] + np.multiply.outer(along, LINE_SLOPES)
@@ -137,7 +137,7 @@ class Crossings:
 
 
 def line_counts(triangles: NDArray[np.integer]) -> NDArray[np.intp]:
-    """(b,) how many lines bodies of so many triangles are worth."""
+    """Return (b,) the numbers of lines for bodies of so many triangles."""
     return np.clip(LINES_PER_SQRT * np.sqrt(triangles), MIN_LINES, MAX_LINES).astype(np.intp)
 
 
@@ -193,7 +193,7 @@ def find_crossings(surface: Surface, grids: LineGrids, body: NDArray[np.integer]
 def _cells(
     points: NDArray[np.floating], grids: LineGrids, body: NDArray[np.integer] | None
 ) -> tuple[NDArray[np.integer], NDArray[np.integer]]:
-    """(n,) and (n,) the first row and the first column that each point is not above."""
+    """Return (n,) and (n,) the first row and the first column that each point is not above."""
     short = max(grids.rows, grids.columns) < np.iinfo(np.int16).max // 4  # the cache holds more of these
     cells = np.empty((2, len(points)), np.int16 if short else np.int32)
     for start in range(0, len(points), POINTS_PER_BLOCK):
@@ -203,7 +203,7 @@ def _cells(
 
 
 def _count_faces(surface: Surface, body: NDArray[np.integer] | None, bodies: int) -> NDArray[np.intp]:
-    """(b,) the triangles of each body."""
+    """Return (b,) the triangles of each body."""
     if body is None:
         return np.array([len(surface.triangles) + 2 * len(surface.quads)])
     quads, triangles = (
@@ -213,14 +213,15 @@ def _count_faces(surface: Surface, body: NDArray[np.integer] | None, bodies: int
 
 
 def _rows_apart(work: NDArray[np.float64], limit: tuple[int, float], faces: NDArray[np.intp]) -> NDArray[np.intp]:
-    """(b,) of how many rows one is taken, so that the work stays within a limit."""
+    """Return (b,) the distance of the rows that are taken, so that the work stays within a limit."""
     return np.maximum(np.ceil(work / (limit[0] + limit[1] * faces)), 1).astype(np.intp)
 
 
 def _crossed_triangles(
     surface: Surface, cells: tuple[NDArray[np.integer], NDArray[np.integer]]
 ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """(3, k) the triangles in several rows and columns, and their numbers. Of a quad that is, both are there."""
+    """Return (3, k) corners of the triangles that span several rows and columns, and their indices; both halves of such
+    a quad are included."""
     triangles, number = [np.empty((3, 0), np.intp)], [np.empty(0, np.intp)]
     quads = surface.quads
     for faces in (quads, surface.triangles):

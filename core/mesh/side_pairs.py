@@ -116,7 +116,7 @@ def _pair(
 
 
 def _following(number: NDArray[np.integer], corners: int) -> NDArray[np.integer]:
-    """The next side of the same face."""
+    """Return the next side of the same face."""
     return np.where(number % corners == corners - 1, number - (corners - 1), number + 1)
 
 

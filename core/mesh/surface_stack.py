@@ -37,7 +37,7 @@ class TriangleStack:
         return len(self.point_counts)
 
     def some(self, which: NDArray[np.intp]) -> TriangleStack:
-        """The triangles of some of the surfaces, in ascending order."""
+        """Return the triangles of some of the surfaces, in ascending order."""
         of_point, of_triangle = self.owned(which)
         return TriangleStack(
             self.points[of_point],
@@ -47,7 +47,7 @@ class TriangleStack:
         )
 
     def owned(self, which: NDArray[np.intp]) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
-        """(p,) the points and (t,) the triangles of some of the surfaces."""
+        """Return (p,) the points and (t,) the triangles of some of the surfaces."""
         chosen = np.zeros(len(self), bool)
         chosen[which] = True
         return np.repeat(chosen, self.point_counts), np.repeat(chosen, self.triangle_counts)
@@ -196,7 +196,7 @@ class SurfaceStack(TriangleStack):
         return np.where(is_quad, 4, np.where(pieces > 0, pieces + 2, 0))
 
     def uses_all_points(self) -> NDArray[np.bool_]:
-        """(n,) mask of the surfaces with all points used as corners of faces."""
+        """Return (n,) mask of the surfaces with all points used as corners of faces."""
         used = np.zeros(len(self.points), bool)
         used[self.triangles] = True
         return np.logical_and.reduceat(used, self.first_point)
@@ -269,7 +269,7 @@ class Connections:
 
 
 def _faces(surface: Surface, name: str) -> NDArray[np.integer]:
-    """The mesh faces of a surface's triangles or quads."""
+    """Return the mesh faces of a surface's triangles or quads."""
     faces = surface.triangle_faces if name == "triangles" else surface.quad_faces
     return np.arange(len(getattr(surface, name))) if faces is None else faces
 

@@ -24,7 +24,7 @@ WELD_LIMIT_RTOL = 1e-3  # relative to the smallest triangle at a vertex: larger 
 
 
 def first_at_equal_position(points: NDArray[np.floating]) -> NDArray[np.intp]:
-    """(n,) for each point the first one at exactly the same place; -0.0 is 0.0."""
+    """Return (n,) for each point the first one at exactly the same place; -0.0 is 0.0."""
     return first_occurrence(*(points[:, k].astype(np.float64) + 0.0 for k in range(3)))  # -0.0 + 0.0 = 0.0
 
 
@@ -47,10 +47,11 @@ def may_have_neighbor(
 
 
 def first_at_near_position(points: NDArray[np.floating], tolerance: NDArray[np.float64]) -> NDArray[np.intp]:
-    """(n,) for each point the first one of its cluster: of points nearer to each other than all their tolerances (n,).
+    """Return (n,) for each point the first one of its cluster: of points nearer to each other than all their tolerances
+    (n,).
 
-    Clusters that stand apart by more than `CELL_DIAGONAL` of the largest tolerance are found whole and apart. Of points
-    in a row, each near to the next, some may be left out: which ones follows from their order.
+    Clusters that stand apart by more than `CELL_DIAGONAL` of the largest tolerance are found whole and apart. Some
+    points of a row, each near to the next, may be left out: their order decides.
     """
     place = points.astype(np.float64)
     place = place - place.min(axis=0)
@@ -65,7 +66,7 @@ def first_at_near_position(points: NDArray[np.floating], tolerance: NDArray[np.f
 
 
 def _first_of_clusters(place: NDArray[np.float64], tolerance: NDArray[np.float64], cell: float) -> NDArray[np.intp]:
-    """(n,) as `first_at_near_position`, on grids of cells of this size."""
+    """Return (n,) the points of `first_at_near_position`, on grids of cells of this size."""
     left, right = [], []
     for shift in np.ndindex(2, 2, 2):
         grid = np.floor(place / cell + 0.5 * np.array(shift))
@@ -99,7 +100,7 @@ def vertex_tolerance(
 
 
 def same_vertices_groups(triangles: NDArray[np.integer], faces: NDArray[np.integer]) -> NDArray[np.intp]:
-    """(m,) for each triangle a number that it shares with the triangles of all mesh faces on the same vertices.
+    """Return (m,) for each triangle a number that it shares with the triangles of all mesh faces on the same vertices.
 
     faces: (m,) the mesh face of each triangle. The number is the first such face.
     """
