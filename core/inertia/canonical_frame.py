@@ -106,7 +106,7 @@ def canonical_frames(moments: Moments, spread: SecondMomentAxes, starts: NDArray
 def _candidates(
     central: Moments, spread: SecondMomentAxes, starts: NDArray
 ) -> tuple[NDArray, tuple[int, ...], float, FrameRule | None]:
-    """The frames, and `revolution_axes`, `tilt` and `rule` of them."""
+    """Return the frames, and `revolution_axes`, `tilt` and `rule` of them."""
     if not spread.undetermined_axes:
         return starts, (), spread.tilt, None
     if len(spread.undetermined_axes) == 2:
@@ -129,7 +129,7 @@ def _candidates(
 
 
 def _sign(harmonic: tuple[int, int, int] | None, fourfold: float) -> float:
-    """The sign that a harmonic gets."""
+    """Return the sign that a harmonic gets."""
     return fourfold if harmonic and harmonic[1] == 4 else 1.0
 
 
@@ -185,7 +185,7 @@ def _clear_harmonic(
 
 
 def _harmonic(tensor: NDArray, degree: int, m: int, k: int) -> NDArray[np.complex128]:
-    """(n,) E[(x+iy)^m (x²+y²)^j z^k] of n bodies' (n, 3, ..., 3) moments of this degree, k = degree - m - 2j."""
+    """Return (n,) E[(x+iy)^m (x²+y²)^j z^k] of n bodies' (n, 3, ..., 3) moments of this degree, k = degree - m - 2j."""
     j = (degree - m - k) // 2
     forms = [np.array([1.0, 1.0j, 0.0])] * (m + j) + [np.array([1.0, -1.0j, 0.0])] * j + [np.array([0, 0, 1.0])] * k
     for form in forms:
@@ -226,12 +226,12 @@ def _extreme_directions(
 
 
 def _maximize_on_sphere(tensor: NDArray, degree: int, span: float, within: float) -> NDArray[np.float64]:
-    """The maxima on the sphere, the best approached first, that are no more than `within` below the largest; some
-    of them several times. span: between the largest and the least value.
+    """Return the maxima on the sphere, the best approached first, that are no more than `within` below the largest;
+    some of them several times. span: between the largest and the least value.
 
-    From the highest points of all over it: along the sphere the function is a trigonometric polynomial, so that by
-    Bernstein's inequality it loses at most (degree MAX_START_GAP)² span / 4 on the way from a maximum to the nearest of
-    them. Steps are Newton's in the directions that are curved, and always uphill.
+    The search starts from the highest points of a grid over the sphere: along the sphere the function is a
+    trigonometric polynomial, so that by Bernstein's inequality it loses at most (degree MAX_START_GAP)² span / 4 on the
+    way from a maximum to the nearest of them. Steps are Newton's in the directions that are curved, and always uphill.
     """
     points, scale = _sphere_directions(), degree**2 * span
     height = _contract(tensor, degree, points)
@@ -261,7 +261,7 @@ def _maximize_on_sphere(tensor: NDArray, degree: int, span: float, within: float
 
 @lru_cache
 def _sphere_directions() -> NDArray[np.float64]:
-    """(START_DIRECTIONS, 3) directions spread evenly: Fibonacci's lattice."""
+    """Return (START_DIRECTIONS, 3) directions spread evenly: Fibonacci's lattice."""
     i = np.arange(START_DIRECTIONS) + 0.5
     z, turn = 1.0 - 2.0 * i / START_DIRECTIONS, np.pi * (1.0 + 5.0**0.5) * i
     r = np.sqrt(1.0 - z * z)
@@ -302,7 +302,8 @@ def _normalization(central: Moments, spread: SecondMomentAxes, degree: int) -> t
 
 
 def _extents(spread: SecondMomentAxes) -> NDArray[np.float64]:
-    """(3,) the extents; infinite along an axis that has hardly any, so that no noise is divided by next to nothing."""
+    """Return (3,) the extents; infinite along an axis that has hardly any, so that no noise is divided by next to
+    nothing."""
     return np.where(spread.size > FLAT_EXTENT_RTOL * spread.size.max(), spread.size, np.inf)
 
 

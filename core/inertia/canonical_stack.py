@@ -126,7 +126,7 @@ def _along_axes(
 
 
 def _extents(size: NDArray) -> NDArray[np.float64]:
-    """(n, 3) the extents; infinite along an axis that has hardly any."""
+    """Return (n, 3) the extents; infinite along an axis that has hardly any."""
     return np.where(size > FLAT_EXTENT_RTOL * size.max(axis=1, keepdims=True), size, np.inf)
 
 

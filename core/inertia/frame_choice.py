@@ -38,7 +38,7 @@ def align_frames(frames: NDArray, fixed: ThirdMomentFrames, bodies: NDArray[np.i
 
 
 def complete_free_axes(frames: NDArray, free: tuple[int, ...], preferred_axes: NDArray) -> NDArray[np.float64]:
-    """The (..., 3, 3) frames with their free axes, if any, turned nearest to the preferred ones."""
+    """Return the (..., 3, 3) frames with their free axes, if any, turned nearest to the preferred ones."""
     if not free:
         return frames
     shape = np.broadcast_shapes(frames.shape, preferred_axes.shape)

@@ -259,7 +259,7 @@ def principal_frames(
 
 
 def _frames_of_shapes(fixed: ThirdMomentFrames, left: NDArray[np.intp], known: OwnMoments) -> list[EquivalentFrames]:
-    """For each of the shapes the frames in which it is the same, in its own coordinates."""
+    """Return for each of the shapes the frames in which it is the same, in its own coordinates."""
     which = left
     if known.rotation is not None:
         fixed, which = third_moment_frames(known.moments), np.arange(len(known.moments.raw))

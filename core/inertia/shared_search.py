@@ -147,7 +147,7 @@ def _bases(fixed: NDArray, axis: int) -> NDArray[np.float64]:
 
 
 def _ways(fixed: ThirdMomentFrames, bodies: NDArray[np.intp], axis: int) -> NDArray[np.intp]:
-    """(n,) which ways the fixed axis of bodies may point, as `_search` takes them."""
+    """Return (n,) the ways that the fixed axis of bodies may point, as `_search` takes them."""
     allowed, ahead = fixed.allowed[bodies], HALF_TURN_SIGNS[:, axis] > 0.0
     return np.asarray(allowed[:, ahead].any(axis=1) + 2 * allowed[:, ~ahead].any(axis=1), np.intp)
 
@@ -155,8 +155,8 @@ def _ways(fixed: ThirdMomentFrames, bodies: NDArray[np.intp], axis: int) -> NDAr
 def _whitened(
     moments: Moments, fixed: ThirdMomentFrames, bodies: NDArray[np.intp], basis: NDArray, name: str
 ) -> tuple[NDArray, NDArray, NDArray]:
-    """(n, K) the central moments by the total along (n, 3, 3) axes, in units of the extents there; (n, degrees) bounds
-    of them for each degree; (n, 3) the extents."""
+    """Return (n, K) the central moments by the total along (n, 3, 3) axes, in units of the extents there; (n, degrees)
+    bounds of them for each degree; (n, 3) the extents."""
     central = moments.about_center()
     free = list(EQUAL_AXES[name])
     extent = fixed.size[bodies].copy()
@@ -175,7 +175,7 @@ def _whitened(
 
 
 def _rounded_up(values: NDArray) -> NDArray[np.float64]:
-    """Positive numbers to three binary digits, no smaller than they were."""
+    """Round positive numbers up to three binary digits."""
     mantissa, exponent = np.frexp(np.maximum(values, LEAST_BOUND))
     return np.ldexp(np.ceil(8.0 * mantissa) / 8.0, exponent)
 
@@ -205,7 +205,7 @@ def _refined(
 
 
 def _extreme(points: NDArray, degree: int, raw: NDArray) -> NDArray[np.float64]:
-    """(n, k, 3) the directions near to these in which the moments of a degree are extreme, by Newton's steps."""
+    """Return (n, k, 3) the directions near to these in which the moments of a degree are extreme, by Newton's steps."""
     for _ in range(REFINEMENTS):
         twice = _contracted(raw, [points] * (degree - 2), degree)
         once = np.einsum("nkij,nkj->nki", twice, points)
@@ -217,8 +217,8 @@ def _extreme(points: NDArray, degree: int, raw: NDArray) -> NDArray[np.float64]:
 
 
 def _contracted(raw: NDArray, forms: list[NDArray], degree: int | None = None) -> NDArray:
-    """(n, k, ...) the moments of a degree, by default as many as there are forms, of n bodies as tensors, with the
-    forms (n, k, 3) put into them."""
+    """Return (n, k, ...) the moments of a degree, by default as many as there are forms, of n bodies as tensors, with
+    the forms (n, k, 3) put into them."""
     out = np.einsum("n...i,nki->nk...", raw[:, tensor_index(degree or len(forms))], forms[0])
     for form in forms[1:]:
         out = np.einsum("nk...i,nki->nk...", out, form)

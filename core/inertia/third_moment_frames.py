@@ -73,16 +73,16 @@ class ThirdMomentFrames:
     skewness_error: NDArray[np.float64]
 
     def free(self, i: int) -> tuple[int, ...]:
-        """The axes of one body that equal moments leave free."""
+        """Return the axes of one body that equal moments leave free."""
         return EQUAL_AXES[SYMMETRIES[self.symmetry[i]]]
 
     def spread(self, i: int) -> SecondMomentAxes:
-        """Return the axes from second moments of one body."""
+        """Return the axes that second moments give one body."""
         step, tilt = float(self.step[i]), float(self.tilt[i])
         return SecondMomentAxes(self.axes[i], self.size[i], self.free(i), step, tilt, self.noise)
 
     def frames(self, i: int) -> NDArray[np.float64]:
-        """(k, 3, 3) the right-handed frames of one body that third moments allow: signs of its axes."""
+        """Return (k, 3, 3) the right-handed frames of one body that third moments allow: signs of its axes."""
         return self.axes[i] * HALF_TURN_SIGNS[self.allowed[i], None]
 
 
@@ -180,7 +180,7 @@ def _are_decided(size: NDArray, error: NDArray, noise: NDArray, fixed: NDArray[n
 
 
 def _third_scores(moments: Moments, shift: NDArray, size: NDArray, axes: NDArray) -> tuple[NDArray, NDArray]:
-    """(n, 3, 3) of each body for each axis i its skewness and the two normalized third moments odd in i and even in
+    """Return (n, 3, 3) for each body and axis i its skewness and the two normalized third moments odd in i and even in
     another axis, M_iii, M_ijj and M_ikk; and the bounds of their errors."""
     count, total = len(shift), moments.raw[:, 0]
     second = moments.raw[:, SECOND_MOMENT_INDEX] / total[:, None, None]
@@ -202,7 +202,7 @@ def _third_scores(moments: Moments, shift: NDArray, size: NDArray, axes: NDArray
 
 
 def _allowed_signs(scores: NDArray) -> NDArray[np.bool_]:
-    """(n, 4) which of HALF_TURN_SIGNS agree with (n, 3) scores."""
+    """Return (n, 4) mask of the HALF_TURN_SIGNS that agree with (n, 3) scores."""
     size, counts = np.abs(scores), scores != 0.0
     # The weakest of three is dropped; the last of equal ones.
     weak = size <= size.min(axis=1, keepdims=True) * (1.0 + EQUAL_SCORES_RTOL)
