@@ -202,7 +202,7 @@ def exponents_to(order: int) -> list[tuple[int, int, int]]:
 
 
 def _compositions(n: int) -> Iterator[tuple[tuple[int, int, int], int]]:
-    """All (k₁, k₂, k₃) that add up to n, and n! / (k₁! k₂! k₃!)."""
+    """Return all (k₁, k₂, k₃) that add up to n, and n! / (k₁! k₂! k₃!)."""
     for first in range(n + 1):
         for second in range(n - first + 1):
             yield (first, second, n - first - second), comb(n, first) * comb(n - first, second)

@@ -51,7 +51,7 @@ def integral_of_basis(knots: Sequence[Number], i: int, k: int, power: int, t: Nu
         return (knots[x + y] - knots[x]) / y
 
     def nested(s: int, order: int) -> Number:
-        """Σ_{s'=i..s} δ_{s',order} Σ ... down to order k + 1."""
+        """Return Σ_{s'=i..s} δ_{s',order} Σ ... down to order k + 1."""
         if order == k:
             return 1
         return sum(delta(first, order) * nested(first, order - 1) for first in range(i, s + 1))
