@@ -49,7 +49,7 @@ MAX_EXPONENT = 1000.0  # powers of two beyond which a moment overflows
 
 @lru_cache
 def _factors(order: int) -> NDArray[np.float64]:
-    """(K,) p! q! r! / (p+q+r+2)!"""
+    """Return (K,) p! q! r! / (p+q+r+2)!"""
     return np.array(
         [
             float(factorial(p) * factorial(q) * factorial(r) / factorial(p + q + r + 2))
@@ -154,7 +154,8 @@ class _StreamIntegrator:
         return self._moments(total, Measure.VOLUME), self._moments(total, Measure.AREA) if self.area else None
 
     def _ordered_results(self, tasks: Iterator[_FaceBatch]) -> Iterator[tuple[int, list[Sums]]]:
-        """The results of `_run` in the order of the tasks, whichever finishes first; a few run at a time."""
+        """Yield the results of `_run` in the order of the tasks, irrespective of which finishes first; a few run at a
+        time."""
         first = list(islice(tasks, min(self.threads, 2)))
         alone, tasks = len(first) < 2, chain(first, tasks)
         del first  # it holds pieces of a stream

@@ -42,7 +42,7 @@ UNDERFLOW_BOUND = 1e-220  # more than underflow can lose of one face whose coord
 
 @lru_cache
 def multinomials(degree: int) -> NDArray[np.float64]:
-    """(rows, 1) n! / α!, exact to degree 30."""
+    """Return (rows, 1) n! / α!, exact to degree 30."""
     return np.array(
         [
             [factorial(degree) // (factorial(p) * factorial(q) * factorial(r))]
@@ -148,7 +148,7 @@ class _Block:
             row += len(values)
 
     def _append_sums(self) -> None:
-        """The sums over the block, degree by degree."""
+        """Append the calls for the sums over the block, degree by degree."""
         corners, levels, powers, apex_vectors = self.corners, self.levels, self.powers, self.apex_vectors
         first, ends = corners[:, 0], corners[:, 1:]
         self._append_call(np.add.reduce, self.both, 1, None, self.total[:, 0])
@@ -165,7 +165,7 @@ class _Block:
         self._append_last_degree()
 
     def _append_powers(self, degree: int) -> None:
-        """C of this degree added to D."""
+        """Append the calls that add C of this degree to D."""
         count, most = count_of_degree(degree), len(self.room) // self.k
         for start in range(0, count, most):
             part = slice(start, min(start + most, count))
@@ -203,7 +203,8 @@ class _Block:
             end = first - 1
 
     def _append_last_degree(self) -> None:
-        """The sums of the last degree: of products of the rows one degree lower and weighted coordinates."""
+        """Append the calls for the sums of the last degree: of products of the rows one degree lower and weighted
+        coordinates."""
         degree, weighted_products, powers = self.order, self.weighted_products, self.powers
         count, below, known = count_of_degree(degree), count_of_degree(degree - 1), monomial_count(degree - 1)
         # in place of the corners at last
@@ -222,7 +223,7 @@ class _Block:
         return self.room[: prod(shape) * self.k].reshape(*shape, self.k)
 
     def _append_dot(self, products: str, weights: NDArray, terms: NDArray, out: NDArray) -> None:
-        """Scalar products of weights (..., k) with rows (..., k)."""
+        """Append the calls for scalar products of weights (..., k) with rows (..., k)."""
         self._append_call(
             _sliced_dot,
             products,
@@ -269,7 +270,7 @@ class AnyOrderKernel:
     def _gather_corners(
         block: _Block, points: NDArray, faces: Sequence[NDArray] | NDArray, center: NDArray, scale: float
     ) -> None:
-        """The corners' coordinates and the edges from the first corner."""
+        """Gather the corners' coordinates and compute the edges from the first corner."""
         k = len(faces[0])
         for row, corner in zip(block.index, faces):
             if k < block.k:  # filled up with faces that are a point
@@ -283,7 +284,7 @@ class AnyOrderKernel:
 
 
 def absolute_sums(order: int, weights: int, parts: Sequence[Sums]) -> NDArray[np.float64]:
-    """(sets, K) Σ weight reach^α over the chunks of blocks of one kind, for the weights |determinant| with its
+    """Return (sets, K) Σ weight reach^α over the chunks of blocks of one kind, for the weights |determinant| with its
     rounding, that rounding alone, the volume that moving every vertex by its half ulp sweeps; and with areas: doubled
     area with its rounding, that alone, and the area that moving the vertices adds."""
     chunks, half_ulp = np.concatenate([part.chunks for part in parts], axis=1), parts[0].half_ulp
@@ -319,7 +320,7 @@ def _raise_powers(do: Callable, old: NDArray, degree: int, vector: NDArray, powe
 
 
 def _first_row(run: int) -> int:
-    """The first of the rows of one degree with this q+r."""
+    """Return the first of the rows of one degree with this q+r."""
     return run * (run + 1) // 2
 
 

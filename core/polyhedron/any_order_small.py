@@ -85,7 +85,7 @@ def _new_monomials(known: int, order: int) -> tuple[NDArray[np.intp], NDArray[np
 
 
 def _coefficients(a: NDArray, b: NDArray, c: NDArray, order: int) -> NDArray[np.float64]:
-    """(K, t) the S_α of triangles with corners (3, t)."""
+    """Return (K, t) the S_α of triangles with corners (3, t)."""
     levels = np.zeros((3, 2, a.shape[1]))  # C, D and S of degree 0, and a row of zeros
     levels[:, 0] = 1.0
     vectors, out = np.stack([a, c, b]), np.empty((monomial_count(order), a.shape[1]))

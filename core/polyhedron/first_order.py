@@ -51,7 +51,7 @@ def volume_and_center(surface: Surface) -> tuple[float, NDArray[np.float64]]:
 
 
 def _triangles(points: NDArray[np.float64], triangles: NDArray[np.integer]) -> NDArray[np.float64]:
-    """(4,) six volumes and 24 first moments. points: (3, n)."""
+    """Return (4,) six volumes and 24 first moments. points: (3, n)."""
     a, b, c = (points.take(corner, axis=1) for corner in triangles.T)
     return _sums(_dot(_cross(b, c), a), a + b + c)
 

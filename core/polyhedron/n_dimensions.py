@@ -69,14 +69,14 @@ class SimplexMoments:
         return float(self.raw[multi_index_position(len(self.about), self.order, exponents)])
 
     def bound(self, exponents: tuple[int, ...]) -> float:
-        """The error bound of one moment."""
+        """Return the error bound of one moment."""
         return float(self.rounding_error[multi_index_position(len(self.about), self.order, exponents)])
 
 
 @lru_cache
 def multi_indices(dimension: int, order: int) -> NDArray[np.int64]:
-    """(K, n) all exponents of degree at most `order`, by degree, the first exponents largest first; read-only. In three
-    dimensions the order of `monomials`."""
+    """Return (K, n) all exponents of degree at most `order`, by degree, the first exponents largest first; read-only.
+    In three dimensions the order of `monomials`."""
     exponents = [row for degree in range(order + 1) for row in _exponents_of_degree(dimension, degree)]
     table = np.array(exponents, np.int64).reshape(-1, dimension)
     table.flags.writeable = False
@@ -237,7 +237,7 @@ def _measure(
 
 
 def _recursion(corners: NDArray, order: int) -> NDArray[np.float64]:
-    """(K, k) S_α of k simplices; corners: (n corners, n coordinates, k)."""
+    """Return (K, k) S_α of k simplices; corners: (n corners, n coordinates, k)."""
     dimension = corners.shape[1]
     starts, raised = _degree_steps(dimension, order)
     table = np.zeros((starts[-1], corners.shape[2]))
@@ -252,7 +252,7 @@ def _recursion(corners: NDArray, order: int) -> NDArray[np.float64]:
 
 
 def _weights(corners: NDArray, edges: NDArray, enclosed: bool) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """(k,) det or |N| of each simplex, and the same in absolute values."""
+    """Return (k,) det or |N| of each simplex, and the same in absolute values."""
     normal, size = _normals(edges)
     nothing = np.zeros(edges.shape[2])
     if enclosed:
@@ -262,7 +262,7 @@ def _weights(corners: NDArray, edges: NDArray, enclosed: bool) -> tuple[NDArray[
 
 
 def _normals(edges: NDArray) -> tuple[list[NDArray], list[NDArray]]:
-    """The n components of the generalized cross product of n-1 edges, and the same with every term positive.
+    """Return the n components of the generalized cross product of n-1 edges, and the same with every term positive.
 
     edges: (n-1, n, k). Minors by Laplace's expansion along the last row, smaller ones shared.
     """
@@ -285,13 +285,14 @@ def _normals(edges: NDArray) -> tuple[list[NDArray], list[NDArray]]:
 
 
 def _weight_steps(dimension: int) -> int:
-    """Roundings on the way of one product to det or |N|: two of each edge, a product and all sums of each minor."""
+    """Count the roundings on the way of one product to det or |N|: two of each edge, a product and all sums of each
+    minor."""
     minors = sum(2 + 1 + size for size in range(1, dimension))
     return minors + 2 * dimension + 6
 
 
 def _factor(exponents: list[int], measure: int) -> float:
-    """α! / (|α| + measure)!, correctly rounded but for the last division."""
+    """Return α! / (|α| + measure)!, correctly rounded but for the last division."""
     product = 1
     for n in exponents:
         product *= factorial(n)

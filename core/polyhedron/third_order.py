@@ -74,7 +74,7 @@ MAX_UNSCALED_REACH = 2.0**100
 DIVISORS = np.array([6.0, 48.0, 120.0, 2880.0])[DEGREE]  # divide the sums of `blocks`
 
 # Faces measured together: (k, 4) quads, (k, 3) triangles, or two such arrays of triangles with rows that may be
-# halves of one quad, with the surface's row that each array begins at; or, without rows, (4, k) corners of turned quads.
+# halves of one quad, with the surface's first row of each array; or, without rows, (4, k) corners of turned quads.
 _Block = tuple[list[int], list[NDArray]]
 
 
@@ -136,7 +136,7 @@ def integrate(
 
 
 def nothing(order: int, about: NDArray | None) -> tuple[Moments, Moments]:
-    """The volume and the area of no faces."""
+    """Return the volume and the area of no faces."""
     zeros, about = np.zeros(monomial_count(order)), np.zeros(3) if about is None else about
     return Moments(zeros, about, Measure.VOLUME), Moments(zeros, about, Measure.AREA)
 
@@ -150,7 +150,8 @@ def finite_box(surface: Surface) -> tuple[NDArray[np.float64], NDArray[np.float6
 
 
 def box_center(low: NDArray, high: NDArray, dtype: np.dtype) -> NDArray[np.float64]:
-    """The center of a bounding box of points of this type, for float32 rounded so that subtracting it is exact."""
+    """Return the center of a bounding box of points of this type, for float32 rounded so that subtracting it is
+    exact."""
     center = low / 2.0 + high / 2.0
     return center.astype(np.float32).astype(np.float64) if dtype == np.float32 else center
 
@@ -158,7 +159,7 @@ def box_center(low: NDArray, high: NDArray, dtype: np.dtype) -> NDArray[np.float
 def _measure_rescaled(
     surface: Surface, exponent: int, threads: int, about: NDArray | None, area: bool, area_moments: bool, exact: bool
 ) -> tuple[Moments, Moments]:
-    """The moments by way of a body of about unit size: 2^exponent times smaller, which rounds nothing."""
+    """Return the moments by way of a body of about unit size: 2^exponent times smaller, which rounds nothing."""
     points = np.ldexp(surface.points.astype(np.float64), -exponent)
     small = Surface(points, surface.all_triangles()[0], displacement=np.ldexp(surface.coordinate_error, -exponent))
     results = []
@@ -196,7 +197,7 @@ class _Integration:
     threads: int
 
     def blocks(self, surface: Surface) -> list[_Block]:
-        """The faces in as few blocks as the memory allows, whatever the number of threads."""
+        """Return the faces in as few blocks as the memory allows, for any number of threads."""
         triangles, half, size = surface.triangles, len(surface.triangles) // 2, self.size
         if _quad_corners_of(triangles[:1], triangles[half : half + 1]) is None:
             half = 0
@@ -260,7 +261,7 @@ class _Integration:
             faces.add_faces(part.T, observe=planarity and partial(planarity.add_triangles, [start], 1))
 
     def moments(self, sums: BlockSums) -> tuple[Moments, Moments]:
-        """Volume and area, with their bounds."""
+        """Return volume and area, with their bounds."""
         sizes, rounding, inputs = _error_bounds(self, sums)
         raw = sums.sums / DIVISORS
         if self.planarity is not None:
@@ -276,9 +277,10 @@ class _Integration:
 
 
 def _error_bounds(job: _Integration, sums: BlockSums) -> tuple[list[float], NDArray[np.float64], NDArray[np.float64]]:
-    """Bounds, from the largest edges of each chunk of triangles and the sums of their sizes, for volume and area.
+    """Return bounds, from the largest edges of each chunk of triangles and the sums of their sizes, for volume and
+    area.
 
-    Returns the sum of the |determinants| and that of the doubled areas; (2, 20) the errors of Σ w E[f], w the
+    They are the sum of the |determinants| and the sum of the doubled areas; (2, 20) the errors of Σ w E[f], w the
     determinants and the doubled areas; and (2, 20) the `input_error` of the moments.
     """
     sizes, count = np.add.reduce(sums.sizes, axis=1).tolist(), int(np.add.reduce(sums.counts))

@@ -277,7 +277,8 @@ def combine_blocks(results: Sequence[BlockResult]) -> BlockSums:
 
 
 def to_monomial_sums(table_sums: NDArray, products: NDArray, local: NDArray | None = None) -> NDArray[np.float64]:
-    """(20,) `BlockSums.sums` from the sums of the table's rows, (13,), and the products that have been summed."""
+    """Return (20,) `BlockSums.sums` from the sums of the table's rows, (13,), and the products that have been
+    summed."""
     mixed = 0.5 * np.add.reduce(products.take(SQUARE))
     third = 10.0 * np.add.reduce(products.take(CUBE))
     total = 2.0 * np.concatenate([table_sums[12:], table_sums[6:9] + table_sums[9:12], table_sums[:6] + mixed, third])
@@ -293,7 +294,7 @@ def chunk_shape(k: int) -> tuple[int, int]:
 
 
 def _cross_calls(first: NDArray, second: NDArray, out: NDArray, spare: NDArray) -> list[partial]:
-    """The calls for (3, f, k) cross products of (3, f, k) with (3, 1, k) rows of x, y and z."""
+    """Return the calls for (3, f, k) cross products of (3, f, k) with (3, 1, k) rows of x, y and z."""
     return [
         partial(np.multiply, first[1:], second[::-2], out[:2]),  # y z', z x'
         partial(np.multiply, first[0], second[1], out[2]),
@@ -306,7 +307,7 @@ def _cross_calls(first: NDArray, second: NDArray, out: NDArray, spare: NDArray) 
 def _local_calls(
     sides: NDArray, base: NDArray, apex_vectors: NDArray, local: NDArray, squares: NDArray
 ) -> list[partial]:
-    """The calls for the vectors f and for f f' + e e' of every triangle."""
+    """Return the calls for the vectors f and for f f' + e e' of every triangle."""
     calls = [
         partial(np.multiply, sides, np.array([[2.0], [-2.0]])[: sides.shape[1]], apex_vectors),
         partial(np.subtract, apex_vectors, base, apex_vectors),
@@ -321,7 +322,7 @@ def _local_calls(
 
 
 def _weighted_calls(corners: NDArray, weights: NDArray, weighted: NDArray, table: NDArray) -> list[partial]:
-    """The calls for the weighted corners, and for the table: half of H, of Z, of u q and of u."""
+    """Return the calls for the weighted corners, and for the table: half of H, of Z, of u q and of u."""
     both, every, half = table[9:12], table[6:9], table[12]
     if len(weights) == 2:
         calls = [partial(np.add, weights[0], weights[1], half), partial(np.multiply, half, 0.5, half)]
@@ -347,5 +348,5 @@ def _in_slices(table: NDArray) -> NDArray[np.float64]:
 
 
 def _scalar_products(vectors: NDArray, second: NDArray) -> NDArray[np.float64]:
-    """(m, n) the scalar products of m rows with n."""
+    """Return (m, n) the scalar products of m rows with n."""
     return np.add.reduce(np.einsum("cjk,pjk->cpk", vectors, second), axis=2)

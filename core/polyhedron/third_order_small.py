@@ -141,7 +141,7 @@ def _segment_sums(
 def _error_bounds(
     reach: NDArray, half_ulp: NDArray, side: NDArray, base: NDArray, sizes: NDArray, counts: NDArray, area: bool
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """The errors of Σ w E[f], w the determinants and the doubled areas, (2, n, 20), and the `input_error` of the
+    """Return the errors of Σ w E[f], w the determinants and the doubled areas, (2, n, 20), and the `input_error` of the
     moments, (2, n, 20); see `third_order`.
 
     side, base: (n, 3) the largest edges. sizes: (n, 2). counts: (n, 1).
@@ -171,7 +171,7 @@ def _error_bounds(
 
 
 def monomial_bounds(reaches: NDArray) -> NDArray[np.float64]:
-    """(k, 20) the largest value of each monomial within each of (k, 3) reaches."""
+    """Return (k, 20) the largest value of each monomial within each of (k, 3) reaches."""
     factors = np.ones((len(reaches), 4))
     factors[:, 1:] = reaches
     return np.multiply.reduce(factors.take(MONOMIAL_FACTORS, axis=1), axis=2)

@@ -49,14 +49,14 @@ class Workspace(Generic[Block]):
         return block
 
     def take(self, *shape: int) -> NDArray[np.float64]:
-        """The next contiguous array."""
+        """Return the next contiguous array."""
         start = self._position
         end = start + prod(shape)
         self._position = end + ROW_PADDING
         return self._buffer[start:end].reshape(shape)
 
     def overlay(self, *groups: Sequence[tuple[int, ...]]) -> list[list[NDArray[np.float64]]]:
-        """Arrays of these shapes, group by group; the groups share memory, for their times differ."""
+        """Return arrays of these shapes, group by group; the groups share memory, for their times differ."""
         start, end, arrays = self._position, self._position, []
         for group in groups:
             self._position = start
