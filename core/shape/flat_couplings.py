@@ -24,7 +24,7 @@ def counts() -> tuple[int, int]:
 
 @lru_cache
 def _turning(order: int) -> list[Key]:
-    """The complex moments that turn, but for that of first order, which is zero about the centroid."""
+    """Return the complex moments that turn, but for that of first order, which is zero about the centroid."""
     return [(n - q, q) for n in range(2, order + 1) for q in range((n + 1) // 2)]
 
 

@@ -138,7 +138,7 @@ def holds_by_moments(zernike: NDArray, order: int, tolerance: float) -> Holds:
 
 
 def turns_about_normal(angles: NDArray) -> NDArray[np.float64]:
-    """(k, 3, 3) rotations about the third axis."""
+    """Return (k, 3, 3) rotations about the third axis."""
     turns = np.zeros((len(angles), 3, 3))
     turns[:, 0, 0] = turns[:, 1, 1] = np.cos(angles)
     turns[:, 1, 0] = np.sin(angles)

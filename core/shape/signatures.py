@@ -332,7 +332,7 @@ def _even_triples() -> list[tuple[Key, Key, Key]]:
 
 @lru_cache
 def _chiral_triples() -> list[tuple[Key, Key, Key]]:
-    """Three different multiplets: of two alike, an odd coupling is zero."""
+    """Return triples of three different multiplets: with two alike, an odd coupling is zero."""
     return [t for t in combinations(_multiplets(CHIRAL_ORDER), 3) if _can_couple(t) and sum(l for _, l in t) % 2]
 
 

@@ -215,14 +215,14 @@ def _reverses_axis(operations: NDArray, axis: NDArray) -> NDArray[np.bool_]:
 
 
 def _axis_rotation(axis: NDArray, angle: float) -> NDArray[np.float64]:
-    """(3, 3) the rotation about an axis: Rodrigues' formula."""
+    """Return (3, 3) the rotation about an axis, by Rodrigues' formula."""
     x, y, z = axis
     cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
     return np.eye(3) + np.sin(angle) * cross + (1.0 - np.cos(angle)) * cross @ cross
 
 
 def _distinct_lines(vectors: NDArray) -> list[tuple[NDArray, NDArray]]:
-    """Each line once, with which of the (k, 3) unit vectors lie along it."""
+    """Return each line once, with the mask of the (k, 3) unit vectors that lie along it."""
     same = np.abs(vectors @ vectors.T) > 1.0 - EQUAL_OPERATION_ATOL
     return [(vectors[i], same[i]) for i in range(len(vectors)) if np.argmax(same[i]) == i]
 

@@ -40,8 +40,8 @@ QUADRATURE_RTOL = 1e-13  # for a triangle's integral, in the choice of its quadr
 
 
 def zernike_moments(raw: NDArray, order: int) -> Multiplets:
-    """{(n, l): (2l+1, …)} Ω_nlm, m = -l..l, of a body in the unit ball about the origin, from its raw moments there,
-    (K, …)."""
+    """Return {(n, l): (2l+1, …)} Ω_nlm, m = -l..l, of a body in the unit ball about the origin, from its raw moments
+    there, (K, …)."""
     harmonic = harmonic_moments(raw, order)
     return {
         (n, l): sqrt(3.0 / (4.0 * pi))
@@ -59,12 +59,12 @@ def descriptor_error(raw: NDArray, order: int) -> NDArray[np.float64]:
 
 
 def descriptors(moments: Multiplets) -> NDArray[np.float64]:
-    """(D, …) ‖Ω_nl‖ in the order of `degrees`."""
+    """Return (D, …) ‖Ω_nl‖ in the order of `degrees`."""
     return np.array([np.linalg.norm(multiplet, axis=0) for _, multiplet in sorted(moments.items())], np.float64)
 
 
 def degrees(order: int) -> list[tuple[int, int]]:
-    """(n, l) for 0 ≤ l ≤ n ≤ order with n-l even, n first."""
+    """Return (n, l) for 0 ≤ l ≤ n ≤ order with n-l even, n first."""
     return [(n, l) for n in range(order + 1) for l in range(n % 2, n + 1, 2)]
 
 
@@ -91,7 +91,7 @@ def zernike_quadrature(points: NDArray, triangles: NDArray, order: int) -> Multi
 
 
 def _nodes(size: NDArray, order: int) -> NDArray[np.int64]:
-    """Gauss points on a line for each triangle: as many as its size and the polynomials' oscillation need."""
+    """Return the number of Gauss points on a line for each triangle, by its size and the polynomials' oscillation."""
     exact = ceil((order + 2) / 2)
     needed = np.full(len(size), exact)
     phase = (order + 2.0) * size / 2.0  # a polynomial of degree n on the ball turns by at most about n radians
@@ -114,7 +114,7 @@ def _add_cones(total: Multiplets, x: NDArray, weight: NDArray, order: int) -> No
 
 
 def _solid_at(x: NDArray, order: int) -> Iterator[tuple[int, NDArray[np.complex128]]]:
-    """l and (l+1, k) r^l Y_lm at (k, 3) points for m = 0..l, l = 0..order, by recursion upward in l."""
+    """Yield l and (l+1, k) r^l Y_lm at (k, 3) points for m = 0..l, l = 0..order, by recursion upward in l."""
     r2 = (x * x).sum(axis=1)
     plus, z = x[:, 0] + 1j * x[:, 1], x[:, 2]
     before, now = None, np.full((1, len(x)), 1.0 / sqrt(4.0 * pi), complex)
@@ -133,7 +133,7 @@ def _solid_at(x: NDArray, order: int) -> Iterator[tuple[int, NDArray[np.complex1
 
 
 def _jacobi(beta: float, x: NDArray) -> Iterator[NDArray[np.float64]]:
-    """P_k^(0, beta)(x) for k = 0, 1, …"""
+    """Yield P_k^(0, beta)(x) for k = 0, 1, …"""
     before, now = np.zeros_like(x), np.ones_like(x)
     for k in count(1):
         yield now
@@ -173,7 +173,7 @@ def radial_power(moments: Multiplets, wave_numbers: NDArray) -> tuple[NDArray[np
 
 
 def _spherical_bessel(q: NDArray, order: int) -> NDArray[np.float64]:
-    """(order+1, k) j_{n+1}(q)/q for n = 0..order, by Miller's recursion downward."""
+    """Return (order+1, k) j_{n+1}(q)/q for n = 0..order, by Miller's recursion downward."""
     q = np.maximum(q, 1e-8)  # j_1(q)/q is 1/3 from there down
     top = order + 20 + int(2.0 * q.max())
     table = np.zeros((order + 3, len(q)))
@@ -194,7 +194,7 @@ def _spherical_bessel(q: NDArray, order: int) -> NDArray[np.float64]:
 
 @lru_cache
 def _radial(n: int, l: int) -> tuple[Fraction, ...]:
-    """The coefficients of r^(l+2i), i = 0..k, in R_nl, without the root of 2n+3."""
+    """Return the coefficients of r^(l+2i), i = 0..k, in R_nl, without the root of 2n+3."""
     k, beta = (n - l) // 2, Fraction(2 * l + 1, 2)
     row, factor = [], Fraction((-1) ** k)
     for i in range(k):
