@@ -145,7 +145,7 @@ def read_nrrd(path: Path, limits: Limits) -> Scan:
 
 
 def _samples_start(path: Path, name: str | None, start: int | None, limits: Limits) -> tuple[Path, int]:
-    """The file that has the samples, and from which byte on. name: of a detached file."""
+    """Return the file that has the samples, and their offset in it. name: of a detached file."""
     if name is None:
         if start is None:
             raise FileError(NRRD_HEADER_UNENDED)
@@ -167,7 +167,7 @@ def _single_value(values: list, name: str) -> list:
 
 
 def _alias(fields: dict[str, str], name: str) -> str:
-    """NRRD fields may be written without their space."""
+    """Return the name of a field as the header has it: NRRD fields may be written without their space."""
     return name if name in fields else name.replace(" ", "")
 
 
@@ -209,7 +209,7 @@ def _sample_matrix(
 
 
 def _vectors(text: str, name: str) -> Iterator[list[float] | None]:
-    """Vectors in parentheses, with “none” between them. Each character is looked at once."""
+    """Parse vectors in parentheses, with “none” between them. Each character is looked at once."""
     rest = text.strip()
     for _ in range(MAX_AXES):
         vector, end, rest = rest.partition("none" if rest.startswith("none") else ")")

@@ -35,7 +35,7 @@ MAX_ARRAY_HEADER = 10_000  # bytes, like numpy.load
 
 
 def read_npy(path: Path, _limits: Limits) -> Scan:
-    """The array, mapped."""
+    """Read the array, mapped."""
     return Scan(real_samples(map_array(path)), np.eye(4))
 
 
@@ -52,7 +52,7 @@ def map_array(path: Path) -> NDArray:
 
 
 def read_npz(path: Path, limits: Limits) -> Scan:
-    """The array called “density”, else the first of three dimensions; of the others the headers alone are read."""
+    """Read the array called “density”, else the first of three dimensions; only the headers of the others are read."""
     with _archive(path, limits) as (archive, shapes):
         volumes = [name for name, shape in shapes.items() if len(shape) == 3]
         if not volumes:
@@ -103,14 +103,15 @@ def _unpack(archive: zipfile.ZipFile, path: Path, name: str, limits: Limits) -> 
 
 
 def _check_array_header(start: bytes) -> None:
-    """NumPy reads a header of gigabytes before it refuses it. Raises ValueError."""
+    """Check the size of a header: NumPy reads gigabytes of it before it refuses. Raises ValueError."""
     length = start[8 : 10 if start[6:7] == b"\1" else 12]
     if int.from_bytes(length, "little") > MAX_ARRAY_HEADER:
         raise ValueError("length of header")
 
 
 def _npz_header(archive: zipfile.ZipFile, entry: zipfile.ZipInfo) -> tuple[int, ...]:
-    """The shape of an array in an archive, which must fill its entry: beyond the array no checksum would be reached."""
+    """Return the shape of an array in an archive, which must fill its entry: beyond the array no checksum would be
+    reached."""
     with cast(zipfile.ZipExtFile, archive.open(entry)) as file:  # has `peek`
         _check_array_header(file.peek(12))
         version = np.lib.format.read_magic(file)
@@ -124,7 +125,7 @@ def _npz_header(archive: zipfile.ZipFile, entry: zipfile.ZipInfo) -> tuple[int, 
 def read_raw(
     path: str | Path, shape: Sequence[int], dtype: str, big_endian: bool = False, limits: Limits = DEFAULT_LIMITS
 ) -> Scan:
-    """Samples with no header: shape (nx, ny, nz), x running fastest; dtype: one of TYPES."""
+    """Read samples with no header: shape (nx, ny, nz), x running fastest; dtype: one of TYPES."""
     if dtype not in TYPES:
         raise FileError(RAW_TYPE_UNKNOWN, type=dtype, types=", ".join(TYPES))
     kind = np.dtype(dtype).newbyteorder(">" if big_endian else "<")

@@ -82,7 +82,7 @@ def read_positions(path: str | Path, axis: str, count: int) -> NDArray[np.float6
 
 
 def read_all_positions(files: Mapping[str, str | Path], shape: Sequence[int]) -> Positions:
-    """The positions along each axis that has a file. FileError and OSError as for `read_positions`."""
+    """Return the positions along each axis that has a file. FileError and OSError as for `read_positions`."""
     x, y, z = (read_positions(files[axis], axis, count) if axis in files else None for axis, count in zip(AXES, shape))
     return x, y, z
 

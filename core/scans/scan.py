@@ -93,7 +93,7 @@ def shape_of(sizes: Sequence[int]) -> tuple[int, int, int]:
 
 
 def real_samples(array: NDArray) -> NDArray:
-    """An array that can be a scan of densities."""
+    """Return the array if it can be a scan of densities, else raise FileError."""
     if array.dtype.kind not in "biuf":
         raise FileError(SCAN_SAMPLE_TYPE, type=str(array.dtype))
     if array.ndim != 3:
@@ -120,8 +120,8 @@ def check_length(path: Path, held: int, wanted: int) -> None:
 def map_samples(
     path: Path, dtype: np.dtype, shape: tuple[int, int, int], offset: int, from_end: bool = False
 ) -> NDArray:
-    """Uncompressed samples, x fastest, from byte `offset` to the end of the file. from_end: they are its last bytes,
-    after whatever else begins at `offset`, so that only too few of them can be noticed."""
+    """Map uncompressed samples, x fastest, from byte `offset` to the end of the file. from_end: they are its last
+    bytes, after any other bytes at `offset`, so that only too few of them can be noticed."""
     size, byte_count = path.stat().st_size, dtype.itemsize * math.prod(shape)
     if from_end:
         offset = max(offset, size - byte_count)
@@ -132,9 +132,11 @@ def map_samples(
 def unpack_samples(
     path: Path, start: int, dtype: np.dtype, shape: tuple[int, int, int], skip: int, limits: Limits
 ) -> NDArray:
-    """Samples that are compressed by gzip from byte `start` of the file on, x fastest; skip: unpacked bytes before.
+    """Unpack samples that are compressed by gzip from byte `start` of the file on, x fastest; skip: unpacked bytes
+    before.
 
-    They are read to the end of the file, for the checksum stands behind them; see `gzip_blocks`."""
+    They are read to the end of the file, for the checksum stands behind them; see `gzip_blocks`.
+    """
     byte_count = dtype.itemsize * math.prod(shape)
     total = skip + byte_count
     if skip < 0:
