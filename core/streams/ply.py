@@ -104,7 +104,7 @@ class PlyFile:
         return points
 
     def _blocks(self, wanted: Element) -> Iterator[list[NDArray]]:
-        """The columns of an element, in blocks."""
+        """Yield the columns of an element, in blocks."""
         with open(self._path, "rb") as file:
             file.seek(self._header.start)
             reader = RowReader(file, self._header.order)
@@ -123,7 +123,7 @@ class PlyFile:
 
 
 def _faces_of(header: Header) -> tuple[Element, int]:
-    """The element of faces, and which of its properties lists their vertices. Raises ValueError."""
+    """Return the element of faces, and the index of the property that lists their vertices. Raises ValueError."""
     for element in header.elements:
         for number, one in enumerate(element.properties):
             if element.name == "face" and one.name in INDICES and one.counter:

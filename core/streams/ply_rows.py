@@ -82,7 +82,7 @@ class RowReader:
         return np.frombuffer(self._buffer, row, count)
 
     def _single_rows(self, element: Element, rows: int) -> Iterator[list[NDArray]]:
-        """Rows of any lengths, joined to blocks of one length each."""
+        """Yield rows of any lengths, joined to blocks of one length each."""
         by_lengths: dict[tuple[int, ...], list[bytes]] = {}
         types: dict[tuple[int, ...], np.dtype] = {}
         for _ in range(rows):
@@ -105,7 +105,7 @@ class RowReader:
         return np.dtype(self._order + kind) if self._order else NUMBERS
 
     def _integer(self, at: int, kind: str) -> int:
-        """The length of a list."""
+        """Return the length of a list."""
         end = at + self._size(kind)
         self._fill(end)
         value = self._buffer[at:end].view(self._type(kind))[0]
@@ -129,7 +129,7 @@ class RowReader:
             self._buffer = np.concatenate([self._buffer, more]) if len(self._buffer) else more
 
     def _numbers(self) -> NDArray[np.float64]:
-        """The next numbers of a text; none at its end."""
+        """Return the next numbers of a text; none at its end."""
         while True:
             chunk = self._file.read(BYTES_PER_BLOCK)
             text, self._text = self._text + chunk, b""

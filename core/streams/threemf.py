@@ -106,7 +106,7 @@ class _Package:
             raise FileError(FILE_EXCEEDS_LIMIT, file=posixpath.basename(self._archive.filename or ""), **values)
 
     def pieces(self, part: str) -> Iterator[bytes]:
-        """The bytes of a part."""
+        """Yield the bytes of a part, in pieces."""
         with self._archive.open(self._names[part.lower()]) as file:
             while piece := file.read(_BLOCK):
                 self._unpacked += len(piece)
@@ -177,7 +177,7 @@ def _parser() -> expat.XMLParserType:
 
 
 def _relationships(pieces: Iterator[bytes]) -> list[tuple[str, str]]:
-    """Target and type of each relationship."""
+    """Return target and type of each relationship."""
     found: list[tuple[str, str]] = []
     parser = _parser()
 
