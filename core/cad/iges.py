@@ -82,7 +82,7 @@ class _Reader:
         return self._refusals.file([SurfaceBody(self._name, tuple(patches))], self._text.unit, notes)
 
     def _references(self) -> Iterator[int]:
-        """The entities that others stand on, and so are none by themselves."""
+        """Yield the entities that others stand on, and so are none by themselves."""
         for entry in self._entries.values():
             if entry.type not in REFERENCES and entry.type != DEFINITION:
                 continue
@@ -143,7 +143,7 @@ class _Reader:
         return entry
 
     def _matrix(self, entry: Entry) -> NDArray[np.float64]:
-        """(4, 4) of an entity, and of the transformations that its own refers to."""
+        """Return (4, 4) the matrix of an entity, with the transformations that its own refers to."""
         chain, pointer = [], entry.matrix
         while pointer not in self._matrices and len(chain) < MAX_DEPTH:
             chain.append(self._entry(pointer, MATRIX))

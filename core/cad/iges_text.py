@@ -87,7 +87,7 @@ class IgesText:
 
 
 def _lines(text: str) -> list[str]:
-    """Lines of 80 columns, with or without line breaks between them."""
+    """Split into lines of 80 columns, with or without line breaks between them."""
     # Not splitlines: of Latin-1 it also cuts at \x85, which is half of an “Å” in UTF-8.
     cut = [text[start : start + LINE] for start in range(0, len(text), LINE)]
     lines = re.split(r"\r\n|\r|\n", text) if re.match(r"[^\r\n]{0,80}[\r\n]", text) else cut
@@ -114,7 +114,7 @@ def _global_fields(text: str) -> tuple[str, str, list[str]]:
 
 
 def _unit(fields: list[str]) -> float:
-    """Meters for a unit of the model."""
+    """Return the meters for a unit of the model."""
     scale_word, flag_word, name = padded(fields[10:], 3)
     try:
         scale = float(numbers([scale_word])[0]) or 1.0

@@ -169,7 +169,7 @@ def _patches(element: _Element, points: NDArray, weights: NDArray) -> list[Patch
 
 
 def _indices(words: list[str], count: int) -> NDArray[np.int64]:
-    """The vertices that are meant, from 0."""
+    """Return the vertices that are meant, from 0."""
     numbers = np.array([parse_whole(word.partition("/")[0]) for word in words], np.int64)
     numbers = np.where(numbers > 0, numbers - 1, numbers + count)
     if (numbers < 0).any() or (numbers >= count).any():

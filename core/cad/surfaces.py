@@ -122,7 +122,7 @@ class Refusals:
         self.names.setdefault((code, kind, tuple(values.items())), []).append(name)
 
     def findings(self) -> tuple[Finding, ...]:
-        """One for each reason and kind."""
+        """Return one finding for each reason and kind."""
         found = []
         for (code, kind, values), names in self.names.items():
             known = dict(values)

@@ -50,7 +50,7 @@ def trims_nothing(pieces: Sequence[Piece], domain: tuple[tuple[float, float], tu
 
 
 def _sides(points: NDArray) -> NDArray[np.bool_]:
-    """(n, 4) which sides of the unit square each point is on: below, right, above, left."""
+    """Return (n, 4) mask of the sides of the unit square that each point is on: below, right, above, left."""
     x, y = points.T
     return np.abs(np.stack([y, x - 1.0, y - 1.0, x], axis=1)) <= TRIM_RTOL
 
