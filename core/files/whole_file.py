@@ -90,7 +90,7 @@ def _take_owner_and_mode(path: Path, status: os.stat_result) -> None:
 
 
 def _free_name(path: Path) -> Path:
-    """A file of a new name beside `path`, empty."""
+    """Create an empty file of a new name beside `path`. Return its path."""
     number = 1
     while True:
         free = path.with_name("{}.{}{}".format(path.stem, number, path.suffix))
