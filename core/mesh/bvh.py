@@ -260,7 +260,7 @@ def intersecting_pairs(
     tree: Bvh, first: NDArray, second: NDArray, tolerance: float, vertex: NDArray | None = None
 ) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
     """Return for each pair of components whether an edge of one goes through a triangle of the other by more than the
-    tolerance, and if the work ran out before that was known.
+    tolerance, and whether the work ran out before that was known.
 
     first, second: (k,) components. vertex: (n,) the vertex of each point; triangles that share one are not compared.
     """

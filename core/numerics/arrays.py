@@ -80,7 +80,7 @@ def first_occurrence(*columns: NDArray) -> NDArray[np.intp]:
     """Return (n,) the first row that equals each row in all columns: 64-bit values, compared by their bits.
 
     The rows are hashed into a table in which the lowest row of a slot wins. Rows equal to the winner are done; the
-    others, whose slot another row has won, go into the next round.
+    others go into the next round.
     """
     bits_of = [column.view(np.uint64) for column in columns]
     key = bits_of[0]

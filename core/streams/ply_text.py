@@ -28,7 +28,7 @@ from .misread import (
 from .ply_header import INDICES, Element, Header, Property
 
 LENGTHS = range(9)  # lists that are checked together; rows with longer ones are checked word by word
-FEW_ROWS, MANY_PROPERTIES = 16, 100  # an expression would take longer than it saves
+FEW_ROWS, MANY_PROPERTIES = 16, 100  # fewer rows or more properties: an expression would cost more than it saves
 _BLANK = rb"[ \t]*+"
 _REST = re.compile(rb"[^\s\0\x1a]")
 
