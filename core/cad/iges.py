@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The surfaces of an IGES file: rational B-spline surfaces (type 128), alone, in trimmed surfaces (144) whose curves
-trim nothing, and in subfigures (308, 408); with their transformations (124) and the unit of the global section.
+"""The surfaces of an IGES file: rational B-spline surfaces (type 128), alone, in trimmed surfaces (144) with curves
+that trim nothing, and in subfigures (308, 408); with their transformations (124) and the unit of the global section.
 
 Initial Graphics Exchange Specification 5.3. Other surfaces and solids are refused by name; curves, points and
 annotation bound nothing and are left out.
@@ -32,8 +32,8 @@ from .surfaces import MAX_SURFACES, Refusals, SurfaceBody, SurfaceFile, SurfaceR
 from .trims import Piece, trims_nothing
 
 MATRIX, SURFACE, TRIMMED, DEFINITION, INSTANCE = 124, 128, 144, 308, 408
-MAX_DEPTH = 50  # of subfigures, transformations and curves in each other
-MAX_PIECES = 10_000  # of the boundary of a surface
+MAX_DEPTH = 50  # nesting of subfigures, transformations and curves
+MAX_PIECES = 10_000  # pieces of the boundary of a surface
 # Surfaces and solids that Blender's surfaces are not, by the names of the specification. What is missing here is no
 # surface: curves, points, annotation, structure.
 REFUSED = {
@@ -46,14 +46,14 @@ REFUSED = {
     **{416: "External Reference", 430: "Solid Instance", 510: "Face", 514: "Shell"},
 }
 NAMES = {SURFACE: "Rational B-Spline Surface", TRIMMED: "Trimmed Surface", INSTANCE: "Subfigure Instance", **REFUSED}
-# Which parameter of those that stand on another one points to it.
+# Index of the parameter that points to the entity under this one.
 REFERENCES = {TRIMMED: 0, 140: 4, 143: 1, 430: 0, 510: 0}
 CURVES = {100, 102, 104, 106, 110, 112, 116, 126, 130}  # and points: they bound nothing
 PARAMETER_CURVE = 142
 
 
 def read_iges(path: Path) -> SurfaceFile:
-    """The surfaces as one body, called like the file. FileError where there is none that can be kept."""
+    """Read the surfaces as one body, called like the file. FileError if there is none that can be kept."""
     return _Reader(path).read()
 
 
@@ -82,7 +82,7 @@ class _Reader:
         return self._refusals.file([SurfaceBody(self._name, tuple(patches))], self._text.unit, notes)
 
     def _references(self) -> Iterator[int]:
-        """The entities that others stand on, and so are none by themselves."""
+        """Yield the entities that others stand on, and so are none by themselves."""
         for entry in self._entries.values():
             if entry.type not in REFERENCES and entry.type != DEFINITION:
                 continue
@@ -97,12 +97,13 @@ class _Reader:
 
     @staticmethod
     def _members(fields: list[str]) -> list[int]:
-        """Of a subfigure: its depth, its name, and how many they are stand before them."""
+        """Return the pointers to the members of a subfigure; its depth, its name, and their number stand before
+        them."""
         (count,) = integers(fields[2:], 1)
         return integers(fields[3:], count)
 
     def _place(self, entry: Entry, above: NDArray, path: tuple[int, ...]) -> list[Patch]:
-        """The patches of an entity where it stands. above: (4, 4) by the subfigures that it is in, path."""
+        """Return the patches of an entity in its place. above: (4, 4) by the subfigures that it is in, path."""
         kind, name = NAMES[entry.type], entry.label or "D{}".format(entry.number)
         if entry.type in REFUSED:
             self._refusals.add(SURFACE_TYPE_UNSUPPORTED, "{} ({})".format(kind, entry.type), name)
@@ -142,7 +143,7 @@ class _Reader:
         return entry
 
     def _matrix(self, entry: Entry) -> NDArray[np.float64]:
-        """(4, 4) of an entity, and of the transformations that its own refers to."""
+        """Return (4, 4) the matrix of an entity, with the transformations that its own refers to."""
         chain, pointer = [], entry.matrix
         while pointer not in self._matrices and len(chain) < MAX_DEPTH:
             chain.append(self._entry(pointer, MATRIX))
@@ -178,15 +179,15 @@ class _Reader:
         return self._surface(base, above @ self._matrix(entry))
 
     def _trims_nothing(self, fields: list[str], surface: int, spline: _Spline) -> bool:
-        """Whether the outer boundary is that of the surface's own domain."""
+        """Return whether the outer boundary is that of the surface's own domain."""
         (outer,) = integers(fields[3:], 1)
         _, base, curve, _, _ = integers(self._text.fields(self._entry(outer, PARAMETER_CURVE)), 5)
         pieces = self._pieces(curve, 0, iter(range(MAX_PIECES))) if base == surface else None
         return pieces is not None and trims_nothing(pieces, spline.domain)
 
     def _pieces(self, pointer: int, depth: int, left: Iterator[int]) -> list[Piece] | None:
-        """The curve as lines and splines in order; None where it is something else. depth: how many curves it is in.
-        left: one for each piece that there still may be."""
+        """Return the curve as lines and splines in order; None if it is something else. depth: the number of curves
+        around it. left: yields an item for each further piece that is allowed."""
         entry = self._entries.get(pointer)
         if entry is None or entry.matrix or depth >= MAX_DEPTH or next(left, None) is None:
             return None
@@ -209,7 +210,7 @@ class _Reader:
 
 
 def _spline_piece(fields: list[str]) -> list[Piece] | None:
-    """A B-spline curve in parameters; None where only a part of it is meant."""
+    """Return a B-spline curve in parameters; None if only a part of it is meant."""
     last, degree = integers(fields, 2)
     count, knot_count = last + 1, last + degree + 2
     end = 6 + knot_count + 4 * count + 2

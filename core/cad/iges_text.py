@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """IGES files in fixed ASCII form as numbers: the global section, the directory, the parameters of entities.
 
-Initial Graphics Exchange Specification 5.3, sections 2.2.1 to 2.2.4. Nothing is believed of what a file says about its
-own lengths: pointers and counts are compared with what is there.
+Initial Graphics Exchange Specification 5.3, sections 2.2.1 to 2.2.4. Nothing that a file says about its own lengths is
+believed: pointers and counts are compared with the file.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from ..verdict.finding import FileError, finding
 from .findings import IGES_DAMAGED, IGES_DIRECTORY, IGES_GLOBAL_SECTION, IGES_NOT_ASCII, IGES_UNIT, IGES_UNRECOGNIZED
 
 LINE = 80  # columns
-SECTION = 72  # where the letter of a line's section is
+SECTION = 72  # column of the letter of a line's section
 PARAMETERS = 64  # columns that parameters may take
 UNITS = {
     **{1: 0.0254, 2: 1e-3, 4: 0.3048, 5: 1609.344, 6: 1.0, 7: 1e3},
@@ -37,7 +37,7 @@ _STRING = re.compile(r"\s*(\d{1,9})H")
 
 @dataclass(frozen=True)
 class Entry:
-    """What the directory says of an entity.
+    """An entity in the directory.
 
     number: of its first line, by which others point to it. parameters: (first line, lines). matrix: pointer to a
     transformation, or 0. hidden, dependent: by its status.
@@ -53,7 +53,7 @@ class Entry:
 
 
 class IgesText:
-    """An IGES file. unit: meters. entries: by number. FileError where it is none, or damaged."""
+    """An IGES file. unit: meters. entries: by number. FileError if it is none, or damaged."""
 
     def __init__(self, path: Path) -> None:
         lines = _lines(path.read_bytes().decode("latin-1"))
@@ -73,7 +73,7 @@ class IgesText:
         self.entries = _directory(sections["D"])
 
     def fields(self, entry: Entry) -> list[str]:
-        """The parameters of an entity, behind its type, texts without their length. ValueError where they end too
+        """Return the parameters of an entity, behind its type, texts without their length. ValueError if they end too
         early, or are another entity's."""
         first, count = entry.parameters
         start, end = first - 1, first - 1 + count
@@ -87,7 +87,7 @@ class IgesText:
 
 
 def _lines(text: str) -> list[str]:
-    """Lines of 80 columns, with or without line breaks between them."""
+    """Split into lines of 80 columns, with or without line breaks between them."""
     # Not splitlines: of Latin-1 it also cuts at \x85, which is half of an “Å” in UTF-8.
     cut = [text[start : start + LINE] for start in range(0, len(text), LINE)]
     lines = re.split(r"\r\n|\r|\n", text) if re.match(r"[^\r\n]{0,80}[\r\n]", text) else cut
@@ -99,7 +99,7 @@ def _damaged(code: str, **values: object) -> FileError:
 
 
 def _global_fields(text: str) -> tuple[str, str, list[str]]:
-    """What parts parameters, what ends them, and the parameters from the third on."""
+    """Return the delimiter of parameters, the end mark, and the parameters from the third on."""
     delimiter, rest = (text[2:3], text[3:]) if text.startswith("1H") else (",", text)
     if not rest.startswith(delimiter):
         raise _damaged(IGES_GLOBAL_SECTION)
@@ -114,7 +114,7 @@ def _global_fields(text: str) -> tuple[str, str, list[str]]:
 
 
 def _unit(fields: list[str]) -> float:
-    """Meters for a unit of the model."""
+    """Return the meters for a unit of the model."""
     scale_word, flag_word, name = padded(fields[10:], 3)
     try:
         scale = float(numbers([scale_word])[0]) or 1.0
@@ -150,7 +150,7 @@ def _directory(lines: list[str]) -> dict[int, Entry]:
 
 
 def _split(text: str, delimiter: str, end: str) -> list[str]:
-    """The fields of a record. ValueError where it has no end."""
+    """Return the fields of a record. ValueError if it has no end."""
     if "H" not in text:
         record, found, _ = text.partition(end)
         if not found:
@@ -172,7 +172,7 @@ def _split(text: str, delimiter: str, end: str) -> list[str]:
 
 
 def _integer(word: str) -> int:
-    """Of a field, 0 where it is blank. ValueError where it is no whole number."""
+    """Return the whole number in a field, 0 if it is blank. ValueError if it is no whole number."""
     word = word.strip()
     if not re.fullmatch(r"[+-]?[0-9]*", word):
         raise ValueError("not a whole number")
@@ -180,19 +180,20 @@ def _integer(word: str) -> int:
 
 
 def integers(fields: list[str], count: int) -> list[int]:
-    """The first fields. ValueError where they are fewer, or not whole numbers."""
+    """Return the first fields. ValueError if they are fewer, or not whole numbers."""
     if not 0 <= count <= len(fields):
         raise ValueError("too few parameters")
     return [_integer(word) for word in fields[:count]]
 
 
 def padded(fields: list[str], count: int) -> list[str]:
-    """The first fields, blank ones in the place of those that are not there."""
+    """Return the first fields, with blank ones for the missing."""
     return fields[:count] + [""] * (count - len(fields))
 
 
 def numbers(fields: list[str]) -> NDArray[np.float64]:
-    """Real numbers, 0 where a field is blank, with Fortran's exponents. ValueError where one is none."""
+    """Return the real numbers of the fields, 0 if a field is blank, with Fortran's exponents. ValueError if one is
+    none."""
     text = "\n".join(fields)
     if not _NUMBERS.fullmatch(text):
         raise ValueError("not a number")

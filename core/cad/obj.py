@@ -31,7 +31,7 @@ _WANTED = {"v", "cstype", "deg", "surf", "parm", "end", "o", "call", "curv", "cu
 
 
 def has_surfaces(path: str | Path) -> bool:
-    """Whether an .obj file has a ``surf``. OSError where it cannot be opened."""
+    """Return whether an .obj file has a ``surf``. OSError if it cannot be opened."""
     with open(path, "rb") as file:
         rest = b"\n"
         while block := file.read(1 << 20):
@@ -42,7 +42,7 @@ def has_surfaces(path: str | Path) -> bool:
 
 
 def read_obj(path: Path) -> SurfaceFile:
-    """The surfaces, in no unit. FileError where there is none that can be kept."""
+    """Read the surfaces, in no unit. FileError if there is none that can be kept."""
     return _Reader(path).read()
 
 
@@ -105,7 +105,7 @@ class _Reader:
                 current.trimmed = True
 
     def _statements(self) -> Iterator[tuple[str, list[str]]]:
-        """Those that matter here, continued lines as one."""
+        """Yield the statements that matter here, continued lines as one."""
         with open(self._path, encoding="utf-8", errors="replace") as file:
             before: list[str] = []
             for line in file:
@@ -119,7 +119,7 @@ class _Reader:
                     yield word, line.partition("#")[0].split()[1:]
 
     def _points(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """(n, 3) and (n,) the vertices and their weights, NaN where they are no numbers."""
+        """Return (n, 3) and (n,) the vertices and their weights, NaN if they are no numbers."""
         table = np.full((len(self._vertices), 4), 1.0)
         for row, words in zip(table, self._vertices):
             count = 4 if len(words) in (4, 5) else 3  # with six and more, colors follow
@@ -138,7 +138,7 @@ def _number(word: str) -> float:
 
 
 def _patches(element: _Element, points: NDArray, weights: NDArray) -> list[Patch]:
-    """Of one surface. ValueError, IndexError and SurfaceRefusedError where it cannot be kept."""
+    """Return the patches of one surface. ValueError, IndexError and SurfaceRefusedError if it cannot be kept."""
     if element.trimmed:
         raise SurfaceRefusedError(SURFACE_TRIMMED)
     if element.type not in ("bspline", "bezier"):
@@ -169,7 +169,7 @@ def _patches(element: _Element, points: NDArray, weights: NDArray) -> list[Patch
 
 
 def _indices(words: list[str], count: int) -> NDArray[np.int64]:
-    """The vertices that are meant, from 0."""
+    """Return the vertices that are meant, from 0."""
     numbers = np.array([parse_whole(word.partition("/")[0]) for word in words], np.int64)
     numbers = np.where(numbers > 0, numbers - 1, numbers + count)
     if (numbers < 0).any() or (numbers >= count).any():

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The numbers in statements of .obj files: vertices and their indices, parameters of free-form curves and surfaces.
 
-Blender puts 0 where a number is missing or none, leaves out faces with a wrong index, and does not read the statement
-behind a byte order mark.
+Blender puts 0 for a number that is missing or none, leaves out faces with a wrong index, and does not read the
+statement behind a byte order mark.
 """
 
 from __future__ import annotations
@@ -54,7 +54,7 @@ def check_obj_text(data: Data) -> None:
     """Raise FileError if an importer would misread a statement."""
     if _MARKED.match(data[:BLOCK]):
         refuse_line(data, 0, finding(FIELD_NOT_WORD, text="U+FEFF", expected="v"))
-    counts = np.zeros(3, np.int64)  # of v, vt and vn before the block
+    counts = np.zeros(3, np.int64)  # counts of v, vt and vn before the block
     for start, text in _blocks(data):
         suspects, counts = _find_suspects(text, counts)
         for at, before in suspects:
@@ -79,7 +79,7 @@ def _blocks(data: Data) -> Iterator[tuple[int, bytes]]:
 
 def _find_suspects(text: bytes, counts: NDArray) -> tuple[list[tuple[int, NDArray]], NDArray]:
     """Return the places of statements that may be wrong, with the counts of v, vt and vn before each, and the counts
-    behind the text. counts: those before the text."""
+    behind the text. counts: before the text."""
     letters = np.frombuffer(text + b"\n\n\n", np.uint8)  # so that three letters of any word can be looked at
     is_word = letters > ord(" ")
     is_word[1:] &= letters[:-1] <= ord(" ")
@@ -111,7 +111,7 @@ def _find_suspects(text: bytes, counts: NDArray) -> tuple[list[tuple[int, NDArra
 
 
 def _indices(letters: NDArray, is_word: NDArray, is_inside: NDArray) -> tuple[NDArray, NDArray, NDArray]:
-    """Return the places of indices, whether each is of v, vt or vn (0, 1, 2), and how far they count."""
+    """Return the places of indices, the kind of each (0, 1, 2 for v, vt, vn), and the absolute values."""
     is_part = is_inside & ((letters - ord("0") < 10) | (letters == ord("-")) | (letters == ord("+")))
     at = np.flatnonzero(is_part & ~np.append(False, is_part[:-1]))
     text = np.where(is_part, letters, np.uint8(ord(" "))).tobytes()
@@ -122,7 +122,8 @@ def _indices(letters: NDArray, is_word: NDArray, is_inside: NDArray) -> tuple[ND
 
 
 def _find_fault(line: bytes, before: Sequence[int] | NDArray) -> Finding | None:
-    """Return what an importer would misread in a statement, or None. before: counts of v, vt and vn."""
+    """Return the part of a statement that an importer would misread, as a finding, or None. before: counts of v, vt and
+    vn."""
     kind = line.split(None, 1)[0]
     # Behind an index without a space, a comment is a part of it; 1.#IND has none.
     words = re.split(rb"\s#" if kind in INDICES else rb"(?<!\.)#", line)[0].split()[1:]
@@ -147,7 +148,8 @@ def _find_fault(line: bytes, before: Sequence[int] | NDArray) -> Finding | None:
 
 
 def _find_index_fault(word: bytes, before: Sequence[int] | NDArray) -> Finding | None:
-    """Return why a word is no index of v, vt and vn, or None. Importers ignore vt and vn where there are none."""
+    """Return the reason why a word is no index of v, vt and vn, or None. Importers ignore vt and vn if there are
+    none."""
     if not re.fullmatch(_ANY_INDEX, word):
         return finding(FIELD_NOT_WHOLE, text=shorten(word))
     for role, (number, count) in enumerate(zip(word.split(b"/"), before)):

@@ -32,7 +32,7 @@ def read_surfaces(path: str | Path, limits: Limits = DEFAULT_LIMITS) -> SurfaceF
     Returns
     -------
     SurfaceFile
-        With what cannot be kept as findings.
+        With surfaces that cannot be kept as findings.
 
     Raises
     ------

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a file of surfaces has: bodies of patches, and what could not be kept, by name."""
+"""The contents of a file of surfaces: bodies of patches, and refused surfaces, by name."""
 
 from __future__ import annotations
 
@@ -25,12 +25,12 @@ from .findings import (
     TOO_MANY_CONTROL_POINTS,
 )
 
-MAX_ORDER = 6  # of the surfaces that are kept
+MAX_ORDER = 6  # largest order of the surfaces that are kept
 MAX_POINTS = 1 << 18  # control points of one patch in Bézier form
-MAX_SURFACES = 10_000  # that a file places
+MAX_SURFACES = 10_000  # surfaces placed by a file
 MAX_TOTAL_POINTS = 1 << 22  # control points of all its patches
-MAX_NAMES = 1000  # that a refusal lists
-MAX_REASONS = 8  # that one refusal lists
+MAX_NAMES = 1000  # names in a refusal
+MAX_REASONS = 8  # reasons in one refusal
 MAX_COORDINATE = 3e38  # below what float32 holds
 
 
@@ -63,11 +63,11 @@ class SurfaceFile:
     ----------
     bodies : tuple of SurfaceBody
     unit : float or None
-        Meters; None where the file does not state it.
+        Meters; None if the file does not state it.
     refused : tuple of Finding
-        What of the file could not be kept, and why.
+        The surfaces that could not be kept, and why.
     notes : tuple of Finding
-        What else was decided.
+        Other decisions.
 
     Examples
     --------
@@ -92,17 +92,17 @@ class SurfaceRefusedError(Exception):
 
 @dataclass
 class Refusals:
-    """What could not be kept, gathered by reason and kind."""
+    """Surfaces that could not be kept, gathered by reason and kind."""
 
     names: dict[tuple, list[str]] = field(default_factory=dict)
-    points: int = 0  # of all patches that were kept
+    points: int = 0  # points of all patches that were kept
 
     def keep(self, kind: str, name: str, make: Callable[[], list[Patch]]) -> list[Patch]:
-        """The patches of a surface, none where it is refused. kind, name: what it is called in the file."""
+        """Return the patches of a surface, none if it is refused. kind, name: its names in the file."""
         before = self.points
         try:
             patches = make()
-            # What makes others of this file has counted them.
+            # A nested call for other surfaces of this file has counted its own.
             self.points = max(self.points, before + sum(patch.points.size // 3 for patch in patches))
             if self.points > MAX_TOTAL_POINTS:
                 raise FileError(TOO_MANY_CONTROL_POINTS, limit=MAX_TOTAL_POINTS)
@@ -111,18 +111,18 @@ class Refusals:
             raise
         except SurfaceRefusedError as error:
             self.add(error.code, kind, name, **error.values)
-        except MeasureError as error:  # of its control points
+        except MeasureError as error:  # about its control points
             self.add(SURFACE_POINTS, kind, name, cause=error.finding)
         except (ValueError, OverflowError, LookupError):
             self.add(SURFACE_DAMAGED, kind, name)
         return []
 
     def add(self, code: str, kind: str, name: str, **values: object) -> None:
-        """Note one surface, or what is none, as refused."""
+        """Note one surface, or another entity, as refused."""
         self.names.setdefault((code, kind, tuple(values.items())), []).append(name)
 
     def findings(self) -> tuple[Finding, ...]:
-        """One for each reason and kind."""
+        """Return one finding for each reason and kind."""
         found = []
         for (code, kind, values), names in self.names.items():
             known = dict(values)
@@ -134,7 +134,7 @@ class Refusals:
     def file(
         self, bodies: Sequence[SurfaceBody], unit: float | None = None, notes: Sequence[Finding] = ()
     ) -> SurfaceFile:
-        """What was read. FileError where that is nothing."""
+        """Return the surface file. FileError if it would be empty."""
         refused, kept = self.findings(), tuple(body for body in bodies if body.patches)
         if not kept and refused:
             causes = [reason.as_record() for reason in truncate_findings(refused, MAX_REASONS)]
@@ -152,10 +152,10 @@ def blender_patches(
     domain: tuple[tuple[float, float] | None, tuple[float, float] | None],
     matrix: NDArray,
 ) -> list[Patch]:
-    """The patches that Blender can hold for a surface with any knots; ValueError where there is no such surface.
+    """Return the patches that Blender can hold for a surface with any knots; ValueError if there is no such surface.
 
-    points: (count_s, count_t, 3), weights: (count_s, count_t) or None, domain: the part of each direction that is
-    meant, matrix: (4, 4) from the points to the file's coordinates.
+    points: (count_s, count_t, 3), weights: (count_s, count_t) or None, domain: the wanted part of each direction,
+    matrix: (4, 4) from the points to the file's coordinates.
     """
     if max(orders) > MAX_ORDER:
         raise SurfaceRefusedError(SURFACE_ORDER, order=max(orders), limit=MAX_ORDER)
@@ -177,5 +177,5 @@ def blender_patches(
 
 
 def _too_uneven(weights: NDArray) -> bool:
-    """Whether float32 would not hold them as positive numbers, the largest being 1."""
+    """Return whether float32 would not hold the weights as positive numbers, the largest being 1."""
     return bool(weights.min() < 1e-30 * weights.max())

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Whether a closed curve in the parameters of a surface is just the boundary of its domain, and so trims nothing."""
+"""A test that a closed curve in the parameters of a surface is just the boundary of its domain and trims nothing."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-TRIM_RTOL = 1e-7  # of the domain, as float32 rounds: how far from its sides the curve may run
+TRIM_RTOL = 1e-7  # float32 rounding: distance of the curve from the sides, relative to the domain
 
 
 @dataclass(frozen=True, eq=False)
@@ -22,7 +22,8 @@ class Piece:
 
 
 def trims_nothing(pieces: Sequence[Piece], domain: tuple[tuple[float, float], tuple[float, float]]) -> bool:
-    """Whether the pieces run once around the domain, in either sense, from end to end and always on its sides."""
+    """Return whether the pieces run once around the domain, in either sense, from end to end and always on its
+    sides."""
     low, high = np.array(domain).T
     if not (high > low).all():
         return False
@@ -45,16 +46,16 @@ def trims_nothing(pieces: Sequence[Piece], domain: tuple[tuple[float, float], tu
         return False
     traveled = sum(steps)
     one_way = all(step * np.sign(traveled) >= -TRIM_RTOL for step in steps)
-    return one_way and round(abs(traveled) / 4.0) == 1  # what is closed runs around a whole number of times
+    return one_way and round(abs(traveled) / 4.0) == 1  # a closed curve runs around a whole number of times
 
 
 def _sides(points: NDArray) -> NDArray[np.bool_]:
-    """(n, 4) which sides of the unit square each point is on: below, right, above, left."""
+    """Return (n, 4) mask of the sides of the unit square that each point is on: below, right, above, left."""
     x, y = points.T
     return np.abs(np.stack([y, x - 1.0, y - 1.0, x], axis=1)) <= TRIM_RTOL
 
 
 def _step(start: NDArray, end: NDArray, side: int) -> float:
-    """How far it is along a side, counterclockwise."""
+    """Return the distance along a side, counterclockwise."""
     x, y = end - start
     return float((x, y, -x, -y)[side])

@@ -38,7 +38,7 @@ class Busy(OSError):
 
 
 def beside(path: Path, ending: str) -> Path:
-    """A hidden file in the same folder, named after `path`."""
+    """Return the path of a hidden file in the same folder, named after `path`."""
     name = path.name
     if len(os.fsencode(name)) > _LONGEST:
         name = hashlib.blake2b(os.fsencode(name), digest_size=16).hexdigest()
@@ -47,7 +47,8 @@ def beside(path: Path, ending: str) -> Path:
 
 @contextmanager
 def locked(path: Path, wait: float | None = None) -> Iterator[bool]:
-    """No other process of ours writes `path` within the block; False on a file system that has no locks.
+    """Keep other processes of ours from writing `path` within the block. Yield False on a file system that has no
+    locks.
 
     path: without symbolic links. wait: seconds, by default WAIT. Raises Busy and OSError.
     """
@@ -59,13 +60,13 @@ def locked(path: Path, wait: float | None = None) -> Iterator[bool]:
     finally:
         if descriptor is not None:
             os.close(descriptor)
-        if os.name == "nt":  # where what is open cannot be removed
+        if os.name == "nt":  # Windows cannot remove open files
             with suppress(OSError):
                 lock.unlink()
 
 
 def _acquired(lock: Path, deadline: float) -> int | None:
-    """The descriptor that holds the lock, None where there are no locks."""
+    """Return the descriptor that holds the lock, None if there are no locks."""
     while True:
         descriptor = _opened(lock)
         try:

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Files that must not outlive what they are for, however the process is asked to end."""
+"""Files that must not outlive their use, however the process is asked to end."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _present: set[Path] = set()
 
 @contextmanager
 def removed(*paths: Path) -> Iterator[None]:
-    """The files are gone when the block ends, and where a signal ends the process within it. None need exist."""
+    """Remove the files when the block ends, or if a signal ends the process within it. None need exist."""
     taken = _take_signals()
     _present.update(paths)
     try:
@@ -35,7 +35,7 @@ def _remove(paths: tuple[Path, ...]) -> None:
 
 
 def _take_signals() -> list[int]:
-    """The signals that are ours until the block ends: those that nobody else handles or ignores."""
+    """Take the signals that nobody else handles or ignores, until the block ends. Return them."""
     free = [number for number in _ENDS if signal.getsignal(number) == signal.SIG_DFL]
     try:
         for number in free:

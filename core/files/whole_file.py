@@ -18,11 +18,11 @@ from .leftovers import removed
 
 @contextmanager
 def whole_file(path: Path, check: Callable[[Path], None] | None = None) -> Iterator[BinaryIO]:
-    """A file to write to, which takes the place of `path` once it is on the disk, and is gone where that fails. A pipe
-    or a device is written to, and not replaced.
+    """Open a file to write to, which takes the place of `path` once it is on the disk, and is gone if that fails. A
+    pipe or a device is written to, and not replaced.
 
-    check: raises FileExistsError where `path` must not be replaced. It is asked last of all, because the file may have
-    appeared meanwhile; what was written is kept beside it then. Raises OSError.
+    check: raises FileExistsError if `path` must not be replaced. It is called last of all, because the file may have
+    appeared meanwhile; the written data is kept beside it then. Raises OSError.
     """
     if path.exists() and not path.is_file():
         with open(path, "wb") as file:
@@ -46,9 +46,8 @@ def whole_file(path: Path, check: Callable[[Path], None] | None = None) -> Itera
 
 @contextmanager
 def partial_file(path: Path, alone: bool) -> Iterator[Path]:
-    """The name of a file beside `path` to write first, gone when the block ends. What was left by processes that were
-    killed goes too, where nobody else can be writing.
-    """
+    """Yield the name of a file beside `path` to write first, gone when the block ends. Files left by processes that
+    were killed go too, if nobody else can be writing."""
     partial = beside(path, "{}.partial".format(os.getpid()))
     written = Path("{}@".format(partial))  # Blender's own, while it saves
     ours = re.compile(re.escape(beside(path, "").name) + r"\d+\.partial@?")
@@ -71,7 +70,7 @@ def replace(partial: Path, path: Path) -> None:
     with open(partial, "rb+") as file:
         os.fsync(file.fileno())
     os.replace(partial, path)
-    with suppress(OSError):  # some systems open no folders
+    with suppress(OSError):  # not every system can open folders
         folder = os.open(path.parent, os.O_RDONLY)
         try:
             os.fsync(folder)
@@ -91,7 +90,7 @@ def _take_owner_and_mode(path: Path, status: os.stat_result) -> None:
 
 
 def _free_name(path: Path) -> Path:
-    """A file of a new name beside `path`, empty."""
+    """Create an empty file of a new name beside `path`. Return its path."""
     number = 1
     while True:
         free = path.with_name("{}.{}{}".format(path.stem, number, path.suffix))

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What an affine map makes of a body's mass properties, from these alone."""
+"""Mass properties of an affine image of a body, from its mass properties alone."""
 
 from __future__ import annotations
 
@@ -24,16 +24,16 @@ def affine_image(
     linear : (3, 3) array_like
         The linear part of the map.
     center : (3,) array_like
-        Where the center of mass comes to lie.
+        The center of mass of the image.
     mass : float
         The mass of the image.
     preferred_axes : (3, 3) array_like
-        As columns, what the principal axes are near to: each points the way of one of these.
+        Directions near the principal axes, as columns: each axis points the way of one.
 
     Returns
     -------
     MassProperties
-        With the bounds of `properties`, of which nothing is known here. The frame is no choice of the canonical rule:
+        With the bounds of `properties`: nothing better is known here. The frame is no choice of the canonical rule:
         second moments alone leave the signs open.
 
     Examples

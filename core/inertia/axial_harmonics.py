@@ -1,17 +1,16 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What turns a body about its axis, where its moments to sixth order are those of a body of revolution: a prism of
-seven sides and more.
+"""Harmonics that turn a body about its axis, if its moments to sixth order are those of a body of revolution: a prism
+of seven sides and more.
 
-The harmonics ∫ (x+iy)^m and ∫ (x+iy)^m z about the axis are moments of order m and m + 1, of which no others are
-needed. They are powers of linear forms, whose mean over a triangle is a complete homogeneous polynomial of the corners'
-values,
+The harmonics ∫ (x+iy)^m and ∫ (x+iy)^m z about the axis are moments of order m and m + 1; no others are needed. They
+are powers of linear forms. The mean of one over a triangle is a complete homogeneous polynomial of the corners' values,
 
     E[w^m] = 2 m! / (m+2)! h_m(w_a, w_b, w_c),
 
-found by the recursion that `any_order` takes too; the factor z comes with the derivative by ε of (w + ε z)^(m+1). The
-first one that is more than noise turns the frame: there it is to be positive. The others decide between the m turns
-for which it is.
+found by the recursion of `any_order`; the factor z comes with the derivative by ε of (w + ε z)^(m+1). The first one
+that is more than noise turns the frame: there it is to be positive. The others decide between the m turns that make it
+positive.
 """
 
 from __future__ import annotations
@@ -27,8 +26,8 @@ from ..numerics.vectors import cross, dot
 from .canonical_frame import MAX_ORDER, NOISE_LEVEL, EquivalentFrames, _lexicographic_maximum
 
 MAX_AXIAL_ORDER = 30
-MAX_TILT = 1e-2  # of an axis: about one that leans by more, the harmonics say nothing of the body
-LEAST_HEIGHT = 1e-2  # of the radius: heights are counted by it at least, as float32 makes flat bodies uneven
+MAX_TILT = 1e-2  # tilt of an axis: about one that leans by more, the harmonics say nothing of the body
+LEAST_HEIGHT = 1e-2  # relative to the radius: least unit of height, as float32 makes flat bodies uneven
 TRIANGLES_PER_BLOCK = 1 << 13
 
 
@@ -63,7 +62,7 @@ class AxialHarmonics:
         return AxialHarmonics(frame, values * np.exp(-1j * turn * np.arange(values.shape[1])))
 
     def inverted(self) -> AxialHarmonics:
-        """Return those of the body's image in its center."""
+        """Return the harmonics of the body's image in its center."""
         m = np.arange(self.values.shape[1])
         return replace(self, values=self.values * np.stack([(-1.0) ** m, (-1.0) ** (m + 1)]))
 
@@ -71,7 +70,7 @@ class AxialHarmonics:
 def axial_harmonics(
     surfaces: Iterable[Surface], center: NDArray, frame: NDArray, *, area: bool, order: int = MAX_AXIAL_ORDER
 ) -> AxialHarmonics:
-    """Find the harmonics of what surfaces bound, or of the surfaces themselves.
+    """Find the harmonics of the body that surfaces bound, or of the surfaces themselves.
 
     Parameters
     ----------
@@ -82,7 +81,7 @@ def axial_harmonics(
     frame : (3, 3) array
         As in `AxialHarmonics`.
     area : bool
-        Whether the surfaces themselves are meant.
+        True for the surfaces themselves.
     order : int
         The largest m.
 
@@ -109,14 +108,15 @@ def axial_harmonics(
 
 
 def _means(corners: NDArray[np.float64], order: int) -> NDArray[np.complex128]:
-    """(2, order + 1, k) the means of w^m and w^m z over triangles. corners: (3, 3, k), x, y, z of each corner."""
+    """Return (2, order + 1, k) the means of w^m and w^m z over triangles. corners: (3, 3, k), x, y, z of each
+    corner."""
     w, z = corners[:, 0] + 1j * corners[:, 1], corners[:, 2]
     power, slope = [np.ones(w.shape[1], np.complex128)] * 3, [np.zeros(w.shape[1], np.complex128)] * 3
     means = np.empty((2, order + 1, w.shape[1]), np.complex128)
     means[0, 0] = 1.0
     for m in range(1, order + 2):
         lower_power = lower_slope = 0.0
-        for i in range(3):  # of the first corner, of the first two, of all three
+        for i in range(3):  # adds the first corner, the second, the third
             lower_slope = lower_slope + z[i] * power[i] + w[i] * slope[i]
             lower_power = lower_power + w[i] * power[i]
             power[i], slope[i] = lower_power, lower_slope
@@ -127,7 +127,7 @@ def _means(corners: NDArray[np.float64], order: int) -> NDArray[np.complex128]:
 
 
 def axis_last(alike: EquivalentFrames) -> NDArray[np.float64]:
-    """Return a (3, 3) frame whose third axis is the axis of revolution."""
+    """Return a (3, 3) frame with the axis of revolution as its third axis."""
     (axis,) = alike.revolution_axes
     return alike.frames[0][:, np.roll([0, 1, 2], 2 - axis)]
 
@@ -149,8 +149,8 @@ def turn_by_harmonics(
     Returns
     -------
     EquivalentFrames
-        In which the body is the same, to the harmonics' order; what was given where none of them is more than noise, or
-        the axis itself is not known well.
+        Frames in which the body is the same, to the harmonics' order; `alike` if no harmonic is more than noise, or the
+        axis itself is not known well.
     """
     (axis,) = alike.revolution_axes
     if alike.tilt > MAX_TILT:

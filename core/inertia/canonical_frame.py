@@ -1,15 +1,15 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The frames that a body's moments beyond second order choose: one where it has no symmetry, else one for each rotation
+"""The frames that a body's moments beyond second order choose: one if it has no symmetry, else one for each rotation
 that takes the body to itself, as far as these moments show.
 
 First a finite set of frames is found that turns with the body. Axes of different second moments are fixed up to their
 signs. Around one such axis the other two are turned to make the first clear harmonic ∫ (x+iy)^m ... real and positive:
 its phase is a rotation's, so an m-fold choice is left (a square prism's by fourth order, a triangular one's by third).
-Where all second moments are equal, the first axis is a direction in which the n-th moment ∫ (u·x)^n is largest or
+If all second moments are equal, the first axis is a direction in which the n-th moment ∫ (u·x)^n is largest or
 smallest, whichever happens in fewer directions: for a cube by fourth order its own axes (cases.md 2.11).
 Then the central moments are written down in each of these frames, and those frames are kept in which they are largest,
-entry by entry; entries that differ by noise are equal. What is left are frames in which the body is the same.
+entry by entry; entries that differ by noise are equal. The remaining frames are the ones in which the body is the same.
 """
 
 from __future__ import annotations
@@ -28,11 +28,11 @@ from .findings import MOMENTS_OVERFLOW
 
 MAX_ORDER = 6  # by which the axes of every prism to a hexagon's, of a cube and of an icosahedron are found
 NOISE_LEVEL = 1e-5  # a normalized third moment below this is noise: ten times what float32 coordinates make
-# of it with the degree: as the moments of a normal distribution grow
+# Growth of the noise with the degree: as the moments of a normal distribution grow.
 NOISE_GROWTH = (1.0, 1.0, 1.0, 1.0, 3.0, 8.0, 15.0)
 CLEAR_HARMONIC = 1e-2  # a harmonic above this fixes a direction well; weaker ones are used only without a better one
-FLAT_EXTENT_RTOL = 1e-6  # of the largest extent: along an axis of less, a body is a lamina and has no skewness
-MAX_EQUAL_SHARE = 0.25  # of what distinguishes directions: at most that much counts as equal
+FLAT_EXTENT_RTOL = 1e-6  # relative to the largest extent: along an axis of less, a body is a lamina and has no skewness
+MAX_EQUAL_SHARE = 0.25  # share of the range over directions: at most that much counts as equal
 START_DIRECTIONS = 240  # directions from which extreme ones are looked for
 MAX_START_GAP = 0.18  # from any direction to the nearest of them
 ASCENT_STEPS = 16  # from there to a maximum, most of them for those that are hardly curved
@@ -44,9 +44,9 @@ DISTINCT_DIRECTIONS = 1e-2  # extreme directions closer than this are one
 
 @dataclass(frozen=True, eq=False)
 class SecondMomentAxes:
-    """What second moments say. axes: (3, 3) columns, det +1, largest second moment first. size: (3,) the extents
-    (standard deviations) along them. undetermined_axes: the axes that equal moments leave free. step: how far float32
-    has moved the points, as a length. tilt: the angle by which that and rounding may have turned the other axes. noise:
+    """Axes from second moments. axes: (3, 3) columns, det +1, largest second moment first. size: (3,) the extents
+    (standard deviations) along them. undetermined_axes: the axes that equal moments leave free. step: shift of the
+    points by float32, as a length. tilt: the angle by which that and rounding may have turned the other axes. noise:
     normalized third moments that differ by less are equal."""
 
     axes: NDArray[np.float64]
@@ -59,9 +59,9 @@ class SecondMomentAxes:
 
 @dataclass(frozen=True)
 class FrameRule:
-    """What fixes frames beside second moments. extreme: the degree of the moments that are extreme along their third
-    axis; 0 where second moments fix an axis. axis, harmonic: the axis about which the harmonic of this degree, m and k
-    is real; None where none is clear. sign: the harmonic's."""
+    """Rule that fixes frames beside second moments. extreme: the degree of the moments that are extreme along their
+    third axis; 0 if second moments fix an axis. axis, harmonic: the axis about which the harmonic of this degree, m and
+    k is real; None if none is clear. sign: the harmonic's."""
 
     extreme: int
     axis: int
@@ -71,11 +71,11 @@ class FrameRule:
 
 @dataclass(frozen=True, eq=False)
 class EquivalentFrames:
-    """frames: (k, 3, 3) rotations whose columns are the axes, all of them alike to the body. values, noise: (n,) the
-    normalized central moments of third to the highest order in each of them, and what of them is noise.
-    revolution_axes: the directions that no moment fixes: none (), those around one axis of the frames (that axis,), or
-    all (0, 1, 2). tilt: an estimate of the angle by which noise may have turned them. rule: what fixes them; None where
-    second moments alone do, or where they are the poles of a circle of extreme directions."""
+    """Frames in which a body is the same. frames: (k, 3, 3) rotations with the axes as columns. values, noise: (n,) the
+    normalized central moments of third to the highest order in each of them, and their noise. revolution_axes: the
+    directions that no moment fixes: none (), all around one axis of the frames (that axis,), or all (0, 1, 2). tilt: an
+    estimate of the angle by which noise may have turned them. rule: fixes them; None if second moments alone do, or if
+    they are the poles of a circle of extreme directions."""
 
     frames: NDArray[np.float64]
     values: NDArray[np.float64]
@@ -86,8 +86,9 @@ class EquivalentFrames:
 
 
 def canonical_frames(moments: Moments, spread: SecondMomentAxes, starts: NDArray) -> EquivalentFrames:
-    """moments: to some order from 3 to MAX_ORDER, about any point. starts: (k, 3, 3) the frames along the spread's axes
-    that third moments allow. MeasureError where their size is beyond the range of numbers."""
+    """Return the frames that a body's moments choose. moments: to some order from 3 to MAX_ORDER, about any point.
+    starts: (k, 3, 3) the frames along the spread's axes that third moments allow. MeasureError if their size is beyond
+    the range of numbers."""
     central = moments.about_center()
     total = central.raw[0]
     with np.errstate(over="ignore", under="ignore"):
@@ -105,7 +106,7 @@ def canonical_frames(moments: Moments, spread: SecondMomentAxes, starts: NDArray
 def _candidates(
     central: Moments, spread: SecondMomentAxes, starts: NDArray
 ) -> tuple[NDArray, tuple[int, ...], float, FrameRule | None]:
-    """The frames, and `revolution_axes`, `tilt` and `rule` of them."""
+    """Return the frames, and `revolution_axes`, `tilt` and `rule` of them."""
     if not spread.undetermined_axes:
         return starts, (), spread.tilt, None
     if len(spread.undetermined_axes) == 2:
@@ -128,18 +129,18 @@ def _candidates(
 
 
 def _sign(harmonic: tuple[int, int, int] | None, fourfold: float) -> float:
-    """The sign that a harmonic gets."""
+    """Return the sign that a harmonic gets."""
     return fourfold if harmonic and harmonic[1] == 4 else 1.0
 
 
 def _fix_rotation_about_axis(
     central: Moments, spread: SecondMomentAxes, bases: NDArray, axis: int, fourfold: float = -1.0
 ) -> tuple[NDArray, tuple[int, int, int] | None, float]:
-    """The bases turned about that axis of theirs as the first clear harmonic asks, its degree, m and k if there is one,
-    and the angle by which noise may have turned it.
+    """Turn the bases about that axis of theirs as the first clear harmonic asks. Return them, its degree, m and k if
+    there is one, and the angle by which noise may have turned it.
 
-    fourfold: the sign that a harmonic with m = 4 gets; others get a positive one. E[cos 4φ] is negative for a square
-    whose sides lie along the axes.
+    fourfold: the sign of a harmonic with m = 4; others get a positive one. E[cos 4φ] is negative for a square with
+    sides along the axes.
     """
     harmonic = _clear_harmonic(central, spread, bases, axis)
     if harmonic is None:
@@ -152,7 +153,7 @@ def _fix_rotation_about_axis(
     a, b = bases[:, None, :, first], bases[:, None, :, second]
     frames = np.repeat(bases[:, None], m, axis=1)
     frames[..., first], frames[..., second] = cos * a + sin * b, cos * b - sin * a
-    # Of several directions, those about which it is the same.
+    # Among several directions keep the ones with the same harmonic.
     noise, largest = spread.noise / NOISE_LEVEL * least, np.abs(c).max()
     alike = np.abs(c) > largest - min(2.0 * noise, MAX_EQUAL_SHARE * largest)
     return frames[alike].reshape(-1, 3, 3), (degree, m, k), noise / (m * largest)
@@ -161,8 +162,8 @@ def _fix_rotation_about_axis(
 def _clear_harmonic(
     central: Moments, spread: SecondMomentAxes, bases: NDArray, axis: int
 ) -> tuple[int, int, int, NDArray[np.complex128], float] | None:
-    """The first harmonic about that axis of the bases that is above noise, those above CLEAR_HARMONIC before weaker
-    ones: its degree, m and k, (n,) its value in each basis, and what of it is noise."""
+    """Return the first harmonic about that axis of the bases that is above noise, first among harmonics above
+    CLEAR_HARMONIC: its degree, m and k, (n,) its value in each basis, and its noise."""
     first, second = (axis + 1) % 3, (axis + 2) % 3
     order, size, weaker = [first, second, axis], _extents(spread), None
     for degree in range(3, central.order + 1):
@@ -171,7 +172,7 @@ def _clear_harmonic(
         for m in range(1, degree + 1):
             for k in range((degree - m) % 2, degree - m + 1, 2):
                 c = _harmonic(tensor, degree, m, k) / (size[first] ** (degree - k) * size[axis] ** k)
-                weight = 2.0 ** (degree - k)  # of the sum of moments that a harmonic is
+                weight = 2.0 ** (degree - k)  # a harmonic is a sum of moments with this total weight
                 powers = [0, 0, 0]
                 powers[first], powers[axis] = degree - k, k
                 least = weight * noise[monomial_index(*powers) - monomial_index(degree, 0, 0)]
@@ -184,7 +185,7 @@ def _clear_harmonic(
 
 
 def _harmonic(tensor: NDArray, degree: int, m: int, k: int) -> NDArray[np.complex128]:
-    """(n,) E[(x+iy)^m (x²+y²)^j z^k] of n bodies' (n, 3, ..., 3) moments of this degree, k = degree - m - 2j."""
+    """Return (n,) E[(x+iy)^m (x²+y²)^j z^k] of n bodies' (n, 3, ..., 3) moments of this degree, k = degree - m - 2j."""
     j = (degree - m - k) // 2
     forms = [np.array([1.0, 1.0j, 0.0])] * (m + j) + [np.array([1.0, -1.0j, 0.0])] * j + [np.array([0, 0, 1.0])] * k
     for form in forms:
@@ -195,9 +196,9 @@ def _harmonic(tensor: NDArray, degree: int, m: int, k: int) -> NDArray[np.comple
 def _extreme_directions(
     central: Moments, spread: SecondMomentAxes, degree: int, clear: float
 ) -> tuple[NDArray, float, float, bool]:
-    """(k, 3) the directions u of the largest E[(u·x)^degree], or of the least if they are fewer, 1 or -1 for which it
-    is, the angle by which noise may have turned them, and whether they are isolated; of a circle of them its poles.
-    None (0, 3) where the moment is the same in all directions."""
+    """Return (k, 3) the directions u of the largest E[(u·x)^degree], or of the least, whichever are fewer; 1 or -1 for
+    the two; the angle by which noise may have turned them; and whether they are isolated: of a circle of them the poles
+    are returned. None (0, 3) if the moment is the same in all directions."""
     tensor = central.raw[tensor_index(degree)] / spread.size.max() ** degree
     noise = 2.0 * _normalization(central, spread, degree)[1].max()
     least = max(2.0 * _normalization(central, replace(spread, noise=NOISE_LEVEL), degree)[1].max(), clear)
@@ -225,12 +226,12 @@ def _extreme_directions(
 
 
 def _maximize_on_sphere(tensor: NDArray, degree: int, span: float, within: float) -> NDArray[np.float64]:
-    """The maxima on the sphere, the best approached first, that are no more than `within` below the largest; some
-    of them several times. span: between the largest and the least value.
+    """Return the maxima on the sphere, the best approached first, that are no more than `within` below the largest;
+    some of them several times. span: between the largest and the least value.
 
-    From the highest points of all over it: along the sphere the function is a trigonometric polynomial, so that by
-    Bernstein's inequality it loses at most (degree MAX_START_GAP)² span / 4 on the way from a maximum to the nearest of
-    them. Steps are Newton's in the directions that are curved, and always uphill.
+    The search starts from the highest points of a grid over the sphere: along the sphere the function is a
+    trigonometric polynomial, so that by Bernstein's inequality it loses at most (degree MAX_START_GAP)² span / 4 on the
+    way from a maximum to the nearest of them. Steps are Newton's in the directions that are curved, and always uphill.
     """
     points, scale = _sphere_directions(), degree**2 * span
     height = _contract(tensor, degree, points)
@@ -260,7 +261,7 @@ def _maximize_on_sphere(tensor: NDArray, degree: int, span: float, within: float
 
 @lru_cache
 def _sphere_directions() -> NDArray[np.float64]:
-    """(START_DIRECTIONS, 3) directions spread evenly: Fibonacci's lattice."""
+    """Return (START_DIRECTIONS, 3) directions spread evenly: Fibonacci's lattice."""
     i = np.arange(START_DIRECTIONS) + 0.5
     z, turn = 1.0 - 2.0 * i / START_DIRECTIONS, np.pi * (1.0 + 5.0**0.5) * i
     r = np.sqrt(1.0 - z * z)
@@ -268,7 +269,7 @@ def _sphere_directions() -> NDArray[np.float64]:
 
 
 def _frame_from_axis(axis: NDArray) -> NDArray[np.float64]:
-    """A right-handed frame whose third axis this is."""
+    """Return a right-handed frame with this third axis."""
     helper = np.eye(3)[np.argmin(np.abs(axis))]
     first = helper - axis * (axis @ helper)
     first /= np.linalg.norm(first)
@@ -276,7 +277,7 @@ def _frame_from_axis(axis: NDArray) -> NDArray[np.float64]:
 
 
 def _normalized_moments(central: Moments, spread: SecondMomentAxes, frames: NDArray) -> tuple[NDArray, NDArray]:
-    """(k, n) the normalized moments in the frames, and (n,) what of them is noise."""
+    """Return (k, n) the normalized moments in the frames, and (n,) their noise."""
     values, noises = [], []
     for degree in range(3, central.order + 1):
         unit, noise = _normalization(central, spread, degree)
@@ -287,8 +288,8 @@ def _normalized_moments(central: Moments, spread: SecondMomentAxes, frames: NDAr
 
 
 def _normalization(central: Moments, spread: SecondMomentAxes, degree: int) -> tuple[NDArray, NDArray]:
-    """For each monomial of a degree the product of the extents along its axes, and what of its normalized moment is
-    noise: of float32 coordinates, and of rounding."""
+    """Return for each monomial of a degree the product of the extents along its axes, and the noise of its normalized
+    moment by float32 coordinates and by rounding."""
     powers = monomials(degree)[monomial_index(degree, 0, 0) :]
     size = _extents(spread)
     unit = np.prod(size**powers, axis=1)
@@ -301,12 +302,13 @@ def _normalization(central: Moments, spread: SecondMomentAxes, degree: int) -> t
 
 
 def _extents(spread: SecondMomentAxes) -> NDArray[np.float64]:
-    """(3,) the extents; infinite along an axis that has hardly any, so that no noise is divided by next to nothing."""
+    """Return (3,) the extents; infinite along an axis that has hardly any, so that no noise is divided by next to
+    nothing."""
     return np.where(spread.size > FLAT_EXTENT_RTOL * spread.size.max(), spread.size, np.inf)
 
 
 def _lexicographic_maximum(frames: NDArray, values: NDArray, noise: NDArray) -> tuple[NDArray, NDArray, NDArray]:
-    """The frames with the largest values, one entry after the other; what differs by noise is equal."""
+    """Return the frames with the largest values, one entry after the other; values that differ by noise are equal."""
     best = np.arange(len(frames))
     for column, least in zip(values.T, noise):
         best = best[column[best] >= column[best].max() - least]

@@ -1,11 +1,11 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What `canonical_frames` chooses, for many bodies at once: where only signs of axes are left, and for bodies that no
+"""The choice of `canonical_frames` for many bodies at once: if only signs of axes are left, and for bodies that no
 moment fixes about an axis.
 
-A frame turned by half a turn about one of its axes has the same normalized moments, but for the signs of those that are
-odd in both other axes. So of frames that differ by half turns those with the largest moments are found from the first
-moments, of each kind of odd ones, that are more than noise.
+A frame turned by half a turn about one of its axes has the same normalized moments, but for the signs of the moments
+that are odd in both other axes. So among frames that differ by half turns the ones with the largest moments are found
+from the first moments, of each kind of odd ones, that are more than noise.
 """
 
 from __future__ import annotations
@@ -23,10 +23,10 @@ from .canonical_frame import FLAT_EXTENT_RTOL, NOISE_GROWTH
 from .findings import MOMENTS_OVERFLOW
 from .third_moment_frames import FIXED_AXIS, HALF_TURN_SIGNS, SYMMETRIES, ThirdMomentFrames
 
-THIRD = monomial_count(2)  # where the moments of third order begin
-# by whether p, q and r are odd: 0 where half turns change no sign, else which of p, q and r differs from the two others
+THIRD = monomial_count(2)  # index of the first moment of third order
+# By the parity of p, q and r: 0 if half turns change no sign, else 1 to 3 for the one that differs from the others.
 ODD_KIND = np.array([[[0, 3], [2, 1]], [[1, 2], [3, 0]]])
-# of the moments of each such kind, the signs that no half turn and those about axes 1, 2 and 3 give them
+# Signs that moments of each such kind get by no half turn, and by half turns about axes 1, 2 and 3.
 HALF_TURN_PARITY = np.array([[1.0, 1.0, -1.0, -1.0], [1.0, -1.0, 1.0, -1.0], [1.0, -1.0, -1.0, 1.0]])
 
 
@@ -39,12 +39,12 @@ def choose_half_turns(moments: Moments, fixed: ThirdMomentFrames, bodies: NDArra
         Of n bodies, to sixth order.
     fixed : ThirdMomentFrames
     bodies : (n,) int
-        Which of those they are.
+        Their indices.
 
     Returns
     -------
     (n, 4) bool
-        Of `third_moment_frames.HALF_TURN_SIGNS`.
+        Mask of `third_moment_frames.HALF_TURN_SIGNS`.
     """
     values, least, _ = _along_axes(moments, fixed, bodies)
     return _choose(values, least, fixed.allowed[bodies])
@@ -53,7 +53,7 @@ def choose_half_turns(moments: Moments, fixed: ThirdMomentFrames, bodies: NDArra
 def choose_about_axis(
     moments: Moments, fixed: ThirdMomentFrames, bodies: NDArray[np.intp]
 ) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
-    """Choose, for bodies with two axes of equal moments, the half turns that `canonical_frames` chooses where no moment
+    """Choose, for bodies with two axes of equal moments, the half turns that `canonical_frames` chooses if no moment
     fixes the directions of these axes.
 
     Parameters
@@ -64,9 +64,9 @@ def choose_about_axis(
     Returns
     -------
     is_round : (n,) bool
-        Whether that is so; the others have to be looked at one by one.
+        True if no moment fixes them; the others have to be looked at one by one.
     allowed : (n, 4) bool
-        Of one direction of the axis, or of both, one half turn each.
+        One half turn for one direction of the axis, or for both.
     """
     values, least, raw = _along_axes(moments, fixed, bodies)
     is_round, allowed = np.ones(len(bodies), bool), fixed.allowed[bodies]
@@ -78,7 +78,7 @@ def choose_about_axis(
         unit = np.multiply.reduce(_extents(size)[:, None] ** powers, axis=2)
         harmonic = np.abs(raw[rows][:, THIRD:] @ forms.T) / unit
         is_round[rows] = ~(harmonic > weights * least[rows][:, columns]).any(axis=1)
-        # of the frames with the same direction of the axis only the first is looked at
+        # keep only the first frame for each direction of the axis
         ahead = HALF_TURN_SIGNS[:, axis] > 0.0
         for way in (ahead, ~ahead):
             later = np.cumsum(allowed[np.ix_(rows, np.flatnonzero(way))], axis=1) > 1
@@ -88,8 +88,8 @@ def choose_about_axis(
 
 
 def _choose(values: NDArray, least: NDArray, allowed: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """(n, 4) of the half turns that are allowed those with the largest normalized moments, (n, columns), column after
-    column; what differs by no more than `least` is equal."""
+    """Return (n, 4) mask of the allowed half turns with the largest normalized moments, (n, columns), column after
+    column; values that differ by no more than `least` are equal."""
     kind = ODD_KIND[tuple(monomials(order_from_count(THIRD + values.shape[1]))[THIRD:].T % 2)]
     clear = (2.0 * np.abs(values) > least)[:, None] & (kind == np.arange(1, 4)[:, None])  # (n, 3, columns)
     count = values.shape[1]
@@ -106,8 +106,8 @@ def _choose(values: NDArray, least: NDArray, allowed: NDArray[np.bool_]) -> NDAr
 def _along_axes(
     moments: Moments, fixed: ThirdMomentFrames, bodies: NDArray[np.intp]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-    """(n, columns) the normalized central moments of third to the highest order along the axes, and what of them is
-    noise; (n, K) the central moments along the axes by the total."""
+    """Return (n, columns) the normalized central moments of third to the highest order along the axes, and their noise;
+    (n, K) the central moments along the axes by the total."""
     central = moments.about_center()
     order, total, size = central.order, central.raw[:, :1], fixed.size[bodies]
     with np.errstate(over="ignore"):
@@ -126,21 +126,21 @@ def _along_axes(
 
 
 def _extents(size: NDArray) -> NDArray[np.float64]:
-    """(n, 3) the extents; infinite along an axis that has hardly any."""
+    """Return (n, 3) the extents; infinite along an axis that has hardly any."""
     return np.where(size > FLAT_EXTENT_RTOL * size.max(axis=1, keepdims=True), size, np.inf)
 
 
 @lru_cache
 def _harmonics(axis: int, order: int) -> tuple[NDArray[np.float64], NDArray[np.intp], NDArray[np.complex128]]:
-    """E[(x+iy)^m (x²+y²)^j z^k] for all degrees m + 2j + k from 3 to `order` with m > 0, z along this axis and x and y
-    along the next: (h,) how many moments' noise each holds, (h,) the column, from third order on, of the moment whose
-    size it has, and (h, columns) what it is made from."""
+    """Return the harmonics E[(x+iy)^m (x²+y²)^j z^k] for all degrees m + 2j + k from 3 to `order` with m > 0, z along
+    this axis and x and y along the next: (h,) the number of moments' noise that each holds, (h,) the column, from third
+    order on, of the moment of its size, and (h, columns) the moments that make it up."""
     weights, columns, forms = [], [], []
     for degree in range(3, order + 1):
         for m in range(1, degree + 1):
             for k in range((degree - m) % 2, degree - m + 1, 2):
                 form = np.zeros(monomial_count(order) - THIRD, complex)
-                planar = np.polynomial.polynomial.polypow([1.0, 1.0j], m)  # of y by x
+                planar = np.polynomial.polynomial.polypow([1.0, 1.0j], m)  # coefficients of y over x
                 ring = np.polynomial.polynomial.polypow([1.0, 0.0, 1.0], (degree - m - k) // 2)
                 where = [
                     monomial_index(*np.roll((degree - k - power, power, k), axis + 1)) - THIRD

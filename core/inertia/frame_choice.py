@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Of the frames in which bodies are the same: those along what second moments fix, and nearest to preferred axes."""
+"""Choice among the frames in which bodies are the same: along the axes that second moments fix, and nearest to
+preferred axes."""
 
 from __future__ import annotations
 
@@ -11,15 +12,16 @@ from .third_moment_frames import IS_FIXED, ThirdMomentFrames
 
 # traces closer than the one are equal whatever the noise, than the other never
 EQUAL_TRACE_ATOL, MAX_TRACE_AMBIGUITY = 1e-6, 0.1
-MIN_ALIGNED_COSINE = 0.999  # of an axis that a shape's own second moments fix, and that of a copy of it
+MIN_ALIGNED_COSINE = 0.999  # between an axis fixed by a shape's second moments, and a copy's
 
 
 def align_frames(frames: NDArray, fixed: ThirdMomentFrames, bodies: NDArray[np.intp]) -> NDArray[np.float64]:
-    """(m, k, 3, 3) frames with those of their axes that the bodies' second moments fix along these."""
+    """Return (m, k, 3, 3) frames, turned so that their axes fixed by second moments lie along the axes of the
+    bodies."""
     along = np.einsum("mai,mkai->mki", fixed.axes[bodies], frames)
     near = fixed.axes[bodies][:, None] * np.sign(along)[:, :, None]
     is_fixed = IS_FIXED[fixed.symmetry[bodies]]
-    # a frame whose axes were found among equal moments where the body's are not, or the other way round, stays
+    # a frame stays if its axes were found among equal moments but the body's are not, or the other way round
     alike = ~is_fixed | (np.abs(along) > MIN_ALIGNED_COSINE).all(axis=1)
     is_fixed = is_fixed & alike.all(axis=1, keepdims=True)
     frames = np.where(is_fixed[:, None, None], near, frames)
@@ -36,7 +38,7 @@ def align_frames(frames: NDArray, fixed: ThirdMomentFrames, bodies: NDArray[np.i
 
 
 def complete_free_axes(frames: NDArray, free: tuple[int, ...], preferred_axes: NDArray) -> NDArray[np.float64]:
-    """The (..., 3, 3) frames with their free axes, if any, turned nearest to the preferred ones."""
+    """Return the (..., 3, 3) frames with their free axes, if any, turned nearest to the preferred ones."""
     if not free:
         return frames
     shape = np.broadcast_shapes(frames.shape, preferred_axes.shape)
@@ -60,14 +62,14 @@ def complete_free_axes(frames: NDArray, free: tuple[int, ...], preferred_axes: N
 
 
 def _across(vectors: NDArray, axis: NDArray) -> NDArray[np.float64]:
-    """(..., 3) what of the vectors is perpendicular to unit vectors."""
+    """Return (..., 3) the parts of vectors perpendicular to unit vectors."""
     return vectors - axis * np.einsum("...a,...a->...", axis, vectors)[..., None]
 
 
 def nearest_frames(candidates: NDArray, preferred_axes: NDArray, tilt: ArrayLike) -> NDArray[np.float64]:
-    """(m, 3, 3) of (m, k, 3, 3) frames those with the smallest turn from the preferred ones, (m, 3, 3). Where several
-    are as near, the one whose axes, in order, point along rather than against their preferred axes, so that noise
-    cannot flip it.
+    """Return (m, 3, 3) the frame of each (m, k, 3, 3) with the smallest turn from the preferred ones, (m, 3, 3). If
+    several are as near, take the one with axes that, in order, point along rather than against their preferred axes, so
+    that noise cannot flip it.
 
     tilt: the angle by which noise may have turned the candidates, for all or for each.
     """
@@ -83,7 +85,7 @@ def nearest_frames(candidates: NDArray, preferred_axes: NDArray, tilt: ArrayLike
     is_along = np.take_along_axis(local, row, 2)[:, :, 0] > 0.0
     rank = np.where(near, is_along @ np.array([4, 2, 1]), -1)
     near = rank == rank.max(axis=1, keepdims=True)
-    for entry in np.moveaxis(local.reshape(*local.shape[:2], 9), 2, 0):  # what is left may still be several frames
+    for entry in np.moveaxis(local.reshape(*local.shape[:2], 9), 2, 0):  # several frames may still be left
         entry = np.where(near, entry, -np.inf)
         near = entry > entry.max(axis=1, keepdims=True) - equal
     return candidates[bodies, near.argmax(axis=1)] + 0.0  # no negative zeros

@@ -110,7 +110,7 @@ class MassProperties:
         fixed: ThirdMomentFrames,
         higher: Callable[[NDArray[np.intp]], OwnMoments] | None = None,
     ) -> MassProperties:
-        """Derive the mass properties of a stack of bodies, as `from_moments` does those of one.
+        """Derive the mass properties of a stack of bodies, as `from_moments` does for one.
 
         Parameters
         ----------
@@ -136,7 +136,7 @@ class MassProperties:
         second = weight[..., None, None] * (moments.raw[..., SECOND_MOMENT_INDEX] - total[..., None, None] * products)
         inertia = second.trace(axis1=-2, axis2=-1)[..., None, None] * IDENTITY_3 - second
         principal = weight[..., None] * frame.moments
-        # of a flat body rounding may set them apart
+        # rounding may violate this for a flat body
         principal[..., 2] = np.minimum(principal[..., 2], principal[..., 0] + principal[..., 1])
         mass = weight * total
         rounding, moved = _propagate_errors(moments, weight)
@@ -188,7 +188,7 @@ class MassProperties:
         return np.sqrt(self.principal.moments / self.mass)
 
     def in_frame(self, rotation: ArrayLike, origin: ArrayLike) -> MassProperties:
-        """Return the same body in the frame whose axes are the columns of `rotation` and whose origin is `origin`.
+        """Return the same body in the frame with the columns of `rotation` as axes and with `origin` as origin.
         ValueError if that is no rotation.
         """
         rotation = rotation_array("rotation", rotation)
@@ -238,8 +238,9 @@ def combine(bodies: Sequence[tuple[Moments, float]], preferred_axes: ArrayLike |
 
 
 def are_physical(volume: Moments, low: NDArray, high: NDArray, size: float | NDArray[np.float64]) -> NDArray[np.bool_]:
-    """(n,) whether bodies within these boxes, (n, 3) and (n, 3), can have these moments: their centers are inside, and
-    their second central moments are those of a positive mass. Where a surface intersects itself, they need not be."""
+    """Return (n,) whether bodies within these boxes, (n, 3) and (n, 3), can have these moments: their centers are
+    inside, and their second central moments are those of a positive mass. A surface that intersects itself may violate
+    both."""
     total = volume.raw[:, 0]
     mean = volume.raw[:, 1:4] / total[:, None]
     second = volume.raw[:, SECOND_MOMENT_INDEX] / total[:, None, None] - mean[:, :, None] * mean[:, None, :]
@@ -252,8 +253,8 @@ def are_physical(volume: Moments, low: NDArray, high: NDArray, size: float | NDA
 
 
 def _propagate_errors(moments: Moments, density: NDArray) -> tuple[dict[str, PerBody], dict[str, PerBody]]:
-    """Bounds of the change that rounding makes, and of that when the moments are off by their `input_error`: what the
-    worst signs of all errors make, with the divisor at its smallest; infinite where nothing bounds a quotient."""
+    """Return bounds of the change by rounding, and of the change if the moments are off by their `input_error`: for the
+    worst signs of all errors, with the divisor at its smallest; infinite if nothing bounds a quotient."""
     delta, raw = np.stack([moments.rounding_error, moments.input_error]), moments.raw
     total, off = raw[..., 0], delta[..., 0]
     is_bounded = total > 2.0 * off
@@ -278,6 +279,6 @@ def _propagate_errors(moments: Moments, density: NDArray) -> tuple[dict[str, Per
 
 
 def _lengths(vectors: NDArray) -> NDArray[np.float64]:
-    """(...,) of (..., k) vectors, whose squares may vanish."""
+    """Return the lengths (...,) of (..., k) vectors with squares that may vanish."""
     lengths = [hypot(*vector) for vector in vectors.reshape(-1, vectors.shape[-1]).tolist()]
     return np.array(lengths).reshape(vectors.shape[:-1])

@@ -1,12 +1,12 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The principal frame of a body, made unique where the body allows it.
+"""The principal frame of a body, made unique if the body allows it.
 
 The axes are the eigenvectors of the central second moments, largest first, so that axis 1 is the long axis (least
 inertia). Their signs follow Zhang and Chen (ICIP 2001, eq. 11): central third moments positive. Their rule fails on
-every body with a mirror plane, where M_300 is noise, so it is made robust (see `third_moment_frames`). What equal
-moments or a want of skewness leave, moments to sixth order decide (see `canonical_frame`). What is still free is the
-body's own freedom: there the frame nearest to the axes that the caller prefers is taken, and `finding` says so.
+every body with a mirror plane, because M_300 is noise, so it is made robust (see `third_moment_frames`). Moments to
+sixth order decide if equal moments or a want of skewness leave a choice (see `canonical_frame`). Any further freedom is
+the body's own: there the frame nearest to the axes that the caller prefers is taken, and `finding` says so.
 
 Moments to sixth order may be given in coordinates of the body's own, with the rotation from there: then bodies that are
 copies of each other, turned and scaled, have the same axes, and share the search for them.
@@ -49,9 +49,9 @@ from .shared_search import shared_frames
 from .third_moment_frames import EQUAL_AXES, HALF_TURN_SIGNS, SYMMETRIES, ThirdMomentFrames, third_moment_frames
 
 NO_VALUES = np.empty(0)
-SIGN_BITS = np.array([1, 2, 4, 8])  # of the HALF_TURN_SIGNS that are allowed
+SIGN_BITS = np.array([1, 2, 4, 8])  # a bit for each of the HALF_TURN_SIGNS, set if it is allowed
 
-# What was chosen where the body leaves a choice: the object's own directions, or of the body's own ones the nearest.
+# The choice if the body leaves one: the object's own directions, or the nearest of the body's own.
 FREE = {
     "isotropic": finding(AXES_ALL_FREE),
     "prolate": finding(AXES_2_3_FREE),
@@ -81,11 +81,11 @@ class PrincipalFrame:
     symmetry : str
         "asymmetric", "prolate" (moments 2 and 3 equal), "oblate" (1 and 2 equal) or "isotropic".
     is_unique : bool
-        Whether the body alone fixes the frame.
+        True if the body alone fixes the frame.
     finding : Finding or None
-        What was chosen where it does not.
+        The choice that was made if it does not.
     undetermined_axes : tuple of int
-        The axes whose directions nothing that was looked at fixes.
+        The axes without a fixed direction, as far as the moments show.
 
     Examples
     --------
@@ -128,10 +128,10 @@ class OwnMoments:
     moments : Moments
         Of the shapes, (u, K): to order 6.
     shape : (m,) int
-        Which of them each body is.
+        The shape of each body.
     rotation : (m, 3, 3) array, optional
-        What turns the shape into the body, but for its size; None where they have the same coordinates, and each body
-        is a shape of its own.
+        Turns the shape into the body, but for its size; None if they have the same coordinates, and each body is a
+        shape of its own.
     """
 
     moments: Moments
@@ -152,12 +152,12 @@ def principal_frame(
     moments : Moments
         To order 3 at least.
     preferred_axes : (3, 3) array_like, optional
-        A rotation whose columns are the axes to stay near to, where the body leaves a choice; by default the coordinate
+        A rotation with the axes to stay near to, as columns, if the body leaves a choice; by default the coordinate
         axes.
     refine : callable, optional
-        Returns the moments with exact third order; called where their bounds do not decide.
+        Returns the moments with exact third order; called if their bounds do not decide.
     higher : callable, optional
-        Returns the moments to order `canonical_frame.MAX_ORDER`; called where third order leaves a choice.
+        Returns the moments to order `canonical_frame.MAX_ORDER`; called if third order leaves a choice.
 
     Returns
     -------
@@ -166,7 +166,7 @@ def principal_frame(
     Raises
     ------
     MeasureError
-        If the second moments are those of no body.
+        If no body can have the second moments.
 
     Notes
     -----
@@ -200,7 +200,7 @@ def principal_frames(
     preferred_axes: NDArray,
     higher: Callable[[NDArray[np.intp]], OwnMoments] | None = None,
 ) -> PrincipalFrame:
-    """Return the principal frames of a stack of bodies, as `principal_frame` does of one.
+    """Return the principal frames of a stack of bodies, as `principal_frame` does for one.
 
     Parameters
     ----------
@@ -208,8 +208,8 @@ def principal_frames(
         Of the n bodies.
     preferred_axes : (n, 3, 3) array
     higher : callable, optional
-        Returns the moments of those bodies that it is given, to order `canonical_frame.MAX_ORDER`; called once, where
-        third order leaves a choice.
+        Returns the moments of the bodies that it is given, to order `canonical_frame.MAX_ORDER`; called once, if third
+        order leaves a choice.
 
     Returns
     -------
@@ -259,7 +259,7 @@ def principal_frames(
 
 
 def _frames_of_shapes(fixed: ThirdMomentFrames, left: NDArray[np.intp], known: OwnMoments) -> list[EquivalentFrames]:
-    """For each of the shapes the frames in which it is the same, in its own coordinates."""
+    """Return for each of the shapes the frames in which it is the same, in its own coordinates."""
     which = left
     if known.rotation is not None:
         fixed, which = third_moment_frames(known.moments), np.arange(len(known.moments.raw))
@@ -299,7 +299,7 @@ def equivalent_frames(moments: Moments, noise: float = NOISE_LEVEL) -> Equivalen
     Returns
     -------
     EquivalentFrames
-        `frames` (k, 3, 3) and what no moment fixes.
+        `frames` (k, 3, 3) and the directions that no moment fixes.
 
     Examples
     --------
@@ -321,7 +321,7 @@ def _of_one_body(moments: Moments, noise_factor: float = 1.0) -> ThirdMomentFram
 
 
 def _require_body(moments: Moments, fixed: ThirdMomentFrames) -> None:
-    """Raise MeasureError where the second moments are those of no body."""
+    """Raise MeasureError if no body can have the second moments."""
     if not fixed.is_body[0]:
         is_lost = np.abs(moments.raw[4:10]).max() < np.finfo(float).tiny  # in the smallest of numbers
         raise MeasureError(OBJECT_TOO_SMALL if is_lost else NEGATIVE_INERTIA)
@@ -359,7 +359,7 @@ def nearest_frame(equivalent: EquivalentFrames, preferred_axes: ArrayLike) -> ND
 
 
 def undetermined_axes(revolution_axes: tuple[int, ...]) -> tuple[int, ...]:
-    """The axes whose directions no moment fixes."""
+    """Return the axes with directions that no moment fixes."""
     if not revolution_axes:
         return ()
     return tuple(i for i in range(3) if i not in revolution_axes) or (0, 1, 2)

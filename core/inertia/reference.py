@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Inertia about any point, along any axes, and about any axis, by exact shifts, with bounds.
 
-From moments it is a shift of these (`Moments.in_frame`); from mass properties, where nothing else is known any more,
-the parallel-axis theorem:
+From moments it is a shift of these (`Moments.in_frame`); from mass properties, if nothing else is known any more, the
+parallel-axis theorem:
 
     I_p = I_c + m (|d|² 1 - d dᵀ),   d = c - p.
 """
@@ -23,7 +23,7 @@ from .findings import AXIS_POINTS_COINCIDE, NO_CERTAIN_VOLUME
 from .mass_properties import MassProperties
 
 IDENTITY_3 = np.eye(3)
-MIN_AXIS_RATIO = 1e-6  # of the points' coordinates: nearer to each other, float32 points give no direction
+MIN_AXIS_RATIO = 1e-6  # relative to the points' coordinates: nearer to each other, float32 points give no direction
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,7 +35,7 @@ class Reference:
     origin : (3,) array
         The point.
     axes : (3, 3) array
-        A rotation whose columns are the axes, the coordinate axes by default.
+        A rotation with the axes as columns, the coordinate axes by default.
 
     Examples
     --------
@@ -53,7 +53,7 @@ class Reference:
 
     @classmethod
     def through_points(cls, first: ArrayLike, second: ArrayLike) -> Reference:
-        """Return the frame whose Z axis runs from the first point to the second, and whose origin is the first.
+        """Return the frame with its origin at the first point and its Z axis from there to the second.
 
         Parameters
         ----------
@@ -62,12 +62,12 @@ class Reference:
         Returns
         -------
         Reference
-            The other axes are those nearest to the coordinate axes.
+            Its other axes are as near as possible to the coordinate axes.
 
         Raises
         ------
         QueryError
-            Where the points are one, or so near that they fix no direction.
+            If the points are one, or so near that they fix no direction.
         """
         first, second = float_array("first", first, 3), float_array("second", second, 3)
         way = second - first
@@ -197,7 +197,7 @@ class ReferredInertia:
     inertia : (3, 3) array
         The tensor about the reference's origin.
     rounding_error, input_error : dict of str to float
-        Absolute bounds of "mass", "center" and "inertia", as those of `MassProperties`.
+        Absolute bounds of "mass", "center" and "inertia", as in `MassProperties`.
 
     Examples
     --------
@@ -229,5 +229,5 @@ class ReferredInertia:
 
     @property
     def distance_from_z(self) -> float:
-        """How far the center of mass is from the reference's Z axis."""
+        """The distance of the center of mass from the reference's Z axis."""
         return float(np.hypot(self.center[0], self.center[1]))

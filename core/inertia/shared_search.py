@@ -2,11 +2,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The search of `canonical_frame` for the axes of bodies with equal second moments, made once for equal bodies.
 
-Which frames a body has is decided for its normalized moments rounded to a tenth of what counts as noise, in coordinates
-in which each extent is one. So bodies that are copies of each other but for the rounding of their coordinates are
-mostly one problem, which is solved once and remembered; and what comes out depends on the body alone, not on what was
-measured before it. The frames are then refined for the body's own moments: directions of extreme moments by Newton's
-steps, turns about them by the phase of the harmonic that has fixed them. After that they are the body's, to rounding.
+The frames of a body are decided by its normalized moments rounded to a tenth of the noise level, in coordinates in
+which each extent is one. So bodies that are copies of each other but for the rounding of their coordinates are mostly
+one problem, which is solved once and remembered; and the result depends on the body alone, not on earlier measurements.
+The frames are then refined for the body's own moments: directions of extreme moments by Newton's steps, turns about
+them by the phase of the harmonic that has fixed them. After that they are the body's, to rounding.
 """
 
 from __future__ import annotations
@@ -34,22 +34,22 @@ from .canonical_frame import (
 from .findings import MOMENTS_OVERFLOW
 from .third_moment_frames import EQUAL_AXES, FIXED_AXIS, HALF_TURN_SIGNS, SYMMETRIES, ThirdMomentFrames
 
-GRID = 1e-6  # of normalized moments, times NOISE_GROWTH: a tenth of NOISE_LEVEL
+GRID = 1e-6  # step of normalized moments, times NOISE_GROWTH: a tenth of NOISE_LEVEL
 LEAST_BOUND = 2.0**-30  # instead of smaller bounds; others are rounded up to three binary digits: copies have the same
 MAX_KNOWN = 1024  # problems that are remembered
 MAX_TAIL = 4.0  # times NOISE_GROWTH: in larger moments, as of spikes, rounding turns axes by more than noise
 MAX_CORRECTION = 1e-4  # frames that a refinement turns by more are looked for by themselves
 REFINEMENTS = 2  # each squares what is left: the grid's 1e-6 at first
 NO_VALUES = np.empty(0)
-THIRD = monomial_count(2)  # where the moments of third order begin
+THIRD = monomial_count(2)  # index of the first moment of third order
 POWERS = monomials(MAX_ORDER)
 DEGREE = POWERS.sum(axis=1)
 STEP = GRID * np.array(NOISE_GROWTH)[DEGREE[THIRD:]]
-BELOW_THIRD = np.where((POWERS[:THIRD] % 2 == 0).all(axis=1), 1.0, 0.0)  # of a body whose extents are one
+BELOW_THIRD = np.where((POWERS[:THIRD] % 2 == 0).all(axis=1), 1.0, 0.0)  # for a body with extents of one
 
 
 def shared_frames(moments: Moments, fixed: ThirdMomentFrames, bodies: NDArray[np.intp]) -> list[EquivalentFrames]:
-    """Find what `canonical_frames` finds, for bodies with two or three equal second moments.
+    """Find the frames of `canonical_frames` for bodies with two or three equal second moments.
 
     Parameters
     ----------
@@ -57,7 +57,7 @@ def shared_frames(moments: Moments, fixed: ThirdMomentFrames, bodies: NDArray[np
         Of n bodies, to order MAX_ORDER.
     fixed : ThirdMomentFrames
     bodies : (n,) int
-        Which of those they are.
+        Their indices.
 
     Returns
     -------
@@ -67,7 +67,7 @@ def shared_frames(moments: Moments, fixed: ThirdMomentFrames, bodies: NDArray[np
     Raises
     ------
     MeasureError
-        Where the size of one is beyond the range of numbers.
+        If the size of one is beyond the range of numbers.
     """
     with np.errstate(over="ignore", under="ignore"):
         reach = moments.raw[:, 0] * fixed.size[bodies].max(axis=1) ** moments.order
@@ -88,7 +88,7 @@ def shared_frames(moments: Moments, fixed: ThirdMomentFrames, bodies: NDArray[np
 def _frames_alike(
     moments: Moments, fixed: ThirdMomentFrames, bodies: NDArray[np.intp], name: str
 ) -> list[EquivalentFrames | None]:
-    """Of bodies of one symmetry; None for those that have to be looked at by themselves."""
+    """Return the frames of bodies of one symmetry; None for bodies that have to be looked at by themselves."""
     axis = FIXED_AXIS.get(name)
     basis = _bases(fixed.axes[bodies, :, axis], axis) if axis is not None else np.tile(np.eye(3), (len(bodies), 1, 1))
     raw, bound, extent = _whitened(moments, fixed, bodies, basis, name)
@@ -122,8 +122,8 @@ def _frames_alike(
 def _search(
     name: str, noise: float, ways: int, cells: bytes, bound: bytes, step: float, tilt: float
 ) -> EquivalentFrames:
-    """The frames of a body with these rounded moments, without values. ways: whether its fixed axis may point ahead, 1,
-    back, 2, or both, 3."""
+    """Return the frames of a body with these rounded moments, without values. ways: 1 if its fixed axis may point
+    ahead, 2 back, 3 both."""
     raw = np.concatenate([BELOW_THIRD, STEP * np.frombuffer(cells, np.int32)])
     central = Moments(raw, np.zeros(3), Measure.MASS, np.frombuffer(bound)[DEGREE])
     starts = np.eye(3)[None]
@@ -136,8 +136,8 @@ def _search(
 
 
 def _bases(fixed: NDArray, axis: int) -> NDArray[np.float64]:
-    """(n, 3, 3) right-handed frames one of whose axes these are."""
-    helper = np.eye(3)[np.round(np.abs(fixed), 3).argmin(axis=1)]  # the same for axes that differ by rounding
+    """Return (n, 3, 3) right-handed frames with these vectors as axis number `axis`."""
+    helper = np.eye(3)[np.round(np.abs(fixed), 3).argmin(axis=1)]  # equal for axes that differ by rounding
     first = helper - fixed * (fixed * helper).sum(axis=1, keepdims=True)
     first /= np.linalg.norm(first, axis=1, keepdims=True)
     basis = np.empty((len(fixed), 3, 3))
@@ -147,7 +147,7 @@ def _bases(fixed: NDArray, axis: int) -> NDArray[np.float64]:
 
 
 def _ways(fixed: ThirdMomentFrames, bodies: NDArray[np.intp], axis: int) -> NDArray[np.intp]:
-    """(n,) which ways the fixed axis of bodies may point, as `_search` takes them."""
+    """Return (n,) the ways that the fixed axis of bodies may point, as `_search` takes them."""
     allowed, ahead = fixed.allowed[bodies], HALF_TURN_SIGNS[:, axis] > 0.0
     return np.asarray(allowed[:, ahead].any(axis=1) + 2 * allowed[:, ~ahead].any(axis=1), np.intp)
 
@@ -155,8 +155,8 @@ def _ways(fixed: ThirdMomentFrames, bodies: NDArray[np.intp], axis: int) -> NDAr
 def _whitened(
     moments: Moments, fixed: ThirdMomentFrames, bodies: NDArray[np.intp], basis: NDArray, name: str
 ) -> tuple[NDArray, NDArray, NDArray]:
-    """(n, K) the central moments by the total along (n, 3, 3) axes, in units of the extents there; (n, degrees) bounds
-    of them for each degree; (n, 3) the extents."""
+    """Return (n, K) the central moments by the total along (n, 3, 3) axes, in units of the extents there; (n, degrees)
+    bounds of them for each degree; (n, 3) the extents."""
     central = moments.about_center()
     free = list(EQUAL_AXES[name])
     extent = fixed.size[bodies].copy()
@@ -175,7 +175,7 @@ def _whitened(
 
 
 def _rounded_up(values: NDArray) -> NDArray[np.float64]:
-    """Positive numbers to three binary digits, no smaller than they were."""
+    """Round positive numbers up to three binary digits."""
     mantissa, exponent = np.frexp(np.maximum(values, LEAST_BOUND))
     return np.ldexp(np.ceil(8.0 * mantissa) / 8.0, exponent)
 
@@ -183,8 +183,8 @@ def _rounded_up(values: NDArray) -> NDArray[np.float64]:
 def _refined(
     frames: NDArray[np.float64], rule: FrameRule, raw: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
-    """(n, k, 3, 3) the frames (k, 3, 3) as the moments (n, K) of n bodies ask by the rule, and (n,) whether they have
-    hardly turned."""
+    """Return (n, k, 3, 3) the frames (k, 3, 3) as the moments (n, K) of n bodies ask by the rule, and (n,) whether they
+    have hardly turned."""
     start, frames = frames, np.tile(frames, (len(raw), 1, 1, 1))
     third, first, second = rule.axis, (rule.axis + 1) % 3, (rule.axis + 2) % 3
     if rule.extreme:
@@ -205,7 +205,7 @@ def _refined(
 
 
 def _extreme(points: NDArray, degree: int, raw: NDArray) -> NDArray[np.float64]:
-    """(n, k, 3) the directions near to these in which the moments of a degree are extreme, by Newton's steps."""
+    """Return (n, k, 3) the directions near to these in which the moments of a degree are extreme, by Newton's steps."""
     for _ in range(REFINEMENTS):
         twice = _contracted(raw, [points] * (degree - 2), degree)
         once = np.einsum("nkij,nkj->nki", twice, points)
@@ -217,8 +217,8 @@ def _extreme(points: NDArray, degree: int, raw: NDArray) -> NDArray[np.float64]:
 
 
 def _contracted(raw: NDArray, forms: list[NDArray], degree: int | None = None) -> NDArray:
-    """(n, k, ...) the moments of a degree, by default as many as there are forms, of n bodies as tensors, with the
-    forms (n, k, 3) put into them."""
+    """Return (n, k, ...) the moments of a degree, by default as many as there are forms, of n bodies as tensors, with
+    the forms (n, k, 3) put into them."""
     out = np.einsum("n...i,nki->nk...", raw[:, tensor_index(degree or len(forms))], forms[0])
     for form in forms[1:]:
         out = np.einsum("nk...i,nki->nk...", out, form)

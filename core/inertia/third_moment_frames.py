@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What second and third moments say of the principal frames of a stack of bodies.
+"""Principal frames of a stack of bodies, as far as second and third moments fix them.
 
-The axes are the eigenvectors of the central second moments, largest first. An axis is scored by its skewness, or where
+The axes are the eigenvectors of the central second moments, largest first. An axis is scored by its skewness, or if
 that is noise by the other third moments odd in that axis only; the two axes with the clearest scores turn positive and
 the third completes a right-handed frame.
 """
@@ -36,12 +36,12 @@ IS_FIXED = np.array([[axis not in EQUAL_AXES[name] for axis in range(3)] for nam
 
 @dataclass(frozen=True, eq=False)
 class ThirdMomentFrames:
-    """What second and third moments fix of the frames of n bodies.
+    """Frames of n bodies, as far as second and third moments fix them.
 
     Attributes
     ----------
     is_body : (n,) bool
-        Whether the second moments are those of a body at all.
+        True if the second moments can belong to a body at all.
     moments : (n, 3) array
         Principal moments of inertia, ascending.
     axes : (n, 3, 3) array
@@ -57,7 +57,7 @@ class ThirdMomentFrames:
     allowed : (n, 4) bool
         Which of HALF_TURN_SIGNS times the axes third moments allow.
     skewness, skewness_error : (n, 3) array
-        Along the axes, and what of it is noise.
+        Along the axes, and its noise.
     """
 
     is_body: NDArray[np.bool_]
@@ -73,34 +73,33 @@ class ThirdMomentFrames:
     skewness_error: NDArray[np.float64]
 
     def free(self, i: int) -> tuple[int, ...]:
-        """The axes of one body that equal moments leave free."""
+        """Return the axes of one body that equal moments leave free."""
         return EQUAL_AXES[SYMMETRIES[self.symmetry[i]]]
 
     def spread(self, i: int) -> SecondMomentAxes:
-        """What second moments say of one body."""
+        """Return the axes that second moments give one body."""
         step, tilt = float(self.step[i]), float(self.tilt[i])
         return SecondMomentAxes(self.axes[i], self.size[i], self.free(i), step, tilt, self.noise)
 
     def frames(self, i: int) -> NDArray[np.float64]:
-        """(k, 3, 3) the right-handed frames of one body that third moments allow: signs of its axes."""
+        """Return (k, 3, 3) the right-handed frames of one body that third moments allow: signs of its axes."""
         return self.axes[i] * HALF_TURN_SIGNS[self.allowed[i], None]
 
 
-@np.errstate(all="ignore")  # who measures looks for what is beyond the range of numbers
+@np.errstate(all="ignore")  # callers check for overflow
 def third_moment_frames(
     moments: Moments, refine: Callable[[NDArray[np.intp]], Moments] | None = None, noise_factor: float = 1.0
 ) -> ThirdMomentFrames:
-    """Find what second and third moments fix.
+    """Find the frames, as far as second and third moments fix them.
 
     Parameters
     ----------
     moments : Moments
         Of n bodies with positive totals, to order 3 at least.
     refine : callable, optional
-        Returns, of those of the bodies that it is given, the moments with exact third order; called where bounds do not
-        decide.
+        Returns the moments with exact third order of the bodies that it is given; called if bounds do not decide.
     noise_factor : float
-        By how much more than NOISE_LEVEL is noise.
+        Noise level as a multiple of NOISE_LEVEL.
     """
     total = moments.raw[:, 0]
     shift = moments.raw[:, 1:4] / total[:, None]
@@ -115,12 +114,12 @@ def third_moment_frames(
     spread = np.maximum(spread, 0.0)
 
     size = np.sqrt(np.maximum(spread, 1e-30 * spread[:, :1]))  # a lamina has no extent along an axis, and no skewness
-    # How far float32 has moved the points: the share of the volume that this moves, times the thinnest extent.
+    # Shift of the points by float32: the share of the volume that this moves, times the thinnest extent.
     step = moments.input_error[:, 0] / total * size[:, 2]
     gaps = spread[:, :2] - spread[:, 1:]
     doubtful = (2.0 * step)[:, None] * size[:, :2] + rounding[:, None]
     equal = gaps <= noise_factor * EQUAL_MOMENTS_RTOL * spread[:, :2] + doubtful
-    tilts = np.where(equal, 0.0, doubtful / np.where(equal, 1.0, gaps))  # of axes 1 and 2, and of 2 and 3
+    tilts = np.where(equal, 0.0, doubtful / np.where(equal, 1.0, gaps))  # between axes 1 and 2, and 2 and 3
     symmetry = 2 * equal[:, 0] + equal[:, 1]
 
     noise = noise_factor * NOISE_LEVEL + (4.0 * step)[:, None, None] / np.minimum(
@@ -167,21 +166,21 @@ def third_moment_frames(
 
 
 def _are_decided(size: NDArray, error: NDArray, noise: NDArray, fixed: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """(n,) whether better third moments could change neither which scores of fixed axes count, nor their signs, nor
-    their order."""
+    """Return (n,) whether better third moments could change neither the scores of fixed axes that count, nor their
+    signs, nor their order."""
     clear = size - error > noise
     below = size + error <= noise
     decided = (clear[:, :, 0] | (clear | below).all(axis=2) | ~fixed).all(axis=1)
     first = clear.argmax(axis=2)[:, :, None]
     size, error = (np.take_along_axis(values, first, 2)[:, :, 0] for values in (size, error))
-    last = size.argmin(axis=1)[:, None]  # of three scores, which both others have to be clear of
+    last = size.argmin(axis=1)[:, None]  # the least of three scores: both others have to be clear of it
     least, least_error = np.take_along_axis(size, last, 1), np.take_along_axis(error, last, 1)
     apart = (size - least > 2.0 * (error + least_error)).sum(axis=1) == 2
     return decided & (apart | ~(fixed & clear.any(axis=2)).all(axis=1))
 
 
 def _third_scores(moments: Moments, shift: NDArray, size: NDArray, axes: NDArray) -> tuple[NDArray, NDArray]:
-    """(n, 3, 3) of each body for each axis i its skewness and the two normalized third moments odd in i and even in
+    """Return (n, 3, 3) for each body and axis i its skewness and the two normalized third moments odd in i and even in
     another axis, M_iii, M_ijj and M_ikk; and the bounds of their errors."""
     count, total = len(shift), moments.raw[:, 0]
     second = moments.raw[:, SECOND_MOMENT_INDEX] / total[:, None, None]
@@ -203,9 +202,9 @@ def _third_scores(moments: Moments, shift: NDArray, size: NDArray, axes: NDArray
 
 
 def _allowed_signs(scores: NDArray) -> NDArray[np.bool_]:
-    """(n, 4) which of HALF_TURN_SIGNS agree with (n, 3) scores."""
+    """Return (n, 4) mask of the HALF_TURN_SIGNS that agree with (n, 3) scores."""
     size, counts = np.abs(scores), scores != 0.0
-    # Of three, the weakest is dropped; of equal ones the last.
+    # The weakest of three is dropped; the last of equal ones.
     weak = size <= size.min(axis=1, keepdims=True) * (1.0 + EQUAL_SCORES_RTOL)
     last = 2 - weak[:, ::-1].argmax(axis=1)
     counts = counts & ~(counts.all(axis=1)[:, None] & (np.arange(3) == last[:, None]))

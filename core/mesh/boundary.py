@@ -1,12 +1,12 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Whether faces close, piece by piece: no edges are sorted, nor kept.
+"""A test, piece by piece, that faces close: no edges are sorted, nor kept.
 
-Every place has a keyed 64-bit hash of its coordinates, and every side of a face one of its two ends, whose sign is that
-of its direction. Sides that run along each other in opposite directions cancel. So the sum over all sides, modulo 2^64,
-is zero where every edge is used as often one way as the other, and otherwise by a chance below 2^-50, whatever the
-faces: the keys are drawn anew by each process, so that no file can be made to pass for closed. (A sum of normals is
-zero for many surfaces that are open.)
+Every place has a keyed 64-bit hash of its coordinates, and every side of a face one of its two ends, signed by its
+direction. Sides that run along each other in opposite directions cancel. So the sum over all sides, modulo 2^64, is
+zero if every edge is used as often one way as the other, and otherwise by a chance below 2^-50, whatever the faces: the
+keys are drawn anew by each process, so that no file can be made to pass for closed. (A sum of normals is zero for many
+surfaces that are open.)
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ class BoundarySum:
 
     @property
     def is_zero(self) -> bool:
-        """Whether all sides that were added cancel: the faces close, wherever they were split."""
+        """True if all sides that were added cancel: the faces close, however they were split."""
         return not self._total
 
     def add(self, piece: Surface | NDArray[np.floating]) -> None:
@@ -73,7 +73,7 @@ NO_PLACES = np.zeros(0, np.uint64)
 
 
 def _hash_places(points: NDArray[np.floating]) -> NDArray[np.uint64]:
-    """(n,) hashes of (n, 3) coordinates, by their values as float64."""
+    """Return (n,) hashes of (n, 3) coordinates, by their values as float64."""
     values = np.add(points.T, 0.0, dtype=np.float64)  # -0.0 + 0.0 = 0.0
     words = np.ascontiguousarray(values).view(np.uint64)
     hashes = words[0] ^ KEYS[5]
@@ -88,7 +88,7 @@ def _hash_places(points: NDArray[np.floating]) -> NDArray[np.uint64]:
 
 
 def _sum_of_sides(start: NDArray[np.uint64], stop: NDArray[np.uint64]) -> np.uint64:
-    """The sum over sides, each a hash of both its ends times their difference."""
+    """Return the sum over sides, each a hash of both its ends times their difference."""
     sides = start ^ stop
     sides *= KEYS[3]
     sides ^= sides >> HALF

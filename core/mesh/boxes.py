@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which axis-aligned boxes meet."""
+"""Pairs of axis-aligned boxes that meet."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ from numpy.typing import NDArray
 from ..numerics.arrays import following_pairs
 
 PIECE = 1 << 17  # pairs looked at together
-ROUNDING = 1e-6  # of a box's sides
+ROUNDING = 1e-6  # relative to a box's sides
 
 
 def _sweep(low: NDArray, high: NDArray, margin: float) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """(k,) the boxes in the order in which they begin along an axis, and how many of those that follow each one begin
-    before its end: along the axis with the fewest such pairs."""
+    """Return (k,) the boxes in the order of their beginnings along an axis, and (k,) the number of boxes behind each
+    one that begin before its end. The axis is the one with the fewest such pairs."""
     sweeps: list[tuple[NDArray[np.intp], NDArray[np.intp]]] = []
     for axis in range(3):
         order = np.argsort(low[:, axis], kind="stable")
@@ -25,8 +25,8 @@ def _sweep(low: NDArray, high: NDArray, margin: float) -> tuple[NDArray[np.intp]
 
 
 def overlapping_box_pairs(low: NDArray, high: NDArray, margin: float, most: int) -> tuple[NDArray, NDArray, int]:
-    """Pairs of boxes that overlap by more than `margin` along every axis, at most about `most`, and the number of
-    candidates that were left out."""
+    """Return pairs of boxes that overlap by more than `margin` along every axis, at most about `most`, and the number
+    of candidates that were left out."""
     order, count = _sweep(low, high, margin)
     left, right, pair_count, tested_count = [np.empty(0, np.intp)], [np.empty(0, np.intp)], 0, 0
     for i, j in following_pairs(order, count, PIECE):
@@ -41,7 +41,7 @@ def overlapping_box_pairs(low: NDArray, high: NDArray, margin: float, most: int)
 
 
 def boxes_overlap(centers: NDArray, extents: NDArray) -> bool:
-    """Whether any two of k boxes overlap by more than rounding. centers, extents: (k, 3), half the sides.
+    """Return whether any two of k boxes overlap by more than rounding. centers, extents: (k, 3), half the sides.
 
     A flat box inside another one meets it, though it overlaps it by nothing.
     """

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Shells with a tree of boxes each, and what is asked of them: is a place inside one, does one go through another.
+"""Shells with a tree of boxes each, for two questions: is a place inside one, does one go through another.
 
 A place is located by the winding number, counted along a ray that is parallel to no axis; the crossings are counted in
 the plane across the ray with signs that neighboring triangles share, so that no ray slips through between two of them
@@ -30,7 +30,7 @@ MAX_BOX_PAIRS = 10_000_000  # pairs of boxes looked at
 class SortedComponents:
     """Triangles sorted by component, and the measures of each component.
 
-    triangles: (m, 3); component: (m,) ascending; start: (c + 1,) where each component begins.
+    triangles: (m, 3); component: (m,) ascending; start: (c + 1,) the first triangle of each component.
     low, high: (c, 3) boxes; volume: (c,) signed; area: (c,).
     """
 
@@ -73,7 +73,8 @@ def sort_components(
 
 
 def radix_argsort(values: NDArray[np.integer]) -> NDArray[np.intp]:
-    """The stable order of integers from 0 to 2^32 - 1, 16 bits at a time: numpy sorts such short ones by counting."""
+    """Return the stable order of integers from 0 to 2^32 - 1, 16 bits at a time: numpy sorts such short ones by
+    counting."""
     order = np.argsort(values.astype(np.uint16), kind="stable")
     if values.max() > 0xFFFF:
         order = order[np.argsort((values >> 16).astype(np.uint16)[order], kind="stable")]
@@ -95,8 +96,8 @@ class Bvh:
         self._build_nodes(self._sort(components, selected), selected)
 
     def _sort(self, components: SortedComponents, selected: NDArray[np.bool_]) -> NDArray[np.intp]:
-        """`ids`, `bottom` and `top`: the triangles of the wanted components, one after the other, each in Morton order.
-        Returns (m,) the component of each."""
+        """Set `ids`, `bottom` and `top`: the triangles of the wanted components, one after the other, each in Morton
+        order. Return (m,) the component of each."""
         ids, component = components.triangles, components.component
         if not selected.all():
             triangle_rows = np.flatnonzero(selected[component])
@@ -123,7 +124,7 @@ class Bvh:
         return component
 
     def _build_nodes(self, component: NDArray[np.intp], selected: NDArray[np.bool_]) -> None:
-        """The nodes over the sorted triangles. component: (m,) of each triangle."""
+        """Build the nodes over the sorted triangles. component: (m,) of each triangle."""
         present = np.flatnonzero(selected)
         begin = np.searchsorted(component, present)
         size = np.searchsorted(component, present, side="right") - begin
@@ -156,12 +157,12 @@ class Bvh:
             self.high[node] = np.maximum(self.high[child], self.high[child + 1])
 
     def corners(self, triangle: NDArray[np.intp]) -> NDArray[np.float64]:
-        """(3, 3, k) the coordinates, about `origin`, of the corners of sorted triangles."""
+        """Return (3, 3, k) the coordinates, about `origin`, of the corners of sorted triangles."""
         return self.vertex_columns.take(self.ids.take(triangle, axis=1), axis=1)
 
     @cached_property
     def _shadows(self) -> NDArray[np.float64]:
-        """(5, n) the heights of the nodes' boxes, and the least and largest of what `_across` is in them."""
+        """(5, n) the heights of the nodes' boxes, and the least and largest `_across` coordinates in them."""
         (*low, bottom), (*high, top) = self.low.T, self.high.T
         sides = [(below - slope * top, above - slope * bottom) for below, above, slope in zip(low, high, RAY_SLOPES)]
         return np.stack([top, *sides[0], *sides[1]])
@@ -169,8 +170,8 @@ class Bvh:
     def winding_numbers(
         self, query_points: NDArray[np.float64], component: NDArray[np.intp], tolerance: float
     ) -> tuple[NDArray[np.intp], NDArray[np.bool_]]:
-        """(k,) the winding number of a component around each place (about `origin`), and whether it is sure: not where
-        the place is nearer than `tolerance` to the surface along the ray, or where the work ran out."""
+        """Return (k,) the winding number of a component around each place (about `origin`), and whether it is sure: not
+        if the place is nearer than `tolerance` to the surface along the ray, or if the work ran out."""
         winding = np.zeros(len(query_points), np.intp)
         sure = np.ones(len(query_points), bool)
         query = np.ascontiguousarray(query_points.T)
@@ -200,7 +201,7 @@ class Bvh:
     def _count_crossings(
         self, query: NDArray, place: NDArray, leaf: NDArray, tolerance: float, winding: NDArray, sure: NDArray
     ) -> None:
-        """Add the crossings of the rays with the triangles of leaves. query: (3, k) where the rays start."""
+        """Add the crossings of the rays with the triangles of leaves. query: (3, k) starts of the rays."""
         first = self.first.take(leaf)
         size = self.last.take(leaf) - first
         triangle, place = np.repeat(first, size) + segment_ranges(size), np.repeat(place, size)
@@ -226,9 +227,10 @@ class Bvh:
         np.add.at(winding, place[above], np.where(positive[above], 1, -1))
 
     def distances(self, query_points: NDArray[np.float64], component: NDArray[np.intp]) -> NDArray[np.float64]:
-        """(k,) the distance of each place (about `origin`) from a component's surface.
+        """Return (k,) the distance of each place (about `origin`) from a component's surface.
 
-        Level by level: what is certainly farther away than the farthest corner of some other box is left out.
+        The tree is walked level by level: boxes certainly farther away than the farthest corner of another box are left
+        out.
         """
         nearest = np.full(len(query_points), np.inf)
         pieces = _batches(np.arange(len(query_points)), self.root[component])
@@ -257,10 +259,10 @@ class Bvh:
 def intersecting_pairs(
     tree: Bvh, first: NDArray, second: NDArray, tolerance: float, vertex: NDArray | None = None
 ) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
-    """For each pair of components whether an edge of one goes through a triangle of the other by more than the
+    """Return for each pair of components whether an edge of one goes through a triangle of the other by more than the
     tolerance, and whether the work ran out before that was known.
 
-    first, second: (k,) components. vertex: (n,) which vertex a point is; triangles that share one are not compared.
+    first, second: (k,) components. vertex: (n,) the vertex of each point; triangles that share one are not compared.
     """
     intersects, unfinished = np.zeros((2, len(first)), bool)
     pieces = _batches(np.arange(len(first)), tree.root[first], tree.root[second])
@@ -298,7 +300,7 @@ def intersecting_pairs(
 def _intersect_leaves(
     tree: Bvh, pair: NDArray, a: NDArray, b: NDArray, tolerance: float, intersects: NDArray, vertex: NDArray | None
 ) -> None:
-    """Mark the pairs of which a triangle in one leaf is pierced by an edge in the other."""
+    """Mark the pairs with a triangle in one leaf that is pierced by an edge in the other."""
     size_a, size_b = tree.last[a] - tree.first[a], tree.last[b] - tree.first[b]
     k = segment_ranges(size_a * size_b)
     row = np.repeat(np.arange(len(a)), size_a * size_b)
@@ -320,9 +322,9 @@ def _intersect_leaves(
 def _edges_cross_triangles(
     corner: NDArray[np.float64], plane: NDArray[np.float64], tolerance: float
 ) -> NDArray[np.intp]:
-    """Which of the triangles `corner` have an edge that goes through their partner in `plane`, both (3, k, 3), passing
-    more than the tolerance away from its edges, and further than that to both sides while it is over the partner. (The
-    plane of a sliver is not known far from it.)"""
+    """Return the indices of the triangles `corner` with an edge that goes through their partner in `plane`, both (3, k,
+    3): more than the tolerance away from its edges, and further than that to both sides while it is over the partner.
+    (The plane of a sliver is not known far from it.)"""
     normal = np.cross(plane[1] - plane[0], plane[2] - plane[0])
     length = np.linalg.norm(normal, axis=1)[:, None]
     normal = np.divide(normal, length, out=np.zeros_like(normal), where=length > 0.0)
@@ -343,16 +345,16 @@ def _edges_cross_triangles(
             leaves = begin / np.where(begin != end, begin - end, 1.0)
             first = np.where(begin < 0.0, np.maximum(first, leaves), first)
             last = np.where(end < 0.0, np.minimum(last, leaves), last)
-        over = [np.abs(rise + part * (fall - rise)) for part in (first, last)]  # of what is over the partner, both ends
+        over = [np.abs(rise + part * (fall - rise)) for part in (first, last)]  # both ends of the part over the partner
         depth = np.maximum(depth, np.minimum.reduce([within, *over]))
     return at[depth > tolerance]
 
 
 def _across(places: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Where the rays through places, (3, ...), meet the plane z = 0."""
+    """Return the points in which the rays through places, (3, ...), meet the plane z = 0."""
     return places[0] - RAY_SLOPES[0] * places[2], places[1] - RAY_SLOPES[1] * places[2]
 
 
 def _batches(*arrays: NDArray, size: int = PAIRS_PER_BATCH) -> list[tuple[NDArray, ...]]:
-    """The arrays in parallel pieces of bounded length."""
+    """Cut the arrays into parallel pieces of bounded length."""
     return [tuple(array[k : k + size] for array in arrays) for k in range(0, len(arrays[0]), size)]

@@ -1,14 +1,14 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How faces hang together: edges, the cheap proof of closedness, connected parts, consistent orientation.
+"""Connections of faces: edges, the cheap proof of closedness, connected parts, consistent orientation.
 
 A surface bounds a body exactly when every edge is used as often one way as the other: then its boundary is zero as a
-chain, and the volume does not depend on a reference point. Where a mesh names the edge at each of its corners, one
-scatter proves the common case (each edge once each way) without sorting anything: the corners fill as many slots as
-there are corners, two for each edge, one for the side that runs to a higher vertex and one for that to a lower.
+chain, and the volume does not depend on a reference point. If a mesh names the edge at each of its corners, one scatter
+proves the common case (each edge once each way) without sorting anything: the corners fill as many slots as there are
+corners, two for each edge, one for the side that runs to a higher vertex and one for that to a lower.
 
 Orientation is a question of connected parts on the double cover: each face becomes two nodes, one for each orientation;
-a part is orientable where its two covers stay apart.
+a part is orientable if its two covers stay apart.
 """
 
 from __future__ import annotations
@@ -25,10 +25,10 @@ from .surface import Surface
 
 
 def closed_side_faces(surface: Surface) -> NDArray[np.int32] | None:
-    """(2, e) the mesh faces on the two sides of each used edge, where the mesh's own corners prove that every edge that
-    has faces has two, which run along it in opposite directions; None where they do not, or where there are none.
+    """Return (2, e) the mesh faces on the two sides of each used edge, if the mesh's own corners prove that every edge
+    with faces has two, which run along it in opposite directions; else, or if there are no faces, None.
 
-    Edges without faces do not count. That the corners name their edges rightly is taken from the mesh.
+    Edges without faces do not count. The edge names at the corners are trusted.
     """
     corners, edges = surface.corner_vertices, surface.corner_edges
     if corners is None or edges is None or not len(corners) == len(edges) > 0:
@@ -36,7 +36,7 @@ def closed_side_faces(surface: Surface) -> NDArray[np.int32] | None:
     sides_at = _sides_at(surface, corners)
     if sides_at is None:
         return None
-    count = int(edges.view("u{:d}".format(edges.itemsize)).max()) + 1  # in which a negative edge is a large one
+    count = int(edges.view("u{:d}".format(edges.itemsize)).max()) + 1  # a negative edge becomes a large one
     if count > 2 * len(corners) or count > np.iinfo(edges.dtype).max // 2:
         return None  # most of them without faces, or too many for their type: the table would cost more than a search
     sides = np.full(2 * count, -1, np.int32)
@@ -55,8 +55,8 @@ def closed_side_faces(surface: Surface) -> NDArray[np.int32] | None:
 def _sides_at(
     surface: Surface, corners: NDArray[np.integer]
 ) -> Callable[[int], tuple[NDArray[np.int32], NDArray[np.bool_]]] | None:
-    """A function of where a block of corners starts: the face of each, and whether the side that starts there runs to a
-    higher vertex. None where faces and corners do not fit."""
+    """Return a function of the start of a block of corners. It returns the face of each corner, and whether its side
+    runs to a higher vertex. None if faces and corners do not fit."""
     quads, triangles = len(surface.quads), len(surface.triangles)
     if not triangles and surface.quad_faces is None:
         size = 4
@@ -92,7 +92,7 @@ def _sides_at(
 
 
 def face_of_each(surface: Surface) -> tuple[NDArray[np.integer], NDArray[np.integer]]:
-    """The mesh face of each quad and of each triangle."""
+    """Return the mesh face of each quad and of each triangle."""
     return (
         np.arange(len(surface.quads)) if surface.quad_faces is None else surface.quad_faces,
         np.arange(len(surface.triangles)) if surface.triangle_faces is None else surface.triangle_faces,
@@ -103,8 +103,8 @@ def face_of_each(surface: Surface) -> tuple[NDArray[np.integer], NDArray[np.inte
 class Edges:
     """The undirected edges of triangles. Side 3t + i runs from corner i of triangle t to the next one.
 
-    of_side: (3m,) the edge of each side; upward: (3m,) whether the side runs from the lower vertex to the higher.
-    first: (e,) the first side of each edge, in ascending order. count: (e,) how many sides each has.
+    of_side: (3m,) the edge of each side; upward: (3m,) if the side runs from the lower vertex to the higher.
+    first: (e,) the first side of each edge, in ascending order. count: (e,) sides of each.
     """
 
     of_side: NDArray[np.intp]
@@ -113,30 +113,31 @@ class Edges:
     count: NDArray[np.intp]
 
     def signed_use_count(self, flipped: NDArray[np.bool_]) -> NDArray[np.float64]:
-        """(e,) sides that run upward minus sides that run downward, once the `flipped` triangles are reversed."""
+        """Return (e,) sides that run upward minus sides that run downward, once the `flipped` triangles are
+        reversed."""
         return sums_by_index(self.of_side, np.where(self.upward ^ np.repeat(flipped, 3), 1.0, -1.0))
 
     def manifold_side_pairs(self) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-        """The two sides of every edge that has exactly two."""
+        """Return the two sides of every edge that has exactly two."""
         two = self.count == 2
         last = np.empty(len(two), np.intp)
-        last[self.of_side] = np.arange(len(self.of_side))  # of equal indices the last is kept
+        last[self.of_side] = np.arange(len(self.of_side))  # the last write to equal indices wins
         return self.first[two], last[two]
 
     def adjacency(self) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-        """Links between triangles that make all the sides of an edge connected, however many there are."""
+        """Return links between triangles that connect all the sides of an edge, for any number of them."""
         side = np.arange(len(self.of_side))
         first = self.first[self.of_side]
         later = first != side
         return first[later] // 3, side[later] // 3
 
     def boundary_sides(self) -> NDArray[np.intp]:
-        """The sides of edges that have only one, ascending."""
+        """Return the sides of edges that have only one, ascending."""
         return self.first[self.count == 1]
 
 
 def find_edges(triangles: NDArray[np.integer]) -> Edges:
-    """The edges of (m, 3) triangles with three different vertices each, m at least 1."""
+    """Return the edges of (m, 3) triangles with three different vertices each, m at least 1."""
     start, stop = _ends(triangles.astype(np.int64, copy=False))
     low, high = np.minimum(start, stop), np.maximum(start, stop)
     first = first_occurrence(low * (int(high.max()) + 1) + high)
@@ -146,15 +147,15 @@ def find_edges(triangles: NDArray[np.integer]) -> Edges:
 
 
 def _ends(triangles: NDArray[np.integer]) -> tuple[NDArray[np.integer], NDArray[np.integer]]:
-    """(3m,) and (3m,) the vertices from which and to which the sides run."""
+    """Return (3m,) and (3m,) the vertices from which and to which the sides run."""
     stop = np.empty_like(triangles, order="C")
     stop[:, :2], stop[:, 2] = triangles[:, 1:], triangles[:, 0]
     return triangles.ravel(), stop.ravel()
 
 
 def edges_from_mesh(surface: Surface, triangles: NDArray[np.integer]) -> Edges | None:
-    """As `find_edges`, without a search, from the edges that a mesh names at its corners; each quad's diagonal is one
-    more. None where there are none or not of all triangles, or they do not fit the vertices.
+    """Return the edges as `find_edges` does, without a search, from the mesh's own edges at its corners; each quad's
+    diagonal is one more. None if the mesh names none or not for all triangles, or they do not fit the vertices.
 
     triangles: all of the surface, as `all_triangles` cuts them, with three different vertices each.
     """
@@ -189,7 +190,7 @@ def edges_from_mesh(surface: Surface, triangles: NDArray[np.integer]) -> Edges |
     )
     start, stop = _ends(triangles)
     first = np.full(count + len(quads), -1)
-    first[named[::-1]] = np.arange(len(named) - 1, -1, -1)  # of equal indices the last is kept
+    first[named[::-1]] = np.arange(len(named) - 1, -1, -1)  # the last write to equal indices wins
     begins = np.zeros(len(named), bool)
     begins[first[first >= 0]] = True
     of_side = (np.cumsum(begins) - 1)[first[named]]
@@ -213,11 +214,12 @@ def consistent_orientation(
     misoriented: NDArray[np.bool_],
     weight: NDArray[np.float64],
 ) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
-    """Which of `count` faces to turn so that linked ones agree, and which cannot be made to.
+    """Return masks (count,) of the faces to turn so that linked faces agree, and of the faces that cannot be made to
+    agree.
 
-    a, b: the linked faces; misoriented: whether the two now disagree; weight: (count,) the area of each face: in each
-    part the orientation with less of it is turned. Returns (turned, nonorientable), both (count,); a part that is not
-    orientable (a Möbius strip, a Klein bottle) is left as it is.
+    a, b: the linked faces; misoriented: if the two disagree now; weight: (count,) the area of each face. In each part
+    the orientation with less area is turned; a part that is not orientable (a Möbius strip, a Klein bottle) stays as it
+    is.
     """
     flipped, twisted = np.zeros((2, count), bool)
     if not misoriented.any():
@@ -239,11 +241,11 @@ def consistent_orientation(
 def group_components(
     edges: Edges, part: NDArray[np.intp], parts: int, even: NDArray[np.bool_]
 ) -> tuple[NDArray[np.intp], int]:
-    """The components that parts make: (m,) the component of each triangle, and how many.
+    """Return (m,) the component of each triangle, made of whole parts, and the number of components.
 
     part: (m,) the part of each triangle, connected across edges with exactly two sides. even: (e,) edges with one side
     that close otherwise. A part that closes by itself is a component of its own, though it may share edges with others
-    (two boxes that meet in an edge); the rest belong together where they share an edge (a box with an inner wall).
+    (two boxes that meet in an edge); the other parts belong together if they share an edge (a box with an inner wall).
     """
     non_manifold = edges.count > 2
     if not non_manifold.any():

@@ -2,14 +2,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Convex hulls of points in space, by quickhull with many points at a time and exact decisions.
 
-Quickhull (Barber, Dobkin and Huhdanpaa 1996) adds the farthest point outside each face. Here each round adds all
-of these that do not touch each other's faces, so that a round is a few operations on arrays. Two points can be added
-together, in either order with the same result, where neither sees a face that the other one sees or that lies across
-the other one's horizon: a face over a horizon's edge is a positive combination of the two faces at that edge, so it is
-not seen either.
+Quickhull (Barber, Dobkin and Huhdanpaa 1996) adds the farthest point outside each face. Here each round adds all of
+these that do not touch each other's faces, so that a round is a few operations on arrays. Two points can be added
+together, in either order with the same result, if neither sees a face that the other one sees or that lies across the
+other one's horizon: a face over a horizon's edge is a positive combination of the two faces at that edge, so it is not
+seen either.
 
-The points are rounded to a grid of 2^29 steps over the largest extent, 2e-9 of it. On which side of a face a point is,
-is then decided by integers without any rounding, so that the result is always a closed convex surface. The points
+The points are rounded to a grid of 2^29 steps over the largest extent, 2e-9 of it. The side of a face that a point is
+on is then decided by integers without any rounding, so that the result is always a closed convex surface. The points
 themselves stay as they are.
 """
 
@@ -47,9 +47,9 @@ class ConvexHull:
     neighbors : (m, 3) integer array
         The triangle across each side: from corner 0 to 1, from 1 to 2, from 2 to 0.
     is_flat : bool
-        Whether all points are in one plane.
+        True if all points are in one plane.
     gap : float
-        How far points may be outside: more than the tolerance where the limit of corners was reached.
+        Bound of the distance of points outside: above the tolerance if the limit of corners was reached.
 
     Examples
     --------
@@ -76,7 +76,7 @@ class ConvexHull:
         Returns
         -------
         ConvexHull
-            With outward faces, where the map mirrors, too.
+            With outward faces, even if the map mirrors.
         """
         matrix = float_array("linear", linear, 3, 3, finite=True)
         is_mirrored = bool(np.linalg.det(matrix) < 0.0)
@@ -136,7 +136,7 @@ def convex_hull(points: ArrayLike, tolerance: float = 1e-8, max_corners: int | N
 
 
 def _first_corners(grid: NDArray[np.float64], least: float) -> list[int]:
-    """Four points that span a volume; three or two where all are nearer than `least` to their plane or line."""
+    """Return four points that span a volume; three or two if all are nearer than `least` to their plane or line."""
     ends = np.concatenate([grid.argmin(axis=0), grid.argmax(axis=0)])
     apart = np.linalg.norm(grid[ends][:, None] - grid[ends], axis=2)
     first, second = (int(ends[place]) for place in np.unravel_index(apart.argmax(), apart.shape))
@@ -157,8 +157,8 @@ def _first_corners(grid: NDArray[np.float64], least: float) -> list[int]:
 
 
 def _farthest(distances: NDArray, reach: NDArray, least: float) -> int:
-    """The largest distance; of those that are as large to `least`, the one with the largest reach, which is at a corner
-    of the hull."""
+    """Return the index of the largest distance. Among distances as large to `least`, take the largest reach: it is at a
+    corner of the hull."""
     equal = np.flatnonzero(distances >= distances.max() - least)
     return int(equal[reach[equal].argmax()])
 
@@ -182,13 +182,13 @@ class _GrowingHull:
         self.outside, self.seen, self.height = self._highest(every, counts, np.zeros(len(grid), np.intp))
 
     def _set_normals(self, kept: NDArray[np.int64], added: NDArray[np.intp]) -> None:
-        """The normals of the faces that were kept, and those of new ones: below 2^60, so exact."""
+        """Set the normals of the faces: `kept`, then the normals of new ones, below 2^60, so exact."""
         a, b, c = (self.grid[added[:, k]].T for k in range(3))
         self.normals = np.concatenate([kept, np.stack(cross(b - a, c - a), axis=1)])
         self.lengths = np.linalg.norm(self.normals.astype(np.float64), axis=1)
 
     def _heights(self, points: NDArray[np.intp], faces: NDArray[np.intp]) -> NDArray[np.float64]:
-        """(k,) normal · (point - corner): rounded, but of the right sign, and zero only where the point is in the
+        """Return (k,) normal · (point - corner): rounded, but of the right sign, and zero only if the point is in the
         plane. The product needs 90 bits: the normal's upper and lower bits are multiplied apart."""
         offset = self.grid[points] - self.grid[self.corners[faces, 0]]
         normal = self.normals[faces]
@@ -200,7 +200,7 @@ class _GrowingHull:
     def _highest(
         self, points: NDArray[np.intp], counts: NDArray[np.intp], firsts: NDArray[np.intp]
     ) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.float64]]:
-        """For each point, of one or more, the face that it is highest above, of the `counts` faces from the face
+        """Return for each point, of one or more, the face that it is highest above, of the `counts` faces from the face
         `firsts` on; without the points that are above none."""
         parts = []
         for block in batches(counts, PAIRS_PER_BLOCK):
@@ -217,12 +217,12 @@ class _GrowingHull:
         return points, faces, height
 
     def add_points(self) -> bool:
-        """Add the farthest points outside, as many as leave each other alone; whether there were any."""
+        """Add the farthest points outside, as many as leave each other alone. Return whether there were any."""
         if not len(self.outside):
             return False
         farthest = np.zeros(len(self.corners))
         np.maximum.at(farthest, self.seen, self.height)
-        # Of points that are equally far to the tolerance, one at a corner: the farthest from the middle.
+        # Points that are equally far to the tolerance: take one at a corner, the farthest from the middle.
         place = np.flatnonzero(self.height >= farthest[self.seen] - self.step)
         order = np.lexsort((self.reach[self.outside[place]], self.seen[place]))
         seen = self.seen[place[order]]
@@ -238,7 +238,8 @@ class _GrowingHull:
     def _visible_faces(
         self, apexes: NDArray[np.intp], faces: NDArray[np.intp]
     ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-        """(k, 2) which apex sees which face, and (l, 3) apex, visible face and side beyond which it sees none."""
+        """Return (k, 2) pairs of an apex and a face that it sees, and (l, 3) apex, visible face and side beyond which
+        it sees none."""
         size = len(self.corners)
         front = np.stack([np.arange(len(apexes)), faces], axis=1)
         known = np.sort(front[:, 0] * size + front[:, 1])
@@ -256,7 +257,7 @@ class _GrowingHull:
         return np.stack(np.divmod(known, size), axis=1), np.concatenate(edges)
 
     def _independent(self, count: int, visible: NDArray[np.intp], horizon: NDArray[np.intp]) -> NDArray[np.bool_]:
-        """(count,) the apexes that no earlier one disturbs."""
+        """Return (count,) the apexes that no earlier one disturbs."""
         beyond = self.neighbors[horizon[:, 1], horizon[:, 2]]
         seen_by = np.full(len(self.corners), count)
         np.minimum.at(seen_by, visible[:, 1], visible[:, 0])
@@ -302,12 +303,12 @@ class _GrowingHull:
 
 
 def _is_in(values: NDArray[np.intp], known: NDArray[np.intp]) -> NDArray[np.bool_]:
-    """Whether values are among those of a sorted array, which has some."""
+    """Return whether values are in a sorted array, which is not empty."""
     return known[np.minimum(np.searchsorted(known, values), len(known) - 1)] == values
 
 
 def _flat_hull(points: NDArray[np.float64], corners: list[int], tolerance: float) -> ConvexHull:
-    """Both sides of the polygon around points in the plane of three of them."""
+    """Return both sides of the polygon around points in the plane of three of them."""
     a, b, c = points[corners]
     normal = np.cross(b - a, c - a)
     normal /= np.linalg.norm(normal)
@@ -345,7 +346,7 @@ def convex_polygon(points: ArrayLike, tolerance: float = 0.0) -> NDArray[np.intp
     Returns
     -------
     (k,) integer array
-        Indices, counter-clockwise; two where the points are on a line, one where they are all the same.
+        Indices, counter-clockwise; two if the points are on a line, one if they are all the same.
 
     Examples
     --------
@@ -360,7 +361,7 @@ def convex_polygon(points: ArrayLike, tolerance: float = 0.0) -> NDArray[np.intp
     if np.abs(points[ends[1]] - points[ends[0]]).max() <= least:
         return ends[:1]
     corners, rest = ends, np.repeat(np.arange(len(points)), 2)
-    side = np.tile([0, 1], len(points))  # of which side of the polygon the points may be outside
+    side = np.tile([0, 1], len(points))  # the side of the polygon that the points may be outside of
     while len(rest):
         start, end = points[corners[side]], points[np.roll(corners, -1)[side]]
         along, offset = end - start, points[rest] - start
@@ -374,7 +375,7 @@ def convex_polygon(points: ArrayLike, tolerance: float = 0.0) -> NDArray[np.intp
         last = np.append(side[order][1:] != side[order][:-1], True)
         apexes, sides = rest[order[last]], side[order[last]]
         corners = np.insert(corners, sides + 1, apexes)
-        shift = np.searchsorted(sides, side)  # how many sides before were split
+        shift = np.searchsorted(sides, side)  # the number of split sides before
         rest, side = np.repeat(rest, 2), np.repeat(side + shift, 2)
         side[1::2] += 1
     return np.roll(corners, -int(corners.argmin()))

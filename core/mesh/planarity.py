@@ -3,13 +3,14 @@
 """Faces that are not flat, and faces without area.
 
 A face that is not flat has no volume under it until somebody chooses its diagonals. For a quad the two choices differ
-by the tetrahedron of its corners, |(b-a)·((c-a)×(d-b))|/6; for a polygon the fan from its first corner differs from
-the fan from its second by the tetrahedra on their common edge and each further one. A face counts as not flat where
-its diagonals pass each other by more than its coordinates' own errors and a millionth of its size, and it has an area.
+by the tetrahedron of its corners, |(b-a)·((c-a)×(d-b))|/6; for a polygon the fan from its first corner differs from the
+fan from its second by the tetrahedra on their common edge and each further one. A face counts as not flat if its
+diagonals pass each other by more than its coordinates' own errors and a millionth of its size, and it has an area.
 
 The sums over the faces have most of that at hand, and show it to a `PlanarityAccumulator`, a block at a time. The
-normal of a quad is the sum of those of its two triangles: with their lengths p and q at most p + q, and at least 0.7 of
-that unless they face away from each other. Mostly that is enough to decide; the other faces are looked at one by one.
+normal of a quad is the sum of the normals of its two triangles: with their lengths p and q at most p + q, and at least
+0.7 of that unless they face away from each other. Mostly that is enough to decide; the other faces are looked at one by
+one.
 """
 
 from __future__ import annotations
@@ -28,8 +29,8 @@ from .surface import Surface
 from .surface_stack import SurfaceStack
 
 FACES_PER_BLOCK = 1 << 14
-PLANAR_RTOL = 1e-6  # of the square root of a face's area
-ZERO_AREA_RTOL = 1e-12  # of a face's size, for float64 points
+PLANAR_RTOL = 1e-6  # relative to the square root of a face's area
+ZERO_AREA_RTOL = 1e-12  # relative to a face's size, for float64 points
 NO_FACES = np.empty(0, np.intp)
 QUAD, TRIANGLE = ((2, 0), (3, 1), (1, 0)), ((1, 0), (2, 0))  # corners (i, j) whose differences i - j are taken
 
@@ -47,8 +48,8 @@ class Planarity:
 
 @dataclass(frozen=True, eq=False)
 class _PlanarityPartial:
-    """Of some quads or triangles: how many; how many of them are surely not flat, and 6 times their spread; and the
-    rows of those that have to be looked at."""
+    """Results of some quads or triangles: their count; the count of faces surely not flat, and 6 times their spread;
+    and the rows of the undecided faces."""
 
     count: int
     non_planar_count: int
@@ -57,13 +58,13 @@ class _PlanarityPartial:
 
 
 class PlanarityAccumulator:
-    """Quads, and polygons where the surface has the mesh's corners to tell their rings from; other faces are made of
+    """Quads, and polygons if the surface has the mesh's corners to tell their rings from; other faces are made of
     triangles and have no choice.
 
-    error: (length) how far the points may be from where they were meant. Safe in threads.
+    error: (length) bound of the distance of points from their intended places. Safe in threads.
 
-    cones: what the cones over all faces from the reference point add up to where each counts as positive, and signed;
-    None where that was not at hand.
+    cones: sums of the cones over all faces from the reference point, each counted as positive, and signed; None if not
+    at hand.
     """
 
     def __init__(self, surface: Surface, error: float):
@@ -73,21 +74,21 @@ class PlanarityAccumulator:
         self.quads: dict[int, _PlanarityPartial] = {}
         self.triangles: dict[int, _PlanarityPartial] = {}
         self.cones: tuple[float, float] | None = None
-        # What is looked at one by one is brought to about size 1, so that sixth powers of small lengths do not
+        # Faces looked at one by one are scaled to about size 1, so that sixth powers of small lengths do not
         # underflow.
         self.exponent = int(np.frexp(max(size, float(np.finfo(np.float32).tiny)))[1])
 
     @cached_property
     def degenerate_limit(self) -> float:
-        """The largest sum of the lengths of a quad's normals that may be those of a face without area."""
+        """The largest sum of the lengths of a quad's normals that a face without area may have."""
         longest = 3.0 * self.extent * self.extent  # no face is longer than √3 times the extent
         return float(2.0 * np.sqrt(_degenerate_limit(longest, self.error)))
 
     def add_quads(self, start: int, lengths: NDArray, volume: NDArray, folded: NDArray[np.intp], room: NDArray) -> None:
-        """Those from row `start` on.
+        """Add the quads from row `start` on.
 
-        lengths: (2, k) of the normals of both triangles, or 0. volume: (k,) 6 times that of the tetrahedron of the
-        corners, to be written over. folded: those of the k where the triangles may face away from each other.
+        lengths: (2, k) of the normals of both triangles, or 0. volume: (k,) 6 times the volume of the tetrahedron of
+        the corners, to be written over. folded: the columns with triangles that may face away from each other.
         room: (2, k).
         """
         volume, normal = np.abs(volume, out=volume), np.add(lengths[0], lengths[1], out=room[0])
@@ -108,14 +109,14 @@ class PlanarityAccumulator:
         self.quads[start] = _PlanarityPartial(len(bent), int(count), float(np.add.reduce(volume)), unsure)
 
     def add_triangles(self, starts: Sequence[int], step: int, lengths: NDArray) -> None:
-        """Every `step`-th from each of these rows on. lengths: (len(starts), k) of their normals."""
+        """Add every `step`-th triangle from each of these rows on. lengths: (len(starts), k) of their normals."""
         for start, normal in zip(starts, lengths):
             self.triangles[start] = _PlanarityPartial(
                 len(normal), 0, 0.0, start + step * np.flatnonzero(normal <= self.degenerate_limit)
             )
 
     def planarity(self) -> Planarity:
-        """What the kernel reported; where that is missing or does not decide, what a pass over the faces finds."""
+        """Return the result of the kernel's reports; if they are missing or do not decide, of a pass over the faces."""
         surface, triangle_faces = self.surface, self.surface.triangle_faces
         non_planar_count, seen_volume, total_volume, degenerate = 0, 0.0, 0.0, NO_FACES
         if len(surface.quads):
@@ -146,9 +147,9 @@ class PlanarityAccumulator:
         return _classify_rows(self.surface.points, corners, pairs, self.error, self.exponent)
 
     def _polygon_tetrahedra(self, pieces: NDArray[np.integer]) -> tuple[NDArray[np.intp], NDArray[np.integer]]:
-        """The tetrahedra of the faces of more than one triangle: (m,) which face each is of, and (m, 4) corners.
+        """Return the tetrahedra of the faces of more than one triangle: (m,) the face of each, and (m, 4) corners.
 
-        pieces: how many triangles each mesh face has.
+        pieces: the number of triangles of each mesh face.
         """
         ring, quad_faces = self.surface.corner_vertices, face_of_each(self.surface)[0]
         polygon = np.flatnonzero(pieces > 1)
@@ -162,7 +163,7 @@ class PlanarityAccumulator:
 
 @dataclass(frozen=True, eq=False)
 class StackPlanarity:
-    """How flat the faces of n surfaces are.
+    """Flatness of the faces of n surfaces.
 
     Attributes
     ----------
@@ -170,7 +171,7 @@ class StackPlanarity:
     volume_spread : (n,) array
         As in `Planarity`, of each.
     has_degenerate : (n,) bool
-        Whether it has faces without area.
+        True if it has faces without area.
     """
 
     non_planar_counts: NDArray[np.intp]
@@ -179,7 +180,7 @@ class StackPlanarity:
 
 
 def stack_planarity(stack: SurfaceStack) -> StackPlanarity:
-    """Look at the faces of a stack, one by one, as `PlanarityAccumulator` does where it has to."""
+    """Classify the faces of a stack one by one, as `PlanarityAccumulator` does for undecided faces."""
     count, face_count = len(stack.face_counts), int(stack.face_counts.sum())
     low, high = stack.box
     exponent = np.frexp(np.maximum((high - low).max(axis=1), float(np.finfo(np.float32).tiny)))[1]
@@ -222,10 +223,10 @@ def stack_planarity(stack: SurfaceStack) -> StackPlanarity:
 def _classify_rows(
     points: NDArray, corners: NDArray, pairs: tuple, error: float | NDArray, exponent: int | NDArray
 ) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
-    """(m,) 6 times the volume of the tetrahedron on the corners of each face, of what is brought to size 1, zero where
-    the face is flat; and (m,) whether it has no area.
+    """Return (m,) 6 times the volume of the tetrahedron on the corners of each face, scaled to size 1, zero if the face
+    is flat; and (m,) whether it has no area.
 
-    pairs: of corners, QUAD or TRIANGLE. error, exponent: of the surface, or (m,) of each row's.
+    pairs: of corners, QUAD or TRIANGLE. error, exponent: of the surface, or (m,) of each row.
     """
     volumes, bare = [np.empty(0)], [np.empty(0, bool)]
     for start in range(0, len(corners), FACES_PER_BLOCK):
@@ -249,8 +250,8 @@ def _classify_rows(
 def _tetrahedra(
     ring: NDArray[np.integer], begin: NDArray[np.integer], sizes: NDArray[np.integer]
 ) -> tuple[NDArray[np.intp], NDArray[np.integer]]:
-    """The tetrahedra of polygons whose corners stand in `ring`, from `begin` on: (m,) which polygon each is of, and
-    (m, 4) corners."""
+    """Return the tetrahedra of polygons with corners that stand in `ring`, from `begin` on: (m,) the polygon of each,
+    and (m, 4) corners."""
     steps = sizes - 3
     row = np.repeat(np.arange(len(sizes)), steps)
     at = begin[row] + 2 + segment_ranges(steps)
@@ -258,12 +259,13 @@ def _tetrahedra(
 
 
 def _sum_in_order(volumes: NDArray[np.float64]) -> float:
-    """The sum, one after the other, as a stack's is: `np.add.reduce` would add in another order."""
+    """Return the sum, one after the other, like the sum of a stack: `np.add.reduce` would add in another order."""
     return float(sums_by_index(np.zeros(len(volumes), np.intp), volumes, 1)[0])
 
 
 def _merge_blocks(blocks: dict[int, _PlanarityPartial], count: int) -> _PlanarityPartial:
-    """What was seen of so many rows, in their order, whoever was first; if not of all, then of none."""
+    """Merge the partial results of `count` rows in the order of the rows; if some rows are missing, all are
+    undecided."""
     partials = [blocks[start] for start in sorted(blocks)]
     if sum([block.count for block in partials]) != count:
         return _PlanarityPartial(count, 0, 0.0, np.arange(count))
@@ -276,5 +278,6 @@ def _merge_blocks(blocks: dict[int, _PlanarityPartial], count: int) -> _Planarit
 
 
 def _degenerate_limit(longest: NDArray | float, error: float | NDArray) -> NDArray | float:
-    """The largest square of the normal of a face without area, from the square of its longest edge or diagonal."""
+    """Return the largest square of the normal of a face without area, from the square of its longest edge or
+    diagonal."""
     return longest * (error * error + ZERO_AREA_RTOL * ZERO_AREA_RTOL * longest)

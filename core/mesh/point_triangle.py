@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How far points are from triangles, in double precision.
+"""Distances of points from triangles, in double precision.
 
 Trees that find the nearest triangle work in single precision, and go wrong on triangles that are long and thin by as
 much as their width.
@@ -15,8 +15,8 @@ from ..numerics.vectors import cross, dot, subtract
 
 
 def triangle_distances(points: ArrayLike, corners: NDArray) -> NDArray[np.float64]:
-    """(m,) the distances of (m, 3) points, or of a single one, from (m, 3, 3) triangles, each from its own: from the
-    plane where its foot is inside the triangle, else from the nearest edge. Triangles without area are their edges."""
+    """Return (m,) the distances of (m, 3) points, or of a single one, from (m, 3, 3) triangles, each from its own: from
+    the plane if its foot is inside the triangle, else from the nearest edge. Triangles without area are their edges."""
     point, ends = np.asarray(points, np.float64).T, np.ascontiguousarray(corners.transpose(1, 2, 0))
     if point.ndim == 1:
         point = point[:, None]

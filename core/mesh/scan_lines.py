@@ -1,15 +1,15 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Where parallel lines go through the faces of bodies.
+"""Crossings of parallel lines with the faces of bodies.
 
 The lines run along the shortest side of a body's box, a little aslant, so that they follow no face of it, and stand in
 a lattice across it, at whole numbers of rows and columns. As a picture is drawn: a row crosses a triangle between two
 of its edges, and the columns in between meet it. That costs a look at the cell of each vertex, and work only for faces
-whose corners are in several rows and columns. A row crosses an edge that has one end above it, at a place that is
-computed from the edge's vertex of lower number on: triangles that share the edge see the same, and no line slips
-through between them.
+with corners in several rows and columns. A row crosses an edge that has one end above it, at a place that is computed
+from the edge's vertex of lower number on: triangles that share the edge see the same, and no line slips through between
+them.
 
-Bodies share a scan, each with lines of its own. Where the work would exceed what a body's number of triangles allows,
+Bodies share a scan, each with lines of its own. If the work would exceed the limit for a body's number of triangles,
 fewer rows are taken. A body gets the same whether it is alone or one of many.
 """
 
@@ -23,15 +23,15 @@ from numpy.typing import NDArray
 from ..numerics.arrays import batches, segment_ranges, sums_by_index
 from .surface import Surface, flipped_quads
 
-LINE_SLOPES = 0.08173, 0.05311  # across, for each length along: of the direction of the lines
-LATTICE_SHIFT = 0.4669, 0.2371  # of rows and columns: a lattice of vertices is met by no line
-COLUMN_SLOPE = 0.6180339887498949  # of a column's width, by which the columns of a row are ahead of those before
+LINE_SLOPES = 0.08173, 0.05311  # direction of the lines: across, for each length along
+LATTICE_SHIFT = 0.4669, 0.2371  # in rows and columns: no line meets a lattice of vertices
+COLUMN_SLOPE = 0.6180339887498949  # shift of columns from row to row, in column widths
 POINTS_PER_BLOCK = 1 << 14
 FACES_PER_BLOCK = 1 << 16
-PAIRS_PER_BLOCK = 1 << 16  # of triangles and rows
+PAIRS_PER_BLOCK = 1 << 16  # pairs of triangles and rows
 MIN_LINES, MAX_LINES, LINES_PER_SQRT = 576, 2048, 5.0  # through a body; and by the root of its number of triangles
-MAX_PAIRS = 8192, 1.0  # of triangles and rows of a body; and of these for each of its triangles more
-MAX_CROSSINGS = 16384, 0.5  # of lines and triangles; likewise
+MAX_PAIRS = 8192, 1.0  # pairs of triangles and rows of a body; and more for each of its triangles
+MAX_CROSSINGS = 16384, 0.5  # pairs of lines and triangles; likewise
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,8 +81,8 @@ class LineGrids:
         return cls(np.tile(np.arange(3), (count, 1)), points, cell, np.zeros((count, 2)), 1, 1)
 
     def places(self, points: NDArray[np.floating], body: NDArray[np.integer] | None) -> NDArray[np.float64]:
-        """(3, n) where points are: in rows, in columns, and along the lines from the center (unit). body: (n,) whose
-        they are, None for a single one."""
+        """Return (3, n) places of points: in rows, in columns, and along the lines from the center (unit). body: (n,)
+        the body of each point, None for a single one."""
         if body is None:
             places = points.T[self.axes[0]].astype(np.float64)
             center, cell, origin = self.center.T, self.cell.T, self.origin.T
@@ -101,7 +101,7 @@ class LineGrids:
     def squared_distances(
         self, body: NDArray[np.intp], row: NDArray[np.intp], column: NDArray[np.intp], along: NDArray[np.float64]
     ) -> NDArray[np.float64]:
-        """(k,) of places on lines from the centers of their bodies (unit²)."""
+        """Return (k,) the squared distances of places on lines from the centers of their bodies (unit²)."""
         across = np.stack([row, column], axis=1) - self.origin[body]
         across[:, 1] += COLUMN_SLOPE * across[:, 0]
         across = across * self.cell[body] + np.multiply.outer(along, LINE_SLOPES)
@@ -110,7 +110,7 @@ class LineGrids:
 
 @dataclass(frozen=True, eq=False)
 class Crossings:
-    """Where lines go through triangles.
+    """Crossings of lines with triangles.
 
     Attributes
     ----------
@@ -121,8 +121,8 @@ class Crossings:
     along : (k,) float
         How far along the line from the body's center (unit).
     sign : (k,) int
-        1 where a line enters and -1 where it leaves what faces bound that run one way around; the opposite of that
-        where they run the other.
+        1 if a line enters and -1 if it leaves the body, for faces that run one way around; the opposite for faces that
+        run the other way.
     rows_apart : (b,) int
         Of each body every so many rows were taken.
     """
@@ -137,12 +137,12 @@ class Crossings:
 
 
 def line_counts(triangles: NDArray[np.integer]) -> NDArray[np.intp]:
-    """(b,) how many lines bodies of so many triangles are worth."""
+    """Return (b,) the numbers of lines for bodies of so many triangles."""
     return np.clip(LINES_PER_SQRT * np.sqrt(triangles), MIN_LINES, MAX_LINES).astype(np.intp)
 
 
 def find_crossings(surface: Surface, grids: LineGrids, body: NDArray[np.integer] | None = None) -> Crossings:
-    """Find where lines go through the faces of bodies.
+    """Find the crossings of lines with the faces of bodies.
 
     Parameters
     ----------
@@ -193,8 +193,8 @@ def find_crossings(surface: Surface, grids: LineGrids, body: NDArray[np.integer]
 def _cells(
     points: NDArray[np.floating], grids: LineGrids, body: NDArray[np.integer] | None
 ) -> tuple[NDArray[np.integer], NDArray[np.integer]]:
-    """(n,) and (n,) the first row and the first column that each point is not above."""
-    short = max(grids.rows, grids.columns) < np.iinfo(np.int16).max // 4  # which the cache holds more of
+    """Return (n,) and (n,) the first row and the first column that each point is not above."""
+    short = max(grids.rows, grids.columns) < np.iinfo(np.int16).max // 4  # the cache holds more of these
     cells = np.empty((2, len(points)), np.int16 if short else np.int32)
     for start in range(0, len(points), POINTS_PER_BLOCK):
         part = slice(start, start + POINTS_PER_BLOCK)
@@ -203,7 +203,7 @@ def _cells(
 
 
 def _count_faces(surface: Surface, body: NDArray[np.integer] | None, bodies: int) -> NDArray[np.intp]:
-    """(b,) the triangles of each body."""
+    """Return (b,) the triangles of each body."""
     if body is None:
         return np.array([len(surface.triangles) + 2 * len(surface.quads)])
     quads, triangles = (
@@ -213,14 +213,15 @@ def _count_faces(surface: Surface, body: NDArray[np.integer] | None, bodies: int
 
 
 def _rows_apart(work: NDArray[np.float64], limit: tuple[int, float], faces: NDArray[np.intp]) -> NDArray[np.intp]:
-    """(b,) of how many rows one is taken, so that the work stays within a limit."""
+    """Return (b,) the distance of the rows that are taken, so that the work stays within a limit."""
     return np.maximum(np.ceil(work / (limit[0] + limit[1] * faces)), 1).astype(np.intp)
 
 
 def _crossed_triangles(
     surface: Surface, cells: tuple[NDArray[np.integer], NDArray[np.integer]]
 ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """(3, k) the triangles in several rows and columns, and their numbers. Of a quad that is, both are there."""
+    """Return (3, k) corners of the triangles that span several rows and columns, and their indices; both halves of such
+    a quad are included."""
     triangles, number = [np.empty((3, 0), np.intp)], [np.empty(0, np.intp)]
     quads = surface.quads
     for faces in (quads, surface.triangles):
@@ -242,7 +243,7 @@ def _crossed_triangles(
 
 
 def _differ(cell: NDArray[np.integer], corners: NDArray[np.intp]) -> NDArray[np.bool_]:
-    """(k,) whether the corners of faces, (3 or 4, k), are in different rows, or columns."""
+    """Return (k,) whether the corners of faces, (3 or 4, k), are in different rows, or columns."""
     first = cell.take(corners[0])
     differ = cell.take(corners[1]) != first
     for corner in corners[2:]:
@@ -257,9 +258,9 @@ def _cross_row(
     higher: NDArray[np.bool_],
     row: NDArray[np.intp],
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.intp]]:
-    """(2, k) and (2, k) where a row enters and leaves each triangle: in columns, and along the lines; and the sign of
-    the lines' crossings in between. places, corners: (3, 3t) and (3t,) of all first corners, all second and all third
-    ones; which: (k,) the triangles; higher: (3, k) which of their corners are above the row."""
+    """Return (2, k) and (2, k) the points at which a row enters and leaves each triangle: in columns, and along the
+    lines; and the sign of the lines' crossings in between. places, corners: (3, 3t) and (3t,) of all first corners, all
+    second and all third ones; which: (k,) the triangles; higher: (3, k) mask of their corners above the row."""
     first, second, third = higher
     single = (first ^ second ^ third) & ~(first & second & third)
     lone = np.where(first == second, 2, first == third)  # the corner on a side of its own

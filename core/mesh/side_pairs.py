@@ -1,12 +1,12 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which sides of faces lie against each other, where every edge has two, which run along it in opposite directions.
+"""Pairs of sides of faces that lie against each other, if every edge has two, which run in opposite directions.
 
 A side runs from its start to its stop. Each is written into a table, into the row of its start, at a place that a hash
-of its stop gives: what is local in the mesh stays in the cache, and nothing is sorted. The partner of a side is looked
-up in the row of its stop, at the place that the hash of its start gives. Two sides that find each other so are
-partners, for each starts where the other stops, whatever the hashes. The others, whose places were taken, try again
-with another hash, and what is left after some rounds (around a vertex of many faces) is sorted.
+of its stop gives: neighbors in the mesh stay in the cache, and nothing is sorted. The partner of a side is looked up in
+the row of its stop, at the place that the hash of its start gives. Two sides that find each other so are partners, for
+each starts at the stop of the other, whatever the hashes. Sides that found their places taken try again with another
+hash, and the sides left after some rounds (around a vertex of many faces) are sorted.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 FACES_PER_BLOCK = 1 << 14  # in the cache with all that is made of them
 MAX_SORTED_SIDES = 3 << 10  # a table is made for more
-HASH_FACTORS = 0x9E3779B1, 0x85EBCA77, 0xC2B2AE3D, 0x27D4EB2F, 0x165667B1  # those of xxHash, by Yann Collet
+HASH_FACTORS = 0x9E3779B1, 0x85EBCA77, 0xC2B2AE3D, 0x27D4EB2F, 0x165667B1  # primes of xxHash, by Yann Collet
 SAMPLED_VERTICES = 512  # by which the hash is chosen
 NOBODY = -1
 
@@ -27,8 +27,8 @@ Sides = tuple[NDArray[np.int32], NDArray[np.integer], NDArray[np.integer]]
 
 
 def faces_across_sides(faces: NDArray[np.integer], vertex_count: int) -> NDArray[np.int32] | None:
-    """(n, k) the face across each side of (n, k) faces, where every edge has two sides that run in opposite directions;
-    None where one has not, or where there are too many for 32 bits.
+    """Return (n, k) the face across each side of (n, k) faces, if every edge has two sides that run in opposite
+    directions; None if one has not, or if there are too many for 32 bits.
 
     vertex_count: of vertices that are all used.
     """
@@ -65,7 +65,7 @@ class _Table:
         self.bits, self.sides = bits, np.zeros(vertex_count << bits, np.int32)  # counted from 1
 
     def places(self, row: NDArray[np.integer], other: NDArray[np.integer], factor: np.uint32) -> NDArray[np.intp]:
-        """Where a side stands that has these two ends."""
+        """Return the table slots of the sides with these end vertices."""
         place = row.astype(np.intp)
         place <<= self.bits
         hashes = other.astype(np.uint32)
@@ -75,12 +75,12 @@ class _Table:
         return place
 
     def at(self, places: NDArray[np.intp]) -> NDArray[np.int32]:
-        """Which side stands at each place."""
+        """Return the sides in these places."""
         return self.sides.take(places, mode="clip") - np.int32(1)
 
     def factors_by_distinct_places(self, faces: NDArray[np.integer]) -> list[int]:
-        """The hashes, those first that put the sides around some vertices into most places: in a grid the differences
-        of neighbors are the same few everywhere."""
+        """Return the hash factors, ordered by the number of distinct places of the sides around some vertices, most
+        first: in a grid the differences of neighbors are the same few everywhere."""
         flat = faces.ravel()
         first = len(self.sides) >> self.bits + 1
         number = np.flatnonzero((flat >= first) & (flat < first + SAMPLED_VERTICES))
@@ -91,7 +91,7 @@ class _Table:
 def _pair(
     faces: NDArray[np.integer], left: Sides | None, table: _Table, factor: np.uint32, partner: NDArray[np.int32]
 ) -> Sides | None:
-    """Pair those sides that are left, at first all, by a hash; what is left then. None where a side is there twice."""
+    """Pair the sides in `left`, at first all, by a hash. Return the sides left then; None if a side is there twice."""
 
     def blocks() -> Iterator[Sides]:
         return _all_sides(faces, FACES_PER_BLOCK) if left is None else _slices(left)
@@ -116,12 +116,12 @@ def _pair(
 
 
 def _following(number: NDArray[np.integer], corners: int) -> NDArray[np.integer]:
-    """The next side of the same face."""
+    """Return the next side of the same face."""
     return np.where(number % corners == corners - 1, number - (corners - 1), number + 1)
 
 
 def _range(number: NDArray[np.int32]) -> slice | NDArray[np.int32]:
-    """Ascending numbers as a slice, where they are without gaps."""
+    """Return ascending numbers as a slice, if they are without gaps."""
     first, last = int(number[0]), int(number[-1])
     return slice(first, last + 1) if last - first + 1 == len(number) else number
 
@@ -146,7 +146,7 @@ def _slices(sides: Sides) -> Iterator[Sides]:
 def _paired_by_sorting(
     number: NDArray[np.int32], start: NDArray[np.integer], stop: NDArray[np.integer]
 ) -> NDArray[np.int32] | None:
-    """The partner of each of an even number of sides; None where they are no pairs."""
+    """Return the partner of each of an even number of sides; None if they are no pairs."""
     low, high = np.minimum(start, stop).astype(np.uint64), np.maximum(start, stop).astype(np.uint64)
     key = low << np.uint64(32) | high << np.uint64(1) | (start < stop)
     order = np.argsort(key)

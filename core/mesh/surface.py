@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The polygons of one body as arrays: what every reader makes and every measurement starts from.
+"""The polygons of one body as arrays: the result of every reader and the input of every measurement.
 
 Quads stay quads, because two triangles that share a diagonal cost less than two loose ones. They are cut along
 the diagonal that Blender draws, so that the body measured is the body seen.
@@ -44,7 +44,7 @@ class Surface:
     quads : (q, 4) integer array
         Vertex indices in corner order; cut into triangles as `flipped_quads` decides.
     triangle_faces, quad_faces : integer arrays, optional
-        The mesh face that each row belongs to; None where face i is row i.
+        The mesh face that each row belongs to; None if face i is row i.
     corner_vertices, corner_edges : (c,) integer arrays, optional
         The mesh's own corners, and the edge from each one to the next. They prove closedness without sorting.
     displacement : (3,) array, optional
@@ -72,7 +72,7 @@ class Surface:
 
     def __post_init__(self) -> None:
         points = number_array("points", self.points, "n", 3)
-        # Of either byte order, as files have it, float32 must be known as such; other numbers become float64.
+        # Files have float32 in either byte order: it must be known as such; other numbers become float64.
         kind = np.float32 if points.dtype.newbyteorder("=") == np.float32 else np.float64
         object.__setattr__(self, "points", points.astype(kind, copy=False))
         for name, shape in INDEX_SHAPES.items():
@@ -115,7 +115,7 @@ class Surface:
 
     def transform(self, linear: ArrayLike, offset: ArrayLike = (0.0, 0.0, 0.0)) -> Surface:
         """Map the points by `linear @ x + offset` in float64. A mirroring map reverses the faces, so that outward stays
-        outward; the diagonals stay where Blender drew them.
+        outward; the diagonals stay as Blender drew them.
 
         Parameters
         ----------
@@ -238,10 +238,10 @@ def join_surfaces(surfaces: Sequence[Surface]) -> Surface:
 
 
 def flipped_quads(points: NDArray, quads: NDArray) -> NDArray[np.bool_]:
-    """(q,) whether Blender cuts the quad from its second corner to its fourth instead of first to third.
+    """Return (q,) whether Blender cuts the quad from its second corner to its fourth instead of first to third.
 
-    Blender's own rule, in its float32 operation order (mesh_tessellate.cc, is_quad_flip_v3_first_third_fast):
-    it flips where the normals of the two triangles at the first diagonal face away from each other.
+    Blender's own rule, in its float32 operation order (mesh_tessellate.cc, is_quad_flip_v3_first_third_fast): it flips
+    if the normals of the two triangles at the first diagonal face away from each other.
     """
     with np.errstate(over="ignore", invalid="ignore"):
         points = points.astype(np.float32, copy=False)

@@ -18,7 +18,7 @@ from .surface import Surface, flipped_quads
 
 @dataclass(frozen=True, eq=False)
 class TriangleStack:
-    """The triangles of n surfaces, each with its own numbers of points moved behind those of the surfaces before it.
+    """The triangles of n surfaces, each with its indices moved behind the points of the surfaces before it.
 
     Attributes
     ----------
@@ -37,7 +37,7 @@ class TriangleStack:
         return len(self.point_counts)
 
     def some(self, which: NDArray[np.intp]) -> TriangleStack:
-        """The triangles of some of the surfaces, in ascending order."""
+        """Return the triangles of some of the surfaces, in ascending order."""
         of_point, of_triangle = self.owned(which)
         return TriangleStack(
             self.points[of_point],
@@ -47,19 +47,19 @@ class TriangleStack:
         )
 
     def owned(self, which: NDArray[np.intp]) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
-        """(p,) the points and (t,) the triangles of some of the surfaces."""
+        """Return (p,) the points and (t,) the triangles of some of the surfaces."""
         chosen = np.zeros(len(self), bool)
         chosen[which] = True
         return np.repeat(chosen, self.point_counts), np.repeat(chosen, self.triangle_counts)
 
     @cached_property
     def first_point(self) -> NDArray[np.intp]:
-        """(n,) where each one's points begin."""
+        """(n,) the first point of each surface."""
         return np.cumsum(self.point_counts) - self.point_counts
 
     @cached_property
     def first_triangle(self) -> NDArray[np.intp]:
-        """(n,) where each one's triangles begin."""
+        """(n,) the first triangle of each surface."""
         return np.cumsum(self.triangle_counts) - self.triangle_counts
 
     @cached_property
@@ -115,7 +115,7 @@ class SurfaceStack(TriangleStack):
 
     @staticmethod
     def takes(surface: Surface) -> bool:
-        """Whether a surface can be one of a stack: with the mesh's own corners and edges, of float32 points."""
+        """Return whether a surface can be one of a stack: with the mesh's own corners and edges, of float32 points."""
         corners, edges = surface.corner_vertices, surface.corner_edges
         return (
             surface.points.dtype == np.float32
@@ -183,12 +183,12 @@ class SurfaceStack(TriangleStack):
 
     @cached_property
     def first_face(self) -> NDArray[np.intp]:
-        """(n,) where each one's faces begin."""
+        """(n,) the first face of each surface."""
         return np.cumsum(self.face_counts) - self.face_counts
 
     @cached_property
     def face_sizes(self) -> NDArray[np.intp]:
-        """(f,) how many corners each face has, as its triangles and quads say; 0 where there are none."""
+        """(f,) the number of corners of each face, by its triangles and quads; 0 if it has none."""
         count = int(self.face_counts.sum())
         is_quad = np.zeros(count, bool)
         is_quad[self.quad_faces] = True
@@ -196,13 +196,13 @@ class SurfaceStack(TriangleStack):
         return np.where(is_quad, 4, np.where(pieces > 0, pieces + 2, 0))
 
     def uses_all_points(self) -> NDArray[np.bool_]:
-        """(n,) whether each point of a surface is a corner of some face."""
+        """Return (n,) mask of the surfaces with all points used as corners of faces."""
         used = np.zeros(len(self.points), bool)
         used[self.triangles] = True
         return np.logical_and.reduceat(used, self.first_point)
 
     def connections(self) -> Connections:
-        """How the faces hang together, as the meshes' own edges say."""
+        """Find the connections of the faces, by the meshes' own edges."""
         sizes, corners, edges = self.face_sizes, self.corner_vertices, self.corner_edges
         first_face = self.first_face
         fits = np.add.reduceat(sizes, first_face) == self.corner_counts
@@ -245,20 +245,20 @@ class SurfaceStack(TriangleStack):
 
 @dataclass(frozen=True, eq=False)
 class Connections:
-    """How the faces of n surfaces hang together, as their meshes' own edges say.
+    """Connections of the faces of n surfaces, by their meshes' own edges.
 
     Attributes
     ----------
     is_closed : (n,) bool
-        Whether every edge that has faces has two, which run along it in opposite directions.
+        True if every edge that has faces has two, which run along it in opposite directions.
     is_open : (n,) bool
-        Whether that is so but for edges with one face, of which there are some.
+        True if that is so but for some edges with one face.
     component_counts : (n,) int
-        Of those that are closed or open as above; of others it means nothing.
+        Components of each closed or open surface; meaningless for the others.
     component : (f,) int
         The component of each face, numbered in the order of their first faces.
     open_sides : (2, k) int
-        Where the sides of the edges with one face begin and end, of the surfaces that are open.
+        Start and end vertices of the sides with no other side, for the open surfaces.
     """
 
     is_closed: NDArray[np.bool_]
@@ -269,13 +269,13 @@ class Connections:
 
 
 def _faces(surface: Surface, name: str) -> NDArray[np.integer]:
-    """The mesh faces of a surface's triangles or quads."""
+    """Return the mesh faces of a surface's triangles or quads."""
     faces = surface.triangle_faces if name == "triangles" else surface.quad_faces
     return np.arange(len(getattr(surface, name))) if faces is None else faces
 
 
 def _face_count(surface: Surface) -> int:
-    """How many faces the mesh of a surface has."""
+    """Return the number of faces of the mesh of a surface."""
     counts = [
         len(rows) if faces is None else int(faces.max(initial=-1)) + 1
         for rows, faces in ((surface.triangles, surface.triangle_faces), (surface.quads, surface.quad_faces))

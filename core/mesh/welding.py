@@ -1,11 +1,11 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Vertices that are one in space, and faces that are one: what triangle soup, text and NURBS meshes need.
+"""Vertices that are one in space, and faces that are one, as needed for triangle soup, text and NURBS meshes.
 
 Positions that differ by rounding are found on eight grids, each shifted by half a cell along some of the axes: points
 that are within half a cell along each axis share a cell of at least one of them. Within a cell points are compared with
-its first one alone. Only points go there that have neighbors along a line: most meshes have none. Faces are one where
-the sums of two hashes over their vertices agree.
+its first one alone. Only points go there that have neighbors along a line: most meshes have none. Faces are one if the
+sums of two hashes over their vertices agree.
 """
 
 from __future__ import annotations
@@ -20,19 +20,19 @@ from ..numerics.graph import connected_components
 DIRECTION = 0.5477, 0.3163, 0.7746
 REACH_MARGIN = 1.01  # for what rounding does to places along it, and to its own length
 CELL_DIAGONAL = 3.5  # tolerances, two to a side: farther apart than any two points of one cell
-WELD_LIMIT_RTOL = 1e-3  # of the smallest triangle at a vertex: nothing larger is ever closed up
+WELD_LIMIT_RTOL = 1e-3  # relative to the smallest triangle at a vertex: larger gaps stay
 
 
 def first_at_equal_position(points: NDArray[np.floating]) -> NDArray[np.intp]:
-    """(n,) for each point the first one at exactly the same place; -0.0 is 0.0."""
+    """Return (n,) for each point the first one at exactly the same place; -0.0 is 0.0."""
     return first_occurrence(*(points[:, k].astype(np.float64) + 0.0 for k in range(3)))  # -0.0 + 0.0 = 0.0
 
 
 def may_have_neighbor(
     points: NDArray[np.floating], reach: float | NDArray[np.float64], owner: NDArray[np.integer] | None = None
 ) -> NDArray[np.bool_]:
-    """(n,) whether a point may have another one of the same owner within reach; certainly of all that have. reach: for
-    all of them, or for each, the same for all of an owner."""
+    """Return (n,) whether a point may have another one of the same owner within reach; surely true for all that have.
+    reach: for all points, or for each, equal for all points of an owner."""
     x, y, z = points.T.astype(np.float64)
     along = x * DIRECTION[0] + y * DIRECTION[1] + z * DIRECTION[2]
     order = along.argsort() if owner is None else np.lexsort((along, owner))
@@ -47,10 +47,11 @@ def may_have_neighbor(
 
 
 def first_at_near_position(points: NDArray[np.floating], tolerance: NDArray[np.float64]) -> NDArray[np.intp]:
-    """(n,) for each point the first one of its cluster: of points nearer to each other than all their tolerances (n,).
+    """Return (n,) for each point the first one of its cluster: of points nearer to each other than all their tolerances
+    (n,).
 
-    Clusters that stand apart by more than `CELL_DIAGONAL` of the largest tolerance are found whole and apart. Of points
-    in a row, each near to the next, some may be left out: which ones follows from their order.
+    Clusters that stand apart by more than `CELL_DIAGONAL` of the largest tolerance are found whole and apart. Some
+    points of a row, each near to the next, may be left out: their order decides.
     """
     place = points.astype(np.float64)
     place = place - place.min(axis=0)
@@ -65,7 +66,7 @@ def first_at_near_position(points: NDArray[np.floating], tolerance: NDArray[np.f
 
 
 def _first_of_clusters(place: NDArray[np.float64], tolerance: NDArray[np.float64], cell: float) -> NDArray[np.intp]:
-    """(n,) as `first_at_near_position`, on grids of cells of this size."""
+    """Return (n,) the points of `first_at_near_position`, on grids of cells of this size."""
     left, right = [], []
     for shift in np.ndindex(2, 2, 2):
         grid = np.floor(place / cell + 0.5 * np.array(shift))
@@ -76,14 +77,15 @@ def _first_of_clusters(place: NDArray[np.float64], tolerance: NDArray[np.float64
         right.append(np.flatnonzero(near))
     cluster, number = connected_components(len(place), np.concatenate(left), np.concatenate(right))
     first = np.empty(number, np.intp)
-    first[cluster[::-1]] = np.arange(len(place))[::-1]  # of equal indices the last is kept: here the first point
+    first[cluster[::-1]] = np.arange(len(place))[::-1]  # the last write wins: the first point
     return first[cluster]
 
 
 def vertex_tolerance(
     points: NDArray[np.floating], triangles: NDArray[np.integer], vertices: NDArray[np.integer], tolerance: float
 ) -> NDArray[np.float64]:
-    """(k,) how far each of `vertices` may move: `tolerance`, less where the triangles around it are small.
+    """Return (k,) the distance that each of `vertices` may move: `tolerance`, less if the triangles around it are
+    small.
 
     A part much smaller than the body must not be welded away.
     """
@@ -98,7 +100,7 @@ def vertex_tolerance(
 
 
 def same_vertices_groups(triangles: NDArray[np.integer], faces: NDArray[np.integer]) -> NDArray[np.intp]:
-    """(m,) for each triangle a number that it shares with the triangles of all mesh faces on the same vertices.
+    """Return (m,) for each triangle a number that it shares with the triangles of all mesh faces on the same vertices.
 
     faces: (m,) the mesh face of each triangle. The number is the first such face.
     """

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Generalized winding numbers of triangle surfaces about points.
 
-By solid angles, which an open surface has too: it is not the count of `bvh.Bvh.winding_numbers`, whose rays need
+They are solid angles, which an open surface has too: not the count of `bvh.Bvh.winding_numbers`, with rays that need
 closed shells and answer for thousands of points at once.
 """
 

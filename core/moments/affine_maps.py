@@ -1,10 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What affine maps do to a functional F[p,q,r] = ∫ x^p y^q z^r d(of).
+"""Affine maps of a functional F[p,q,r] = ∫ x^p y^q z^r d(of).
 
 Multiplying the integrand by the linear form l(x) = t + a·x sends F to (lF)[α] = t F[α] + Σ_i a_i F[α+e_i], one order
 shorter; the moments of the image are (l0^p l1^q l2^r F)[0,0,0]. Horner's scheme does that for any order and for many
-maps at once; `moments` has what is faster for one map.
+maps at once; `moments` has a faster way for one map.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from ..numerics.arrays import segment_ranges, segment_starts
 from .exponents import count_of_degree, monomial_count, monomial_index, monomials, product_indices, quotient_indices
 
-# Where the columns of a matrix, scaled to unit length, span less volume than this, the rounding of
+# If the columns of a matrix, scaled to unit length, span less volume than this, the rounding of
 # float32 entries alone may have made it: such a matrix cannot be distinguished from one that flattens.
 SINGULAR_RTOL = 4.0 * float(np.finfo(np.float32).eps)
 SIMILARITY_RTOL = 1e-5  # a float32 rotation matrix is a similarity to about 1e-7; a real shear is far above this
@@ -27,28 +27,28 @@ HIGHEST_ODD = 3.0  # times what the degrees below would have if all were as far 
 
 
 def to_trailing_axis(matrices: NDArray) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """(3, 3, k) and (3, k): the linear parts and the offsets of (k, 4, 4) maps."""
+    """Return (3, 3, k) and (3, k): the linear parts and the offsets of (k, 4, 4) maps."""
     affine = np.ascontiguousarray(np.asarray(matrices, np.float64)[:, :3].transpose(1, 2, 0))
     return affine[:, :3], affine[:, 3]
 
 
 def distinct_linear_parts(matrices: NDArray) -> Iterator[tuple[NDArray[np.float64], NDArray[np.intp]]]:
-    """The different linear parts of (k, 4, 4) maps: each of them, (3, 3), and which of the maps have it, (j,)."""
+    """Return the different linear parts of (k, 4, 4) maps: each of them, (3, 3), and the maps that have it, (j,)."""
     linear, which = np.unique(matrices[:, :3, :3].reshape(-1, 9), axis=0, return_inverse=True)
     for i, row in enumerate(linear):
         yield row.reshape(3, 3), np.flatnonzero(which.ravel() == i)
 
 
 def translation_matrices(offsets: NDArray) -> NDArray[np.float64]:
-    """(k, 4, 4) the maps that move by (k, 3) offsets and do nothing else."""
+    """Return (k, 4, 4) the maps that move by (k, 3) offsets and do nothing else."""
     matrices = np.tile(np.eye(4), (len(offsets), 1, 1))
     matrices[:, :3, 3] = offsets
     return matrices
 
 
 def transform_by_horner(values: NDArray, order: int, linear: NDArray, offset: NDArray) -> NDArray[np.float64]:
-    """(K, k): (l0^p l1^q l2^r F)[0,0,0] for all p+q+r ≤ order, F the functional, (K, 1) or (K, k), l_i the linear forms
-    of the k maps, linear (3, 3, k) and offset (3, k)."""
+    """Return (K, k): (l0^p l1^q l2^r F)[0,0,0] for all p+q+r ≤ order, F the functional, (K, 1) or (K, k), l_i the
+    linear forms of the k maps, linear (3, 3, k) and offset (3, k)."""
     forms = [(offset[i], *linear[i]) for i in range(3)]
     out = np.zeros((len(values), offset.shape[1]))
     by_p = np.broadcast_to(values, out.shape)
@@ -65,7 +65,7 @@ def transform_by_horner(values: NDArray, order: int, linear: NDArray, offset: ND
 
 
 def multiply_by_linear_form(form: tuple[NDArray, ...], values: NDArray, order: int) -> NDArray[np.float64]:
-    """The functional multiplied by a linear form, one order shorter; nothing is left below order 0."""
+    """Return the functional multiplied by a linear form, one order shorter; nothing is left below order 0."""
     if not order:
         return values[:0]
     t, a, b, c = form
@@ -79,10 +79,9 @@ def multiply_by_linear_form(form: tuple[NDArray, ...], values: NDArray, order: i
 
 
 def apply_linear(values: NDArray, order: int, linear: NDArray) -> NDArray[np.float64]:
-    """(..., m, K): m functionals F, (..., m, K), under linear maps (..., 3, 3), the first as it is, the others under
-    |map|.
+    """Map functionals F, (..., m, K), by linear maps (..., 3, 3): the first of the m as it is, the others by |map|.
 
-    The image's monomials as polynomials of the old ones are those of one degree less times a form.
+    The image's monomials as polynomials of the old ones are the polynomials of one degree less times a form.
     """
     forms, out = np.stack([linear, np.abs(linear)], axis=-3), np.array(values)
     table = np.ones((*forms.shape[:-2], 1, 1))
@@ -95,7 +94,7 @@ def apply_linear(values: NDArray, order: int, linear: NDArray) -> NDArray[np.flo
 
 
 def rotate_moments(raw: NDArray, order: int, rotation: NDArray) -> NDArray[np.float64]:
-    """(..., K): the moments (..., K) of bodies that are turned by rotations (..., 3, 3), without bounds."""
+    """Return (..., K): the moments (..., K) of bodies that are turned by rotations (..., 3, 3), without bounds."""
     shape = np.broadcast_shapes(raw.shape[:-1], rotation.shape[:-2])
     out = np.array(np.broadcast_to(raw, (*shape, raw.shape[-1])))
     table = np.ones((*rotation.shape[:-2], 1, 1))
@@ -107,8 +106,8 @@ def rotate_moments(raw: NDArray, order: int, rotation: NDArray) -> NDArray[np.fl
 
 
 def _raise_polynomials(table: NDArray, degree: int, forms: NDArray) -> NDArray[np.float64]:
-    """The images of the monomials of a degree as polynomials of the old ones, (..., rows, rows), from those of one
-    degree less. forms: (..., 3, 3) the images of x, y, z."""
+    """Return the images of the monomials of a degree as polynomials of the old ones, (..., rows, rows). table: the same
+    for one degree less. forms: (..., 3, 3) the images of x, y, z."""
     count, below = count_of_degree(degree), count_of_degree(degree - 1)
     padded = np.concatenate([table, np.zeros((*table.shape[:-1], 1))], axis=-1)
     raised = padded[..., quotient_indices(degree, below)]  # times x, y, z: (..., below, 3, rows)
@@ -128,8 +127,8 @@ def _raise_polynomials(table: NDArray, degree: int, forms: NDArray) -> NDArray[n
 
 @lru_cache
 def _terms(order: int) -> list[tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.float64], NDArray[np.intp]]]:
-    """The terms of all monomials, one after the other, once one of x, y, z is moved by t: (k,) the old monomial of each
-    term, the power of t, and the binomial; and (K,) where each monomial's terms begin."""
+    """Return the terms of all monomials, one after the other, once one of x, y, z is moved by t: (k,) the old monomial
+    of each term, the power of t, and the binomial; and (K,) the first term of each monomial."""
     powers, tables = monomials(order), []
     for axis in range(3):
         count = powers[:, axis] + 1
@@ -143,7 +142,8 @@ def _terms(order: int) -> list[tuple[NDArray[np.intp], NDArray[np.intp], NDArray
 
 
 def apply_translation(values: NDArray, order: int, offsets: NDArray) -> NDArray[np.float64]:
-    """(..., K): each functional F, (..., K), with its own offset, (..., 3): F[(x+t)^α], one axis after the other."""
+    """Return (..., K): each functional F, (..., K), with its own offset, (..., 3): F[(x+t)^α], one axis after the
+    other."""
     moved = offsets.any(axis=-1)
     if not moved.all():  # most images are about the image of their point
         values = values.copy()
@@ -164,7 +164,7 @@ def apply_translation(values: NDArray, order: int, offsets: NDArray) -> NDArray[
 
 
 def are_singular(linear: NDArray) -> NDArray[np.bool_]:
-    """(k,) whether each of the (k, 3, 3) maps is singular, as far as entries that were float32 show."""
+    """Return (k,) whether (k, 3, 3) maps are singular, as far as entries that were float32 show."""
     columns = np.asarray(linear, np.float64).transpose(1, 2, 0).copy()
     # by the largest entry first, so that no square of a very small or large scale leaves the range of float64
     largest = np.abs(columns).max(axis=0)
@@ -179,11 +179,12 @@ def are_singular(linear: NDArray) -> NDArray[np.bool_]:
 
 
 def absolute_moments(raw: NDArray, order: int) -> NDArray[np.float64]:
-    """(..., K) at least ∫ |x^p y^q z^r| of functionals (..., K) with no negative density, from their own moments.
+    """Return (..., K) upper bounds of ∫ |x^p y^q z^r| of functionals (..., K) with no negative density, from their
+    moments.
 
-    Of an even degree n that is the largest of ∫ x^n, ∫ y^n, ∫ z^n (arithmetic and geometric mean), of an odd one the
-    root of the product of its neighbors (Cauchy and Schwarz). The highest odd degree has no upper neighbor: there it is
-    an estimate, from those below (to first order alone nothing but the moment itself).
+    For an even degree n that is the largest of ∫ x^n, ∫ y^n, ∫ z^n (arithmetic and geometric mean), for an odd one the
+    root of the product of its neighbors (Cauchy and Schwarz). The highest odd degree has no upper neighbor: its bound
+    is an estimate, from the lower degrees (to first order alone nothing but the moment itself).
     """
     out = np.abs(raw)
     largest = [
@@ -204,14 +205,14 @@ def absolute_moments(raw: NDArray, order: int) -> NDArray[np.float64]:
 
 
 def are_similarities(linear: NDArray) -> NDArray[np.bool_]:
-    """(k,) whether each of the (k, 3, 3) maps is a rotation, reflection and uniform scale, as far as float32 matrices
-    can be."""
+    """Return (k,) whether (k, 3, 3) maps are rotations, reflections and uniform scales, as far as float32 matrices can
+    be."""
     return anisotropy(np.ascontiguousarray(np.asarray(linear, np.float64).transpose(1, 2, 0))) <= SIMILARITY_RTOL
 
 
 def anisotropy(linear: NDArray) -> NDArray[np.float64]:
-    """(k,) by how much, relatively, each of the (3, 3, k) maps stretches one direction more than another; infinite for
-    a flat map."""
+    """Return (k,) the relative excess of the stretch of each of the (3, 3, k) maps in one direction over another;
+    infinite for a flat map."""
     columns = linear.transpose(1, 0, 2)
     a, b, c = [np.add.reduce(column * column) for column in columns]
     ab, ac, bc = [np.abs(np.add.reduce(columns[i] * columns[j])) for i, j in ((0, 1), (0, 2), (1, 2))]

@@ -1,12 +1,12 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Complex moments of plane shapes, and what of them does not change when a shape is turned.
+"""Complex moments of plane shapes, and their invariants under rotation.
 
     c_pq = ∫ (x + iy)^p (x - iy)^q dA,    c_qp = conj(c_pq).
 
 Turned by θ a shape has c_pq exp(i(p-q)θ), and its mirror image has conj(c_pq). So products in which the p - q add up
 to zero are invariants, and a mirror image has their conjugates: imaginary parts distinguish hands. Flusser's basis
-(Pattern Recognition 33, 2000) is c_pq c_12^(p-q), from which all others follow where c_12 is not zero; Hu's seven
+(Pattern Recognition 33, 2000) is c_pq c_12^(p-q), from which all others follow if c_12 is not zero; Hu's seven
 (IRE Transactions on Information Theory 8, 1962) are |c_20|², |c_30|² and such, to third order.
 """
 
@@ -39,11 +39,11 @@ class ComplexBound:
         return ComplexBound(value, a * other.bound + b * self.bound + self.bound * other.bound + 4.0 * U * a * b)
 
     def conjugate(self) -> ComplexBound:
-        """That of the mirror image."""
+        """Return the complex conjugate, which belongs to the mirror image."""
         return ComplexBound(self.value.conjugate(), self.bound)
 
     def power(self, exponent: int) -> ComplexBound:
-        """A natural power."""
+        """Return a natural power."""
         product = ComplexBound(1.0 + 0.0j, 0.0)
         for _ in range(exponent):
             product = product * self
@@ -52,8 +52,8 @@ class ComplexBound:
 
 @dataclass(frozen=True)
 class Invariant:
-    """A number that does not change when a shape is turned: `name`, the largest `degree` of the moments in it, `value`,
-    whether it `is_complex`, and bounds of what rounding, and storing coordinates as float32, may have changed."""
+    """A number that does not change when a shape is turned: `name`, the largest `degree` of its moments, `value`,
+    `is_complex`, and bounds of the changes by rounding, and by storing coordinates as float32."""
 
     name: str
     degree: int
@@ -71,7 +71,7 @@ def complex_moments(moments: Moments, bounds: ArrayLike | None = None) -> dict[t
     moments : Moments
         Of a shape in the plane z = 0, about a point of it.
     bounds : (K,) array_like, optional
-        Of their errors, by default those of rounding.
+        Bounds of their errors, by default of rounding.
 
     Returns
     -------
@@ -98,7 +98,7 @@ def complex_moments(moments: Moments, bounds: ArrayLike | None = None) -> dict[t
 
 @lru_cache
 def _expansions(order: int) -> list[tuple[tuple[int, int], NDArray[np.int64], NDArray[np.complex128]]]:
-    """For each (p, q), p ≥ q, by degree: where the real moments stand that it consists of, and their factors."""
+    """Return for each (p, q), p ≥ q, by degree: the indices of the real moments that make it up, and their factors."""
     expansions = []
     for n in range(order + 1):
         for q in range(n // 2 + 1):
@@ -158,7 +158,7 @@ def flusser_invariants(moments: Moments) -> list[Invariant]:
     Returns
     -------
     list of Invariant
-        By degree. For a shape with a rotational symmetry c_12 is zero, and with it all but those with p = q.
+        By degree. For a shape with a rotational symmetry c_12 is zero, and with it all but the ones with p = q.
 
     Examples
     --------
@@ -185,12 +185,12 @@ def flusser_invariants(moments: Moments) -> list[Invariant]:
 
 
 def _both(moments: Moments, products) -> list[tuple[ComplexBound, ComplexBound]]:
-    """The same with the bounds of rounding alone, and with those of the input beside them."""
+    """Return products with bounds of rounding alone, paired with products that have bounds of the input errors too."""
     return list(zip(products(moments.rounding_error), products(moments.rounding_error + moments.input_error)))
 
 
 def _name(p: int, q: int) -> str:
-    """c11, c20 c12², or c10,3 c12⁷: with a comma where the digits would run together."""
+    """Return c11, c20 c12², or c10,3 c12⁷: with a comma if the digits would run together."""
     first = "c{:d}{:s}{:d}".format(p, "," if p > 9 else "", q)
     power = "" if p - q == 1 else str(p - q).translate(SUPERSCRIPTS)
     return first if p == q else "{:s} c12{:s}".format(first, power)

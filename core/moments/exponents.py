@@ -38,7 +38,7 @@ def monomial_count(order: int) -> int:
 
 @lru_cache
 def order_from_count(count: int) -> int:
-    """The lowest order that has at least `count` monomials."""
+    """Return the lowest order that has at least `count` monomials."""
     order = 0
     while monomial_count(order) < count:
         order += 1
@@ -57,7 +57,7 @@ def check_exponents(exponents: object, dimension: int, order: int) -> tuple[int,
 
 
 def monomial_index(p: Index, q: Index, r: Index) -> Index:
-    """Return where raw[p, q, r] stands: graded by degree, within a degree by (q + r, r).
+    """Return the index of raw[p, q, r]: graded by degree, within a degree by (q + r, r).
 
     Parameters
     ----------
@@ -114,14 +114,14 @@ def monomials(order: int) -> NDArray[np.int64]:
 
 @lru_cache
 def count_of_degree(degree: int) -> int:
-    """How many monomials have exactly this degree."""
+    """Return the number of monomials of exactly this degree."""
     return int((degree + 1) * (degree + 2) // 2)
 
 
 @lru_cache
 def quotient_indices(degree: int, missing: int) -> NDArray[np.intp]:
-    """(3, rows) where x^α without one factor x, y or z stands among the monomials one degree lower; `missing` where
-    x^α has no such factor."""
+    """Return (3, rows) the indices of x^α without one factor x, y or z among the monomials one degree lower; `missing`
+    if x^α has no such factor."""
     table = monomials(degree)[-count_of_degree(degree) :]
     r, s = table[:, 2], table[:, 1] + table[:, 2]
     lower = s * (s - 1) // 2
@@ -130,14 +130,14 @@ def quotient_indices(degree: int, missing: int) -> NDArray[np.intp]:
 
 @lru_cache
 def product_indices(order: int) -> tuple[NDArray[np.int64], ...]:
-    """For each monomial below `order`, where its product with x, with y and with z stands."""
+    """Return for each monomial below `order` the indices of its products with x, with y and with z."""
     lower = monomials(order - 1)
     return tuple(np.array([monomial_index(*(row + unit)) for row in lower]) for unit in np.eye(3, dtype=int))
 
 
 @lru_cache
 def tensor_index(degree: int) -> NDArray[np.int64]:
-    """(3, ..., 3) where in `Moments.raw` the entries of the symmetric tensor of a degree stand; read-only."""
+    """Return (3, ..., 3) the indices in `Moments.raw` of the entries of the symmetric tensor of a degree; read-only."""
     axes = np.indices((3,) * degree)
     table = monomial_index(*((axes == axis).sum(axis=0) for axis in range(3)))
     table.flags.writeable = False

@@ -37,7 +37,7 @@ def sum_of_images(moments: Moments, matrices: ArrayLike, about: ArrayLike | None
     Raises
     ------
     ValueError
-        If the matrices are none or not finite (k, 4, 4), or not similarities where areas or lengths need them.
+        If the matrices are none or not finite (k, 4, 4), or not similarities although areas or lengths need them.
 
     Examples
     --------
@@ -84,12 +84,11 @@ def _image_error_bounds(
     weight_error: NDArray,
     uneven: NDArray,
 ) -> tuple[NDArray, NDArray]:
-    """(K,) and (K,) what `rounding_error`, with the rounding of the maps, and `input_error` become under k maps
-    together.
+    """Return (K,) and (K,) `rounding_error`, with the rounding of the maps, and `input_error` of k images together.
 
-    By degree: where the rows of |linear| sum to at most `stretch` and |offset| is at most `reach`, both (k,), a product
-    of n linear forms holds binomial(n, j) stretch^j reach^(n-j) of the moments of degree j, each at most the largest
-    of its degree. An offset that may be off by `tolerance` changes it by at most n `tolerance` times n-1 forms.
+    By degree: if the rows of |linear| sum to at most `stretch` and |offset| is at most `reach`, both (k,), a product of
+    n linear forms holds binomial(n, j) stretch^j reach^(n-j) of the moments of degree j, each at most the largest of
+    its degree. An offset that may be off by `tolerance` changes it by at most n `tolerance` times n-1 forms.
     """
     order = moments.order
     degree = monomials(order).sum(axis=1)

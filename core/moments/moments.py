@@ -4,10 +4,10 @@
 
 raw[p,q,r] = ∫ (x-ox)^p (y-oy)^q (z-oz)^r d(of), positive integrals, p+q+r ≤ order. They add, they scale by a density
 and they map linearly under an affine map, so a sum of objects is a sum and an instance is a map. Two bounds go with
-every number and add and map as it does: `rounding_error`, what rounding (or a stated truncation) may have changed, and
-`input_error`, what storing coordinates as float32 may have changed.
+every number and add and map as it does: `rounding_error`, for rounding (or a stated truncation), and `input_error`, for
+storing coordinates as float32.
 
-What affine maps do to them is in `affine_maps`, sums over many images of one body are in `images`.
+Affine maps are in `affine_maps`, sums over many images of one body are in `images`.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ from .exponents import (
 
 U = np.finfo(np.float64).eps / 2.0  # unit roundoff
 TINY = np.finfo(np.float64).tiny  # smaller numbers lack digits
-FLOAT32_HALF_ULP = 2.0**-24  # of float32, relatively
+FLOAT32_HALF_ULP = 2.0**-24  # relative rounding error of float32
 # u: numpy adds up contiguous rows in pairs of sums of at most 128 in 8 lanes, so this is generous
 PAIRWISE_SUM_ROUNDINGS = 64
 
@@ -47,7 +47,7 @@ SECOND_MOMENT_INDEX, THIRD_MOMENT_INDEX = tensor_index(2), tensor_index(3)
 
 
 class Measure(StrEnum):
-    """What moments are integrals over.
+    """The domain or quantity that moments are integrals over.
 
     Examples
     --------
@@ -66,11 +66,11 @@ class Measure(StrEnum):
 class Moments:
     """Raw moments of one body about a stated point, ∫ (x-ox)^p (y-oy)^q (z-oz)^r dm, with error bounds.
 
-    The point is the middle of the body's bounding box unless whoever measured gave another one; `about_point`,
+    The point is the middle of the body's bounding box unless the measurement was given another one; `about_point`,
     `about_center` and `in_frame` lead to others. Moments add (`+`), scale by a density (`*`) and follow affine maps
-    (`transform`). `moments[p, q, r]` is one of them; iteration yields the exponents (p, q, r), as of a mapping.
-    All arrays may have the same leading axes: then they are those of a stack of bodies, and what is given to methods
-    and what they return has these axes too.
+    (`transform`). `moments[p, q, r]` is one of them; iteration yields the exponents (p, q, r), as of a mapping. All
+    arrays may have the same leading axes: then they belong to a stack of bodies, and the arguments and results of
+    methods have these axes too.
 
     Parameters
     ----------
@@ -79,9 +79,9 @@ class Moments:
     about : (3,) array
         The point they are taken about, in the body's coordinates.
     measure : Measure
-        What they are integrals over: volume, area, length or mass.
+        Integrals over volume, area, length or mass.
     rounding_error : (K,) array, optional
-        Bounds of |raw - exact| for the coordinates as given: rounding, and truncation where a source states so. Zero by
+        Bounds of |raw - exact| for the coordinates as given: rounding, and truncation if a source states so. Zero by
         default.
     input_error : (K,) array, optional
         Bounds of the change when every coordinate moves by half an ulp of its float32 value. Zero by default, and for
@@ -137,7 +137,8 @@ class Moments:
         return (tuple(row) for row in monomials(self.order).tolist())
 
     def to_dense(self) -> NDArray[np.float64]:
-        """(order + 1, order + 1, order + 1) array[p, q, r], as `skimage.measure.moments` has it; 0 beyond the order."""
+        """Return (order + 1, order + 1, order + 1) array[p, q, r], as `skimage.measure.moments` has it; 0 beyond the
+        order."""
         dense = np.zeros((*self.raw.shape[:-1], *3 * (self.order + 1,)))
         dense[(..., *monomials(self.order).T)] = self.raw
         return dense
@@ -163,11 +164,11 @@ class Moments:
         return self.about + self.raw[..., 1:4] / self.raw[..., :1]
 
     def second(self) -> NDArray[np.float64]:
-        """(3, 3) the second moments about `about`."""
+        """Return (3, 3) the second moments about `about`."""
         return self.raw[..., SECOND_MOMENT_INDEX]
 
     def third(self) -> NDArray[np.float64]:
-        """(3, 3, 3) the third moments about `about`."""
+        """Return (3, 3, 3) the third moments about `about`."""
         return self.raw[..., THIRD_MOMENT_INDEX]
 
     def truncate(self, order: int) -> Moments:
@@ -266,7 +267,7 @@ class Moments:
         """Return the moments of the body's image under an affine map, about the image of `about`.
 
         Volume and mass follow any map, mass unchanged and volume by |det|. Areas and lengths follow a similarity only;
-        what a float32 rotation lacks of one goes into `input_error`.
+        the deviation of a float32 rotation from one goes into `input_error`.
 
         Parameters
         ----------
@@ -280,7 +281,7 @@ class Moments:
         Raises
         ------
         ValueError
-            If the matrix is not finite (4, 4), or no similarity where one is needed.
+            If the matrix is not finite (4, 4), or no similarity although one is needed.
         MeasureError
             If the image is too small for its volume, area or length to be a number.
         """
@@ -356,7 +357,7 @@ def stack_moments(parts: Sequence[Moments]) -> Moments:
     return Moments(raw, np.array([part.about for part in parts]), parts[0].measure, rounding, inputs)
 
 
-@np.errstate(over="ignore", invalid="ignore")  # who measures looks for what is beyond the range of numbers
+@np.errstate(over="ignore", invalid="ignore")  # callers check for overflow
 def image(moments: Moments, matrices: NDArray, center: NDArray) -> Moments:
     """Return the image of a body under an affine map, or of each of a stack under its own.
 
@@ -371,7 +372,7 @@ def image(moments: Moments, matrices: NDArray, center: NDArray) -> Moments:
     Raises
     ------
     ValueError
-        If areas or lengths are mapped by what is no similarity.
+        If areas or lengths are mapped by a map that is no similarity.
     MeasureError
         If a map shrinks more than numbers can say.
     """
@@ -409,8 +410,8 @@ def image(moments: Moments, matrices: NDArray, center: NDArray) -> Moments:
 
 
 def measure_scale_factors(measure: Measure, linear: NDArray) -> tuple[NDArray, NDArray, NDArray]:
-    """(k,) the factor by which each of the (3, 3, k) maps changes the measure, its rounding bound, and by how much the
-    map fails to have one factor."""
+    """Return (k,) the factor by which each of the (3, 3, k) maps changes the measure, its rounding bound, and the
+    deviation of the map from one factor."""
     exact = np.zeros(linear.shape[2])
     if measure == Measure.MASS:
         return np.ones(linear.shape[2]), exact, exact

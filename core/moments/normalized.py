@@ -15,16 +15,16 @@ from .moments import Measure, Moments, U
 
 
 def normalize(moments: Moments, by: str = "size") -> Moments:
-    """Return the central moments without unit: the same wherever the body is and however large.
+    """Return the central moments without unit: independent of place and size of the body.
 
     Parameters
     ----------
     moments : Moments
         To first order at least, to second for "gyration".
     by : str
-        "size": μ / V^(1+n/3) of volumes and μ / A^(1+n/2) of areas, for degree n: those of the body scaled to a volume,
-        or area, of 1. "gyration": μ / (m R^n) with R² = ∫ r² dm / m: those of the body scaled to a radius of gyration
-        and a mass of 1.
+        "size": μ / V^(1+n/3) of volumes and μ / A^(1+n/2) of areas, for degree n, as if the body were scaled to a
+        volume, or area, of 1. "gyration": μ / (m R^n) with R² = ∫ r² dm / m, as if the body were scaled to a radius of
+        gyration and a mass of 1.
 
     Returns
     -------
@@ -64,7 +64,7 @@ def normalize(moments: Moments, by: str = "size") -> Moments:
     else:
         factor = body.total ** -(1.0 + n / dimension)
     bounds = []
-    # of the total, the trace, and the center's place
+    # Bounds of the total, the trace, and the center's place.
     for delta in (body.rounding_error, body.rounding_error + body.input_error):
         total = body.total / (body.total - delta[0])
         off = (np.abs(body.raw[1:4]) + delta[1:4]) / (body.total - delta[0]) + 2.0 * U * np.abs(body.about)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Moments against solid harmonics, ∫ r^(2j) conj(r^l Y_lm) dV, from raw moments: what turns by degrees.
+"""Moments against solid harmonics, ∫ r^(2j) conj(r^l Y_lm) dV, from raw moments: they turn degree by degree.
 
 Under a rotation the 2l+1 of them with one j and l mix among themselves only, by Wigner's unitary matrix; so their sum
 of squares is invariant, and so is any coupling of three of them to l = 0 (with 3j symbols). Y_lm are orthonormal, with
@@ -23,7 +23,7 @@ Multiplets = dict[tuple[int, int], NDArray[np.complex128]]
 
 
 def harmonic_moments(raw: NDArray, order: int) -> Multiplets:
-    """{(n, l): (2l+1, …)} ∫ r^(n-l) conj(r^l Y_lm) for m = -l..l and every l ≤ n ≤ order with n-l even.
+    """Return {(n, l): (2l+1, …)} ∫ r^(n-l) conj(r^l Y_lm) for m = -l..l and every l ≤ n ≤ order with n-l even.
 
     raw: (K, …) moments to that order about the point that the harmonics are about.
     """
@@ -39,20 +39,20 @@ def harmonic_moments(raw: NDArray, order: int) -> Multiplets:
 
 
 def along_first(table: NDArray, values: NDArray) -> NDArray:
-    """A table with an axis more for each one of the values but the first: to be multiplied by them."""
+    """Return a table with an axis more for each one of the values but the first: to be multiplied by them."""
     return table.reshape(*table.shape, *[1] * (values.ndim - 1))
 
 
 def with_negative_orders(half: NDArray[np.complex128]) -> NDArray[np.complex128]:
-    """(2l+1, …) for m = -l..l from (l+1, …) for m = 0..l: c[-m] = (-1)^m conj(c[m])."""
+    """Return (2l+1, …) for m = -l..l from (l+1, …) for m = 0..l: c[-m] = (-1)^m conj(c[m])."""
     l = len(half) - 1
     sign = ((-1.0) ** np.arange(l, 0, -1)).reshape(-1, *[1] * (half.ndim - 1))
     return np.concatenate([half[:0:-1].conj() * sign, half])
 
 
 def couple(a: NDArray, b: NDArray, c: NDArray) -> NDArray[np.float64]:
-    """(…) the scalar made of three multiplets (2l+1, …): Σ (l l' l''; m m' m'') a_m b_m' c_m''. A reflection changes
-    its sign where l + l' + l'' is odd."""
+    """Return (…) the scalar made of three multiplets (2l+1, …): Σ (l l' l''; m m' m'') a_m b_m' c_m''. A reflection
+    changes its sign if l + l' + l'' is odd."""
     l, k, n = ((len(multiplet) - 1) // 2 for multiplet in (a, b, c))
     symbols, (i, j, m) = _nonzero_three_j(l, k, n)
     value = np.add.reduce(along_first(symbols, a) * a[i] * b[j] * c[m])
@@ -61,7 +61,8 @@ def couple(a: NDArray, b: NDArray, c: NDArray) -> NDArray[np.float64]:
 
 @lru_cache
 def _solid(l: int) -> NDArray[np.complex128]:
-    """(l+1, (l+1)(l+2)/2) the coefficients of r^l Y_lm for m = 0..l in the monomials of degree l, in their order."""
+    """Return (l+1, (l+1)(l+2)/2) the coefficients of r^l Y_lm for m = 0..l in the monomials of degree l, in their
+    order."""
     start = monomial_count(l - 1)
     table = np.zeros((l + 1, monomial_count(l) - start), complex)
     for m in range(l + 1):
@@ -78,7 +79,7 @@ def _solid(l: int) -> NDArray[np.complex128]:
 
 @lru_cache(maxsize=1024)
 def circular_coefficients(plus: int, minus: int) -> tuple[complex, ...]:
-    """The coefficients of x^(n-i) y^i, i = 0..n, in (x+iy)^plus (x-iy)^minus."""
+    """Return the coefficients of x^(n-i) y^i, i = 0..n, in (x+iy)^plus (x-iy)^minus."""
     plus_powers = [comb(plus, i) * 1j ** (i % 4) for i in range(plus + 1)]
     minus_powers = [comb(minus, i) * (-1j) ** (i % 4) for i in range(minus + 1)]
     return tuple(np.convolve(plus_powers, minus_powers).tolist())
@@ -86,7 +87,7 @@ def circular_coefficients(plus: int, minus: int) -> tuple[complex, ...]:
 
 @lru_cache
 def _square_product_indices(order: int) -> NDArray[np.int64]:
-    """(3, K) where the products with x², y² and z² of the monomials two orders lower stand."""
+    """Return (3, K) the indices of the products of the monomials two orders lower with x², y² and z²."""
     return np.array(
         [[monomial_index(*(row + 2 * unit)) for row in monomials(order - 2)] for unit in np.eye(3, dtype=int)]
     )
@@ -94,13 +95,13 @@ def _square_product_indices(order: int) -> NDArray[np.int64]:
 
 @lru_cache(maxsize=256)
 def _nonzero_three_j(a: int, b: int, c: int) -> tuple[NDArray[np.float64], tuple[NDArray[np.intp], ...]]:
-    """Those of Wigner's 3j symbols that are not zero, and where they stand."""
+    """Return the nonzero Wigner 3j symbols and their indices."""
     table = _three_j(a, b, c)
     return table[table != 0.0], np.nonzero(table)
 
 
 def _three_j(a: int, b: int, c: int) -> NDArray[np.float64]:
-    """(2a+1, 2b+1, 2c+1) Wigner's 3j symbols, by Racah's sum."""
+    """Return (2a+1, 2b+1, 2c+1) Wigner's 3j symbols, by Racah's sum."""
     table = np.zeros((2 * a + 1, 2 * b + 1, 2 * c + 1))
     triangle = factorial(a + b - c) * factorial(a - b + c) * factorial(-a + b + c) / factorial(a + b + c + 1)
     for i in range(-a, a + 1):

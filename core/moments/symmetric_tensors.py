@@ -15,19 +15,19 @@ from .moments import Moments, monomials
 
 
 def distinct_arrays(arrays: NDArray, within: float) -> NDArray[np.float64]:
-    """Those of (n, ...) vectors or matrices that differ from all earlier ones by at least `within` in some entry."""
+    """Return the (n, ...) vectors or matrices that differ from all earlier ones by at least `within` in some entry."""
     same = np.abs(arrays[:, None] - arrays[None]).max(axis=tuple(range(2, arrays.ndim + 1))) < within
     return arrays[np.argmax(same, axis=1) == np.arange(len(arrays))]
 
 
 def invert_through_point(moments: Moments) -> Moments:
-    """The moments of the body's image in its point `about`: its mirror image, turned."""
+    """Return the moments of the body's image in its point `about`: its mirror image, turned."""
     sign = (-1.0) ** monomials(moments.order).sum(axis=1)
     return replace(moments, raw=moments.raw * sign)
 
 
 def _contract(tensor: NDArray, times: int, points: NDArray) -> NDArray[np.float64]:
-    """The symmetric tensor with that many of its slots, one at least, filled with each of the (n, 3) points."""
+    """Return the symmetric tensor with that many of its slots, one at least, filled with each of the (n, 3) points."""
     out = np.tensordot(points, tensor, axes=(1, 0))
     for _ in range(times - 1):
         out = np.einsum("n...i,ni->n...", out, points)
@@ -35,7 +35,7 @@ def _contract(tensor: NDArray, times: int, points: NDArray) -> NDArray[np.float6
 
 
 def _rotate_tensor(tensor: NDArray, frames: NDArray) -> NDArray[np.float64]:
-    """(k, 3, ..., 3) the symmetric tensor's entries along the axes of k frames."""
+    """Return (k, 3, ..., 3) the symmetric tensor's entries along the axes of k frames."""
     degree = tensor.ndim
     out = np.broadcast_to(tensor, (len(frames), *tensor.shape))
     for _ in range(degree):
@@ -45,5 +45,5 @@ def _rotate_tensor(tensor: NDArray, frames: NDArray) -> NDArray[np.float64]:
 
 @lru_cache
 def _tensor_positions(degree: int) -> NDArray[np.int64]:
-    """For each monomial of a degree, in storage order, where the flattened tensor has it."""
+    """Return for each monomial of a degree, in storage order, its first index in the flattened tensor."""
     return np.unique(tensor_index(degree), return_index=True)[1]

@@ -33,7 +33,7 @@ def number_array(name: str, values: ArrayLike, *shape: Length, finite: bool = Fa
 def float_array(name: str, values: ArrayLike, *shape: Length, finite: bool = False) -> NDArray[np.float64]:
     """Return a parameter as an array of float64."""
     if isinstance(values, np.ndarray) and values.dtype == np.float64 and values.shape == shape and not finite:
-        return values  # as the core itself passes them, without further calls
+        return values  # the core passes arrays like this: no further calls
     return number_array(name, values, *shape, finite=finite).astype(np.float64, copy=False)
 
 

@@ -15,13 +15,13 @@ PerBody: TypeAlias = Any
 
 
 def indices_in_range(indices: NDArray[np.integer], count: int) -> bool:
-    """Whether all indices are in 0 to count - 1."""
+    """Return whether all indices are in 0 to count - 1."""
     unsigned = indices.view(indices.dtype.str.replace("i", "u"))  # in which a negative index is a large one
     return not indices.size or bool(unsigned.max() < count)
 
 
 def spread_bits(value: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Ten bits with two zeros after each: a third of a Morton code."""
+    """Return ten bits with two zeros after each: a third of a Morton code."""
     value = (value | value << 16) & 0x030000FF
     value = (value | value << 8) & 0x0300F00F
     value = (value | value << 4) & 0x030C30C3
@@ -29,24 +29,24 @@ def spread_bits(value: NDArray[np.int64]) -> NDArray[np.int64]:
 
 
 def segment_ranges(counts: NDArray) -> NDArray[np.intp]:
-    """0, 1, … counts[0] - 1, 0, 1, … counts[1] - 1, …"""
+    """Return 0, 1, … counts[0] - 1, 0, 1, … counts[1] - 1, …"""
     starts = segment_starts(counts)
     return np.arange(int(np.add.reduce(counts))) - np.repeat(starts, counts)
 
 
 def segment_starts(counts: NDArray) -> NDArray[np.intp]:
-    """0, counts[0], counts[0] + counts[1], …: where segments of these lengths begin."""
+    """Return 0, counts[0], counts[0] + counts[1], …: the start of each segment of these lengths."""
     return np.cumsum(counts) - counts
 
 
 def sums_by_index(indices: NDArray[np.integer], weights: NDArray, count: int = 0) -> NDArray[np.float64]:
-    """(count or more,) the sum of the weights that have each index: what numpy's types say of `bincount` only without
+    """Return (count or more,) the sum of the weights of each index. numpy's types allow `bincount` only without
     weights."""
     return cast("NDArray[np.float64]", np.bincount(indices, weights, count))
 
 
 def power_table(values: NDArray[np.float64], order: int) -> list[NDArray[np.float64]]:
-    """The powers of some values from 0 to an order."""
+    """Return the powers of some values from 0 to an order."""
     powers = [np.ones_like(values)]
     for _ in range(order):
         powers.append(powers[-1] * values)
@@ -54,7 +54,7 @@ def power_table(values: NDArray[np.float64], order: int) -> list[NDArray[np.floa
 
 
 def batches(weights: NDArray, size: float) -> Iterator[slice]:
-    """Slices of consecutive items whose weights add up to about `size`, of at least one item each."""
+    """Yield slices of consecutive items with weights that add up to about `size`, at least one item each."""
     total, start = np.cumsum(weights), 0
     while start < len(total):
         done = total[start - 1] if start else 0
@@ -66,9 +66,9 @@ def batches(weights: NDArray, size: float) -> Iterator[slice]:
 def following_pairs(
     order: NDArray[np.intp], counts: NDArray[np.intp], size: int
 ) -> Iterator[tuple[NDArray[np.intp], NDArray[np.intp]]]:
-    """The pairs of each item of a sequence with the next ones, in pieces of about `size` pairs.
+    """Yield the pairs of each item of a sequence with the next ones, in pieces of about `size` pairs.
 
-    order: (n,) the sequence. counts: (n,) how many of the items that follow each one it is paired with.
+    order: (n,) the sequence. counts: (n,) the number of following items that each one is paired with.
     """
     for part in batches(counts, size):
         row = np.repeat(np.arange(part.start, part.stop), counts[part])
@@ -77,10 +77,10 @@ def following_pairs(
 
 
 def first_occurrence(*columns: NDArray) -> NDArray[np.intp]:
-    """(n,) for each row the first row that is equal to it in all columns: 64-bit values, compared by their bits.
+    """Return (n,) the first row that equals each row in all columns: 64-bit values, compared by their bits.
 
-    By hashing into a table in which the lowest row of a slot wins; rows equal to the winner are done, the others, whose
-    slot another row has won, go into the next round.
+    The rows are hashed into a table in which the lowest row of a slot wins. Rows equal to the winner are done; the
+    others go into the next round.
     """
     bits_of = [column.view(np.uint64) for column in columns]
     key = bits_of[0]
@@ -93,7 +93,7 @@ def first_occurrence(*columns: NDArray) -> NDArray[np.intp]:
         bits = int(2 * len(rest)).bit_length()
         slot = (key >> np.uint64(64 - bits)).view(np.intp)
         winner = np.empty(1 << bits, first.dtype)
-        winner[slot[::-1]] = np.arange(len(rest) - 1, -1, -1, dtype=first.dtype)  # of equal slots the last is kept
+        winner[slot[::-1]] = np.arange(len(rest) - 1, -1, -1, dtype=first.dtype)  # the last write wins
         winner = winner[slot].astype(np.intp)
         lost = np.zeros(len(rest), bool)
         for column in bits_of:
@@ -108,7 +108,7 @@ GOLDEN_RATIO_64 = np.uint64(0x9E3779B97F4A7C15)  # 2^64 divided by the golden ra
 
 
 def hash_uint64(values: NDArray[np.uint64]) -> NDArray[np.uint64]:
-    """A 64-bit hash of 64-bit values: the finalizer of SplitMix64."""
+    """Return a 64-bit hash of 64-bit values: the finalizer of SplitMix64."""
     z = values + GOLDEN_RATIO_64
     z = (z ^ (z >> np.uint64(30))) * np.uint64(0xBF58476D1CE4E5B9)
     z = (z ^ (z >> np.uint64(27))) * np.uint64(0x94D049BB133111EB)
@@ -116,7 +116,7 @@ def hash_uint64(values: NDArray[np.uint64]) -> NDArray[np.uint64]:
 
 
 def unique_pairs(pairs: NDArray[np.integer]) -> NDArray[np.intp]:
-    """(k, 2) rows of two numbers from 0 to 2³¹, sorted, each once: as `np.unique` along an axis, but faster."""
+    """Return (k, 2) rows of two numbers from 0 to 2³¹, sorted, each once: as `np.unique` along an axis, but faster."""
     width = int(pairs.max(initial=0)) + 1
     key = np.unique(pairs[:, 0].astype(np.int64) * width + pairs[:, 1])
     return np.stack(np.divmod(key, width), axis=1).astype(np.intp, copy=False)

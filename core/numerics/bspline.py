@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """B-splines of one parameter: function spaces, their values and derivatives.
 
-A `SplineSpace` is what Soldea, Elber and Rivlin (Exact and efficient computation of moments of free-form surface and
-trivariate based geometry, section 2) call the function space of a direction: order and knots, without control points.
+A `SplineSpace` is the function space of a direction of Soldea, Elber and Rivlin (Exact and efficient computation of
+moments of free-form surface and trivariate based geometry, section 2): order and knots, without control points.
 Everything that can be computed before control points are known is a table over a space. The basis is evaluated by the
 triangular scheme of Cox and de Boor, for many parameters at once; derivatives are differences of lower orders.
 """
@@ -71,12 +71,12 @@ class SplineSpace:
 
     @property
     def domain(self) -> tuple[float, float]:
-        """Where all the basis functions add up to one."""
+        """The interval in which all the basis functions add up to one."""
         return self.knots[self.order - 1], self.knots[self.function_count]
 
     @cached_property
     def is_discontinuous(self) -> bool:
-        """Whether curves may jump: where a knot within the domain is repeated as often as the order says."""
+        """True if curves may jump: a knot within the domain is repeated `order` times."""
         knots = np.asarray(self.knots)
         first = knots[: len(knots) - self.order + 1]
         low, high = self.domain
@@ -96,14 +96,14 @@ class SplineSpace:
         return np.stack([knots[self.spans], knots[self.spans + 1]], axis=1)
 
     def uniform_parameters(self, per_span: int) -> NDArray[np.float64]:
-        """(spans * each + 1,) parameters at equal steps in every span, both ends of the domain included."""
+        """Return (spans * each + 1,) parameters at equal steps in every span, both ends of the domain included."""
         low, high = self.intervals.T
         inner = low[:, None] + (high - low)[:, None] * (np.arange(per_span) / per_span)
         return np.append(inner.ravel(), high[-1])
 
     @cached_property
     def end_weights(self) -> NDArray[np.float64]:
-        """(2, count) what each control point weighs at the domain's ends."""
+        """(2, count) weights of the control points at the domain's ends."""
         return self.collocation_matrix(np.array(self.domain))
 
     @cached_property
@@ -113,14 +113,14 @@ class SplineSpace:
 
     @cached_property
     def bezier_extraction(self) -> NDArray[np.float64]:
-        """(s, order, order) what each acting control point weighs in each Bézier control point of a span."""
+        """(s, order, order) weights of the acting control points in each Bézier control point of a span."""
         return self.bezier_weights(self.spans, self.intervals)
 
     def bezier_weights(self, spans: NDArray[np.integer], intervals: ArrayLike) -> NDArray[np.float64]:
-        """(s, order, order) what each acting control point weighs in each Bézier control point of an interval (s, 2)
-        within each span (s,).
+        """Return (s, order, order) weights of the acting control points in each Bézier control point of an interval (s,
+        2) within each span (s,).
 
-        That is the recursion of Cox and de Boor with a parameter for each of its steps, the interval's beginning or its
+        This is the recursion of Cox and de Boor with a parameter for each of its steps, the interval's beginning or its
         end: Bézier's b-th point takes b ends.
         """
         knots = np.asarray(self.knots)
@@ -139,16 +139,16 @@ class SplineSpace:
         return values
 
     def controls_of_spans(self, spans: NDArray[np.integer]) -> NDArray[np.int64]:
-        """(..., order) the control points that act in each span."""
+        """Return (..., order) the control points that act in each span."""
         return (np.asarray(spans)[..., None] + np.arange(1 - self.order, 1)) % self.count
 
     def find_spans(self, parameters: NDArray) -> NDArray[np.int64]:
-        """The span of each parameter, the nearest one outside of the domain."""
+        """Return the span of each parameter, the nearest one outside of the domain."""
         inner = self.intervals[1:, 0]
         return self.spans[np.searchsorted(inner, parameters, side="right")]
 
     def derivatives(self, spans: NDArray[np.integer], parameters: NDArray, highest: int) -> list[NDArray[np.float64]]:
-        """The basis functions that act in the given spans and their derivatives, at most to order `highest`.
+        """Return the basis functions that act in the given spans and their derivatives, at most to order `highest`.
 
         spans, parameters: broadcast against each other to some shape (...). Returns most + 1 arrays (..., order).
         """
@@ -178,14 +178,14 @@ class SplineSpace:
         return by_derivative + [np.zeros_like(lower[-1]) for _ in range(self.order, highest + 1)]
 
     def _adjacent_knots(self, near: NDArray, order: int) -> tuple[NDArray, NDArray]:
-        """The first and the last knot of the order - 1 functions, one order lower, that act in a span."""
+        """Return the first and the last knot of the order - 1 functions, one order lower, that act in a span."""
         return near[..., self.order - order : self.order - 1], near[..., self.order - 1 : self.order + order - 2]
 
     def collocation_matrix(
         self, parameters: ArrayLike, derivative: int = 0, spans: NDArray[np.integer] | None = None
     ) -> NDArray[np.float64]:
-        """(n, count) what each control point weighs at each of n parameters, or in a derivative there. spans: (n,)
-        those that they belong to, where a knot may end one or begin the next."""
+        """Return (n, count) the weights of the control points at each of n parameters, or in a derivative there. spans:
+        (n,) the span of each parameter, needed if a knot may end one or begin the next."""
         parameters = float_array("parameters", parameters, "n")
         spans = self.find_spans(parameters) if spans is None else spans
         values = self.derivatives(spans, parameters, derivative)[derivative]
@@ -196,7 +196,7 @@ class SplineSpace:
 
 @lru_cache(maxsize=64)
 def clamped_space(order: int, inner: tuple[float, ...] = (), low: float = 0.0, high: float = 1.0) -> SplineSpace:
-    """Make the space whose curves begin and end at their first and last control points.
+    """Make the space of curves that begin and end at their first and last control points.
 
     Parameters
     ----------

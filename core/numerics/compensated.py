@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Sums and products of float64 with what they round off (Dekker 1971, Knuth), where an ulp would be too much."""
+"""Sums and products of float64 with their rounding errors (Dekker 1971, Knuth), for use if an ulp would be too much."""
 
 from __future__ import annotations
 
@@ -11,29 +11,29 @@ SPLITTER = 2.0**27 + 1.0
 
 
 def two_sum(a: NDArray, b: NDArray) -> tuple[NDArray, NDArray]:
-    """The rounded sum and its error: together exactly a + b."""
+    """Return the rounded sum and its error: together exactly a + b."""
     total = a + b
     part = total - a
     return total, (a - (total - part)) + (b - part)
 
 
 def two_product(a: NDArray, b: NDArray) -> tuple[NDArray, NDArray]:
-    """The rounded product and its error: together exactly a b, for products between 1e-290 and 1e290."""
+    """Return the rounded product and its error: together exactly a b, for products between 1e-290 and 1e290."""
     product = a * b
     (ah, al), (bh, bl) = _split(a), _split(b)
     return product, al * bl - (((product - ah * bh) - al * bh) - ah * bl)
 
 
 def _split(a: NDArray) -> tuple[NDArray, NDArray]:
-    """Two numbers of 26 bits whose sum is a."""
+    """Split a into two numbers of 26 bits that add up to it."""
     big = SPLITTER * a
     high = big - (big - a)
     return high, a - high
 
 
 def compensated_normals(a: NDArray, b: NDArray, c: NDArray) -> NDArray[np.float64]:
-    """(3, k) (b-a) x (c-a) for corners (3, k), each component to a relative accuracy of about u, however thin the
-    triangle."""
+    """Return (3, k) (b-a) x (c-a) for corners (3, k), each component to a relative accuracy of about u, however thin
+    the triangle."""
     (u, ul), (v, vl) = two_sum(b, -a), two_sum(c, -a)
     coordinates = []
     for y, z in ((1, 2), (2, 0), (0, 1)):
@@ -44,7 +44,7 @@ def compensated_normals(a: NDArray, b: NDArray, c: NDArray) -> NDArray[np.float6
 
 
 def phase_factors(q: NDArray, x: NDArray) -> NDArray[np.complex128]:
-    """(m,) exp(-i q·x) for q (m, n) and x (n,), accurate to a few u, however large the phase."""
+    """Return (m,) exp(-i q·x) for q (m, n) and x (n,), accurate to a few u, however large the phase."""
     total, rest = two_product(q[:, 0], x[0])
     for axis in range(1, q.shape[1]):
         product, low = two_product(q[:, axis], x[axis])

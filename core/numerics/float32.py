@@ -21,7 +21,7 @@ def shortest_decimal(value: float) -> float:
     Returns
     -------
     float
-        0.001 where float32 has 0.0010000000474974513.
+        0.001 if float32 has 0.0010000000474974513.
 
     Examples
     --------

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Connected components of a graph.
 
-They are found by hooking: every node takes its lowest neighbor as its parent where that is lower, which cannot make a
+They are found by hooking: every node takes its lowest neighbor as its parent if that is lower, which cannot make a
 cycle, paths are halved by pointer jumping, the trees are contracted and the rest is done again (after Shiloach and
 Vishkin, "An O(log n) parallel connectivity algorithm", J. Algorithms 3, 1982). A node that a round leaves alone has a
 lower neighbor after it: two rounds at least halve the trees that are not yet whole components. With any lower neighbor
@@ -73,7 +73,8 @@ def connected_components(count: int, a: ArrayLike, b: ArrayLike) -> tuple[NDArra
 
 
 def connected_neighbors(neighbors: NDArray[np.integer]) -> tuple[NDArray[np.intp], int]:
-    """As `connected_components`, of a graph all of whose nodes have the same number of links, each seen from both ends.
+    """Find connected components like `connected_components`, if all nodes have equally many links, each seen from both
+    ends.
 
     neighbors: (n, k) the other ends of each node's links.
     """
@@ -96,10 +97,10 @@ def connected_neighbors(neighbors: NDArray[np.integer]) -> tuple[NDArray[np.intp
 
 
 def _trees(parent: NDArray[np.integer]) -> tuple[NDArray[np.integer], int]:
-    """The tree of each node, numbered in the order of their roots, and how many. parent: no higher than the node; is
-    overwritten.
+    """Return the tree of each node, numbered in the order of their roots, and the number of trees. parent: no higher
+    than the node; is overwritten.
 
-    Paths are halved by pointer jumping, block by block: what leads out of a block ends at a root at once.
+    Paths are halved by pointer jumping, block by block: a path out of a block ends at a root at once.
     """
     roots = np.flatnonzero(parent == np.arange(len(parent), dtype=parent.dtype))
     if len(roots) == 1:  # all paths downward end there

@@ -40,7 +40,7 @@ def gauss_legendre(points: int) -> tuple[NDArray[np.float64], NDArray[np.float64
 
 @lru_cache
 def gauss_legendre_with_ends(points: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """As `gauss_legendre`, with 0 before and 1 after its nodes, whose weights are 0; read-only."""
+    """Return the rule of `gauss_legendre` with the nodes 0 and 1 of weight 0 added at its ends; read-only."""
     nodes, weights = gauss_legendre(points)
     nodes, weights = np.concatenate([[0.0], nodes, [1.0]]), np.concatenate([[0.0], weights, [0.0]])
     nodes.flags.writeable = weights.flags.writeable = False

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Rotations between matrix and quaternion, in double precision where Blender's own have single."""
+"""Rotations between matrix and quaternion, in double precision; Blender's own have single."""
 
 from __future__ import annotations
 
@@ -92,11 +92,11 @@ MAX_AXIS_COSINE = 1e-5  # the cosine of axes that float32 rotations never show
 
 
 def polar_rotation(matrices: NDArray) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
-    """(k, 3, 3) the right-angled unit axes, as columns, of what each of the (k, 4, 4) maps moves, turns, scales and
-    mirrors; and whether a map shears, so that they are only the nearest ones.
+    """Return (k, 3, 3) right-angled unit axes, as columns, of (k, 4, 4) maps; and (k,) if a map shears, so that they
+    are only the nearest ones.
 
     They are the polar factor of the map with its columns at unit length (N. J. Higham, SIAM J. Sci. Stat. Comput. 7,
-    1986): where nothing shears, the columns themselves, mirrored ones too.
+    1986): without shear, the columns themselves, mirrored ones too.
     """
     linear = np.asarray(matrices, np.float64)[:, :3, :3]
     length = np.sqrt((linear * linear).sum(axis=1, keepdims=True))
@@ -107,7 +107,7 @@ def polar_rotation(matrices: NDArray) -> tuple[NDArray[np.float64], NDArray[np.b
 
 
 def along_x(axis: NDArray) -> NDArray[np.float64]:
-    """Return a rotation whose first column is a unit vector.
+    """Return a rotation with a unit vector as its first column.
 
     Parameters
     ----------

@@ -8,9 +8,9 @@ from typing import Any, Protocol
 
 
 class Number(Protocol):
-    """What formulas that are generic over the number type ask of a number: int, float, Fraction, mpmath's or an array.
+    """The operations of a number type that generic formulas need: int, float, Fraction, mpmath's or an array.
 
-    The types have no word for "whatever these two make together", so results are unchecked.
+    Python cannot name the common type of two such numbers, so results are unchecked.
     """
 
     def __add__(self, other: Any, /) -> Any: ...

@@ -146,7 +146,7 @@ def moments(points: Sequence[Vector], faces: Sequence[Sequence[int]], order: int
 def moments_from_apexes(
     points: Sequence[Vector], faces: Sequence[Sequence[int]], apexes: Sequence[Vector], order: int
 ) -> list[Number]:
-    """Return what `moments` does, with an apex for each face: any point of its plane, p⊥ among them.
+    """Return the moments as `moments` does, with an apex for each face: any point of its plane, p⊥ among them.
 
     Parameters
     ----------
@@ -200,8 +200,8 @@ def perpendicular_feet(points: Sequence[Vector], faces: Sequence[Sequence[int]])
 
 
 def _plane(corners: Sequence[Vector]) -> tuple[Vector, Vector]:
-    """Newell's normal, twice the area long, and the foot of the perpendicular from the origin. A face that is not flat
-    has its mean plane."""
+    """Return Newell's normal, twice the area long, and the foot of the perpendicular from the origin. A face that is
+    not flat has its mean plane."""
     normal = (0, 0, 0)
     for a, b in zip(corners, [*corners[1:], corners[0]]):
         normal = tuple(n + c for n, c in zip(normal, cross(a, b)))

@@ -5,10 +5,10 @@
 The moment of a tetrahedron with one corner in the origin is det·Σ_pqr / (p+q+r+3)!, that of the triangle opposite to it
 2A·Σ_pqr / (p+q+r+2)!, with Σ_pqr the nine-fold sum of `sigma`. Faces are fans from their first corner.
 
-A reference, not the way to measure a mesh: its cost grows with the ninth power of the order. It computes with whatever
-numbers it is given: `fractions.Fraction` gives exact rational moments, floats the usual ones, numpy arrays those of
-many triangles at once. The formulae are about the origin; in floats subtract a point of the body first (`about`), else
-what is left after cancellation is noise.
+A reference, not the way to measure a mesh: its cost grows with the ninth power of the order. It computes with any
+number type: `fractions.Fraction` gives exact rational moments, floats the usual ones, numpy arrays those of many
+triangles at once. The formulae are about the origin; in floats subtract a point of the body first (`about`), else only
+noise is left after cancellation.
 """
 
 from __future__ import annotations
@@ -202,7 +202,7 @@ def exponents_to(order: int) -> list[tuple[int, int, int]]:
 
 
 def _compositions(n: int) -> Iterator[tuple[tuple[int, int, int], int]]:
-    """All (k₁, k₂, k₃) that add up to n, and n! / (k₁! k₂! k₃!)."""
+    """Return all (k₁, k₂, k₃) that add up to n, and n! / (k₁! k₂! k₃!)."""
     for first in range(n + 1):
         for second in range(n - first + 1):
             yield (first, second, n - first - second), comb(n, first) * comb(n - first, second)

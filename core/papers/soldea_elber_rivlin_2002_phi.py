@@ -94,7 +94,7 @@ def phi_moments(points: NDArray, tensors: tuple[NDArray, ...]) -> dict[tuple[int
 
 
 def _integrals(space: SplineSpace, order: int) -> NDArray[np.float64]:
-    """∫ B'_i B_j B_l ... of one parameter, (count, count, count, ...)."""
+    """Return ∫ B'_i B_j B_l ... of one parameter, (count, count, count, ...)."""
     nodes, weights = gauss_legendre((3 + order) * (space.order - 1) // 2 + 1)
     low, high = space.intervals.T
     size = (high - low)[:, None]

@@ -21,7 +21,7 @@ from ..numerics.vectors import Number
 def integral_of_basis(knots: Sequence[Number], i: int, k: int, power: int, t: Number) -> Number:
     """Return ∫ from t_i to t of τ^power B_{i,k}(τ) dτ by equation (11).
 
-    The sums reach functions of order k + power + 1, beyond the last knot: those knots may be anything that ascends.
+    The sums reach functions of order k + power + 1, beyond the last knot: the knots there may be anything that ascends.
 
     Parameters
     ----------
@@ -51,7 +51,7 @@ def integral_of_basis(knots: Sequence[Number], i: int, k: int, power: int, t: Nu
         return (knots[x + y] - knots[x]) / y
 
     def nested(s: int, order: int) -> Number:
-        """Σ_{s'=i..s} δ_{s',order} Σ ... down to order k + 1."""
+        """Return Σ_{s'=i..s} δ_{s',order} Σ ... down to order k + 1."""
         if order == k:
             return 1
         return sum(delta(first, order) * nested(first, order - 1) for first in range(i, s + 1))

@@ -3,10 +3,10 @@
 """Zhang and Chen's signed elementary shapes (ICIP 2001): area, volume and moments of 2-D and 3-D meshes.
 
 Every edge of a polygon makes a triangle with the origin, every triangle of a mesh a tetrahedron. The elementary shape
-counts with the sign of its determinant (eqs 2 and 4; 5 and 6), whatever is an integral over the inside is the sum of
-the elementary ones (eq. 9), and where the total comes out negative the order of all vertices was the wrong one and is
-reversed. The moments of an elementary shape are in an appendix that no copy of the paper at hand has; here they are
-from Dirichlet's integral over the shape's barycentric coordinates λ, of which
+counts with the sign of its determinant (eqs 2 and 4; 5 and 6), an integral over the inside is the sum of the elementary
+ones (eq. 9), and if the total comes out negative the order of all vertices was the wrong one and is reversed. The
+moments of an elementary shape are in an appendix that no copy of the paper at hand has; here they are from Dirichlet's
+integral over the shape's barycentric coordinates λ:
 
     ∫ λ_1^{k_1} … λ_d^{k_d} = measure · d! k_1! … k_d! / (k_1 + … + k_d + d)!,
 
@@ -38,7 +38,7 @@ def signed_area(points: Sequence[Vector], edges: Sequence[tuple[int, int]]) -> N
     Returns
     -------
     number
-        Positive where the inside lies to their left.
+        Positive if the inside lies to their left.
 
     Examples
     --------
@@ -60,7 +60,7 @@ def signed_volume(points: Sequence[Vector], triangles: Sequence[tuple[int, int, 
     Returns
     -------
     number
-        Positive where they are counter-clockwise from outside.
+        Positive if they are counter-clockwise from outside.
 
     Examples
     --------
@@ -81,7 +81,7 @@ def mesh_moments(
     ----------
     points : sequence of 2 or 3 numbers each
     shapes : sequence of sequence of int
-        Edges of a polygon, or triangles of a closed mesh, all outward or all inward: what is inside counts positive
+        Edges of a polygon, or triangles of a closed mesh, all outward or all inward: the inside counts positive
         either way.
     exponents : sequence of tuple of int
 

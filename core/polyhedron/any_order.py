@@ -10,7 +10,7 @@ w and over the triangle itself, of doubled area A,
 
 Their explicit sum for S has binomial(n+9, 9) terms up to order n; the recursion of `levels` takes the generating
 function factor by factor, some 14 operations for each moment and triangle. Coordinates are taken about a point of the
-body, and scaled by a power of two to at most about 1 where they are far from it, so that their 20th powers do not lose
+body, and scaled by a power of two to at most about 1 if they are far from it, so that their 20th powers do not lose
 every digit or leave the range.
 """
 
@@ -39,7 +39,7 @@ from .any_order_kernel import UNDERFLOW_BOUND, AnyOrderKernel, Sums, absolute_su
 from .third_order import box_center, finite_box, nothing, quad_corners
 from .third_order_kernel import NO_VERTEX
 
-SCRATCH_NUMBERS = 1_400_000  # that a block's scratch may hold; with fewer, two threads wait for each other
+SCRATCH_NUMBERS = 1_400_000  # limit of a block's scratch; with fewer, two threads wait for each other
 # faces in a block; of rows less than half its buffer of 8192 long, numpy copies those it uses again
 MIN_FACES_PER_BLOCK = 4608
 BLOCKS_PER_TASK = 8  # blocks that are handed to a thread at once
@@ -49,7 +49,7 @@ MAX_EXPONENT = 1000.0  # powers of two beyond which a moment overflows
 
 @lru_cache
 def _factors(order: int) -> NDArray[np.float64]:
-    """(K,) p! q! r! / (p+q+r+2)!"""
+    """Return (K,) p! q! r! / (p+q+r+2)!"""
     return np.array(
         [
             float(factorial(p) * factorial(q) * factorial(r) / factorial(p + q + r + 2))
@@ -59,15 +59,14 @@ def _factors(order: int) -> NDArray[np.float64]:
 
 
 def _exponent(reach: float) -> int:
-    """The exponent of the power of two by which a body that reaches so far is scaled: 0 where its size is usual."""
+    """Return the exponent of the power of two that scales a body with this reach: 0 if its size is usual."""
     exponent = frexp(reach)[1]
     return exponent if abs(exponent) > MAX_UNSCALED_EXPONENT else 0
 
 
 @dataclass(frozen=True, eq=False)
 class _FaceBatch:
-    """Some faces, (m, 3) or (m, 4), of a piece of the body. size: how many of them make a block. half_ulp: (3,) that
-    of its points."""
+    """Faces, (m, 3) or (m, 4), of a piece of the body. size: faces in a block. half_ulp: (3,) for its points."""
 
     points: NDArray
     faces: NDArray
@@ -76,8 +75,8 @@ class _FaceBatch:
 
 
 class _CompensatedSum:
-    """A running sum of arrays, with what the additions round off kept beside it (Neumaier), and with the sums that its
-    bounds are made of. faces: how many were added."""
+    """A running sum of arrays, with the rounding errors of the additions (Neumaier), and with the sums that make its
+    bounds. faces: number of faces added."""
 
     def __init__(self, order: int, weights: int):
         self.order, self.weights = order, weights
@@ -117,7 +116,7 @@ def integrate(
     about: NDArray | None,
     reach: float | None,
 ) -> tuple[Moments, Moments | None]:
-    """The volume's moments and, where wanted, the area's; arguments as for `polyhedron_moments`."""
+    """Return the moments of the volume and, if wanted, of the area; arguments as for `polyhedron_moments`."""
     return _StreamIntegrator(order, area, threads, progress, about, reach).integrate(stream)
 
 
@@ -141,7 +140,7 @@ class _StreamIntegrator:
         self.half_ulp = np.zeros(3)
 
     def integrate(self, stream: Iterable[Surface]) -> tuple[Moments, Moments | None]:
-        """Volume and, where wanted, area."""
+        """Return the moments of the volume and, if wanted, of the area."""
         total = _CompensatedSum(self.order, 2 if self.area else 1)
         for faces, parts in self._ordered_results(self._tasks(stream)):
             for part in parts:
@@ -155,7 +154,8 @@ class _StreamIntegrator:
         return self._moments(total, Measure.VOLUME), self._moments(total, Measure.AREA) if self.area else None
 
     def _ordered_results(self, tasks: Iterator[_FaceBatch]) -> Iterator[tuple[int, list[Sums]]]:
-        """The results of `_run` in the order of the tasks, whichever finishes first; a few run at a time."""
+        """Yield the results of `_run` in the order of the tasks, irrespective of which finishes first; a few run at a
+        time."""
         first = list(islice(tasks, min(self.threads, 2)))
         alone, tasks = len(first) < 2, chain(first, tasks)
         del first  # it holds pieces of a stream
@@ -191,10 +191,10 @@ class _StreamIntegrator:
                     yield _FaceBatch(points, faces[start : start + step], size, half_ulp)
 
     def _size(self, faces: NDArray) -> int:
-        """How many faces make a block: blocks are of even length, and as many for each of 2 or 4 threads. Whatever the
-        number of threads the blocks are the same, and so is their sum."""
+        """Return the number of faces in a block: blocks are of even length, and as many for each of 2 or 4 threads. The
+        blocks, and so their sum, do not depend on the number of threads."""
         corners = faces.shape[1]
-        # where two triangles make one face of ours
+        # 2 if two triangles make one face here
         ours = 2 if corners == 3 and quad_corners(faces[:2]) is not None else 1
         most = ours * max(SCRATCH_NUMBERS // row_count(corners + ours - 1, self.order, 1), MIN_FACES_PER_BLOCK)
         blocks = -(-len(faces) // (4 * most)) * 4
@@ -202,7 +202,7 @@ class _StreamIntegrator:
         return max(2, -(-len(faces) // (2 * blocks)) * 2)
 
     def _choose_frame(self, surface: Surface) -> None:
-        """The reference point and the scale, by the first piece where nobody has given them."""
+        """Set the reference point and the scale by the first piece, unless they are given."""
         low, high = finite_box(surface)
         if self.center is None:
             self.center = box_center(low, high, surface.points.dtype)
@@ -217,7 +217,7 @@ class _StreamIntegrator:
             raise MeasureError(MOMENTS_OVERFLOW, order=int(self.order))
 
     def _run(self, task: _FaceBatch) -> tuple[int, list[Sums]]:
-        """One task, in whatever thread: how many faces it has, and what each of its blocks adds."""
+        """Run one task, in any thread. Return its number of faces and the sums of each of its blocks."""
         if not indices_in_range(task.faces, len(task.points)):
             raise ValueError(NO_VERTEX)
         levels = self.idle.pop() if self.idle else AnyOrderKernel(self.order, self.area)
@@ -230,8 +230,8 @@ class _StreamIntegrator:
 
     @staticmethod
     def _blocks(task: _FaceBatch) -> Iterator[tuple[Sequence[NDArray] | NDArray, int]]:
-        """The corners of faces, a block at a time: quads as Blender cuts them, pairs of triangles, or triangles; and
-        how many there are in a block that is full. Each block is judged by itself, so that it does not depend on its
+        """Yield the corners of faces, a block at a time: quads as Blender cuts them, pairs of triangles, or triangles;
+        and the number of faces in a full block. Each block is judged by itself, so that it does not depend on its
         neighbors."""
         for start in range(0, len(task.faces), task.size):
             faces = task.faces[start : start + task.size]
@@ -241,7 +241,7 @@ class _StreamIntegrator:
             yield (faces.T, task.size) if halves is None else (halves, task.size // 2)
 
     def _moments(self, total: _CompensatedSum, of: Measure) -> Moments:
-        """What the sums come to, in the body's own unit, with its bounds."""
+        """Return the moments in the body's own unit, with their bounds, from the sums."""
         degree = monomials(self.order).sum(axis=1)
         row, dimension = (0, 3) if of == Measure.VOLUME else (1, 2)
         factors = _factors(self.order) / ((degree + 3.0) if of == Measure.VOLUME else 1.0)
@@ -265,8 +265,8 @@ class _StreamIntegrator:
         )
 
     def _input_error(self, total: _CompensatedSum, of: Measure) -> NDArray[np.float64]:
-        """What moving the vertices by their half ulps may change: over the volume that they sweep; of areas, over what
-        is added, and by the change of the integrand."""
+        """Return the change if the vertices move by their half ulps: over the volume that they sweep; of areas, over
+        the added area, and by the change of the integrand."""
         swept = total.sizes[2] * (1.0 + 1e-9)
         if of == Measure.VOLUME:
             return swept

@@ -7,15 +7,14 @@ generating function 1 / ((1-a·ξ)(1-b·ξ)(1-c·ξ)). Each factor is one level 
 
     C_α = (n! / α!) a^α,    D_α = C_α + Σ_i c_i D_{α-e_i},    S_α = D_α + Σ_i b_i S_{α-e_i},
 
-of which only one degree is kept at a time. Two triangles that share the edge a-c share C and D. Of the last degree only
-sums over faces are wanted, and those of S_α = C_α + Σ_i c_i D_{α-e_i} + Σ_i b_i S_{α-e_i} need no D and no S.
+with only one degree kept at a time. Two triangles that share the edge a-c share C and D. Only sums over faces are
+wanted of the last degree, and those of S_α = C_α + Σ_i c_i D_{α-e_i} + Σ_i b_i S_{α-e_i} need no D and no S.
 
-Rows are the monomials of one degree in the order of `monomials`, columns are faces. The rows that a level's sum
-takes from the degree below stand in runs, so that nothing is fetched or copied: 14 operations a moment, all on whole
-rows. What Python does between two calls of numpy only one thread can do at a time, and a thread that has to wait for it
-loses more than most calls take: hence calls that are few and long, over large blocks and all levels at once, with views
-that are made once. All sums are of positive terms if the coordinates are positive, so a computed S_α is off by at most
-(6 n + 8) u S_α(|a|, |b|, |c|).
+Rows are the monomials of one degree in the order of `monomials`, columns are faces. The rows that a level's sum takes
+from the degree below stand in runs, so that nothing is fetched or copied: 14 operations a moment, all on whole rows.
+Only one thread at a time can run Python between two calls of numpy, and waiting for it costs more than most calls take:
+hence calls that are few and long, over large blocks and all levels at once, with views that are made once. All sums are
+of positive terms if the coordinates are positive, so a computed S_α is off by at most (6 n + 8) u S_α(|a|, |b|, |c|).
 """
 
 from __future__ import annotations
@@ -33,8 +32,8 @@ from ..moments.moments import U
 from .workspace import Workspace, gather
 
 FACES_PER_CHUNK = 32  # faces that share one bound of their coordinates
-SLICES_PER_ROW = 16  # of a row, that einsum adds up: a divisor of FACES_PER_CHUNK
-# of a determinant, and of a doubled area, relative to the sizes of their terms: see `third_order`
+SLICES_PER_ROW = 16  # slices of a row that einsum adds up: a divisor of FACES_PER_CHUNK
+# Rounding of a determinant, and of a doubled area, relative to the sizes of their terms: see `third_order`.
 DETERMINANT_ROUNDING = 9.0 * U
 # underflow loses less than its root of a length, and than `DETERMINANT_ROUNDING` times it of a doubled area
 MIN_SQUARED_LENGTH = 1e-145
@@ -43,7 +42,7 @@ UNDERFLOW_BOUND = 1e-220  # more than underflow can lose of one face whose coord
 
 @lru_cache
 def multinomials(degree: int) -> NDArray[np.float64]:
-    """(rows, 1) n! / α!, exact to degree 30."""
+    """Return (rows, 1) n! / α!, exact to degree 30."""
     return np.array(
         [
             [factorial(degree) // (factorial(p) * factorial(q) * factorial(r))]
@@ -55,9 +54,9 @@ def multinomials(degree: int) -> NDArray[np.float64]:
 
 @dataclass(frozen=True, eq=False)
 class Sums:
-    """What a block of faces adds, in the unit in which their coordinates are at most about 256.
+    """Sums over a block of faces, in the unit in which their coordinates are at most about 256.
 
-    sums: (weights, K) Σ over faces of determinant S_α, and of doubled area S_α. chunks: (3 + 3 + weights + c-1, m), of
+    sums: (weights, K) Σ over faces of determinant S_α, and of doubled area S_α. chunks: (3 + 3 + weights + c-1, m), for
     each chunk of FACES_PER_CHUNK faces the largest and the least coordinates, Σ |weight|
     and the squares of its longest edges from the first corner.
     half_ulp: (3,) of the coordinates.
@@ -70,8 +69,8 @@ class Sums:
 
 @lru_cache
 def scratch_layout(count: int, order: int, weights: int) -> tuple[dict[str, tuple[int, ...]], ...]:
-    """Of each array of `_Block` for faces of `count` corners the shape of its rows: of those that last, of those for
-    weighing, and of those for summing, which share memory with the second."""
+    """Return the row shapes of the arrays of `_Block` for faces of `count` corners: the lasting ones, the ones for
+    weighing, and the ones for summing, which share memory with the second."""
     ends, fans, lower = count - 1, count - 2, count_of_degree(order - 1)
     return (
         {"heavy": (weights, 3, count), "tips": (weights, fans), "both": (weights,)},
@@ -82,7 +81,7 @@ def scratch_layout(count: int, order: int, weights: int) -> tuple[dict[str, tupl
 
 @lru_cache
 def row_count(count: int, order: int, weights: int) -> int:
-    """How many rows a block needs, with one for the gap behind each array."""
+    """Return the number of rows of a block, with one for the gap behind each array."""
     kept, weighing, summing = (
         sum(prod(shape) + 1 for shape in group.values()) for group in scratch_layout(count, order, weights)
     )
@@ -90,13 +89,13 @@ def row_count(count: int, order: int, weights: int) -> int:
 
 
 class _Block:
-    """The rows of a block of faces, k columns, and what is done with them once the corners' coordinates and the edges
-    from the first corner are there: `steps`, in their order.
+    """The rows of a block of faces, k columns, and the calls on them once the corners' coordinates and the edges from
+    the first corner are there: `steps`, in their order.
 
     corners: (3, c, k). edges: (3, c-1, k). apex_vectors: (w, c-2, k), the weights of the triangles a, b, c and a, c, d;
     both: (w, k), their sums. powers: (R, k) and levels: (c-1, R, k), C, and S, D and S, of one degree.
-    weighted_products: (w, 3, c, k), weights times corners. room: for what is needed for a moment. total: (w, K), the
-    sums. chunks: as in `Sums`; neighbors stand below each other in the (FACES_PER_CHUNK, m) that a row is.
+    weighted_products: (w, 3, c, k), weights times corners. room: scratch. total: (w, K), the sums. chunks: as in
+    `Sums`; neighbors stand below each other in the (FACES_PER_CHUNK, m) that a row is.
     """
 
     def __init__(self, workspace: Workspace, count: int, k: int, *, order: int, weights: int):
@@ -125,7 +124,7 @@ class _Block:
         self.steps.append(partial(function, *operands))
 
     def _append_weights(self, normals: NDArray, minus: NDArray) -> None:
-        """Determinants, doubled areas, and what their bounds are made from."""
+        """Append the calls for determinants, doubled areas, and the terms of their bounds."""
         edges, corners, apex_vectors = self.edges, self.corners, self.apex_vectors
         first, second = edges[:, :-1], edges[:, 1:]
         for x, y, z in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
@@ -149,7 +148,7 @@ class _Block:
             row += len(values)
 
     def _append_sums(self) -> None:
-        """The sums over the block, degree by degree."""
+        """Append the calls for the sums over the block, degree by degree."""
         corners, levels, powers, apex_vectors = self.corners, self.levels, self.powers, self.apex_vectors
         first, ends = corners[:, 0], corners[:, 1:]
         self._append_call(np.add.reduce, self.both, 1, None, self.total[:, 0])
@@ -166,7 +165,7 @@ class _Block:
         self._append_last_degree()
 
     def _append_powers(self, degree: int) -> None:
-        """C of this degree added to D."""
+        """Append the calls that add C of this degree to D."""
         count, most = count_of_degree(degree), len(self.room) // self.k
         for start in range(0, count, most):
             part = slice(start, min(start + most, count))
@@ -175,9 +174,10 @@ class _Block:
             self._append_call(np.add, self.levels[1, part], grown, self.levels[1, part])
 
     def _append_raise(self, degree: int, vectors: NDArray) -> None:
-        """Σ_i v_i L_{α-e_i} in place of all levels L, (c-1, R, k), one degree lower. vectors: (3, c-1, 1, k).
+        """Append the calls that put Σ_i v_i L_{α-e_i} in place of all levels L, (c-1, R, k), one degree lower. vectors:
+        (3, c-1, 1, k).
 
-        Without a factor x, a row stands where it stood; without y or z, in the run of rows with one less q+r.
+        Without a factor x, a row keeps its place; without y or z, it is in the run of rows with one less q+r.
         """
         levels, below = self.levels, count_of_degree(degree - 1)
         last, new = levels[:, below - degree : below], levels[:, below : below + degree + 1]
@@ -203,7 +203,8 @@ class _Block:
             end = first - 1
 
     def _append_last_degree(self) -> None:
-        """The sums of the last degree: of products of the rows one degree lower and weighted coordinates."""
+        """Append the calls for the sums of the last degree: of products of the rows one degree lower and weighted
+        coordinates."""
         degree, weighted_products, powers = self.order, self.weighted_products, self.powers
         count, below, known = count_of_degree(degree), count_of_degree(degree - 1), monomial_count(degree - 1)
         # in place of the corners at last
@@ -222,7 +223,7 @@ class _Block:
         return self.room[: prod(shape) * self.k].reshape(*shape, self.k)
 
     def _append_dot(self, products: str, weights: NDArray, terms: NDArray, out: NDArray) -> None:
-        """Scalar products of weights (..., k) with rows (..., k)."""
+        """Append the calls for scalar products of weights (..., k) with rows (..., k)."""
         self._append_call(
             _sliced_dot,
             products,
@@ -235,7 +236,7 @@ class _Block:
 class AnyOrderKernel:
     """The loop body, with its scratch. Not to be shared by threads.
 
-    order: of the moments, at least 3. area: whether sums weighted with doubled areas are wanted beside the volume's.
+    order: of the moments, at least 3. area: True for sums weighted with doubled areas beside the volume's.
     """
 
     def __init__(self, order: int, area: bool):
@@ -251,11 +252,11 @@ class AnyOrderKernel:
         faces: Sequence[NDArray] | NDArray,
         size: int,
     ) -> Sums:
-        """The sums over a block of faces, all triangles or all pairs. size: how many are in one that is full.
+        """Return the sums over a block of faces, all triangles or all pairs. size: number of faces in a full block.
 
-        points: (n, 3) contiguous float32 or float64. center: (3,) what is subtracted. scale: a power of two by which
-        they are multiplied then. half_ulp: (3,) before that. faces: their vertices a, b, c (and d), (k,) each, checked:
-        triangles a, b, c and a, c, d.
+        points: (n, 3) contiguous float32 or float64. center: (3,) is subtracted. scale: a power of two, which
+        multiplies the difference. half_ulp: (3,) before that. faces: their vertices a, b, c (and d), (k,) each,
+        checked: triangles a, b, c and a, c, d.
         """
         k = len(faces[0])
         shape = len(faces), -(-(size if k > 0.9 * size else k) // FACES_PER_CHUNK) * FACES_PER_CHUNK
@@ -269,7 +270,7 @@ class AnyOrderKernel:
     def _gather_corners(
         block: _Block, points: NDArray, faces: Sequence[NDArray] | NDArray, center: NDArray, scale: float
     ) -> None:
-        """The corners' coordinates and the edges from the first corner."""
+        """Gather the corners' coordinates and compute the edges from the first corner."""
         k = len(faces[0])
         for row, corner in zip(block.index, faces):
             if k < block.k:  # filled up with faces that are a point
@@ -283,7 +284,7 @@ class AnyOrderKernel:
 
 
 def absolute_sums(order: int, weights: int, parts: Sequence[Sums]) -> NDArray[np.float64]:
-    """(sets, K) Σ weight reach^α over the chunks of blocks of one kind, for the weights |determinant| with its
+    """Return (sets, K) Σ weight reach^α over the chunks of blocks of one kind, for the weights |determinant| with its
     rounding, that rounding alone, the volume that moving every vertex by its half ulp sweeps; and with areas: doubled
     area with its rounding, that alone, and the area that moving the vertices adds."""
     chunks, half_ulp = np.concatenate([part.chunks for part in parts], axis=1), parts[0].half_ulp
@@ -310,8 +311,8 @@ def absolute_sums(order: int, weights: int, parts: Sequence[Sums]) -> NDArray[np
 
 
 def _raise_powers(do: Callable, old: NDArray, degree: int, vector: NDArray, powers: NDArray) -> None:
-    """Row by row, x^α of one degree from those of the degree below, perhaps in their place: those without x from the
-    last ones. do: calls a function with these arguments, or notes the call for later."""
+    """Compute row by row x^α of one degree from the degree below, perhaps in its place: powers without x from the last
+    ones. do: calls a function with these arguments, or notes the call for later."""
     count = count_of_degree(degree - 1)
     do(np.multiply, old[count - degree : count], vector[1], powers[count : count + degree])
     do(np.multiply, old[count - 1], vector[2], powers[count + degree])
@@ -319,17 +320,17 @@ def _raise_powers(do: Callable, old: NDArray, degree: int, vector: NDArray, powe
 
 
 def _first_row(run: int) -> int:
-    """The first of the rows of one degree with this q+r."""
+    """Return the first of the rows of one degree with this q+r."""
     return run * (run + 1) // 2
 
 
 def _sliced_dot(products: str, weights: NDArray, terms: NDArray, out: NDArray) -> None:
-    """Scalar products over slices of the rows, and over what is left of them then."""
+    """Compute scalar products over slices of the rows, and add up the slices."""
     np.add.reduce(np.einsum(products, weights, terms), axis=-1, out=out)
 
 
 def _add_last(sums: NDArray, powers: NDArray, degree: int, total: NDArray) -> None:
-    """The last degree: what x, y and z times the rows one degree lower come to, and C."""
+    """Add the last degree: x, y and z times the rows one degree lower, and C."""
     np.multiply(powers, multinomials(degree)[:, 0], total)
     for axis, quotients in enumerate(quotient_indices(degree, count_of_degree(degree - 1))):
         total += sums[:, axis].take(quotients, axis=1)

@@ -40,9 +40,9 @@ def extend_small_moments(
     triangles : (t, 3) int
         One body after the other.
     counts : (n,) int
-        How many of them each body has, at least one.
+        Triangles of each body, at least one.
     reach : (n, 3) array
-        What bounds the distances of a body's points from there, and how far storing may have moved them.
+        Bounds of the distances of a body's points from there, with their possible shifts by storing.
     """
     known, ends = volume.raw.shape[1], np.cumsum(counts)
     powers, degree, factors = _new_monomials(known, order)
@@ -76,7 +76,8 @@ def extend_small_moments(
 
 @lru_cache
 def _new_monomials(known: int, order: int) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.float64]]:
-    """The exponents and the degrees of the monomials after so many, and what makes moments of their coefficients."""
+    """Return the exponents and the degrees of the monomials after so many, and the factors from their coefficients to
+    moments."""
     powers = monomials(order)[known:]
     degree = powers.sum(axis=1)
     factors = [np.prod([float(factorial(p)) for p in row]) / factorial(sum(row) + 2) for row in powers.tolist()]
@@ -84,7 +85,7 @@ def _new_monomials(known: int, order: int) -> tuple[NDArray[np.intp], NDArray[np
 
 
 def _coefficients(a: NDArray, b: NDArray, c: NDArray, order: int) -> NDArray[np.float64]:
-    """(K, t) the S_α of triangles with corners (3, t)."""
+    """Return (K, t) the S_α of triangles with corners (3, t)."""
     levels = np.zeros((3, 2, a.shape[1]))  # C, D and S of degree 0, and a row of zeros
     levels[:, 0] = 1.0
     vectors, out = np.stack([a, c, b]), np.empty((monomial_count(order), a.shape[1]))

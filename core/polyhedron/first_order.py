@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Volume and center of a closed surface alone, in one light pass: what a body that deforms needs at every frame."""
+"""Volume and center of a closed surface alone, in one light pass: as needed for a deforming body at every frame."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def volume_and_center(surface: Surface) -> tuple[float, NDArray[np.float64]]:
     Returns
     -------
     float, (3,) array
-        The volume is negative where the surface is inside out. The center is not finite where there is no volume.
+        The volume is negative if the surface is inside out. The center is not finite if there is no volume.
 
     Notes
     -----
@@ -51,7 +51,7 @@ def volume_and_center(surface: Surface) -> tuple[float, NDArray[np.float64]]:
 
 
 def _triangles(points: NDArray[np.float64], triangles: NDArray[np.integer]) -> NDArray[np.float64]:
-    """(4,) six volumes and 24 first moments. points: (3, n)."""
+    """Return (4,) six volumes and 24 first moments. points: (3, n)."""
     a, b, c = (points.take(corner, axis=1) for corner in triangles.T)
     return _sums(_dot(_cross(b, c), a), a + b + c)
 
@@ -59,7 +59,7 @@ def _triangles(points: NDArray[np.float64], triangles: NDArray[np.integer]) -> N
 def _quads(points: NDArray[np.float64], quads: NDArray[np.integer]) -> NDArray[np.float64]:
     a, b, c, d = (points.take(corner, axis=1) for corner in quads.T)
     u, v, diagonal = b - a, d - a, c - a
-    # where the normals of the two triangles along ac face away from each other, by Lagrange's identity
+    # if the normals of the two triangles along ac face away from each other, by Lagrange's identity
     flipped = _dot(u, v) * _dot(diagonal, diagonal) > _dot(u, diagonal) * _dot(v, diagonal)
     if flipped.any():  # cut from b to d
         a, b, c, d = (np.where(flipped, other, corner) for corner, other in ((a, b), (b, c), (c, d), (d, a)))

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The moments of what triangles and quads bound: one entry to the kernels.
+"""Moments of bodies that triangles and quads bound: one entry to the kernels.
 
 To third order a kernel of its own is several times as fast (`third_order`); higher orders are for the recursion
 (`any_order`).
@@ -81,11 +81,11 @@ def polyhedron_moments(
     """Return the moments of the body that a closed surface bounds, and of the surface itself.
 
     They are about the center of the bounding box, unless `about` says otherwise. The volume's are positive for outward
-    faces, signed otherwise. Those of a surface that does not close would depend on the reference point: it is refused
-    unless `allow_open`. `solid.measure_solid` repairs it, and its body has moments of any order. `rounding_error`
-    bounds the rounding of every moment, `input_error` the change that storing coordinates as float32 may have made (of
-    a closed surface). Memory beside what `body` holds: for each thread a block's scratch, some 13 MB at order 4, 30 MB
-    at order 20 and 65 MB at order 30, and some 15 MB for the bounds; to third order less.
+    faces, signed otherwise. The moments of an open surface would depend on the reference point: it is refused unless
+    `allow_open`. `solid.measure_solid` repairs it, and its body has moments of any order. `rounding_error` bounds the
+    rounding of every moment, `input_error` the change that storing coordinates as float32 may have made (of a closed
+    surface). Memory beside `body`: for each thread a block's scratch, some 13 MB at order 4, 30 MB at order 20 and 65
+    MB at order 30, and some 15 MB for the bounds; to third order less.
 
     Parameters
     ----------
@@ -101,25 +101,24 @@ def polyhedron_moments(
         The reference point. A stream that can be read only once has by default that of its first piece. Far from the
         body digits are lost, and `rounding_error` states how many: give a point in it.
     reach : float, optional
-        How far the body extends from there, roughly; of such a stream by default what its first piece does.
+        How far the body extends from there, roughly; of such a stream by default that of its first piece.
     exact : bool
-        Whether the third order is exact to rounding whatever the size of the mesh. Otherwise meshes of more than
-        100,000 triangles leave out what is of the order of an edge cubed, and `rounding_error` bounds it. Other orders
+        True for a third order that is exact to rounding for every size of mesh. Otherwise meshes of more than
+        100,000 triangles leave out terms of the order of an edge cubed, and `rounding_error` bounds it. Other orders
         are always exact to rounding.
     allow_open : bool
-        Whether faces are taken as they are: what does not close is closed by the cone from the reference point. Saves
-        the check, too.
+        True to take faces as they are: gaps are closed by the cone from the reference point. Saves the check, too.
     threads : int
         Threads that share the faces.
     progress : callable, optional
         Called now and then with the number of faces done.
     planarity : PlanarityAccumulator, optional
-        Is given the faces of a Surface, where that costs little.
+        Is given the faces of a Surface, if that costs little.
 
     Returns
     -------
     volume : Moments
-    area : Moments, or None where none is asked for
+    area : Moments, or None if none is asked for
 
     Raises
     ------
@@ -153,7 +152,7 @@ def polyhedron_moments(
         stream = iter([body])
     else:
         check_type("body", body, Iterable)
-        planarity = None  # of one surface
+        planarity = None  # it is for one surface
         if isinstance(body, (list, tuple)):
             body = [_as_surface(piece) for piece in body]
             about = _center(body) if about is None else about
@@ -177,7 +176,7 @@ def polyhedron_moments(
 
 
 def _summed(stream: Iterable[Surface], boundary: BoundarySum) -> Iterator[Surface]:
-    """The pieces, whose sides are added up on the way."""
+    """Yield the pieces, adding up their sides on the way."""
     for piece in stream:
         for faces in (piece.triangles, piece.quads):
             if not indices_in_range(faces, len(piece.points)):
@@ -194,7 +193,7 @@ def _as_surface(piece: Surface | NDArray) -> Surface:
 
 
 def _center(surfaces: list[Surface]) -> NDArray[np.float64] | None:
-    """(3,) of the box around all of them; None where there is nothing."""
+    """Return (3,) the center of the box around all of them; None if there are no points."""
     boxes = [finite_box(surface) for surface in surfaces if len(surface.points)]
     if not boxes:
         return None
@@ -214,8 +213,8 @@ def _sum_to_third_order(
     progress: Callable[[int], None] | None,
     **options: Any,
 ) -> tuple[Moments, Moments]:
-    """Volume and area of all pieces, about the first one's point where no other is given. Not finite where that is
-    beyond the range of numbers. options: of `third_order.integrate`."""
+    """Return volume and area of all pieces, about the first one's point if no other is given. Not finite beyond the
+    range of numbers. options: of `third_order.integrate`."""
     total: tuple[Moments, Moments] | None = None
     done = 0
     for surface in stream:

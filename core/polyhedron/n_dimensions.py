@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Moments in n dimensions, n ≥ 1: of what a boundary of (n-1)-simplices encloses, and of the boundary itself.
+"""Moments in n dimensions, n ≥ 1: of the inside of a boundary of (n-1)-simplices, and of the boundary itself.
 
 Sheynin and Tuzikov's formulae hold in any dimension. Over the simplex of the origin and v_1 … v_n
 
@@ -34,8 +34,8 @@ from .findings import BOUNDARY_OPEN
 from .simplices import closes, simplex_arrays
 
 NUMBERS_PER_BLOCK = 1 << 20  # numbers in the table of a block
-MIN_SIMPLICES_PER_BLOCK = 64  # simplices in a block, whatever the table takes
-UNDERFLOW = 2.0**-1000  # of a body of size 1: far above what products of its coordinates lose where they vanish
+MIN_SIMPLICES_PER_BLOCK = 64  # at least so many simplices in a block, for any size of table
+UNDERFLOW = 2.0**-1000  # relative to a body of size 1: far above the loss of products that vanish
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,14 +69,14 @@ class SimplexMoments:
         return float(self.raw[multi_index_position(len(self.about), self.order, exponents)])
 
     def bound(self, exponents: tuple[int, ...]) -> float:
-        """The error bound of one moment."""
+        """Return the error bound of one moment."""
         return float(self.rounding_error[multi_index_position(len(self.about), self.order, exponents)])
 
 
 @lru_cache
 def multi_indices(dimension: int, order: int) -> NDArray[np.int64]:
-    """(K, n) all exponents of degree at most `order`, by degree, the first exponents largest first; read-only. In three
-    dimensions the order of `monomials`."""
+    """Return (K, n) all exponents of degree at most `order`, by degree, the first exponents largest first; read-only.
+    In three dimensions the order of `monomials`."""
     exponents = [row for degree in range(order + 1) for row in _exponents_of_degree(dimension, degree)]
     table = np.array(exponents, np.int64).reshape(-1, dimension)
     table.flags.writeable = False
@@ -84,7 +84,7 @@ def multi_indices(dimension: int, order: int) -> NDArray[np.int64]:
 
 
 def multi_index_position(dimension: int, order: int, exponents: tuple[int, ...]) -> int:
-    """Where one moment stands. IndexError beyond the order."""
+    """Return the index of one moment. IndexError beyond the order."""
     return _positions(dimension, order)[check_exponents(exponents, dimension, order)]
 
 
@@ -97,31 +97,30 @@ def enclosed_moments(
     *,
     allow_open: bool = False,
 ) -> SimplexMoments:
-    """Return the moments of what a boundary of simplices encloses, in any dimension.
+    """Return the moments of the inside of a boundary of simplices, in any dimension.
 
-    They are about the middle of the bounding box of the used points, unless `about` says otherwise. Those of a boundary
-    that does not close would depend on that point: it is refused unless `allow_open`.
+    They are about the middle of the bounding box of the used points, unless `about` says otherwise. The moments of an
+    open boundary would depend on that point: it is refused unless `allow_open`.
 
     Parameters
     ----------
     points : (m, n) array_like
     simplices : (k, n) array_like of int
-        Outward where det(v_1, …, v_n) > 0 for a body around the origin: edges counter-clockwise in the plane, triangles
+        Outward if det(v_1, …, v_n) > 0 for a body around the origin: edges counter-clockwise in the plane, triangles
         counter-clockwise from outside in space.
     order : int
     about : (n,) array_like, optional
         The reference point.
     signs : (k,) array_like, optional
-        1 or -1, the orientation of each simplex beside the order of its corners; on a line, where a corner alone has
+        1 or -1, the orientation of each simplex beside the order of its corners; on a line, because a corner alone has
         none, it distinguishes upper ends from lower ones.
     allow_open : bool
-        Whether simplices are taken as they are: what does not close is closed by the cone from the reference point.
-        Saves the check, too.
+        True to take simplices as they are: gaps are closed by the cone from the reference point. Saves the check, too.
 
     Returns
     -------
     SimplexMoments
-        Positive where the boundary is oriented outward.
+        Positive if the boundary is oriented outward.
 
     Raises
     ------
@@ -238,7 +237,7 @@ def _measure(
 
 
 def _recursion(corners: NDArray, order: int) -> NDArray[np.float64]:
-    """(K, k) S_α of k simplices; corners: (n corners, n coordinates, k)."""
+    """Return (K, k) S_α of k simplices; corners: (n corners, n coordinates, k)."""
     dimension = corners.shape[1]
     starts, raised = _degree_steps(dimension, order)
     table = np.zeros((starts[-1], corners.shape[2]))
@@ -253,7 +252,7 @@ def _recursion(corners: NDArray, order: int) -> NDArray[np.float64]:
 
 
 def _weights(corners: NDArray, edges: NDArray, enclosed: bool) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """(k,) det or |N| of each simplex, and the same in absolute values."""
+    """Return (k,) det or |N| of each simplex, and the same in absolute values."""
     normal, size = _normals(edges)
     nothing = np.zeros(edges.shape[2])
     if enclosed:
@@ -263,7 +262,7 @@ def _weights(corners: NDArray, edges: NDArray, enclosed: bool) -> tuple[NDArray[
 
 
 def _normals(edges: NDArray) -> tuple[list[NDArray], list[NDArray]]:
-    """The n components of the generalized cross product of n-1 edges, and the same with every term positive.
+    """Return the n components of the generalized cross product of n-1 edges, and the same with every term positive.
 
     edges: (n-1, n, k). Minors by Laplace's expansion along the last row, smaller ones shared.
     """
@@ -286,13 +285,14 @@ def _normals(edges: NDArray) -> tuple[list[NDArray], list[NDArray]]:
 
 
 def _weight_steps(dimension: int) -> int:
-    """Roundings on the way of one product to det or |N|: two of each edge, a product and all sums of each minor."""
+    """Count the roundings on the way of one product to det or |N|: two of each edge, a product and all sums of each
+    minor."""
     minors = sum(2 + 1 + size for size in range(1, dimension))
     return minors + 2 * dimension + 6
 
 
 def _factor(exponents: list[int], measure: int) -> float:
-    """α! / (|α| + measure)!, correctly rounded but for the last division."""
+    """Return α! / (|α| + measure)!, correctly rounded but for the last division."""
     product = 1
     for n in exponents:
         product *= factorial(n)
@@ -316,8 +316,8 @@ def _positions(dimension: int, order: int) -> dict[tuple[int, ...], int]:
 
 @lru_cache
 def _degree_steps(dimension: int, order: int) -> tuple[list[int], list[list[NDArray]]]:
-    """Where each degree starts, and for each degree and axis where, in the next degree, its products with that
-    coordinate stand."""
+    """Return the start of each degree, and for each degree and axis the indices, in the next degree, of its products
+    with that coordinate."""
     starts = [0] + [comb(n + dimension, dimension) for n in range(order + 1)]
     positions, table = _positions(dimension, order), multi_indices(dimension, order).tolist()
     raised = []

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Simplices in n dimensions: the facets around full ones, and whether facets close."""
+"""Simplices in n dimensions: the facets around full ones, and a test that facets close."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from ..numerics.arguments import check_filled, float_array, index_array
 
 
 def facets_of(points: ArrayLike, simplices: ArrayLike) -> tuple[NDArray[np.integer], NDArray[np.float64]]:
-    """Return the facets around full simplices, each turned so that what it encloses is positive.
+    """Return the facets around full simplices, each turned so that the enclosed volume is positive.
 
     Parameters
     ----------
@@ -77,7 +77,7 @@ def closes(points: ArrayLike, simplices: ArrayLike, signs: ArrayLike | None = No
 
 
 def outer_facets(points: ArrayLike, simplices: ArrayLike, signs: ArrayLike | None = None) -> NDArray[np.intp]:
-    """Return the facets without those between two simplices, which are used as often one way as the other.
+    """Return the facets but for the ones between two simplices, which are used as often one way as the other.
 
     Parameters
     ----------
@@ -108,8 +108,8 @@ def outer_facets(points: ArrayLike, simplices: ArrayLike, signs: ArrayLike | Non
 def _sorted_corners(
     points: ArrayLike, simplices: ArrayLike, signs: ArrayLike | None
 ) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.float64]]:
-    """All facets that have an extent, the places of their corners, sorted, and 1 or -1, by which way they stand. Points
-    at the same place are one."""
+    """Return all facets that have an extent, the places of their corners, sorted, and 1 or -1, their orientations.
+    Points at the same place are one."""
     simplices = np.asarray(simplices)
     _, place = np.unique(np.asarray(points, np.float64) + 0.0, axis=0, return_inverse=True)
     corners = place.reshape(-1)[simplices]

@@ -71,10 +71,10 @@ MIN_TRIANGLES_TO_PAIR = 1000  # triangles below which looking for pairs costs mo
 MIN_TRIANGLES_PER_THREAD = 250_000
 # reaches beyond this, or below its inverse, are scaled, so that a product of six does not overflow or vanish
 MAX_UNSCALED_REACH = 2.0**100
-DIVISORS = np.array([6.0, 48.0, 120.0, 2880.0])[DEGREE]  # of the sums of `blocks`
+DIVISORS = np.array([6.0, 48.0, 120.0, 2880.0])[DEGREE]  # divide the sums of `blocks`
 
-# What is measured at a time: (k, 4) quads, (k, 3) triangles, or two such arrays of triangles whose rows may be halves
-# of one quad, with the surface's row that each array begins at; or, without rows, the (4, k) corners of turned quads.
+# Faces measured together: (k, 4) quads, (k, 3) triangles, or two such arrays of triangles with rows that may be
+# halves of one quad, with the surface's first row of each array; or, without rows, (4, k) corners of turned quads.
 _Block = tuple[list[int], list[NDArray]]
 
 
@@ -88,10 +88,11 @@ def integrate(
     about: NDArray | None = None,
     planarity: PlanarityAccumulator | None = None,
 ) -> tuple[Moments, Moments]:
-    """The volume's moments to third order; and the area where `area`, its moments to third order where `area_moments`.
+    """Return the moments of the volume to third order; and the area if `area`, its moments if
+    `area_moments`.
 
-    exact: the third order to rounding whatever the size of the mesh. about: (3,), by default the center of the bounding
-    box. planarity: is shown the faces, where that costs little.
+    exact: the third order to rounding for every size of mesh. about: (3,), by default the center of the bounding box.
+    planarity: is shown the faces, if that costs little.
     """
     count = len(surface.triangles) + 2 * len(surface.quads)
     if not count:
@@ -135,13 +136,13 @@ def integrate(
 
 
 def nothing(order: int, about: NDArray | None) -> tuple[Moments, Moments]:
-    """The volume and the area of no faces."""
+    """Return the volume and the area of no faces."""
     zeros, about = np.zeros(monomial_count(order)), np.zeros(3) if about is None else about
     return Moments(zeros, about, Measure.VOLUME), Moments(zeros, about, Measure.AREA)
 
 
 def finite_box(surface: Surface) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """The least and the largest coordinates. ValueError where they are not finite."""
+    """Return the least and the largest coordinates. ValueError if they are not finite."""
     low, high = surface.box
     if not all(map(isfinite, low.tolist() + high.tolist())):
         raise ValueError("coordinates must be finite")
@@ -149,7 +150,8 @@ def finite_box(surface: Surface) -> tuple[NDArray[np.float64], NDArray[np.float6
 
 
 def box_center(low: NDArray, high: NDArray, dtype: np.dtype) -> NDArray[np.float64]:
-    """The center of a bounding box of points of this type, for float32 rounded so that subtracting it is exact."""
+    """Return the center of a bounding box of points of this type, for float32 rounded so that subtracting it is
+    exact."""
     center = low / 2.0 + high / 2.0
     return center.astype(np.float32).astype(np.float64) if dtype == np.float32 else center
 
@@ -157,7 +159,7 @@ def box_center(low: NDArray, high: NDArray, dtype: np.dtype) -> NDArray[np.float
 def _measure_rescaled(
     surface: Surface, exponent: int, threads: int, about: NDArray | None, area: bool, area_moments: bool, exact: bool
 ) -> tuple[Moments, Moments]:
-    """The moments by way of a body of about unit size: 2^exponent times smaller, which rounds nothing."""
+    """Return the moments by way of a body of about unit size: 2^exponent times smaller, which rounds nothing."""
     points = np.ldexp(surface.points.astype(np.float64), -exponent)
     small = Surface(points, surface.all_triangles()[0], displacement=np.ldexp(surface.coordinate_error, -exponent))
     results = []
@@ -180,7 +182,7 @@ def _measure_rescaled(
 @dataclass(frozen=True, eq=False)
 class _Integration:
     """One surface to be measured. points: (n, 3). reach: (3,) bounds |points - center|. half_ulp: (3,). count:
-    triangles; size: those in a block."""
+    triangles; size: triangles in a block."""
 
     points: NDArray
     center: NDArray[np.float64]
@@ -195,7 +197,7 @@ class _Integration:
     threads: int
 
     def blocks(self, surface: Surface) -> list[_Block]:
-        """The faces in as few blocks as the memory allows, whatever the number of threads."""
+        """Return the faces in as few blocks as the memory allows, for any number of threads."""
         triangles, half, size = surface.triangles, len(surface.triangles) // 2, self.size
         if _quad_corners_of(triangles[:1], triangles[half : half + 1]) is None:
             half = 0
@@ -211,7 +213,7 @@ class _Integration:
         ]
 
     def block_sums(self, blocks: list[_Block]) -> list[BlockResult]:
-        """What the blocks add, in their order, whichever thread computed them."""
+        """Return the sums of the blocks, in their order, from several threads."""
         queue = iter(enumerate(blocks))
         threads = min(self.threads, len(blocks))
         if threads == 1:
@@ -230,7 +232,7 @@ class _Integration:
         return results
 
     def _run_queue(self, queue: Iterator[tuple[int, _Block]]) -> list[tuple[int, list[BlockResult], list[NDArray]]]:
-        """Of each block that is taken from the queue: its number, what it adds, and quads that were left out."""
+        """Return for each block taken from the queue: its number, its sums, and quads that were left out."""
         faces = BlockAccumulator(
             self.points, self.center, area=self.area, area_moments=self.area_moments, exact=self.exact
         )
@@ -259,7 +261,7 @@ class _Integration:
             faces.add_faces(part.T, observe=planarity and partial(planarity.add_triangles, [start], 1))
 
     def moments(self, sums: BlockSums) -> tuple[Moments, Moments]:
-        """Volume and area, with their bounds."""
+        """Return volume and area, with their bounds."""
         sizes, rounding, inputs = _error_bounds(self, sums)
         raw = sums.sums / DIVISORS
         if self.planarity is not None:
@@ -275,9 +277,10 @@ class _Integration:
 
 
 def _error_bounds(job: _Integration, sums: BlockSums) -> tuple[list[float], NDArray[np.float64], NDArray[np.float64]]:
-    """Bounds, from the largest edges of each chunk of triangles and the sums of their sizes, for volume and area.
+    """Return bounds, from the largest edges of each chunk of triangles and the sums of their sizes, for volume and
+    area.
 
-    Returns the sum of the |determinants| and that of the doubled areas; (2, 20) the errors of Σ w E[f], w the
+    They are the sum of the |determinants| and the sum of the doubled areas; (2, 20) the errors of Σ w E[f], w the
     determinants and the doubled areas; and (2, 20) the `input_error` of the moments.
     """
     sizes, count = np.add.reduce(sums.sizes, axis=1).tolist(), int(np.add.reduce(sums.counts))
@@ -311,14 +314,14 @@ def _error_bounds(job: _Integration, sums: BlockSums) -> tuple[list[float], NDAr
         swept = step * (double / 2.0 + step * edges + 2.0 * step**2 * count)
         tilted = step * (edges + 2.0 * step * count)
         moved_reach = reach + half_ulp
-        share = half_ulp / np.where(moved_reach > 0.0, moved_reach, 1.0)  # of an axis along which it has no extent
+        share = half_ulp / np.where(moved_reach > 0.0, moved_reach, 1.0)  # 1 for an axis without extent
         inputs[0] = swept * displaced
         inputs[1] = displaced * (tilted + EXPONENTS @ share * (swept / step))
     return sizes, rounding, inputs
 
 
 def quad_corners(triangles: NDArray) -> list[NDArray] | None:
-    """The four corners, (k/2,) each, of quads where triangles 2i and 2i+1 are halves of one for every i; else None.
+    """Return the four corners, (k/2,) each, of quads if triangles 2i and 2i+1 are halves of one for every i; else None.
 
     Meshes that were triangulated from quads are like that, and two triangles that share an edge cost less than two
     loose ones. The first pair shows which of their corners meet.
@@ -327,7 +330,7 @@ def quad_corners(triangles: NDArray) -> list[NDArray] | None:
 
 
 def _quad_corners_of(first: NDArray, second: NDArray) -> list[NDArray] | None:
-    """The same where triangle i of the one array and that of the other are halves of one quad."""
+    """Return the corners of quads if triangle i of `first` and triangle i of `second` are halves of one; else None."""
     if not len(second) or len(first) != len(second):
         return None
     for i in range(3):

@@ -9,16 +9,15 @@ a, c, d. With their determinants v and w, u = v + w, q = a + c and Z = u q + 2 (
     120 ∫ x x'     = H + (q Z' + Z q') / 2
     288 ∫ x x' x'' = q H + the same for the other two orders of the indices, but for the third moments about q / 2.
 
-Those are, of one triangle with e = c - a and f = 2 b - q, v / 2880 (f (f f' + e e') + the other two orders), of the
-order of an edge cubed. They are added on request. No sum cancels what it holds: all its weights are positive.
+These are, of one triangle with e = c - a and f = 2 b - q, v / 2880 (f (f f' + e e') + the other two orders), of the
+order of an edge cubed. They are added on request. No sum cancels: all its weights are positive.
 
-Where no areas are wanted, the determinants share a product: with m = (c-a) x a, v = (b-a)·m and w = (a-d)·m.
+If no areas are wanted, the determinants share a product: with m = (c-a) x a, v = (b-a)·m and w = (a-d)·m.
 
 Corners are gathered by component, so that every numpy call runs along contiguous rows. A call costs as much as some
-thousand additions, and threads gain only where calls are long: hence long blocks, few calls, results written over rows
-that are no longer needed, and whatever is done to a few numbers only is done once, for all blocks. Products are summed
-over slices of their rows, not along them: einsum then multiplies and adds in one pass, into rows that stay in the
-cache.
+thousand additions, and threads gain only if calls are long: hence long blocks, few calls, results written over rows
+that are no longer needed, and steps on a few numbers only are taken once, for all blocks. Products are summed over
+slices of their rows, not along them: einsum then multiplies and adds in one pass, into rows that stay in the cache.
 """
 
 from __future__ import annotations
@@ -33,7 +32,7 @@ from numpy.typing import NDArray
 from ..mesh.surface import flipped_quads
 from .workspace import Workspace, gather
 
-SLICES_PER_ROW = 32  # of a row that einsum adds up
+SLICES_PER_ROW = 32  # slices of a row that einsum adds up
 COLUMNS_PER_CHUNK = 1024  # columns at most that share one bound of their edges; a multiple of SLICES_PER_ROW
 MIN_FLIP_COSINE = 1e-6  # float32 may decide a quad's diagonal otherwise where float64 sees a cosine below this
 FLOAT32_OVERFLOW = 1e9  # edges from which the fourth powers in that decision leave the range of float32
@@ -42,7 +41,7 @@ NO_VERTEX = "no such vertex"
 NO_SUM = np.zeros(())
 TRIPLES = [(i, j, k) for i in range(3) for j in range(i, 3) for k in range(j, 3)]
 PAIR_INDEX = np.array([[0, 1, 2], [1, 3, 4], [2, 4, 5]])
-# Where, in a table of x, y, z times xx, xy, xz, yy, yz, zz, x, y, z, the terms of the symmetric products stand: two of
+# Indices, in a table of x, y, z times xx, xy, xz, yy, yz, zz, x, y, z, of the terms of the symmetric products: two of
 # each xx, xy, ... and three of each xxx, xxy, ...
 SQUARE = np.array([[9 * i + 6 + j, 9 * j + 6 + i] for i in range(3) for j in range(i, 3)]).T
 CUBE = np.array(
@@ -52,12 +51,12 @@ CUBE = np.array(
 
 @dataclass(frozen=True, eq=False)
 class BlockSums:
-    """What some blocks add.
+    """Sums over some blocks.
 
     sums, areas: (20,) Σ weight, 48, 120 and 2880 ∫ of the monomials of first to third order in the order of
     `monomials`, over the cones, and over their faces as if they were cones of unit height.
     side, base: (3, n) the largest components of b-a (or d-a) and c-a in each chunk of triangles. sizes: (2, n)
-    Σ |determinant| and Σ doubled area. counts: (n,) triangles. blocks: how many there were.
+    Σ |determinant| and Σ doubled area. counts: (n,) triangles. blocks: their number.
     """
 
     sums: NDArray[np.float64]
@@ -70,26 +69,25 @@ class BlockSums:
 
 
 def scratch_size(count: int, each: bool, exact: bool) -> int:
-    """How many numbers the scratch holds for a face of `count` corners; each: as for `_BlockCalls`."""
+    """Return the count of numbers in the scratch for a face of `count` corners; each: as for `_BlockCalls`."""
     fans = count - 2
     return 6 * count + 2 * fans + max(3 * count - 3 + 6 * (fans if each else 1), 16) + (9 * fans if exact else 0)
 
 
 class _BlockCalls:
-    """What numpy does with blocks of one shape: arrays, and the calls bound to them, as to make views in the loop would
-    cost time.
+    """Arrays for blocks of one shape, and the numpy calls bound to them: making views in the loop would cost time.
 
-    Of faces with c corners there are chunks times width, k columns:
+    For faces with c corners there are chunks times width, k columns:
     corners: (3, c, k). weights: (2, c-2, k), the determinants and the doubled areas.
     First index: (c, k), and single: (3, c, k) in float32; then weighted: (3, c, k); at last heavy: (6, c-2, k).
-    First edges: (3, c-1, k), b-a, c-a and a-d, with normals and spare: (3, f, k), where f is c-2, or 1 where not each
-    triangle's normal is wanted; then table: (13, k), the tensors' six rows and those of two vectors and a number, and
-    middle: (3, k). On request tips: (3, c-2, k), the vectors f, and local: (6, c-2, k), f f' + e e'.
+    First edges: (3, c-1, k), b-a, c-a and a-d, with normals and spare: (3, f, k), with f = c-2, or f = 1 if not each
+    triangle's normal is wanted; then table: (13, k), the tensors' six rows, two vectors and a number, and middle:
+    (3, k). On request tips: (3, c-2, k), the vectors f, and local: (6, c-2, k), f f' + e e'.
 
-    start: the calls from the corners to the normals, weigh: those to the weights. largest, least: (3, c-1, chunks) of
-    the edges, sizes: (1 or 2, c-2, chunks) of the weights' absolute values. volume: 6 times that of the tetrahedron of
-    each quad's corners, room: two rows that are free then. prepare: the calls that the moments with
-    all weights share, moments: those with each, and the calls that return sums.
+    start: the calls from the corners to the normals, weigh: the calls to the weights. largest, least: (3, c-1, chunks)
+    of the edges, sizes: (1 or 2, c-2, chunks) of the weights' absolute values. volume: 6 times the tetrahedron of each
+    quad's corners, room: two rows that are free then. prepare: the calls that the moments with all weights share,
+    moments: the calls for each weight, and the calls that return sums.
     """
 
     def __init__(
@@ -161,15 +159,15 @@ class _BlockCalls:
             self.moments.append((calls, sums))
 
 
-# of one block: its faces, the edges' extremes, the sizes, the sums
+# One block: its faces, the edges' extremes, the sizes, the sums.
 BlockResult = tuple[int, NDArray, NDArray, list, list]
 
 
 class BlockAccumulator:
-    """The loop body for blocks of faces. results: what each block so far has added.
+    """The loop body for blocks of faces. results: the sums of each block so far.
 
-    points: (n, 3) contiguous float32 or float64. center: (3,) the reference point. area: whether doubled areas are
-    wanted, area_moments: also their moments. exact: whether the third order is.
+    points: (n, 3) contiguous float32 or float64. center: (3,) the reference point. area: True for doubled areas,
+    area_moments: also for their moments. exact: True for the exact third order.
     """
 
     def __init__(self, points: NDArray, center: NDArray, *, area: bool, area_moments: bool, exact: bool):
@@ -185,11 +183,11 @@ class BlockAccumulator:
     ) -> None:
         """Add some faces.
 
-        faces: the vertices a, b, c and perhaps d, (k,) each. quads: leave those out that Blender cuts along the other
-        diagonal, and append them to `flipped`, turned by one corner; otherwise the first diagonal is taken.
+        faces: the vertices a, b, c and perhaps d, (k,) each. quads: leave out the quads that Blender cuts along the
+        other diagonal, and append them to `flipped`, turned by one corner; otherwise the first diagonal is taken.
         observe: is shown the doubled areas, (c - 2, k); of quads also 6 times the volumes of the tetrahedra of their
-        corners, (k,), the columns of those whose triangles may face away from each other, and gets room, (2, k).
-        ValueError where an index names no point.
+        corners, (k,), the columns with triangles that may face away from each other, and gets room, (2, k). ValueError
+        if an index names no point.
         """
         k = len(faces[0])
         shape = (len(faces), *chunk_shape(k), self.area or quads)
@@ -201,7 +199,7 @@ class BlockAccumulator:
                 row[:k] = corner
         if k < workspace.index.shape[1]:
             workspace.index[:, k:] = faces[0][0]  # filled up with faces that are a point
-        if workspace.unsigned.max() >= len(self.points):  # where a negative index is a large one
+        if workspace.unsigned.max() >= len(self.points):  # a negative index becomes a large one
             raise ValueError(NO_VERTEX)
         gather(self.points, workspace.index, workspace.single, workspace.corners)
         for call in workspace.start:
@@ -229,14 +227,14 @@ class BlockAccumulator:
     def _find_flipped(
         self, workspace: _BlockCalls, largest: NDArray, k: int
     ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-        """Those of the first k columns whose quads Blender may cut along their other diagonal, and those that it does,
-        once they are appended to `flipped`.
+        """Return the first k columns with quads that Blender may cut along their other diagonal, and the ones that it
+        does, after appending them to `flipped`.
 
-        They are those whose two normals face away from each other in float32. That can differ from float64 only where
-        the product is within float32's rounding of zero.
+        The two normals of such a quad face away from each other in float32. That can differ from float64 only if the
+        product is within float32's rounding of zero.
         """
         cosine = np.einsum("dk,dk->k", workspace.normals[:, 0], workspace.normals[:, 1], out=workspace.cosine)
-        cosine[k:] = np.inf  # where the block is filled up
+        cosine[k:] = np.inf  # the filling of the block
         if self.points.dtype == np.float32:
             length = np.sqrt((largest**2).sum(axis=0))
             margin = np.maximum(MIN_FLIP_COSINE * length[0] * length[1] ** 2 * length[2], FLOAT32_UNDERFLOW)
@@ -257,7 +255,7 @@ class BlockAccumulator:
 
 
 def combine_blocks(results: Sequence[BlockResult]) -> BlockSums:
-    """What all these blocks together add."""
+    """Return the sums over all these blocks together."""
     columns = []
     for k, largest, least, sizes, _ in results:
         edges, width = np.maximum(largest, -least), chunk_shape(k)[1]
@@ -279,7 +277,8 @@ def combine_blocks(results: Sequence[BlockResult]) -> BlockSums:
 
 
 def to_monomial_sums(table_sums: NDArray, products: NDArray, local: NDArray | None = None) -> NDArray[np.float64]:
-    """(20,) `BlockSums.sums` from the sums of the table's rows, (13,), and the products that have been summed."""
+    """Return (20,) `BlockSums.sums` from the sums of the table's rows, (13,), and the products that have been
+    summed."""
     mixed = 0.5 * np.add.reduce(products.take(SQUARE))
     third = 10.0 * np.add.reduce(products.take(CUBE))
     total = 2.0 * np.concatenate([table_sums[12:], table_sums[6:9] + table_sums[9:12], table_sums[:6] + mixed, third])
@@ -289,13 +288,13 @@ def to_monomial_sums(table_sums: NDArray, products: NDArray, local: NDArray | No
 
 
 def chunk_shape(k: int) -> tuple[int, int]:
-    """How many chunks hold k columns, and of what width."""
+    """Return the number of chunks that hold k columns, and their width."""
     chunks = -(-k // COLUMNS_PER_CHUNK)
     return chunks, -(-k // (chunks * SLICES_PER_ROW)) * SLICES_PER_ROW
 
 
 def _cross_calls(first: NDArray, second: NDArray, out: NDArray, spare: NDArray) -> list[partial]:
-    """The calls for (3, f, k) cross products of (3, f, k) with (3, 1, k) rows of x, y and z."""
+    """Return the calls for (3, f, k) cross products of (3, f, k) with (3, 1, k) rows of x, y and z."""
     return [
         partial(np.multiply, first[1:], second[::-2], out[:2]),  # y z', z x'
         partial(np.multiply, first[0], second[1], out[2]),
@@ -308,7 +307,7 @@ def _cross_calls(first: NDArray, second: NDArray, out: NDArray, spare: NDArray) 
 def _local_calls(
     sides: NDArray, base: NDArray, apex_vectors: NDArray, local: NDArray, squares: NDArray
 ) -> list[partial]:
-    """The calls for the vectors f and for f f' + e e' of every triangle."""
+    """Return the calls for the vectors f and for f f' + e e' of every triangle."""
     calls = [
         partial(np.multiply, sides, np.array([[2.0], [-2.0]])[: sides.shape[1]], apex_vectors),
         partial(np.subtract, apex_vectors, base, apex_vectors),
@@ -323,7 +322,7 @@ def _local_calls(
 
 
 def _weighted_calls(corners: NDArray, weights: NDArray, weighted: NDArray, table: NDArray) -> list[partial]:
-    """The calls for the weighted corners, and for the table: half of H, of Z, of u q and of u."""
+    """Return the calls for the weighted corners, and for the table: half of H, of Z, of u q and of u."""
     both, every, half = table[9:12], table[6:9], table[12]
     if len(weights) == 2:
         calls = [partial(np.add, weights[0], weights[1], half), partial(np.multiply, half, 0.5, half)]
@@ -344,10 +343,10 @@ def _weighted_calls(corners: NDArray, weights: NDArray, weighted: NDArray, table
 
 
 def _in_slices(table: NDArray) -> NDArray[np.float64]:
-    """(m, SLICES_PER_ROW, ·) rows whose products can be summed."""
+    """Return the rows as (m, SLICES_PER_ROW, ·), so that their products can be summed."""
     return table.reshape(len(table), SLICES_PER_ROW, -1)
 
 
 def _scalar_products(vectors: NDArray, second: NDArray) -> NDArray[np.float64]:
-    """(m, n) the scalar products of m rows with n."""
+    """Return (m, n) the scalar products of m rows with n."""
     return np.add.reduce(np.einsum("cjk,pjk->cpk", vectors, second), axis=2)

@@ -2,14 +2,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Volume and area moments to third order of bodies of few triangles, one or a stack of them, exact to rounding.
 
-Where numpy's calls cost more than its arithmetic, all triangles of all bodies are taken at once, by the complete
-homogeneous polynomials of their corners (Sheynin and Tuzikov's formula to third order): with s = a + b + c,
-P = aa' + bb' + cc' and a triangle's weight w,
+Since numpy's calls cost more than its arithmetic here, all triangles of all bodies are taken at once, by the complete
+homogeneous polynomials of their corners (Sheynin and Tuzikov's formula to third order): with s = a + b + c, P = aa' +
+bb' + cc' and a triangle's weight w,
 
     24 ∫ x = Σ w s,   120 ∫ x x' = Σ w (s s' + P),
     720 ∫ x x' x'' = Σ w (s s' s'' + s P' + the same for the other two orders of the indices + 2 Σ_corners c c' c'').
 
-Each body's sums run over its own segment of the rows, so that they are the same to the bit whatever stands beside it.
+Each body's sums run over its own segment of the rows, so that they are the same to the bit for any neighbors.
 """
 
 from __future__ import annotations
@@ -23,17 +23,17 @@ from .third_order_kernel import PAIR_INDEX, TRIPLES
 
 EXPONENTS = monomials(3)
 DEGREE = EXPONENTS.sum(axis=1)
-# of 1, x, y, z
+# Factors of each monomial, as indices of 1, x, y, z.
 MONOMIAL_FACTORS = np.sort([[0] * (3 - p - q - r) + [1] * p + [2] * q + [3] * r for p, q, r in EXPONENTS])
-DIVISORS = np.array([6.0, 24.0, 120.0, 1080.0])[DEGREE]  # of the sums below
-PRODUCT_ROUNDINGS = 8.0 * DEGREE  # u: what products of weights and nodes are off by
+DIVISORS = np.array([6.0, 24.0, 120.0, 1080.0])[DEGREE]  # divide the sums below
+PRODUCT_ROUNDINGS = 8.0 * DEGREE  # in u: errors of products of weights and nodes
 THIRD_ORDER_SHARE = np.repeat([1.0, 2.0], 10)  # the third moments about the middles come to as much again at most
 CONE_DIVISORS = 2.0 * DEGREE + 6.0  # ∫ f over a cone is w E[f] / this
 AREA_FACTORS = DEGREE + 3.0  # ∫ f over a triangle is (doubled area E[f]) / 2, this much more
 TRIANGLES_PER_BLOCK = 2048  # whose products stay in the cache
 ROWS, COLUMNS = np.triu_indices(3)
 NEXT_AXIS, PREVIOUS_AXIS = [1, 2, 0], [2, 0, 1]
-# Where, in a table of x, y, z times xx, xy, xz, yy, yz, zz, the three terms of each symmetric product stand.
+# Indices of the three terms of each symmetric product in a table of x, y, z times xx, xy, xz, yy, yz, zz.
 CUBE = np.array(
     [[6 * i + PAIR_INDEX[j, k], 6 * j + PAIR_INDEX[i, k], 6 * k + PAIR_INDEX[i, j]] for i, j, k in TRIPLES]
 ).T
@@ -50,8 +50,8 @@ def small_moments(
     area: bool,
     area_moments: bool,
 ) -> tuple[Moments, Moments, NDArray[np.float64]]:
-    """Return the volume's moments of n bodies and their areas, stacked; and (n, 2) what the cones over the faces of
-    each add up to where all count as positive, and signed.
+    """Return the volume's moments of n bodies and their areas, stacked; and (n, 2) the sums of the cones over the
+    faces of each, all counted as positive, and signed.
 
     Parameters
     ----------
@@ -63,11 +63,11 @@ def small_moments(
     center : (n, 3) array
         The point that each body's moments are about.
     reach, half_ulp : (n, 3) array
-        What bounds the distances of its points from there, and how far storing them may have moved them.
+        Bounds of the distances of its points from there, and of their shifts by storing.
     area : bool
-        Whether areas are wanted; else they are zero, and the volume's `input_error` is the larger.
+        True for areas; else they are zero, and the volume's `input_error` is the larger.
     area_moments : bool
-        Whether the area's moments are wanted to third order too.
+        True for the area's moments to third order too.
     """
     ends, sums = np.cumsum(counts), []
     coordinates, first = np.ascontiguousarray(points.T), 0
@@ -99,10 +99,10 @@ def small_moments(
 def _segment_sums(
     corners: NDArray, counts: NDArray[np.integer], center: NDArray, area: bool, area_moments: bool
 ) -> tuple[NDArray, ...]:
-    """What some bodies add. corners: (3, 3, t) x, y, z of the corners a, b, c of their triangles.
+    """Return the sums of some bodies. corners: (3, 3, t) x, y, z of the corners a, b, c of their triangles.
 
-    Returns (n, 20) Σ w f of which `DIVISORS` make moments; the same with doubled areas as weights, or (n, 0); the
-    largest components of b-a and of c-a, (n, 3) each; and (n, 2) Σ |w| and Σ doubled area.
+    They are (n, 20) Σ w f, made moments by `DIVISORS`; the same with doubled areas as weights, or (n, 0); the largest
+    components of b-a and of c-a, (n, 3) each; and (n, 2) Σ |w| and Σ doubled area.
     """
     starts = np.cumsum(counts) - counts
     edges = corners[:, 1:] - corners[:, :1]
@@ -112,7 +112,7 @@ def _segment_sums(
     middle = center.T[:, None] if len(counts) == 1 else np.repeat(center.T, counts, axis=1)[:, None]
     np.subtract(corners, middle, nodes[:, :3])
     np.add.reduce(nodes[:, :3], axis=1, out=nodes[:, 3])
-    sums = np.empty((20, nodes.shape[2]))  # of each triangle with weight 1
+    sums = np.empty((20, nodes.shape[2]))  # for each triangle with weight 1
     sums[0] = 1.0
     sums[1:4] = nodes[:, 3]
     products = nodes.take(ROWS, 0) * nodes.take(COLUMNS, 0)  # (6, 4, t)
@@ -141,7 +141,7 @@ def _segment_sums(
 def _error_bounds(
     reach: NDArray, half_ulp: NDArray, side: NDArray, base: NDArray, sizes: NDArray, counts: NDArray, area: bool
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """The errors of Σ w E[f], w the determinants and the doubled areas, (2, n, 20), and the `input_error` of the
+    """Return the errors of Σ w E[f], w the determinants and the doubled areas, (2, n, 20), and the `input_error` of the
     moments, (2, n, 20); see `third_order`.
 
     side, base: (n, 3) the largest edges. sizes: (n, 2). counts: (n, 1).
@@ -164,14 +164,14 @@ def _error_bounds(
         # the volume that a closed surface sweeps where float32 has moved its points
         swept = double / 2.0 + step * edges + 2.0 * step * step * counts
         tilted = step * (edges + 2.0 * step * counts)
-        share = half_ulp / np.where(moved_reach > 0.0, moved_reach, 1.0)  # of an axis along which it has no extent
+        share = half_ulp / np.where(moved_reach > 0.0, moved_reach, 1.0)  # 1 for an axis without extent
         inputs[0] = step * swept * displaced
         inputs[1] = displaced * (tilted + np.add.reduce(share[:, None] * EXPONENTS, axis=2) * swept)
     return rounding, inputs
 
 
 def monomial_bounds(reaches: NDArray) -> NDArray[np.float64]:
-    """(k, 20) the largest value of each monomial within each of (k, 3) reaches."""
+    """Return (k, 20) the largest value of each monomial within each of (k, 3) reaches."""
     factors = np.ones((len(reaches), 4))
     factors[:, 1:] = reaches
     return np.multiply.reduce(factors.take(MONOMIAL_FACTORS, axis=1), axis=2)

@@ -16,13 +16,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 ROW_PADDING = 8  # numbers between arrays: numpy < 2 leaves its vector loop where output ends at input's start
-MAX_ARRAYS = 16  # of one shape, at a time
+MAX_ARRAYS = 16  # arrays of one shape, at a time
 
 Block = TypeVar("Block")
 
 
 class Workspace(Generic[Block]):
-    """Makes what a kernel needs for blocks of one shape, and keeps it until another shape is asked for.
+    """Memory of a kernel for blocks of one shape, kept until another shape is asked for.
 
     make: (workspace, *shape) → a block, whose arrays it gets from `take` and `overlay`.
     """
@@ -35,7 +35,7 @@ class Workspace(Generic[Block]):
         self._block: Block | None = None
 
     def block(self, shape: tuple[Hashable, ...], numbers: int) -> Block:
-        """The block of this shape. numbers: how many its arrays hold together, those that share memory once."""
+        """Return the block of this shape. numbers: size of its arrays together; arrays that share memory count once."""
         block = self._block
         if block is None or shape != self._shape:
             self._shape = self._block = block = None
@@ -49,14 +49,14 @@ class Workspace(Generic[Block]):
         return block
 
     def take(self, *shape: int) -> NDArray[np.float64]:
-        """The next contiguous array."""
+        """Return the next contiguous array."""
         start = self._position
         end = start + prod(shape)
         self._position = end + ROW_PADDING
         return self._buffer[start:end].reshape(shape)
 
     def overlay(self, *groups: Sequence[tuple[int, ...]]) -> list[list[NDArray[np.float64]]]:
-        """Arrays of these shapes, group by group; the groups share memory, for their times differ."""
+        """Return arrays of these shapes, group by group; the groups share memory, for their times differ."""
         start, end, arrays = self._position, self._position, []
         for group in groups:
             self._position = start
@@ -67,7 +67,8 @@ class Workspace(Generic[Block]):
 
 
 def gather(points: NDArray, index: NDArray[np.intp], single: NDArray[np.float32], corners: NDArray[np.float64]) -> None:
-    """The coordinates of points, one row for each axis: `corners`, (3, ...), by way of `single` where they are float32.
+    """Gather the coordinates of points, one row for each axis: into `corners`, (3, ...), by way of `single` if they are
+    float32.
 
     points: (n, 3) contiguous. index: checked; it is multiplied by 3.
     """

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Scans and arrays of samples in files, by their suffix, and where their samples stand."""
+"""Scans and arrays of samples in files, by their suffix, and the positions of their samples."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ SUFFIXES = tuple(READERS)
 
 
 def scan_suffix(path: str | Path) -> str:
-    """Return what the file's name ends with, in lower case.
+    """Return the suffix of the file's name, in lower case.
 
     Parameters
     ----------
@@ -53,7 +53,7 @@ def scan_suffix(path: str | Path) -> str:
     Returns
     -------
     str
-        One of `SUFFIXES`, or "" where it is no scan's.
+        One of `SUFFIXES`, or "" if it is no scan's.
 
     Examples
     --------
@@ -72,7 +72,7 @@ def read_scan(path: str | Path, limits: Limits = DEFAULT_LIMITS) -> Scan:
     ----------
     path : str or Path
     limits : Limits
-        What its header may ask for.
+        Limits on the demands of its header.
 
     Returns
     -------
@@ -104,7 +104,7 @@ def read_scan(path: str | Path, limits: Limits = DEFAULT_LIMITS) -> Scan:
     if not path.is_file():
         raise FileError(FILE_NOT_REGULAR if path.exists() else FILE_MISSING)
     with open(path, "rb"):
-        pass  # where it cannot be opened this says why; what reads it would take it for damaged
+        pass  # raises OSError with the reason; a reader would call the file damaged
     try:
         scan = read(path, limits)
     except MemoryError as error:
@@ -120,7 +120,7 @@ def read_scan(path: str | Path, limits: Limits = DEFAULT_LIMITS) -> Scan:
 def sample_matrix(
     scan: Scan, spacing: Sequence[float] | None, origin: Sequence[float] | None, unit_scale: float | None
 ) -> tuple[NDArray[np.float64], tuple[Finding, ...]]:
-    """Return where the samples of a scan stand, in meters.
+    """Return the positions of the samples of a scan, in meters.
 
     Parameters
     ----------
@@ -128,14 +128,14 @@ def sample_matrix(
     spacing, origin : sequence of three float, or None
         In place of the header's, in units of `unit_scale` meters; axes x, y, z.
     unit_scale : float or None
-        Meters per unit where the file states none; 1 by default.
+        Meters per unit if the file states none; 1 by default.
 
     Returns
     -------
     matrix : (4, 4) array
         The sample (i, j, k) stands at matrix @ (i, j, k, 1).
     findings : tuple of Finding
-        What was decided on the way.
+        Decisions made on the way.
 
     Examples
     --------

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a scan's file may make its reader do. A small file can ask for terabytes: by a sparse file, by compression, by
-what its header says."""
+"""Limits on the demands of a scan's file. A small file can ask for terabytes: by a sparse file, by compression, by its
+header."""
 
 from __future__ import annotations
 
@@ -15,10 +15,9 @@ from .findings import FILE_EXCEEDS_LIMIT, LIMITS_UNRECOGNIZED
 
 @dataclass(frozen=True)
 class Limits:
-    """samples: of one scan. unpacked_bytes: of compressed samples, all of which are in memory. entries: of an archive.
-    header_bytes: of a header. text_bytes: of a file of surfaces, which is text. allow_outside: whether a header may
-    name a file of samples outside of its own folder.
-    """
+    """Limits of a file. samples: of one scan. unpacked_bytes: of compressed samples, all of which are in memory.
+    entries: of an archive. header_bytes: of a header. text_bytes: of a file of surfaces, which is text. allow_outside:
+    if a header may name a file of samples outside of its own folder."""
 
     samples: int = 1 << 33
     unpacked_bytes: int = 1 << 32
@@ -29,8 +28,8 @@ class Limits:
 
     @classmethod
     def parse(cls, text: str) -> Limits:
-        """The limits with those replaced that a text such as “samples=2e10, entries=5000” gives. QueryError where it
-        is none."""
+        """Return the limits with some replaced by a text such as “samples=2e10, entries=5000”. QueryError if the text
+        is invalid."""
         names = [field.name for field in fields(cls) if field.type == "int"]
         given = {}
         for part in filter(None, text.replace(",", " ").split()):
@@ -44,7 +43,7 @@ class Limits:
         return replace(cls(), **given)
 
     def check(self, path: Path, name: str, count: int) -> None:
-        """FileError where a file needs more of something than its limit."""
+        """Raise FileError if a file needs more of something than its limit."""
         limit = getattr(self, name)
         if count > limit:
             wanted = max(int(count), 2 * limit)

@@ -36,7 +36,7 @@ BYTE_ORDERS: tuple[ByteOrder, ...] = ("<", ">")
 
 
 def read_nifti(path: Path, limits: Limits) -> Scan:
-    """The scan, mapped where it is not packed."""
+    """Read the scan, mapped if it is not packed."""
     packed = path.name.lower().endswith(".gz")
     head = _head(path, packed)
     if len(head) < HEADER:
@@ -84,7 +84,8 @@ def _head(path: Path, packed: bool) -> bytes:
 
 
 def _sample_matrix(head: bytes, order: str) -> tuple[NDArray[np.float64], bool]:
-    """By the standard's three methods: the affine, else the quaternion, else the spacing alone."""
+    """Return the matrix of the samples by the standard's three methods: the affine, else the quaternion, else the
+    spacing alone."""
     matrix = np.eye(4)
     pixdim = struct.unpack_from(order + "8f", head, 76)
     qform, sform = struct.unpack_from(order + "2h", head, 252)

@@ -71,8 +71,8 @@ _HEADER_END = re.compile(rb"\r?\n\r?\n")
 
 
 def read_header(path: Path, limits: Limits) -> tuple[dict[str, str], int | None]:
-    """The fields by their names in lower case, and where the samples begin; None where the file ends before. FileError
-    where it is no NRRD file, or the header has no end within the limit."""
+    """Return the fields by their names in lower case, and the offset of the samples; None if the file ends before.
+    FileError if it is no NRRD file, or the header has no end within the limit."""
     head, end = bytearray(), None
     with open(path, "rb") as file:
         while not end and (block := file.read(HEADER_BLOCK)):
@@ -88,18 +88,18 @@ def read_header(path: Path, limits: Limits) -> tuple[dict[str, str], int | None]
     text = head[: end.start() if end else len(head)].decode("latin-1")
     for line in text.splitlines()[1:]:
         name, colon, value = line.partition(":")
-        if colon and not value.startswith("="):  # of a key's value
+        if colon and not value.startswith("="):  # “:=” sets a key's value
             fields[name.strip().lower()] = value.strip()
     return fields, end.end() if end else None
 
 
 def data_file(fields: dict[str, str]) -> str | None:
-    """The name of the file that has the samples, where it is another one."""
+    """Return the name of the file that has the samples, if it is another one."""
     return fields.get("data file", fields.get("datafile"))
 
 
 def read_nrrd(path: Path, limits: Limits) -> Scan:
-    """The scan, mapped where it is raw."""
+    """Read the scan, mapped if it is raw."""
     fields, start = read_header(path, limits)
 
     def needed(name: str) -> str:
@@ -145,7 +145,7 @@ def read_nrrd(path: Path, limits: Limits) -> Scan:
 
 
 def _samples_start(path: Path, name: str | None, start: int | None, limits: Limits) -> tuple[Path, int]:
-    """The file that has the samples, and from which byte on. name: of a detached file."""
+    """Return the file that has the samples, and their offset in it. name: of a detached file."""
     if name is None:
         if start is None:
             raise FileError(NRRD_HEADER_UNENDED)
@@ -167,7 +167,7 @@ def _single_value(values: list, name: str) -> list:
 
 
 def _alias(fields: dict[str, str], name: str) -> str:
-    """NRRD fields may be written without their space."""
+    """Return the name of a field as the header has it: NRRD fields may be written without their space."""
     return name if name in fields else name.replace(" ", "")
 
 
@@ -183,7 +183,7 @@ def _skip_lines(path: Path, start: int, count: int, limits: Limits) -> int:
 def _sample_matrix(
     fields: dict[str, str], numbers: Callable[..., list]
 ) -> tuple[NDArray[np.float64], bool, float | None]:
-    """Where the samples stand, whether the header says so, and in which unit."""
+    """Return the matrix of the sample positions, whether the header states it, and its unit."""
     matrix = np.eye(4)
     words = re.findall(r'"([^"]*)"', fields.get("space units", fields.get("units", "")))
     units = {UNITS.get(word.strip().lower()) for word in words[:3]}
@@ -209,7 +209,7 @@ def _sample_matrix(
 
 
 def _vectors(text: str, name: str) -> Iterator[list[float] | None]:
-    """Vectors in parentheses, with “none” between them. Each character is looked at once."""
+    """Parse vectors in parentheses, with “none” between them. Each character is looked at once."""
     rest = text.strip()
     for _ in range(MAX_AXES):
         vector, end, rest = rest.partition("none" if rest.startswith("none") else ")")

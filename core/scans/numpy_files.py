@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Arrays in NumPy's files, .npy and .npz, and raw samples without a header, whose shape and type are in their name."""
+"""Arrays in NumPy's files, .npy and .npz, and raw samples without a header, with shape and type in their file's
+name."""
 
 from __future__ import annotations
 
@@ -29,18 +30,18 @@ from .limits import DEFAULT_LIMITS, Limits
 from .scan import Scan, check_length, damaged, map_samples, real_samples, shape_of
 
 TYPES = ("uint8", "int8", "uint16", "int16", "uint32", "int32", "uint64", "int64", "float32", "float64")
-ENTRY = b"PK\1\2"  # how an entry of a zip archive's directory begins
-MAX_ARRAY_HEADER = 10_000  # bytes, as for numpy.load
+ENTRY = b"PK\1\2"  # first bytes of an entry in a zip archive's directory
+MAX_ARRAY_HEADER = 10_000  # bytes, like numpy.load
 
 
 def read_npy(path: Path, _limits: Limits) -> Scan:
-    """The array, mapped."""
+    """Read the array, mapped."""
     return Scan(real_samples(map_array(path)), np.eye(4))
 
 
 def map_array(path: Path) -> NDArray:
-    """The array of any shape and type but objects, mapped. FileError where the file is not just that, OSError where it
-    cannot be opened."""
+    """Map the array, of any shape and type but objects. FileError if the file is not just that, OSError if it cannot be
+    opened."""
     with open(path, "rb") as file:
         start = file.read(12)
     with _damage(path, DAMAGE_ARRAY):
@@ -51,7 +52,7 @@ def map_array(path: Path) -> NDArray:
 
 
 def read_npz(path: Path, limits: Limits) -> Scan:
-    """The array called “density”, else the first of three dimensions; of the others the headers alone are read."""
+    """Read the array called “density”, else the first of three dimensions; only the headers of the others are read."""
     with _archive(path, limits) as (archive, shapes):
         volumes = [name for name, shape in shapes.items() if len(shape) == 3]
         if not volumes:
@@ -63,15 +64,15 @@ def read_npz(path: Path, limits: Limits) -> Scan:
 
 
 def read_arrays(path: Path, names: Sequence[str], limits: Limits) -> dict[str, NDArray]:
-    """Those of the arrays that an .npz has, of any shape and type but objects. FileError where it is damaged or asks
-    for more than the limits, OSError where it cannot be opened."""
+    """Return the arrays of these names that an .npz has, of any shape and type but objects. FileError if it is damaged
+    or asks for more than the limits, OSError if it cannot be opened."""
     with _archive(path, limits) as (archive, shapes):
         return {name: _unpack(archive, path, name, limits) for name in names if name in shapes}
 
 
 @contextmanager
 def _archive(path: Path, limits: Limits) -> Iterator[tuple[zipfile.ZipFile, dict[str, tuple[int, ...]]]]:
-    """An archive and the shapes of its arrays, by name. What is raised meanwhile becomes a FileError."""
+    """Open an archive and read the shapes of its arrays, by name. Any exception meanwhile becomes a FileError."""
     with open(path, "rb") as file, _damage(path, DAMAGE_ARRAYS), zipfile.ZipFile(file) as archive:
         entries = archive.infolist()
         limits.check(path, "entries", len(entries))
@@ -90,27 +91,28 @@ def _damage(path: Path, code: str) -> Iterator[None]:
         raise
     except zipfile.BadZipFile as error:
         raise damaged(path, DAMAGE_ARCHIVE, error=str(error).rstrip(".")) from error
-    except Exception as error:  # of a damaged header NumPy evaluates what it finds, and may raise anything
+    except Exception as error:  # NumPy evaluates a damaged header, which may raise anything
         raise damaged(path, code) from error
 
 
 def _unpack(archive: zipfile.ZipFile, path: Path, name: str, limits: Limits) -> NDArray:
-    """An array, read to the end of its entry, where zipfile compares the checksum."""
+    """Read an array, to the end of its entry, so that zipfile compares the checksum."""
     limits.check(path, "unpacked_bytes", archive.getinfo(name + ".npy").file_size)
     with archive.open(name + ".npy") as file:
         return np.lib.format.read_array(file, allow_pickle=False)
 
 
 def _check_array_header(start: bytes) -> None:
-    """NumPy reads a header of gigabytes before it refuses it. Raises ValueError."""
+    """Check the size of a header: NumPy reads gigabytes of it before it refuses. Raises ValueError."""
     length = start[8 : 10 if start[6:7] == b"\1" else 12]
     if int.from_bytes(length, "little") > MAX_ARRAY_HEADER:
         raise ValueError("length of header")
 
 
 def _npz_header(archive: zipfile.ZipFile, entry: zipfile.ZipInfo) -> tuple[int, ...]:
-    """The shape of an array in an archive, which must fill its entry: beyond the array no checksum would be reached."""
-    with cast(zipfile.ZipExtFile, archive.open(entry)) as file:  # which can be looked into
+    """Return the shape of an array in an archive, which must fill its entry: beyond the array no checksum would be
+    reached."""
+    with cast(zipfile.ZipExtFile, archive.open(entry)) as file:  # has `peek`
         _check_array_header(file.peek(12))
         version = np.lib.format.read_magic(file)
         read = np.lib.format.read_array_header_1_0 if version == (1, 0) else np.lib.format.read_array_header_2_0
@@ -123,7 +125,7 @@ def _npz_header(archive: zipfile.ZipFile, entry: zipfile.ZipInfo) -> tuple[int, 
 def read_raw(
     path: str | Path, shape: Sequence[int], dtype: str, big_endian: bool = False, limits: Limits = DEFAULT_LIMITS
 ) -> Scan:
-    """Samples with no header: shape (nx, ny, nz), x running fastest; dtype: one of TYPES."""
+    """Read samples with no header: shape (nx, ny, nz), x running fastest; dtype: one of TYPES."""
     if dtype not in TYPES:
         raise FileError(RAW_TYPE_UNKNOWN, type=dtype, types=", ".join(TYPES))
     kind = np.dtype(dtype).newbyteorder(">" if big_endian else "<")
@@ -133,7 +135,7 @@ def read_raw(
 
 
 def read_named_raw(path: Path, limits: Limits) -> Scan:
-    """A raw file that is called NAME_XxYxZ_TYPE.raw, as those of the Open SciVis collection are."""
+    """Read a raw file that is called NAME_XxYxZ_TYPE.raw, like the Open SciVis collection."""
     layout = re.search(r"_(\d+)x(\d+)x(\d+)_({:s})\.raw$".format("|".join(TYPES)), path.name, re.IGNORECASE)
     if not layout:
         raise FileError(RAW_WITHOUT_LAYOUT)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Where samples stand that are not equally far apart: a file of positions for an axis of a scan."""
+"""Positions of samples that are not equally far apart: a file of positions for an axis of a scan."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def read_positions(path: str | Path, axis: str, count: int) -> NDArray[np.float6
     path : str or Path
         A .npy file of one dimension.
     axis : str
-        x, y or z, for what is said of a wrong file.
+        x, y or z, for messages about a wrong file.
     count : int
         How many samples the scan has there.
 
@@ -82,7 +82,7 @@ def read_positions(path: str | Path, axis: str, count: int) -> NDArray[np.float6
 
 
 def read_all_positions(files: Mapping[str, str | Path], shape: Sequence[int]) -> Positions:
-    """The positions along each axis that has a file. FileError and OSError as for `read_positions`."""
+    """Return the positions along each axis that has a file. FileError and OSError as for `read_positions`."""
     x, y, z = (read_positions(files[axis], axis, count) if axis in files else None for axis, count in zip(AXES, shape))
     return x, y, z
 
@@ -93,7 +93,7 @@ def place_samples(matrix: NDArray, positions: Positions, unit: float) -> tuple[N
     Parameters
     ----------
     matrix : (4, 4) array
-        Where the samples would stand without: (i, j, k) at matrix @ (i, j, k, 1).
+        The regular positions: (i, j, k) at matrix @ (i, j, k, 1).
     positions : three of (n,) array or None
         Coordinates along the directions of the axes, in place of the spacing and of the origin.
     unit : float

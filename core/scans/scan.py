@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The samples of a scan in a file: mapped into memory where they are not packed, so that a scan may be larger than it.
+"""The samples of a scan in a file: mapped into memory if they are not packed, so that a scan may be larger than it.
 
 Nothing that a header says of them is believed before it has been compared with the size of the file, and no packed
-sample before its checksum. Every fault of a file is a FileError that says what is wrong.
+sample before its checksum. Every fault of a file is a FileError that names the fault.
 """
 
 from __future__ import annotations
@@ -48,7 +48,7 @@ FAULTS = {  # codes of what zlib reports, where there is more to say than its wo
 
 @dataclass(frozen=True, eq=False)
 class Scan:
-    """The samples of a scan, and where they stand.
+    """The samples of a scan, and their positions.
 
     Attributes
     ----------
@@ -57,12 +57,12 @@ class Scan:
     matrix : (4, 4) array
         The sample (i, j, k) stands at matrix @ (i, j, k, 1), in units of `unit` meters.
     unit : float or None
-        None where the file does not state it.
+        None if the file does not state it.
     is_placed : bool
-        Whether the file states where samples stand.
+        True if the file states the positions of samples.
     slope, intercept : float
     findings : tuple of Finding
-        What was decided on the way.
+        Decisions made on the way.
 
     Examples
     --------
@@ -81,7 +81,7 @@ class Scan:
 
 
 def shape_of(sizes: Sequence[int]) -> tuple[int, int, int]:
-    """Three positive sizes; more only where they are 1."""
+    """Return three positive sizes; more are allowed only if they are 1."""
     sizes = tuple(int(size) for size in sizes)
     dimensions = max((number for number, size in enumerate(sizes, 1) if number <= 3 or size != 1), default=0)
     if dimensions != 3:
@@ -93,7 +93,7 @@ def shape_of(sizes: Sequence[int]) -> tuple[int, int, int]:
 
 
 def real_samples(array: NDArray) -> NDArray:
-    """An array that can be a scan of densities."""
+    """Return the array if it can be a scan of densities, else raise FileError."""
     if array.dtype.kind not in "biuf":
         raise FileError(SCAN_SAMPLE_TYPE, type=str(array.dtype))
     if array.ndim != 3:
@@ -104,13 +104,13 @@ def real_samples(array: NDArray) -> NDArray:
 
 
 def damaged(path: Path, code: str, **values: object) -> FileError:
-    """The error for a file that is not what was once written, with the code of what is wrong with it."""
+    """Return the error for a damaged file, with the code of the fault."""
     return FileError(FILE_DAMAGED, file=path.name, cause=finding(code, **values).as_record())
 
 
 def check_length(path: Path, held: int, wanted: int) -> None:
-    """A file must hold just the bytes of samples that its sizes ask for. More of them mean that the sizes are wrong, or
-    that nobody knows what the rest is; of samples without a checksum nothing else can show damage."""
+    """Check that a file holds just the bytes of samples that its sizes ask for. More of them mean that the sizes are
+    wrong, or that nobody knows the meaning of the rest; without a checksum nothing else can show damage."""
     if held < wanted:
         raise damaged(path, DAMAGE_TOO_SHORT, bytes=held, total=wanted)
     if held > wanted:
@@ -120,8 +120,8 @@ def check_length(path: Path, held: int, wanted: int) -> None:
 def map_samples(
     path: Path, dtype: np.dtype, shape: tuple[int, int, int], offset: int, from_end: bool = False
 ) -> NDArray:
-    """Uncompressed samples, x fastest, from byte `offset` to the end of the file. from_end: they are its last bytes,
-    after whatever else begins at `offset`, so that only too few of them can be noticed."""
+    """Map uncompressed samples, x fastest, from byte `offset` to the end of the file. from_end: they are its last
+    bytes, after any other bytes at `offset`, so that only too few of them can be noticed."""
     size, byte_count = path.stat().st_size, dtype.itemsize * math.prod(shape)
     if from_end:
         offset = max(offset, size - byte_count)
@@ -132,9 +132,11 @@ def map_samples(
 def unpack_samples(
     path: Path, start: int, dtype: np.dtype, shape: tuple[int, int, int], skip: int, limits: Limits
 ) -> NDArray:
-    """Samples that are compressed by gzip from byte `start` of the file on, x fastest; skip: unpacked bytes before.
+    """Unpack samples that are compressed by gzip from byte `start` of the file on, x fastest; skip: unpacked bytes
+    before.
 
-    They are read to the end of the file, for the checksum stands behind them; see `gzip_blocks`."""
+    They are read to the end of the file, for the checksum stands behind them; see `gzip_blocks`.
+    """
     byte_count = dtype.itemsize * math.prod(shape)
     total = skip + byte_count
     if skip < 0:
@@ -154,7 +156,7 @@ def unpack_samples(
 
 
 def gzip_blocks(path: Path, start: int) -> Iterator[bytes]:
-    """What is packed from byte `start` of the file on, in blocks of at most BLOCK bytes.
+    """Yield the unpacked data from byte `start` of the file on, in blocks of at most BLOCK bytes.
 
     A stream of gzip is one or more members. zlib compares the CRC-32 and the length of each, once it has been read to
     its end. Zero bytes behind a member are padding, as for the gzip tool. Anything else there the tool ignores with a

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a shape is apart from where it stands: symmetry, signature, registration, libraries of shapes."""
+"""Properties of a shape in any place: symmetry, signature, registration, libraries of shapes."""
 
 from ..lazy import lazy_names
 

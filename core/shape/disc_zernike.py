@@ -23,12 +23,12 @@ MAX_DISC_ORDER = 20  # the highest order that raw moments in float64 give
 
 @lru_cache
 def disc_degrees(order: int) -> tuple[tuple[int, int], ...]:
-    """(n, m) for 0 ≤ m ≤ n ≤ order with n-m even, n first."""
+    """Return (n, m) for 0 ≤ m ≤ n ≤ order with n-m even, n first."""
     return tuple((n, m) for n in range(order + 1) for m in range(n % 2, n + 1, 2))
 
 
 def disc_zernike(moments: Moments, radius: float) -> NDArray[np.complex128]:
-    """(k,) A_nm of a plane shape, in the order of `disc_degrees`.
+    """Return (k,) A_nm of a plane shape, in the order of `disc_degrees`.
 
     moments: of area, about the disc's center, with z = 0. radius: of the disc.
     """
@@ -45,7 +45,7 @@ def disc_zernike(moments: Moments, radius: float) -> NDArray[np.complex128]:
 
 @lru_cache
 def _radial(n: int, m: int) -> list[tuple[int, float]]:
-    """(s, the coefficient of r^s) of R_nm."""
+    """Return (s, the coefficient of r^s) of R_nm."""
     return [
         (
             n - 2 * k,

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which products of complex moments are the invariants of a flat shape."""
+"""Products of complex moments that are the invariants of a flat shape."""
 
 from __future__ import annotations
 
@@ -12,19 +12,19 @@ from numpy.typing import NDArray
 
 Key = tuple[int, int]  # (p, q) of a complex moment, p ≥ q
 INVARIANT_ORDER = 6
-COUPLED_ORDER = 4  # of the two moments whose p - q a third one has together
+COUPLED_ORDER = 4  # largest order of two moments that are coupled with a third
 
 
 @lru_cache
 def counts() -> tuple[int, int]:
-    """How many invariants and how many chiralities a flat signature has."""
+    """Return the numbers of invariants and of chiralities of a flat signature."""
     couplings = len(pairs()) + len(triples())
     return INVARIANT_ORDER // 2 - 1 + couplings, int(is_chiral().sum())
 
 
 @lru_cache
 def _turning(order: int) -> list[Key]:
-    """The complex moments that turn, but for that of first order, which is zero about the centroid."""
+    """Return the complex moments that turn, but for that of first order, which is zero about the centroid."""
     return [(n - q, q) for n in range(2, order + 1) for q in range((n + 1) // 2)]
 
 
@@ -35,17 +35,17 @@ def pairs() -> list[tuple[Key, Key]]:
 
 @lru_cache
 def triples() -> list[tuple[Key, Key, Key]]:
-    """Two moments, and one whose p - q is the sum of theirs."""
+    """Return triples of two moments, and one with the sum of their p - q."""
     pairs = combinations_with_replacement(_turning(COUPLED_ORDER), 2)
     return [(a, b, d) for a, b in pairs for d in _turning(INVARIANT_ORDER) if _sum((a, b, d), 2) == 0]
 
 
 def _sum(keys: tuple[Key, ...], plus: int) -> int:
-    """The sum of p - q, those behind the first `plus` subtracted."""
+    """Return the sum of p - q, subtracting the moments behind the first `plus`."""
     return sum((p - q) * (1 if i < plus else -1) for i, (p, q) in enumerate(keys))
 
 
 @lru_cache
 def is_chiral() -> NDArray[np.bool_]:
-    """Which couplings have an imaginary part: all but the squares of one moment."""
+    """Return the mask of couplings that have an imaginary part: all but the squares of one moment."""
     return np.array([a != b for a, b in pairs()] + [True] * len(triples()))

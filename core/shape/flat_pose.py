@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Laying one flat shape onto another in their planes, and the rotations and mirror lines that a flat shape has.
 
-Turned by θ about the centroid, a shape's Zernike moments A_nm get the factor exp(-imθ). So by how much two shapes
-overlap is, as far as these moments see, a trigonometric polynomial of θ, Re Σ conj(B_nm) A_nm exp(-imθ), whose maxima
-are the rotations that may lay one onto the other; the outlines decide. With conj(A_nm) it is the mirror image that is
-turned. Front lies on front: no shape is turned over.
+Turned by θ about the centroid, a shape's Zernike moments A_nm get the factor exp(-imθ). So the overlap of two shapes
+is, as far as these moments see, a trigonometric polynomial of θ, Re Σ conj(B_nm) A_nm exp(-imθ). Its maxima are the
+rotations that may lay one onto the other; the outlines decide. With conj(A_nm) it is the mirror image that is turned.
+Front lies on front: no shape is turned over.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ NEWTON_STEPS = 8
 ROUND_ANGLES = 1.0, 0.1, 0.01  # a shape that all these turns leave is round
 MIRROR = np.diag([1.0, -1.0, 1.0])  # in the line y = 0, seen from the front
 
-Holds = Callable[[NDArray], bool]  # whether a (3, 3) map, in the plane's axes, takes the shape to itself
+Holds = Callable[[NDArray], bool]  # True if a (3, 3) map, in the plane's axes, takes the shape to itself
 
 
 def match_flat(
@@ -90,17 +90,17 @@ def flat_symmetry(zernike: NDArray, order: int, points: NDArray, axes: NDArray, 
     axes : (3, 3) array
         Of the plane: x, y and the normal as columns.
     holds : callable
-        Whether a map of the plane's axes takes the shape to itself.
+        Returns True if a map of the plane's axes takes the shape to itself.
 
     Returns
     -------
     Symmetry
-        Cn or Cnv, C∞v of what is round: rotations about the normal, mirror planes across the plane.
+        Cn or Cnv, C∞v if it is round: rotations about the normal, mirror planes across the plane.
     """
     everything = np.array([np.eye(3), MIRROR])
     if all(holds(turn) for turn in turns_about_normal(np.array(ROUND_ANGLES))):
         return Symmetry(axes @ everything @ axes.T, axes[:, 2][None], order)
-    # Where the tolerance lets a turn by about the right angle pass, turns by several times that do not.
+    # The tolerance may let a turn by about the right angle pass, but not turns by several times that.
     fold = next(
         n
         for n in range(MAX_AXIS_ORDER, 0, -1)
@@ -114,8 +114,8 @@ def flat_symmetry(zernike: NDArray, order: int, points: NDArray, axes: NDArray, 
 
 
 def holds_by_outline(points: NDArray, distance: Distance, tolerance: float) -> Holds:
-    """Whether the images of (n, 3) points, about the centroid in the plane's axes, are within the tolerance of the
-    outline. distance: of (k, 3) such points from it."""
+    """Return a test that the images of (n, 3) points, about the centroid in the plane's axes, are within the tolerance
+    of the outline. distance: of (k, 3) such points from it."""
     some = points[:: 1 + len(points) // FIRST_SAMPLES]
 
     def holds(operation: NDArray) -> bool:
@@ -125,7 +125,7 @@ def holds_by_outline(points: NDArray, distance: Distance, tolerance: float) -> H
 
 
 def holds_by_moments(zernike: NDArray, order: int, tolerance: float) -> Holds:
-    """Whether the moments of the shape's image are its own but for a share of all of them."""
+    """Return a test that the moments of the shape's image are its own but for a share of all of them."""
     m = np.array([m for _, m in disc_degrees(order)])
     size = np.linalg.norm(zernike)
 
@@ -138,7 +138,7 @@ def holds_by_moments(zernike: NDArray, order: int, tolerance: float) -> Holds:
 
 
 def turns_about_normal(angles: NDArray) -> NDArray[np.float64]:
-    """(k, 3, 3) rotations about the third axis."""
+    """Return (k, 3, 3) rotations about the third axis."""
     turns = np.zeros((len(angles), 3, 3))
     turns[:, 0, 0] = turns[:, 1, 1] = np.cos(angles)
     turns[:, 1, 0] = np.sin(angles)
@@ -148,8 +148,8 @@ def turns_about_normal(angles: NDArray) -> NDArray[np.float64]:
 
 
 def _mirrors(zernike: NDArray, points: NDArray) -> NDArray[np.float64]:
-    """(k, 3, 3) the reflections that may take a shape to itself: those of its moments, and those that take the
-    outermost corner to another one, for prisms of many sides."""
+    """Return (k, 3, 3) the reflections that may take a shape to itself: the ones of its moments, and the ones that take
+    the outermost corner to another one, for prisms of many sides."""
     radius = np.hypot(*points.T)
     outer = points[radius > (1.0 - 1e-4) * radius.max()]
     corners = np.arctan2(*outer.T[::-1])
@@ -159,7 +159,7 @@ def _mirrors(zernike: NDArray, points: NDArray) -> NDArray[np.float64]:
 
 
 def _best_angles(source: NDArray, target: NDArray) -> NDArray[np.float64]:
-    """(k,) where the overlap of the turned source with the target has its maxima, the largest first."""
+    """Return (k,) the angles of the largest overlap of the turned source with the target, the largest first."""
     order = next(n for n in count() if len(disc_degrees(n)) == len(source))
     m = np.array([m for _, m in disc_degrees(order)])
     terms = target.conj() * source

@@ -1,10 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The signature of a flat shape: numbers by which it is found again, however it is moved, turned, scaled or cut into
-faces, and that distinguish it from its mirror image.
+"""The signature of a flat shape: numbers that find it again, however it is moved, turned, scaled or cut into faces, and
+that distinguish it from its mirror image.
 
-    invariants   c_pp, and the real parts of products of complex moments whose p - q add up to zero, c_a conj(c_b) and
-                 c_a c_b conj(c_c); of central moments over A s^n with the radius of gyration s.
+    invariants   c_pp, and the real parts of products of complex moments with p - q that add up to zero, c_a conj(c_b)
+                 and c_a c_b conj(c_c); of central moments over A s^n with the radius of gyration s.
     zernike      the |A_nm| in the disc about the centroid that just holds the shape (see `disc_zernike`).
     chirality    the imaginary parts: a mirror image has the same with the opposite sign, and a shape that is its own
                  mirror image has none.

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Libraries of signatures: JSON lines, as `measure --signature --format jsonl` writes them, and what is nearest in
-them."""
+"""Libraries of signatures: JSON lines, as `measure --signature --format jsonl` writes them, and a search for the
+nearest."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ from .signatures import MAX_SIMILAR_DIFFERENCE, Likeness, Signature, similarity
 SAME_SHAPE_DISTANCE = 1e-4
 SAME_SIZE_RTOL = 1e-4
 MAX_LINE_BYTES = 1 << 28
-DECIMALS = 12  # of distances: what follows is rounding
+DECIMALS = 12  # decimals of distances; further ones are rounding errors
 
 
 class Similarity(StrEnum):
-    """What a shape is to the one that it was compared with."""
+    """The relation of a shape to the one that it was compared with."""
 
     COPY = "copy"
     SCALED_COPY = "scaled_copy"
@@ -129,12 +129,12 @@ def rank(
     query : Signature
     entries : iterable of Entry
     any_size, any_hand : bool
-        Whether another size, or a mirror image, is as good as a copy.
+        True if another size, or a mirror image, is as good as a copy.
 
     Returns
     -------
     list of (Entry, Likeness)
-        Those that are as alike to rounding in the order given.
+        Bodies that are as alike, to rounding, in the order given.
 
     Examples
     --------
@@ -156,12 +156,12 @@ def rank(
 
 
 def same_size(similarity: Likeness) -> bool:
-    """Whether the two bodies are of one size, to noise."""
+    """Return whether the two bodies are of one size, to noise."""
     return abs(similarity.scale - 1.0) <= SAME_SIZE_RTOL
 
 
 def classify(similarity: Likeness) -> Similarity:
-    """Name what a shape is to the one that it was compared with.
+    """Name the relation of a shape to the one that it was compared with.
 
     Parameters
     ----------

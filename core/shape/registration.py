@@ -1,10 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Laying one body onto another by their poses, and what is left between them.
+"""Registration of one body onto another by their poses, and the residual between them.
 
 The pose leaves as many choices as the body has rotations, and all of them are tried. So are half turns about the
 axes, for noise may decide a sign. The residual is measured on the surfaces, in both directions, so that neither may be
-a part of the other; where a few points are farther apart than all points are in a better way, no more of them are
+a part of the other; if a few points are farther apart than all points are in a better way, no more of them are
 looked at. A mirror image is recognized as such: a reflection fits, and no rotation does.
 """
 
@@ -24,15 +24,15 @@ from ..moments.symmetric_tensors import distinct_arrays, invert_through_point
 from ..numerics.arguments import check_type
 
 HALF_TURNS = np.array([[1.0, 1.0, 1.0], [1.0, -1.0, -1.0], [-1.0, 1.0, -1.0], [-1.0, -1.0, 1.0]])
-EQUAL_RESIDUAL_RTOL = 1e-4  # of the size: residuals nearer than this are equal, and the smallest turn is taken
-MAX_FIT_RTOL = 1e-3  # of the size: below, a body lies on the other one
+EQUAL_RESIDUAL_RTOL = 1e-4  # relative to the size: residuals nearer than this are equal, and the smallest turn is taken
+MAX_FIT_RTOL = 1e-3  # relative to the size: below, a body lies on the other one
 FIRST_SAMPLES = 32  # points of each surface that are looked at first
 MIRROR_SHARE = 0.2  # a reflection that leaves less than this share of what rotations leave means a mirror image
 
 
 @dataclass(frozen=True, eq=False)
 class RigidMatch:
-    """How one body lies on another.
+    """The placement of one body on another.
 
     Attributes
     ----------
@@ -41,7 +41,7 @@ class RigidMatch:
     max_distance, mean_distance : float
         Distances of points of either surface from the other one.
     is_mirror_image : bool
-        Whether a reflection fits so much better that the bodies are mirror images.
+        True if a reflection fits so much better that the bodies are mirror images.
     """
 
     rotation: NDArray[np.float64]
@@ -99,14 +99,15 @@ def match(source: Moments, target: Moments, residual: Residual, size: float) -> 
 
 
 def _candidate_rotations(first: NDArray, target: EquivalentFrames) -> NDArray[np.float64]:
-    """(k, 3, 3) the rotations from a frame of the source to those of the target and their half turns."""
+    """Return (k, 3, 3) the rotations from a frame of the source to the frames of the target and their half turns."""
     frames = (target.frames[:, None] * HALF_TURNS[:, None, :]).reshape(-1, 3, 3)
     frames = np.array([complete_free_axes(frame, undetermined_axes(target.revolution_axes), first) for frame in frames])
     return distinct_arrays(frames @ first.T, 1e-9)
 
 
 def best_rotation(candidates: NDArray, residual: Residual, size: float) -> tuple[NDArray, NDArray]:
-    """Of (k, 3, 3) maps the one with the least residual, and its distances; of equal ones the smallest turn."""
+    """Return the one of (k, 3, 3) maps with the least residual, and its distances; among equal ones the smallest
+    turn."""
     least = np.array([residual(way, FIRST_SAMPLES).max() for way in candidates])
     worst, distances = np.full(len(candidates), np.inf), {}
     for i in np.argsort(least, kind="stable"):

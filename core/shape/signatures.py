@@ -1,17 +1,17 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Numbers by which a shape is found again, however it is moved, turned, scaled, mirrored or cut into faces.
+"""Numbers that find a shape again, however it is moved, turned, scaled, mirrored or cut into faces.
 
     invariants   of central moments to sixth order, over V s^n with the radius of gyration s: the products
                  Σ a_m conj(b_m) of harmonic moments of one degree l, and their couplings to a scalar in threes (Lo and
                  Don, 3-D moment forms, PAMI 1989).
     zernike      the norms ‖Ω_nl‖ in the ball about the center that just holds the body (see `zernike`).
     fourier      the mean of |F(q)|² over all directions by V², at q = 1, 2, … over the ball's radius.
-    chirality    couplings in threes whose degrees add up to an odd number: a mirror image has the same with the
+    chirality    couplings in threes with degrees that add up to an odd number: a mirror image has the same with the
                  opposite sign, and a body that is its own mirror image has none.
 
-Size is kept apart, as the radius of gyration. What is compared is smooth in the shape: noise of the points changes it
-little, and nothing switches.
+Size is kept apart, as the radius of gyration. The compared numbers are smooth in the shape: noise of the points changes
+it little, and nothing switches.
 """
 
 from __future__ import annotations
@@ -43,9 +43,9 @@ from .zernike import (
 
 Key = tuple[int, int]  # (n, l) of a multiplet
 INVARIANT_ORDER = 6
-COUPLED_ORDER = 4  # of the moments that are coupled in threes
+COUPLED_ORDER = 4  # largest order of the moments that are coupled in threes
 CHIRAL_ORDER = 6
-FREQUENCIES = np.arange(1.0, 13.0)  # what orders to 20 resolve to a millionth
+FREQUENCIES = np.arange(1.0, 13.0)  # frequencies that orders to 20 resolve to a millionth
 MAX_SIMILAR_DIFFERENCE = 0.1  # beyond this nobody would call two shapes similar
 MAX_SIZE = 1e150  # meters; the ratio of two sizes is still a number
 MAX_DESCRIPTOR = 1e100  # whose square is still a number
@@ -57,14 +57,14 @@ CLEAR_CHIRALITY_SHARE = 0.2
 
 @dataclass(frozen=True, eq=False)
 class Signature:
-    """Numbers by which a shape is recognized, however it is moved, rotated, scaled or cut into faces.
+    """Numbers that recognize a shape, however it is moved, rotated, scaled or cut into faces.
 
     Attributes
     ----------
     size : float
         The radius of gyration, in the body's unit.
     invariants, zernike, fourier, chirality : arrays
-        See the module; `fourier` is empty where the moments are of a surface.
+        See the module; `fourier` is empty if the moments are of a surface.
     error : float
         An estimate of the rounding of the descriptors.
     dimension : int
@@ -125,19 +125,19 @@ class Signature:
 
 @dataclass(frozen=True)
 class Likeness:
-    """How alike two bodies are.
+    """The likeness of two bodies.
 
     Attributes
     ----------
     shape : float
-        The difference of the shapes whatever their size and hand, 0 for the same.
+        The difference of the shapes irrespective of size and hand, 0 for equal shapes.
     scale : float
         The second body's size divided by the first one's.
     chirality_difference : float
         The difference of their chiralities.
     is_mirror_image : bool or None
-        Whether it is a mirror image; False where neither has a hand, None where noise as large as the shapes'
-        difference could make up their hands.
+        True for a mirror image; False if neither has a hand, None if noise as large as the shapes' difference could
+        make up their hands.
     """
 
     shape: float
@@ -146,7 +146,7 @@ class Likeness:
     is_mirror_image: bool | None
 
     def distance(self, any_size: bool = False, any_hand: bool = False) -> float:
-        """0 for a copy; also for one of another size, and for a mirror image, where that does not matter. Where it
+        """Return 0 for a copy; also for one of another size, and for a mirror image, if that does not matter. If it
         does, a difference of size or hand counts as much as one of shape, but never for more than
         MAX_SIMILAR_DIFFERENCE."""
         size, hand = (
@@ -157,7 +157,7 @@ class Likeness:
 
 
 def _lengths(dimension: int) -> tuple[int, int]:
-    """How many invariants and how many chiralities a signature has. KeyError for what is no dimension."""
+    """Return the numbers of invariants and of chiralities of a signature. KeyError for an unknown dimension."""
     bodies = 2 + len(_pairs()) + len(_even_triples()), len(_chiral_triples())
     return {2: flat_couplings.counts(), 3: bodies}[dimension]
 
@@ -172,7 +172,7 @@ def signature(moments: Moments, radius: float, zernike: Multiplets | None = None
     radius : float
         Of the ball about the center that just holds the body.
     zernike : dict, optional
-        The Zernike moments Ω_nlm in that ball where they are known otherwise; by default from the moments.
+        The Zernike moments Ω_nlm in that ball if they are known otherwise; by default from the moments.
 
     Returns
     -------
@@ -231,7 +231,7 @@ def signatures(moments: Moments, radius: NDArray[np.float64]) -> list[Signature]
 def _numbers(
     raw: NDArray, moments: Moments, size: PerBody, radius: PerBody, zernike: Multiplets | None = None
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], PerBody]:
-    """Invariants, descriptors, power, chirality and error of a signature, with a last axis where there are several
+    """Return invariants, descriptors, power, chirality and error of a signature, with a last axis if there are several
     bodies. raw: the moments, (K, …)."""
     total, order = raw[0], min(moments.order, MAX_ORDER_BY_MOMENTS)
     degree = along_first(monomials(moments.order).sum(axis=1), raw)
@@ -260,7 +260,7 @@ def similarity(a: Signature, b: Signature) -> Likeness:
     Returns
     -------
     Likeness
-        The difference of the shapes, and what distinguishes sizes and hands.
+        The differences of the shapes, of their sizes and of their hands.
 
     Examples
     --------
@@ -315,7 +315,7 @@ def _chirality(harmonic: Multiplets) -> NDArray[np.float64]:
 
 
 def _multiplets(order: int) -> list[Key]:
-    """The harmonic moments (n, l) that turn, l > 0, but for those of first order, which are zero about the center."""
+    """Return the harmonic moments (n, l) that turn, l > 0, but for the first order, which is zero about the center."""
     return [(n, l) for n, l in degrees(order) if l and n > 1]
 
 
@@ -332,11 +332,11 @@ def _even_triples() -> list[tuple[Key, Key, Key]]:
 
 @lru_cache
 def _chiral_triples() -> list[tuple[Key, Key, Key]]:
-    """Three different multiplets: of two alike, an odd coupling is zero."""
+    """Return triples of three different multiplets: with two alike, an odd coupling is zero."""
     return [t for t in combinations(_multiplets(CHIRAL_ORDER), 3) if _can_couple(t) and sum(l for _, l in t) % 2]
 
 
 def _can_couple(triple: tuple[Key, Key, Key]) -> bool:
-    """Whether three multiplets have a scalar: their degrees are the sides of a triangle."""
+    """Return whether three multiplets have a scalar: their degrees are the sides of a triangle."""
     a, b, c = sorted(l for _, l in triple)
     return c <= a + b

@@ -42,9 +42,9 @@ class Symmetry:
     revolution_axes : array
         (1, 3) the axis about which every rotation is one; (0, 3) none, (3, 3) all directions.
     order : int
-        Of the moments it was found from, or of harmonics about an axis.
+        Order of the moments it was found from, or of harmonics about an axis.
     tolerance : float or None
-        That the geometry was compared with, None where it was not.
+        Tolerance of the comparison of the geometry, None if there was none.
     """
 
     operations: NDArray[np.float64]
@@ -81,7 +81,7 @@ class Symmetry:
 
     @property
     def has_center(self) -> bool:
-        """Whether inversion in the center is one of them."""
+        """True if inversion in the center is one of them."""
         return bool((np.abs(self.operations + np.eye(3)).max(axis=(1, 2)) < EQUAL_OPERATION_ATOL).any())
 
 
@@ -97,7 +97,7 @@ def symmetry(
     noise : float
         As for `equivalent_frames`.
     axial : callable, optional
-        Returns the harmonics about the third axis of a (3, 3) frame; called where the moments are those of a body of
+        Returns the harmonics about the third axis of a (3, 3) frame; called if the moments are those of a body of
         revolution, about its axis.
 
     Returns
@@ -140,10 +140,10 @@ def symmetry(
 
 
 def confirm(candidate: Symmetry, center: NDArray, points: NDArray, distance: Distance, tolerance: float) -> Symmetry:
-    """Those that the geometry has.
+    """Return the symmetries that the geometry has.
 
-    points: (n, 3) on the surface, corners and what lies between them. distance: of (k, 3) points from the surface,
-    (k,). tolerance: how far a point's image may lie from it.
+    points: (n, 3) on the surface, corners and points between them. distance: of (k, 3) points from the surface, (k,).
+    tolerance: of the distance of a point's image from it.
     """
     points = points - center
     some = points[:: 1 + len(points) // FIRST_SAMPLES]
@@ -169,9 +169,9 @@ def confirm(candidate: Symmetry, center: NDArray, points: NDArray, distance: Dis
 
 
 def _around_axis(points: NDArray, axis: NDArray, holds: Callable[[NDArray], bool]) -> NDArray[np.float64]:
-    """Candidates for a body whose moments are those of a body of revolution, but which has corners: a prism of many
-    sides. Its mirrors and half turns take one of the points farthest from the axis to another one."""
-    # Where the tolerance lets a turn by about the right angle pass, turns by several times that do not.
+    """Return candidates for a body with the moments of a body of revolution, but with corners: a prism of many sides.
+    Its mirrors and half turns take one of the points farthest from the axis to another one."""
+    # The tolerance may let a turn by about the right angle pass, but not turns by several times that.
     fold = next(
         n
         for n in range(MAX_AXIS_ORDER, 0, -1)
@@ -203,7 +203,8 @@ def _around_axis(points: NDArray, axis: NDArray, holds: Callable[[NDArray], bool
 
 
 def _finite_operations(operations: NDArray, axis: NDArray) -> NDArray[np.float64]:
-    """The operations of a body of revolution that stand for all: the identity, and whether it can be turned over."""
+    """Return the operations of a body of revolution that stand for all: the identity, and a reflection of the axis if
+    it can be turned over."""
     if not _reverses_axis(operations, axis).any():
         return np.eye(3)[None]
     return np.array([np.eye(3), np.eye(3) - 2.0 * np.outer(axis, axis)])
@@ -214,14 +215,14 @@ def _reverses_axis(operations: NDArray, axis: NDArray) -> NDArray[np.bool_]:
 
 
 def _axis_rotation(axis: NDArray, angle: float) -> NDArray[np.float64]:
-    """(3, 3) the rotation about an axis: Rodrigues' formula."""
+    """Return (3, 3) the rotation about an axis, by Rodrigues' formula."""
     x, y, z = axis
     cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
     return np.eye(3) + np.sin(angle) * cross + (1.0 - np.cos(angle)) * cross @ cross
 
 
 def _distinct_lines(vectors: NDArray) -> list[tuple[NDArray, NDArray]]:
-    """Each line once, with which of the (k, 3) unit vectors lie along it."""
+    """Return each line once, with the mask of the (k, 3) unit vectors that lie along it."""
     same = np.abs(vectors @ vectors.T) > 1.0 - EQUAL_OPERATION_ATOL
     return [(vectors[i], same[i]) for i in range(len(vectors)) if np.argmax(same[i]) == i]
 

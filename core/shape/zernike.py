@@ -6,8 +6,8 @@
 on the ball: the normalization of Novotni and Klein (3D Zernike descriptors for content based shape retrieval, 2003), in
 which a full ball has Ω_000 = 1. The descriptor ‖Ω_nl‖ is the same however the body is turned, or mirrored.
 
-To order 20 they are sums of raw moments. These sums cancel, and `descriptor_error` estimates what is lost. Above that
-order, and where it is too much, the cones from the center over the triangles are integrated by quadrature. Over a
+To order 20 they are sums of raw moments. These sums cancel, and `descriptor_error` estimates the loss. Above that
+order, and if it is too much, the cones from the center over the triangles are integrated by quadrature. Over a
 triangle a polynomial of degree n takes Gauss's rule; along the cone, with S_k = R_nl / sqrt(2n+3), n = l+2k, partial
 integration of r S_k' against each S_i gives (r d/dr + 3) S_k = (n+3) S_k + Σ_{i<k} (2l+4i+3) S_i, and from that for
 J_k(x) = ∫_0^1 t² S_k(tx) dt the stable recursion
@@ -34,14 +34,14 @@ from ..numerics.quadrature import triangle_rule
 
 MAX_ORDER_BY_MOMENTS = 20  # the highest order that raw moments in float64 give
 MAX_DESCRIPTOR_ERROR = 1e-9  # the error of a descriptor that raw moments may have
-POINTS_PER_BLOCK = 16384  # of a quadrature that are evaluated together
+POINTS_PER_BLOCK = 16384  # points of a quadrature that are evaluated together
 NO_SUM = np.zeros((), np.complex128)
-QUADRATURE_RTOL = 1e-13  # of a triangle's integral, as its quadrature is chosen
+QUADRATURE_RTOL = 1e-13  # for a triangle's integral, in the choice of its quadrature
 
 
 def zernike_moments(raw: NDArray, order: int) -> Multiplets:
-    """{(n, l): (2l+1, …)} Ω_nlm, m = -l..l, of a body in the unit ball about the origin, from its raw moments there,
-    (K, …)."""
+    """Return {(n, l): (2l+1, …)} Ω_nlm, m = -l..l, of a body in the unit ball about the origin, from its raw moments
+    there, (K, …)."""
     harmonic = harmonic_moments(raw, order)
     return {
         (n, l): sqrt(3.0 / (4.0 * pi))
@@ -51,28 +51,28 @@ def zernike_moments(raw: NDArray, order: int) -> Multiplets:
 
 
 def descriptor_error(raw: NDArray, order: int) -> NDArray[np.float64]:
-    """(…) an estimate of the error of the descriptors that raw moments (K, …) accurate to a few roundings give: what
-    changes when each moment is moved by such an amount, at random but always the same."""
+    """Return (…) an estimate of the error of the descriptors from raw moments (K, …) accurate to a few roundings: their
+    change if each moment is moved by such an amount, at random but always the same."""
     moved = raw * along_first(1.0 + 8.0 * U * np.random.default_rng(0).uniform(-1.0, 1.0, len(raw)), raw)
     before, after = (descriptors(zernike_moments(raw_moments, order)) for raw_moments in (raw, moved))
     return np.abs(after - before).max(axis=0)
 
 
 def descriptors(moments: Multiplets) -> NDArray[np.float64]:
-    """(D, …) ‖Ω_nl‖ in the order of `degrees`."""
+    """Return (D, …) ‖Ω_nl‖ in the order of `degrees`."""
     return np.array([np.linalg.norm(multiplet, axis=0) for _, multiplet in sorted(moments.items())], np.float64)
 
 
 def degrees(order: int) -> list[tuple[int, int]]:
-    """(n, l) for 0 ≤ l ≤ n ≤ order with n-l even, n first."""
+    """Return (n, l) for 0 ≤ l ≤ n ≤ order with n-l even, n first."""
     return [(n, l) for n in range(order + 1) for l in range(n % 2, n + 1, 2)]
 
 
 def zernike_quadrature(points: NDArray, triangles: NDArray, order: int) -> Multiplets:
-    """As `zernike_moments`, of the body that the cones from the origin over outward triangles make up.
+    """Return the `zernike_moments` of the body that the cones from the origin over outward triangles make up.
 
     points: (n, 3) within the unit ball. triangles: (m, 3). The work grows with the order cubed, and with the number of
-    nodes that a triangle needs: one for the smallest, order²/4 for those as large as the ball.
+    nodes of a triangle: one for the smallest, order²/4 for a triangle as large as the ball.
     """
     corners = [points[triangles[:, i]] for i in range(3)]
     size = np.sqrt(np.max([((corners[i] - corners[i - 1]) ** 2).sum(axis=1) for i in range(3)], axis=0))
@@ -91,7 +91,7 @@ def zernike_quadrature(points: NDArray, triangles: NDArray, order: int) -> Multi
 
 
 def _nodes(size: NDArray, order: int) -> NDArray[np.int64]:
-    """Gauss points on a line for each triangle: as many as its size and the polynomials' oscillation need."""
+    """Return the number of Gauss points on a line for each triangle, by its size and the polynomials' oscillation."""
     exact = ceil((order + 2) / 2)
     needed = np.full(len(size), exact)
     phase = (order + 2.0) * size / 2.0  # a polynomial of degree n on the ball turns by at most about n radians
@@ -114,7 +114,7 @@ def _add_cones(total: Multiplets, x: NDArray, weight: NDArray, order: int) -> No
 
 
 def _solid_at(x: NDArray, order: int) -> Iterator[tuple[int, NDArray[np.complex128]]]:
-    """l and (l+1, k) r^l Y_lm at (k, 3) points for m = 0..l, l = 0..order, by recursion upward in l."""
+    """Yield l and (l+1, k) r^l Y_lm at (k, 3) points for m = 0..l, l = 0..order, by recursion upward in l."""
     r2 = (x * x).sum(axis=1)
     plus, z = x[:, 0] + 1j * x[:, 1], x[:, 2]
     before, now = None, np.full((1, len(x)), 1.0 / sqrt(4.0 * pi), complex)
@@ -133,7 +133,7 @@ def _solid_at(x: NDArray, order: int) -> Iterator[tuple[int, NDArray[np.complex1
 
 
 def _jacobi(beta: float, x: NDArray) -> Iterator[NDArray[np.float64]]:
-    """P_k^(0, beta)(x) for k = 0, 1, …"""
+    """Yield P_k^(0, beta)(x) for k = 0, 1, …"""
     before, now = np.zeros_like(x), np.ones_like(x)
     for k in count(1):
         yield now
@@ -147,8 +147,8 @@ def _jacobi(beta: float, x: NDArray) -> Iterator[NDArray[np.float64]]:
 
 
 def radial_power(moments: Multiplets, wave_numbers: NDArray) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """(k, …) the mean of |F(q)|² over all directions of q, F(q) = ∫ exp(-i q·x) dV, and a bound of what the orders that
-    are left out may change.
+    """Return (k, …) the mean of |F(q)|² over all directions of q, F(q) = ∫ exp(-i q·x) dV, and a bound of the change by
+    the orders that are left out.
 
     moments: of a body in the unit ball, (2l+1, …). wave_numbers: (k,) |q|, in units of the ball's inverse radius.
     """
@@ -173,7 +173,7 @@ def radial_power(moments: Multiplets, wave_numbers: NDArray) -> tuple[NDArray[np
 
 
 def _spherical_bessel(q: NDArray, order: int) -> NDArray[np.float64]:
-    """(order+1, k) j_{n+1}(q)/q for n = 0..order, by Miller's recursion downward."""
+    """Return (order+1, k) j_{n+1}(q)/q for n = 0..order, by Miller's recursion downward."""
     q = np.maximum(q, 1e-8)  # j_1(q)/q is 1/3 from there down
     top = order + 20 + int(2.0 * q.max())
     table = np.zeros((order + 3, len(q)))
@@ -194,7 +194,7 @@ def _spherical_bessel(q: NDArray, order: int) -> NDArray[np.float64]:
 
 @lru_cache
 def _radial(n: int, l: int) -> tuple[Fraction, ...]:
-    """The coefficients of r^(l+2i), i = 0..k, in R_nl, without the root of 2n+3."""
+    """Return the coefficients of r^(l+2i), i = 0..k, in R_nl, without the root of 2n+3."""
     k, beta = (n - l) // 2, Fraction(2 * l + 1, 2)
     row, factor = [], Fraction((-1) ** k)
     for i in range(k):

@@ -13,7 +13,8 @@ from .findings import AT_TRIANGLE, AT_VERTEX, NON_FINITE_COORDINATES
 
 
 class BoxOfBlocks:
-    """Grows block by block. place: "triangle" or "vertex", what a row of a block is."""
+    """The bounding box of blocks, which grows block by block. place: "triangle" or "vertex", the meaning of a row of a
+    block."""
 
     def __init__(self, place: str) -> None:
         self._place = place
@@ -36,11 +37,11 @@ class BoxOfBlocks:
 
     @property
     def is_finite(self) -> bool:
-        """Whether all coordinates so far are."""
+        """True if all coordinates so far are finite."""
         return not self._bad
 
     def box(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Return the least and the largest coordinates, zero where there are none. Raises FileError where some are not
+        """Return the least and the largest coordinates, zero if there are none. Raises FileError if some are not
         finite."""
         if self._bad:
             is_triangle = self._place == "triangle"

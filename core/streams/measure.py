@@ -20,19 +20,19 @@ from ..verdict.finding import FileError
 from .findings import FILE_WITHOUT_FACES
 from .mesh_file import MeshFile
 
-MAX_REACH_RATIO = 2.0  # how much farther a body may reach than the faces that were looked at first
+MAX_REACH_RATIO = 2.0  # reach of a body relative to its first faces, at most
 
 
 @dataclass(frozen=True, eq=False)
 class StreamIntegrals:
-    """What a mesh comes to that was read in blocks.
+    """Integrals of a mesh that was read in blocks.
 
     Attributes
     ----------
     volume, area : Moments
-        As the faces are, about the center of the bounding box: where they do not close, the volume depends on it.
+        As the faces are, about the center of the bounding box: if they do not close, the volume depends on it.
     closed : bool
-        Whether every edge is used as often one way as the other, by their hashes (`BoundarySum`).
+        True if every edge is used as often one way as the other, by their hashes (`BoundarySum`).
     face_count : int
         Triangles and quads that were measured.
 

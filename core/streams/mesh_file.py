@@ -27,9 +27,9 @@ class MeshFile(Protocol):
     Attributes
     ----------
     face_count : int
-        How many faces the file promises; of a text an estimate.
+        The number of faces that the file promises; for a text an estimate.
     is_loose : bool
-        Whether no two faces share a point: triangle i has the points 3i to 3i + 2.
+        True if no two faces share a point: triangle i has the points 3i to 3i + 2.
     """
 
     face_count: int
@@ -40,7 +40,7 @@ class MeshFile(Protocol):
         ...
 
     def box(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Return the least and the largest coordinates. Raises FileError where some are not finite."""
+        """Return the least and the largest coordinates. Raises FileError if some are not finite."""
         ...
 
     def pieces(self) -> Iterator[Surface]:

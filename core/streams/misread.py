@@ -19,12 +19,12 @@ from .findings import FIELD_COUNT, FIELD_NOT_NUMBER, FIELD_NOT_WHOLE, LINE_MISRE
 MAX_FLOAT32 = 3.4028235677973366e38  # larger numbers are infinite in float32
 MAX_TEXT = 60  # letters of a line that are shown
 BLOCK = 1 << 18  # bytes
-MARK = b"\xef\xbb\xbf"  # of the order of bytes
+MARK = b"\xef\xbb\xbf"  # byte order mark
 # Decimal numbers below 1e38, so that nobody needs to compute them, and these or NaN.
 SHORT = rb"[+-]?(?:[0-9]{1,8}+(?:\.[0-9]*+)?+|\.[0-9]++)(?:[eE](?:-[0-9]++|\+?0?[0-2]?[0-9]))?+"
 SHORT_OR_NAN = rb"(?:" + SHORT + rb"|[+-]?[nN][aA][nN])"
 SHORT_WHOLE = rb"[+-]?[0-9]{1,18}+"
-_NOT_FINITE = re.compile(rb"[+-]?(?:nan|inf|infinity|nan\([\w]*\)|1\.#\w+)", re.IGNORECASE)  # as C prints them
+_NOT_FINITE = re.compile(rb"[+-]?(?:nan|inf|infinity|nan\([\w]*\)|1\.#\w+)", re.IGNORECASE)  # forms that C prints
 
 Data = mmap.mmap | bytes
 

@@ -21,7 +21,7 @@ from .ply_rows import RowReader, RowsError
 from .ply_text import check_ply_text
 
 MAX_SPREAD = 4  # vertices between the first and the last of a block for each of its corners; else they are copied
-CONCAVE_RTOL = 1e-6  # of a polygon's normal: less against it is rounding
+CONCAVE_RTOL = 1e-6  # relative to a polygon's normal: less against it is rounding
 
 
 class PlyFile:
@@ -45,7 +45,7 @@ class PlyFile:
             raise self._damaged(DAMAGE_PLY_HEADER) from error
 
     def box(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Return the least and the largest coordinates. Raises FileError where some are not finite."""
+        """Return the least and the largest coordinates. Raises FileError if some are not finite."""
         box = BoxOfBlocks("vertex")
         box.add(self._points)
         return box.box()
@@ -59,7 +59,7 @@ class PlyFile:
             if corners.shape[1] < 3:
                 continue
             given = corners
-            with np.errstate(invalid="ignore"):  # of a text's NaN
+            with np.errstate(invalid="ignore"):  # a text may have NaN
                 corners = np.ascontiguousarray(corners, np.int32 if corners.dtype == np.int32 else np.int64)
             first, last = int(corners.min()), int(corners.max()) + 1
             whole = given.dtype.kind != "f" or np.array_equal(corners, given)
@@ -87,7 +87,7 @@ class PlyFile:
         return Surface(points, fans.reshape(-1, 3))
 
     def _read_points(self) -> NDArray[np.floating]:
-        """(n, 3) float32 where the file has them as such or as text, else float64."""
+        """Read (n, 3) points: float32 if the file has them as such or as text, else float64."""
         (vertices, *_) = (element for element in self._header.elements if element.name == "vertex")
         columns = [vertices.index(axis) for axis in "xyz"]
         if not self._header.order:
@@ -104,7 +104,7 @@ class PlyFile:
         return points
 
     def _blocks(self, wanted: Element) -> Iterator[list[NDArray]]:
-        """The columns of an element, in blocks."""
+        """Yield the columns of an element, in blocks."""
         with open(self._path, "rb") as file:
             file.seek(self._header.start)
             reader = RowReader(file, self._header.order)
@@ -123,7 +123,7 @@ class PlyFile:
 
 
 def _faces_of(header: Header) -> tuple[Element, int]:
-    """The element of faces, and which of its properties lists their vertices. Raises ValueError."""
+    """Return the element of faces, and the index of the property that lists their vertices. Raises ValueError."""
     for element in header.elements:
         for number, one in enumerate(element.properties):
             if element.name == "face" and one.name in INDICES and one.counter:
@@ -132,6 +132,6 @@ def _faces_of(header: Header) -> tuple[Element, int]:
 
 
 def _least_bytes(element: Element, order: str) -> int:
-    """What a row takes in a file at least."""
+    """Return the least number of bytes of a row in a file."""
     kinds = [one.counter or one.type for one in element.properties]
     return sum(int(kind[1:]) for kind in kinds) if order else 2 * len(kinds) - 1

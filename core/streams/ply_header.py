@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the header of a .ply file says: its elements, and the properties of each."""
+"""The header of a .ply file: its elements, and the properties of each."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 MAX_HEADER = 1 << 20  # bytes
-INDICES = "vertex_indices", "vertex_index"  # of the vertices of a face
+INDICES = "vertex_indices", "vertex_index"  # names of the list of vertices of a face
 END = re.compile(rb"^end_header[ \t]*\r?\n", re.MULTILINE)
 ORDERS = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
 TYPES = {
@@ -34,20 +34,20 @@ class Property(NamedTuple):
 
 @dataclass(frozen=True)
 class Element:
-    """A table: its name, the number of its rows, and what each row has."""
+    """A table: its name, the number of its rows, and the properties of each row."""
 
     name: str
     rows: int
     properties: tuple[Property, ...]
 
     def index(self, name: str) -> int:
-        """Return where a property stands. Raises ValueError."""
+        """Return the index of a property. Raises ValueError."""
         return [one.name for one in self.properties].index(name)
 
 
 @dataclass(frozen=True)
 class Header:
-    """order: "" for text, else "<" or ">". start: where the first element begins."""
+    """The header of a file. order: "" for text, else "<" or ">". start: offset of the first element."""
 
     order: str
     elements: tuple[Element, ...]
@@ -55,8 +55,8 @@ class Header:
 
 
 def parse_header(data: bytes) -> Header:
-    """Return the header at the start of a file. Raises ValueError, KeyError or IndexError where there is none, or it
-    makes no sense."""
+    """Return the header at the start of a file. Raises ValueError, KeyError or IndexError if there is none, or it makes
+    no sense."""
     end = END.search(data)
     if end is None or not data.startswith(b"ply"):
         raise ValueError("no header")

@@ -14,10 +14,10 @@ from numpy.typing import NDArray
 from .ply_header import Element, Property
 
 BYTES_PER_BLOCK = 1 << 22
-FEW_ROWS = 64  # of one length: fewer in a row are read one at a time
-SINGLE_ROWS = 1 << 14  # that are read one at a time before more of one length are looked for
-MAX_LIST = 1 << 26  # numbers of a face: what says more is damaged, and would be read into memory
-NUMBERS = np.dtype(np.float64)  # what a text is read as
+FEW_ROWS = 64  # rows of one length: shorter runs are read one at a time
+SINGLE_ROWS = 1 << 14  # rows read one at a time before the next search for equal lengths
+MAX_LIST = 1 << 26  # numbers of a face: a larger count is damage, and would be read into memory
+NUMBERS = np.dtype(np.float64)  # type of the numbers of a text
 
 
 class RowsError(Exception):
@@ -29,11 +29,11 @@ class RowReader:
 
     def __init__(self, file: BinaryIO, order: str) -> None:
         self._file, self._order = file, order
-        self._buffer: NDArray = np.zeros(0)  # of bytes or numbers, once there are some
+        self._buffer: NDArray = np.zeros(0)  # bytes or numbers, once there are some
         self._text = b""
 
     def rows(self, element: Element) -> Iterator[list[NDArray]]:
-        """Yield the rows of the next element, all of which must be taken, in blocks of one length: of each property,
+        """Yield the rows of the next element, all of which must be taken, in blocks of one length: for each property
         (n,) numbers, or (n, k) lists."""
         left = element.rows if element.properties else 0
         while left:
@@ -54,7 +54,7 @@ class RowReader:
             yield [table["p{}".format(number)][:count] for number in range(len(element.properties))]
 
     def _lengths(self, properties: Sequence[Property]) -> dict[int, int]:
-        """How long the lists of the next row are, all of which is in the buffer then."""
+        """Return the lengths of the lists of the next row, all of which is in the buffer then."""
         at, lengths = 0, {}
         for number, one in enumerate(properties):
             if one.counter:
@@ -75,14 +75,14 @@ class RowReader:
         return np.dtype(fields)
 
     def _table(self, row: np.dtype, left: int) -> NDArray:
-        """As many rows as are in the buffer, and the next ones of the file in it."""
+        """Return as many rows as are in the buffer, after reading the next part of the file."""
         unit = self._buffer.itemsize
         self._read_ahead(min(left * row.itemsize, BYTES_PER_BLOCK) // unit)
         count = min(left, len(self._buffer) * unit // row.itemsize)
         return np.frombuffer(self._buffer, row, count)
 
     def _single_rows(self, element: Element, rows: int) -> Iterator[list[NDArray]]:
-        """Rows of any lengths, joined to blocks of one length each."""
+        """Yield rows of any lengths, joined to blocks of one length each."""
         by_lengths: dict[tuple[int, ...], list[bytes]] = {}
         types: dict[tuple[int, ...], np.dtype] = {}
         for _ in range(rows):
@@ -98,14 +98,14 @@ class RowReader:
             yield [table["p{}".format(number)] for number in range(len(element.properties))]
 
     def _size(self, kind: str) -> int:
-        """Of a number, in what the buffer holds."""
+        """Return the size of a number, in units of the buffer."""
         return int(kind[1:]) if self._order else 1
 
     def _type(self, kind: str) -> np.dtype:
         return np.dtype(self._order + kind) if self._order else NUMBERS
 
     def _integer(self, at: int, kind: str) -> int:
-        """The length of a list."""
+        """Return the length of a list."""
         end = at + self._size(kind)
         self._fill(end)
         value = self._buffer[at:end].view(self._type(kind))[0]
@@ -129,7 +129,7 @@ class RowReader:
             self._buffer = np.concatenate([self._buffer, more]) if len(self._buffer) else more
 
     def _numbers(self) -> NDArray[np.float64]:
-        """The next numbers of a text; none at its end."""
+        """Return the next numbers of a text; none at its end."""
         while True:
             chunk = self._file.read(BYTES_PER_BLOCK)
             text, self._text = self._text + chunk, b""

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The rows of .ply files in text, a line each, with the fields of the header and no others.
 
-Blender puts 0 where a number is missing or none, and leaves out faces with a wrong index.
+Blender puts 0 for a number that is missing or none, and leaves out faces with a wrong index.
 """
 
 from __future__ import annotations
@@ -27,8 +27,8 @@ from .misread import (
 )
 from .ply_header import INDICES, Element, Header, Property
 
-LENGTHS = range(9)  # of the lists that are checked together; rows with longer ones are checked word by word
-FEW_ROWS, MANY_PROPERTIES = 16, 100  # for which an expression would take longer than it saves
+LENGTHS = range(9)  # lists that are checked together; rows with longer ones are checked word by word
+FEW_ROWS, MANY_PROPERTIES = 16, 100  # fewer rows or more properties: an expression would cost more than it saves
 _BLANK = rb"[ \t]*+"
 _REST = re.compile(rb"[^\s\0\x1a]")
 
@@ -81,7 +81,7 @@ class _Rows:
             start = stop
 
     def _check_row(self, start: int, end: int) -> bytes:
-        """Return the row, whose words are all right."""
+        """Return the row if all its words are right, else refuse the file."""
         line = _line(self._data, start, end)
         fault = self._find_fault(line.split())
         if fault is not None:

@@ -70,7 +70,7 @@ class StlFile:
         return box.box() if box.is_finite else self.box()
 
     def box(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Return the least and the largest coordinates. Raises FileError where some are not finite."""
+        """Return the least and the largest coordinates. Raises FileError if some are not finite."""
         box = BoxOfBlocks("triangle")
         for piece in self.pieces():
             box.add(piece.points.reshape(-1, 3, 3))

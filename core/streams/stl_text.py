@@ -26,7 +26,7 @@ _LOWER, _ANY_CASE = (
     for vertex in (rb"(?-i:vertex)", rb"vertex")
 )
 _WORD = re.compile(rb"\S+")
-_CORNER_WORDS = ["vertex", True, True, True]  # whether a number places a point
+_CORNER_WORDS = ["vertex", True, True, True]  # True for a number that places a point
 _FACET_WORDS = ["facet", "normal", *3 * [False], "outer", "loop", *3 * _CORNER_WORDS, "endloop", "endfacet"]
 
 

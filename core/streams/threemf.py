@@ -29,7 +29,7 @@ from .findings import FILE_UNREADABLE, THREEMF_DAMAGED, THREEMF_EXTENSION, THREE
 MAX_INSTANCES = 100_000  # meshes that the build places
 MAX_TEXT = 60  # letters of a wrong field that are shown
 UNITS = {"micron": 1e-6, "millimeter": 1e-3, "centimeter": 1e-2, "inch": 0.0254, "foot": 0.3048, "meter": 1.0}
-_KNOWN = ("core/2015/02", "material/2015/02", "production/2015/06")  # what is understood, or changes no shape
+_KNOWN = ("core/2015/02", "material/2015/02", "production/2015/06")  # read here, or of no effect on shape
 _PACKAGE = "http://schemas.openxmlformats.org/package/2006/relationships"
 _BLOCK = 1 << 16
 
@@ -56,7 +56,7 @@ class Placed:
 
 
 def read_3mf(path: str, limits: Limits = DEFAULT_LIMITS) -> tuple[list[Placed], float]:
-    """Read what a file builds.
+    """Read the build of a file.
 
     Parameters
     ----------
@@ -106,7 +106,7 @@ class _Package:
             raise FileError(FILE_EXCEEDS_LIMIT, file=posixpath.basename(self._archive.filename or ""), **values)
 
     def pieces(self, part: str) -> Iterator[bytes]:
-        """The bytes of a part."""
+        """Yield the bytes of a part, in pieces."""
         with self._archive.open(self._names[part.lower()]) as file:
             while piece := file.read(_BLOCK):
                 self._unpacked += len(piece)
@@ -177,7 +177,7 @@ def _parser() -> expat.XMLParserType:
 
 
 def _relationships(pieces: Iterator[bytes]) -> list[tuple[str, str]]:
-    """Target and type of each relationship."""
+    """Return target and type of each relationship."""
     found: list[tuple[str, str]] = []
     parser = _parser()
 
@@ -249,7 +249,7 @@ class _Model:
 
 
 def _transform(text: str) -> NDArray[np.float64]:
-    """Return (3, 4) of a transform, whose vectors are rows. Raise ValueError with a wrong text."""
+    """Return the (3, 4) matrix of a transform text, which has the vectors as rows. Raise ValueError if it is wrong."""
     numbers = np.array(parse_numbers(text))
     if len(numbers) != 12 or not np.isfinite(numbers).all():
         raise ValueError(text)

@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is reported about a body beside its numbers: findings, refusals, method, health, tolerances.
+"""Reports about a body beside its numbers: findings, refusals, method, health, tolerances.
 
-Nothing here that is offered imports numpy: a process without it can read findings.
+Nothing that is offered here imports numpy: a process without it can read findings.
 """
 
 from ..lazy import lazy_names

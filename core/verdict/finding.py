@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What was noticed, decided or refused, as data; and the exceptions that carry a refusal.
+"""Observations, decisions and refusals as data; and the exceptions that carry a refusal.
 
 A finding is a code, the values that its sentence needs, and the elements that it is about. The severity and the
 sentence belong to the code (`Code`), which a package declares in its `findings.py`. Nothing parses a sentence.
@@ -13,11 +13,11 @@ from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from typing import Any, Protocol, Self
 
-MAX_STORED_ELEMENTS = 8  # of a finding that is stored or is a value of another one: as many as a sentence names
+MAX_STORED_ELEMENTS = 8  # in stored and nested findings: as many as a sentence names
 
 
 class Elements(Protocol):
-    """Of a mesh: a sequence or an array of faces, or of edges as pairs."""
+    """Mesh elements: a sequence or an array of faces, or of edges as pairs."""
 
     def __len__(self) -> int: ...
     def __iter__(self) -> Iterator[Any]: ...
@@ -25,7 +25,7 @@ class Elements(Protocol):
 
 
 class Severity(StrEnum):
-    """How much a finding matters: a note does not question the numbers, an error means there are none.
+    """The weight of a finding: a note does not question the numbers, an error means there are none.
 
     Examples
     --------
@@ -85,9 +85,9 @@ class Finding:
     code : str
         From the one list of codes, such as ``holes_capped``.
     values : mapping
-        What the sentence is filled with: numbers, strings, booleans, lists of these, and findings as mappings with the
-        keys ``code`` and ``values``. Everything is plain enough for JSON. ``sources`` names the objects whose surfaces
-        the finding is about, where that is not simply the measured object.
+        Values for the sentence: numbers, strings, booleans, lists of these, and findings as mappings with the
+        keys ``code`` and ``values``. Everything is plain enough for JSON. ``sources`` names the objects with the
+        surfaces in question, if that is not simply the measured object.
     elements : sequence or array
         Mesh elements that it is about, in the input's numbers: faces as integers, edges as pairs of vertices.
 
@@ -129,7 +129,7 @@ class Finding:
         return hash((self.code, repr(sorted(self.values.items()))))
 
     def __str__(self) -> str:
-        from .sentences import sentence  # that module needs this one
+        from .sentences import sentence  # it imports this module
 
         return sentence(self)
 
@@ -185,26 +185,26 @@ def truncate_findings(findings: Sequence[Finding], limit: int) -> list[Finding]:
     Returns
     -------
     list of Finding
-        The first ones, and ``and_more`` where there are others.
+        The first ones, and ``and_more`` if there are others.
     """
-    from .findings import AND_MORE  # that module needs this one
+    from .findings import AND_MORE  # it imports this module
 
     shown, more = truncate(findings, limit)
     return [*shown, finding(AND_MORE, count=more)] if more else [*shown]
 
 
 class MeasureError(Exception):
-    """What a user asked for cannot be done, with the reason and the remedy as a finding of severity error.
+    """A refusal of a request that cannot be met, with the reason and the remedy as a finding of severity error.
 
-    Raised for what the user's objects, settings, files or queries make impossible. Wrong arguments of a programmer are
-    ValueError and TypeError; any other exception is a fault of the program.
+    Raised if the user's objects, settings, files or queries make a result impossible. Wrong arguments of a programmer
+    are ValueError and TypeError; any other exception is a fault of the program.
 
     Parameters
     ----------
     reason : str or Finding
         A code, or the finding itself.
     subject : str
-        The name of the object or file that it is about, where that is known.
+        The name of the object or file that it is about, if known.
     elements : sequence
         Of the finding that a code makes.
     **values
@@ -250,7 +250,7 @@ class ReadError(MeasureError):
 
 
 class EditRefusedError(MeasureError):
-    """An object cannot be changed without changing what it is not to change."""
+    """A refusal to change an object, because something protected would change with it."""
 
 
 class FileError(MeasureError):
@@ -265,7 +265,7 @@ class FileError(MeasureError):
 
 
 class QueryError(MeasureError):
-    """What was asked for cannot be answered: a name, a point, an order that does not exist.
+    """A query without an answer: a name, a point, an order that does not exist.
 
     Examples
     --------

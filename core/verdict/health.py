@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a surface is like before anything is repaired, and which of its elements are at fault."""
+"""The state of a surface before any repair, and its defective elements."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ NO_FACES = np.empty(0, np.int64)
 
 
 class Intersection(StrEnum):
-    """Whether a part of a surface goes through itself; of several surfaces the first one of these."""
+    """Self-intersection of a part of a surface; several surfaces have the first of these that one has."""
 
     FOUND = "found"
     NOT_CHECKED = "not_checked"
@@ -27,11 +27,11 @@ class Intersection(StrEnum):
 
 @dataclass(frozen=True, eq=False)
 class DefectiveElements:
-    """Where the faults are, in the input mesh's own numbers, sorted: faces (k,), edges (k, 2) as vertex pairs.
+    """Elements with defects, in the input mesh's own numbers, sorted: faces (k,), edges (k, 2) as vertex pairs.
 
-    flipped_faces: turned to agree with the rest of their part (not those of a part that is inside out as a whole).
+    flipped_faces: turned to agree with the rest of their part (not in a part that is inside out as a whole).
     boundary_edges, non_manifold_edges, inconsistent_edges: as counted in `MeshHealth`, but each with all the mesh's
-    edges that lie there. duplicate_faces: the later copies. degenerate_faces: those without area.
+    edges that lie there. duplicate_faces: the later copies. degenerate_faces: faces without area.
     """
 
     flipped_faces: NDArray[np.integer] = field(default_factory=NO_FACES.view)
@@ -47,16 +47,16 @@ class MeshHealth:
     """The input, before anything was repaired, and what was done to it.
 
     closed: in space: equal positions are one, and gaps without area are none.
-    welded: whether positions had to be welded to judge.
+    welded: if positions had to be welded to judge.
     boundary_edges: with one face, after that welding, unless the gap they bound has no area.
     non_manifold_edges: with more than two faces. inconsistent_edges: with two faces that both run the same way.
     components: connected across edges. inverted_components: inside out. nested_components: outward ones in
         the material of others, counted twice. cavities: inward ones in the material of others. overlapping_components:
-        those that share a part of their interiors with another one, or are a copy of it.
+        ones that share a part of their interiors with another one, or are a copy of it.
     duplicate_faces: later copies of faces. degenerate_faces: without area. non_planar_faces, volume_spread: the faces
         that are not flat, and the volume (unit³) that the choice of their diagonals can change.
     cap_area_share: the area of the caps that were needed by the area of the faces.
-    self_intersection: whether a component goes through itself.
+    self_intersection: if a component goes through itself.
     """
 
     closed: bool
@@ -78,7 +78,7 @@ class MeshHealth:
     defective_elements: DefectiveElements = field(default_factory=DefectiveElements)
 
     def as_record(self) -> dict:
-        """Plain values for JSON; of the faults only the flipped faces."""
+        """Return plain values for JSON; of the faults only the flipped faces."""
         record = {entry.name: getattr(self, entry.name) for entry in fields(self) if entry.name != "defective_elements"}
         record[SELF_INTERSECTION] = str(self.self_intersection)
         record[FLIPPED_FACES] = self.defective_elements.flipped_faces.tolist()

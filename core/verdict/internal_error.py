@@ -17,8 +17,8 @@ PACKAGE = __name__.removesuffix("core.verdict.internal_error")
 
 
 def finding_of(error: Exception) -> Finding:
-    """What to report of an exception: the finding of a refusal; that there is too little memory; else that this program
-    failed, how and where, after its traceback has gone to the console."""
+    """Return the finding of a refusal; of too little memory; else of an internal error: the failure and its place,
+    after its traceback has gone to the console."""
     if isinstance(error, MeasureError):
         return error.finding
     if isinstance(error, MemoryError):
@@ -29,7 +29,7 @@ def finding_of(error: Exception) -> Finding:
 
 
 def _where(error: Exception) -> str:
-    """File and line of the innermost frame of this program."""
+    """Return file and line of the innermost frame of this program."""
     where = "-"
     for frame, line in traceback.walk_tb(error.__traceback__):
         name = frame.f_globals.get("__name__", "")

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How numbers came about: what was measured, and what had to be done to measure it."""
+"""The method behind numbers: the kind of body that was measured, and the steps that were needed."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from enum import StrEnum
 
 
 class Verdict(StrEnum):
-    """What a body is measured as. The first four are of solids, the least trustworthy first.
+    """The kind of body that was measured. The first four are of solids, the least trustworthy first.
 
     Examples
     --------
@@ -30,12 +30,12 @@ class Verdict(StrEnum):
 
     @property
     def is_closed(self) -> bool:
-        """Whether the surface encloses the volume that was measured."""
+        """True if the surface encloses the measured volume."""
         return self in (Verdict.CAPPED, Verdict.REORIENTED, Verdict.EXACT, Verdict.UNION)
 
 
 class Source(StrEnum):
-    """What stands before the verdict where it is not the polygons that were measured.
+    """The word before the verdict if something other than polygons was measured.
 
     Examples
     --------
@@ -51,7 +51,7 @@ class Source(StrEnum):
 
 @dataclass(frozen=True)
 class Method:
-    """How a body was measured; `str` is the public contract's `method`.
+    """The way a body was measured; `str` is the public contract's `method`.
 
     Parameters
     ----------
@@ -82,6 +82,6 @@ class Method:
 
 
 def least_trusted(verdicts: list[Verdict]) -> Verdict:
-    """Of several solids together: what holds for the least trustworthy of them."""
+    """Return the least trustworthy verdict of several solids."""
     ranking = list(Verdict)
     return min(verdicts, key=ranking.index, default=Verdict.OPEN)

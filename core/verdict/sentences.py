@@ -2,17 +2,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Sentences of findings: their templates, filled.
 
-A template is a `str.format` template over the finding's values. `plural` is taken where the value `count` is not 1.
+A template is a `str.format` template over the finding's values. `plural` is taken if the value `count` is not 1.
 Values stay numbers, strings, booleans and lists; only the table formats them:
 
     {share:percent}      a fraction, as 12.3%                {samples:size}   integers, as 2 x 3 x 4
     {thickness:length}   meters, as the scene shows them     {point:point}    three of these
     {names}              a list, the first 8: “A”, “B”, and 3 more    {side:word}     a word of ours, to be translated
     {cause}, {causes}    another finding, or several ({"code", "values"}): their messages
-    {elements}           what it is about (`Finding.elements`, of which there are `count`): 3, 5, 9, or 3 of “Cube”
+    {elements}           its mesh elements (`Finding.elements`, `count` in all): 3, 5, 9, or 3 of “Cube”
 
-The optional value `sources` (names of the objects that a surface came from, where that is not the measured object
-itself) puts “A”, “B”: before any message. `accepted` says that a user has judged the finding: a warning is a note then.
+The optional value `sources` (names of the objects that a surface came from, if not the measured object itself) puts
+“A”, “B”: before any message. `accepted` says that a user has judged the finding: a warning is a note then.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ ACCEPTED = "Accepted: {}"  # before a finding that a user has judged, by its val
 
 
 def _item(item: Any, translate: Callable[[str], str]) -> str:
-    """A number, “a name”, or a pair of them: 3 of “Cube”."""
+    """Write a number, “a name”, or a pair of them: 3 of “Cube”."""
     if hasattr(item, "tolist"):
         item = item.tolist()
     if isinstance(item, (list, tuple)):
@@ -47,9 +47,9 @@ def truncate_list(items: Elements, count: int | None = None, translate: Callable
     items : sequence
         Names, numbers, or pairs of them.
     count : int, optional
-        How many there are in all, where `items` are only the first of them.
+        The number in all, if `items` are only the first of them.
     translate : callable
-        Applied to the template of what is not an item.
+        Applied to the template of the words around the items.
 
     Returns
     -------
@@ -64,7 +64,7 @@ def truncate_list(items: Elements, count: int | None = None, translate: Callable
 
 
 class _Formatter(string.Formatter):
-    """`str.format` with the formats named above. lengths: what shows a length in meters, by default in meters."""
+    """`str.format` with the formats named above. lengths: formats a length in meters, by default in meters."""
 
     def __init__(self, translate: Callable[[str], str], lengths: Callable[[float], str] | None) -> None:
         self.translate, self.lengths = translate, lengths or "{:.4g} m".format
@@ -72,7 +72,7 @@ class _Formatter(string.Formatter):
     def format_field(self, value: Any, format_spec: str) -> str:
         if isinstance(value, Mapping):
             return sentence(Finding.from_record(value), self.translate, self.lengths)
-        if value is None:  # what was not finite before it was stored
+        if value is None:  # stored in place of a number that was not finite
             return self.translate("unknown")
         if format_spec == "percent":
             return "{:.3g}%".format(100.0 * value)
@@ -92,15 +92,15 @@ class _Formatter(string.Formatter):
 
     @staticmethod
     def _joined(texts: Sequence[str]) -> str:
-        """Sentences after one another, clauses with commas."""
+        """Join sentences by spaces, clauses by commas."""
         return "".join(text + (" " if text.endswith(".") else ", ") for text in texts[:-1]) + "".join(texts[-1:])
 
 
 def sentence(
     finding: Finding, translate: Callable[[str], str] = str, lengths: Callable[[float], str] | None = None
 ) -> str:
-    """The sentence of a finding. translate: applied to each template before it is filled. lengths: what shows a length
-    in meters, by default in meters."""
+    """Return the sentence of a finding. translate: applied to each template before it is filled. lengths: formats a
+    length in meters, by default in meters."""
     entry, values = declared(finding.code), finding.values
     template = entry.text if entry.plural is None or values.get("count") == 1 else entry.plural
     elements = truncate_list(finding.elements, values.get("count"), translate)
@@ -111,17 +111,17 @@ def sentence(
 
 
 def severity(finding: Finding) -> Severity:
-    """How much a finding matters, by its code; a warning that was accepted is a note."""
+    """Return the severity of a finding, by its code; an accepted warning is a note."""
     by_code = declared(finding.code).severity
     return Severity.NOTE if by_code == Severity.WARNING and finding.values.get("accepted") else by_code
 
 
 def of_severity(findings: Iterable[Finding], *severities: Severity) -> list[Finding]:
-    """Those of the findings that have one of the severities."""
+    """Return the findings that have one of the severities."""
     return [finding for finding in findings if severity(finding) in severities]
 
 
-# What an enum says in a panel or a report: method → headline, explanation. Not findings.
+# Texts of enums in a panel or a report: method → headline, explanation. Not findings.
 METHODS = {
     "exact": ("Exact", "The surface is closed"),
     "grid exact": ("Exact, from a Grid", "Voxel values are taken as they are"),
@@ -138,7 +138,7 @@ METHODS = {
 
 
 def method_key(method: Method | None, walled: bool) -> str:
-    """Return the entry of METHODS that a method belongs to, "" for none. walled: whether a shell is a wall."""
+    """Return the entry of METHODS that a method belongs to, "" for none. walled: if a shell is a wall."""
     if method is None:
         return ""
     if walled and method.verdict == Verdict.SHELL:
@@ -160,7 +160,7 @@ HEALTH = {
     "non_planar_faces": ("non-planar face", "non-planar faces"),
     "flipped_faces": ("flipped face", "flipped faces"),
 }
-# What a shape is to the one that it was compared with (an enum in core/shape).
+# Relation of a shape to the one that it was compared with (an enum in core/shape).
 SIMILARITY = {
     "copy": "copy",
     "scaled_copy": "scaled copy",

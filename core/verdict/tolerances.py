@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What counts as nothing: lengths, volumes and rounding, relative to the body's own size."""
+"""Thresholds below which lengths, volumes and rounding count as nothing, relative to the body's own size."""
 
 from __future__ import annotations
 
@@ -9,11 +9,12 @@ from math import hypot
 from .finding import MeasureError
 from .findings import OBJECT_TOO_SMALL
 
-MAX_COORDINATE, MIN_SIZE = 1e50, 1e-60  # lengths whose sixth, and whose fifth, power is still a number
-FLAT_CAP_VOLUME_RTOL = 1e-7  # of diagonal times area: what capping a flat sheet of float32 points leaves
-CLOSED_SHEET_VOLUME_RTOL = 1e-14  # the same for a closed one
-WELDING_RTOL = 1e-6  # of the body's diagonal
-NEGLIGIBLE = 1e-4  # of mass, size and inertia: a decision that changes them by less is a note
+# The sixth power of the first and the fifth of the second are still numbers.
+MAX_COORDINATE, MIN_SIZE = 1e50, 1e-60
+FLAT_CAP_VOLUME_RTOL = 1e-7  # relative to diagonal times area: volume left by capping a flat sheet of float32 points
+CLOSED_SHEET_VOLUME_RTOL = 1e-14  # likewise for a closed sheet
+WELDING_RTOL = 1e-6  # relative to the body's diagonal
+NEGLIGIBLE = 1e-4  # relative to mass, size and inertia: a decision that changes them by less is a note
 
 
 def check_size(*sides: float) -> None:
