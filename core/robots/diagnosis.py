@@ -57,10 +57,7 @@ AGREES, DIFFERS = 5e-3, 1e-2  # For radius of gyration and inertia: equal; too d
 LENGTH_UNITS = (1e-3, 1e-2, 1e3, 1e2, 0.0254, 1.0 / 0.0254)
 INERTIA_UNITS = (1e-6, 1e-3, 1e-9, 1e-4, 1e-7, 1e6, 1e3, 1e9, 1e4, 1e7)
 DENSITIES = (10.0, 30_000.0)  # kg/m³ of what robots are made of: foam, and more than the heaviest metal
-USUAL_DENSITIES = (
-    100.0,
-    12_000.0,
-)  # Most parts are in this range; a change that only the density shows must lead into it.
+USUAL_DENSITIES = (100.0, 12_000.0)  # Typical range; a change that only the density shows must lead into it.
 AXES = np.array(list(permutations(range(3))))[1:]
 OF_GEOMETRY = (AUDIT_MESH_UNIT, AUDIT_SHAPE_ANGLES_IN_DEGREES)  # Changes that leave the inertial as it is.
 PRODUCT_NAMES = ("xy", "xz", "yz")
