@@ -7,11 +7,11 @@ the samples, and the integrals are over the set itself: nothing is triangulated.
 
 A cell with all eight corners on one side lies there whole, as f is a mean of them. In any other one, an axis is chosen
 along which f is monotone: f = a(x, y) + b(x, y) z with b of one sign. The body's columns then end at z = -a/b, and the
-integrand along z is a polynomial. The remaining integral over x and y is smooth except if the surface leaves the cell
-by its floor (a = 0) or its ceiling (a + b = 0). Along y each of the two happens once at most, in the root of a linear
-function; their course in turn changes along x at the zeros of four linear functions. Between these places Gauss's rule
-converges geometrically. Two rules are compared in each cell; if they differ by too much, or no axis serves, it is cut
-in eight. The sum of their differences is the estimate of the error.
+integrand along z is a polynomial. The remaining integral over x and y is smooth except along the lines by which the
+surface leaves the cell through its floor (a = 0) or its ceiling (a + b = 0). Along y each of the two happens once at
+most, in the root of a linear function; their course in turn changes along x at the zeros of four linear functions.
+Between these places Gauss's rule converges geometrically. Two rules are compared in each cell; if they differ by too
+much, or no axis serves, it is cut in eight. The sum of their differences is the estimate of the error.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ from .spline_grid import contract
 from .threshold_cells import TURNS, Cells, Columns, amounts_of, compare_rules, interpolate
 
 RULES = ((3, 5), (8, 12))  # points of the two rules that are compared, along x and along y; then the same with more
-TOLERANCE = 1e-11  # Of the volume: allowed difference of the rules in all uncut cells together.
+TOLERANCE = 1e-11  # Relative to the volume: allowed difference of the rules in all uncut cells together.
 AREA_TOLERANCE = 1e-9  # Relative to a cell's face: allowed difference in one cell.
 MAX_PARTS, MIN_PARTS = 64, 1 << 13  # parts of a cut cell on average, and of all: what is left then is in the bounds
 MAX_CUT_CELLS = 1 << 21  # Limit of cells kept for measuring.

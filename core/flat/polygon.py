@@ -277,7 +277,7 @@ def _steep_side_windings(points: NDArray, edges: NDArray, chosen: NDArray, touch
     along = end - start
     length = np.hypot(*along.T)
     height = float(high.max() - low.min()) or 1.0
-    # Edges that a ray may meet.
+    # Share of the edges that a ray may meet.
     share = min(1.0, float((high - low).mean()) / height + RAYS_PER_BLOCK / len(edges))
     chosen = chosen[:: max(1, int(len(chosen) * len(edges) * max(share, 1.0 / RAYS_PER_BLOCK) / MAX_EDGE_PAIRS))]
     chosen = chosen[np.argsort((start[chosen] + end[chosen])[:, 1], kind="stable")]

@@ -330,7 +330,7 @@ def measure_section(
 
 
 def _bounds(raw: NDArray, about: NDArray, delta: NDArray) -> dict[str, float]:
-    """Return bounds of area, centroid and second moments from (6,) moments about the centroid, off by `delta`."""
+    """Return error bounds of area, centroid and second moments from (6,) moments about the centroid, off by `delta`."""
     area, shift = raw[0], np.abs(raw[1:3]) / raw[0]
     if not area > 2.0 * delta[0]:  # then nothing bounds a quotient
         return {"area": float(delta[0]), "centroid": float("inf"), "second": float("inf")}

@@ -20,7 +20,7 @@ from ..numerics.bspline import SplineSpace
 from .blender_knots import blender_space
 from .patch import Patch
 
-SAME_KNOT_RTOL = 1e-12  # Of the domain: allowed distance of a part's ends from a knot.
+SAME_KNOT_RTOL = 1e-12  # Relative to the domain: allowed distance of a part's ends from a knot.
 
 
 def bezier_patches(patch: Patch, domain: tuple[tuple[float, float] | None, tuple[float, float] | None]) -> list[Patch]:

@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Caps for many small surfaces at once, if they need no other repair.
 
-Every edge has one face, or two that agree; at each boundary vertex one side arrives and one leaves; every loop has an
-area; no vertices touch that a repair would weld. The caps are those of `cap_holes`, to the bit. Other surfaces are
-repaired one by one.
+The conditions: every edge has one face, or two that agree; at each boundary vertex one side arrives and one leaves;
+every loop has an area; no vertices touch that a repair would weld. The caps are those of `cap_holes`, to the bit. Other
+surfaces are repaired one by one.
 """
 
 from __future__ import annotations
